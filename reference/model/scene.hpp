@@ -1,0 +1,61 @@
+#pragma once
+#include <string>
+#include <vector>
+
+#include "reference/model/camera.hpp"
+#include "reference/model/mesh.hpp"
+#include "reference/model/particles.hpp"
+#include "reference/model/switches.hpp"
+
+namespace lockstep {
+
+/// An axis-aligned box, world units.
+struct Box {
+    glm::vec3 min{-1.0F};
+    glm::vec3 max{1.0F};
+};
+
+/// Constants of the listing; the thesis gives only the collision range (spec, "Constants in the listing").
+struct Constants {
+    float tick = 1.0F / 60.0F;             ///< seconds a frame
+    glm::vec3 gravity{0.0F, -0.98F, 0.0F}; ///< world units a second squared
+    float collision_range = 0.01F;         ///< world units
+    float collision_time = 0.1F;           ///< seconds a particle does not search after a hit
+    int texel_collide_range = 1;           ///< neighbourhood radius, texels
+    float billboard_radius = 0.004F;       ///< world units, half the side of a rendered quad
+};
+
+/// Everything a run needs, ready to use: both sides start from this and nothing else.
+struct Scene {
+    std::string name;
+    Particles start;                    ///< collide_time 0, so frame 0 only builds the CDT
+    Mesh obstacles;                     ///< all obstacles, world space, in drawing order; may be empty
+    Camera camera;                      ///< render camera
+    std::vector<CameraKey> camera_path; ///< motion of the render camera, sorted by frame
+    Camera collision_camera;            ///< used when switches.cdt_camera is fixed
+    int width = 500;                    ///< CDT, texels
+    int height = 500;
+    int render_width = 800; ///< rendered frame, pixels
+    int render_height = 800;
+    Box cdt_box; ///< the box an rgba8 CDT scales positions by
+    Constants constants;
+    Switches switches;
+};
+
+/// What one frame's passes need besides their images and particles.
+struct FrameParams {
+    glm::mat4 collision_proj_view{1.0F}; ///< u_ProjView of the collision pass
+    glm::mat4 render_view{1.0F};
+    glm::mat4 render_projection{1.0F};
+    int width = 500; ///< CDT, texels
+    int height = 500;
+    int render_width = 800; ///< pixels
+    int render_height = 800;
+    Box cdt_box;
+    Constants constants;
+    Switches switches;
+};
+
+FrameParams frame_params(const Scene& scene, int frame);
+
+} // namespace lockstep

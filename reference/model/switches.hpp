@@ -1,0 +1,70 @@
+#pragma once
+#include <span>
+#include <string>
+#include <string_view>
+
+namespace lockstep {
+
+/// Where the thesis's listing (Fig. 3-3) and its text disagree or are silent, both readings can be chosen
+/// (spec, "The listing"). Every switch works in the reference and in the shader.
+enum class PerspectiveDivide { off, on };
+enum class TexCoord { times_half };
+enum class BaseTexel { truncate, floor };
+enum class SelfPosition { texel, vertex };
+enum class EmptyTexel { phantom, skip };
+enum class OutsideImage { skip };
+enum class CollisionStep { full, tick };
+enum class SearchWhen { collide_time_negative };
+enum class CdtFormat { rgba32f, rgba16f, rgba8 };
+enum class CdtCamera { moving, fixed };
+enum class ObstaclesInCdt { off, vertices, triangles };
+/// Which position the point is rasterised at: the text projects the updated one, the listing writes gl_Position
+/// once, from the position before the step.
+enum class RasterPosition { before_step, updated };
+/// plain: GLSL's own length, normalize, division and matrix product. exact: shaders/portable.glsl, the same bits on
+/// every driver.
+enum class ArithmeticSwitch { plain, exact };
+
+struct Switches {
+    PerspectiveDivide perspective_divide = PerspectiveDivide::on;
+    TexCoord texcoord = TexCoord::times_half;
+    BaseTexel base_texel = BaseTexel::floor;
+    SelfPosition self_position = SelfPosition::vertex;
+    EmptyTexel empty_texel = EmptyTexel::skip;
+    OutsideImage outside_image = OutsideImage::skip;
+    CollisionStep collision_step = CollisionStep::tick;
+    SearchWhen search_when = SearchWhen::collide_time_negative;
+    CdtFormat cdt_format = CdtFormat::rgba32f;
+    CdtCamera cdt_camera = CdtCamera::moving;
+    ObstaclesInCdt obstacles_in_cdt = ObstaclesInCdt::triangles;
+    RasterPosition raster_position = RasterPosition::updated;
+    ArithmeticSwitch arithmetic = ArithmeticSwitch::plain;
+    float speed_factor = 0.8F;      ///< factor on the speed at a hit
+    float cdt_camera_offset = 0.0F; ///< world units along +z (eq. 1), for a moving collision camera
+
+    bool operator==(const Switches&) const = default;
+};
+
+/// One switch as scene files, --set and shaders name it.
+struct SwitchInfo {
+    std::string_view name;
+    std::span<const std::string_view> values; ///< empty: a finite number
+    std::string_view meaning;
+    int (*get)(const Switches&); ///< index into values; null for a number
+    void (*set)(Switches&, int);
+    float Switches::*number; ///< null for a named value
+};
+
+std::span<const SwitchInfo> switch_table();
+
+/// `paper`: the listing at its word. `corrected`: what the text means. `exact`: corrected, in portable arithmetic.
+/// Throws Error naming the presets for any other name.
+Switches preset(std::string_view name);
+
+/// Sets one switch from text. Throws Error naming the switches, or the allowed values.
+void set_switch(Switches& switches, std::string_view name, std::string_view value);
+
+/// The value of a switch as text; set_switch reads it back to the same bits.
+std::string switch_value(const Switches& switches, std::string_view name);
+
+} // namespace lockstep

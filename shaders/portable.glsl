@@ -1,0 +1,1 @@
+#error "arithmetic exact: portable.glsl is not written yet"

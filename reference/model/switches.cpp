@@ -19,6 +19,7 @@ constexpr std::array<Names, 2> base_texel{"truncate", "floor"};
 constexpr std::array<Names, 2> self_position{"texel", "vertex"};
 constexpr std::array<Names, 2> empty_texel{"phantom", "skip"};
 constexpr std::array<Names, 1> outside_image{"skip"};
+constexpr std::array<Names, 2> zero_distance{"hit", "skip"};
 constexpr std::array<Names, 2> collision_step{"full", "tick"};
 constexpr std::array<Names, 1> search_when{"collide_time_negative"};
 constexpr std::array<Names, 3> cdt_format{"rgba32f", "rgba16f", "rgba8"};
@@ -66,6 +67,7 @@ std::span<const SwitchInfo> switch_table() {
         named<&S::empty_texel>("empty_texel", empty_texel,
                                "a cleared texel is a particle at the origin, or no particle"),
         named<&S::outside_image>("outside_image", outside_image, "texels outside the image are never fetched"),
+        named<&S::zero_distance>("zero_distance", zero_distance, "a neighbour at distance 0 is a hit, or is skipped"),
         named<&S::collision_step>("collision_step", collision_step,
                                   "a hit moves by direction * speed, or by that * tick"),
         named<&S::search_when>("search_when", search_when, "a particle searches while its collide time is negative"),
@@ -94,6 +96,7 @@ Switches preset(std::string_view name) {
         switches.base_texel = BaseTexel::truncate;
         switches.self_position = SelfPosition::texel;
         switches.empty_texel = EmptyTexel::phantom;
+        switches.zero_distance = ZeroDistance::hit;
         switches.collision_step = CollisionStep::full;
         switches.speed_factor = 0.2F;
         return switches;

@@ -13,6 +13,9 @@ enum class BaseTexel { truncate, floor };
 enum class SelfPosition { texel, vertex };
 enum class EmptyTexel { phantom, skip };
 enum class OutsideImage { skip };
+/// A stored position at distance 0 is most often the particle itself, drawn one texel beside the one it computes; the
+/// listing collides with it and divides by zero.
+enum class ZeroDistance { hit, skip };
 enum class CollisionStep { full, tick };
 enum class SearchWhen { collide_time_negative };
 enum class CdtFormat { rgba32f, rgba16f, rgba8 };
@@ -32,6 +35,7 @@ struct Switches {
     SelfPosition self_position = SelfPosition::vertex;
     EmptyTexel empty_texel = EmptyTexel::skip;
     OutsideImage outside_image = OutsideImage::skip;
+    ZeroDistance zero_distance = ZeroDistance::skip;
     CollisionStep collision_step = CollisionStep::tick;
     SearchWhen search_when = SearchWhen::collide_time_negative;
     CdtFormat cdt_format = CdtFormat::rgba32f;

@@ -1,0 +1,44 @@
+#include "reference/window.hpp"
+
+#include <cmath>
+
+namespace lockstep {
+namespace {
+
+float to_window(float clip, float inverse_w, float scale, float offset, const RasterRules& rules) {
+    const float ndc = clip * inverse_w;
+    return rules.viewport == ViewportRounding::fused ? std::fma(ndc, scale, offset) : ndc * scale + offset;
+}
+
+} // namespace
+
+WindowPosition window_position(glm::vec4 clip, int width, int height, const RasterRules& rules) {
+    const float half_width = static_cast<float>(width) * 0.5F;
+    const float half_height = static_cast<float>(height) * 0.5F;
+    const float inverse_w = 1.0F / clip.w;
+    return {to_window(clip.x, inverse_w, half_width, half_width, rules),
+            to_window(clip.y, inverse_w, half_height, half_height, rules),
+            to_window(clip.z, inverse_w, 0.5F, 0.5F, rules), inverse_w};
+}
+
+std::int32_t snap_point(float window, const RasterRules& rules) {
+    const float scaled = static_cast<float>(1 << rules.subpixel_bits) * (window - 0.5F);
+    return static_cast<std::int32_t>(scaled >= 0.0F ? scaled + 0.5F : scaled - 0.5F);
+}
+
+std::int32_t snap_vertex(float window, const RasterRules& rules) {
+    return static_cast<std::int32_t>(std::nearbyint(static_cast<float>(1 << rules.subpixel_bits) * (window - 0.5F)));
+}
+
+int point_pixel(std::int32_t snapped, const RasterRules& rules) {
+    // The unit square round the point covers the centres strictly inside it; one edge of the two counts as inside.
+    const std::int32_t half = 1 << (rules.subpixel_bits - 1);
+    return rules.point_edge_to_lower ? (snapped + half - 1) >> rules.subpixel_bits
+                                     : (snapped + half) >> rules.subpixel_bits;
+}
+
+bool in_clip_volume(glm::vec4 clip) {
+    return std::abs(clip.x) <= clip.w && std::abs(clip.y) <= clip.w && std::abs(clip.z) <= clip.w;
+}
+
+} // namespace lockstep

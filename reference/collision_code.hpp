@@ -1,0 +1,26 @@
+#pragma once
+#include "reference/model/image.hpp"
+#include "reference/model/scene.hpp"
+
+namespace lockstep {
+
+/// The stored code of a CDT texel (image.hpp says what each format holds; alpha is 1, or 255 for rgba8), and back.
+/// rgba16f: nearest half, ties to even; magnitudes below 2^-14 become +0, above 65504 they become 65504.
+/// rgba8: nearest of 256 codes across the scene's cdt_box, clamped to it.
+class CollisionCode {
+  public:
+    explicit CollisionCode(const FrameParams& params);
+
+    [[nodiscard]] glm::vec4 encode(glm::vec3 position) const;
+    [[nodiscard]] glm::vec3 decode(glm::vec4 code) const {
+        if (format_ != CdtFormat::rgba8)
+            return {code.x, code.y, code.z};
+        return {low_.x + code.x * step_.x, low_.y + code.y * step_.y, low_.z + code.z * step_.z};
+    }
+
+  private:
+    CdtFormat format_;
+    glm::vec3 low_, step_, scale_;
+};
+
+} // namespace lockstep

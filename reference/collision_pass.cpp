@@ -1,0 +1,193 @@
+#include "reference/collision_pass.hpp"
+
+#include <cassert>
+#include <cmath>
+#include <cstddef>
+#include <optional>
+
+#include "reference/collision_code.hpp"
+#include "reference/subnormals.hpp"
+#include "reference/window.hpp"
+#include "reference/with_arithmetic.hpp"
+
+namespace lockstep {
+namespace {
+
+struct State {
+    glm::vec3 position, direction;
+    float speed, collide_time;
+};
+
+/// One particle's step, as the listing reads. `A`: the arithmetic (arithmetic.hpp).
+template <class A> class Step {
+  public:
+    Step(const CollisionImage& cdt, const FrameParams& params)
+        : cdt_(cdt), params_(params), constants_(params.constants), switches_(params.switches), code_(params) {}
+
+    [[nodiscard]] State operator()(const State& a) const {
+        const BaseTexelIndex base = base_texel(a.position);
+        if (a.collide_time < 0.0F && base.x >= 0)
+            if (const auto away = nearest_collision(a.position, base))
+                return collide(a, *away);
+        return integrate(a);
+    }
+
+    /// Lines 2 to 4, in float: where clip space lies on the image, then the cast where it is defined.
+    [[nodiscard]] BaseTexelIndex base_texel(glm::vec3 position) const {
+        const glm::vec4 clip = A::transform(params_.collision_proj_view, position);
+        return base_texel(clip);
+    }
+
+    [[nodiscard]] BaseTexelIndex base_texel(glm::vec4 clip) const {
+        float x = clip.x;
+        float y = clip.y;
+        if (switches_.perspective_divide == PerspectiveDivide::on) {
+            x = A::divide(clip.x, clip.w);
+            y = A::divide(clip.y, clip.w);
+        }
+        x = (x + 1.0F) * 0.5F * static_cast<float>(params_.width);
+        y = (y + 1.0F) * 0.5F * static_cast<float>(params_.height);
+        const bool right = x < static_cast<float>(params_.width) && y < static_cast<float>(params_.height);
+        const bool left = switches_.base_texel == BaseTexel::floor ? x >= 0.0F && y >= 0.0F : x > -1.0F && y > -1.0F;
+        if (!left || !right)
+            return {};
+        return {static_cast<int>(x), static_cast<int>(y)};
+    }
+
+  private:
+    [[nodiscard]] bool holds_particle(glm::vec4 stored) const {
+        return switches_.empty_texel == EmptyTexel::phantom || stored.a != 0.0F;
+    }
+
+    /// Lines 5 to 19: own position minus the nearest stored one within the collision range.
+    [[nodiscard]] std::optional<glm::vec3> nearest_collision(glm::vec3 position, BaseTexelIndex base) const {
+        glm::vec3 curr_pos = position;
+        if (switches_.self_position == SelfPosition::texel) {
+            const glm::vec4 self = cdt_.at(base.x, base.y);
+            if (!holds_particle(self))
+                return {};
+            curr_pos = code_.decode(self);
+        }
+        float min_length = 100000.0F;
+        std::optional<glm::vec3> away;
+        const int range = constants_.texel_collide_range;
+        for (int ty = -range; ty <= range; ++ty) {
+            for (int tx = -range; tx <= range; ++tx) {
+                if ((tx == 0 && ty == 0) || !cdt_.contains(base.x + tx, base.y + ty))
+                    continue;
+                const glm::vec4 stored = cdt_.at(base.x + tx, base.y + ty);
+                if (!holds_particle(stored))
+                    continue;
+                const glm::vec3 apart = curr_pos - code_.decode(stored);
+                const float len = A::length(apart);
+                if (len == 0.0F && switches_.zero_distance == ZeroDistance::skip)
+                    continue;
+                if (constants_.collision_range > len && len < min_length) {
+                    min_length = len;
+                    away = apart;
+                }
+            }
+        }
+        return away;
+    }
+
+    /// Lines 21 to 24.
+    [[nodiscard]] State collide(const State& a, glm::vec3 away) const {
+        State v;
+        v.speed = a.speed * switches_.speed_factor;
+        v.direction = A::normalize(away);
+        v.collide_time = constants_.collision_time;
+        glm::vec3 step = A::scale(v.direction, v.speed);
+        if (switches_.collision_step == CollisionStep::tick)
+            step = A::scale(step, constants_.tick);
+        v.position = a.position + step;
+        return v;
+    }
+
+    /// Lines 26 to 30.
+    [[nodiscard]] State integrate(const State& a) const {
+        const glm::vec3 temp = A::scale(a.direction, a.speed) + A::scale(constants_.gravity, constants_.tick);
+        State v;
+        v.direction = A::normalize(temp);
+        v.speed = A::length(temp);
+        v.collide_time = a.collide_time - constants_.tick;
+        v.position = a.position + A::scale(A::scale(v.direction, v.speed), constants_.tick);
+        return v;
+    }
+
+    const CollisionImage& cdt_;
+    const FrameParams& params_;
+    const Constants& constants_;
+    const Switches& switches_;
+    CollisionCode code_;
+};
+
+template <class A> void update(const Particles& before, const CollisionImage& cdt, const FrameParams& params,
+                               bool flush, Particles& after) {
+    const Step<A> step(cdt, params);
+    const auto count = static_cast<std::ptrdiff_t>(before.size());
+#pragma omp parallel
+    {
+        const FlushSubnormals guard(flush);
+#pragma omp for schedule(static)
+        for (std::ptrdiff_t i = 0; i < count; ++i) {
+            const auto p = static_cast<std::size_t>(i);
+            const State v = step({before.position[p], before.direction[p], before.speed[p], before.collide_time[p]});
+            after.position[p] = v.position;
+            after.direction[p] = v.direction;
+            after.speed[p] = v.speed;
+            after.collide_time[p] = v.collide_time;
+        }
+    }
+}
+
+template <class A> PointFragment fragment(glm::vec3 position, const FrameParams& params, const RasterRules& rules) {
+    const glm::vec4 clip = A::transform(params.collision_proj_view, position);
+    if (!in_clip_volume(clip))
+        return {};
+    const WindowPosition window = window_position(clip, params.width, params.height, rules);
+    const int x = point_pixel(snap_point(window.x, rules), rules);
+    const int y = point_pixel(snap_point(window.y, rules), rules);
+    if (x < 0 || y < 0 || x >= params.width || y >= params.height)
+        return {};
+    return {x, y, window.z};
+}
+
+} // namespace
+
+void update_particles(const Particles& before, const CollisionImage& cdt, const FrameParams& params,
+                      const Profile& profile, Particles& after) {
+    assert(&before != &after && cdt.width == params.width && cdt.height == params.height);
+    after.resize(before.size());
+    with_arithmetic(profile, [&]<class A>(A) { update<A>(before, cdt, params, profile.flush_subnormals, after); });
+}
+
+void rasterise_particles(const Particles& before, const Particles& after, const FrameParams& params,
+                         const Profile& profile, CollisionImage& cdt, DepthImage& depth) {
+    const auto& positions =
+        params.switches.raster_position == RasterPosition::updated ? after.position : before.position;
+    const CollisionCode code(params);
+    with_arithmetic(profile, [&]<class A>(A) {
+        const FlushSubnormals guard(profile.flush_subnormals);
+        for (std::size_t i = 0; i < positions.size(); ++i) {
+            const PointFragment point = fragment<A>(positions[i], params, profile.raster);
+            if (point.x < 0 || !(point.depth < depth.at(point.x, point.y)))
+                continue;
+            depth.at(point.x, point.y) = point.depth;
+            cdt.at(point.x, point.y) = code.encode(after.position[i]);
+        }
+    });
+}
+
+PointFragment point_fragment(glm::vec3 position, const FrameParams& params, const Profile& profile) {
+    const FlushSubnormals guard(profile.flush_subnormals);
+    return with_arithmetic(profile, [&]<class A>(A) { return fragment<A>(position, params, profile.raster); });
+}
+
+BaseTexelIndex base_texel(glm::vec3 position, const FrameParams& params, const Profile& profile) {
+    const FlushSubnormals guard(profile.flush_subnormals);
+    const CollisionImage none;
+    return with_arithmetic(profile, [&]<class A>(A) { return Step<A>(none, params).base_texel(position); });
+}
+
+} // namespace lockstep

@@ -1,0 +1,56 @@
+#include "gpu/gl.hpp"
+
+#include <string_view>
+
+#include <fmt/format.h>
+
+#include "reference/model/error.hpp"
+
+namespace lockstep::gl {
+
+#define LOCKSTEP_GL_DEFINE(name, ...) decltype(&::gl##name) name = nullptr;
+LOCKSTEP_GL_CORE(LOCKSTEP_GL_DEFINE)
+LOCKSTEP_GL_OPTIONAL(LOCKSTEP_GL_DEFINE)
+#undef LOCKSTEP_GL_DEFINE
+
+bool offers(int major, int minor, const char* extension) {
+    GLint has_major = 0;
+    GLint has_minor = 0;
+    GetIntegerv(GL_MAJOR_VERSION, &has_major);
+    GetIntegerv(GL_MINOR_VERSION, &has_minor);
+    if (has_major > major || (has_major == major && has_minor >= minor))
+        return true;
+    GLint count = 0;
+    GetIntegerv(GL_NUM_EXTENSIONS, &count);
+    for (GLuint i = 0; i < static_cast<GLuint>(count); ++i)
+        if (std::string_view(reinterpret_cast<const char*>(GetStringi(GL_EXTENSIONS, i))) == extension)
+            return true;
+    return false;
+}
+
+void load(const Resolver& resolve) {
+    unload();
+    const auto core = [&]<class Function>(Function& function, const char* name) {
+        function = reinterpret_cast<Function>(resolve(name));
+        if (function == nullptr)
+            throw Error(fmt::format("the GL library lacks {}, which GL 3.3 core has", name));
+    };
+#define LOCKSTEP_GL_LOAD(name) core(name, "gl" #name);
+    LOCKSTEP_GL_CORE(LOCKSTEP_GL_LOAD)
+#undef LOCKSTEP_GL_LOAD
+    // A resolver may hand out a stub for any name, so what the context offers decides.
+#define LOCKSTEP_GL_LOAD(name, major, minor, extension)                                                                \
+    if (offers(major, minor, extension))                                                                               \
+        name = reinterpret_cast<decltype(name)>(resolve("gl" #name));
+    LOCKSTEP_GL_OPTIONAL(LOCKSTEP_GL_LOAD)
+#undef LOCKSTEP_GL_LOAD
+}
+
+void unload() {
+#define LOCKSTEP_GL_CLEAR(name, ...) name = nullptr;
+    LOCKSTEP_GL_CORE(LOCKSTEP_GL_CLEAR)
+    LOCKSTEP_GL_OPTIONAL(LOCKSTEP_GL_CLEAR)
+#undef LOCKSTEP_GL_CLEAR
+}
+
+} // namespace lockstep::gl

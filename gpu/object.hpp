@@ -1,0 +1,33 @@
+#pragma once
+#include <utility>
+
+#include "gpu/gl.hpp"
+
+namespace lockstep {
+
+/// Owns one GL object; made in the current context, which has to outlive it. Move-only.
+template <auto& Generate, auto& Delete> class GlObject {
+  public:
+    GlObject() { Generate(1, &id_); }
+    GlObject(GlObject&& other) noexcept : id_(std::exchange(other.id_, 0)) {}
+    GlObject& operator=(GlObject&& other) noexcept {
+        std::swap(id_, other.id_);
+        return *this;
+    }
+    ~GlObject() {
+        if (id_ != 0 && Delete != nullptr)
+            Delete(1, &id_);
+    }
+    [[nodiscard]] GLuint id() const { return id_; }
+
+  private:
+    GLuint id_ = 0;
+};
+
+using GlBuffer = GlObject<gl::GenBuffers, gl::DeleteBuffers>;
+using GlTexture = GlObject<gl::GenTextures, gl::DeleteTextures>;
+using GlFramebuffer = GlObject<gl::GenFramebuffers, gl::DeleteFramebuffers>;
+using GlVertexArray = GlObject<gl::GenVertexArrays, gl::DeleteVertexArrays>;
+using GlQuery = GlObject<gl::GenQueries, gl::DeleteQueries>;
+
+} // namespace lockstep

@@ -23,8 +23,9 @@ enum class ViewportRounding {
 struct RasterRules {
     int subpixel_bits = 8;
     ViewportRounding viewport = ViewportRounding::separate;
-    bool point_edge_to_lower = true;   ///< a point on a pixel edge belongs to the lower pixel, in x and in y
-    bool triangle_bottom_edge = false; ///< horizontal edge ties: false: the pixel row above a lower edge is in
+    bool point_edge_to_lower = true; ///< a point on a pixel edge belongs to the lower pixel, in x and in y
+    bool left_edge_in = true;        ///< a pixel centre on a left side of a triangle is inside (else: on a right one)
+    bool lower_edge_in = true;       ///< the same for a horizontal lower side, y up (else: an upper one)
 };
 
 struct Profile {

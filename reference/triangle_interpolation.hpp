@@ -1,0 +1,88 @@
+#pragma once
+#include <array>
+
+#include <glm/vec3.hpp>
+#include <glm/vec4.hpp>
+
+namespace lockstep {
+
+/// Perspective-correct interpolation over a triangle in homogeneous coordinates (Olano and Greer, "Triangle scan
+/// conversion using 2D homogeneous coordinates", 1997), at pixel centres and in a written order of operations. Twin of
+/// shaders/triangle_interpolation.glsl: the fragment shader gets the whole triangle and interpolates by itself, so
+/// that nothing depends on the driver's interpolator. `A`: arithmetic.hpp.
+template <class A> class TriangleInterpolation {
+  public:
+    /// Shares of the second and third corner; the first has the rest. Both >= 0, their sum <= 1: a centre that is
+    /// covered only because corners were snapped gets the nearest share inside.
+    struct Weights {
+        float second = 0.0F;
+        float third = 0.0F;
+    };
+
+    TriangleInterpolation(const std::array<glm::vec4, 3>& clip, int width, int height)
+        : clip_(clip), width_(width), height_(height) {
+        for (std::size_t i = 0; i < 3; ++i) {
+            x_[i] = clip[i].x * static_cast<float>(width);
+            y_[i] = clip[i].y * static_cast<float>(height);
+        }
+    }
+
+    /// At the centre of pixel (x, y). Corners are taken relative to the centre, in half pixels times w: what cancels
+    /// cancels before anything is multiplied, which keeps triangles of a pixel's size accurate.
+    [[nodiscard]] Weights weights(int x, int y) const {
+        const auto centre_x = static_cast<float>(2 * x + 1 - width_);
+        const auto centre_y = static_cast<float>(2 * y + 1 - height_);
+        std::array<float, 3> rx{}, ry{};
+        for (std::size_t i = 0; i < 3; ++i) {
+            rx[i] = x_[i] - centre_x * clip_[i].w;
+            ry[i] = y_[i] - centre_y * clip_[i].w;
+        }
+        const float first = rx[1] * ry[2] - rx[2] * ry[1];
+        const float second = rx[2] * ry[0] - rx[0] * ry[2];
+        const float third = rx[0] * ry[1] - rx[1] * ry[0];
+        const float sum = (first + second) + third;
+        if (!(sum < 0.0F) && !(sum > 0.0F))
+            return {};
+        const float second_share = clamp_to(A::divide(second, sum), 1.0F);
+        return {second_share, clamp_to(A::divide(third, sum), 1.0F - second_share)};
+    }
+
+    /// Window depth, 0..1.
+    [[nodiscard]] float depth(const Weights& w) const {
+        const float clip_z = mix(clip_[0].z, clip_[1].z, clip_[2].z, w);
+        const float clip_w = mix(clip_[0].w, clip_[1].w, clip_[2].w, w);
+        return clamp_to(A::divide(clip_z, clip_w) * 0.5F + 0.5F, 1.0F);
+    }
+
+    [[nodiscard]] static glm::vec3 mix(const std::array<glm::vec3, 3>& p, const Weights& w) {
+        return {mix(p[0].x, p[1].x, p[2].x, w), mix(p[0].y, p[1].y, p[2].y, w), mix(p[0].z, p[1].z, p[2].z, w)};
+    }
+
+  private:
+    static float mix(float first, float second, float third, const Weights& w) {
+        return (first + w.second * (second - first)) + w.third * (third - first);
+    }
+    /// To 0..high; NaN becomes 0.
+    static float clamp_to(float x, float high) { return x > 0.0F ? (x < high ? x : high) : 0.0F; }
+
+    std::array<glm::vec4, 3> clip_;
+    std::array<float, 3> x_{}, y_{};
+    int width_, height_;
+};
+
+/// By how much a component of an interpolated position may differ where a driver's division is not correctly rounded.
+/// + - * are (GLSL 4.50, 4.7.1), so the two quotients are all that differs: 2.5 ULP there and half an ULP here make
+/// 3 * 2^-23 of a share, a share being at most 1; the clamp of the third share hands on the second's difference and a
+/// rounding, so both are within 4 * 2^-23. With d1 = second - first and d2 = third - first, the exact result then moves
+/// by 4 * 2^-23 (|d1| + |d2|). The two products, rounded on either side by half an ULP, add 2^-23 (|d1| + |d2|), the
+/// two sums 2^-23 each of a value that lies between the corners: at most the largest |corner|, here taken three times
+/// for what was rounded before. Together 2^-23 (5 (|d1| + |d2|) + 3 max|corner|).
+inline float interpolation_bound(float first, float second, float third) {
+    const auto magnitude = [](float x) { return x < 0.0F ? -x : x; };
+    float largest = magnitude(first);
+    largest = magnitude(second) > largest ? magnitude(second) : largest;
+    largest = magnitude(third) > largest ? magnitude(third) : largest;
+    return 0x1p-23F * (5.0F * (magnitude(second - first) + magnitude(third - first)) + 3.0F * largest);
+}
+
+} // namespace lockstep

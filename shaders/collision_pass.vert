@@ -6,6 +6,7 @@
 
 #include "arithmetic.glsl"
 #include "collision_code.glsl"
+#include "base_texel.glsl"
 
 in vec3 a_Position;
 in vec3 a_Dir;
@@ -14,8 +15,6 @@ in float a_CollideTime;
 
 uniform mat4 u_ProjView;
 uniform sampler2D u_CDTexture;
-uniform int u_ClientWidth;
-uniform int u_ClientHeight;
 uniform int u_TexelCollideRange;
 uniform float u_CollisionRange;
 uniform float u_CollisionTime;
@@ -43,31 +42,6 @@ vec3 product(vec3 v, float s) {
 vec3 sum(vec3 a, vec3 b) {
     precise vec3 result = a + b;
     return ls_flush3(result);
-}
-
-// Lines 2 and 3, before the cast to integers: where clip space lies on the image, in texels.
-vec2 image_position(vec4 clip) {
-    precise vec2 ndc = clip.xy;
-#if PERSPECTIVE_DIVIDE == PERSPECTIVE_DIVIDE_ON
-    ndc = vec2(ls_divide(clip.x, clip.w), ls_divide(clip.y, clip.w));
-#endif
-    precise vec2 tex_coord = (ndc + vec2(1.0)) * 0.5;
-    precise vec2 scaled = vec2(tex_coord.x * float(u_ClientWidth), tex_coord.y * float(u_ClientHeight));
-    return scaled;
-}
-
-// Line 4. False where the texel lies outside the image, or nowhere: the cast is only made where it is defined.
-bool base_texel(vec2 scaled, out ivec2 texel) {
-    texel = ivec2(0);
-    vec2 size = vec2(u_ClientWidth, u_ClientHeight);
-#if BASE_TEXEL == BASE_TEXEL_TRUNCATE
-    bool inside = scaled.x > -1.0 && scaled.y > -1.0 && scaled.x < size.x && scaled.y < size.y;
-#else
-    bool inside = scaled.x >= 0.0 && scaled.y >= 0.0 && scaled.x < size.x && scaled.y < size.y;
-#endif
-    if (inside)
-        texel = ivec2(scaled);
-    return inside;
 }
 
 bool holds_particle(vec4 stored) {
@@ -118,22 +92,6 @@ bool nearest_collision(ivec2 texel_base, out vec3 away) {
     return particle_collision;
 }
 
-// The exact preset leaves the rasteriser nothing to round: the point stands on the centre of the texel that the next
-// frame will compute for it, at w = 1, its depth on a grid of 2^-24, which survives z * 0.5 + 0.5 unchanged. Points
-// outside the view volume are put outside it.
-vec4 texel_centre(vec4 clip) {
-    ivec2 texel;
-    bool visible = base_texel(image_position(clip), texel);
-    precise float depth = (ls_divide(clip.z, clip.w) + 1.0) * 0.5;
-    if (!visible || !(clip.w > 0.0) || !(depth >= 0.0) || !(depth <= 1.0))
-        return vec4(0.0, 0.0, 2.0, 1.0);
-    precise vec2 centre = vec2(2 * texel + 1) * vec2(ls_divide(1.0, float(u_ClientWidth)),
-                                                     ls_divide(1.0, float(u_ClientHeight))) - 1.0;
-    precise float on_grid = floor(depth * 16777216.0) * (1.0 / 16777216.0);
-    precise float z = 2.0 * on_grid - 1.0;
-    return vec4(centre, z, 1.0);
-}
-
 // Lines 21 to 24.
 void collide(vec3 away) {
     v_Speed = product(a_Speed, u_SpeedFactor);
@@ -169,9 +127,5 @@ void main() {
 #else
     vec4 clip = ls_transform(u_ProjView, a_Position);
 #endif
-#if ARITHMETIC == ARITHMETIC_EXACT
-    gl_Position = texel_centre(clip);
-#else
-    gl_Position = clip;
-#endif
+    gl_Position = point_position(clip);
 }

@@ -1,0 +1,8 @@
+// GL discards a point whose centre lies outside the clip volume (4.5, 13.5). A driver with a guard band may let it
+// pass, and NaN decides differently everywhere, so the rule is written out. At w = 0 a point has no place on the image.
+bool in_clip_volume(vec4 clip) {
+    return clip.w > 0.0 && abs(clip.x) <= clip.w && abs(clip.y) <= clip.w && abs(clip.z) <= clip.w;
+}
+
+// The position itself, or one outside every clip volume.
+vec4 kept_position(vec4 clip) { return in_clip_volume(clip) ? clip : vec4(0.0, 0.0, 2.0, 1.0); }

@@ -1,0 +1,20 @@
+#version 330 core
+#extension GL_ARB_gpu_shader5 : require
+// Writes the obstacle's world position at the texel's centre into the collision detection texture.
+#include "arithmetic.glsl"
+#include "collision_code.glsl"
+#include "triangle_interpolation.glsl"
+
+flat in vec4 g_Clip[3];
+flat in vec3 g_Position[3];
+
+uniform int u_ClientWidth;
+uniform int u_ClientHeight;
+
+out vec4 o_Texel;
+
+void main() {
+    vec2 shares = corner_shares(g_Clip, ivec2(gl_FragCoord.xy), ivec2(u_ClientWidth, u_ClientHeight));
+    gl_FragDepth = interpolated_depth(g_Clip, shares);
+    o_Texel = encode_position(interpolate(g_Position, shares));
+}

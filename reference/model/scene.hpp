@@ -2,18 +2,13 @@
 #include <string>
 #include <vector>
 
+#include "reference/model/box.hpp"
 #include "reference/model/camera.hpp"
 #include "reference/model/mesh.hpp"
 #include "reference/model/particles.hpp"
 #include "reference/model/switches.hpp"
 
 namespace lockstep {
-
-/// An axis-aligned box, world units.
-struct Box {
-    glm::vec3 min{-1.0F};
-    glm::vec3 max{1.0F};
-};
 
 /// Constants of the listing; the thesis gives only the collision range (spec, "Constants in the listing").
 struct Constants {

@@ -5,15 +5,10 @@
 
 #include <fmt/format.h>
 
+#include "reference/model/random.hpp"
+
 namespace lockstep {
 namespace {
-
-std::uint64_t mix(std::uint64_t x) {
-    x += 0x9e3779b97f4a7c15U;
-    x = (x ^ (x >> 30U)) * 0xbf58476d1ce4e5b9U;
-    x = (x ^ (x >> 27U)) * 0x94d049bb133111ebU;
-    return x ^ (x >> 31U);
-}
 
 std::uint32_t canonical(float value) { return value != value ? 0x7fc00000U : std::bit_cast<std::uint32_t>(value); }
 
@@ -22,8 +17,8 @@ std::uint64_t hash_floats(std::uint64_t seed, const float* values, std::size_t c
     const auto n = static_cast<std::ptrdiff_t>(count);
 #pragma omp parallel for reduction(+ : sum) schedule(static)
     for (std::ptrdiff_t i = 0; i < n; ++i)
-        sum += mix(seed + (static_cast<std::uint64_t>(i) << 32U | canonical(values[i])));
-    return mix(sum ^ count);
+        sum += splitmix64(seed + (static_cast<std::uint64_t>(i) << 32U | canonical(values[i])));
+    return splitmix64(sum ^ count);
 }
 
 } // namespace
@@ -45,7 +40,7 @@ std::uint64_t state_hash(const CollisionImage& image) {
 }
 
 std::uint64_t state_hash(const Particles& particles, const CollisionImage& image) {
-    return mix(state_hash(particles)) + state_hash(image);
+    return splitmix64(state_hash(particles)) + state_hash(image);
 }
 
 std::string hash_text(std::uint64_t hash) { return fmt::format("{:016x}", hash); }

@@ -1,0 +1,49 @@
+#include "crosscheck/scene_constants.hpp"
+
+#include <array>
+
+namespace lockstep {
+namespace {
+
+constexpr std::int64_t widest_neighbourhood = 64;
+
+struct ConstantInfo {
+    std::string_view name;
+    void (*set)(Constants&, const JsonValue&);
+};
+
+template <auto Member, const NumberRule& Rule> ConstantInfo real(std::string_view name) {
+    return {name, [](Constants& c, const JsonValue& value) { c.*Member = value.number(Rule); }};
+}
+
+const std::array table{
+    real<&Constants::tick, number::positive>("tick"),
+    ConstantInfo{"gravity", [](Constants& c, const JsonValue& value) { c.gravity = value.vector(); }},
+    real<&Constants::collision_range, number::positive>("collision_range"),
+    real<&Constants::collision_time, number::not_negative>("collision_time"),
+    ConstantInfo{"texel_collide_range",
+                 [](Constants& c, const JsonValue& value) {
+                     c.texel_collide_range = static_cast<int>(value.integer(0, widest_neighbourhood));
+                 }},
+    real<&Constants::billboard_radius, number::positive>("billboard_radius"),
+};
+
+} // namespace
+
+std::span<const std::string_view> constant_names() {
+    static const auto names = [] {
+        std::array<std::string_view, table.size()> all;
+        for (std::size_t i = 0; i < all.size(); ++i)
+            all[i] = table[i].name;
+        return all;
+    }();
+    return names;
+}
+
+void set_constant(Constants& constants, std::string_view name, const JsonValue& value) {
+    for (const ConstantInfo& info : table)
+        if (info.name == name)
+            info.set(constants, value);
+}
+
+} // namespace lockstep

@@ -1,0 +1,16 @@
+#pragma once
+#include <span>
+#include <string_view>
+
+#include "crosscheck/json_reader.hpp"
+#include "reference/model/scene.hpp"
+
+namespace lockstep {
+
+/// The names scene files and --set give the Constants.
+std::span<const std::string_view> constant_names();
+
+/// Sets the constant `name`, one of constant_names(). Throws Error saying what it may be.
+void set_constant(Constants& constants, std::string_view name, const JsonValue& value);
+
+} // namespace lockstep

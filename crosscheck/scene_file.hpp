@@ -1,0 +1,26 @@
+#pragma once
+#include <cstddef>
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "reference/model/scene.hpp"
+
+namespace lockstep {
+
+/// What the command line changes in a scene.
+struct SceneOptions {
+    std::optional<std::size_t> particles; ///< in all; emitters keep their proportions
+    std::optional<std::string> preset;    ///< instead of the scene's; the scene's switches still apply on top
+    std::vector<std::string> set;         ///< "name=value": a switch or a constant ("gravity=0,-1,0"), last of all
+};
+
+/// Particles a scene may have.
+inline constexpr std::size_t most_particles = 100'000'000;
+
+/// Reads a scene (docs/scenes.md has every key), validates it and makes it ready to run. Mesh files are found
+/// relative to the scene file. Throws Error: `FILE: /json/pointer: what is wrong and what is allowed`.
+Scene load_scene(const std::filesystem::path& file, const SceneOptions& options = {});
+
+} // namespace lockstep

@@ -1,0 +1,112 @@
+#include <catch2/catch.hpp>
+
+#include <cmath>
+
+#include <glm/geometric.hpp>
+
+#include "crosscheck/surface.hpp"
+#include "reference/model/error.hpp"
+#include "tests/temporary_folder.hpp"
+
+using namespace lockstep;
+using lockstep::test::TemporaryFolder;
+
+namespace {
+
+double volume(const Surface& s) {
+    double six_volumes = 0.0;
+    for (std::size_t i = 0; i < s.indices.size(); i += 3)
+        six_volumes += glm::dot(s.positions[s.indices[i]],
+                                glm::cross(s.positions[s.indices[i + 1]], s.positions[s.indices[i + 2]]));
+    return six_volumes / 6.0;
+}
+
+constexpr std::string_view two_triangles = "v 0 0 0\nv 1 0 0\nv 1 2 0\nv 0 2 0\nf 1 2 3\nf 1 3 4\n";
+
+} // namespace
+
+TEST_CASE("surface: generated solids are closed, face outwards and have their volume") {
+    CHECK(volume(box_surface({1.0, 2.0, 3.0})) == Approx(6.0));
+    CHECK(volume(sphere_surface(0.5, 64)) == Approx(4.0 / 3.0 * M_PI * 0.125).epsilon(0.002));
+    CHECK(volume(torus_surface(1.0, 0.25, 256)) == Approx(2.0 * M_PI * M_PI * 0.0625).epsilon(0.002));
+}
+
+TEST_CASE("surface: all vertices of a sphere lie on it") {
+    for (const glm::dvec3& p : sphere_surface(0.5, 7).positions)
+        REQUIRE(glm::length(p) == Approx(0.5).epsilon(1e-12));
+}
+
+TEST_CASE("surface: a plane is two triangles facing up") {
+    const Surface plane = plane_surface(2.0, 4.0);
+    REQUIRE(plane.indices.size() == 6);
+    for (std::size_t i = 0; i < 6; i += 3) {
+        const glm::dvec3 a = plane.positions[plane.indices[i]];
+        const glm::dvec3 b = plane.positions[plane.indices[i + 1]];
+        const glm::dvec3 c = plane.positions[plane.indices[i + 2]];
+        CHECK(glm::cross(b - a, c - a) == glm::dvec3(0.0, 8.0, 0.0));
+    }
+}
+
+TEST_CASE("surface: placing scales to the height, turns about y and moves the centre to the position") {
+    Mesh mesh;
+    place(box_surface({1.0, 2.0, 4.0}), {.height = 1.0, .rotate_y = 90.0, .position = {10.0, 20.0, 30.0}}, mesh);
+    glm::vec3 low(1e9F);
+    glm::vec3 high(-1e9F);
+    for (const glm::vec3& p : mesh.positions) {
+        low = glm::min(low, p);
+        high = glm::max(high, p);
+    }
+    CHECK(low == glm::vec3(9.0F, 19.5F, 29.75F));
+    CHECK(high == glm::vec3(11.0F, 20.5F, 30.25F));
+}
+
+TEST_CASE("surface: a second obstacle follows the first, its indices shifted") {
+    Mesh mesh;
+    place(plane_surface(1.0, 1.0), {}, mesh);
+    place(plane_surface(1.0, 1.0), {}, mesh);
+    REQUIRE(mesh.triangle_count() == 4);
+    CHECK(mesh.positions.size() == 8);
+    CHECK(mesh.indices[0] == 0);
+    CHECK(mesh.indices[6] == 4);
+}
+
+TEST_CASE("surface: an OBJ keeps its triangles in order and shares equal vertices") {
+    const TemporaryFolder folder;
+    const Surface s = load_surface(folder.write("a.obj", two_triangles));
+    REQUIRE(s.indices.size() == 6);
+    CHECK(s.positions.size() == 4);
+    CHECK(s.positions[s.indices[0]] == glm::dvec3(0.0, 0.0, 0.0));
+    CHECK(s.positions[s.indices[2]] == glm::dvec3(1.0, 2.0, 0.0));
+    CHECK(s.positions[s.indices[5]] == glm::dvec3(0.0, 2.0, 0.0));
+}
+
+TEST_CASE("surface: a PLY is read too, and a quadrilateral becomes two triangles") {
+    const TemporaryFolder folder;
+    const Surface s = load_surface(folder.write(
+        "a.ply", "ply\nformat ascii 1.0\nelement vertex 4\nproperty float x\nproperty float y\nproperty float z\n"
+                 "element face 1\nproperty list uchar int vertex_indices\nend_header\n"
+                 "0 0 0\n1 0 0\n1 1 0\n0 1 0\n4 0 1 2 3\n"));
+    CHECK(s.indices.size() == 6);
+    CHECK(s.positions.size() == 4);
+}
+
+TEST_CASE("surface: a mesh that cannot be an obstacle is told with the reason") {
+    const TemporaryFolder folder;
+    const auto file = [&](const char* name) { return (folder.path() / name).string(); };
+    CHECK_THROWS_WITH(load_surface(file("none.obj")),
+                      file("none.obj") + ": no such mesh; scripts/fetch_meshes.sh fetches the bunny and the dragon");
+    CHECK_THROWS_WITH(load_surface(folder.write("a.stl", "solid")),
+                      file("a.stl") + ": not a mesh file; a mesh is a .obj or .ply");
+    CHECK_THROWS_WITH(load_surface(folder.write("empty.obj", "")),
+                      Catch::StartsWith(file("empty.obj") + ": not a readable mesh: "));
+    CHECK_THROWS_WITH(load_surface(folder.write("cut.ply", "ply\nformat ascii 1.0\nelement vertex 3\n")),
+                      file("cut.ply") + ": not a readable mesh: the PLY header has no end_header");
+    CHECK_THROWS_WITH(load_surface(folder.write("points.obj", "v 0 0 0\nv 1 0 0\nv 1 1 0\n")),
+                      file("points.obj") + ": the mesh has no faces; an obstacle needs at least one triangle");
+    CHECK_THROWS_WITH(load_surface(folder.write("lines.obj", "v 0 0 0\nv 1 0 0\nl 1 2\n")),
+                      file("lines.obj") + ": the mesh has no faces; an obstacle needs at least one triangle");
+    CHECK_THROWS_WITH(load_surface(folder.write("nan.obj", "v 0 0 0\nv nan 0 0\nv 1 1 0\nf 1 2 3\n")),
+                      file("nan.obj") + ": vertex 1 is (nan, 0, 0); coordinates are finite numbers");
+    CHECK_THROWS_WITH(load_surface(folder.write("range.obj", "v 0 0 0\nv 1 0 0\nv 1 1 0\nf 1 2 9\n")),
+                      Catch::StartsWith(file("range.obj") + ": "));
+}

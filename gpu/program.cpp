@@ -1,0 +1,306 @@
+#include "gpu/program.hpp"
+
+#include <algorithm>
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+#include <glm/gtc/type_ptr.hpp>
+
+#include "gpu/check.hpp"
+#include "gpu/shader_log.hpp"
+#include "reference/model/error.hpp"
+
+namespace lockstep {
+namespace {
+
+GLenum gl_stage(Stage stage) {
+    switch (stage) {
+    case Stage::vertex:
+        return GL_VERTEX_SHADER;
+    case Stage::geometry:
+        return GL_GEOMETRY_SHADER;
+    case Stage::fragment:
+        return GL_FRAGMENT_SHADER;
+    case Stage::compute:
+        break;
+    }
+    return GL_COMPUTE_SHADER;
+}
+
+std::string type_name(GLenum type) {
+    switch (type) {
+    case GL_FLOAT:
+        return "float";
+    case GL_FLOAT_VEC2:
+        return "vec2";
+    case GL_FLOAT_VEC3:
+        return "vec3";
+    case GL_FLOAT_VEC4:
+        return "vec4";
+    case GL_DOUBLE:
+        return "double";
+    case GL_INT:
+        return "int";
+    case GL_INT_VEC2:
+        return "ivec2";
+    case GL_INT_VEC3:
+        return "ivec3";
+    case GL_INT_VEC4:
+        return "ivec4";
+    case GL_UNSIGNED_INT:
+        return "uint";
+    case GL_UNSIGNED_INT_VEC2:
+        return "uvec2";
+    case GL_UNSIGNED_INT_VEC3:
+        return "uvec3";
+    case GL_UNSIGNED_INT_VEC4:
+        return "uvec4";
+    case GL_BOOL:
+        return "bool";
+    case GL_FLOAT_MAT2:
+        return "mat2";
+    case GL_FLOAT_MAT3:
+        return "mat3";
+    case GL_FLOAT_MAT4:
+        return "mat4";
+    case GL_SAMPLER_2D:
+        return "sampler2D";
+    case GL_SAMPLER_3D:
+        return "sampler3D";
+    case GL_SAMPLER_2D_SHADOW:
+        return "sampler2DShadow";
+    case GL_SAMPLER_BUFFER:
+        return "samplerBuffer";
+    case GL_INT_SAMPLER_2D:
+        return "isampler2D";
+    case GL_UNSIGNED_INT_SAMPLER_2D:
+        return "usampler2D";
+    case GL_IMAGE_2D:
+        return "image2D";
+    default:
+        return fmt::format("GL type {:#06x}", type);
+    }
+}
+
+/// A shader object, for as long as it takes to link it.
+class Shader {
+  public:
+    explicit Shader(const ShaderSource& source) {
+        if (source.stage == Stage::compute && gl::DispatchCompute == nullptr)
+            throw Error(
+                fmt::format("shader {}: this GL has no compute shaders; they need GL 4.3", source.files.front()));
+        id_ = gl::CreateShader(gl_stage(source.stage));
+        const char* text = source.text.c_str();
+        gl::ShaderSource(id_, 1, &text, nullptr);
+        gl::CompileShader(id_);
+        GLint compiled = GL_FALSE;
+        gl::GetShaderiv(id_, GL_COMPILE_STATUS, &compiled);
+        if (compiled == GL_TRUE)
+            return;
+        GLint length = 0;
+        gl::GetShaderiv(id_, GL_INFO_LOG_LENGTH, &length);
+        std::string log(static_cast<std::size_t>(length), '\0');
+        gl::GetShaderInfoLog(id_, length, nullptr, log.data());
+        gl::DeleteShader(id_);
+        throw Error(fmt::format("shader {}", first_compile_error(log, source)));
+    }
+    Shader(Shader&& other) noexcept : id_(std::exchange(other.id_, 0)) {}
+    Shader& operator=(Shader&&) = delete;
+    ~Shader() { gl::DeleteShader(id_); }
+    [[nodiscard]] GLuint id() const { return id_; }
+
+  private:
+    GLuint id_ = 0;
+};
+
+bool link(GLuint program, std::span<const Capture> captured) {
+    std::vector<const char*> names;
+    for (const Capture& capture : captured)
+        names.push_back(capture.name.c_str());
+    gl::TransformFeedbackVaryings(program, static_cast<GLsizei>(names.size()), names.data(), GL_INTERLEAVED_ATTRIBS);
+    gl::LinkProgram(program);
+    GLint linked = GL_FALSE;
+    gl::GetProgramiv(program, GL_LINK_STATUS, &linked);
+    return linked == GL_TRUE;
+}
+
+std::string link_log(GLuint program) {
+    GLint length = 0;
+    gl::GetProgramiv(program, GL_INFO_LOG_LENGTH, &length);
+    std::string log(static_cast<std::size_t>(length), '\0');
+    gl::GetProgramInfoLog(program, length, nullptr, log.data());
+    return log;
+}
+
+/// File of the last stage before rasterisation, whose outputs are captured.
+std::string last_vertex_stage(std::span<const ShaderSource> stages) {
+    const auto file = [&](Stage stage) -> const std::string* {
+        const auto found =
+            std::find_if(stages.begin(), stages.end(), [&](const ShaderSource& s) { return s.stage == stage; });
+        return found == stages.end() ? nullptr : &found->files.front();
+    };
+    const std::string* geometry = file(Stage::geometry);
+    const std::string* vertex = file(Stage::vertex);
+    return geometry != nullptr ? *geometry : vertex != nullptr ? *vertex : "no vertex shader";
+}
+
+std::string joined_names(std::span<const Capture> captured) {
+    std::vector<std::string_view> names;
+    for (const Capture& capture : captured)
+        names.emplace_back(capture.name);
+    return fmt::format("{}", fmt::join(names, ", "));
+}
+
+/// Why a program that failed to link did: a driver's own message need not name the output that is missing, so each is
+/// tried by itself.
+std::string link_failure(GLuint program, std::span<const ShaderSource> stages, std::span<const Capture> captured) {
+    const std::string reason = first_link_error(link_log(program));
+    if (!captured.empty() && link(program, {}))
+        for (const Capture& capture : captured)
+            if (!link(program, {&capture, 1}))
+                return fmt::format(
+                    "output {} is not written by the last vertex-processing stage ({}); it is to write {}",
+                    capture.name, last_vertex_stage(stages), joined_names(captured));
+    std::vector<std::string_view> files;
+    for (const ShaderSource& stage : stages)
+        files.emplace_back(stage.files.front());
+    return fmt::format("does not link ({}): {}", fmt::join(files, ", "), reason);
+}
+
+using GetActive = void (*)(GLuint, GLuint, GLsizei, GLsizei*, GLint*, GLenum*, GLchar*);
+using GetLocation = GLint (*)(GLuint, const GLchar*);
+
+/// Calls `visit(name, type, location)` for every active uniform or attribute.
+template <class Visit> void for_each_active(GLuint program, GLenum count_name, GLenum length_name, GetActive get,
+                                            GetLocation locate, const Visit& visit) {
+    GLint count = 0;
+    GLint length = 0;
+    gl::GetProgramiv(program, count_name, &count);
+    gl::GetProgramiv(program, length_name, &length);
+    std::string buffer(static_cast<std::size_t>(length) + 1, '\0');
+    for (GLuint i = 0; i < static_cast<GLuint>(count); ++i) {
+        GLsizei written = 0;
+        GLint size = 0;
+        GLenum type = 0;
+        get(program, i, static_cast<GLsizei>(buffer.size()), &written, &size, &type, buffer.data());
+        const std::string name(buffer.data(), static_cast<std::size_t>(written));
+        visit(name, type, locate(program, name.c_str()));
+    }
+}
+
+void check_capture_type(GLuint program, GLuint index, const Capture& capture, const std::string& where) {
+    char name[256] = {};
+    GLsizei size = 0;
+    GLenum type = 0;
+    gl::GetTransformFeedbackVarying(program, index, sizeof name, nullptr, &size, &type, name);
+    if (type != capture.type || size != 1)
+        throw Error(fmt::format("{}: output {} is {}{}, but is to be {}", where, capture.name, type_name(type),
+                                size != 1 ? fmt::format("[{}]", size) : "", type_name(capture.type)));
+}
+
+} // namespace
+
+Program::Program(std::string name, std::span<const ShaderSource> stages, std::span<const Capture> captured)
+    : name_(std::move(name)) {
+    std::vector<Shader> shaders;
+    for (const ShaderSource& stage : stages)
+        shaders.emplace_back(stage);
+    id_ = gl::CreateProgram();
+    try {
+        for (const Shader& shader : shaders)
+            gl::AttachShader(id_, shader.id());
+        if (!link(id_, captured))
+            throw Error(fmt::format("{}: {}", name_, link_failure(id_, stages, captured)));
+        for (std::size_t i = 0; i < captured.size(); ++i)
+            check_capture_type(id_, static_cast<GLuint>(i), captured[i], name_);
+        for (const Shader& shader : shaders)
+            gl::DetachShader(id_, shader.id());
+        for_each_active(id_, GL_ACTIVE_UNIFORMS, GL_ACTIVE_UNIFORM_MAX_LENGTH, gl::GetActiveUniform,
+                        gl::GetUniformLocation, [&](const std::string& variable, GLenum type, GLint where) {
+                            uniforms_[variable] = {where, type};
+                        });
+        for_each_active(id_, GL_ACTIVE_ATTRIBUTES, GL_ACTIVE_ATTRIBUTE_MAX_LENGTH, gl::GetActiveAttrib,
+                        gl::GetAttribLocation, [&](const std::string& variable, GLenum type, GLint where) {
+                            attributes_[variable] = {where, type};
+                        });
+        check_gl(name_);
+    } catch (...) {
+        gl::DeleteProgram(id_);
+        throw;
+    }
+}
+
+Program::Program(Program&& other) noexcept
+    : name_(std::move(other.name_)), id_(std::exchange(other.id_, 0)), uniforms_(std::move(other.uniforms_)),
+      attributes_(std::move(other.attributes_)) {}
+
+Program& Program::operator=(Program&& other) noexcept {
+    std::swap(name_, other.name_);
+    std::swap(id_, other.id_);
+    std::swap(uniforms_, other.uniforms_);
+    std::swap(attributes_, other.attributes_);
+    return *this;
+}
+
+Program::~Program() {
+    if (id_ != 0 && gl::DeleteProgram != nullptr)
+        gl::DeleteProgram(id_);
+}
+
+void Program::use() const { gl::UseProgram(id_); }
+
+GLint Program::location(const Variables& variables, std::string_view kind, std::string_view variable,
+                        GLenum type) const {
+    const auto found = variables.find(variable);
+    if (found == variables.end())
+        return -1;
+    if (found->second.type != type)
+        throw Error(fmt::format("{}: {} {} is {} in the shader, but is to be {}", name_, kind, variable,
+                                type_name(found->second.type), type_name(type)));
+    return found->second.location;
+}
+
+GLint Program::use_uniform(std::string_view uniform, GLenum type) const {
+    const GLint where = location(uniforms_, "uniform", uniform, type);
+    use();
+    return where;
+}
+
+// glUniform ignores location -1, an unused uniform's.
+void Program::set(std::string_view uniform, float value) const { gl::Uniform1f(use_uniform(uniform, GL_FLOAT), value); }
+
+void Program::set(std::string_view uniform, int value) const { gl::Uniform1i(use_uniform(uniform, GL_INT), value); }
+
+void Program::set(std::string_view uniform, unsigned value) const {
+    gl::Uniform1ui(use_uniform(uniform, GL_UNSIGNED_INT), value);
+}
+
+void Program::set(std::string_view uniform, glm::vec2 value) const {
+    gl::Uniform2fv(use_uniform(uniform, GL_FLOAT_VEC2), 1, glm::value_ptr(value));
+}
+
+void Program::set(std::string_view uniform, glm::vec3 value) const {
+    gl::Uniform3fv(use_uniform(uniform, GL_FLOAT_VEC3), 1, glm::value_ptr(value));
+}
+
+void Program::set(std::string_view uniform, glm::vec4 value) const {
+    gl::Uniform4fv(use_uniform(uniform, GL_FLOAT_VEC4), 1, glm::value_ptr(value));
+}
+
+void Program::set(std::string_view uniform, glm::ivec2 value) const {
+    gl::Uniform2iv(use_uniform(uniform, GL_INT_VEC2), 1, glm::value_ptr(value));
+}
+
+void Program::set(std::string_view uniform, const glm::mat4& value) const {
+    gl::UniformMatrix4fv(use_uniform(uniform, GL_FLOAT_MAT4), 1, GL_FALSE, glm::value_ptr(value));
+}
+
+void Program::set_unit(std::string_view uniform, int unit, GLenum type) const {
+    gl::Uniform1i(use_uniform(uniform, type), unit);
+}
+
+GLint Program::attribute(std::string_view attribute, GLenum type) const {
+    return location(attributes_, "attribute", attribute, type);
+}
+
+} // namespace lockstep

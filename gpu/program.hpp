@@ -1,0 +1,73 @@
+#pragma once
+#include <map>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include <glm/mat4x4.hpp>
+#include <glm/vec2.hpp>
+#include <glm/vec3.hpp>
+#include <glm/vec4.hpp>
+
+#include "gpu/gl.hpp"
+#include "gpu/shader_source.hpp"
+
+namespace lockstep {
+
+/// An output that transform feedback captures; type as GL names it (GL_FLOAT_VEC3).
+struct Capture {
+    std::string name;
+    GLenum type = GL_FLOAT;
+};
+
+/// A linked program. Whatever is wrong with a shader is an Error of one line: `shader FILE:LINE: compiler's message`
+/// for a stage that does not compile, `NAME: ...` for the rest.
+class Program {
+  public:
+    /// Links `stages`; `captured` outputs of the last vertex-processing stage go interleaved, in this order, into the
+    /// buffer bound to transform feedback. Throws Error also for a captured output that is missing or of another type.
+    Program(std::string name, std::span<const ShaderSource> stages, std::span<const Capture> captured = {});
+    Program(Program&& other) noexcept;
+    Program& operator=(Program&& other) noexcept;
+    ~Program();
+
+    void use() const;
+
+    /// Sets a uniform and leaves the program in use. One the program does not use is no error; one of another type is.
+    void set(std::string_view uniform, float value) const;
+    void set(std::string_view uniform, int value) const;
+    void set(std::string_view uniform, unsigned value) const;
+    void set(std::string_view uniform, glm::vec2 value) const;
+    void set(std::string_view uniform, glm::vec3 value) const;
+    void set(std::string_view uniform, glm::vec4 value) const;
+    void set(std::string_view uniform, glm::ivec2 value) const;
+    void set(std::string_view uniform, const glm::mat4& value) const;
+
+    /// Reads a sampler or image uniform from texture (or image) unit `unit`.
+    void set_unit(std::string_view uniform, int unit, GLenum type = GL_SAMPLER_2D) const;
+
+    /// Location of a vertex attribute, -1 if the program does not use it. Throws Error if it has another type.
+    [[nodiscard]] GLint attribute(std::string_view attribute, GLenum type) const;
+
+    [[nodiscard]] const std::string& name() const { return name_; }
+    [[nodiscard]] GLuint id() const { return id_; }
+
+  private:
+    struct Variable {
+        GLint location = -1;
+        GLenum type = 0;
+    };
+    using Variables = std::map<std::string, Variable, std::less<>>;
+
+    [[nodiscard]] GLint location(const Variables& variables, std::string_view kind, std::string_view variable,
+                                 GLenum type) const;
+    [[nodiscard]] GLint use_uniform(std::string_view uniform, GLenum type) const;
+
+    std::string name_;
+    GLuint id_ = 0;
+    Variables uniforms_;
+    Variables attributes_;
+};
+
+} // namespace lockstep

@@ -1,0 +1,60 @@
+#pragma once
+#include <cstddef>
+#include <filesystem>
+#include <span>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+#include "reference/model/switches.hpp"
+
+namespace lockstep {
+
+/// Shaders are files NAME.vert, NAME.geom, NAME.frag, NAME.comp and the .glsl files they include.
+enum class Stage { vertex, geometry, fragment, compute };
+
+/// File name extension, with its dot.
+std::string_view extension(Stage stage);
+
+/// Folders a shader file is looked for in, in this order.
+using ShaderFolders = std::vector<std::filesystem::path>;
+
+/// `user` (--shaders DIR), if given, then the built-in folder: $LOCKSTEP_DATA/shaders, else share/lockstep/shaders of
+/// the installation the program is in, else the source tree it was built from.
+/// Throws Error if `user` or $LOCKSTEP_DATA is no folder of shaders, or there is no built-in one.
+ShaderFolders shader_folders(const std::filesystem::path& user = {});
+
+/// Preprocessor definitions, name and value.
+using ShaderDefines = std::vector<std::pair<std::string, std::string>>;
+
+/// For every switch with named values: a number for each value and the one that is set, in upper case:
+/// BASE_TEXEL_TRUNCATE 0, BASE_TEXEL_FLOOR 1, BASE_TEXEL BASE_TEXEL_FLOOR.
+ShaderDefines switch_defines(const Switches& switches);
+
+/// One stage, ready to compile: definitions inserted after #version and `#include "file.glsl"` lines replaced by the
+/// file (as in C, also where an #if excludes it).
+struct ShaderSource {
+    /// Where a line of `text` comes from. Kept here and not in #line directives: Mesa 22.3 loses their file number
+    /// inside expressions, and before GLSL 3.30 they count lines another way.
+    struct Origin {
+        std::size_t file = 0; ///< index into files
+        int line = 1;         ///< from 1; an inserted definition counts as the #version line
+    };
+    Stage stage = Stage::vertex;
+    std::string text;
+    std::vector<Origin> origins;    ///< one a line of text
+    std::vector<std::string> files; ///< the stage's own file first
+};
+
+/// Throws Error naming the folders if a file is in none of them; FILE:LINE if an include is malformed, missing or
+/// circular, or the stage has no #version.
+ShaderSource load_stage(const ShaderFolders& folders, std::string_view name, Stage stage,
+                        const ShaderDefines& defines = {});
+
+/// The stages of one program. A file that holds nothing but white space leaves its stage out, so a user's folder can
+/// do without a built-in one.
+std::vector<ShaderSource> load_stages(const ShaderFolders& folders, std::string_view name,
+                                      std::span<const Stage> stages, const ShaderDefines& defines = {});
+
+} // namespace lockstep

@@ -1,0 +1,191 @@
+#include <catch2/catch.hpp>
+
+#include "gpu/check.hpp"
+#include "gpu/particle_buffer.hpp"
+#include "gpu/program.hpp"
+#include "tests/gpu/any_context.hpp"
+#include "tests/gpu/folder.hpp"
+
+using namespace lockstep;
+using test::Folder;
+using test::open_context;
+
+namespace {
+
+const std::string vertex = R"(#version 330 core
+in vec3 a_Position;
+in float a_Speed;
+uniform float u_Tick;
+uniform vec3 u_Gravity;
+uniform mat4 u_ProjView;
+uniform sampler2D u_CDTexture;
+uniform int u_ClientWidth;
+out vec3 out_Position;
+out float out_Speed;
+void main() {
+    out_Position = a_Position + u_Gravity * u_Tick;
+    out_Speed = a_Speed + texelFetch(u_CDTexture, ivec2(u_ClientWidth), 0).x;
+    gl_Position = u_ProjView * vec4(out_Position, 1.0);
+}
+)";
+const std::string fragment = "#version 330 core\nout vec4 o_Color;\nvoid main() { o_Color = vec4(1.0); }\n";
+
+const std::vector<Capture> captures{{"out_Position", GL_FLOAT_VEC3}, {"out_Speed", GL_FLOAT}};
+
+Program build(const Folder& folder, const std::vector<Stage>& stages, std::span<const Capture> captured = {}) {
+    return {"step", load_stages({folder.path()}, "step", stages), captured};
+}
+
+std::string message(const Folder& folder, const std::vector<Stage>& stages, std::span<const Capture> captured = {}) {
+    try {
+        build(folder, stages, captured);
+    } catch (const Error& error) {
+        CHECK(gl::GetError() == GL_NO_ERROR);
+        return error.what();
+    }
+    return "built";
+}
+
+} // namespace
+
+TEST_CASE("program: captures outputs, sets uniforms, finds attributes") {
+    const auto context = open_context();
+    if (!context)
+        return;
+    const Folder folder;
+    folder.write("step.vert", vertex);
+    folder.write("step.frag", fragment);
+    const Program program = build(folder, {Stage::vertex, Stage::fragment}, captures);
+    program.set("u_Tick", 0.5F);
+    program.set("u_Gravity", glm::vec3(0.0F, -1.0F, 0.0F));
+    program.set("u_ProjView", glm::mat4(1.0F));
+    program.set("u_ClientWidth", 500);
+    program.set_unit("u_CDTexture", 0);
+    check_gl("uniforms");
+    float tick = 0.0F;
+    gl::GetUniformfv(program.id(), gl::GetUniformLocation(program.id(), "u_Tick"), &tick);
+    CHECK(tick == 0.5F);
+    CHECK(program.attribute("a_Position", GL_FLOAT_VEC3) >= 0);
+}
+
+TEST_CASE("program: a uniform or attribute the shader does not use is no error") {
+    const auto context = open_context();
+    if (!context)
+        return;
+    const Folder folder;
+    folder.write("step.vert", vertex);
+    folder.write("step.frag", fragment);
+    const Program program = build(folder, {Stage::vertex, Stage::fragment});
+    CHECK_NOTHROW(program.set("u_Unused", 1));
+    CHECK(program.attribute("a_Unused", GL_FLOAT) == -1);
+    check_gl("unused");
+}
+
+TEST_CASE("program: a wrong uniform or attribute type is told") {
+    const auto context = open_context();
+    if (!context)
+        return;
+    const Folder folder;
+    folder.write("step.vert", vertex);
+    folder.write("step.frag", fragment);
+    const Program program = build(folder, {Stage::vertex, Stage::fragment}, captures);
+    CHECK_THROWS_WITH(program.set("u_Tick", 1), "step: uniform u_Tick is float in the shader, but is to be int");
+    CHECK_THROWS_WITH(program.set("u_Gravity", 1.0F),
+                      "step: uniform u_Gravity is vec3 in the shader, but is to be float");
+    CHECK_THROWS_WITH(program.set_unit("u_ClientWidth", 0),
+                      "step: uniform u_ClientWidth is int in the shader, but is to be sampler2D");
+    CHECK_THROWS_WITH(program.attribute("a_Speed", GL_FLOAT_VEC3),
+                      "step: attribute a_Speed is float in the shader, but is to be vec3");
+}
+
+TEST_CASE("program: a compile error names file and line, in an included file too") {
+    const auto context = open_context();
+    if (!context)
+        return;
+    const Folder folder;
+    const std::string file =
+        folder.write("step.vert", "#version 330 core\nvoid main() {\n    gl_Position = nowhere;\n}\n");
+    CHECK_THAT(message(folder, {Stage::vertex}),
+               Catch::StartsWith("shader " + file + ":3: ") && Catch::Contains("nowhere") && !Catch::Contains("\n"));
+
+    const std::string library = folder.write("lib.glsl", "\n\nfloat twice(float x) { return 2.0 * y; }\n");
+    folder.write("step.vert", "#version 330 core\n#include \"lib.glsl\"\nvoid main() { gl_Position = vec4(0.0); }\n");
+    CHECK_THAT(message(folder, {Stage::vertex}), Catch::StartsWith("shader " + library + ":3: "));
+
+    folder.write("lib.glsl", "float one() { return 1.0; }\n");
+    folder.write("step.vert", "#version 330 core\n#include \"lib.glsl\"\nvoid main() { gl_Position = vec5(0.0); }\n");
+    CHECK_THAT(message(folder, {Stage::vertex}), Catch::StartsWith("shader " + file + ":3: "));
+
+    folder.write("step.vert", "#version 150\n\nvoid main() { gl_Position = vec5(0.0); }\n");
+    CHECK_THAT(message(folder, {Stage::vertex}), Catch::StartsWith("shader " + file + ":3: "));
+
+    folder.write("step.vert", "#version 330 core\n#if\nvoid main() { gl_Position = vec4(0.0); }\n");
+    CHECK_THAT(message(folder, {Stage::vertex}), Catch::StartsWith("shader " + file + ":2: "));
+}
+
+TEST_CASE("program: stages that do not fit say so") {
+    const auto context = open_context();
+    if (!context)
+        return;
+    const Folder folder;
+    folder.write("step.vert", vertex);
+    folder.write("step.frag", "#version 330 core\nin vec2 out_Position;\nout vec4 o_Color;\n"
+                              "void main() { o_Color = vec4(out_Position, 0.0, 1.0); }\n");
+    const std::string told = message(folder, {Stage::vertex, Stage::fragment});
+    CHECK_THAT(told, Catch::StartsWith("step: does not link (" + (folder.path() / "step.vert").string()) &&
+                         Catch::Contains("out_Position") && !Catch::Contains("\n"));
+}
+
+TEST_CASE("program: a missing captured output is named with the stage that lacks it") {
+    const auto context = open_context();
+    if (!context)
+        return;
+    const Folder folder;
+    folder.write("step.vert", "#version 330 core\nin vec3 a_Position;\nout vec3 out_Position;\n"
+                              "void main() { out_Position = a_Position; gl_Position = vec4(0.0); }\n");
+    folder.write("step.frag", fragment);
+    CHECK(message(folder, {Stage::vertex, Stage::fragment}, captures) ==
+          "step: output out_Speed is not written by the last vertex-processing stage (" +
+              (folder.path() / "step.vert").string() + "); it is to write out_Position, out_Speed");
+    folder.write("step.geom", "#version 330 core\nlayout(points) in;\nlayout(points, max_vertices = 1) out;\n"
+                              "out float out_Speed;\nvoid main() { out_Speed = 1.0; EmitVertex(); }\n");
+    CHECK(message(folder, {Stage::vertex, Stage::geometry, Stage::fragment}, captures) ==
+          "step: output out_Position is not written by the last vertex-processing stage (" +
+              (folder.path() / "step.geom").string() + "); it is to write out_Position, out_Speed");
+}
+
+TEST_CASE("program: a captured output of another type is told") {
+    const auto context = open_context();
+    if (!context)
+        return;
+    const Folder folder;
+    folder.write("step.vert",
+                 "#version 330 core\nin vec3 a_Position;\nout vec4 out_Position;\nout float out_Speed[2];\n"
+                 "void main() { out_Position = vec4(a_Position, 1.0); out_Speed = float[2](1.0, 2.0);"
+                 " gl_Position = vec4(0.0); }\n");
+    folder.write("step.frag", fragment);
+    CHECK(message(folder, {Stage::vertex, Stage::fragment}, captures) ==
+          "step: output out_Position is vec4, but is to be vec3");
+    CHECK(message(folder, {Stage::vertex, Stage::fragment}, std::span(captures).subspan(1)) ==
+          "step: output out_Speed is float[2], but is to be float");
+}
+
+TEST_CASE("program: the built-in collision pass links with every switch") {
+    const auto context = open_context();
+    if (!context)
+        return;
+    const ShaderFolders folders = shader_folders();
+    const Stage stages[] = {Stage::vertex, Stage::geometry, Stage::fragment};
+    for (const SwitchInfo& info : switch_table()) {
+        if (info.name == "arithmetic")
+            continue;
+        for (const std::string_view value : info.values) {
+            Switches switches;
+            set_switch(switches, info.name, value);
+            CAPTURE(info.name, value);
+            CHECK_NOTHROW(Program("collision_pass",
+                                  load_stages(folders, "collision_pass", stages, switch_defines(switches)),
+                                  particle_captures()));
+        }
+    }
+}

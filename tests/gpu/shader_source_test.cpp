@@ -1,0 +1,141 @@
+#include <catch2/catch.hpp>
+
+#include <algorithm>
+#include <cstdlib>
+
+#include "gpu/shader_log.hpp"
+#include "gpu/shader_source.hpp"
+#include "reference/model/error.hpp"
+#include "tests/gpu/folder.hpp"
+
+using namespace lockstep;
+using test::Folder;
+namespace fs = std::filesystem;
+
+namespace {
+
+/// `file:line` of every line of the source's text.
+std::vector<std::string> origins(const ShaderSource& source) {
+    std::vector<std::string> result;
+    for (const ShaderSource::Origin& origin : source.origins)
+        result.push_back(fmt::format("{}:{}", origin.file, origin.line));
+    return result;
+}
+
+} // namespace
+
+TEST_CASE("shader source: definitions follow #version, and every line knows where it was") {
+    const Folder folder;
+    folder.write("a.vert", "// a comment\n#version 330 core\nvoid main() {}\n");
+    const ShaderSource source = load_stage({folder.path()}, "a", Stage::vertex, {{"RADIUS", "2"}});
+    CHECK(source.text == "// a comment\n#version 330 core\n#define RADIUS 2\nvoid main() {}\n");
+    CHECK(origins(source) == std::vector<std::string>{"0:1", "0:2", "0:2", "0:3"});
+    CHECK(source.files == std::vector{(folder.path() / "a.vert").string()});
+}
+
+TEST_CASE("shader source: an include is replaced by its file") {
+    const Folder folder;
+    folder.write("inner.glsl", "float inner;\n");
+    folder.write("outer.glsl", "float outer;\n  #  include \"inner.glsl\"  // why\nfloat last;\n");
+    folder.write("a.frag", "#version 330\n#include \"outer.glsl\"\nvoid main() {}");
+    const ShaderSource source = load_stage({folder.path()}, "a", Stage::fragment);
+    CHECK(source.text == "#version 330\nfloat outer;\nfloat inner;\nfloat last;\nvoid main() {}\n");
+    CHECK(origins(source) == std::vector<std::string>{"0:1", "1:1", "2:1", "1:3", "0:3"});
+    REQUIRE(source.files.size() == 3);
+    CHECK(source.files[2] == (folder.path() / "inner.glsl").string());
+}
+
+TEST_CASE("shader source: a user's file comes before the built-in one, included files too") {
+    const Folder user;
+    const Folder built_in;
+    user.write("lib.glsl", "int users;\n");
+    built_in.write("lib.glsl", "int built_in;\n");
+    built_in.write("a.vert", "#version 330\n#include \"lib.glsl\"\n");
+    CHECK_THAT(load_stage({user.path(), built_in.path()}, "a", Stage::vertex).text, Catch::Contains("int users;"));
+}
+
+TEST_CASE("shader source: a blank file leaves its stage out") {
+    const Folder user;
+    const Folder built_in;
+    user.write("a.geom", " \n");
+    built_in.write("a.geom", "#version 330\n");
+    built_in.write("a.vert", "#version 330\n");
+    const Stage stages[] = {Stage::vertex, Stage::geometry};
+    CHECK(load_stages({built_in.path()}, "a", stages).size() == 2);
+    const auto sources = load_stages({user.path(), built_in.path()}, "a", stages);
+    REQUIRE(sources.size() == 1);
+    CHECK(sources[0].stage == Stage::vertex);
+}
+
+TEST_CASE("shader source: what is wrong with a file is told with file and line") {
+    const Folder folder;
+    const std::string where = folder.path().string();
+    const ShaderFolders folders{folder.path()};
+    CHECK_THROWS_WITH(load_stage(folders, "none", Stage::compute), "no shader file none.comp in " + where);
+    const Folder second;
+    CHECK_THROWS_WITH(load_stage({folder.path(), second.path()}, "none", Stage::geometry),
+                      "no shader file none.geom in " + where + " or " + second.path().string());
+    folder.write("a.vert", "void main() {}\n");
+    CHECK_THROWS_WITH(load_stage(folders, "a", Stage::vertex),
+                      "shader " + where + "/a.vert:1: no #version line; the first is to be like #version 330 core");
+    folder.write("b.vert", "#version 330\n#include \"gone.glsl\"\n");
+    CHECK_THROWS_WITH(load_stage(folders, "b", Stage::vertex),
+                      "shader " + where + "/b.vert:2: no shader file gone.glsl in " + where);
+    for (const char* argument : {"<gone.glsl>", "", "\"\"", "\"open"}) {
+        folder.write("c.vert", fmt::format("#version 330\n\n#include {}\n", argument));
+        CHECK_THROWS_WITH(load_stage(folders, "c", Stage::vertex),
+                          "shader " + where + "/c.vert:3: #include needs a file name in double quotes");
+    }
+    folder.write("x.glsl", "#include \"y.glsl\"\n");
+    folder.write("y.glsl", "\n#include \"x.glsl\"\n");
+    folder.write("d.vert", "#version 330\n#include \"x.glsl\"\n");
+    CHECK_THROWS_WITH(load_stage(folders, "d", Stage::vertex),
+                      "shader " + where + "/y.glsl:2: " + where + "/x.glsl includes itself");
+}
+
+TEST_CASE("shader folders: the user's first, then LOCKSTEP_DATA or the source tree") {
+    const Folder user;
+    CHECK(shader_folders(user.path()).front() == user.path());
+    CHECK(fs::is_regular_file(shader_folders().front() / "collision_pass.vert"));
+    CHECK_THROWS_WITH(shader_folders("/no/such/folder"), "shader folder /no/such/folder does not exist");
+    const Folder data;
+    setenv("LOCKSTEP_DATA", data.path().c_str(), 1);
+    CHECK_THROWS_WITH(shader_folders(), "LOCKSTEP_DATA is " + data.path().string() + ", but there is no folder " +
+                                            (data.path() / "shaders").string());
+    fs::create_directory(data.path() / "shaders");
+    CHECK(shader_folders() == ShaderFolders{data.path() / "shaders"});
+    unsetenv("LOCKSTEP_DATA");
+}
+
+TEST_CASE("shader source: every switch with named values is defined") {
+    Switches switches;
+    switches.base_texel = BaseTexel::truncate;
+    const ShaderDefines defines = switch_defines(switches);
+    const auto value = [&](const std::string& name) {
+        const auto found = std::find_if(defines.begin(), defines.end(), [&](const auto& d) { return d.first == name; });
+        return found == defines.end() ? "undefined" : found->second;
+    };
+    CHECK(value("BASE_TEXEL_TRUNCATE") == "0");
+    CHECK(value("BASE_TEXEL_FLOOR") == "1");
+    CHECK(value("BASE_TEXEL") == "BASE_TEXEL_TRUNCATE");
+    CHECK(value("CDT_FORMAT") == "CDT_FORMAT_RGBA32F");
+    CHECK(value("SPEED_FACTOR") == "undefined");
+}
+
+TEST_CASE("shader log: the first error is found in every compiler's form") {
+    ShaderSource source;
+    source.files = {"a.vert", "lib.glsl"};
+    source.origins = {{0, 1}, {0, 1}, {1, 1}, {1, 2}, {0, 3}};
+    CHECK(first_compile_error("0:5(3): warning: unused\n0:4(10): error: `x' undeclared\n0:5(1): error: late\n",
+                              source) == "lib.glsl:2: `x' undeclared");
+    CHECK(first_compile_error("0:2(1): preprocessor error: syntax error\n", source) == "a.vert:1: syntax error");
+    CHECK(first_compile_error("0(4) : warning C7011: cast\n0(5) : error C1503: undefined variable \"x\"\n", source) ==
+          "a.vert:3: C1503: undefined variable \"x\"");
+    CHECK(first_compile_error("ERROR: 0:3: 'x' : undeclared identifier\n", source) ==
+          "lib.glsl:1: 'x' : undeclared identifier");
+    CHECK(first_compile_error("\nout of registers\n", source) == "a.vert: out of registers");
+    CHECK(first_compile_error("0:6(1): error: odd\n", source) == "a.vert: 0:6(1): error: odd");
+    CHECK(first_compile_error("0:0(1): error: odd\n", source) == "a.vert: 0:0(1): error: odd");
+    CHECK(first_compile_error("", source) == "a.vert: the driver gives no reason");
+    CHECK(first_link_error("Vertex info\n-----------\n0(3) : error C5041: no\n") == "0(3) : error C5041: no");
+}

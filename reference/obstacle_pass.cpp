@@ -9,7 +9,7 @@
 
 #include "reference/collision_code.hpp"
 #include "reference/collision_pass.hpp"
-#include "reference/draw_triangles.hpp"
+#include "reference/draw_in_bands.hpp"
 #include "reference/subnormals.hpp"
 #include "reference/triangle_interpolation.hpp"
 #include "reference/triangle_raster.hpp"
@@ -37,18 +37,21 @@ template <class A> void draw_obstacle_triangles(const Mesh& obstacles, const Fra
     const std::vector<glm::vec4> clip = project<A>(obstacles, params.collision_proj_view);
     const auto triangles = assemble_triangles(clip, obstacles.indices, params.width, params.height, profile.raster);
     const CollisionCode code(params);
-    draw_triangles(triangles, params.width, params.height, profile, [&](std::uint32_t triangle) {
+    const auto rows = [&](std::size_t i) { return rows_touched(triangles[i], profile.raster); };
+    const auto draw = [&](std::size_t i, const PixelRect& area) {
+        const std::uint32_t triangle = triangles[i].primitive;
         const TriangleInterpolation<A> interpolation(corners(clip, obstacles, triangle), params.width, params.height);
         const auto positions = corners(obstacles.positions, obstacles, triangle);
-        return [=, &code, &cdt, &depth](int x, int y) {
+        for_each_pixel(triangles[i], profile.raster, area, [&](int x, int y) {
             const auto weights = interpolation.weights(x, y);
             const float fragment_depth = interpolation.depth(weights);
             if (!(fragment_depth < depth.at(x, y)))
                 return;
             depth.at(x, y) = fragment_depth;
             cdt.at(x, y) = code.encode(interpolation.mix(positions, weights));
-        };
-    });
+        });
+    };
+    draw_in_bands(triangles.size(), params.width, params.height, profile, rows, draw);
 }
 
 void draw_obstacle_vertices(const Mesh& obstacles, const FrameParams& params, const Profile& profile,

@@ -6,6 +6,9 @@
 
 namespace lockstep {
 
+/// To 0..high; NaN becomes 0.
+inline float clamp_to(float x, float high) { return x > 0.0F ? (x < high ? x : high) : 0.0F; }
+
 /// Perspective-correct interpolation over a triangle in homogeneous coordinates (Olano and Greer, "Triangle scan
 /// conversion using 2D homogeneous coordinates", 1997), at pixel centres and in a written order of operations. Twin of
 /// shaders/triangle_interpolation.glsl: the fragment shader gets the whole triangle and interpolates by itself, so
@@ -62,9 +65,6 @@ template <class A> class TriangleInterpolation {
     static float mix(float first, float second, float third, const Weights& w) {
         return (first + w.second * (second - first)) + w.third * (third - first);
     }
-    /// To 0..high; NaN becomes 0.
-    static float clamp_to(float x, float high) { return x > 0.0F ? (x < high ? x : high) : 0.0F; }
-
     std::array<glm::vec4, 3> clip_;
     std::array<float, 3> x_{}, y_{};
     int width_, height_;

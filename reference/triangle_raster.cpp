@@ -7,8 +7,6 @@
 #include <glm/geometric.hpp>
 #include <glm/vec2.hpp>
 
-#include "reference/window.hpp"
-
 namespace lockstep {
 namespace {
 
@@ -148,6 +146,11 @@ std::vector<RasterTriangle> assemble_triangles(std::span<const glm::vec4> clip, 
                        viewport, primitive);
     }
     return triangles;
+}
+
+std::pair<int, int> rows_touched(const RasterTriangle& triangle, const RasterRules& rules) {
+    const auto [low, high] = std::minmax({triangle.corners[0].y, triangle.corners[1].y, triangle.corners[2].y});
+    return {low >> rules.subpixel_bits, high >> rules.subpixel_bits};
 }
 
 double side_distance(const RasterTriangle& triangle, int x, int y, const RasterRules& rules) {

@@ -4,12 +4,14 @@
 #include <cstddef>
 #include <cstdint>
 #include <span>
+#include <utility>
 #include <vector>
 
 #include <glm/vec2.hpp>
 #include <glm/vec4.hpp>
 
 #include "reference/model/profile.hpp"
+#include "reference/window.hpp"
 
 namespace lockstep {
 
@@ -39,11 +41,6 @@ struct RasterTriangle {
 /// those of no area. Clipped ones become fans. Drawing order is kept.
 std::vector<RasterTriangle> assemble_triangles(std::span<const glm::vec4> clip, std::span<const std::uint32_t> indices,
                                                int width, int height, const RasterRules& rules);
-
-/// Pixels, upper bounds excluded.
-struct PixelRect {
-    int x0 = 0, y0 = 0, x1 = 0, y1 = 0;
-};
 
 /// Calls visit(x, y) for every pixel of `area` that `triangle` covers, row by row.
 template <class Visit>
@@ -85,6 +82,9 @@ void for_each_pixel(const RasterTriangle& triangle, const RasterRules& rules, co
             row[i] += step_y[i];
     }
 }
+
+/// The first and last row whose pixels it may cover.
+std::pair<int, int> rows_touched(const RasterTriangle& triangle, const RasterRules& rules);
 
 /// Distance from the centre of pixel (x, y) to the nearest side of `triangle`, in sub-pixel units. Another driver may
 /// decide the pixel otherwise only where this is small: within its snapping error, 1 for 8 sub-pixel bits.

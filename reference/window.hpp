@@ -12,6 +12,11 @@ namespace lockstep {
 /// RasterRules. Sub-pixel positions are integers in units of 2^-subpixel_bits pixels, measured from the centre of
 /// pixel 0: pixel k has its centre at k << subpixel_bits.
 
+/// Pixels, upper bounds excluded.
+struct PixelRect {
+    int x0 = 0, y0 = 0, x1 = 0, y1 = 0;
+};
+
 /// Window coordinates of a vertex: x, y in pixels, z in 0..1 (default depth range), and 1 / clip w.
 struct WindowPosition {
     float x = 0.0F, y = 0.0F, z = 0.0F;

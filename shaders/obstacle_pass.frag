@@ -2,6 +2,7 @@
 #extension GL_ARB_gpu_shader5 : require
 // Writes the obstacle's world position at the texel's centre into the collision detection texture.
 #include "arithmetic.glsl"
+#include "clamp_to.glsl"
 #include "collision_code.glsl"
 #include "triangle_interpolation.glsl"
 

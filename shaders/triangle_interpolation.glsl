@@ -1,9 +1,7 @@
 // Perspective-correct interpolation over a triangle in homogeneous coordinates (Olano and Greer, "Triangle scan
 // conversion using 2D homogeneous coordinates", 1997), at pixel centres and in a written order of operations, so that
-// nothing depends on the driver's interpolator. Twin: reference/triangle_interpolation.hpp. Needs arithmetic.glsl.
-
-// NaN becomes 0.
-float clamp_to(float x, float high) { return x > 0.0 ? (x < high ? x : high) : 0.0; }
+// nothing depends on the driver's interpolator. Twin: reference/triangle_interpolation.hpp. Needs arithmetic.glsl
+// and clamp_to.glsl.
 
 // Shares of the second and third corner at the centre of `pixel` of an image of `size`; the first corner has the rest.
 // Corners are taken relative to the centre, in half pixels times w: what cancels cancels before anything is

@@ -1,0 +1,146 @@
+#include "reference/render_pass.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <utility>
+#include <vector>
+
+#include "reference/draw_in_bands.hpp"
+#include "reference/shading.hpp"
+#include "reference/subnormals.hpp"
+#include "reference/triangle_interpolation.hpp"
+#include "reference/triangle_raster.hpp"
+#include "reference/with_arithmetic.hpp"
+
+namespace lockstep {
+namespace {
+
+/// `A`: the arithmetic (arithmetic.hpp).
+template <class A> class RenderPass {
+  public:
+    RenderPass(const FrameParams& params, const Profile& profile)
+        : params_(params), profile_(profile), width_(params.render_width), height_(params.render_height),
+          color_(width_, height_), depth_(width_, height_, 1.0F) {}
+
+    void draw_background() {
+        for (int y = 0; y < height_; ++y) {
+            const Rgba8 color = Shading<A>::quantise(Shading<A>::background(y, height_));
+            std::fill_n(&color_.at(0, y), width_, color);
+        }
+    }
+
+    void draw_obstacles(const Mesh& obstacles) {
+        std::vector<glm::vec3> view(obstacles.positions.size());
+        std::vector<glm::vec4> clip(obstacles.positions.size());
+        for (std::size_t i = 0; i < view.size(); ++i) {
+            view[i] = to_view(obstacles.positions[i]);
+            clip[i] = A::transform(params_.render_projection, view[i]);
+        }
+        const auto triangles = assemble_triangles(clip, obstacles.indices, width_, height_, profile_.raster);
+        const auto rows = [&](std::size_t i) { return rows_touched(triangles[i], profile_.raster); };
+        const auto draw = [&](std::size_t i, const PixelRect& area) {
+            const std::uint32_t* index = &obstacles.indices[std::size_t{triangles[i].primitive} * 3];
+            const TriangleInterpolation<A> interpolation({clip[index[0]], clip[index[1]], clip[index[2]]}, width_,
+                                                         height_);
+            const Rgba8 color =
+                Shading<A>::quantise(Shading<A>::obstacle({view[index[0]], view[index[1]], view[index[2]]}));
+            for_each_pixel(triangles[i], profile_.raster, area, [&](int x, int y) {
+                keep_nearer(x, y, interpolation.depth(interpolation.weights(x, y)), color);
+            });
+        };
+        draw_in_bands(triangles.size(), width_, height_, profile_, rows, draw);
+    }
+
+    void draw_particles(const Particles& particles) {
+        std::vector<Sprite> sprites(particles.size());
+        for (std::size_t i = 0; i < sprites.size(); ++i)
+            sprites[i] = sprite(to_view(particles.position[i]));
+        const auto rows = [&](std::size_t i) { return std::pair{sprites[i].pixels.y0, sprites[i].pixels.y1 - 1}; };
+        const auto draw = [&](std::size_t i, const PixelRect& area) {
+            const PixelRect& pixels = sprites[i].pixels;
+            for (int y = std::max(pixels.y0, area.y0); y < std::min(pixels.y1, area.y1); ++y)
+                for (int x = pixels.x0; x < pixels.x1; ++x)
+                    draw_sphere_pixel(sprites[i], x, y, particles.speed[i], particles.collide_time[i]);
+        };
+        draw_in_bands(sprites.size(), width_, height_, profile_, rows, draw);
+    }
+
+    ColorImage take_image() { return std::move(color_); }
+
+    [[nodiscard]] glm::vec3 to_view(glm::vec3 position) const { return A::transform(params_.render_view, position); }
+
+    [[nodiscard]] Billboard billboard(glm::vec3 view_centre) const {
+        return expand_billboard<A>(view_centre, params_.constants.billboard_radius, params_.render_projection);
+    }
+
+  private:
+    struct Sprite {
+        glm::vec3 centre{0.0F}; ///< view space
+        BillboardWindow window;
+        PixelRect pixels;
+    };
+
+    [[nodiscard]] Sprite sprite(glm::vec3 view_centre) const {
+        const Billboard square = billboard(view_centre);
+        if (!is_visible(square))
+            return {};
+        return {view_centre, billboard_window<A>(square, width_, height_),
+                covered_pixels(square, width_, height_, profile_.raster)};
+    }
+
+    /// The sphere of the billboard's radius where the square's pixel looks at it, seen without perspective.
+    void draw_sphere_pixel(const Sprite& sprite, int x, int y, float speed, float collide_time) {
+        const float dx = A::divide((static_cast<float>(x) + 0.5F) - sprite.window.centre.x, sprite.window.half.x);
+        const float dy = A::divide((static_cast<float>(y) + 0.5F) - sprite.window.centre.y, sprite.window.half.y);
+        const float squared = dx * dx + dy * dy;
+        if (!(squared <= 1.0F))
+            return;
+        const glm::vec3 normal(dx, dy, A::sqrt(1.0F - squared));
+        const float z = sprite.centre.z + normal.z * params_.constants.billboard_radius;
+        const glm::vec4 clip = A::transform(params_.render_projection, {sprite.centre.x, sprite.centre.y, z});
+        const float depth = clamp_to(A::divide(clip.z, clip.w) * 0.5F + 0.5F, 1.0F);
+        if (depth < depth_.at(x, y))
+            keep_nearer(x, y, depth,
+                        Shading<A>::quantise(
+                            Shading<A>::particle(normal, speed, collide_time, params_.constants.collision_time)));
+    }
+
+    void keep_nearer(int x, int y, float depth, Rgba8 color) {
+        if (!(depth < depth_.at(x, y)))
+            return;
+        depth_.at(x, y) = depth;
+        color_.at(x, y) = color;
+    }
+
+    const FrameParams& params_;
+    const Profile& profile_;
+    int width_, height_;
+    ColorImage color_;
+    DepthImage depth_;
+};
+
+} // namespace
+
+ColorImage render_pass(const Particles& particles, const Mesh& obstacles, const FrameParams& params,
+                       const Profile& profile) {
+    const FlushSubnormals guard(profile.flush_subnormals);
+    return with_arithmetic(profile, [&]<class A>(A) {
+        RenderPass<A> pass(params, profile);
+        pass.draw_background();
+        pass.draw_obstacles(obstacles);
+        pass.draw_particles(particles);
+        return pass.take_image();
+    });
+}
+
+Billboard particle_billboard(glm::vec3 position, const FrameParams& params, const Profile& profile) {
+    const FlushSubnormals guard(profile.flush_subnormals);
+    return with_arithmetic(profile, [&]<class A>(A) {
+        const RenderPass<A> pass(params, profile);
+        return pass.billboard(pass.to_view(position));
+    });
+}
+
+} // namespace lockstep

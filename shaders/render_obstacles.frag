@@ -1,0 +1,20 @@
+#version 330 core
+#extension GL_ARB_gpu_shader5 : require
+#include "arithmetic.glsl"
+#include "clamp_to.glsl"
+#include "shading.glsl"
+#include "triangle_interpolation.glsl"
+
+flat in vec4 g_Clip[3];
+flat in vec3 g_Position[3]; // view space
+
+uniform int u_ClientWidth;
+uniform int u_ClientHeight;
+
+out vec4 o_Color;
+
+void main() {
+    vec2 shares = corner_shares(g_Clip, ivec2(gl_FragCoord.xy), ivec2(u_ClientWidth, u_ClientHeight));
+    gl_FragDepth = interpolated_depth(g_Clip, shares);
+    o_Color = quantised(obstacle_color(g_Position));
+}

@@ -9,6 +9,8 @@ namespace lockstep {
 namespace {
 
 float nearest_half(float x) {
+    if (x != x)
+        return x;
     if (std::abs(x) < 0x1p-14F)
         return 0.0F;
     const auto bits = std::bit_cast<std::uint32_t>(std::abs(x));
@@ -22,7 +24,7 @@ float nearest_half(float x) {
 
 float unorm8(float x, float low, float scale) {
     const float code = (x - low) * scale;
-    return std::floor(std::clamp(code, 0.0F, 255.0F) + 0.5F);
+    return code > 0.0F ? std::floor(std::min(code, 255.0F) + 0.5F) : 0.0F;
 }
 
 } // namespace

@@ -5,8 +5,8 @@
 namespace lockstep {
 
 /// The stored code of a CDT texel (image.hpp says what each format holds; alpha is 1, or 255 for rgba8), and back.
-/// rgba16f: nearest half, ties to even; magnitudes below 2^-14 become +0, above 65504 they become 65504.
-/// rgba8: nearest of 256 codes across the scene's cdt_box, clamped to it.
+/// rgba16f: nearest half, ties to even; magnitudes below 2^-14 become +0, above 65504 they become 65504; NaN stays.
+/// rgba8: nearest of 256 codes across the scene's cdt_box, half up, clamped to it; NaN is code 0.
 class CollisionCode {
   public:
     explicit CollisionCode(const FrameParams& params);

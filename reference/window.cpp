@@ -38,7 +38,7 @@ int point_pixel(std::int32_t snapped, const RasterRules& rules) {
 }
 
 bool in_clip_volume(glm::vec4 clip) {
-    return std::abs(clip.x) <= clip.w && std::abs(clip.y) <= clip.w && std::abs(clip.z) <= clip.w;
+    return clip.w > 0.0F && std::abs(clip.x) <= clip.w && std::abs(clip.y) <= clip.w && std::abs(clip.z) <= clip.w;
 }
 
 } // namespace lockstep

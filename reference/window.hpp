@@ -35,7 +35,8 @@ std::int32_t snap_vertex(float window, const RasterRules& rules);
 /// The pixel a size-1 point at a sub-pixel position covers along one axis.
 int point_pixel(std::int32_t snapped, const RasterRules& rules);
 
-/// Whether a point's centre lies in the closed clip volume -w <= x, y, z <= w (GL 13.5). False for NaN.
+/// Whether a point's centre lies in the closed clip volume -w <= x, y, z <= w (GL 13.5). False for NaN, and for w = 0,
+/// which has no place on the image.
 bool in_clip_volume(glm::vec4 clip);
 
 } // namespace lockstep

@@ -6,19 +6,22 @@ uniform vec3 u_CdtBoxStep;  // rgba8: box size / 255
 uniform vec3 u_CdtBoxScale; // rgba8: 255 / box size
 
 // To the nearest half, ties to even; below the smallest normal half (2^-14) to zero, above the largest to 65504.
+// NaN stays.
 float half_round(float x) {
     uint bits = floatBitsToUint(x);
     uint magnitude = bits & 0x7fffffffu;
     uint sign = bits & 0x80000000u;
     if (magnitude < 0x38800000u)
         return 0.0;
+    if (magnitude > 0x7f800000u)
+        return x;
     uint rounded = (magnitude + 0xfffu + ((magnitude >> 13) & 1u)) & ~0x1fffu;
     return uintBitsToFloat(sign | min(rounded, 0x477fe000u));
 }
 
 float unorm8_code(float x, float low, float scale) {
     precise float code = (x - low) * scale;
-    return floor(clamp(code, 0.0, 255.0) + 0.5);
+    return code > 0.0 ? floor(min(code, 255.0) + 0.5) : 0.0; // NaN: 0
 }
 
 vec4 encode_position(vec3 p) {

@@ -15,9 +15,9 @@ out float out_Speed;
 out float out_CollideTime;
 
 // GL discards a point whose centre lies outside the clip volume (4.5, 13.5). A driver with a guard band may let it
-// pass, and NaN decides differently everywhere, so the rule is written out.
+// pass, and NaN decides differently everywhere, so the rule is written out. At w = 0 a point has no place on the image.
 bool in_clip_volume(vec4 clip) {
-    return abs(clip.x) <= clip.w && abs(clip.y) <= clip.w && abs(clip.z) <= clip.w;
+    return clip.w > 0.0 && abs(clip.x) <= clip.w && abs(clip.y) <= clip.w && abs(clip.z) <= clip.w;
 }
 
 void main() {

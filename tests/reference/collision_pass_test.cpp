@@ -173,8 +173,9 @@ TEST_CASE("collision: switch base_texel: texel -0.5 is texel 0 by truncation, ou
         CHECK(x_of(quiet_nan) == -1);
         CHECK(x_of(1e30F) == -1);
     }
-    // Both or neither: a particle outside in y has no texel at all.
+    // Both or neither: a particle outside in y has no texel at all, at texel -1 exactly neither.
     CHECK(base_texel({0.0F, 2.0F, 0.0F}, params, {}).x == -1);
+    CHECK(base_texel({0.0F, -1.25F, 0.0F}, params, {}).x == -1);
 }
 
 TEST_CASE("collision: a particle whose base texel lies outside does not search") {

@@ -20,6 +20,10 @@ struct Strict {
     static float length(glm::vec3 v) { return std::sqrt(dot(v, v)); }
     static glm::vec3 normalize(glm::vec3 v) { return scale(v, 1.0F / std::sqrt(dot(v, v))); }
 
+    /// What becomes of the result of each + - * that a pass makes itself: here nothing, in Portable tiny values are 0.
+    static float flush(float x) { return x; }
+    static glm::vec3 flush(glm::vec3 v) { return v; }
+
     static glm::vec3 scale(glm::vec3 v, float s) { return {v.x * s, v.y * s, v.z * s}; }
     /// matrix * vec4(v, 1), columns summed from left to right: what `precise` gives on every driver measured.
     static glm::vec4 transform(const glm::mat4& m, glm::vec3 v) {

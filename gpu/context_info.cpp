@@ -1,5 +1,6 @@
 #include "gpu/context_info.hpp"
 
+#include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
 #include "gpu/gl.hpp"
@@ -84,6 +85,10 @@ ContextInfo query_context_info(std::string backend) {
         info.max_ssbo_bytes = bytes;
     }
     return info;
+}
+
+std::string summary(const ContextInfo& info) {
+    return fmt::format("{}; {}; {}", info.renderer, info.version, info.backend);
 }
 
 void to_json(nlohmann::json& json, const ContextInfo& info) {

@@ -36,6 +36,9 @@ struct ContextInfo {
 /// Of the current context.
 ContextInfo query_context_info(std::string backend);
 
+/// One line: renderer, version, backend.
+std::string summary(const ContextInfo& info);
+
 void to_json(nlohmann::json& json, const ContextInfo& info);
 void from_json(const nlohmann::json& json, ContextInfo& info);
 

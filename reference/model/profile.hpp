@@ -1,5 +1,6 @@
 #pragma once
 #include <string>
+#include <string_view>
 
 namespace lockstep {
 
@@ -34,5 +35,8 @@ struct Profile {
     bool flush_subnormals = true; ///< subnormal operands and results are zero
     RasterRules raster;
 };
+
+/// strict, llvmpipe or nvidia, as measured (spec, last section). Throws Error naming them for any other name.
+Profile named_profile(std::string_view name);
 
 } // namespace lockstep

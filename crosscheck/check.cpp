@@ -1,0 +1,139 @@
+#include "crosscheck/check.hpp"
+
+#include <algorithm>
+#include <chrono>
+#include <utility>
+
+#include <fmt/format.h>
+
+#include "gpu/simulation.hpp"
+#include "reference/model/error.hpp"
+#include "reference/model/state_hash.hpp"
+#include "reference/simulation.hpp"
+
+namespace lockstep {
+namespace {
+
+/// Adds the time until it dies to a sum.
+class Stopwatch {
+  public:
+    explicit Stopwatch(double& seconds) : seconds_(seconds) {}
+    ~Stopwatch() { seconds_ += std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count(); }
+    Stopwatch(const Stopwatch&) = delete;
+    Stopwatch& operator=(const Stopwatch&) = delete;
+
+  private:
+    double& seconds_;
+    std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
+};
+
+/// State of one side after a frame.
+struct State {
+    Particles particles;
+    CollisionImage cdt;
+};
+
+void read(GpuSimulation& gpu, State& state) {
+    gpu.read(state.particles);
+    gpu.read(state.cdt);
+}
+
+Comparison compare(const Particles& reference, const CollisionImage& reference_cdt, const State& gpu) {
+    Comparison result = lockstep::compare(reference, gpu.particles);
+    result.add(lockstep::compare(reference_cdt, gpu.cdt));
+    return result;
+}
+
+std::uint64_t count_hits(const Particles& particles, float collision_time) {
+    return static_cast<std::uint64_t>(
+        std::count(particles.collide_time.begin(), particles.collide_time.end(), collision_time));
+}
+
+std::uint64_t count_drawn(const CollisionImage& cdt) {
+    return static_cast<std::uint64_t>(
+        std::count_if(cdt.texels.begin(), cdt.texels.end(), [](const glm::vec4& texel) { return texel.a != 0.0F; }));
+}
+
+void note_difference(CheckReport& report, int frame, const Comparison& comparison) {
+    const std::int64_t worst = comparison.worst.empty() ? 0 : comparison.worst.front().ulp;
+    report.counts.push_back({frame, comparison.differing_particles, comparison.differing_texels, worst});
+    if (comparison.agree() || report.first_frame)
+        return;
+    report.verdict = Verdict::differ;
+    report.first_frame = frame;
+    for (const Difference& difference : comparison.worst)
+        report.worst.push_back({frame, difference});
+}
+
+} // namespace
+
+CheckReport check(const Scene& scene, const Profile& profile, GpuSimulation& gpu, const CheckOptions& options) {
+    CheckReport report;
+    report.particles = scene.start.size();
+    ReferenceSimulation reference(scene, profile);
+    State before{scene.start, CollisionImage(scene.width, scene.height)};
+    State now = before;
+    gpu.upload(before.particles, before.cdt);
+
+    for (int frame = 0; frame < options.frames && !(options.stop != nullptr && *options.stop); ++frame) {
+        const FrameParams params = frame_params(scene, frame);
+        FrameTimes times;
+        const bool repeat = frame < options.repeated_frames;
+        if (repeat)
+            gpu.lay_canary();
+        {
+            const Stopwatch watch(times.gpu);
+            gpu.step(params);
+        }
+        {
+            const Stopwatch watch(times.readback);
+            read(gpu, now);
+        }
+        if (repeat) {
+            gpu.find_canary(now.particles, now.cdt, frame);
+            gpu.repeat_step(params);
+            State again;
+            read(gpu, again);
+            const Comparison repeated = compare(now.particles, now.cdt, again);
+            if (!repeated.agree()) {
+                note_difference(report, frame, repeated);
+                report.verdict = Verdict::nondeterministic;
+                report.total.add(repeated);
+                report.frames = frame + 1;
+                return report;
+            }
+        }
+        {
+            const Stopwatch watch(times.reference);
+            if (options.mode == CheckMode::resync)
+                reference.step_from(before.particles, before.cdt, params);
+            else
+                reference.step(params);
+        }
+        Comparison comparison;
+        {
+            const Stopwatch watch(times.compare);
+            comparison = compare(reference.particles(), reference.cdt(), now);
+            if (!comparison.agree() || options.mode == CheckMode::free)
+                note_difference(report, frame, comparison);
+            report.total.add(comparison);
+            report.hits += count_hits(reference.particles(), scene.constants.collision_time);
+            report.drawn_texels += count_drawn(reference.cdt());
+        }
+        report.times.push_back(times);
+        report.frames = frame + 1;
+        if (options.on_state)
+            options.on_state({frame, reference.particles(), reference.cdt(), now.particles, now.cdt, comparison});
+        std::swap(before, now);
+        if (options.on_frame)
+            options.on_frame(report.frames);
+    }
+    if (report.total.compared() == 0)
+        throw Error(fmt::format("{}: nothing was compared: {} frames of {} particles", scene.name, report.frames,
+                                report.particles));
+    report.reference_hash = state_hash(reference.particles(), reference.cdt());
+    report.gpu_hash = state_hash(before.particles, before.cdt);
+    return report;
+}
+
+} // namespace lockstep

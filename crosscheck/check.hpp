@@ -1,0 +1,85 @@
+#pragma once
+#include <atomic>
+#include <cstdint>
+#include <functional>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "crosscheck/compare.hpp"
+#include "reference/model/profile.hpp"
+#include "reference/model/scene.hpp"
+
+namespace lockstep {
+
+class GpuSimulation;
+
+enum class CheckMode {
+    resync, ///< after each frame the reference restarts from the GPU's state, so each step is judged alone
+    free    ///< both sides run on by themselves, and the growth of the difference is shown
+};
+
+enum class Verdict { agree, differ, nondeterministic };
+
+/// A difference and the frame it belongs to.
+struct FrameDifference {
+    int frame = 0;
+    Difference difference;
+};
+
+/// How much differed in one frame; kept for every frame with a difference, and in free mode for every frame.
+struct FrameCount {
+    int frame = 0;
+    std::uint64_t particles = 0;
+    std::uint64_t texels = 0;
+    std::int64_t worst_ulp = 0;
+};
+
+/// Seconds a frame took, by what was done.
+struct FrameTimes {
+    double gpu = 0.0;      ///< the GL frame alone, to glFinish
+    double readback = 0.0; ///< particles and CDT to this side
+    double reference = 0.0;
+    double compare = 0.0;
+};
+
+struct CheckReport {
+    Verdict verdict = Verdict::agree;
+    int frames = 0; ///< frames compared
+    std::size_t particles = 0;
+    Comparison total;
+    std::optional<int> first_frame;     ///< the first frame with a difference, or that did not repeat itself
+    std::vector<FrameDifference> worst; ///< of the first differing frame, largest ULP first
+    std::vector<FrameCount> counts;
+    std::uint64_t hits = 0;         ///< particle-frames in which the reference found a collision
+    std::uint64_t drawn_texels = 0; ///< texels written by the reference, summed over frames
+    std::uint64_t reference_hash = 0;
+    std::uint64_t gpu_hash = 0;    ///< state_hash of particles and CDT after the last frame
+    std::vector<FrameTimes> times; ///< one a frame
+};
+
+/// Both sides after one frame, and what their comparison said.
+struct ComparedFrame {
+    int frame = 0;
+    const Particles& reference;
+    const CollisionImage& reference_cdt;
+    const Particles& gpu;
+    const CollisionImage& gpu_cdt;
+    const Comparison& comparison;
+};
+
+struct CheckOptions {
+    CheckMode mode = CheckMode::resync;
+    int frames = 60;
+    int repeated_frames = 2; ///< the first frames run twice on the GPU and must repeat themselves bit by bit
+    std::function<void(int frames_done)> on_frame;
+    /// Called after each comparison (hash files, images, traces).
+    std::function<void(const ComparedFrame&)> on_state;
+    const std::atomic<bool>* stop = nullptr; ///< set: end after the frame at hand, with the verdict so far
+};
+
+/// Runs both sides from the scene's start and compares every float of every frame. Throws Error when the run would
+/// prove nothing: a GL error, an incomplete framebuffer, output that was not written, no frame compared.
+CheckReport check(const Scene& scene, const Profile& profile, GpuSimulation& gpu, const CheckOptions& options);
+
+} // namespace lockstep

@@ -1,0 +1,148 @@
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <memory>
+#include <vector>
+
+#include <fmt/format.h>
+#include <sys/resource.h>
+
+#include "crosscheck/check.hpp"
+#include "crosscheck/commands/commands.hpp"
+#include "crosscheck/commands/run_options.hpp"
+#include "crosscheck/profiles.hpp"
+#include "gpu/context.hpp"
+#include "gpu/simulation.hpp"
+#include "reference/model/state_hash.hpp"
+
+namespace lockstep {
+namespace {
+
+struct Options {
+    RunOptions run;
+    std::vector<std::size_t> counts{50000, 100000, 150000, 200000};
+    std::vector<int> radii{1, 4};
+};
+
+double now() { return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count(); }
+
+double median(std::vector<double> values) {
+    const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
+    std::nth_element(values.begin(), middle, values.end());
+    return *middle;
+}
+
+/// Seconds a frame, medians over the run.
+struct Timing {
+    double gl = 0.0;        ///< GL frames alone, without any check
+    double check = 0.0;     ///< the whole of a checked frame
+    double reference = 0.0; ///< the reference's share of it
+    CheckReport report;
+};
+
+Timing time_run(const Scene& scene, const Profile& profile, const Options& options) {
+    GpuSimulation gpu(scene, options.run.shaders);
+    std::vector<double> alone;
+    for (int frame = 0; frame < options.run.frames; ++frame) {
+        const FrameParams params = frame_params(scene, frame);
+        const double start = now();
+        gpu.step(params);
+        alone.push_back(now() - start);
+    }
+    std::vector<double> checked;
+    double last = 0.0;
+    CheckOptions check_options;
+    check_options.frames = options.run.frames;
+    check_options.repeated_frames = 0;
+    check_options.on_frame = [&](int) {
+        checked.push_back(now() - last);
+        last = now();
+    };
+    gpu.upload(scene.start, CollisionImage(scene.width, scene.height));
+    last = now();
+    Timing timing;
+    timing.report = check(scene, profile, gpu, check_options);
+    std::vector<double> reference;
+    for (const FrameTimes& times : timing.report.times)
+        reference.push_back(times.reference);
+    timing.gl = median(alone);
+    timing.check = median(checked);
+    timing.reference = median(reference);
+    return timing;
+}
+
+/// Slope of log time over log count by least squares: 1 is linear.
+double fitted_exponent(const std::vector<std::size_t>& counts, const std::vector<double>& seconds) {
+    double n = 0.0, x = 0.0, y = 0.0, xx = 0.0, xy = 0.0;
+    for (std::size_t i = 0; i < counts.size(); ++i) {
+        const double u = std::log(static_cast<double>(counts[i]));
+        const double v = std::log(seconds[i]);
+        n += 1.0;
+        x += u;
+        y += v;
+        xx += u * u;
+        xy += u * v;
+    }
+    return (n * xy - x * y) / (n * xx - x * x);
+}
+
+std::size_t peak_bytes() {
+    rusage usage{};
+    getrusage(RUSAGE_SELF, &usage);
+    return static_cast<std::size_t>(usage.ru_maxrss) * 1024;
+}
+
+int run(const Options& options) {
+    const Context context(parse_context_request(options.run.gl));
+    const Profile profile = measured_profile(context);
+    fmt::print("{}\n{} frames each, median ms a frame; profile {}\n\n", summary(context.describe()), options.run.frames,
+               describe(profile));
+    fmt::print("{:>6} {:>9} {:>9} {:>9} {:>9} {:>8} {:>8}  {:<16} {}\n", "radius", "particles", "GL", "reference",
+               "check", "GL/ref", "check/GL", "hash", "verdict");
+    int status = status_agree;
+    std::size_t largest = 0;
+    for (const int radius : options.radii) {
+        std::vector<double> gl, reference;
+        for (const std::size_t count : options.counts) {
+            RunOptions run = options.run;
+            run.particles = count;
+            run.set.push_back(fmt::format("texel_collide_range={}", radius));
+            const Timing t = time_run(load(run), profile, options);
+            fmt::print("{:>6} {:>9} {:>9.3f} {:>9.3f} {:>9.3f} {:>7.2f}x {:>7.2f}x  {} {}\n", radius, count, t.gl * 1e3,
+                       t.reference * 1e3, t.check * 1e3, t.gl / t.reference, t.check / t.gl,
+                       hash_text(t.report.gpu_hash), t.report.verdict == Verdict::agree ? "AGREE" : "DIFFER");
+            std::fflush(stdout);
+            if (t.report.verdict != Verdict::agree)
+                status = status_differ;
+            gl.push_back(t.gl);
+            reference.push_back(t.reference);
+            largest = std::max(largest, count);
+        }
+        if (options.counts.size() > 1)
+            fmt::print("       time ~ particles^{:.2f} (GL), ^{:.2f} (reference)\n",
+                       fitted_exponent(options.counts, gl), fitted_exponent(options.counts, reference));
+    }
+    fmt::print("peak memory {:.0f} MiB, {:.0f} bytes a particle at {} particles\n",
+               static_cast<double>(peak_bytes()) / 1048576.0,
+               static_cast<double>(peak_bytes()) / static_cast<double>(largest), largest);
+    return status;
+}
+
+} // namespace
+
+void add_bench_command(CLI::App& app, int& status) {
+    auto options = std::make_shared<Options>();
+    CLI::App* verb = app.add_subcommand("bench", "time GL frames, reference and check in one run, with the state hash");
+    add_scene_options(*verb, options->run);
+    add_gl_options(*verb, options->run);
+    options->run.frames = 30;
+    verb->add_option("--frames", options->run.frames, "frames a measurement")
+        ->check(CLI::Range(1, 1'000'000))
+        ->type_name("N");
+    verb->add_option("--counts", options->counts, "particle counts")->delimiter(',')->type_name("N,...");
+    verb->add_option("--radius", options->radii, "neighbourhood radii, texels")->delimiter(',')->type_name("R,...");
+    verb->footer("Example: lockstep bench data/scenes/lattice.json --counts 50000,200000 --radius 1");
+    verb->callback([options, &status] { status = run(*options); });
+}
+
+} // namespace lockstep

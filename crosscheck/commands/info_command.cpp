@@ -1,0 +1,52 @@
+#include <string>
+
+#include <fmt/format.h>
+
+#include "crosscheck/commands/commands.hpp"
+#include "gpu/context.hpp"
+
+namespace lockstep {
+namespace {
+
+std::string text(const ContextProbe& probe) {
+    const std::string name = context_request_text(probe.request);
+    if (!probe.error.empty())
+        return fmt::format("{:<14}none: {}\n", name, probe.error);
+    const ContextInfo& i = probe.info;
+    const auto yes_no = [](bool value) { return value ? "yes" : "no"; };
+    std::string out = fmt::format("{:<14}{}\n", name, i.renderer);
+    const auto line = [&](std::string_view what, const std::string& value) {
+        out += fmt::format("  {:<26}{}\n", what, value);
+    };
+    line("vendor", i.vendor);
+    line("version", i.version);
+    line("GLSL", i.glsl);
+    line("sub-pixel bits", fmt::format("{}", i.subpixel_bits));
+    line("precise", yes_no(i.precise));
+    line("clip control", yes_no(i.clip_control));
+    line("compute", yes_no(i.compute));
+    line("texture side", fmt::format("{} texels", i.max_texture_size));
+    line("viewport", fmt::format("{} x {} pixels", i.max_viewport_width, i.max_viewport_height));
+    line("captured components", fmt::format("{}", i.max_xfb_interleaved_components));
+    line("point size", fmt::format("{} to {} pixels", i.min_point_size, i.max_point_size));
+    line("timer bits", fmt::format("{}", i.timer_bits));
+    return out;
+}
+
+int run() {
+    int found = 0;
+    for (const ContextProbe& probe : available_contexts()) {
+        fmt::print("{}\n", text(probe));
+        found += probe.error.empty() ? 1 : 0;
+    }
+    return found > 0 ? status_agree : status_could_not_run;
+}
+
+} // namespace
+
+void add_info_command(CLI::App& app, int& status) {
+    CLI::App* verb = app.add_subcommand("info", "list the GL contexts found, with renderer, version and limits");
+    verb->callback([&status] { status = run(); });
+}
+
+} // namespace lockstep

@@ -1,0 +1,61 @@
+#include "crosscheck/commands/run_options.hpp"
+
+#include <fmt/format.h>
+#include <omp.h>
+
+#include "crosscheck/scene_file.hpp"
+#include "reference/model/switches.hpp"
+
+namespace lockstep {
+
+void add_scene_options(CLI::App& verb, RunOptions& options) {
+    verb.add_option("scene", options.scene, "scene file, data/scenes/*.json")->required()->type_name("SCENE");
+    verb.add_option("--particles", options.particles, "number of particles instead of the scene's")->type_name("N");
+    verb.add_option("--preset", options.preset, "paper, corrected or exact, instead of the scene's")->type_name("NAME");
+    verb.add_option("--set", options.set, "change one switch or constant; may be repeated")
+        ->type_name("NAME=VALUE")
+        ->allow_extra_args(false);
+    verb.add_option("--threads", options.threads, "threads of the reference, 0: one a core")
+        ->check(CLI::Range(0, 1024))
+        ->type_name("N");
+}
+
+void add_gl_options(CLI::App& verb, RunOptions& options) {
+    verb.add_option("--gl", options.gl, "auto, osmesa, egl, or egl-device:N")->type_name("CONTEXT");
+    verb.add_option("--shaders", options.shaders, "take shader files from here first")->type_name("DIR");
+}
+
+Scene load(const RunOptions& options) {
+    if (options.threads > 0)
+        omp_set_num_threads(options.threads);
+    return load_scene(options.scene, {options.particles, options.preset, options.set});
+}
+
+std::string command_line(const std::string& verb, const RunOptions& options, int frames) {
+    std::string line = fmt::format("lockstep {} {} --frames {}", verb, options.scene.string(), frames);
+    if (options.particles)
+        line += fmt::format(" --particles {}", *options.particles);
+    if (options.preset)
+        line += fmt::format(" --preset {}", *options.preset);
+    for (const std::string& change : options.set)
+        line += fmt::format(" --set {}", change);
+    if (options.threads > 0)
+        line += fmt::format(" --threads {}", options.threads);
+    if (options.gl != "auto")
+        line += fmt::format(" --gl {}", options.gl);
+    if (!options.shaders.empty())
+        line += fmt::format(" --shaders {}", options.shaders.string());
+    return line;
+}
+
+std::string settings_text(const RunOptions& options, const Scene& scene) {
+    std::string text = options.preset ? fmt::format("preset {}", *options.preset) : "the scene's";
+    for (const std::string& change : options.set)
+        text += ", " + change;
+    text += fmt::format(" (arithmetic {}, CDT {} {}x{}, radius {})", switch_value(scene.switches, "arithmetic"),
+                        switch_value(scene.switches, "cdt_format"), scene.width, scene.height,
+                        scene.constants.texel_collide_range);
+    return text;
+}
+
+} // namespace lockstep

@@ -1,0 +1,38 @@
+#pragma once
+#include <cstddef>
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include <CLI/CLI.hpp>
+
+#include "reference/model/scene.hpp"
+
+namespace lockstep {
+
+/// The options that say what is run; every verb that runs a scene has them.
+struct RunOptions {
+    std::filesystem::path scene;
+    std::optional<std::size_t> particles;
+    std::optional<std::string> preset;
+    std::vector<std::string> set;
+    int frames = 60;
+    int threads = 0; ///< 0: one a core
+    std::string gl = "auto";
+    std::filesystem::path shaders; ///< looked into first; empty: only the shipped shaders
+};
+
+void add_scene_options(CLI::App& verb, RunOptions& options);
+void add_gl_options(CLI::App& verb, RunOptions& options);
+
+/// Loads the scene and sets the thread count.
+Scene load(const RunOptions& options);
+
+/// The options as they would be typed again, with another frame count.
+std::string command_line(const std::string& verb, const RunOptions& options, int frames);
+
+/// "corrected, texel_collide_range=4"
+std::string settings_text(const RunOptions& options, const Scene& scene);
+
+} // namespace lockstep

@@ -1,0 +1,20 @@
+#pragma once
+#include <filesystem>
+#include <string>
+
+#include "crosscheck/check.hpp"
+
+namespace lockstep {
+
+/// The state hash of every frame, one line a frame: "FRAME REFERENCE GPU". Two files made on different machines can be
+/// compared with diff.
+class HashFile {
+  public:
+    void add(const ComparedFrame& frame);
+    void write(const std::filesystem::path& path) const;
+
+  private:
+    std::string lines_;
+};
+
+} // namespace lockstep

@@ -1,0 +1,27 @@
+#pragma once
+#include <string>
+
+#include <nlohmann/json_fwd.hpp>
+
+#include "crosscheck/check.hpp"
+
+namespace lockstep {
+
+/// What a report says about the run besides the comparison.
+struct RunDescription {
+    std::string scene;    ///< name and file
+    std::string context;  ///< backend, renderer, version
+    std::string profile;  ///< the arithmetic the reference followed
+    std::string settings; ///< preset and changed switches
+    std::string mode;
+    int width = 0;      ///< CDT, to turn a texel index into x, y
+    std::string repeat; ///< a command line that repeats a run up to the first difference; {frames} is filled in
+};
+
+/// The report as a person reads it, verdict last but one, at most 60 lines. See README, "How to read a report".
+std::string report_text(const CheckReport& report, const RunDescription& run);
+
+/// The same as data.
+nlohmann::json report_json(const CheckReport& report, const RunDescription& run);
+
+} // namespace lockstep

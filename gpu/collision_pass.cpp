@@ -1,0 +1,74 @@
+#include "gpu/collision_pass.hpp"
+
+#include <array>
+
+#include <fmt/format.h>
+
+#include "gpu/check.hpp"
+#include "gpu/shader_source.hpp"
+#include "reference/model/error.hpp"
+
+namespace lockstep {
+namespace {
+
+Program link(const Switches& switches, const std::filesystem::path& shaders) {
+    const std::array stages{Stage::vertex, Stage::geometry, Stage::fragment};
+    return {"collision_pass", load_stages(shader_folders(shaders), "collision_pass", stages, switch_defines(switches)),
+            particle_captures()};
+}
+
+void set_uniforms(const Program& program, const FrameParams& params) {
+    const Constants& constants = params.constants;
+    program.set("u_ProjView", params.collision_proj_view);
+    program.set("u_ClientWidth", params.width);
+    program.set("u_ClientHeight", params.height);
+    program.set("u_TexelCollideRange", constants.texel_collide_range);
+    program.set("u_CollisionRange", constants.collision_range);
+    program.set("u_CollisionTime", constants.collision_time);
+    program.set("u_SpeedFactor", params.switches.speed_factor);
+    program.set("u_Tick", constants.tick);
+    program.set("u_Gravity", constants.gravity);
+    set_collision_code(program, params);
+    program.set_unit("u_CDTexture", 0);
+}
+
+} // namespace
+
+void set_collision_code(const Program& program, const FrameParams& params) {
+    const glm::vec3 size = params.cdt_box.max - params.cdt_box.min;
+    program.set("u_CdtBoxMin", params.cdt_box.min);
+    program.set("u_CdtBoxStep", size / 255.0F);
+    program.set("u_CdtBoxScale", 255.0F / size);
+}
+
+CollisionPass::CollisionPass(const Switches& switches, const std::filesystem::path& shaders)
+    : program_(link(switches, shaders)) {}
+
+void CollisionPass::run(const FrameParams& params, const ParticleBuffer& from, ParticleBuffer& to,
+                        const CollisionTexture& cdt, CollisionTexture& target) {
+    set_uniforms(program_, params);
+    cdt.bind_texture(0);
+    target.bind_target();
+    gl::Enable(GL_DEPTH_TEST);
+    gl::DepthFunc(GL_LESS);
+    const GlVertexArray vertices = particle_vertex_array(from, program_);
+    gl::BindVertexArray(vertices.id());
+    to.bind_capture();
+    gl::BeginQuery(GL_TRANSFORM_FEEDBACK_PRIMITIVES_WRITTEN, written_.id());
+    gl::BeginTransformFeedback(GL_POINTS);
+    gl::DrawArrays(GL_POINTS, 0, static_cast<GLsizei>(from.size()));
+    gl::EndTransformFeedback();
+    gl::EndQuery(GL_TRANSFORM_FEEDBACK_PRIMITIVES_WRITTEN);
+    check_gl("collision_pass");
+}
+
+void CollisionPass::verify_written(std::size_t expected) const {
+    GLuint written = 0;
+    gl::GetQueryObjectuiv(written_.id(), GL_QUERY_RESULT, &written);
+    if (written != expected)
+        throw Error(fmt::format("collision_pass: transform feedback wrote {} of {} particles; the last "
+                                "vertex-processing stage must emit exactly one point a particle",
+                                written, expected));
+}
+
+} // namespace lockstep

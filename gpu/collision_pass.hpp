@@ -1,0 +1,34 @@
+#pragma once
+#include <filesystem>
+
+#include "gpu/collision_texture.hpp"
+#include "gpu/object.hpp"
+#include "gpu/particle_buffer.hpp"
+#include "gpu/program.hpp"
+#include "reference/model/scene.hpp"
+
+namespace lockstep {
+
+/// The collision pass on GL: shaders/collision_pass.*, one point a particle, transform feedback into the other buffer,
+/// fragments into the CDT of the next frame. Twin of reference/collision_pass.hpp.
+class CollisionPass {
+  public:
+    /// `shaders` is looked into first (spec, "Names a foreign shader must use"); may be empty.
+    CollisionPass(const Switches& switches, const std::filesystem::path& shaders);
+
+    /// Steps `from` into `to`, reading `cdt`, drawing into `target` on top of what it holds.
+    void run(const FrameParams& params, const ParticleBuffer& from, ParticleBuffer& to, const CollisionTexture& cdt,
+             CollisionTexture& target);
+
+    /// Waits for the last run. Throws Error unless transform feedback wrote every particle.
+    void verify_written(std::size_t expected) const;
+
+  private:
+    Program program_;
+    GlQuery written_;
+};
+
+/// Sets the uniforms of shaders/collision_code.glsl.
+void set_collision_code(const Program& program, const FrameParams& params);
+
+} // namespace lockstep

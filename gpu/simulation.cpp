@@ -1,0 +1,75 @@
+#include "gpu/simulation.hpp"
+
+#include <bit>
+#include <cstdint>
+
+#include <fmt/format.h>
+
+#include "gpu/check.hpp"
+#include "reference/model/error.hpp"
+
+namespace lockstep {
+namespace {
+
+/// -4.2e6 or so in every float; a position, speed or time of a real run never has exactly these bits.
+constexpr std::uint32_t canary = 0xca7ca7ca;
+constexpr glm::vec4 canary_texel{std::bit_cast<float>(canary)};
+
+bool is_canary(float value) { return std::bit_cast<std::uint32_t>(value) == canary; }
+bool any_canary(glm::vec3 v) { return is_canary(v.x) || is_canary(v.y) || is_canary(v.z); }
+
+} // namespace
+
+GpuSimulation::GpuSimulation(const Scene& scene, const std::filesystem::path& shaders)
+    : collision_pass_(scene.switches, shaders), particles_{ParticleBuffer(scene.start.size()),
+                                                           ParticleBuffer(scene.start.size())},
+      cdts_{CollisionTexture(scene.width, scene.height, scene.switches.cdt_format),
+            CollisionTexture(scene.width, scene.height, scene.switches.cdt_format)} {
+    upload(scene.start, CollisionImage(scene.width, scene.height));
+}
+
+void GpuSimulation::upload(const Particles& particles, const CollisionImage& cdt) {
+    particles_[current_].upload(particles);
+    cdts_[current_].upload(cdt);
+}
+
+void GpuSimulation::step(const FrameParams& params) {
+    run_frame(params, current_, 1 - current_);
+    current_ = 1 - current_;
+}
+
+void GpuSimulation::repeat_step(const FrameParams& params) { run_frame(params, 1 - current_, current_); }
+
+void GpuSimulation::run_frame(const FrameParams& params, std::size_t from, std::size_t to) {
+    cdts_[to].clear();
+    collision_pass_.run(params, particles_[from], particles_[to], cdts_[from], cdts_[to]);
+    gl::Finish();
+    collision_pass_.verify_written(particles_[from].size());
+}
+
+void GpuSimulation::read(Particles& particles) const { particles_[current_].read(particles); }
+
+void GpuSimulation::read(CollisionImage& cdt) const { cdts_[current_].read(cdt); }
+
+void GpuSimulation::lay_canary() {
+    particles_[1 - current_].fill(canary);
+    CollisionTexture& target = cdts_[1 - current_];
+    const bool floats = target.format() == CdtFormat::rgba32f;
+    target.upload(CollisionImage(target.width(), target.height(), floats ? canary_texel : glm::vec4(1.0F)));
+}
+
+void GpuSimulation::find_canary(const Particles& particles, const CollisionImage& cdt, int frame) {
+    for (std::size_t i = 0; i < particles.size(); ++i)
+        if (any_canary(particles.position[i]) || any_canary(particles.direction[i]) || is_canary(particles.speed[i]) ||
+            is_canary(particles.collide_time[i]))
+            throw Error(fmt::format("frame {}: the GPU did not write particle {}: its record still holds what was laid "
+                                    "there before the draw",
+                                    frame, i));
+    for (int y = 0; y < cdt.height; ++y)
+        for (int x = 0; x < cdt.width; ++x)
+            if (is_canary(cdt.at(x, y).x))
+                throw Error(
+                    fmt::format("frame {}: the GPU neither cleared nor drew texel ({}, {}) of the CDT", frame, x, y));
+}
+
+} // namespace lockstep

@@ -1,0 +1,45 @@
+#pragma once
+#include <array>
+#include <filesystem>
+
+#include "gpu/collision_pass.hpp"
+#include "reference/model/image.hpp"
+#include "reference/model/particles.hpp"
+
+namespace lockstep {
+
+/// The GPU side of a run in the current context: whole frames, one after the other, particles and CDT in two copies
+/// each that swap roles. Twin of reference/simulation.hpp.
+class GpuSimulation {
+  public:
+    /// `shaders`: a folder looked into before the shipped one, or empty.
+    GpuSimulation(const Scene& scene, const std::filesystem::path& shaders);
+
+    /// The state the next frame starts from.
+    void upload(const Particles& particles, const CollisionImage& cdt);
+
+    /// One frame: clear, obstacles, collision pass; returns when the GPU is done.
+    void step(const FrameParams& params);
+
+    /// The last frame once more, from the same state.
+    void repeat_step(const FrameParams& params);
+
+    /// The state after the last frame.
+    void read(Particles& particles) const;
+    void read(CollisionImage& cdt) const;
+
+    /// Fills what the next frame writes with a pattern that no step computes, and looks for it in what was read back:
+    /// throws Error when a buffer or the image was not really written.
+    void lay_canary();
+    static void find_canary(const Particles& particles, const CollisionImage& cdt, int frame);
+
+  private:
+    void run_frame(const FrameParams& params, std::size_t from, std::size_t to);
+
+    CollisionPass collision_pass_;
+    std::array<ParticleBuffer, 2> particles_;
+    std::array<CollisionTexture, 2> cdts_;
+    std::size_t current_ = 0; ///< which of the two the next frame starts from
+};
+
+} // namespace lockstep

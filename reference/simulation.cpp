@@ -1,0 +1,34 @@
+#include "reference/simulation.hpp"
+
+#include <algorithm>
+#include <utility>
+
+#include "reference/collision_pass.hpp"
+#include "reference/obstacle_pass.hpp"
+
+namespace lockstep {
+
+ReferenceSimulation::ReferenceSimulation(const Scene& scene, Profile profile)
+    : obstacles_(scene.obstacles), profile_(std::move(profile)), after_(scene.start),
+      cdt_before_(scene.width, scene.height), cdt_after_(scene.width, scene.height),
+      depth_(scene.width, scene.height, 1.0F) {}
+
+void ReferenceSimulation::step_from(const Particles& before, const CollisionImage& cdt, const FrameParams& params) {
+    update_particles(before, cdt, params, profile_, after_);
+    draw_obstacles(params);
+    rasterise_particles(before, after_, params, profile_, cdt_after_, depth_);
+}
+
+void ReferenceSimulation::step(const FrameParams& params) {
+    std::swap(before_, after_);
+    std::swap(cdt_before_, cdt_after_);
+    step_from(before_, cdt_before_, params);
+}
+
+void ReferenceSimulation::draw_obstacles(const FrameParams& params) {
+    std::fill(cdt_after_.texels.begin(), cdt_after_.texels.end(), glm::vec4(0.0F));
+    std::fill(depth_.texels.begin(), depth_.texels.end(), 1.0F);
+    obstacle_pass(obstacles_, params, profile_, cdt_after_, depth_);
+}
+
+} // namespace lockstep

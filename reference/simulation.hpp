@@ -1,0 +1,34 @@
+#pragma once
+#include "reference/model/image.hpp"
+#include "reference/model/particles.hpp"
+#include "reference/model/profile.hpp"
+#include "reference/model/scene.hpp"
+
+namespace lockstep {
+
+/// The reference side of a run: whole frames, one after the other. Holds the scratch that a frame needs, so that a
+/// long run allocates nothing. Twin of gpu/simulation.hpp.
+class ReferenceSimulation {
+  public:
+    ReferenceSimulation(const Scene& scene, Profile profile);
+
+    /// One frame from a given state: clear, obstacles, collision pass. The answer is in particles() and cdt().
+    void step_from(const Particles& before, const CollisionImage& cdt, const FrameParams& params);
+
+    /// One frame from where the last one ended.
+    void step(const FrameParams& params);
+
+    [[nodiscard]] const Particles& particles() const { return after_; }
+    [[nodiscard]] const CollisionImage& cdt() const { return cdt_after_; }
+
+  private:
+    void draw_obstacles(const FrameParams& params);
+
+    const Mesh& obstacles_;
+    Profile profile_;
+    Particles before_, after_;
+    CollisionImage cdt_before_, cdt_after_;
+    DepthImage depth_;
+};
+
+} // namespace lockstep

@@ -1,0 +1,9 @@
+#!/usr/bin/env bash
+# Installs what lockstep needs (Debian 12), builds it, and checks the bunny scene with 50,000 particles.
+set -euo pipefail
+cd "$(dirname "$0")/.."
+scripts/install_packages.sh
+cmake --preset release
+cmake --build --preset release
+scripts/fetch_meshes.sh bunny
+build/release/crosscheck/lockstep check data/scenes/bunny_a.json --particles 50000 "$@"

@@ -9,6 +9,7 @@
 namespace lockstep {
 
 /// Which GL to open. GL libraries are opened at run time; no window or display is needed for any of them.
+/// LOCKSTEP_OSMESA_LIBRARY and LOCKSTEP_EGL_LIBRARY name other builds of them than the system's.
 struct ContextRequest {
     enum class Backend { automatic, osmesa, egl, egl_device };
     Backend backend = Backend::automatic;

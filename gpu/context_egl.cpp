@@ -29,7 +29,7 @@ struct Egl {
     PFNEGLQUERYDEVICESTRINGEXTPROC QueryDeviceStringEXT = nullptr;
 
     Egl() {
-        const SharedLibrary library{"libEGL.so.1", "libEGL.so"};
+        const SharedLibrary library("LOCKSTEP_EGL_LIBRARY", {"libEGL.so.1", "libEGL.so"});
         library.get(BindAPI, "eglBindAPI");
         library.get(ChooseConfig, "eglChooseConfig");
         library.get(CreateContext, "eglCreateContext");

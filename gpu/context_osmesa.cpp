@@ -24,7 +24,7 @@ struct OSMesa {
     void* (*get_proc_address)(const char*) = nullptr;
 
     OSMesa() {
-        const SharedLibrary library{"libOSMesa.so.8", "libOSMesa.so.6", "libOSMesa.so"};
+        const SharedLibrary library("LOCKSTEP_OSMESA_LIBRARY", {"libOSMesa.so.8", "libOSMesa.so.6", "libOSMesa.so"});
         library.get(create, "OSMesaCreateContextAttribs");
         library.get(destroy, "OSMesaDestroyContext");
         library.get(make_current, "OSMesaMakeCurrent");

@@ -3,6 +3,7 @@
 
 #include <fcntl.h>
 #include <poll.h>
+#include <sys/resource.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -41,6 +42,8 @@ template <class Work> nlohmann::json in_child(const Work& work) {
     if (child < 0)
         throw Error("cannot start a child process");
     if (child == 0) {
+        const rlimit no_core{0, 0};
+        setrlimit(RLIMIT_CORE, &no_core);
         // Drivers print to the terminal what the Error says anyway.
         if (const int null = ::open("/dev/null", O_WRONLY); null >= 0) {
             dup2(null, STDOUT_FILENO);

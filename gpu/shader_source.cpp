@@ -64,8 +64,7 @@ class Assembly {
         source_.stage = stage;
         append(path, text);
         if (!has_version_)
-            throw Error(
-                fmt::format("shader {}:1: no #version line; the first is to be like #version 330 core", path.string()));
+            throw Error(fmt::format("shader {}:1: no #version line; GLSL 330 or later is needed", path.string()));
         return std::move(source_);
     }
 

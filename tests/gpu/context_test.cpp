@@ -1,5 +1,7 @@
 #include <catch2/catch.hpp>
 
+#include <cstdlib>
+
 #include <fmt/format.h>
 
 #include "gpu/check.hpp"
@@ -123,6 +125,52 @@ TEST_CASE("context: every kind is probed without a crash") {
         CHECK(probe.error.empty() == !probe.info.renderer.empty());
     }
     CHECK(gl::DrawArrays == nullptr);
+}
+
+namespace {
+
+/// An environment variable, until the end of a test.
+class Environment {
+  public:
+    Environment(const char* name, const char* value) : name_(name) { setenv(name, value, 1); }
+    Environment(const Environment&) = delete;
+    Environment& operator=(const Environment&) = delete;
+    ~Environment() { unsetenv(name_); }
+
+  private:
+    const char* name_;
+};
+
+} // namespace
+
+TEST_CASE("context: without any GL library every reason is given, in one line") {
+    const Environment osmesa("LOCKSTEP_OSMESA_LIBRARY", "/no/such/libOSMesa.so");
+    const Environment egl("LOCKSTEP_EGL_LIBRARY", "/no/such/libEGL.so");
+    CHECK_THROWS_WITH(Context(), Catch::StartsWith("no GL context: osmesa: /no/such/libOSMesa.so: cannot open") &&
+                                     Catch::Contains("; egl: /no/such/libEGL.so: cannot open") &&
+                                     Catch::Contains("LOCKSTEP_OSMESA_LIBRARY can name another library") &&
+                                     !Catch::Contains("\n"));
+    CHECK_THROWS_WITH(Context(parse_context_request("egl-device:0")),
+                      Catch::StartsWith("no GL context: egl-device:0: /no/such/libEGL.so"));
+    CHECK(gl::DrawArrays == nullptr);
+    const std::vector<ContextProbe> probes = available_contexts();
+    REQUIRE(probes.size() == 2);
+    CHECK_FALSE(probes[0].error.empty());
+    CHECK_FALSE(probes[1].error.empty());
+}
+
+TEST_CASE("context: auto passes over a library that does not work") {
+    if (!open_context("egl"))
+        return;
+    const Environment osmesa("LOCKSTEP_OSMESA_LIBRARY", "libm.so.6");
+    CHECK_THROWS_WITH(Context(parse_context_request("osmesa")),
+                      "no GL context: osmesa: libm.so.6 lacks OSMesaCreateContextAttribs");
+    CHECK_THAT(Context().describe().backend, Catch::StartsWith("egl"));
+}
+
+TEST_CASE("context: a driver that crashes is an error of its probe") {
+    const Environment osmesa("LOCKSTEP_OSMESA_LIBRARY", LOCKSTEP_CRASHING_OSMESA);
+    CHECK(available_contexts().front().error == "osmesa: the driver crashed with signal 6");
 }
 
 TEST_CASE("check_gl: an error is named once, with what was done") {

@@ -77,7 +77,7 @@ TEST_CASE("shader source: what is wrong with a file is told with file and line")
                       "no shader file none.geom in " + where + " or " + second.path().string());
     folder.write("a.vert", "void main() {}\n");
     CHECK_THROWS_WITH(load_stage(folders, "a", Stage::vertex),
-                      "shader " + where + "/a.vert:1: no #version line; the first is to be like #version 330 core");
+                      "shader " + where + "/a.vert:1: no #version line; GLSL 330 or later is needed");
     folder.write("b.vert", "#version 330\n#include \"gone.glsl\"\n");
     CHECK_THROWS_WITH(load_stage(folders, "b", Stage::vertex),
                       "shader " + where + "/b.vert:2: no shader file gone.glsl in " + where);

@@ -1,0 +1,94 @@
+#include <catch2/catch.hpp>
+
+#include <filesystem>
+#include <fstream>
+#include <regex>
+#include <sstream>
+#include <string>
+#include <vector>
+
+namespace fs = std::filesystem;
+
+namespace {
+
+bool starts_with_any(const std::string& text, const std::vector<std::string>& prefixes) {
+    for (const std::string& prefix : prefixes)
+        if (text.starts_with(prefix))
+            return true;
+    return false;
+}
+
+/// Why `file` may not include `header`; empty if it may.
+std::string forbidden(const std::string& file, const std::string& header) {
+    if (!file.starts_with("gpu/") && starts_with_any(header, {"GL/", "EGL/", "GLES", "KHR/", "OpenGL/", "glbinding/"}))
+        return "GL headers belong to gpu/";
+    if (file.starts_with("reference/model/") && starts_with_any(header, {"reference/"}) &&
+        !header.starts_with("reference/model/"))
+        return "the model stands by itself";
+    if (file.starts_with("reference/") && starts_with_any(header, {"gpu/", "crosscheck/", "tests/"}))
+        return "the reference knows no other folder";
+    if (file.starts_with("gpu/") && header.starts_with("reference/") && !header.starts_with("reference/model/"))
+        return "gpu/ shares only the model with its twin";
+    if (file.starts_with("gpu/") && starts_with_any(header, {"crosscheck/", "tests/"}))
+        return "gpu/ knows nothing of its users";
+    if (file.starts_with("crosscheck/") && header.starts_with("tests/"))
+        return "only tests include tests";
+    return {};
+}
+
+/// Every line of `text` that crosses a border, as "FILE:LINE: reason".
+std::vector<std::string> crossings(const std::string& file, const std::string& text) {
+    static const std::regex include(R"(^\s*#\s*include\s*[<"]([^>"]+)[>"].*$)");
+    static const std::regex shader(R"(#\s*version\s+[0-9])");
+    std::vector<std::string> found;
+    std::istringstream lines(text);
+    std::string line;
+    for (int number = 1; std::getline(lines, line); ++number) {
+        std::smatch match;
+        std::string reason;
+        if (std::regex_match(line, match, include))
+            reason = forbidden(file, match[1].str());
+        else if (!file.starts_with("tests/") && std::regex_search(line, shader))
+            reason = "shaders belong to shaders/";
+        if (!reason.empty())
+            found.push_back(file + ":" + std::to_string(number) + ": " + reason);
+    }
+    return found;
+}
+
+} // namespace
+
+TEST_CASE("include borders: every source keeps them") {
+    std::vector<std::string> found;
+    std::size_t files = 0;
+    for (const char* folder : {"reference", "gpu", "crosscheck", "tests"}) {
+        REQUIRE(fs::is_directory(folder));
+        for (const fs::directory_entry& entry : fs::recursive_directory_iterator(folder)) {
+            if (entry.path().extension() != ".cpp" && entry.path().extension() != ".hpp")
+                continue;
+            std::ostringstream text;
+            text << std::ifstream(entry.path()).rdbuf();
+            for (const std::string& crossing : crossings(entry.path().generic_string(), text.str()))
+                found.push_back(crossing);
+            ++files;
+        }
+    }
+    CHECK(files > 20);
+    CHECK(found == std::vector<std::string>{});
+}
+
+TEST_CASE("include borders: a crossing is seen, with its line") {
+    using Strings = std::vector<std::string>;
+    CHECK(crossings("gpu/a.cpp", "\n#include \"reference/collision_pass.hpp\"\n") ==
+          Strings{"gpu/a.cpp:2: gpu/ shares only the model with its twin"});
+    CHECK(crossings("gpu/a.cpp", "#include \"reference/model/image.hpp\"\n#include <GL/glcorearb.h>\n").empty());
+    CHECK(crossings("gpu/a.cpp", "#include \"crosscheck/compare.hpp\"\n").size() == 1);
+    CHECK(crossings("reference/a.hpp", "  # include <EGL/egl.h> // why\n").size() == 1);
+    CHECK(crossings("reference/a.hpp", "#include \"gpu/context.hpp\"\n").size() == 1);
+    CHECK(crossings("reference/model/a.hpp", "#include \"reference/arithmetic.hpp\"\n").size() == 1);
+    CHECK(crossings("crosscheck/a.cpp", "#include <GL/gl.h>\n").size() == 1);
+    CHECK(crossings("tests/gpu/a.cpp", "#include <GL/gl.h>\n").size() == 1);
+    CHECK(crossings("crosscheck/a.cpp", "const char* text = \"#version 330 core\";\n") ==
+          Strings{"crosscheck/a.cpp:1: shaders belong to shaders/"});
+    CHECK(crossings("tests/gpu/a.cpp", "const char* text = \"#version 330 core\";\n").empty());
+}

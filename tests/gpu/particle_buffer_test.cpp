@@ -8,11 +8,11 @@
 #include "gpu/particle_buffer.hpp"
 #include "reference/model/state_hash.hpp"
 #include "tests/gpu/any_context.hpp"
-#include "tests/gpu/folder.hpp"
+#include "tests/temporary_folder.hpp"
 
 using namespace lockstep;
-using test::Folder;
 using test::open_context;
+using test::TemporaryFolder;
 
 namespace {
 
@@ -110,7 +110,7 @@ TEST_CASE("particle buffer: a copying shader captures what the attributes feed")
     const auto context = open_context();
     if (!context)
         return;
-    const Folder folder;
+    const TemporaryFolder folder;
     folder.write("copy.vert", R"(#version 330 core
 in vec3 a_Position;
 in vec3 a_Dir;

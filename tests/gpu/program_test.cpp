@@ -4,11 +4,11 @@
 #include "gpu/particle_buffer.hpp"
 #include "gpu/program.hpp"
 #include "tests/gpu/any_context.hpp"
-#include "tests/gpu/folder.hpp"
+#include "tests/temporary_folder.hpp"
 
 using namespace lockstep;
-using test::Folder;
 using test::open_context;
+using test::TemporaryFolder;
 
 namespace {
 
@@ -32,11 +32,12 @@ const std::string fragment = "#version 330 core\nout vec4 o_Color;\nvoid main() 
 
 const std::vector<Capture> captures{{"out_Position", GL_FLOAT_VEC3}, {"out_Speed", GL_FLOAT}};
 
-Program build(const Folder& folder, const std::vector<Stage>& stages, std::span<const Capture> captured = {}) {
+Program build(const TemporaryFolder& folder, const std::vector<Stage>& stages, std::span<const Capture> captured = {}) {
     return {"step", load_stages({folder.path()}, "step", stages), captured};
 }
 
-std::string message(const Folder& folder, const std::vector<Stage>& stages, std::span<const Capture> captured = {}) {
+std::string message(const TemporaryFolder& folder, const std::vector<Stage>& stages,
+                    std::span<const Capture> captured = {}) {
     try {
         build(folder, stages, captured);
     } catch (const Error& error) {
@@ -52,7 +53,7 @@ TEST_CASE("program: captures outputs, sets uniforms, finds attributes") {
     const auto context = open_context();
     if (!context)
         return;
-    const Folder folder;
+    const TemporaryFolder folder;
     folder.write("step.vert", vertex);
     folder.write("step.frag", fragment);
     const Program program = build(folder, {Stage::vertex, Stage::fragment}, captures);
@@ -72,7 +73,7 @@ TEST_CASE("program: a uniform or attribute the shader does not use is no error")
     const auto context = open_context();
     if (!context)
         return;
-    const Folder folder;
+    const TemporaryFolder folder;
     folder.write("step.vert", vertex);
     folder.write("step.frag", fragment);
     const Program program = build(folder, {Stage::vertex, Stage::fragment});
@@ -85,7 +86,7 @@ TEST_CASE("program: a wrong uniform or attribute type is told") {
     const auto context = open_context();
     if (!context)
         return;
-    const Folder folder;
+    const TemporaryFolder folder;
     folder.write("step.vert", vertex);
     folder.write("step.frag", fragment);
     const Program program = build(folder, {Stage::vertex, Stage::fragment}, captures);
@@ -102,13 +103,13 @@ TEST_CASE("program: a compile error names file and line, in an included file too
     const auto context = open_context();
     if (!context)
         return;
-    const Folder folder;
+    const TemporaryFolder folder;
     const std::string file =
-        folder.write("step.vert", "#version 330 core\nvoid main() {\n    gl_Position = nowhere;\n}\n");
+        folder.write("step.vert", "#version 330 core\nvoid main() {\n    gl_Position = nowhere;\n}\n").string();
     CHECK_THAT(message(folder, {Stage::vertex}),
                Catch::StartsWith("shader " + file + ":3: ") && Catch::Contains("nowhere") && !Catch::Contains("\n"));
 
-    const std::string library = folder.write("lib.glsl", "\n\nfloat twice(float x) { return 2.0 * y; }\n");
+    const std::string library = folder.write("lib.glsl", "\n\nfloat twice(float x) { return 2.0 * y; }\n").string();
     folder.write("step.vert", "#version 330 core\n#include \"lib.glsl\"\nvoid main() { gl_Position = vec4(0.0); }\n");
     CHECK_THAT(message(folder, {Stage::vertex}), Catch::StartsWith("shader " + library + ":3: "));
 
@@ -127,7 +128,7 @@ TEST_CASE("program: stages that do not fit say so") {
     const auto context = open_context();
     if (!context)
         return;
-    const Folder folder;
+    const TemporaryFolder folder;
     folder.write("step.vert", vertex);
     folder.write("step.frag", "#version 330 core\nin vec2 out_Position;\nout vec4 o_Color;\n"
                               "void main() { o_Color = vec4(out_Position, 0.0, 1.0); }\n");
@@ -140,7 +141,7 @@ TEST_CASE("program: a missing captured output is named with the stage that lacks
     const auto context = open_context();
     if (!context)
         return;
-    const Folder folder;
+    const TemporaryFolder folder;
     folder.write("step.vert", "#version 330 core\nin vec3 a_Position;\nout vec3 out_Position;\n"
                               "void main() { out_Position = a_Position; gl_Position = vec4(0.0); }\n");
     folder.write("step.frag", fragment);
@@ -158,7 +159,7 @@ TEST_CASE("program: a captured output of another type is told") {
     const auto context = open_context();
     if (!context)
         return;
-    const Folder folder;
+    const TemporaryFolder folder;
     folder.write("step.vert",
                  "#version 330 core\nin vec3 a_Position;\nout vec4 out_Position;\nout float out_Speed[2];\n"
                  "void main() { out_Position = vec4(a_Position, 1.0); out_Speed = float[2](1.0, 2.0);"
@@ -170,22 +171,26 @@ TEST_CASE("program: a captured output of another type is told") {
           "step: output out_Speed is float[2], but is to be float");
 }
 
-TEST_CASE("program: the built-in collision pass links with every switch") {
+TEST_CASE("program: every built-in shader links with every switch") {
     const auto context = open_context();
     if (!context)
         return;
     const ShaderFolders folders = shader_folders();
-    const Stage stages[] = {Stage::vertex, Stage::geometry, Stage::fragment};
-    for (const SwitchInfo& info : switch_table()) {
-        if (info.name == "arithmetic")
+    for (const auto& entry : std::filesystem::directory_iterator(folders.back())) {
+        if (entry.path().extension() != ".vert")
             continue;
-        for (const std::string_view value : info.values) {
-            Switches switches;
-            set_switch(switches, info.name, value);
-            CAPTURE(info.name, value);
-            CHECK_NOTHROW(Program("collision_pass",
-                                  load_stages(folders, "collision_pass", stages, switch_defines(switches)),
-                                  particle_captures()));
-        }
+        const std::string name = entry.path().stem().string();
+        std::vector<Stage> stages{Stage::vertex, Stage::fragment};
+        if (std::filesystem::exists(folders.back() / (name + ".geom")))
+            stages.push_back(Stage::geometry);
+        const std::span<const Capture> captured = particle_captures();
+        for (const SwitchInfo& info : switch_table())
+            for (const std::string_view value : info.values) {
+                Switches switches;
+                set_switch(switches, info.name, value);
+                CAPTURE(name, info.name, value);
+                CHECK_NOTHROW(Program(name, load_stages(folders, name, stages, switch_defines(switches)),
+                                      name == "collision_pass" ? captured : captured.first(0)));
+            }
     }
 }

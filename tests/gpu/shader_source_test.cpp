@@ -3,13 +3,15 @@
 #include <algorithm>
 #include <cstdlib>
 
+#include <fmt/format.h>
+
 #include "gpu/shader_log.hpp"
 #include "gpu/shader_source.hpp"
 #include "reference/model/error.hpp"
-#include "tests/gpu/folder.hpp"
+#include "tests/temporary_folder.hpp"
 
 using namespace lockstep;
-using test::Folder;
+using test::TemporaryFolder;
 namespace fs = std::filesystem;
 
 namespace {
@@ -25,7 +27,7 @@ std::vector<std::string> origins(const ShaderSource& source) {
 } // namespace
 
 TEST_CASE("shader source: definitions follow #version, and every line knows where it was") {
-    const Folder folder;
+    const TemporaryFolder folder;
     folder.write("a.vert", "// a comment\n#version 330 core\nvoid main() {}\n");
     const ShaderSource source = load_stage({folder.path()}, "a", Stage::vertex, {{"RADIUS", "2"}});
     CHECK(source.text == "// a comment\n#version 330 core\n#define RADIUS 2\nvoid main() {}\n");
@@ -34,7 +36,7 @@ TEST_CASE("shader source: definitions follow #version, and every line knows wher
 }
 
 TEST_CASE("shader source: an include is replaced by its file") {
-    const Folder folder;
+    const TemporaryFolder folder;
     folder.write("inner.glsl", "float inner;\n");
     folder.write("outer.glsl", "float outer;\n  #  include \"inner.glsl\"  // why\nfloat last;\n");
     folder.write("a.frag", "#version 330\n#include \"outer.glsl\"\nvoid main() {}");
@@ -46,8 +48,8 @@ TEST_CASE("shader source: an include is replaced by its file") {
 }
 
 TEST_CASE("shader source: a user's file comes before the built-in one, included files too") {
-    const Folder user;
-    const Folder built_in;
+    const TemporaryFolder user;
+    const TemporaryFolder built_in;
     user.write("lib.glsl", "int users;\n");
     built_in.write("lib.glsl", "int built_in;\n");
     built_in.write("a.vert", "#version 330\n#include \"lib.glsl\"\n");
@@ -55,8 +57,8 @@ TEST_CASE("shader source: a user's file comes before the built-in one, included 
 }
 
 TEST_CASE("shader source: a blank file leaves its stage out") {
-    const Folder user;
-    const Folder built_in;
+    const TemporaryFolder user;
+    const TemporaryFolder built_in;
     user.write("a.geom", " \n");
     built_in.write("a.geom", "#version 330\n");
     built_in.write("a.vert", "#version 330\n");
@@ -68,11 +70,11 @@ TEST_CASE("shader source: a blank file leaves its stage out") {
 }
 
 TEST_CASE("shader source: what is wrong with a file is told with file and line") {
-    const Folder folder;
+    const TemporaryFolder folder;
     const std::string where = folder.path().string();
     const ShaderFolders folders{folder.path()};
     CHECK_THROWS_WITH(load_stage(folders, "none", Stage::compute), "no shader file none.comp in " + where);
-    const Folder second;
+    const TemporaryFolder second;
     CHECK_THROWS_WITH(load_stage({folder.path(), second.path()}, "none", Stage::geometry),
                       "no shader file none.geom in " + where + " or " + second.path().string());
     folder.write("a.vert", "void main() {}\n");
@@ -94,11 +96,11 @@ TEST_CASE("shader source: what is wrong with a file is told with file and line")
 }
 
 TEST_CASE("shader folders: the user's first, then LOCKSTEP_DATA or the source tree") {
-    const Folder user;
+    const TemporaryFolder user;
     CHECK(shader_folders(user.path()).front() == user.path());
     CHECK(fs::is_regular_file(shader_folders().front() / "collision_pass.vert"));
     CHECK_THROWS_WITH(shader_folders("/no/such/folder"), "shader folder /no/such/folder does not exist");
-    const Folder data;
+    const TemporaryFolder data;
     setenv("LOCKSTEP_DATA", data.path().c_str(), 1);
     CHECK_THROWS_WITH(shader_folders(), "LOCKSTEP_DATA is " + data.path().string() + ", but there is no folder " +
                                             (data.path() / "shaders").string());

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <cstddef>
 #include <optional>
+#include <type_traits>
 
 #include "reference/collision_code.hpp"
 #include "reference/subnormals.hpp"
@@ -24,7 +25,9 @@ template <class A> class Step {
     Step(const CollisionImage& cdt, const FrameParams& params)
         : cdt_(cdt), params_(params), constants_(params.constants), switches_(params.switches), code_(params) {}
 
-    [[nodiscard]] State operator()(const State& a) const {
+    [[nodiscard]] State operator()(const State& before) const {
+        const State a{A::flush(before.position), A::flush(before.direction), A::flush(before.speed),
+                      A::flush(before.collide_time)};
         const BaseTexelIndex base = base_texel(a.position);
         if (a.collide_time < 0.0F && base.x >= 0)
             if (const auto away = nearest_collision(a.position, base))
@@ -66,7 +69,7 @@ template <class A> class Step {
             const glm::vec4 self = cdt_.at(base.x, base.y);
             if (!holds_particle(self))
                 return {};
-            curr_pos = code_.decode(self);
+            curr_pos = A::flush(code_.decode(self));
         }
         float min_length = 100000.0F;
         std::optional<glm::vec3> away;
@@ -78,7 +81,7 @@ template <class A> class Step {
                 const glm::vec4 stored = cdt_.at(base.x + tx, base.y + ty);
                 if (!holds_particle(stored))
                     continue;
-                const glm::vec3 apart = curr_pos - code_.decode(stored);
+                const glm::vec3 apart = A::flush(curr_pos - A::flush(code_.decode(stored)));
                 const float len = A::length(apart);
                 if (len == 0.0F && switches_.zero_distance == ZeroDistance::skip)
                     continue;
@@ -94,24 +97,24 @@ template <class A> class Step {
     /// Lines 21 to 24.
     [[nodiscard]] State collide(const State& a, glm::vec3 away) const {
         State v;
-        v.speed = a.speed * switches_.speed_factor;
+        v.speed = A::flush(a.speed * switches_.speed_factor);
         v.direction = A::normalize(away);
         v.collide_time = constants_.collision_time;
         glm::vec3 step = A::scale(v.direction, v.speed);
         if (switches_.collision_step == CollisionStep::tick)
             step = A::scale(step, constants_.tick);
-        v.position = a.position + step;
+        v.position = A::flush(a.position + step);
         return v;
     }
 
     /// Lines 26 to 30.
     [[nodiscard]] State integrate(const State& a) const {
-        const glm::vec3 temp = A::scale(a.direction, a.speed) + A::scale(constants_.gravity, constants_.tick);
+        const glm::vec3 temp = A::flush(A::scale(a.direction, a.speed) + A::scale(constants_.gravity, constants_.tick));
         State v;
         v.direction = A::normalize(temp);
         v.speed = A::length(temp);
-        v.collide_time = a.collide_time - constants_.tick;
-        v.position = a.position + A::scale(A::scale(v.direction, v.speed), constants_.tick);
+        v.collide_time = A::flush(a.collide_time - constants_.tick);
+        v.position = A::flush(a.position + A::scale(A::scale(v.direction, v.speed), constants_.tick));
         return v;
     }
 
@@ -141,8 +144,8 @@ template <class A> void update(const Particles& before, const CollisionImage& cd
     }
 }
 
-template <class A> PointFragment fragment(glm::vec3 position, const FrameParams& params, const RasterRules& rules) {
-    const glm::vec4 clip = A::transform(params.collision_proj_view, position);
+/// Switch arithmetic plain: the fixed function decides, in the driver's way.
+PointFragment rasterised_point(glm::vec4 clip, const FrameParams& params, const RasterRules& rules) {
     if (!in_clip_volume(clip))
         return {};
     const WindowPosition window = window_position(clip, params.width, params.height, rules);
@@ -153,13 +156,33 @@ template <class A> PointFragment fragment(glm::vec3 position, const FrameParams&
     return {x, y, window.z};
 }
 
+/// Switch arithmetic exact: the pass itself puts the point on the centre of the texel it computes, its depth on a grid
+/// of 2^-24, so that no driver has anything left to round.
+PointFragment placed_point(glm::vec4 clip, const FrameParams& params) {
+    const CollisionImage none;
+    const BaseTexelIndex texel = Step<Portable>(none, params).base_texel(clip);
+    const float depth = (Portable::divide(clip.z, clip.w) + 1.0F) * 0.5F;
+    if (texel.x < 0 || !(clip.w > 0.0F) || !(depth >= 0.0F) || !(depth <= 1.0F))
+        return {};
+    return {texel.x, texel.y, std::floor(depth * 0x1p24F) * 0x1p-24F};
+}
+
+template <class A> PointFragment fragment(glm::vec3 position, const FrameParams& params, const RasterRules& rules) {
+    const glm::vec4 clip = A::transform(params.collision_proj_view, position);
+    if constexpr (std::is_same_v<A, Portable>)
+        return placed_point(clip, params);
+    else
+        return rasterised_point(clip, params, rules);
+}
+
 } // namespace
 
 void update_particles(const Particles& before, const CollisionImage& cdt, const FrameParams& params,
                       const Profile& profile, Particles& after) {
     assert(&before != &after && cdt.width == params.width && cdt.height == params.height);
     after.resize(before.size());
-    with_arithmetic(profile, [&]<class A>(A) { update<A>(before, cdt, params, profile.flush_subnormals, after); });
+    with_arithmetic(profile, params.switches,
+                    [&]<class A>(A) { update<A>(before, cdt, params, profile.flush_subnormals, after); });
 }
 
 void rasterise_particles(const Particles& before, const Particles& after, const FrameParams& params,
@@ -167,7 +190,7 @@ void rasterise_particles(const Particles& before, const Particles& after, const 
     const auto& positions =
         params.switches.raster_position == RasterPosition::updated ? after.position : before.position;
     const CollisionCode code(params);
-    with_arithmetic(profile, [&]<class A>(A) {
+    with_arithmetic(profile, params.switches, [&]<class A>(A) {
         const FlushSubnormals guard(profile.flush_subnormals);
         for (std::size_t i = 0; i < positions.size(); ++i) {
             const PointFragment point = fragment<A>(positions[i], params, profile.raster);
@@ -181,13 +204,15 @@ void rasterise_particles(const Particles& before, const Particles& after, const 
 
 PointFragment point_fragment(glm::vec3 position, const FrameParams& params, const Profile& profile) {
     const FlushSubnormals guard(profile.flush_subnormals);
-    return with_arithmetic(profile, [&]<class A>(A) { return fragment<A>(position, params, profile.raster); });
+    return with_arithmetic(profile, params.switches,
+                           [&]<class A>(A) { return fragment<A>(position, params, profile.raster); });
 }
 
 BaseTexelIndex base_texel(glm::vec3 position, const FrameParams& params, const Profile& profile) {
     const FlushSubnormals guard(profile.flush_subnormals);
     const CollisionImage none;
-    return with_arithmetic(profile, [&]<class A>(A) { return Step<A>(none, params).base_texel(position); });
+    return with_arithmetic(profile, params.switches,
+                           [&]<class A>(A) { return Step<A>(none, params).base_texel(position); });
 }
 
 } // namespace lockstep

@@ -79,14 +79,14 @@ void obstacle_pass(const Mesh& obstacles, const FrameParams& params, const Profi
     case ObstaclesInCdt::vertices:
         return draw_obstacle_vertices(obstacles, params, profile, cdt, depth);
     case ObstaclesInCdt::triangles:
-        return with_arithmetic(profile,
+        return with_arithmetic(profile, params.switches,
                                [&]<class A>(A) { draw_obstacle_triangles<A>(obstacles, params, profile, cdt, depth); });
     }
 }
 
 double obstacle_edge_distance(const Mesh& obstacles, const FrameParams& params, const Profile& profile, int x, int y) {
     const FlushSubnormals guard(profile.flush_subnormals);
-    return with_arithmetic(profile, [&]<class A>(A) {
+    return with_arithmetic(profile, params.switches, [&]<class A>(A) {
         double nearest = HUGE_VAL;
         for (const RasterTriangle& triangle :
              assemble_triangles(project<A>(obstacles, params.collision_proj_view), obstacles.indices, params.width,

@@ -126,7 +126,7 @@ template <class A> class RenderPass {
 ColorImage render_pass(const Particles& particles, const Mesh& obstacles, const FrameParams& params,
                        const Profile& profile) {
     const FlushSubnormals guard(profile.flush_subnormals);
-    return with_arithmetic(profile, [&]<class A>(A) {
+    return with_arithmetic(profile, params.switches, [&]<class A>(A) {
         RenderPass<A> pass(params, profile);
         pass.draw_background();
         pass.draw_obstacles(obstacles);
@@ -137,7 +137,7 @@ ColorImage render_pass(const Particles& particles, const Mesh& obstacles, const 
 
 Billboard particle_billboard(glm::vec3 position, const FrameParams& params, const Profile& profile) {
     const FlushSubnormals guard(profile.flush_subnormals);
-    return with_arithmetic(profile, [&]<class A>(A) {
+    return with_arithmetic(profile, params.switches, [&]<class A>(A) {
         const RenderPass<A> pass(params, profile);
         return pass.billboard(pass.to_view(position));
     });

@@ -30,17 +30,17 @@ precise gl_Position;
 
 // Each operation a rounding of its own: the locals are `precise`, so no product melts into a sum.
 float product(float a, float b) {
-    precise float result = a * b;
+    precise float result = ls_flush(a) * ls_flush(b);
     return ls_flush(result);
 }
 
 vec3 product(vec3 v, float s) {
-    precise vec3 result = v * s;
+    precise vec3 result = ls_flush3(v) * ls_flush(s);
     return ls_flush3(result);
 }
 
 vec3 sum(vec3 a, vec3 b) {
-    precise vec3 result = a + b;
+    precise vec3 result = ls_flush3(a) + ls_flush3(b);
     return ls_flush3(result);
 }
 
@@ -109,7 +109,7 @@ void integrate() {
     vec3 temp = sum(product(a_Dir, a_Speed), product(u_Gravity, u_Tick));
     v_Dir = ls_normalize(temp);
     v_Speed = ls_length(temp);
-    precise float collide_time = a_CollideTime - u_Tick;
+    precise float collide_time = ls_flush(a_CollideTime) - u_Tick;
     v_CollideTime = ls_flush(collide_time);
     v_Position = sum(a_Position, product(product(v_Dir, v_Speed), u_Tick));
 }
@@ -118,7 +118,7 @@ void main() {
     ivec2 texel_base;
     vec3 away;
     bool visible = base_texel(image_position(ls_transform(u_ProjView, a_Position)), texel_base);
-    if (a_CollideTime < 0.0 && visible && nearest_collision(texel_base, away))
+    if (ls_flush(a_CollideTime) < 0.0 && visible && nearest_collision(texel_base, away))
         collide(away);
     else
         integrate();

@@ -72,7 +72,7 @@ TEST_CASE("arithmetic: a profile names its policy") {
     const auto name = [](DotOrder order) {
         Profile profile;
         profile.dot = order;
-        return with_arithmetic(profile, []<class A>(A) {
+        return with_arithmetic(profile, Switches{}, []<class A>(A) {
             return std::is_same_v<A, Strict> ? 0 : std::is_same_v<A, RightToLeft> ? 1 : 2;
         });
     };

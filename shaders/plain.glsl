@@ -9,6 +9,19 @@ float ls_sqrt(float a) { return sqrt(a); }
 
 float ls_inverse_sqrt(float a) { return inversesqrt(a); }
 
+// Rounded each, not fused.
+float ls_multiply(float a, float b) {
+    precise float product = a * b;
+    return product;
+}
+
+float ls_add(float a, float b) {
+    precise float sum = a + b;
+    return sum;
+}
+
+float ls_dot(vec3 a, vec3 b) { return dot(a, b); }
+
 float ls_length(vec3 v) { return length(v); }
 
 vec3 ls_normalize(vec3 v) { return normalize(v); }

@@ -116,8 +116,8 @@ bool same(float x, float y) {
     return std::bit_cast<std::uint32_t>(x) == std::bit_cast<std::uint32_t>(y) || (std::isnan(x) && std::isnan(y));
 }
 
-Program function_program(Function function) {
-    ShaderDefines defines = switch_defines(preset("exact"));
+Program function_program(Function function, const char* preset_name = "exact") {
+    ShaderDefines defines = switch_defines(preset(preset_name));
     for (std::size_t i = 0; i < function_names.size(); ++i)
         defines.emplace_back(fmt::format("FUNCTION_{}", function_names[i]), std::to_string(i));
     defines.emplace_back("FUNCTION", fmt::format("FUNCTION_{}", function_names[static_cast<std::size_t>(function)]));
@@ -236,3 +236,15 @@ void check_twins(const char* backend) {
 TEST_CASE("portable twin: every function has the reference's bits on 2^24 inputs, on OSMesa") { check_twins("osmesa"); }
 
 TEST_CASE("portable twin: every function has the reference's bits on 2^24 inputs, on EGL") { check_twins("egl"); }
+
+TEST_CASE("portable twin: every function has the reference's bits on 2^24 inputs, on EGL device 0", "[.device]") {
+    check_twins("egl-device:0");
+}
+
+TEST_CASE("portable twin: the plain arithmetic has the same functions") {
+    const auto context = test::open_context();
+    if (!context)
+        return;
+    for (const Function function : {Function::quotients, Function::roots, Function::vectors, Function::transform})
+        CHECK_NOTHROW(function_program(function, "corrected"));
+}

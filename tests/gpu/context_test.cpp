@@ -97,6 +97,26 @@ TEST_CASE("context: contexts of both libraries take turns in one process") {
     CHECK(gl::DrawArrays == nullptr);
 }
 
+TEST_CASE("context: each keeps its own state through the turns") {
+    auto egl = open_context("egl");
+    if (!egl)
+        return;
+    gl::PointSize(3.0F);
+    auto osmesa = open_context("osmesa");
+    if (!osmesa)
+        return;
+    const auto point_size = [] {
+        float size = 0.0F;
+        gl::GetFloatv(GL_POINT_SIZE, &size);
+        return size;
+    };
+    CHECK(point_size() == 1.0F);
+    egl->make_current();
+    CHECK(point_size() == 3.0F);
+    osmesa->make_current();
+    CHECK(point_size() == 1.0F);
+}
+
 TEST_CASE("context: a move keeps it current") {
     auto context = open_context();
     if (!context)

@@ -1,0 +1,29 @@
+#!/usr/bin/env bash
+# Installs the Debian 12 packages that building, testing and running lockstep needs. Does nothing where all are there.
+# Usage: scripts/install_packages.sh
+set -euo pipefail
+
+packages=(
+    g++ cmake ninja-build                         # build; g++ brings OpenMP
+    libglm-dev libfmt-dev libcli11-dev            # vectors, text, command line
+    nlohmann-json3-dev libpng-dev                 # scenes and reports, pictures
+    libassimp-dev libmeshoptimizer-dev            # meshes: reading, decimation
+    libgl-dev libegl-dev                          # GL headers; the libraries are opened at run time
+    libosmesa6 libegl1 libgl1-mesa-dri            # contexts without a GPU
+    catch2                                        # tests
+)
+
+missing=()
+for package in "${packages[@]}"; do
+    [ "$(dpkg-query -W -f='${db:Status-Status}' "$package" 2>/dev/null)" = installed ] || missing+=("$package")
+done
+[ ${#missing[@]} -gt 0 ] || exit 0
+
+as_root=()
+if [ "$(id -u)" != 0 ]; then
+    command -v sudo >/dev/null || { echo "install_packages: run as root, or install sudo; missing: ${missing[*]}" >&2; exit 2; }
+    as_root=(sudo)
+fi
+echo "installing ${missing[*]}"
+"${as_root[@]}" apt-get update -qq
+"${as_root[@]}" env DEBIAN_FRONTEND=noninteractive apt-get install -y -qq --no-install-recommends "${missing[@]}" >/dev/null

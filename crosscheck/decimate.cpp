@@ -1,5 +1,6 @@
 #include "crosscheck/decimate.hpp"
 
+#include <algorithm>
 #include <cstdint>
 #include <cstdlib>
 #include <fstream>
@@ -49,7 +50,7 @@ Surface decimate(const Surface& surface, std::size_t faces) {
     Surface nearest{surface.positions, collapse(surface, positions, faces)};
     std::size_t target = faces;
     for (int tries = 1; tries < most_tries && missing(nearest.indices) > 0; ++tries) {
-        target += static_cast<std::size_t>(missing(nearest.indices));
+        target = std::min(target + static_cast<std::size_t>(missing(nearest.indices)), surface.indices.size() / 3);
         auto indices = collapse(surface, positions, target);
         if (std::abs(missing(indices)) < missing(nearest.indices))
             nearest.indices = std::move(indices);

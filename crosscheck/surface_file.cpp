@@ -23,28 +23,42 @@ namespace {
 bool ends_its_header(const std::filesystem::path& ply) {
     std::ifstream stream(ply);
     for (std::string line; std::getline(stream, line);)
-        if (line.starts_with("end_header"))
+        if (line == "end_header" || line == "end_header\r")
             return true;
     return false;
+}
+
+/// What Assimp's later steps take for granted of its readers, and a damaged file does not keep.
+void check(const aiMesh& part, const std::filesystem::path& file) {
+    for (unsigned v = 0; v < part.mNumVertices; ++v)
+        if (const aiVector3D& p = part.mVertices[v]; !std::isfinite(p.x) || !std::isfinite(p.y) || !std::isfinite(p.z))
+            fail(file, fmt::format("vertex {} is ({}, {}, {}); coordinates are finite numbers", v, p.x, p.y, p.z));
+    for (unsigned f = 0; f < part.mNumFaces; ++f) {
+        const aiFace& face = part.mFaces[f];
+        if (face.mNumIndices == 0)
+            fail(file, fmt::format("face {} has no vertices", f));
+        for (unsigned k = 0; k < face.mNumIndices; ++k)
+            if (face.mIndices[k] >= part.mNumVertices)
+                fail(file, fmt::format("face {} uses vertex {} of {}", f, face.mIndices[k], part.mNumVertices));
+    }
 }
 
 /// All triangles, each vertex as often as the importer has it.
 Surface read(const std::filesystem::path& file) {
     Assimp::Importer importer;
-    const aiScene* scene = importer.ReadFile(file.string(), aiProcess_Triangulate);
+    const aiScene* scene = importer.ReadFile(file.string(), 0);
+    for (unsigned m = 0; scene != nullptr && m < scene->mNumMeshes; ++m)
+        check(*scene->mMeshes[m], file);
+    if (scene != nullptr)
+        scene = importer.ApplyPostProcessing(aiProcess_Triangulate);
     if (scene == nullptr)
         fail(file, fmt::format("not a readable mesh: {}", importer.GetErrorString()));
     Surface surface;
     for (unsigned m = 0; m < scene->mNumMeshes; ++m) {
         const aiMesh& part = *scene->mMeshes[m];
         const auto first = static_cast<std::uint32_t>(surface.positions.size());
-        for (unsigned v = 0; v < part.mNumVertices; ++v) {
-            const aiVector3D& p = part.mVertices[v];
-            if (!std::isfinite(p.x) || !std::isfinite(p.y) || !std::isfinite(p.z))
-                fail(file, fmt::format("vertex {} is ({}, {}, {}); coordinates are finite numbers", first + v, p.x, p.y,
-                                       p.z));
-            surface.positions.emplace_back(p.x, p.y, p.z);
-        }
+        for (unsigned v = 0; v < part.mNumVertices; ++v)
+            surface.positions.emplace_back(part.mVertices[v].x, part.mVertices[v].y, part.mVertices[v].z);
         for (unsigned f = 0; f < part.mNumFaces; ++f)
             if (const aiFace& face = part.mFaces[f]; face.mNumIndices == 3)
                 for (unsigned k = 0; k < 3; ++k)

@@ -109,4 +109,12 @@ TEST_CASE("surface: a mesh that cannot be an obstacle is told with the reason") 
                       file("nan.obj") + ": vertex 1 is (nan, 0, 0); coordinates are finite numbers");
     CHECK_THROWS_WITH(load_surface(folder.write("range.obj", "v 0 0 0\nv 1 0 0\nv 1 1 0\nf 1 2 9\n")),
                       Catch::StartsWith(file("range.obj") + ": "));
+    const std::string ply = "ply\nformat ascii 1.0\nelement vertex 3\nproperty float x\nproperty float y\n"
+                            "property float z\nelement face 1\nproperty list uchar int vertex_indices\nend_header\n"
+                            "0 0 0\n1 0 0\n1 1 0\n";
+    CHECK_THROWS_WITH(load_surface(folder.write("range.ply", ply + "3 0 1 7\n")),
+                      file("range.ply") + ": face 0 uses vertex 7 of 3");
+    CHECK_THROWS_WITH(load_surface(folder.write("nothing.ply", ply + "0\n")),
+                      file("nothing.ply") + ": face 0 has no vertices");
+    CHECK_THROWS_WITH(load_surface(folder.write("short.ply", ply)), Catch::StartsWith(file("short.ply") + ": "));
 }

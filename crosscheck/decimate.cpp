@@ -3,14 +3,13 @@
 #include <algorithm>
 #include <cstdint>
 #include <cstdlib>
-#include <fstream>
 #include <iterator>
 #include <utility>
 
 #include <fmt/format.h>
 #include <meshoptimizer.h>
 
-#include "reference/model/error.hpp"
+#include "crosscheck/atomic_file.hpp"
 
 namespace lockstep {
 namespace {
@@ -66,21 +65,7 @@ void write_obj(const Surface& surface, const std::filesystem::path& file) {
     for (std::size_t i = 0; i < surface.indices.size(); i += 3)
         fmt::format_to(std::back_inserter(text), "f {} {} {}\n", surface.indices[i] + 1, surface.indices[i + 1] + 1,
                        surface.indices[i + 2] + 1);
-
-    std::filesystem::path unfinished = file;
-    unfinished += ".part";
-    std::ofstream stream(unfinished, std::ios::binary);
-    stream << text;
-    stream.close();
-    std::error_code problem;
-    if (stream)
-        std::filesystem::rename(unfinished, file, problem);
-    if (!stream || problem) {
-        std::error_code ignored;
-        std::filesystem::remove(unfinished, ignored);
-        throw Error(
-            fmt::format("{}: cannot be written; it needs a folder with room that may be written to", file.string()));
-    }
+    write_text_file(file, text);
 }
 
 } // namespace lockstep

@@ -1,0 +1,51 @@
+#include "gpu/obstacle_pass.hpp"
+
+#include <array>
+
+#include "gpu/check.hpp"
+#include "gpu/shader_source.hpp"
+
+namespace lockstep {
+namespace {
+
+std::optional<Program> link(const Switches& switches, const std::filesystem::path& shaders) {
+    if (switches.obstacles_in_cdt == ObstaclesInCdt::off)
+        return {};
+    const char* name = switches.obstacles_in_cdt == ObstaclesInCdt::triangles ? "obstacle_pass" : "obstacle_vertices";
+    const std::array stages{Stage::vertex, Stage::geometry, Stage::fragment};
+    return Program(name, load_stages(shader_folders(shaders), name, stages, switch_defines(switches)));
+}
+
+void set_collision_code(const Program& program, const FrameParams& params) {
+    const glm::vec3 size = params.cdt_box.max - params.cdt_box.min;
+    program.set("u_CdtBoxMin", params.cdt_box.min);
+    program.set("u_CdtBoxStep", size / 255.0F);
+    program.set("u_CdtBoxScale", 255.0F / size);
+}
+
+} // namespace
+
+ObstaclePass::ObstaclePass(const Switches& switches, const std::filesystem::path& shaders)
+    : kind_(switches.obstacles_in_cdt), program_(link(switches, shaders)) {}
+
+void ObstaclePass::run(const MeshBuffer& obstacles, const FrameParams& params, CollisionTexture& target) {
+    if (!program_ || obstacles.vertex_count() == 0)
+        return;
+    program_->set("u_ProjView", params.collision_proj_view);
+    program_->set("u_ClientWidth", params.width);
+    program_->set("u_ClientHeight", params.height);
+    set_collision_code(*program_, params);
+    target.bind_target();
+    gl::Enable(GL_DEPTH_TEST);
+    gl::DepthFunc(GL_LESS);
+    const GlVertexArray vertices = mesh_vertex_array(obstacles, *program_);
+    gl::BindVertexArray(vertices.id());
+    if (kind_ == ObstaclesInCdt::triangles)
+        gl::DrawElements(GL_TRIANGLES, obstacles.index_count(), GL_UNSIGNED_INT, nullptr);
+    else
+        gl::DrawArrays(GL_POINTS, 0, obstacles.vertex_count());
+    gl::BindVertexArray(0);
+    check_gl(program_->name());
+}
+
+} // namespace lockstep

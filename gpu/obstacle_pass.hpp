@@ -1,0 +1,27 @@
+#pragma once
+#include <filesystem>
+#include <optional>
+
+#include "gpu/collision_texture.hpp"
+#include "gpu/mesh_buffer.hpp"
+#include "gpu/program.hpp"
+#include "reference/model/scene.hpp"
+
+namespace lockstep {
+
+/// Draws the obstacles into a CDT on GL: shaders/obstacle_pass.* or obstacle_vertices.*, as switch obstacles_in_cdt
+/// says. Twin of reference/obstacle_pass.hpp.
+class ObstaclePass {
+  public:
+    /// `shaders` is looked into before the shipped folder; may be empty.
+    ObstaclePass(const Switches& switches, const std::filesystem::path& shaders);
+
+    /// Draws into `target` on top of what it holds.
+    void run(const MeshBuffer& obstacles, const FrameParams& params, CollisionTexture& target);
+
+  private:
+    ObstaclesInCdt kind_;
+    std::optional<Program> program_; ///< none: obstacles are off
+};
+
+} // namespace lockstep

@@ -1,0 +1,201 @@
+#include <array>
+#include <cstring>
+
+#include <catch2/catch.hpp>
+#include <fmt/format.h>
+
+#include "gpu/obstacle_pass.hpp"
+#include "reference/obstacle_pass.hpp"
+#include "tests/twin/llvmpipe.hpp"
+#include "tests/twin/random_scenes.hpp"
+
+namespace lockstep {
+namespace {
+
+template <class Texel> bool same_bits(const Texel& a, const Texel& b) {
+    return std::memcmp(&a, &b, sizeof(Texel)) == 0;
+}
+
+struct Differences {
+    int written = 0;
+    int coverage = 0;
+    int code = 0;
+    int depth = 0;
+};
+
+/// Draws `obstacles` on both sides and counts the texels that are not the same bits.
+Differences compare(const Mesh& obstacles, const FrameParams& params) {
+    CollisionImage cdt(params.width, params.height);
+    DepthImage depth(params.width, params.height, 1.0F);
+    obstacle_pass(obstacles, params, Profile{}, cdt, depth);
+
+    CollisionTexture texture(params.width, params.height, params.switches.cdt_format);
+    ObstaclePass(params.switches, {}).run(MeshBuffer(obstacles), params, texture);
+    CollisionImage gpu_cdt;
+    DepthImage gpu_depth;
+    texture.read(gpu_cdt);
+    texture.read(gpu_depth);
+
+    Differences found;
+    for (std::size_t i = 0; i < cdt.texels.size(); ++i) {
+        const bool drawn = cdt.texels[i].a != 0.0F;
+        found.written += drawn ? 1 : 0;
+        if (drawn != (gpu_cdt.texels[i].a != 0.0F))
+            ++found.coverage;
+        else if (!same_bits(cdt.texels[i], gpu_cdt.texels[i]))
+            ++found.code;
+        found.depth += same_bits(depth.texels[i], gpu_depth.texels[i]) ? 0 : 1;
+    }
+    return found;
+}
+
+void check_same(const Mesh& obstacles, const FrameParams& params, int at_least) {
+    const Differences found = compare(obstacles, params);
+    CHECK(found.written >= at_least);
+    CHECK(found.coverage == 0);
+    CHECK(found.code == 0);
+    CHECK(found.depth == 0);
+}
+
+FrameParams perspective(int width, int height) {
+    FrameParams params;
+    params.width = width;
+    params.height = height;
+    params.collision_proj_view =
+        view_projection_matrix(Camera{}, static_cast<float>(width) / static_cast<float>(height));
+    return params;
+}
+
+constexpr std::array formats{CdtFormat::rgba32f, CdtFormat::rgba16f, CdtFormat::rgba8};
+
+} // namespace
+
+TEST_CASE("obstacle pass twin: random triangles leave the same bits in every format") {
+    const auto context = test::open_llvmpipe("osmesa");
+    if (!context)
+        return;
+    test::RandomScenes scenes(1);
+    for (const auto& [width, height] : {std::pair{500, 500}, std::pair{333, 250}, std::pair{97, 401}})
+        for (const CdtFormat format : formats) {
+            FrameParams params = perspective(width, height);
+            params.switches.cdt_format = format;
+            INFO(fmt::format("{} x {}, format {}", width, height, static_cast<int>(format)));
+            check_same(scenes.triangles(2000, 1.5F, 0.2F), params, width * height / 4);
+        }
+}
+
+TEST_CASE("obstacle pass twin: triangles across every clip plane leave the same bits") {
+    const auto context = test::open_llvmpipe("osmesa");
+    if (!context)
+        return;
+    test::RandomScenes scenes(2);
+    for (int round = 0; round < 4; ++round) {
+        const FrameParams params = perspective(300, 200);
+        INFO("round " << round);
+        check_same(scenes.triangles(300, 4.0F, 1.0F), params, 10000);
+        check_same(scenes.triangles(40, 5.0F, 30.0F), params, 10000);
+        check_same(scenes.triangles(400, 1.0F, 300.0F), params, 1000);
+    }
+}
+
+TEST_CASE("obstacle pass twin: the same bits through EGL") {
+    const auto context = test::open_llvmpipe("egl");
+    if (!context)
+        return;
+    test::RandomScenes scenes(8);
+    check_same(scenes.triangles(2000, 1.5F, 0.2F), perspective(500, 500), 50000);
+    check_same(scenes.triangles(300, 4.0F, 1.0F), perspective(300, 200), 10000);
+}
+
+TEST_CASE("obstacle pass twin: tiny triangles leave the same bits") {
+    const auto context = test::open_llvmpipe("osmesa");
+    if (!context)
+        return;
+    test::RandomScenes scenes(3);
+    const FrameParams params = perspective(500, 500);
+    check_same(scenes.triangles(30000, 1.0F, 0.01F), params, 10000);
+    check_same(scenes.triangles(30000, 1.0F, 0.001F), params, 200);
+}
+
+TEST_CASE("obstacle pass twin: pixel centres on sides and corners are decided alike") {
+    const auto context = test::open_llvmpipe("osmesa");
+    if (!context)
+        return;
+    test::RandomScenes scenes(4);
+    for (const auto& [width, height] : {std::pair{500, 500}, std::pair{256, 128}})
+        for (const int grid : {1, 2, 16, 64, 128, 256}) {
+            FrameParams params;
+            params.width = width;
+            params.height = height;
+            INFO(fmt::format("{} x {}, corners on multiples of {} / 256", width, height, grid));
+            check_same(scenes.triangles_on_grid(2000, grid, width, height), params, 10000);
+        }
+}
+
+TEST_CASE("obstacle pass twin: vertices leave the same bits in every format") {
+    const auto context = test::open_llvmpipe("osmesa");
+    if (!context)
+        return;
+    test::RandomScenes scenes(5);
+    for (const CdtFormat format : formats) {
+        FrameParams params = perspective(500, 400);
+        params.switches.obstacles_in_cdt = ObstaclesInCdt::vertices;
+        params.switches.cdt_format = format;
+        INFO("format " << static_cast<int>(format));
+        check_same(scenes.triangles(20000, 2.0F, 0.3F), params, 10000);
+    }
+}
+
+TEST_CASE("obstacle pass twin: vertices a rounding outside the clip volume are not drawn") {
+    const auto context = test::open_llvmpipe("osmesa");
+    if (!context)
+        return;
+    // Snapped, they would lie on the border and belong to the last pixel.
+    FrameParams params;
+    params.width = params.height = 64;
+    params.switches.obstacles_in_cdt = ObstaclesInCdt::vertices;
+    const float beyond = 0x1.000002p0F;
+    const Mesh outside{{{beyond, 0, 0}, {0, beyond, 0}, {beyond, beyond, 0}}, {0, 1, 2}};
+    const Differences found = compare(outside, params);
+    CHECK(found.written + found.coverage == 0);
+    check_same(Mesh{{{1, 0, 0}, {0, 1, 0}, {1, 1, 0}}, {0, 1, 2}}, params, 3);
+}
+
+TEST_CASE("obstacle pass twin: off, and no obstacles, leave the image as it was") {
+    const auto context = test::open_llvmpipe("osmesa");
+    if (!context)
+        return;
+    FrameParams params = perspective(64, 64);
+    CHECK(compare({}, params).written == 0);
+    params.switches.obstacles_in_cdt = ObstaclesInCdt::off;
+    const Differences found = compare(test::RandomScenes(6).triangles(50, 1.0F, 1.0F), params);
+    CHECK(found.written + found.coverage + found.code + found.depth == 0);
+}
+
+TEST_CASE("obstacle pass twin: a fill rule the driver does not have is found") {
+    const auto context = test::open_llvmpipe("osmesa");
+    if (!context)
+        return;
+    FrameParams params;
+    params.width = params.height = 128;
+    const Mesh obstacles = test::RandomScenes(7).triangles_on_grid(200, 128, 128, 128);
+    Profile other;
+    other.raster.lower_edge_in = false;
+    CollisionImage cdt(128, 128);
+    DepthImage depth(128, 128, 1.0F);
+    obstacle_pass(obstacles, params, other, cdt, depth);
+    CollisionTexture texture(128, 128, CdtFormat::rgba32f);
+    ObstaclePass(params.switches, {}).run(MeshBuffer(obstacles), params, texture);
+    CollisionImage gpu_cdt;
+    texture.read(gpu_cdt);
+    int differ = 0;
+    for (int y = 0; y < 128; ++y)
+        for (int x = 0; x < 128; ++x)
+            if (!same_bits(cdt.at(x, y), gpu_cdt.at(x, y))) {
+                ++differ;
+                CHECK(obstacle_edge_distance(obstacles, params, Profile{}, x, y) <= 1.0);
+            }
+    CHECK(differ > 20);
+}
+
+} // namespace lockstep

@@ -3,6 +3,7 @@
 #include <array>
 
 #include "gpu/check.hpp"
+#include "gpu/collision_pass.hpp"
 #include "gpu/shader_source.hpp"
 
 namespace lockstep {
@@ -14,13 +15,6 @@ std::optional<Program> link(const Switches& switches, const std::filesystem::pat
     const char* name = switches.obstacles_in_cdt == ObstaclesInCdt::triangles ? "obstacle_pass" : "obstacle_vertices";
     const std::array stages{Stage::vertex, Stage::geometry, Stage::fragment};
     return Program(name, load_stages(shader_folders(shaders), name, stages, switch_defines(switches)));
-}
-
-void set_collision_code(const Program& program, const FrameParams& params) {
-    const glm::vec3 size = params.cdt_box.max - params.cdt_box.min;
-    program.set("u_CdtBoxMin", params.cdt_box.min);
-    program.set("u_CdtBoxStep", size / 255.0F);
-    program.set("u_CdtBoxScale", 255.0F / size);
 }
 
 } // namespace

@@ -27,7 +27,7 @@ std::string_view verdict_name(Verdict verdict) {
 std::string grouped(std::uint64_t value) {
     std::string digits = std::to_string(value);
     for (auto i = static_cast<std::ptrdiff_t>(digits.size()) - 3; i > 0; i -= 3)
-        digits.insert(static_cast<std::size_t>(i), ",");
+        digits.insert(static_cast<std::size_t>(i), 1, ',');
     return digits;
 }
 

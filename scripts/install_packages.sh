@@ -10,7 +10,8 @@ packages=(
     libassimp-dev libmeshoptimizer-dev            # meshes: reading, decimation
     libgl-dev libegl-dev                          # GL headers; the libraries are opened at run time
     libosmesa6 libegl1 libgl1-mesa-dri            # contexts without a GPU
-    catch2                                        # tests
+    catch2 libnanoflann-dev                       # tests and their oracle for neighbours
+    libbenchmark-dev                              # benchmarks
 )
 
 missing=()

@@ -45,13 +45,21 @@ Comparison compare(const Particles& reference, const CollisionImage& reference_c
 }
 
 std::uint64_t count_hits(const Particles& particles, float collision_time) {
-    return static_cast<std::uint64_t>(
-        std::count(particles.collide_time.begin(), particles.collide_time.end(), collision_time));
+    const auto n = static_cast<std::ptrdiff_t>(particles.size());
+    std::uint64_t hits = 0;
+#pragma omp parallel for simd reduction(+ : hits) schedule(static)
+    for (std::ptrdiff_t i = 0; i < n; ++i)
+        hits += particles.collide_time[static_cast<std::size_t>(i)] == collision_time ? 1U : 0U;
+    return hits;
 }
 
 std::uint64_t count_drawn(const CollisionImage& cdt) {
-    return static_cast<std::uint64_t>(
-        std::count_if(cdt.texels.begin(), cdt.texels.end(), [](const glm::vec4& texel) { return texel.a != 0.0F; }));
+    const auto n = static_cast<std::ptrdiff_t>(cdt.texels.size());
+    std::uint64_t drawn = 0;
+#pragma omp parallel for simd reduction(+ : drawn) schedule(static)
+    for (std::ptrdiff_t i = 0; i < n; ++i)
+        drawn += cdt.texels[static_cast<std::size_t>(i)].a != 0.0F ? 1U : 0U;
+    return drawn;
 }
 
 void note_difference(CheckReport& report, int frame, const Comparison& comparison) {

@@ -4,8 +4,21 @@
 
 #include "crosscheck/pictures.hpp"
 #include "crosscheck/png.hpp"
+#include "gpu/render_pass.hpp"
+#include "reference/render_pass.hpp"
 
 namespace lockstep {
+
+ColorImage render_on_gpu(const Particles& particles, const Scene& scene, const FrameParams& params,
+                         const std::filesystem::path& shaders) {
+    RenderPass pass(scene.switches, shaders, params.render_width, params.render_height);
+    ParticleBuffer buffer(particles.size());
+    buffer.upload(particles);
+    pass.run(buffer, MeshBuffer(scene.obstacles), params);
+    ColorImage image;
+    pass.read(image);
+    return image;
+}
 
 void FrameImages::keep(const ComparedFrame& frame) {
     if (differs_)
@@ -18,14 +31,21 @@ void FrameImages::keep(const ComparedFrame& frame) {
     gpu_cdt_ = frame.gpu_cdt;
 }
 
-void FrameImages::write(const std::filesystem::path& directory) const {
+void FrameImages::write(const std::filesystem::path& directory, const Scene& scene, const Profile& profile,
+                        const std::filesystem::path& shaders) const {
     if (frame_ < 0)
         return;
+    const FrameParams params = frame_params(scene, frame_);
+    const ColorImage reference_frame = render_pass(reference_, scene.obstacles, params, profile);
+    const ColorImage gpu_frame = render_on_gpu(gpu_, scene, params, shaders);
     const Box box = code_box(reference_cdt_);
     const std::vector<std::pair<const char*, ColorImage>> pictures{
         {"cdt_reference.png", picture(reference_cdt_, box)},
         {"cdt_gpu.png", picture(gpu_cdt_, box)},
         {"cdt_difference.png", difference_picture(reference_cdt_, gpu_cdt_)},
+        {"frame_reference.png", reference_frame},
+        {"frame_gpu.png", gpu_frame},
+        {"frame_difference.png", difference_picture(reference_frame, gpu_frame)},
     };
     std::vector<std::filesystem::path> written;
     try {

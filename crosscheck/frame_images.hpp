@@ -5,13 +5,19 @@
 
 namespace lockstep {
 
+/// The rendered frame of a state, by the render pass of the current context.
+ColorImage render_on_gpu(const Particles& particles, const Scene& scene, const FrameParams& params,
+                         const std::filesystem::path& shaders);
+
 /// Pictures of one frame of a check: the first that differs, or else the last.
 class FrameImages {
   public:
     void keep(const ComparedFrame& frame);
 
-    /// Writes DIR/cdt_reference.png, cdt_gpu.png, cdt_difference.png. All or none.
-    void write(const std::filesystem::path& directory) const;
+    /// Writes DIR/cdt_{reference,gpu,difference}.png and DIR/frame_{reference,gpu,difference}.png, the last three as
+    /// each side renders its own particles. All or none. Needs the current context.
+    void write(const std::filesystem::path& directory, const Scene& scene, const Profile& profile,
+               const std::filesystem::path& shaders) const;
 
   private:
     int frame_ = -1;

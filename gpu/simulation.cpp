@@ -21,7 +21,8 @@ bool any_canary(glm::vec3 v) { return is_canary(v.x) || is_canary(v.y) || is_can
 } // namespace
 
 GpuSimulation::GpuSimulation(const Scene& scene, const std::filesystem::path& shaders)
-    : collision_pass_(scene.switches, shaders), particles_{ParticleBuffer(scene.start.size()),
+    : obstacles_(scene.obstacles), obstacle_pass_(scene.switches, shaders),
+      collision_pass_(scene.switches, shaders), particles_{ParticleBuffer(scene.start.size()),
                                                            ParticleBuffer(scene.start.size())},
       cdts_{CollisionTexture(scene.width, scene.height, scene.switches.cdt_format),
             CollisionTexture(scene.width, scene.height, scene.switches.cdt_format)} {
@@ -42,6 +43,7 @@ void GpuSimulation::repeat_step(const FrameParams& params) { run_frame(params, 1
 
 void GpuSimulation::run_frame(const FrameParams& params, std::size_t from, std::size_t to) {
     cdts_[to].clear();
+    obstacle_pass_.run(obstacles_, params, cdts_[to]);
     collision_pass_.run(params, particles_[from], particles_[to], cdts_[from], cdts_[to]);
     gl::Finish();
     collision_pass_.verify_written(particles_[from].size());

@@ -3,6 +3,8 @@
 #include <filesystem>
 
 #include "gpu/collision_pass.hpp"
+#include "gpu/mesh_buffer.hpp"
+#include "gpu/obstacle_pass.hpp"
 #include "reference/model/image.hpp"
 #include "reference/model/particles.hpp"
 
@@ -36,6 +38,8 @@ class GpuSimulation {
   private:
     void run_frame(const FrameParams& params, std::size_t from, std::size_t to);
 
+    MeshBuffer obstacles_;
+    ObstaclePass obstacle_pass_;
     CollisionPass collision_pass_;
     std::array<ParticleBuffer, 2> particles_;
     std::array<CollisionTexture, 2> cdts_;

@@ -79,7 +79,7 @@ int run(const Options& options) {
     if (!options.hashes.empty())
         hashes.write(options.hashes);
     if (!options.images.empty())
-        images.write(options.images);
+        images.write(options.images, scene, profile, options.run.shaders);
     if (!options.quiet)
         fmt::print("{}", report_text(report, description));
     return report.verdict == Verdict::agree ? status_agree : status_differ;

@@ -1,0 +1,78 @@
+#include <map>
+#include <memory>
+
+#include "crosscheck/commands/commands.hpp"
+#include "crosscheck/commands/run_options.hpp"
+#include "crosscheck/frame_images.hpp"
+#include "crosscheck/png.hpp"
+#include "crosscheck/profiles.hpp"
+#include "crosscheck/progress.hpp"
+#include "gpu/context.hpp"
+#include "gpu/simulation.hpp"
+#include "reference/render_pass.hpp"
+#include "reference/simulation.hpp"
+
+namespace lockstep {
+namespace {
+
+enum class Side { cpu, gpu };
+
+struct Options {
+    RunOptions run;
+    int frame = 0;
+    Side side = Side::cpu;
+    std::filesystem::path output;
+    std::string profile = "strict";
+};
+
+ColorImage render_cpu(const Scene& scene, const Options& options) {
+    const Profile profile = named_profile(options.profile);
+    ReferenceSimulation reference(scene, profile);
+    Progress progress("render", options.frame + 1, true);
+    for (int frame = 0; frame <= options.frame; ++frame) {
+        reference.step(frame_params(scene, frame));
+        progress.show(frame + 1);
+    }
+    return render_pass(reference.particles(), scene.obstacles, frame_params(scene, options.frame), profile);
+}
+
+ColorImage render_gpu(const Scene& scene, const Options& options) {
+    const Context context(parse_context_request(options.run.gl));
+    GpuSimulation gpu(scene, options.run.shaders);
+    Progress progress("render", options.frame + 1, true);
+    for (int frame = 0; frame <= options.frame; ++frame) {
+        gpu.step(frame_params(scene, frame));
+        progress.show(frame + 1);
+    }
+    Particles particles;
+    gpu.read(particles);
+    return render_on_gpu(particles, scene, frame_params(scene, options.frame), options.run.shaders);
+}
+
+int run(const Options& options) {
+    const Scene scene = load(options.run);
+    write_png(options.output, options.side == Side::cpu ? render_cpu(scene, options) : render_gpu(scene, options));
+    return status_agree;
+}
+
+} // namespace
+
+void add_render_command(CLI::App& app, int& status) {
+    auto options = std::make_shared<Options>();
+    CLI::App* verb = app.add_subcommand("render", "run one side to a frame and write its picture");
+    add_scene_options(*verb, options->run);
+    add_gl_options(*verb, options->run);
+    verb->add_option("--frame", options->frame, "the frame to picture, counted from 0")
+        ->check(CLI::Range(0, 100'000'000))
+        ->type_name("F");
+    verb->add_option("-o,--output", options->output, "PNG file to write")->required()->type_name("FILE");
+    verb->add_option("--side", options->side, "cpu: the reference, needs no GL; gpu: the shaders")
+        ->transform(CLI::CheckedTransformer(std::map<std::string, Side>{{"cpu", Side::cpu}, {"gpu", Side::gpu}}))
+        ->type_name("cpu|gpu");
+    verb->add_option("--profile", options->profile, "strict, llvmpipe or nvidia: the reference's order of sums")
+        ->type_name("NAME");
+    verb->footer("Example: lockstep render data/scenes/lattice.json --frame 120 -o lattice.png --side cpu");
+    verb->callback([options, &status] { status = run(*options); });
+}
+
+} // namespace lockstep

@@ -3,7 +3,7 @@
 # failure here, not a skip.
 set -euo pipefail
 cd "$(dirname "$0")/.."
-scripts/install_packages.sh test
+scripts/install_packages.sh
 cmake --preset ci
 cmake --build --preset ci
 scripts/fetch_meshes.sh all

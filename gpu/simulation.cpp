@@ -42,10 +42,15 @@ void GpuSimulation::step(const FrameParams& params) {
 void GpuSimulation::repeat_step(const FrameParams& params) { run_frame(params, 1 - current_, current_); }
 
 void GpuSimulation::run_frame(const FrameParams& params, std::size_t from, std::size_t to) {
+    gl::BeginQuery(GL_TIME_ELAPSED, timer_.id());
     cdts_[to].clear();
     obstacle_pass_.run(obstacles_, params, cdts_[to]);
     collision_pass_.run(params, particles_[from], particles_[to], cdts_[from], cdts_[to]);
+    gl::EndQuery(GL_TIME_ELAPSED);
     gl::Finish();
+    GLuint64 nanoseconds = 0;
+    gl::GetQueryObjectui64v(timer_.id(), GL_QUERY_RESULT, &nanoseconds);
+    frame_seconds_ = static_cast<double>(nanoseconds) * 1e-9;
     collision_pass_.verify_written(particles_[from].size());
 }
 

@@ -26,6 +26,9 @@ class GpuSimulation {
     /// The last frame once more, from the same state.
     void repeat_step(const FrameParams& params);
 
+    /// GPU time of the last frame by a timer query, seconds; 0 where the context has none.
+    [[nodiscard]] double frame_seconds() const { return frame_seconds_; }
+
     /// The state after the last frame.
     void read(Particles& particles) const;
     void read(CollisionImage& cdt) const;
@@ -47,6 +50,8 @@ class GpuSimulation {
     CollisionPass collision_pass_;
     std::array<ParticleBuffer, 2> particles_;
     std::array<CollisionTexture, 2> cdts_;
+    GlQuery timer_;
+    double frame_seconds_ = 0.0;
     std::size_t current_ = 0; ///< which of the two the next frame starts from
 };
 

@@ -4,6 +4,6 @@ set -euo pipefail
 cd "$(dirname "$0")/.."
 scripts/install_packages.sh
 cmake --preset release
-cmake --build --preset release
+cmake --build --preset release --target lockstep lockstep_decimate
 scripts/fetch_meshes.sh bunny
 build/release/crosscheck/lockstep check data/scenes/bunny_a.json --particles 50000 "$@"

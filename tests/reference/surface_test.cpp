@@ -60,6 +60,13 @@ TEST_CASE("surface: placing scales to the height, turns about y and moves the ce
     CHECK(high == glm::vec3(11.0F, 20.5F, 30.25F));
 }
 
+TEST_CASE("surface: a quarter turn about y takes x to -z and z to x") {
+    Mesh mesh;
+    place({{{1.0, 0.0, 0.0}, {0.0, 0.0, 1.0}, {-1.0, 0.0, 0.0}, {0.0, 0.0, -1.0}}, {}}, {.rotate_y = 90.0}, mesh);
+    CHECK(glm::distance(mesh.positions[0], glm::vec3(0.0F, 0.0F, -1.0F)) < 1e-6F);
+    CHECK(glm::distance(mesh.positions[1], glm::vec3(1.0F, 0.0F, 0.0F)) < 1e-6F);
+}
+
 TEST_CASE("surface: a second obstacle follows the first, its indices shifted") {
     Mesh mesh;
     place(plane_surface(1.0, 1.0), {}, mesh);

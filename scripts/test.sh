@@ -6,5 +6,5 @@ cd "$(dirname "$0")/.."
 scripts/install_packages.sh
 cmake --preset ci
 cmake --build --preset ci
-scripts/fetch_meshes.sh all
+scripts/fetch_meshes.sh bunny
 LOCKSTEP_REQUIRE_GL=1 ctest --test-dir build/ci --output-on-failure -j 2 "$@"

@@ -4,7 +4,7 @@
 #include <cassert>
 #include <tuple>
 
-#include "crosscheck/ulp.hpp"
+#include "reference/model/ulp.hpp"
 
 namespace lockstep {
 namespace {

@@ -19,6 +19,7 @@ int main(int argc, char** argv) {
     add_render_command(app, status);
     add_hash_command(app, status);
     add_info_command(app, status);
+    add_probe_command(app, status);
     add_bench_command(app, status);
     try {
         app.parse(argc, argv);

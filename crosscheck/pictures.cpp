@@ -4,7 +4,7 @@
 #include <cmath>
 #include <limits>
 
-#include "crosscheck/ulp.hpp"
+#include "reference/model/ulp.hpp"
 
 namespace lockstep {
 namespace {

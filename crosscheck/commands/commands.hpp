@@ -12,6 +12,7 @@ inline constexpr int status_could_not_run = 2;
 void add_check_command(CLI::App& app, int& status);
 void add_render_command(CLI::App& app, int& status);
 void add_hash_command(CLI::App& app, int& status);
+void add_probe_command(CLI::App& app, int& status);
 void add_info_command(CLI::App& app, int& status);
 void add_bench_command(CLI::App& app, int& status);
 

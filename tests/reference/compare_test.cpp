@@ -4,7 +4,7 @@
 #include <limits>
 
 #include "crosscheck/compare.hpp"
-#include "crosscheck/ulp.hpp"
+#include "reference/model/ulp.hpp"
 
 using namespace lockstep;
 

@@ -1,0 +1,47 @@
+#include <filesystem>
+#include <memory>
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include "crosscheck/atomic_file.hpp"
+#include "crosscheck/commands/commands.hpp"
+#include "crosscheck/commands/run_options.hpp"
+#include "crosscheck/probe_table.hpp"
+#include "crosscheck/profiles.hpp"
+#include "gpu/probe.hpp"
+
+namespace lockstep {
+namespace {
+
+struct Options {
+    RunOptions run;
+    ProbeOptions probe;
+    std::filesystem::path json;
+};
+
+int run(const Options& options) {
+    const Context context(parse_context_request(options.run.gl));
+    const ProbeResult result = probe(context, options.probe);
+    if (!options.json.empty())
+        write_text_file(options.json, nlohmann::json(result).dump(1) + "\n");
+    fmt::print("{}", probe_table(result));
+    return status_agree;
+}
+
+} // namespace
+
+void add_probe_command(CLI::App& app, int& status) {
+    auto options = std::make_shared<Options>();
+    CLI::App* verb = app.add_subcommand("probe", "measure the arithmetic and the rasterisation of a GL driver");
+    verb->add_option("--gl", options->run.gl, "auto, osmesa, egl, or egl-device:N")->type_name("CONTEXT");
+    verb->add_option("--json", options->json, "write the measurements as JSON")->type_name("FILE");
+    verb->add_option("--inputs", options->probe.inputs, "random inputs an arithmetic row")
+        ->check(CLI::Range(64, 1 << 22))
+        ->type_name("N");
+    verb->footer("Exit status: 0 measured, 2 could not run.\n"
+                 "Example: lockstep probe --gl egl-device:0 --json probe.json");
+    verb->callback([options, &status] { status = run(*options); });
+}
+
+} // namespace lockstep

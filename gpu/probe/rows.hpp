@@ -1,0 +1,34 @@
+#pragma once
+#include <cstddef>
+#include <vector>
+
+#include "gpu/probe.hpp"
+
+namespace lockstep::probing {
+
+using Rows = std::vector<ProbeRow>;
+
+// Each measures its rows in the current context and appends them. Names ending in ", precise": with the qualifier.
+
+/// Sums, products, quotients and roots in the vertex stage, and subnormals there.
+void measure_vertex_arithmetic(std::size_t inputs, Rows& rows);
+
+/// The same operations in the fragment stage, as far as the passes have them there.
+void measure_fragment_arithmetic(Rows& rows);
+
+/// Halves and 8-bit codes, on their way into an image and out of it; texels outside it.
+void measure_storage(Rows& rows);
+
+/// The order in which transform feedback writes primitives.
+void measure_order(Rows& rows);
+
+/// Sub-pixel grid, rounding to it, and who owns what lies on an edge: points and triangles.
+void measure_snapping(Rows& rows);
+
+/// Perspective divide and viewport transform, with and without a geometry stage. Needs measure_snapping's rows.
+void measure_viewport(Rows& rows);
+
+/// The depth a point gets, and which of two equal ones stays.
+void measure_depth(Rows& rows);
+
+} // namespace lockstep::probing

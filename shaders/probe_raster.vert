@@ -1,0 +1,13 @@
+#version 330 core
+// A position in clip space and the number of its primitive. WITH_GEOMETRY: a geometry stage passes them on.
+#ifdef WITH_GEOMETRY
+#define g_Id v_Id
+#endif
+in vec4 a_Clip;
+in float a_Id;
+flat out float g_Id;
+
+void main() {
+    g_Id = a_Id;
+    gl_Position = a_Clip;
+}

@@ -5,6 +5,13 @@
 namespace lockstep::probing {
 namespace {
 
+std::vector<Attribute> attributes() {
+    return {{"a_DotA", 3},    {"a_DotB", 3},      {"a_MultiplyAdd", 3},    {"a_CommonFactor", 3},
+            {"a_CrossA", 3},  {"a_CrossB", 3},    {"a_Transform", 3},      {"a_TransformWritten", 3},
+            {"a_Squares", 3}, {"a_Fma", 3},       {"a_Quotient", 2},       {"a_Roots", 3},
+            {"a_Length", 3},  {"a_Normalize", 3}, {"a_Transcendental", 3}, {"a_Copy", 1}};
+}
+
 std::vector<Capture> outputs() {
     return {{"out_Dot", GL_FLOAT},
             {"out_MultiplyAdd", GL_FLOAT},
@@ -30,7 +37,7 @@ const float* data(const Vectors& v) { return glm::value_ptr(v.front()); }
 } // namespace
 
 DriverArithmetic::DriverArithmetic(bool precise)
-    : stage_("probe_arithmetic", {{"PRECISE", precise ? "precise" : ""}}, outputs()) {}
+    : stage_("probe_arithmetic", {{"PRECISE", precise ? "precise" : ""}}, attributes(), outputs()) {}
 
 Floats DriverArithmetic::of_vectors(std::string_view attribute, const Vectors& v, std::string_view output) const {
     return stage_.run(v.size(), {{attribute, 3, data(v)}}, output);

@@ -173,7 +173,7 @@ void measure_storage(Rows& rows) {
     const ImageStage store("probe_store");
     measure_half_store(store, rows);
     measure_unorm_store(store, rows);
-    const VertexStage fetch("probe_fetch", {}, {{"out_Texel", GL_FLOAT_VEC4}});
+    const VertexStage fetch("probe_fetch", {}, {{"a_Texel", 2}}, {{"out_Texel", GL_FLOAT_VEC4}});
     measure_loads(fetch, rows);
     measure_outside(fetch, rows);
 }

@@ -28,22 +28,27 @@ Program link(const std::string& name, const ShaderDefines& defines, std::span<co
 
 } // namespace
 
-VertexStage::VertexStage(const std::string& name, const ShaderDefines& defines, std::vector<Capture> outputs,
-                         bool geometry)
-    : outputs_(std::move(outputs)), program_(link(name, defines, outputs_, geometry)) {}
+VertexStage::VertexStage(const std::string& name, const ShaderDefines& defines, std::vector<Attribute> attributes,
+                         std::vector<Capture> outputs, bool geometry)
+    : attributes_(std::move(attributes)), outputs_(std::move(outputs)),
+      program_(link(name, defines, outputs_, geometry)) {}
 
-Floats VertexStage::run(std::size_t count, const std::vector<Attribute>& attributes, std::string_view output) const {
+Floats VertexStage::run(std::size_t count, const std::vector<Attribute>& given, std::string_view output) const {
     const GlVertexArray array;
     gl::BindVertexArray(array.id());
-    std::vector<GlBuffer> buffers(attributes.size());
-    for (std::size_t i = 0; i < attributes.size(); ++i) {
-        const Attribute& attribute = attributes[i];
+    std::vector<GlBuffer> buffers(attributes_.size());
+    const Floats ones(count * 4, 1.0F);
+    for (std::size_t i = 0; i < attributes_.size(); ++i) {
+        Attribute attribute = attributes_[i];
+        for (const Attribute& other : given)
+            if (other.name == attribute.name)
+                attribute.values = other.values;
         const GLint location = program_.attribute(attribute.name, float_type(attribute.components));
         if (location < 0)
             throw Error(fmt::format("{}: there is no attribute {}", program_.name(), attribute.name));
         gl::BindBuffer(GL_ARRAY_BUFFER, buffers[i].id());
         gl::BufferData(GL_ARRAY_BUFFER, static_cast<GLsizeiptr>(count * attribute.components * sizeof(float)),
-                       attribute.values, GL_STREAM_DRAW);
+                       attribute.values != nullptr ? attribute.values : ones.data(), GL_STREAM_DRAW);
         gl::EnableVertexAttribArray(static_cast<GLuint>(location));
         gl::VertexAttribPointer(static_cast<GLuint>(location), attribute.components, GL_FLOAT, GL_FALSE, 0, nullptr);
     }

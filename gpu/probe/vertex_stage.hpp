@@ -10,7 +10,7 @@
 
 namespace lockstep::probing {
 
-/// An attribute's values, `components` floats a vertex.
+/// An attribute's values, `components` floats a vertex. Null: all 1.
 struct Attribute {
     std::string_view name;
     int components = 1;
@@ -21,17 +21,17 @@ struct Attribute {
 class VertexStage {
   public:
     /// `name`.vert, with `name`.geom if `geometry`.
-    VertexStage(const std::string& name, const ShaderDefines& defines, std::vector<Capture> outputs,
-                bool geometry = false);
+    VertexStage(const std::string& name, const ShaderDefines& defines, std::vector<Attribute> attributes,
+                std::vector<Capture> outputs, bool geometry = false);
 
     [[nodiscard]] const Program& program() const { return program_; }
 
-    /// The values of `output`, all its components; attributes not given are (0, 0, 0, 1). Throws Error if GL wrote
-    /// less than `count` vertices.
-    [[nodiscard]] Floats run(std::size_t count, const std::vector<Attribute>& attributes,
-                             std::string_view output) const;
+    /// The values of `output`, all its components, with those attributes changed that `given` names. Throws Error if
+    /// GL wrote less than `count` vertices.
+    [[nodiscard]] Floats run(std::size_t count, const std::vector<Attribute>& given, std::string_view output) const;
 
   private:
+    std::vector<Attribute> attributes_; ///< all are fed in every run: a driver may compile for each set anew
     std::vector<Capture> outputs_;
     Program program_;
 };

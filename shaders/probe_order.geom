@@ -3,11 +3,11 @@
 layout(points) in;
 layout(points, max_vertices = 1) out;
 
-flat in int v_Index[];
+in float v_Index[];
 out float out_Index;
 
 void main() {
-    out_Index = float(v_Index[0]);
+    out_Index = v_Index[0];
     gl_Position = gl_in[0].gl_Position;
     EmitVertex();
     EndPrimitive();

@@ -1,7 +1,8 @@
 #version 330 core
-flat out int v_Index;
+in float a_Index;
+out float v_Index;
 
 void main() {
-    v_Index = gl_VertexID;
+    v_Index = a_Index;
     gl_Position = vec4(0.0);
 }

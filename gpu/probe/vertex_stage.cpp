@@ -1,9 +1,11 @@
 #include "gpu/probe/vertex_stage.hpp"
 
+#include <array>
+
 #include <fmt/format.h>
 
 #include "gpu/check.hpp"
-#include "gpu/object.hpp"
+#include "gpu/probe/images.hpp"
 #include "reference/model/error.hpp"
 
 namespace lockstep::probing {
@@ -31,7 +33,8 @@ Program link(const std::string& name, const ShaderDefines& defines, std::span<co
 VertexStage::VertexStage(const std::string& name, const ShaderDefines& defines, std::vector<Attribute> attributes,
                          std::vector<Capture> outputs, bool geometry)
     : attributes_(std::move(attributes)), outputs_(std::move(outputs)),
-      program_(link(name, defines, outputs_, geometry)) {}
+      program_(link(name, defines, outputs_, geometry)), target_(make_texture(r32f, 1, 1, nullptr)),
+      framebuffer_(make_framebuffer(std::array<const GlTexture*, 1>{&target_})) {}
 
 Floats VertexStage::run(std::size_t count, const std::vector<Attribute>& given, std::string_view output) const {
     const GlVertexArray array;
@@ -66,6 +69,7 @@ Floats VertexStage::run(std::size_t count, const std::vector<Attribute>& given, 
     const auto bytes = static_cast<GLsizeiptr>(count * stride * sizeof(float));
     gl::BindBufferBase(GL_TRANSFORM_FEEDBACK_BUFFER, 0, captured.id());
     gl::BufferData(GL_TRANSFORM_FEEDBACK_BUFFER, bytes, nullptr, GL_STREAM_READ);
+    gl::BindFramebuffer(GL_FRAMEBUFFER, framebuffer_.id());
     program_.use();
     gl::Enable(GL_RASTERIZER_DISCARD);
     gl::BeginQuery(GL_TRANSFORM_FEEDBACK_PRIMITIVES_WRITTEN, written.id());
@@ -80,6 +84,7 @@ Floats VertexStage::run(std::size_t count, const std::vector<Attribute>& given, 
     gl::GetBufferSubData(GL_TRANSFORM_FEEDBACK_BUFFER, 0, bytes, all.data());
     gl::BindBufferBase(GL_TRANSFORM_FEEDBACK_BUFFER, 0, 0);
     gl::BindVertexArray(0);
+    gl::BindFramebuffer(GL_FRAMEBUFFER, 0);
     check_gl(program_.name());
     if (primitives != count)
         throw Error(fmt::format("{}: transform feedback wrote {} of {} vertices", program_.name(), primitives, count));

@@ -5,6 +5,7 @@
 
 #include <glm/mat4x4.hpp>
 
+#include "gpu/object.hpp"
 #include "gpu/probe/judge.hpp"
 #include "gpu/program.hpp"
 
@@ -34,6 +35,8 @@ class VertexStage {
     std::vector<Attribute> attributes_; ///< all are fed in every run: a driver may compile for each set anew
     std::vector<Capture> outputs_;
     Program program_;
+    GlTexture target_; ///< nothing is drawn; without a window GL still asks for a framebuffer
+    GlFramebuffer framebuffer_;
 };
 
 } // namespace lockstep::probing

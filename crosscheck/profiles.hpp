@@ -1,16 +1,20 @@
 #pragma once
 #include <string>
 
+#include "gpu/probe.hpp"
 #include "reference/model/profile.hpp"
 
 namespace lockstep {
 
-class Context;
+/// What the reference has to do to follow a measured driver. Its name is `llvmpipe` or `nvidia` when it computes as
+/// that one was measured to, whatever the driver calls itself, and `generic` otherwise. Errors are those measured.
+/// Throws Error if a row of the probe is missing.
+Profile profile_from(const ProbeResult& result);
 
-/// The profile that matches what the current context was measured to compute.
+/// Measures the current context (gpu/probe.hpp): the profile that matches it.
 Profile measured_profile(const Context& context);
 
-/// One line: "llvmpipe: dot x+(y+z), subnormals flushed, 8 sub-pixel bits, ..."
+/// One line: "llvmpipe: dot x + (y + z), division and roots rounded, subnormals flushed, 8 sub-pixel bits, ..."
 std::string describe(const Profile& profile);
 
 } // namespace lockstep

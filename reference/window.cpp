@@ -10,6 +10,21 @@ float to_window(float clip, float inverse_w, float scale, float offset, const Ra
     return rules.viewport == ViewportRounding::fused ? std::fma(ndc, scale, offset) : ndc * scale + offset;
 }
 
+std::int32_t snap(float window, SnapRounding rounding, int subpixel_bits) {
+    const float scaled = static_cast<float>(1 << subpixel_bits) * (window - 0.5F);
+    switch (rounding) {
+    case SnapRounding::half_to_even:
+        return static_cast<std::int32_t>(std::nearbyint(scaled));
+    case SnapRounding::half_away:
+        return static_cast<std::int32_t>(scaled >= 0.0F ? scaled + 0.5F : scaled - 0.5F);
+    case SnapRounding::half_up:
+        return static_cast<std::int32_t>(std::floor(scaled + 0.5F));
+    case SnapRounding::down:
+        return static_cast<std::int32_t>(std::floor(scaled));
+    }
+    return 0;
+}
+
 } // namespace
 
 WindowPosition window_position(glm::vec4 clip, int width, int height, const RasterRules& rules) {
@@ -22,12 +37,11 @@ WindowPosition window_position(glm::vec4 clip, int width, int height, const Rast
 }
 
 std::int32_t snap_point(float window, const RasterRules& rules) {
-    const float scaled = static_cast<float>(1 << rules.subpixel_bits) * (window - 0.5F);
-    return static_cast<std::int32_t>(scaled >= 0.0F ? scaled + 0.5F : scaled - 0.5F);
+    return snap(window, rules.point_snap, rules.subpixel_bits);
 }
 
 std::int32_t snap_vertex(float window, const RasterRules& rules) {
-    return static_cast<std::int32_t>(std::nearbyint(static_cast<float>(1 << rules.subpixel_bits) * (window - 0.5F)));
+    return snap(window, rules.vertex_snap, rules.subpixel_bits);
 }
 
 int point_pixel(std::int32_t snapped, const RasterRules& rules) {

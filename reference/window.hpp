@@ -26,10 +26,10 @@ struct WindowPosition {
 /// Perspective divide and viewport transform for a viewport of width x height at the origin.
 WindowPosition window_position(glm::vec4 clip, int width, int height, const RasterRules& rules);
 
-/// Sub-pixel position of a point's coordinate: rounds half away from zero, as measured. Needs |window| < 2^20.
+/// Sub-pixel position of a point's coordinate. Needs |window| < 2^20.
 std::int32_t snap_point(float window, const RasterRules& rules);
 
-/// Sub-pixel position of a triangle vertex's coordinate: rounds half to even, as measured. Needs |window| < 2^20.
+/// The same for a triangle's corner.
 std::int32_t snap_vertex(float window, const RasterRules& rules);
 
 /// The pixel a size-1 point at a sub-pixel position covers along one axis.

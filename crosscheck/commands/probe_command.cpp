@@ -23,9 +23,13 @@ struct Options {
 int run(const Options& options) {
     const Context context(parse_context_request(options.run.gl));
     const ProbeResult result = probe(context, options.probe);
-    if (!options.json.empty())
-        write_text_file(options.json, nlohmann::json(result).dump(1) + "\n");
-    fmt::print("{}", probe_table(result));
+    const std::string profile = describe(profile_from(result));
+    if (!options.json.empty()) {
+        nlohmann::json json = result;
+        json["profile"] = profile;
+        write_text_file(options.json, json.dump(1) + "\n");
+    }
+    fmt::print("{}\nprofile {}\n", probe_table(result), profile);
     return status_agree;
 }
 

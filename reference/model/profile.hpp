@@ -1,6 +1,8 @@
 #pragma once
+#include <cstdint>
 #include <string>
 #include <string_view>
+#include <vector>
 
 namespace lockstep {
 
@@ -20,13 +22,30 @@ enum class ViewportRounding {
     fused,    ///< fma(clip * (1 / w), scale, offset)
 };
 
+/// How a window coordinate is put on the sub-pixel grid.
+enum class SnapRounding { half_to_even, half_away, half_up, down };
+
 /// Fixed-function rasterisation: GL leaves snap and ties open (gl-rules, 3c).
 struct RasterRules {
     int subpixel_bits = 8;
+    SnapRounding point_snap = SnapRounding::half_away;
+    SnapRounding vertex_snap = SnapRounding::half_to_even; ///< corners of triangles
     ViewportRounding viewport = ViewportRounding::separate;
     bool point_edge_to_lower = true; ///< a point on a pixel edge belongs to the lower pixel, in x and in y
     bool left_edge_in = true;        ///< a pixel centre on a left side of a triangle is inside (else: on a right one)
     bool lower_edge_in = true;       ///< the same for a horizontal lower side, y up (else: an upper one)
+
+    bool operator==(const RasterRules&) const = default;
+};
+
+/// The largest distance seen between a driver's operation and the reference's, ULP; 0: never another bit.
+struct OperationErrors {
+    std::int64_t divide = 0;
+    std::int64_t reciprocal = 0;
+    std::int64_t sqrt = 0;
+    std::int64_t inverse_sqrt = 0;
+    std::int64_t length = 0;
+    std::int64_t normalize = 0;
 };
 
 struct Profile {
@@ -34,7 +53,13 @@ struct Profile {
     DotOrder dot = DotOrder::left_to_right;
     bool flush_subnormals = true; ///< subnormal operands and results are zero
     RasterRules raster;
+    OperationErrors errors;
+    /// Rows of the probe that found what the reference cannot follow. It then does what comes closest.
+    std::vector<std::string> not_followed;
 };
+
+/// Whether two profiles compute alike: the same orders, rounding and rules, and errors in the same operations.
+bool computes_alike(const Profile& a, const Profile& b);
 
 /// strict, llvmpipe or nvidia, as measured (spec, last section). Throws Error naming them for any other name.
 Profile named_profile(std::string_view name);

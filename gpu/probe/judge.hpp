@@ -29,9 +29,10 @@ template <class Value> ProbeRow judge(std::string name, const std::vector<Value>
     ProbeRow row;
     row.name = std::move(name);
     row.total = measured.size();
+    const auto fits = [&](const auto& prediction) { return prediction.values.size() == measured.size(); };
+    if (measured.empty() || predictions.empty() || !std::all_of(predictions.begin(), predictions.end(), fits))
+        throw Error("probe: row '" + row.name + "' has nothing to be judged by");
     for (const auto& prediction : predictions) {
-        if (prediction.values.size() != measured.size() || measured.empty())
-            throw Error("probe: row '" + row.name + "' has nothing to be judged by");
         ProbeCandidate candidate{prediction.name, 0, 0};
         for (std::size_t i = 0; i < measured.size(); ++i) {
             if constexpr (std::is_same_v<Value, float>) {

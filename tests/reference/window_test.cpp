@@ -63,6 +63,26 @@ TEST_CASE("window: points snap half a sub-pixel away from zero, vertices to even
     CHECK(snap_point(0.5F + 8.0F * unit, rules(4)) == 1);
 }
 
+TEST_CASE("window: a profile may snap in other ways") {
+    RasterRules r = rules(8);
+    const float unit = 1.0F / 256.0F;
+    const auto snapped = [&](SnapRounding rounding, float units) {
+        r.point_snap = r.vertex_snap = rounding;
+        CHECK(snap_point(0.5F + units * unit, r) == snap_vertex(0.5F + units * unit, r));
+        return snap_point(0.5F + units * unit, r);
+    };
+    CHECK(snapped(SnapRounding::half_to_even, 2.5F) == 2);
+    CHECK(snapped(SnapRounding::half_away, 2.5F) == 3);
+    CHECK(snapped(SnapRounding::half_up, 2.5F) == 3);
+    CHECK(snapped(SnapRounding::down, 2.5F) == 2);
+    CHECK(snapped(SnapRounding::half_to_even, -1.5F) == -2);
+    CHECK(snapped(SnapRounding::half_away, -1.5F) == -2);
+    CHECK(snapped(SnapRounding::half_up, -1.5F) == -1);
+    CHECK(snapped(SnapRounding::down, -1.5F) == -2);
+    CHECK(snapped(SnapRounding::down, 0.75F) == 0);
+    CHECK(snapped(SnapRounding::half_up, 0.75F) == 1);
+}
+
 TEST_CASE("window: a point on a pixel edge goes to the lower pixel, or to the upper where the profile says") {
     CHECK(pixel(5.0F, rules(8)) == 4);
     CHECK(pixel(5.0F, rules(8, false)) == 5);

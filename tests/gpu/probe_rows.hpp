@@ -1,0 +1,100 @@
+#pragma once
+#include <string_view>
+#include <utility>
+
+namespace lockstep::test {
+
+struct ExpectedRow {
+    std::string_view name;
+    std::string_view finding;
+};
+
+/// What llvmpipe (Mesa 22.3) computes whatever the processor and the vector width: every row of the probe but those in
+/// processor_rows. The spec's table, last section, and what else the probe looks at.
+inline constexpr ExpectedRow llvmpipe_rows[] = {
+    {"dot(vec3)", "x+(y+z)"},
+    {"x*x+y*y+z*z", "(x+y)+z"},
+    {"mat4*vec4", "((x+y)+z)+w"},
+    {"mat4*vec4 written out", "((x+y)+z)+w"},
+    {"a*b+c", "each rounded"},
+    {"x*a+x*b", "x*(a+b)"},
+    {"cross", "each rounded"},
+    {"fma", "rounded twice"},
+    {"a/b", "rounded"},
+    {"a/b, b from 2^126", "rounded"},
+    {"1/b", "rounded"},
+    {"sqrt", "rounded"},
+    {"inversesqrt", "1/sqrt(x), each rounded"},
+    {"length", "sqrt(dot), rounded"},
+    {"normalize", "v*(1/sqrt(dot)), rounded"},
+    {"dot(vec3), precise", "x+(y+z)"},
+    {"x*x+y*y+z*z, precise", "(x+y)+z"},
+    {"mat4*vec4, precise", "((x+y)+z)+w"},
+    {"mat4*vec4 written out, precise", "((x+y)+z)+w"},
+    {"a*b+c, precise", "each rounded"},
+    {"x*a+x*b, precise", "each rounded"},
+    {"cross, precise", "each rounded"},
+    {"fma, precise", "rounded twice"},
+    {"a/b, precise", "rounded"},
+    {"a/b, b from 2^126, precise", "rounded"},
+    {"1/b, precise", "rounded"},
+    {"sqrt, precise", "rounded"},
+    {"inversesqrt, precise", "1/sqrt(x), each rounded"},
+    {"length, precise", "sqrt(dot), rounded"},
+    {"normalize, precise", "v*(1/sqrt(dot)), rounded"},
+    {"subnormal operand of *", "flushed"},
+    {"subnormal result of *", "flushed"},
+    {"subnormal operand of +", "flushed"},
+    {"subnormal result of +", "flushed"},
+    {"subnormal passed on", "kept"},
+    {"subnormal > 0", "flushed"},
+    {"fragment a/b", "rounded"},
+    {"fragment 1/b", "rounded"},
+    {"fragment sqrt", "rounded"},
+    {"fragment inversesqrt", "1/sqrt(x), each rounded"},
+    {"fragment dot(vec3)", "x+(y+z)"},
+    {"fragment length", "sqrt(x+(y+z)), rounded"},
+    {"fragment a*b+c", "each rounded"},
+    {"fragment a*b+c, precise", "each rounded"},
+    {"float to half", "truncate"},
+    {"float to subnormal half", "truncate"},
+    {"float above the largest half", "largest"},
+    {"float to unorm8", "rint(x*255)"},
+    {"unorm8 to float", "c*(1/255)"},
+    {"half to float", "exact"},
+    {"texelFetch outside", "zero"},
+    {"transform feedback order", "as drawn"},
+    {"points: edge in x", "lower pixel"},
+    {"points: edge in y", "lower pixel"},
+    {"points: sub-pixel bits", "8"},
+    {"points: snap", "half away from zero"},
+    {"triangles: left side", "in"},
+    {"triangles: right side", "out"},
+    {"triangles: lower side", "in"},
+    {"triangles: upper side", "out"},
+    {"triangles: sub-pixel bits", "8"},
+    {"triangles: snap", "half to even"},
+    {"points: viewport", "(clip*(1/w))*scale + offset"},
+    {"triangles: viewport", "(clip*(1/w))*scale + offset"},
+    {"points: depth", "(clip*(1/w))*0.5 + 0.5"},
+    {"points: depth, no geometry stage", "(clip*(1/w))*0.5 + 0.5"},
+    {"equal depth, LESS", "first stays"},
+    {"equal depth, LEQUAL", "last wins"},
+};
+
+/// Rows that depend on the processor: with fused multiply-add, or without.
+struct ProcessorRow {
+    std::string_view name;
+    std::string_view fused;
+    std::string_view separate;
+};
+
+inline constexpr ProcessorRow processor_rows[] = {
+    {"points: viewport, no geometry stage", "fma(clip*(1/w), scale, offset)", "(clip*(1/w))*scale + offset"},
+    {"triangles: viewport, no geometry stage", "fma(clip*(1/w), scale, offset)", "(clip*(1/w))*scale + offset"},
+    {"sin", "none known", "none known"},
+    {"exp2", "none known", "none known"},
+    {"pow(x,2.2)", "none known", "none known"},
+};
+
+} // namespace lockstep::test

@@ -1,0 +1,266 @@
+#include <catch2/catch.hpp>
+
+#include <algorithm>
+#include <string>
+
+#include "crosscheck/profiles.hpp"
+
+using namespace lockstep;
+
+namespace {
+
+constexpr std::uint64_t total = 100;
+
+ProbeRow found(std::string name, std::string finding) {
+    ProbeRow row;
+    row.name = std::move(name);
+    row.finding = finding;
+    row.matched = row.total = total;
+    row.candidates.push_back({std::move(finding), total, 0});
+    return row;
+}
+
+/// The spec's llvmpipe column, last section, as the probe words it; only what a profile is made from.
+ProbeResult llvmpipe() {
+    ProbeResult result;
+    const std::pair<const char*, const char*> rows[] = {
+        {"dot(vec3)", "x+(y+z)"},
+        {"dot(vec3), precise", "x+(y+z)"},
+        {"mat4*vec4, precise", "((x+y)+z)+w"},
+        {"mat4*vec4 written out, precise", "((x+y)+z)+w"},
+        {"x*x+y*y+z*z, precise", "(x+y)+z"},
+        {"a*b+c, precise", "each rounded"},
+        {"x*a+x*b, precise", "each rounded"},
+        {"cross, precise", "each rounded"},
+        {"fragment a*b+c, precise", "each rounded"},
+        {"a/b", "rounded"},
+        {"a/b, precise", "rounded"},
+        {"fragment a/b", "rounded"},
+        {"1/b", "rounded"},
+        {"1/b, precise", "rounded"},
+        {"fragment 1/b", "rounded"},
+        {"sqrt", "rounded"},
+        {"sqrt, precise", "rounded"},
+        {"fragment sqrt", "rounded"},
+        {"inversesqrt", "1/sqrt(x), each rounded"},
+        {"inversesqrt, precise", "1/sqrt(x), each rounded"},
+        {"fragment inversesqrt", "1/sqrt(x), each rounded"},
+        {"length", "sqrt(dot), rounded"},
+        {"length, precise", "sqrt(dot), rounded"},
+        {"normalize", "v*(1/sqrt(dot)), rounded"},
+        {"normalize, precise", "v*(1/sqrt(dot)), rounded"},
+        {"subnormal operand of *", "flushed"},
+        {"subnormal result of *", "flushed"},
+        {"subnormal operand of +", "flushed"},
+        {"subnormal result of +", "flushed"},
+        {"subnormal > 0", "flushed"},
+        {"subnormal passed on", "kept"},
+        {"transform feedback order", "as drawn"},
+        {"points: edge in x", "lower pixel"},
+        {"points: edge in y", "lower pixel"},
+        {"points: sub-pixel bits", "8"},
+        {"triangles: sub-pixel bits", "8"},
+        {"points: snap", "half away from zero"},
+        {"triangles: snap", "half to even"},
+        {"triangles: left side", "in"},
+        {"triangles: right side", "out"},
+        {"triangles: lower side", "in"},
+        {"triangles: upper side", "out"},
+        {"points: viewport", "(clip*(1/w))*scale + offset"},
+        {"triangles: viewport", "(clip*(1/w))*scale + offset"},
+        {"points: depth", "(clip*(1/w))*0.5 + 0.5"},
+        {"equal depth, LESS", "first stays"},
+    };
+    for (const auto& [name, finding] : rows)
+        result.rows.push_back(found(name, finding));
+    return result;
+}
+
+ProbeRow& row(ProbeResult& result, const std::string& name) {
+    return *std::find_if(result.rows.begin(), result.rows.end(), [&](const ProbeRow& r) { return r.name == name; });
+}
+
+void find(ProbeResult& result, const std::string& name, const std::string& finding) {
+    row(result, name) = found(name, finding);
+}
+
+/// The row's operation is nothing known, and that far off from what the reference computes.
+void be_off(ProbeResult& result, const std::string& name, std::int64_t ulp) {
+    ProbeRow& r = row(result, name);
+    r.candidates.front().matched = total / 2;
+    r.candidates.front().max_ulp = ulp;
+    r.finding = none_known;
+    r.matched = total / 2;
+    r.max_ulp = ulp;
+}
+
+/// The spec's H200 column.
+ProbeResult nvidia() {
+    ProbeResult result = llvmpipe();
+    find(result, "dot(vec3)", "fma(z,fma(y,x))");
+    find(result, "dot(vec3), precise", "fma(z,fma(y,x))");
+    for (const char* suffix : {"", ", precise"}) {
+        be_off(result, std::string("a/b") + suffix, 2);
+        be_off(result, std::string("1/b") + suffix, 1);
+        be_off(result, std::string("sqrt") + suffix, 3);
+        be_off(result, std::string("inversesqrt") + suffix, 2);
+        be_off(result, std::string("length") + suffix, 3);
+        be_off(result, std::string("normalize") + suffix, 4);
+    }
+    return result;
+}
+
+} // namespace
+
+TEST_CASE("profiles: what measures as llvmpipe is llvmpipe, whatever it is called") {
+    ProbeResult result = llvmpipe();
+    result.context.renderer = "NVIDIA H200";
+    const Profile profile = profile_from(result);
+    CHECK(profile.name == "llvmpipe");
+    CHECK(profile.not_followed.empty());
+    CHECK(describe(profile) == "llvmpipe: dot x + (y + z), division and roots rounded, subnormals flushed, "
+                               "8 sub-pixel bits, points on an edge to the lower pixel");
+}
+
+TEST_CASE("profiles: what measures as the NVIDIA column is nvidia, with the errors measured") {
+    ProbeResult result = nvidia();
+    result.context.renderer = "llvmpipe";
+    be_off(result, "normalize", 7);
+    const Profile profile = profile_from(result);
+    CHECK(profile.name == "nvidia");
+    CHECK(profile.dot == DotOrder::fused_chain);
+    CHECK(profile.errors.divide == 2);
+    CHECK(profile.errors.reciprocal == 1);
+    CHECK(profile.errors.sqrt == 3);
+    CHECK(profile.errors.inverse_sqrt == 2);
+    CHECK(profile.errors.length == 3);
+    CHECK(profile.errors.normalize == 7);
+    CHECK_THAT(describe(profile),
+               Catch::StartsWith("nvidia: dot fma(z, fma(y, x)), ULP off: a/b 2, 1/b 1, sqrt 3, inversesqrt 2, "
+                                 "length 3, normalize 7, subnormals flushed"));
+}
+
+TEST_CASE("profiles: the known ones are what the spec's columns give") {
+    CHECK(computes_alike(profile_from(llvmpipe()), named_profile("llvmpipe")));
+    CHECK(computes_alike(profile_from(nvidia()), named_profile("nvidia")));
+    CHECK_FALSE(computes_alike(named_profile("llvmpipe"), named_profile("nvidia")));
+}
+
+TEST_CASE("profiles: an operation that is off in the fragment stage alone is off") {
+    ProbeResult result = llvmpipe();
+    be_off(result, "fragment a/b", 2);
+    const Profile profile = profile_from(result);
+    CHECK(profile.name == "generic");
+    CHECK(profile.errors.divide == 2);
+    CHECK(profile.not_followed.empty());
+}
+
+TEST_CASE("profiles: a chain that divides exactly is neither known one") {
+    ProbeResult result = llvmpipe();
+    find(result, "dot(vec3)", "fma(z,fma(y,x))");
+    find(result, "dot(vec3), precise", "fma(z,fma(y,x))");
+    const Profile profile = profile_from(result);
+    CHECK(profile.name == "generic");
+    CHECK(profile.dot == DotOrder::fused_chain);
+    CHECK(profile.not_followed.empty());
+}
+
+TEST_CASE("profiles: an NVIDIA with a root that is never off is not the one measured") {
+    ProbeResult result = nvidia();
+    for (const char* name : {"sqrt", "sqrt, precise"})
+        find(result, name, "rounded");
+    CHECK(profile_from(result).name == "generic");
+}
+
+TEST_CASE("profiles: rules the reference has are followed") {
+    ProbeResult result = llvmpipe();
+    find(result, "dot(vec3)", "(x+y)+z");
+    find(result, "dot(vec3), precise", "(x+y)+z");
+    for (const char* name :
+         {"subnormal operand of *", "subnormal result of *", "subnormal operand of +", "subnormal result of +"})
+        find(result, name, "kept");
+    find(result, "subnormal > 0", "kept");
+    find(result, "points: edge in x", "upper pixel");
+    find(result, "points: edge in y", "upper pixel");
+    find(result, "points: sub-pixel bits", "4");
+    find(result, "triangles: sub-pixel bits", "4");
+    find(result, "points: snap", "half up");
+    find(result, "triangles: snap", "down");
+    find(result, "triangles: left side", "out");
+    find(result, "triangles: right side", "in");
+    find(result, "triangles: lower side", "out");
+    find(result, "triangles: upper side", "in");
+    find(result, "points: viewport", "fma(clip*(1/w), scale, offset)");
+    find(result, "triangles: viewport", "fma(clip*(1/w), scale, offset)");
+    const Profile profile = profile_from(result);
+    CHECK(profile.name == "generic");
+    CHECK(profile.not_followed.empty());
+    CHECK(profile.dot == DotOrder::left_to_right);
+    CHECK_FALSE(profile.flush_subnormals);
+    RasterRules expected;
+    expected.subpixel_bits = 4;
+    expected.point_snap = SnapRounding::half_up;
+    expected.vertex_snap = SnapRounding::down;
+    expected.viewport = ViewportRounding::fused;
+    expected.point_edge_to_lower = expected.left_edge_in = expected.lower_edge_in = false;
+    CHECK(profile.raster == expected);
+    CHECK(describe(profile) == "generic: dot (x + y) + z, division and roots rounded, subnormals kept, "
+                               "4 sub-pixel bits, points on an edge to the upper pixel");
+}
+
+TEST_CASE("profiles: of a sum that is nothing known the closest order is taken, and that is told") {
+    ProbeResult result = llvmpipe();
+    ProbeRow& dot = row(result, "dot(vec3)");
+    dot.finding = none_known;
+    dot.candidates = {{"(x+y)+z", 70, 9}, {"x+(y+z)", 40, 9}, {"fma(z,fma(y,x))", 50, 9}};
+    const Profile profile = profile_from(result);
+    CHECK(profile.name == "generic");
+    CHECK(profile.dot == DotOrder::left_to_right);
+    // The precise row is known, but is not what the other one comes closest to.
+    CHECK(profile.not_followed == std::vector<std::string>{"dot(vec3)", "dot(vec3), precise"});
+    CHECK_THAT(describe(profile), Catch::EndsWith("; not followed: dot(vec3), dot(vec3), precise"));
+}
+
+TEST_CASE("profiles: what the reference cannot follow is told, each by itself") {
+    const std::pair<const char*, const char*> odd[] = {
+        {"mat4*vec4, precise", "fma(x,fma(y,fma(z,w)))"},
+        {"mat4*vec4 written out, precise", "x+(y+(z+w))"},
+        {"x*x+y*y+z*z, precise", "x+(y+z)"},
+        {"a*b+c, precise", "fused"},
+        {"x*a+x*b, precise", "x*(a+b)"},
+        {"cross, precise", "fma(p,q,-r*s)"},
+        {"fragment a*b+c, precise", "fused"},
+        {"subnormal operand of *", "kept"},
+        {"subnormal result of +", "flushed to +0"},
+        {"subnormal > 0", "kept"},
+        {"subnormal passed on", "flushed"},
+        {"transform feedback order", "none known"},
+        {"points: edge in y", "upper pixel"},
+        {"triangles: sub-pixel bits", "4"},
+        {"triangles: right side", "in"},
+        {"triangles: upper side", "in"},
+        {"triangles: viewport", "fma(clip*(1/w), scale, offset)"},
+        {"points: depth", "rounded once"},
+        {"equal depth, LESS", "last wins"},
+    };
+    for (const auto& [name, finding] : odd) {
+        INFO(name);
+        ProbeResult result = llvmpipe();
+        find(result, name, finding);
+        const Profile profile = profile_from(result);
+        CHECK(profile.name == "generic");
+        CHECK(profile.not_followed == std::vector<std::string>{name});
+    }
+}
+
+TEST_CASE("profiles: NaN against a number is told as such") {
+    ProbeResult result = llvmpipe();
+    be_off(result, "sqrt", INT64_MAX);
+    CHECK_THAT(describe(profile_from(result)), Catch::Contains("ULP off: sqrt NaN"));
+}
+
+TEST_CASE("profiles: a probe without one of the rows is an error") {
+    ProbeResult result = llvmpipe();
+    result.rows.pop_back();
+    CHECK_THROWS_WITH(profile_from(result), "probe: there is no row 'equal depth, LESS'");
+}

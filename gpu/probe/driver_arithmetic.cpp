@@ -37,7 +37,7 @@ const float* data(const Vectors& v) { return glm::value_ptr(v.front()); }
 } // namespace
 
 DriverArithmetic::DriverArithmetic(bool precise)
-    : stage_("probe_arithmetic", {{"PRECISE", precise ? "precise" : ""}}, attributes(), outputs()) {}
+    : stage_("probe/arithmetic", {{"PRECISE", precise ? "precise" : ""}}, attributes(), outputs()) {}
 
 Floats DriverArithmetic::of_vectors(std::string_view attribute, const Vectors& v, std::string_view output) const {
     return stage_.run(v.size(), {{attribute, 3, data(v)}}, output);

@@ -6,7 +6,7 @@
 
 namespace lockstep::probing {
 
-/// GLSL's operations as the driver computes them in the vertex stage (shaders/probe_arithmetic.vert), as functions on
+/// GLSL's operations as the driver computes them in the vertex stage (shaders/probe/arithmetic.vert), as functions on
 /// arrays. What one returns may go into the next, so that a sequence can be followed with the driver's own parts.
 class DriverArithmetic {
   public:

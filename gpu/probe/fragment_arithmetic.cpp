@@ -45,7 +45,7 @@ void measure_fragment_arithmetic(Rows& rows) {
     const GlTexture sums = make_texture(rgba32f, side, side, nullptr);
     const GlTexture* sources[] = {&a_texture, &b_texture};
     const GlTexture* targets[] = {&scalars, &sums};
-    ImageStage("probe_fragment").run(side, side, sources, targets);
+    ImageStage("probe/fragment").run(side, side, sources, targets);
     const auto scalar = read_texture<float>(scalars, rgba32f, texels * 4);
     const auto sum = read_texture<float>(sums, rgba32f, texels * 4);
 

@@ -7,7 +7,7 @@ namespace {
 
 Program link(const std::string& fragment_shader) {
     const ShaderFolders folders = shader_folders();
-    const ShaderSource stages[] = {load_stage(folders, "probe_image", Stage::vertex),
+    const ShaderSource stages[] = {load_stage(folders, "probe/image", Stage::vertex),
                                    load_stage(folders, fragment_shader, Stage::fragment)};
     return {fragment_shader, stages};
 }

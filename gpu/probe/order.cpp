@@ -5,7 +5,7 @@ namespace lockstep::probing {
 
 void measure_order(Rows& rows) {
     constexpr std::size_t points = 65536;
-    const VertexStage stage("probe_order", {}, {{"a_Index", 1}}, {{"out_Index", GL_FLOAT}}, true);
+    const VertexStage stage("probe/order", {}, {{"a_Index", 1}}, {{"out_Index", GL_FLOAT}}, true);
     Floats in_order(points);
     for (std::size_t i = 0; i < points; ++i)
         in_order[i] = static_cast<float>(i);

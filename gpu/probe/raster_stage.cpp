@@ -10,13 +10,13 @@ namespace {
 
 Program link(Primitive primitive, bool geometry) {
     const ShaderFolders folders = shader_folders();
-    std::vector<ShaderSource> stages{load_stage(folders, "probe_raster", Stage::vertex,
+    std::vector<ShaderSource> stages{load_stage(folders, "probe/raster", Stage::vertex,
                                                 geometry ? ShaderDefines{{"WITH_GEOMETRY", "1"}} : ShaderDefines{})};
     if (geometry)
         stages.push_back(
-            load_stage(folders, primitive == Primitive::points ? "probe_points" : "probe_triangles", Stage::geometry));
-    stages.push_back(load_stage(folders, "probe_raster", Stage::fragment));
-    return {"probe_raster", stages};
+            load_stage(folders, primitive == Primitive::points ? "probe/points" : "probe/triangles", Stage::geometry));
+    stages.push_back(load_stage(folders, "probe/raster", Stage::fragment));
+    return {"probe/raster", stages};
 }
 
 } // namespace
@@ -64,7 +64,7 @@ void RasterStage::draw(std::span<const RasterVertex> vertices) const {
     gl::DrawArrays(primitive_ == Primitive::points ? GL_POINTS : GL_TRIANGLES, 0,
                    static_cast<GLsizei>(vertices.size()));
     gl::BindVertexArray(0);
-    check_gl("probe_raster");
+    check_gl("probe/raster");
 }
 
 } // namespace lockstep::probing

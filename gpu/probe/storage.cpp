@@ -170,10 +170,10 @@ void measure_outside(const VertexStage& fetch, Rows& rows) {
 } // namespace
 
 void measure_storage(Rows& rows) {
-    const ImageStage store("probe_store");
+    const ImageStage store("probe/store");
     measure_half_store(store, rows);
     measure_unorm_store(store, rows);
-    const VertexStage fetch("probe_fetch", {}, {{"a_Texel", 2}}, {{"out_Texel", GL_FLOAT_VEC4}});
+    const VertexStage fetch("probe/fetch", {}, {{"a_Texel", 2}}, {{"out_Texel", GL_FLOAT_VEC4}});
     measure_loads(fetch, rows);
     measure_outside(fetch, rows);
 }

@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
+#include "gpu/probe/driver_arithmetic.hpp"
 #include "gpu/probe/rows.hpp"
 #include "reference/model/error.hpp"
 
@@ -32,13 +33,14 @@ ProbeResult probe(const Context& context, const ProbeOptions& options) {
     result.context = context.describe();
     if (!result.context.precise)
         throw Error("probe: the context's GLSL has no `precise`; GL 4.0 or GL_ARB_gpu_shader5 has");
-    probing::measure_vertex_arithmetic(options.inputs, result.rows);
+    const probing::DriverArithmetic plain(false);
+    probing::measure_vertex_arithmetic(plain, options.inputs, result.rows);
     probing::measure_fragment_arithmetic(result.rows);
     probing::measure_storage(result.rows);
     probing::measure_order(result.rows);
     probing::measure_snapping(result.rows);
-    probing::measure_viewport(result.rows);
-    probing::measure_depth(result.rows);
+    probing::measure_viewport(plain, result.rows);
+    probing::measure_depth(plain, result.rows);
     result.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
     return result;
 }

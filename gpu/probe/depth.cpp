@@ -1,5 +1,6 @@
 #include <cmath>
 
+#include "gpu/probe/driver_arithmetic.hpp"
 #include "gpu/probe/raster_stage.hpp"
 #include "gpu/probe/rows.hpp"
 #include "reference/model/random.hpp"
@@ -15,28 +16,39 @@ glm::vec4 centre(int pixel, float z, float w) {
     return {x, y, z, w};
 }
 
-void measure_window_depth(const IdImage& image, bool geometry, Rows& rows) {
+void measure_window_depth(const DriverArithmetic& gl, const IdImage& image, Rows& rows) {
     Random random(51, 0);
+    Floats z, w;
     std::vector<RasterVertex> vertices;
-    Floats by_reciprocal, by_quotient, fused, once;
     for (int pixel = 0; pixel < side * side; ++pixel) {
-        const auto w = static_cast<float>(1.0 + 7.0 * random.unit());
-        const float z = static_cast<float>(random.symmetric()) * w * 0.9375F;
-        vertices.push_back({centre(pixel, z, w), static_cast<float>(pixel)});
-        by_reciprocal.push_back(z * (1.0F / w) * 0.5F + 0.5F);
-        by_quotient.push_back(z / w * 0.5F + 0.5F);
-        fused.push_back(std::fma(z * 0.5F, 1.0F / w, 0.5F));
-        once.push_back(static_cast<float>(double{z} / double{w} * 0.5 + 0.5));
+        w.push_back(static_cast<float>(1.0 + 7.0 * random.unit()));
+        z.push_back(static_cast<float>(random.symmetric()) * w.back() * 0.9375F);
+        vertices.push_back({centre(pixel, z.back(), w.back()), static_cast<float>(pixel)});
     }
-    image.clear();
+    const Floats r = gl.reciprocal(w);
+    const auto depths = [&](auto depth) {
+        Floats values(z.size());
+        for (std::size_t i = 0; i < z.size(); ++i)
+            values[i] = depth(z[i], w[i], r[i]);
+        return values;
+    };
+    using F = float;
+    const std::vector<Prediction<float>> predictions{
+        {"(clip*(1/w))*0.5 + 0.5", depths([](F c, F v, F) { return c * (1.0F / v) * 0.5F + 0.5F; })},
+        {"(clip/w)*0.5 + 0.5", depths([](F c, F v, F) { return c / v * 0.5F + 0.5F; })},
+        {"fma(clip*0.5, 1/w, 0.5)", depths([](F c, F v, F) { return std::fma(c * 0.5F, 1.0F / v, 0.5F); })},
+        {"(clip*r)*0.5 + 0.5, r the driver's 1/w", depths([](F c, F, F y) { return c * y * 0.5F + 0.5F; })},
+        {"fma(clip*0.5, r, 0.5)", depths([](F c, F, F y) { return std::fma(c * 0.5F, y, 0.5F); })},
+        {"rounded once", depths([](F c, F v, F) { return static_cast<F>(double{c} / double{v} * 0.5 + 0.5); })},
+    };
     gl::Enable(GL_DEPTH_TEST);
     gl::DepthFunc(GL_LESS);
-    RasterStage(Primitive::points, geometry).draw(vertices);
-    rows.push_back(judge(geometry ? "points: depth" : "points: depth, no geometry stage", image.depths(),
-                         {{"(clip*(1/w))*0.5 + 0.5", by_reciprocal},
-                          {"(clip/w)*0.5 + 0.5", by_quotient},
-                          {"fma(clip*0.5, 1/w, 0.5)", fused},
-                          {"rounded once", once}}));
+    for (const bool geometry : {true, false}) {
+        image.clear();
+        RasterStage(Primitive::points, geometry).draw(vertices);
+        rows.push_back(
+            judge(geometry ? "points: depth" : "points: depth, no geometry stage", image.depths(), predictions));
+    }
 }
 
 void measure_equal_depth(const IdImage& image, const RasterStage& stage, GLenum function, const char* name,
@@ -61,10 +73,9 @@ void measure_equal_depth(const IdImage& image, const RasterStage& stage, GLenum 
 
 } // namespace
 
-void measure_depth(Rows& rows) {
+void measure_depth(const DriverArithmetic& plain, Rows& rows) {
     const IdImage image(side, side);
-    for (const bool geometry : {true, false})
-        measure_window_depth(image, geometry, rows);
+    measure_window_depth(plain, image, rows);
     const RasterStage stage(Primitive::points, true);
     measure_equal_depth(image, stage, GL_LESS, "equal depth, LESS", rows);
     measure_equal_depth(image, stage, GL_LEQUAL, "equal depth, LEQUAL", rows);

@@ -6,12 +6,14 @@
 
 namespace lockstep::probing {
 
+class DriverArithmetic;
+
 using Rows = std::vector<ProbeRow>;
 
 // Each measures its rows in the current context and appends them. Names ending in ", precise": with the qualifier.
 
-/// Sums, products, quotients and roots in the vertex stage, and subnormals there.
-void measure_vertex_arithmetic(std::size_t inputs, Rows& rows);
+/// Sums, products, quotients and roots in the vertex stage, and subnormals there. `plain`: without the qualifier.
+void measure_vertex_arithmetic(const DriverArithmetic& plain, std::size_t inputs, Rows& rows);
 
 /// The same operations in the fragment stage, as far as the passes have them there.
 void measure_fragment_arithmetic(Rows& rows);
@@ -25,10 +27,11 @@ void measure_order(Rows& rows);
 /// Sub-pixel grid, rounding to it, and who owns what lies on an edge: points and triangles.
 void measure_snapping(Rows& rows);
 
-/// Perspective divide and viewport transform, with and without a geometry stage. Needs measure_snapping's rows.
-void measure_viewport(Rows& rows);
+/// Perspective divide and viewport transform, with and without a geometry stage. Needs measure_snapping's rows, and
+/// `plain` for the driver's own 1 / w.
+void measure_viewport(const DriverArithmetic& plain, Rows& rows);
 
 /// The depth a point gets, and which of two equal ones stays.
-void measure_depth(Rows& rows);
+void measure_depth(const DriverArithmetic& plain, Rows& rows);
 
 } // namespace lockstep::probing

@@ -233,18 +233,17 @@ void measure_subnormals(const DriverArithmetic& gl, Rows& rows) {
 
 } // namespace
 
-void measure_vertex_arithmetic(std::size_t inputs, Rows& rows) {
-    for (const bool precise : {false, true}) {
-        const DriverArithmetic gl(precise);
-        const std::string qualifier = precise ? ", precise" : "";
+void measure_vertex_arithmetic(const DriverArithmetic& plain, std::size_t inputs, Rows& rows) {
+    const auto measure = [&](const DriverArithmetic& gl, const std::string& qualifier) {
         measure_sums(gl, qualifier, inputs, rows);
         measure_roots(gl, qualifier, inputs, rows);
         measure_directions(gl, qualifier, inputs, rows);
-        if (!precise)
-            measure_transcendental(gl, inputs, rows);
-        else
-            measure_subnormals(gl, rows);
-    }
+    };
+    measure(plain, "");
+    measure_transcendental(plain, inputs, rows);
+    const DriverArithmetic precise(true);
+    measure(precise, ", precise");
+    measure_subnormals(precise, rows);
 }
 
 } // namespace lockstep::probing

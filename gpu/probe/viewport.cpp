@@ -1,7 +1,9 @@
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <string>
 
+#include "gpu/probe/driver_arithmetic.hpp"
 #include "gpu/probe/raster_stage.hpp"
 #include "gpu/probe/rows.hpp"
 #include "gpu/probe/snap.hpp"
@@ -12,33 +14,61 @@ namespace {
 
 constexpr int side = 500; // not a power of two: products with half of it round
 
+/// What a vertex gives, and the driver's own 1 / w.
+struct Projected {
+    float clip, w, driver_reciprocal;
+};
+
 struct Transform {
     const char* name;
-    float (*window)(float clip, float w, float scale, float offset);
+    double (*window)(const Projected& p, float scale, float offset);
 };
+
+double rounded(float x) { return static_cast<double>(x); }
+
+double not_rounded(const Projected& p, float s, float o) {
+    return double{p.clip} / double{p.w} * double{s} + double{o};
+}
 
 // clang-format off
 constexpr Transform transforms[] = {
-    {"(clip*(1/w))*scale + offset", [](float c, float w, float s, float o) { return (c * (1.0F / w)) * s + o; }},
-    {"fma(clip*(1/w), scale, offset)", [](float c, float w, float s, float o) { return std::fma(c * (1.0F / w), s, o); }},
-    {"(clip/w)*scale + offset", [](float c, float w, float s, float o) { return (c / w) * s + o; }},
-    {"fma(clip/w, scale, offset)", [](float c, float w, float s, float o) { return std::fma(c / w, s, o); }},
-    {"(clip*scale)*(1/w) + offset", [](float c, float w, float s, float o) { return (c * s) * (1.0F / w) + o; }},
-    {"fma(clip*scale, 1/w, offset)", [](float c, float w, float s, float o) { return std::fma(c * s, 1.0F / w, o); }},
-    {"rounded once", [](float c, float w, float s, float o) {
-        return static_cast<float>(double{c} / double{w} * double{s} + double{o}); }},
+    {"(clip*(1/w))*scale + offset", [](const Projected& p, float s, float o) {
+        return rounded((p.clip * (1.0F / p.w)) * s + o); }},
+    {"fma(clip*(1/w), scale, offset)", [](const Projected& p, float s, float o) {
+        return rounded(std::fma(p.clip * (1.0F / p.w), s, o)); }},
+    {"(clip/w)*scale + offset", [](const Projected& p, float s, float o) { return rounded((p.clip / p.w) * s + o); }},
+    {"fma(clip/w, scale, offset)", [](const Projected& p, float s, float o) {
+        return rounded(std::fma(p.clip / p.w, s, o)); }},
+    {"(clip*r)*scale + offset, r the driver's 1/w", [](const Projected& p, float s, float o) {
+        return rounded((p.clip * p.driver_reciprocal) * s + o); }},
+    {"fma(clip*r, scale, offset)", [](const Projected& p, float s, float o) {
+        return rounded(std::fma(p.clip * p.driver_reciprocal, s, o)); }},
+    {"(clip*scale)*(1/w) + offset", [](const Projected& p, float s, float o) {
+        return rounded((p.clip * s) * (1.0F / p.w) + o); }},
+    {"fma(clip*scale, 1/w, offset)", [](const Projected& p, float s, float o) {
+        return rounded(std::fma(p.clip * s, 1.0F / p.w, o)); }},
+    {"fma(clip*scale, r, offset)", [](const Projected& p, float s, float o) {
+        return rounded(std::fma(p.clip * s, p.driver_reciprocal, o)); }},
+    {"rounded once", [](const Projected& p, float s, float o) {
+        return rounded(static_cast<float>(not_rounded(p, s, o))); }},
+    {"not rounded", not_rounded},
 };
 // clang-format on
 
 /// An input on which the transforms do not all lead to the same pixel.
 struct Discriminating {
     int column, row; ///< of the pixel in question
-    float clip, w;
+    Projected x;
 };
 
-/// One for every row of every other column, as far as random w and the floats round the place where the pixel changes
-/// give one. `decide` is the answer a window coordinate leads to; `place` within the pixel is where it changes.
-template <class Decide> std::vector<Discriminating> search(double place, const Decide& decide) {
+/// Whether a window coordinate leads to pixel `column` being covered; it changes at `change` pixels from its left side.
+struct Question {
+    double change;
+    std::function<bool(int column, double window)> covered;
+};
+
+/// Floats round the place where the answer changes, at random w, some a column and row.
+std::vector<Discriminating> search(const Question& question) {
     std::vector<Discriminating> found;
     Random random(41, 0);
     const float half = side / 2.0F;
@@ -46,91 +76,79 @@ template <class Decide> std::vector<Discriminating> search(double place, const D
         for (int column = 4; column < side - 4; column += 12)
             for (int attempt = 0; attempt < 8; ++attempt) {
                 const auto w = static_cast<float>(1.0 + 7.0 * random.unit());
-                const double ndc = (column + place - side / 2.0) / (side / 2.0);
-                float clip = static_cast<float>(ndc * static_cast<double>(w));
-                clip *= 1.0F + static_cast<float>(random.symmetric()) * 0x1p-22F;
+                const double ndc = (column + question.change - side / 2.0) / (side / 2.0);
+                const float nearby = 1.0F + static_cast<float>(random.symmetric()) * 0x1p-22F;
+                const Projected x{static_cast<float>(ndc * static_cast<double>(w)) * nearby, w, 1.0F / w};
                 const auto answer = [&](const Transform& t) {
-                    return decide(column, static_cast<double>(t.window(clip, w, half, half)));
+                    return question.covered(column, t.window(x, half, half));
                 };
-                const int first = answer(transforms[0]);
+                const bool first = answer(transforms[0]);
                 if (std::all_of(std::begin(transforms), std::end(transforms),
                                 [&](const Transform& t) { return answer(t) == first; }))
                     continue;
-                found.push_back({column, row, clip, w});
+                found.push_back({column, row, x});
                 break;
             }
     return found;
+}
+
+void take_reciprocals(const DriverArithmetic& gl, std::vector<Discriminating>& inputs) {
+    Floats w;
+    for (const Discriminating& input : inputs)
+        w.push_back(input.x.w);
+    const Floats reciprocals = gl.reciprocal(w);
+    for (std::size_t i = 0; i < inputs.size(); ++i)
+        inputs[i].x.driver_reciprocal = reciprocals[i];
 }
 
 float to_clip(double window, float w) {
     return static_cast<float>((window / (side / 2.0) - 1.0) * static_cast<double>(w));
 }
 
-template <class Decide> void judge_transforms(const std::string& name, const std::vector<Discriminating>& inputs,
-                                              const std::vector<int>& measured, const Decide& decide, Rows& rows) {
+std::vector<RasterVertex> points(const std::vector<Discriminating>& inputs) {
+    std::vector<RasterVertex> vertices;
+    for (const auto& [column, row, x] : inputs)
+        vertices.push_back({{x.clip, to_clip(row + 0.5, x.w), 0.0F, x.w}, static_cast<float>(vertices.size())});
+    return vertices;
+}
+
+/// Each with an upright left side.
+std::vector<RasterVertex> triangles(const std::vector<Discriminating>& inputs) {
+    std::vector<RasterVertex> vertices;
+    for (const auto& [column, row, x] : inputs) {
+        const auto id = static_cast<float>(vertices.size() / 3);
+        vertices.push_back({{x.clip, to_clip(row + 0.1, x.w), 0.0F, x.w}, id});
+        vertices.push_back({{to_clip(column + 2.25, x.w), to_clip(row + 0.5, x.w), 0.0F, x.w}, id});
+        vertices.push_back({{x.clip, to_clip(row + 0.9, x.w), 0.0F, x.w}, id});
+    }
+    return vertices;
+}
+
+void measure(Primitive primitive, const DriverArithmetic& gl, const IdImage& image, const Question& question,
+             Rows& rows) {
+    auto inputs = search(question);
+    take_reciprocals(gl, inputs);
     std::vector<Prediction<int>> predictions;
     for (const Transform& transform : transforms) {
         std::vector<int> values;
-        for (const Discriminating& input : inputs)
-            values.push_back(decide(
-                input.column, static_cast<double>(transform.window(input.clip, input.w, side / 2.0F, side / 2.0F))));
+        for (const auto& [column, row, x] : inputs)
+            values.push_back(question.covered(column, transform.window(x, side / 2.0F, side / 2.0F)) ? 1 : 0);
         predictions.push_back({transform.name, std::move(values)});
     }
-    rows.push_back(judge(name, measured, predictions));
-}
-
-const char* suffix(bool geometry) { return geometry ? "" : ", no geometry stage"; }
-
-/// A point by the lower edge of its pixel: is it that pixel?
-void measure_points(const IdImage& image, const Snap& snap, bool to_lower, Rows& rows) {
-    const auto decide = [&](int column, double window) {
-        return point_pixel(window, snap, to_lower) == column ? 1 : 0;
-    };
-    const double half_unit = std::ldexp(0.5, -snap.bits);
-    const auto inputs = search(to_lower ? half_unit : -half_unit, decide);
-    std::vector<RasterVertex> vertices;
-    for (std::size_t i = 0; i < inputs.size(); ++i)
-        vertices.push_back(
-            {{inputs[i].clip, to_clip(inputs[i].row + 0.5, inputs[i].w), 0.0F, inputs[i].w}, static_cast<float>(i)});
+    const bool of_points = primitive == Primitive::points;
+    const auto vertices = of_points ? points(inputs) : triangles(inputs);
     for (const bool geometry : {true, false}) {
         image.clear();
-        RasterStage(Primitive::points, geometry).draw(vertices);
+        RasterStage(primitive, geometry).draw(vertices);
         const Floats ids = image.ids();
         std::vector<int> measured;
-        for (std::size_t i = 0; i < inputs.size(); ++i)
-            measured.push_back(
-                ids[static_cast<std::size_t>(inputs[i].row * side + inputs[i].column)] == static_cast<float>(i) ? 1
-                                                                                                                : 0);
-        judge_transforms(std::string("points: viewport") + suffix(geometry), inputs, measured, decide, rows);
-    }
-}
-
-/// A triangle with an upright left side by the centre of a pixel: does it cover that pixel?
-void measure_triangles(const IdImage& image, const Snap& snap, bool left_in, Rows& rows) {
-    const auto decide = [&](int column, double window) {
-        const std::int64_t centre = std::int64_t{column} << snap.bits;
-        return snap(window) < centre + (left_in ? 1 : 0) ? 1 : 0;
-    };
-    const double half_unit = std::ldexp(0.5, -snap.bits);
-    const auto inputs = search(left_in ? 0.5 + half_unit : 0.5 - half_unit, decide);
-    std::vector<RasterVertex> vertices;
-    for (std::size_t i = 0; i < inputs.size(); ++i) {
-        const auto& [column, row, clip, w] = inputs[i];
-        const auto id = static_cast<float>(i);
-        vertices.push_back({{clip, to_clip(row + 0.1, w), 0.0F, w}, id});
-        vertices.push_back({{to_clip(column + 2.25, w), to_clip(row + 0.5, w), 0.0F, w}, id});
-        vertices.push_back({{clip, to_clip(row + 0.9, w), 0.0F, w}, id});
-    }
-    for (const bool geometry : {true, false}) {
-        image.clear();
-        RasterStage(Primitive::triangles, geometry).draw(vertices);
-        const Floats ids = image.ids();
-        std::vector<int> measured;
-        for (std::size_t i = 0; i < inputs.size(); ++i)
-            measured.push_back(
-                ids[static_cast<std::size_t>(inputs[i].row * side + inputs[i].column)] == static_cast<float>(i) ? 1
-                                                                                                                : 0);
-        judge_transforms(std::string("triangles: viewport") + suffix(geometry), inputs, measured, decide, rows);
+        for (std::size_t i = 0; i < inputs.size(); ++i) {
+            const auto pixel = static_cast<std::size_t>(inputs[i].row * side + inputs[i].column);
+            measured.push_back(ids[pixel] == static_cast<float>(i) ? 1 : 0);
+        }
+        rows.push_back(judge(std::string(of_points ? "points" : "triangles") + ": viewport" +
+                                 (geometry ? "" : ", no geometry stage"),
+                             measured, predictions));
     }
 }
 
@@ -141,11 +159,28 @@ bool found(const Rows& rows, std::string_view name, std::string_view finding) {
 
 } // namespace
 
-void measure_viewport(Rows& rows) {
+void measure_viewport(const DriverArithmetic& plain, Rows& rows) {
     const IdImage image(side, side);
     gl::Disable(GL_DEPTH_TEST);
-    measure_points(image, found_snap(rows, "points"), !found(rows, "points: edge in x", "upper pixel"), rows);
-    measure_triangles(image, found_snap(rows, "triangles"), !found(rows, "triangles: left side", "out"), rows);
+
+    const Snap point_snap = found_snap(rows, "points");
+    const bool to_lower = !found(rows, "points: edge in x", "upper pixel");
+    const double point_unit = std::ldexp(1.0, -point_snap.bits);
+    measure(Primitive::points, plain, image,
+            {to_lower ? point_unit / 2 : -point_unit / 2,
+             [&](int column, double window) { return point_pixel(window, point_snap, to_lower) == column; }},
+            rows);
+
+    const Snap corner_snap = found_snap(rows, "triangles");
+    const bool left_in = !found(rows, "triangles: left side", "out");
+    const double corner_unit = std::ldexp(1.0, -corner_snap.bits);
+    measure(Primitive::triangles, plain, image,
+            {left_in ? 0.5 + corner_unit / 2 : 0.5 - corner_unit / 2,
+             [&](int column, double window) {
+                 const std::int64_t centre = std::int64_t{column} << corner_snap.bits;
+                 return corner_snap(window) < centre + (left_in ? 1 : 0);
+             }},
+            rows);
 }
 
 } // namespace lockstep::probing

@@ -39,6 +39,10 @@ void check_rows(const ProbeResult& result, bool fused) {
     CHECK(result.rows.size() == std::size(test::llvmpipe_rows) + std::size(test::processor_rows));
 }
 
+bool uses_own_reciprocal(const std::string& candidate) {
+    return candidate.find("*r") != std::string::npos || candidate.find(", r,") != std::string::npos;
+}
+
 bool has_fused(const ProbeResult& result) {
     return result.row(test::processor_rows[0].name).finding == test::processor_rows[0].fused;
 }
@@ -97,8 +101,8 @@ TEST_CASE("probe: tells sequences apart") {
     if (!context)
         return;
     const ProbeResult result = probe(*context);
-    // Here only one candidate may explain everything, or the finding would be a matter of their order. Other rows have
-    // candidates made of the driver's own results, which are the rounded ones where it rounds correctly.
+    // Only one candidate may explain everything, or the finding would be a matter of their order. Not asked of those
+    // made of r, the driver's own reciprocal, which is the rounded one where the driver divides correctly.
     for (const char* name :
          {"dot(vec3)", "mat4*vec4", "a*b+c", "x*a+x*b", "cross", "fma", "unorm8 to float", "float to half",
           "float to unorm8", "points: snap", "points: sub-pixel bits", "triangles: sub-pixel bits",
@@ -108,7 +112,7 @@ TEST_CASE("probe: tells sequences apart") {
         if (row.finding == none_known)
             continue;
         for (const ProbeCandidate& other : row.candidates)
-            if (other.name != row.finding) {
+            if (other.name != row.finding && !uses_own_reciprocal(other.name)) {
                 INFO(other.name);
                 CHECK(other.matched < row.total);
             }

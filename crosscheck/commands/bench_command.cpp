@@ -42,20 +42,26 @@ struct Timing {
     CheckReport report;
 };
 
-Timing time_run(const Scene& scene, const Profile& profile, const Options& options) {
-    GpuSimulation gpu(scene, options.run.shaders);
-    for (int frame = 0; frame < options.warm_up; ++frame)
-        gpu.step(frame_params(scene, frame));
+/// GL frames from the scene's start, without any check.
+void time_alone(GpuSimulation& gpu, const Scene& scene, int frames, std::vector<double>& wall,
+                std::vector<double>& timer) {
     gpu.upload(scene.start, CollisionImage(scene.width, scene.height));
-    std::vector<double> alone, timed;
-    for (int frame = 0; frame < options.run.frames; ++frame) {
+    for (int frame = 0; frame < frames; ++frame) {
         const FrameParams params = frame_params(scene, frame);
         const double start = now();
         gpu.step(params);
-        alone.push_back(now() - start);
-        timed.push_back(gpu.frame_seconds());
+        wall.push_back(now() - start);
+        timer.push_back(gpu.frame_seconds());
     }
-    std::vector<double> checked;
+}
+
+/// The GL frames alone run before and after the checked ones, so that a machine that warms up or slows down shows on
+/// both sides of the ratio.
+Timing time_run(const Scene& scene, const Profile& profile, const Options& options) {
+    GpuSimulation gpu(scene, options.run.shaders);
+    std::vector<double> alone, timer, checked, reference, ignored;
+    time_alone(gpu, scene, options.warm_up, ignored, ignored);
+    time_alone(gpu, scene, options.run.frames, alone, timer);
     double last = 0.0;
     CheckOptions check_options;
     check_options.frames = options.run.frames;
@@ -64,15 +70,14 @@ Timing time_run(const Scene& scene, const Profile& profile, const Options& optio
         checked.push_back(now() - last);
         last = now();
     };
-    gpu.upload(scene.start, CollisionImage(scene.width, scene.height));
     last = now();
     Timing timing;
     timing.report = check(scene, profile, gpu, check_options);
-    std::vector<double> reference;
     for (const FrameTimes& times : timing.report.times)
         reference.push_back(times.reference);
+    time_alone(gpu, scene, options.run.frames, alone, timer);
     timing.gl = median(alone);
-    timing.timer = median(timed);
+    timing.timer = median(timer);
     timing.check = median(checked);
     timing.reference = median(reference);
     return timing;

@@ -6,6 +6,14 @@
 
 namespace lockstep {
 
+/// State of one particle.
+struct ParticleState {
+    glm::vec3 position{0.0F};
+    glm::vec3 direction{0.0F};
+    float speed = 0.0F;
+    float collide_time = 0.0F;
+};
+
 /// State of all particles, one array a field; index i is particle i on both sides (spec, "State of a particle").
 struct Particles {
     std::vector<glm::vec3> position;  ///< world units
@@ -14,6 +22,15 @@ struct Particles {
     std::vector<float> collide_time;  ///< seconds; a particle searches only while it is negative
 
     [[nodiscard]] std::size_t size() const { return position.size(); }
+    [[nodiscard]] ParticleState operator[](std::size_t i) const {
+        return {position[i], direction[i], speed[i], collide_time[i]};
+    }
+    void set(std::size_t i, const ParticleState& state) {
+        position[i] = state.position;
+        direction[i] = state.direction;
+        speed[i] = state.speed;
+        collide_time[i] = state.collide_time;
+    }
     void resize(std::size_t count) {
         position.resize(count);
         direction.resize(count);

@@ -1,0 +1,34 @@
+#pragma once
+#include "reference/deviation.hpp"
+#include "reference/model/image.hpp"
+#include "reference/model/particles.hpp"
+#include "reference/model/profile.hpp"
+#include "reference/model/scene.hpp"
+#include "reference/step_trace.hpp"
+
+namespace lockstep {
+
+/// What a frame starts from, and what a host that mixes up its buffers may take instead. Pointers may be null where
+/// there is nothing (before the first frame): a deviation that needs it then changes nothing.
+struct FrameInputs {
+    const Particles* before = nullptr;
+    const CollisionImage* cdt = nullptr;
+    const FrameParams* params = nullptr;
+    const Particles* earlier = nullptr;          ///< before the frame before
+    const CollisionImage* earlier_cdt = nullptr; ///< read by the frame before
+    const FrameParams* earlier_params = nullptr;
+    const CollisionImage* drawn_cdt = nullptr; ///< drawn by this frame
+};
+
+/// Particle `i` after the vertex stage of collision_pass.hpp with the deviations made; without any, its very bits.
+/// `trace`: filled in if not null.
+ParticleState deviating_step(const FrameInputs& inputs, std::size_t i, const Profile& profile,
+                             const Deviations& deviations, StepTrace* trace = nullptr);
+
+/// Draws `after` with the deviations made, on top of the obstacles' `cdt` and `depth`; without any, what
+/// rasterise_particles draws. `obstacles_cdt` and depth: the CDT with nothing but the obstacles.
+void deviating_draw(const FrameInputs& inputs, const Particles& after, const Profile& profile,
+                    const Deviations& deviations, const CollisionImage& obstacles_cdt,
+                    const DepthImage& obstacles_depth, CollisionImage& cdt);
+
+} // namespace lockstep

@@ -1,0 +1,51 @@
+#pragma once
+#include <cstddef>
+#include <span>
+#include <vector>
+
+#include "reference/legal_outcomes.hpp"
+#include "reference/model/image.hpp"
+#include "reference/model/mesh.hpp"
+#include "reference/model/particles.hpp"
+#include "reference/model/profile.hpp"
+#include "reference/model/scene.hpp"
+
+namespace lockstep {
+
+/// Who may have been drawn to a texel last.
+struct TexelOwner {
+    enum class Kind { nothing, obstacle, particle };
+    Kind kind = Kind::nothing;
+    std::size_t index = 0;        ///< particle; triangle or vertex of the obstacles
+    glm::vec4 code{0.0F};         ///< what it stores (image.hpp)
+    glm::vec3 tolerance{0.0F};    ///< by how much a code of an obstacle's interpolated position may differ
+    bool is_reference = false;    ///< the one that the reference leaves here
+    float reference_depth = 1.0F; ///< as the reference computes it
+    bool sure = true;             ///< drawn to this texel whatever the rounding
+    double edge_margin = 0.0;   ///< its point, or the texel's centre and its triangle's side: 1/256 pixel to the border
+    Interval depth{1.0F, 1.0F}; ///< window depth
+
+    [[nodiscard]] bool stores(glm::vec4 texel) const;
+};
+
+/// The owners of one texel that GL allows, never none. With more than one, rounding decides.
+struct LegalTexel {
+    std::vector<TexelOwner> owners;
+
+    /// The legal owner that stores these bits, the reference's first; null: nobody legal does.
+    [[nodiscard]] const TexelOwner* owner_of(glm::vec4 texel) const;
+    /// Why it may win against the one the reference draws.
+    [[nodiscard]] std::vector<Tie> ties(const TexelOwner& owner) const;
+};
+
+/// For each of `texels` (indices into the CDT), who may own it after `after` was drawn over the obstacles: points whose
+/// window position may fall there, triangles whose sides pass the texel's centre, depths that rounding can swap.
+/// Where points are known, exactly what the reference draws.
+///
+/// The window position errs by a shader's division and the viewport's two operations, then by one step of the sub-pixel
+/// grid; that is tighter than GL's own 1 part in 10^5 (4.5, 2.3.4.1).
+std::vector<LegalTexel> legal_texels(const Mesh& obstacles, const Particles& before, const Particles& after,
+                                     const FrameParams& params, const Profile& profile, const KnownOperations& known,
+                                     std::span<const std::size_t> texels);
+
+} // namespace lockstep

@@ -1,0 +1,95 @@
+#include <catch2/catch.hpp>
+
+#include <cmath>
+#include <limits>
+
+#include "reference/collision_pass.hpp"
+#include "reference/legal_outcomes.hpp"
+#include "tests/reference/collision_scenes.hpp"
+
+using namespace lockstep;
+using namespace lockstep::test;
+
+namespace {
+
+constexpr float inf = std::numeric_limits<float>::infinity();
+
+float up(float x, int ulps = 1) {
+    for (; ulps > 0; --ulps)
+        x = std::nextafter(x, inf);
+    return x;
+}
+
+bool admits(const std::vector<LegalOutcome>& outcomes, const ParticleState& state) {
+    for (const LegalOutcome& outcome : outcomes)
+        if (outcome.contains(state))
+            return true;
+    return false;
+}
+
+std::vector<LegalOutcome> outcomes_for(const RandomScene& scene, std::size_t i, const Profile& profile,
+                                       const KnownOperations& known, const ParticleState& observed) {
+    return legal_outcomes(scene.particles[i], scene.cdt, scene.params, profile, known, &observed);
+}
+
+float& component(ParticleState& s, int c) {
+    return c < 3 ? s.position[c] : c < 6 ? s.direction[c - 3] : c < 7 ? s.speed : s.collide_time;
+}
+
+} // namespace
+
+TEST_CASE("legal outcomes: where everything is measured, one outcome, the reference's bits alone") {
+    for (const char* preset_name : {"paper", "corrected", "exact"}) {
+        RandomScene scene = random_scene(3, 3000, 41, 33);
+        scene.params.switches = preset(preset_name);
+        const Profile profile = named_profile("llvmpipe");
+        Particles after;
+        update_particles(scene.particles, scene.cdt, scene.params, profile, after);
+        int undefined = 0;
+        for (std::size_t i = 0; i < after.size(); ++i) {
+            const auto outcomes = outcomes_for(scene, i, profile, measured_operations(profile), after[i]);
+            REQUIRE(outcomes.size() == 1);
+            CHECK(outcomes[0].contains(after[i]));
+            CHECK(outcomes[0].ties.empty());
+            if (outcomes[0].undefined != Undefined::none) {
+                ++undefined;
+                continue;
+            }
+            for (int c = 0; c < 8; ++c) {
+                ParticleState other = after[i];
+                component(other, c) = up(component(other, c));
+                CHECK_FALSE(admits(outcomes_for(scene, i, profile, measured_operations(profile), other), other));
+            }
+        }
+        CHECK((undefined > 0) == (std::string(preset_name) == "paper"));
+    }
+}
+
+TEST_CASE("legal outcomes: GLSL's rules allow every driver's arithmetic, and little more") {
+    const RandomScene scene = random_scene(5, 3000, 41, 33);
+    const Profile generic = named_profile("strict");
+    const KnownOperations glsl;
+    std::size_t largest = 0;
+    for (const char* driver : {"strict", "llvmpipe", "nvidia"}) {
+        Particles after;
+        update_particles(scene.particles, scene.cdt, scene.params, named_profile(driver), after);
+        int accepted_far = 0;
+        for (std::size_t i = 0; i < after.size(); ++i) {
+            const auto outcomes = outcomes_for(scene, i, generic, glsl, after[i]);
+            CHECK(admits(outcomes, after[i]));
+            largest = std::max(largest, outcomes.size());
+            for (int c = 0; c < 8; ++c) {
+                ParticleState other = after[i];
+                component(other, c) = up(component(other, c), 16);
+                accepted_far += admits(outcomes_for(scene, i, generic, glsl, other), other);
+                // The position is exact, given direction and speed; so is the collide time.
+                other = after[i];
+                component(other, c) = up(component(other, c));
+                if (c < 3 || c == 7)
+                    CHECK_FALSE(admits(outcomes_for(scene, i, generic, glsl, other), other));
+            }
+        }
+        CHECK(accepted_far == 0);
+    }
+    CHECK(largest <= 2);
+}

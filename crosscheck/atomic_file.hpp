@@ -1,19 +1,34 @@
 #pragma once
 #include <filesystem>
-#include <functional>
+#include <string>
 #include <string_view>
 
 namespace lockstep {
 
-/// Writes a file so that it is either whole or absent: `write` gets the path of a temporary file beside it, which is
-/// renamed when `write` returns and removed when it throws. Throws Error naming the path when that fails.
-void write_atomically(const std::filesystem::path& path,
-                      const std::function<void(const std::filesystem::path&)>& write);
+/// A file that is either whole or absent: the content goes to a temporary file beside it, which gets the name at
+/// commit(), or goes away. What is no regular file (a device, a pipe, a symbolic link) is written to in place, at
+/// commit(). Every function throws Error naming the path.
+class AtomicFile {
+  public:
+    /// Proves that the file can be written, without a change to it.
+    explicit AtomicFile(std::filesystem::path path);
+    ~AtomicFile();
+    AtomicFile(AtomicFile&&) noexcept;
+    AtomicFile& operator=(AtomicFile&&) = delete;
 
-/// The same for a text.
+    void write(std::string content);
+    void commit();
+
+    [[nodiscard]] const std::filesystem::path& path() const { return path_; }
+
+  private:
+    std::filesystem::path path_;
+    std::filesystem::path temporary_; ///< empty: there is none
+    std::string content_;             ///< of what is written in place
+    bool in_place_ = false;
+};
+
+/// One such file.
 void write_text_file(const std::filesystem::path& path, std::string_view text);
-
-/// Creates a directory for output and proves that it can be written to. Throws Error saying why not.
-void make_output_directory(const std::filesystem::path& directory);
 
 } // namespace lockstep

@@ -1,6 +1,6 @@
 #include "crosscheck/frame_images.hpp"
 
-#include <vector>
+#include <utility>
 
 #include "crosscheck/pictures.hpp"
 #include "crosscheck/png.hpp"
@@ -31,15 +31,15 @@ void FrameImages::keep(const ComparedFrame& frame) {
     gpu_cdt_ = frame.gpu_cdt;
 }
 
-void FrameImages::write(const std::filesystem::path& directory, const Scene& scene, const Profile& profile,
-                        const std::filesystem::path& shaders) const {
+void FrameImages::write(OutputFiles& files, const std::filesystem::path& directory, const Scene& scene,
+                        const Profile& profile, const std::filesystem::path& shaders) const {
     if (frame_ < 0)
         return;
     const FrameParams params = frame_params(scene, frame_);
     const ColorImage reference_frame = render_pass(reference_, scene.obstacles, params, profile);
     const ColorImage gpu_frame = render_on_gpu(gpu_, scene, params, shaders);
     const Box box = code_box(reference_cdt_);
-    const std::vector<std::pair<const char*, ColorImage>> pictures{
+    const std::pair<const char*, ColorImage> pictures[]{
         {"cdt_reference.png", picture(reference_cdt_, box)},
         {"cdt_gpu.png", picture(gpu_cdt_, box)},
         {"cdt_difference.png", difference_picture(reference_cdt_, gpu_cdt_)},
@@ -47,17 +47,8 @@ void FrameImages::write(const std::filesystem::path& directory, const Scene& sce
         {"frame_gpu.png", gpu_frame},
         {"frame_difference.png", difference_picture(reference_frame, gpu_frame)},
     };
-    std::vector<std::filesystem::path> written;
-    try {
-        for (const auto& [name, image] : pictures) {
-            write_png(directory / name, image);
-            written.push_back(directory / name);
-        }
-    } catch (...) {
-        for (const std::filesystem::path& path : written)
-            std::filesystem::remove(path);
-        throw;
-    }
+    for (const auto& [name, image] : pictures)
+        files.write(directory / name, png(image));
 }
 
 } // namespace lockstep

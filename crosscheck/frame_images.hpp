@@ -2,6 +2,7 @@
 #include <filesystem>
 
 #include "crosscheck/check.hpp"
+#include "crosscheck/output_files.hpp"
 
 namespace lockstep {
 
@@ -15,8 +16,8 @@ class FrameImages {
     void keep(const ComparedFrame& frame);
 
     /// Writes DIR/cdt_{reference,gpu,difference}.png and DIR/frame_{reference,gpu,difference}.png, the last three as
-    /// each side renders its own particles. All or none. Needs the current context.
-    void write(const std::filesystem::path& directory, const Scene& scene, const Profile& profile,
+    /// each side renders its own particles. Needs the current context.
+    void write(OutputFiles& files, const std::filesystem::path& directory, const Scene& scene, const Profile& profile,
                const std::filesystem::path& shaders) const;
 
   private:

@@ -2,7 +2,6 @@
 
 #include <fmt/format.h>
 
-#include "crosscheck/atomic_file.hpp"
 #include "reference/model/state_hash.hpp"
 
 namespace lockstep {
@@ -11,7 +10,5 @@ void HashFile::add(const ComparedFrame& f) {
     lines_ += fmt::format("{} {} {}\n", f.frame, hash_text(state_hash(f.reference, f.reference_cdt)),
                           hash_text(state_hash(f.gpu, f.gpu_cdt)));
 }
-
-void HashFile::write(const std::filesystem::path& path) const { write_text_file(path, lines_); }
 
 } // namespace lockstep

@@ -1,5 +1,4 @@
 #pragma once
-#include <filesystem>
 #include <string>
 
 #include "crosscheck/check.hpp"
@@ -11,7 +10,7 @@ namespace lockstep {
 class HashFile {
   public:
     void add(const ComparedFrame& frame);
-    void write(const std::filesystem::path& path) const;
+    [[nodiscard]] const std::string& text() const { return lines_; }
 
   private:
     std::string lines_;

@@ -1,9 +1,57 @@
+#include <algorithm>
+#include <cerrno>
 #include <cstdio>
+#include <cstring>
 #include <exception>
+#include <new>
+#include <string>
+#include <vector>
 
 #include <CLI/CLI.hpp>
+#include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include "crosscheck/commands/commands.hpp"
+#include "reference/model/error.hpp"
+
+namespace {
+
+std::string verbs(const CLI::App& app) {
+    std::vector<std::string> names;
+    for (const CLI::App* verb : app.get_subcommands({}))
+        names.push_back(verb->get_name());
+    return fmt::format("{}", fmt::join(names, ", "));
+}
+
+/// The library's own words are for programmers.
+std::string usage_error(const CLI::App& app, const CLI::Error& error) {
+    const bool verb_given = !app.get_subcommands().empty();
+    std::vector<std::string> unknown = app.remaining(true);
+    std::stable_partition(unknown.begin(), unknown.end(), [](const std::string& text) { return text[0] == '-'; });
+    if (!verb_given && unknown.empty())
+        return fmt::format("a verb is missing; the verbs are {}", verbs(app));
+    if (!unknown.empty() && unknown.front().starts_with('-'))
+        return fmt::format("unknown option '{}'", unknown.front());
+    if (!verb_given)
+        return fmt::format("unknown verb '{}'; the verbs are {}", unknown.front(), verbs(app));
+    if (!unknown.empty())
+        return fmt::format("'{}' is one argument too many", unknown.front());
+    const std::string text = error.what();
+    if (error.get_name() == "ArgumentMismatch") {
+        const std::string option = text.substr(0, text.find(':'));
+        const bool twice = text.find("received") != std::string::npos;
+        return fmt::format("{} {}", option, twice ? "is given more than once" : "needs a value");
+    }
+    return text;
+}
+
+/// A full disk behind standard output is found out only here.
+void flush_standard_output() {
+    if (std::fflush(stdout) != 0 || std::ferror(stdout) != 0)
+        throw lockstep::Error(fmt::format("standard output: cannot be written: {}", std::strerror(errno)));
+}
+
+} // namespace
 
 int main(int argc, char** argv) {
     using namespace lockstep;
@@ -11,8 +59,8 @@ int main(int argc, char** argv) {
                  "bit of every frame");
     app.name("lockstep");
     app.require_subcommand(1);
-    app.failure_message([](const CLI::App*, const CLI::Error& error) {
-        return "lockstep: " + std::string(error.what()) + " (lockstep --help tells more)\n";
+    app.failure_message([](const CLI::App* root, const CLI::Error& error) {
+        return fmt::format("lockstep: {} (lockstep --help tells more)\n", usage_error(*root, error));
     });
     int status = status_could_not_run;
     add_check_command(app, status);
@@ -23,8 +71,12 @@ int main(int argc, char** argv) {
     add_bench_command(app, status);
     try {
         app.parse(argc, argv);
+        flush_standard_output();
     } catch (const CLI::ParseError& error) {
         return app.exit(error) == 0 ? 0 : status_could_not_run;
+    } catch (const std::bad_alloc&) {
+        std::fputs("lockstep: not enough memory; fewer particles (--particles) or a smaller image need less\n", stderr);
+        return status_could_not_run;
     } catch (const std::exception& error) {
         std::fprintf(stderr, "lockstep: %s\n", error.what());
         return status_could_not_run;

@@ -5,8 +5,6 @@
 namespace lockstep {
 namespace {
 
-constexpr std::int64_t widest_neighbourhood = 64;
-
 struct ConstantInfo {
     std::string_view name;
     void (*set)(Constants&, const JsonValue&);

@@ -1,4 +1,5 @@
 #pragma once
+#include <cstdint>
 #include <span>
 #include <string_view>
 
@@ -6,6 +7,9 @@
 #include "reference/model/scene.hpp"
 
 namespace lockstep {
+
+/// Largest neighbourhood radius, texels.
+inline constexpr std::int64_t widest_neighbourhood = 64;
 
 /// The names scene files and --set give the Constants.
 std::span<const std::string_view> constant_names();

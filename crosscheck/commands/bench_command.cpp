@@ -9,8 +9,11 @@
 
 #include "crosscheck/check.hpp"
 #include "crosscheck/commands/commands.hpp"
+#include "crosscheck/commands/option_values.hpp"
 #include "crosscheck/commands/run_options.hpp"
 #include "crosscheck/profiles.hpp"
+#include "crosscheck/scene_constants.hpp"
+#include "crosscheck/scene_file.hpp"
 #include "gpu/context.hpp"
 #include "gpu/simulation.hpp"
 #include "reference/model/state_hash.hpp"
@@ -105,6 +108,7 @@ std::size_t peak_bytes() {
 }
 
 int run(const Options& options) {
+    static_cast<void>(load(options.run)); // says what is wrong with the scene before the table begins
     const Context context(parse_context_request(options.run.gl));
     const Profile profile = measured_profile(context);
     fmt::print("{}\n{} frames each, median ms a frame; profile {}\n\n", summary(context.describe()), options.run.frames,
@@ -149,13 +153,21 @@ void add_bench_command(CLI::App& app, int& status) {
     add_gl_options(*verb, options->run);
     options->run.frames = 30;
     verb->add_option("--frames", options->run.frames, "frames a measurement")
-        ->check(CLI::Range(1, 1'000'000))
+        ->check(integer(1, 1'000'000))
         ->type_name("N");
-    verb->add_option("--counts", options->counts, "particle counts")->delimiter(',')->type_name("N,...");
+    verb->add_option("--counts", options->counts, "particle counts")
+        ->delimiter(',')
+        ->allow_extra_args(false)
+        ->check(integer(1, most_particles))
+        ->type_name("N,...");
     verb->add_option("--warm-up", options->warm_up, "frames run before the measured ones")
-        ->check(CLI::Range(0, 10'000))
+        ->check(integer(0, 10'000))
         ->type_name("N");
-    verb->add_option("--radius", options->radii, "neighbourhood radii, texels")->delimiter(',')->type_name("R,...");
+    verb->add_option("--radius", options->radii, "neighbourhood radii, texels")
+        ->delimiter(',')
+        ->allow_extra_args(false)
+        ->check(integer(0, widest_neighbourhood))
+        ->type_name("R,...");
     verb->footer("Example: lockstep bench data/scenes/lattice.json --counts 50000,200000 --radius 1");
     verb->callback([options, &status] { status = run(*options); });
 }

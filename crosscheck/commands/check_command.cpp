@@ -1,16 +1,18 @@
 #include <atomic>
 #include <csignal>
+#include <cstdio>
 #include <memory>
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
-#include "crosscheck/atomic_file.hpp"
 #include "crosscheck/check.hpp"
 #include "crosscheck/commands/commands.hpp"
+#include "crosscheck/commands/option_values.hpp"
 #include "crosscheck/commands/run_options.hpp"
 #include "crosscheck/frame_images.hpp"
 #include "crosscheck/hash_file.hpp"
+#include "crosscheck/output_files.hpp"
 #include "crosscheck/profiles.hpp"
 #include "crosscheck/progress.hpp"
 #include "crosscheck/report.hpp"
@@ -20,8 +22,24 @@
 namespace lockstep {
 namespace {
 
+constexpr auto replace_invalid_utf8 = nlohmann::json::error_handler_t::replace;
+
 std::atomic<bool> interrupted{false};
 static_assert(std::atomic<bool>::is_always_lock_free, "a signal handler sets it");
+
+/// While it lives, Ctrl-C sets `interrupted`; a second one ends the program at once.
+class InterruptHandler {
+  public:
+    InterruptHandler() {
+        std::signal(SIGINT, [](int) {
+            interrupted = true;
+            std::signal(SIGINT, SIG_DFL);
+        });
+    }
+    ~InterruptHandler() { std::signal(SIGINT, SIG_DFL); }
+    InterruptHandler(const InterruptHandler&) = delete;
+    InterruptHandler& operator=(const InterruptHandler&) = delete;
+};
 
 struct Options {
     RunOptions run;
@@ -30,21 +48,41 @@ struct Options {
     bool quiet = false;
 };
 
+void expect_files(const Options& options, OutputFiles& files) {
+    if (!options.json.empty())
+        files.expect(options.json);
+    if (!options.hashes.empty())
+        files.expect(options.hashes);
+    if (!options.images.empty())
+        files.expect_folder(options.images);
+}
+
+RunDescription description(const Options& options, const Scene& scene, const Context& context, const Profile& profile,
+                           const CheckReport& report) {
+    const bool free = options.mode == CheckMode::free;
+    const int repeat_frames = report.first_frame ? *report.first_frame + 1 : report.frames;
+    return {fmt::format("{} ({})", scene.name, options.run.scene.string()),
+            summary(context.describe()),
+            describe(profile),
+            settings_text(options.run, scene),
+            free ? "free" : "resync",
+            scene.width,
+            command_line("check", options.run, repeat_frames) + (free ? " --mode free" : "")};
+}
+
 int run(const Options& options) {
     const Scene scene = load(options.run);
-    if (!options.images.empty())
-        make_output_directory(options.images);
+    OutputFiles files;
+    expect_files(options, files);
     const Context context(parse_context_request(options.run.gl));
     const Profile profile = measured_profile(context);
     GpuSimulation gpu(scene, options.run.shaders);
 
-    Progress progress("check", options.run.frames, !options.quiet);
     HashFile hashes;
     FrameImages images;
     CheckOptions check_options;
     check_options.mode = options.mode;
     check_options.frames = options.run.frames;
-    check_options.on_frame = [&](int done) { progress.show(done); };
     check_options.stop = &interrupted;
     if (!options.hashes.empty() || !options.images.empty())
         check_options.on_state = [&](const ComparedFrame& frame) {
@@ -53,35 +91,27 @@ int run(const Options& options) {
             if (!options.images.empty())
                 images.keep(frame);
         };
-    std::signal(SIGINT, [](int) { interrupted = true; });
-    CheckReport report;
-    try {
-        report = check(scene, profile, gpu, check_options);
-    } catch (...) {
-        std::signal(SIGINT, SIG_DFL);
-        throw;
-    }
-    std::signal(SIGINT, SIG_DFL);
+    const CheckReport report = [&] {
+        const InterruptHandler handler;
+        Progress progress("check", options.run.frames, !options.quiet);
+        check_options.on_frame = [&](int done) { progress.show(done); };
+        return check(scene, profile, gpu, check_options);
+    }();
 
-    const int repeat_frames = report.first_frame ? *report.first_frame + 1 : report.frames;
-    std::string repeat = command_line("check", options.run, repeat_frames);
-    if (options.mode == CheckMode::free)
-        repeat += " --mode free";
-    const RunDescription description{fmt::format("{} ({})", scene.name, options.run.scene.string()),
-                                     summary(context.describe()),
-                                     describe(profile),
-                                     settings_text(options.run, scene),
-                                     options.mode == CheckMode::resync ? "resync" : "free",
-                                     scene.width,
-                                     repeat};
+    const RunDescription run = description(options, scene, context, profile, report);
+    if (!options.quiet) {
+        if (interrupted)
+            fmt::print("interrupted after {} of {} frames\n", report.frames, options.run.frames);
+        fmt::print("{}", report_text(report, run));
+        std::fflush(stdout);
+    }
     if (!options.json.empty())
-        write_text_file(options.json, report_json(report, description).dump(2) + "\n");
+        files.write(options.json, report_json(report, run).dump(2, ' ', false, replace_invalid_utf8) + "\n");
     if (!options.hashes.empty())
-        hashes.write(options.hashes);
+        files.write(options.hashes, hashes.text());
     if (!options.images.empty())
-        images.write(options.images, scene, profile, options.run.shaders);
-    if (!options.quiet)
-        fmt::print("{}", report_text(report, description));
+        images.write(files, options.images, scene, profile, options.run.shaders);
+    files.commit();
     return report.verdict == Verdict::agree ? status_agree : status_differ;
 }
 
@@ -93,12 +123,10 @@ void add_check_command(CLI::App& app, int& status) {
     add_scene_options(*verb, options->run);
     add_gl_options(*verb, options->run);
     verb->add_option("--frames", options->run.frames, "frames to compare")
-        ->check(CLI::Range(1, 100'000'000))
+        ->check(integer(1, most_frames))
         ->type_name("N");
-    verb->add_option("--mode", options->mode, "resync: each frame's step alone; free: both run on by themselves")
-        ->transform(CLI::CheckedTransformer(
-            std::map<std::string, CheckMode>{{"resync", CheckMode::resync}, {"free", CheckMode::free}}))
-        ->type_name("resync|free");
+    add_choice<CheckMode>(*verb, "--mode", options->mode, {{"resync", CheckMode::resync}, {"free", CheckMode::free}},
+                          "resync: each frame's step alone; free: both run on by themselves");
     verb->add_option("--json", options->json, "write the report as JSON")->type_name("FILE");
     verb->add_option("--hashes", options->hashes, "write both sides' state hash of every frame")->type_name("FILE");
     verb->add_option("--images", options->images,

@@ -4,14 +4,18 @@
 
 #include "crosscheck/commands/commands.hpp"
 #include "gpu/context.hpp"
+#include "reference/model/error.hpp"
 
 namespace lockstep {
 namespace {
 
 std::string text(const ContextProbe& probe) {
     const std::string name = context_request_text(probe.request);
-    if (!probe.error.empty())
-        return fmt::format("{:<14}none: {}\n", name, probe.error);
+    if (!probe.error.empty()) {
+        const std::string prefix = fmt::format("no GL context: {}: ", name);
+        const bool prefixed = probe.error.starts_with(prefix);
+        return fmt::format("{:<14}none: {}\n", name, probe.error.substr(prefixed ? prefix.size() : 0));
+    }
     const ContextInfo& i = probe.info;
     const auto yes_no = [](bool value) { return value ? "yes" : "no"; };
     std::string out = fmt::format("{:<14}{}\n", name, i.renderer);
@@ -39,7 +43,9 @@ int run() {
         fmt::print("{}\n", text(probe));
         found += probe.error.empty() ? 1 : 0;
     }
-    return found > 0 ? status_agree : status_could_not_run;
+    if (found == 0)
+        throw Error("no GL context: neither OSMesa nor EGL gives one");
+    return status_agree;
 }
 
 } // namespace

@@ -4,9 +4,10 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
-#include "crosscheck/atomic_file.hpp"
 #include "crosscheck/commands/commands.hpp"
+#include "crosscheck/commands/option_values.hpp"
 #include "crosscheck/commands/run_options.hpp"
+#include "crosscheck/output_files.hpp"
 #include "crosscheck/probe_table.hpp"
 #include "crosscheck/profiles.hpp"
 #include "gpu/probe.hpp"
@@ -21,15 +22,19 @@ struct Options {
 };
 
 int run(const Options& options) {
+    OutputFiles files;
+    if (!options.json.empty())
+        files.expect(options.json);
     const Context context(parse_context_request(options.run.gl));
     const ProbeResult result = probe(context, options.probe);
     const std::string profile = describe(profile_from(result));
     if (!options.json.empty()) {
         nlohmann::json json = result;
         json["profile"] = profile;
-        write_text_file(options.json, json.dump(1) + "\n");
+        files.write(options.json, json.dump(1) + "\n");
     }
     fmt::print("{}\nprofile {}\n", probe_table(result), profile);
+    files.commit();
     return status_agree;
 }
 
@@ -41,7 +46,7 @@ void add_probe_command(CLI::App& app, int& status) {
     verb->add_option("--gl", options->run.gl, "auto, osmesa, egl, or egl-device:N")->type_name("CONTEXT");
     verb->add_option("--json", options->json, "write the measurements as JSON")->type_name("FILE");
     verb->add_option("--inputs", options->probe.inputs, "random inputs an arithmetic row")
-        ->check(CLI::Range(64, 1 << 22))
+        ->check(integer(64, 1 << 22))
         ->type_name("N");
     verb->footer("Exit status: 0 measured, 2 could not run.\n"
                  "Example: lockstep probe --gl egl-device:0 --json probe.json");

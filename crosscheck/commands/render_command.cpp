@@ -1,9 +1,10 @@
-#include <map>
 #include <memory>
 
 #include "crosscheck/commands/commands.hpp"
+#include "crosscheck/commands/option_values.hpp"
 #include "crosscheck/commands/run_options.hpp"
 #include "crosscheck/frame_images.hpp"
+#include "crosscheck/output_files.hpp"
 #include "crosscheck/png.hpp"
 #include "crosscheck/profiles.hpp"
 #include "crosscheck/progress.hpp"
@@ -51,7 +52,11 @@ ColorImage render_gpu(const Scene& scene, const Options& options) {
 
 int run(const Options& options) {
     const Scene scene = load(options.run);
-    write_png(options.output, options.side == Side::cpu ? render_cpu(scene, options) : render_gpu(scene, options));
+    OutputFiles files;
+    files.expect(options.output);
+    files.write(options.output,
+                png(options.side == Side::cpu ? render_cpu(scene, options) : render_gpu(scene, options)));
+    files.commit();
     return status_agree;
 }
 
@@ -63,12 +68,11 @@ void add_render_command(CLI::App& app, int& status) {
     add_scene_options(*verb, options->run);
     add_gl_options(*verb, options->run);
     verb->add_option("--frame", options->frame, "the frame to picture, counted from 0")
-        ->check(CLI::Range(0, 100'000'000))
+        ->check(integer(0, most_frames))
         ->type_name("F");
     verb->add_option("-o,--output", options->output, "PNG file to write")->required()->type_name("FILE");
-    verb->add_option("--side", options->side, "cpu: the reference, needs no GL; gpu: the shaders")
-        ->transform(CLI::CheckedTransformer(std::map<std::string, Side>{{"cpu", Side::cpu}, {"gpu", Side::gpu}}))
-        ->type_name("cpu|gpu");
+    add_choice<Side>(*verb, "--side", options->side, {{"cpu", Side::cpu}, {"gpu", Side::gpu}},
+                     "cpu: the reference, needs no GL; gpu: the shaders");
     verb->add_option("--profile", options->profile, "strict, llvmpipe or nvidia: the reference's order of sums")
         ->type_name("NAME");
     verb->footer("Example: lockstep render data/scenes/lattice.json --frame 120 -o lattice.png --side cpu");

@@ -1,8 +1,11 @@
 #include "crosscheck/commands/run_options.hpp"
 
+#include <string_view>
+
 #include <fmt/format.h>
 #include <omp.h>
 
+#include "crosscheck/commands/option_values.hpp"
 #include "crosscheck/scene_file.hpp"
 #include "reference/model/switches.hpp"
 
@@ -10,13 +13,15 @@ namespace lockstep {
 
 void add_scene_options(CLI::App& verb, RunOptions& options) {
     verb.add_option("scene", options.scene, "scene file, data/scenes/*.json")->required()->type_name("SCENE");
-    verb.add_option("--particles", options.particles, "number of particles instead of the scene's")->type_name("N");
+    verb.add_option("--particles", options.particles, "number of particles instead of the scene's")
+        ->check(integer(1, most_particles))
+        ->type_name("N");
     verb.add_option("--preset", options.preset, "paper, corrected or exact, instead of the scene's")->type_name("NAME");
     verb.add_option("--set", options.set, "change one switch or constant; may be repeated")
         ->type_name("NAME=VALUE")
         ->allow_extra_args(false);
     verb.add_option("--threads", options.threads, "threads of the reference, 0: one a core")
-        ->check(CLI::Range(0, 1024))
+        ->check(integer(0, 1024))
         ->type_name("N");
 }
 
@@ -31,20 +36,35 @@ Scene load(const RunOptions& options) {
     return load_scene(options.scene, {options.particles, options.preset, options.set});
 }
 
+namespace {
+
+/// As a shell takes it back to one word.
+std::string quoted(const std::string& word) {
+    constexpr std::string_view plain = "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_-+=,.:/@%";
+    if (!word.empty() && word.find_first_not_of(plain) == std::string::npos)
+        return word;
+    std::string text = "'";
+    for (const char c : word)
+        text += c == '\'' ? "'\\''" : std::string(1, c);
+    return text + "'";
+}
+
+} // namespace
+
 std::string command_line(const std::string& verb, const RunOptions& options, int frames) {
-    std::string line = fmt::format("lockstep {} {} --frames {}", verb, options.scene.string(), frames);
+    std::string line = fmt::format("lockstep {} {} --frames {}", verb, quoted(options.scene.string()), frames);
     if (options.particles)
         line += fmt::format(" --particles {}", *options.particles);
     if (options.preset)
-        line += fmt::format(" --preset {}", *options.preset);
+        line += fmt::format(" --preset {}", quoted(*options.preset));
     for (const std::string& change : options.set)
-        line += fmt::format(" --set {}", change);
+        line += fmt::format(" --set {}", quoted(change));
     if (options.threads > 0)
         line += fmt::format(" --threads {}", options.threads);
     if (options.gl != "auto")
         line += fmt::format(" --gl {}", options.gl);
     if (!options.shaders.empty())
-        line += fmt::format(" --shaders {}", options.shaders.string());
+        line += fmt::format(" --shaders {}", quoted(options.shaders.string()));
     return line;
 }
 

@@ -11,6 +11,9 @@
 
 namespace lockstep {
 
+/// Frames a run may have.
+inline constexpr int most_frames = 100'000'000;
+
 /// The options that say what is run; every verb that runs a scene has them.
 struct RunOptions {
     std::filesystem::path scene;
@@ -29,7 +32,7 @@ void add_gl_options(CLI::App& verb, RunOptions& options);
 /// Loads the scene and sets the thread count.
 Scene load(const RunOptions& options);
 
-/// The options as they would be typed again, with another frame count.
+/// The options as they would be typed again in a shell, with another frame count.
 std::string command_line(const std::string& verb, const RunOptions& options, int frames);
 
 /// "corrected, texel_collide_range=4"

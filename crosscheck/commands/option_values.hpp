@@ -1,0 +1,35 @@
+#pragma once
+#include <cstdint>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include <CLI/CLI.hpp>
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+namespace lockstep {
+
+/// Accepts the integers from min to max; anything else is told with both.
+CLI::Validator integer(std::int64_t min, std::int64_t max);
+
+/// An option whose value is one of a few names; anything else is told with all of them.
+template <class Value> CLI::Option* add_choice(CLI::App& verb, const std::string& name, Value& value,
+                                               std::vector<std::pair<std::string, Value>> choices,
+                                               const std::string& description) {
+    std::vector<std::string> names;
+    for (const auto& [text, meaning] : choices)
+        names.push_back(text);
+    const auto choose = [&value, name, choices = std::move(choices), names](const std::string& chosen) {
+        for (const auto& [text, meaning] : choices)
+            if (text == chosen) {
+                value = meaning;
+                return;
+            }
+        throw CLI::ValidationError(name, fmt::format("'{}' is not one of {}", chosen, fmt::join(names, ", ")));
+    };
+    return verb.add_option_function<std::string>(name, choose, description)
+        ->type_name(fmt::format("{}", fmt::join(names, "|")));
+}
+
+} // namespace lockstep

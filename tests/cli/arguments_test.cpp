@@ -1,0 +1,115 @@
+#include <catch2/catch.hpp>
+
+#include <fmt/format.h>
+
+#include "tests/cli/cli_checks.hpp"
+#include "tests/temporary_folder.hpp"
+
+using namespace lockstep;
+using test::refusal;
+using test::run_lockstep;
+
+namespace {
+
+const std::string scene = "data/scenes/lattice.json";
+const std::string help = " (lockstep --help tells more)";
+
+struct Refused {
+    std::vector<std::string> arguments;
+    std::string message;
+};
+
+void check_all(const std::vector<Refused>& cases) {
+    for (const Refused& refused : cases) {
+        CAPTURE(refused.arguments);
+        CHECK(refusal(run_lockstep(refused.arguments)) == refused.message);
+    }
+}
+
+} // namespace
+
+TEST_CASE("arguments: an unknown verb, or none, is told with the verbs") {
+    const std::string verbs = "; the verbs are check, render, hash, info, bench" + help;
+    check_all({
+        {{}, "a verb is missing" + verbs},
+        {{"chekc", scene}, "unknown verb 'chekc'" + verbs},
+        {{"--frames", "3"}, "unknown option '--frames'" + help},
+    });
+}
+
+TEST_CASE("arguments: an unknown option, or a missing one, is named") {
+    check_all({
+        {{"check", scene, "--particle", "3"}, "unknown option '--particle'" + help},
+        {{"check"}, "scene is required" + help},
+        {{"render", scene}, "--output is required" + help},
+        {{"check", scene, "--frames"}, "--frames needs a value" + help},
+        {{"check", scene, "--frames", "2", "--frames", "3"}, "--frames is given more than once" + help},
+        {{"check", scene, scene}, "'" + scene + "' is one argument too many" + help},
+    });
+}
+
+TEST_CASE("arguments: a number that is none, or out of range, is told with the range") {
+    check_all({
+        {{"check", scene, "--particles", "0"}, "--particles: '0' is not an integer from 1 to 100000000" + help},
+        {{"check", scene, "--particles", "-5"}, "--particles: '-5' is not an integer from 1 to 100000000" + help},
+        {{"check", scene, "--particles", "1e3"}, "--particles: '1e3' is not an integer from 1 to 100000000" + help},
+        {{"hash", scene, "--particles", "100000001"},
+         "--particles: '100000001' is not an integer from 1 to 100000000" + help},
+        {{"check", scene, "--frames", "0"}, "--frames: '0' is not an integer from 1 to 100000000" + help},
+        {{"check", scene, "--frames", "99999999999999999999"},
+         "--frames: '99999999999999999999' is not an integer from 1 to 100000000" + help},
+        {{"hash", scene, "--frames", "-1"}, "--frames: '-1' is not an integer from 1 to 100000000" + help},
+        {{"render", scene, "-o", "x.png", "--frame", "-1"},
+         "--frame: '-1' is not an integer from 0 to 100000000" + help},
+        {{"check", scene, "--threads", "-2"}, "--threads: '-2' is not an integer from 0 to 1024" + help},
+        {{"bench", scene, "--counts", "10,0"}, "--counts: '0' is not an integer from 1 to 100000000" + help},
+        {{"bench", scene, "--radius", "65"}, "--radius: '65' is not an integer from 0 to 64" + help},
+    });
+}
+
+TEST_CASE("arguments: an unknown choice is told with the choices") {
+    check_all({
+        {{"check", scene, "--mode", "fre"}, "--mode: 'fre' is not one of resync, free" + help},
+        {{"render", scene, "-o", "x.png", "--side", "tpu"}, "--side: 'tpu' is not one of cpu, gpu" + help},
+        {{"check", scene, "--preset", "correct"}, "unknown preset 'correct'; the presets are paper, corrected, exact"},
+        {{"hash", scene, "--profile", "amd"}, "unknown profile 'amd'; the profiles are strict, llvmpipe, nvidia"},
+        {{"check", scene, "--gl", "glx"},
+         "unknown GL context 'glx'; allowed are auto, osmesa, egl, egl-device:N (N = 0, 1, ...)"},
+    });
+}
+
+TEST_CASE("arguments: a setting that cannot be is told with what can") {
+    check_all({
+        {{"check", scene, "--set", "base_texel=up"}, "switch base_texel: 'up' is not one of truncate, floor"},
+        {{"check", scene, "--set", "speed_factor=nan"}, "switch speed_factor: 'nan' is not a finite number"},
+        {{"check", scene, "--set", "tick=nan"}, "--set: tick: \"nan\" is not a number above 0"},
+        {{"check", scene, "--set", "gravity=0,nan,0"},
+         "--set: gravity: \"0,nan,0\" is not a vector of three finite numbers, [x, y, z]"},
+        {{"check", scene, "--set", "texel_collide_range=-1"},
+         "--set: texel_collide_range: -1 is not an integer from 0 to 64"},
+        {{"check", scene, "--set", "tick"}, "--set tick: a setting is name=value"},
+    });
+    CHECK_THAT(refusal(run_lockstep({"check", scene, "--set", "base_texle=floor"})),
+               Catch::StartsWith("--set base_texle=floor: nothing is named base_texle; the switches are ") &&
+                   Catch::Contains(", base_texel, ") && Catch::Contains("; the constants are tick, "));
+}
+
+TEST_CASE("arguments: help ends with 0, and every verb has its own") {
+    for (const char* verb : {"", "check", "render", "hash", "info", "bench"}) {
+        std::vector<std::string> arguments{"--help"};
+        if (*verb != '\0')
+            arguments.insert(arguments.begin(), verb);
+        const test::Outcome outcome = run_lockstep(arguments);
+        CAPTURE(verb);
+        CHECK(outcome.status == 0);
+        CHECK_THAT(outcome.out, Catch::Contains(fmt::format("Usage: lockstep{}{}", *verb ? " " : "", verb)));
+        CHECK(outcome.err.empty());
+    }
+}
+
+TEST_CASE("arguments: a full disk behind standard output is no success") {
+    test::Surroundings full;
+    full.standard_output = "/dev/full";
+    const test::Outcome outcome = run_lockstep({"hash", scene, "--frames", "1", "--particles", "10"}, full);
+    CHECK(refusal(outcome) == "standard output: cannot be written: No space left on device");
+}

@@ -1,0 +1,43 @@
+#pragma once
+#include <algorithm>
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include <catch2/catch.hpp>
+
+#include "tests/cli/run_program.hpp"
+#include "tests/gpu/any_context.hpp"
+
+namespace lockstep::test {
+
+/// 300 particles that meet, over a plane; small images, so that a run takes little.
+inline const std::string small_scene = R"({
+  "constants": { "collision_range": 0.1 },
+  "image": [64, 48], "render": [40, 30],
+  "emitters": [{ "count": 300, "min": [-0.4, -0.4, -0.4], "max": [0.4, 0.4, 0.4], "speed": 0.5 }],
+  "obstacles": [{ "shape": "plane", "size": [1, 1], "position": [0, -0.6, 0] }]
+})";
+
+/// Holds status 2, nothing on standard output, and one line on standard error, "lockstep: MESSAGE"; gives MESSAGE.
+inline std::string refusal(const Outcome& outcome) {
+    CHECK(outcome.status == 2);
+    CHECK(outcome.out.empty());
+    REQUIRE_THAT(outcome.err, Catch::StartsWith("lockstep: ") && Catch::EndsWith("\n"));
+    CHECK(std::count(outcome.err.begin(), outcome.err.end(), '\n') == 1);
+    return outcome.err.substr(10, outcome.err.size() - 11);
+}
+
+/// Names of everything in a folder, sorted.
+inline std::vector<std::string> names_in(const std::filesystem::path& folder) {
+    std::vector<std::string> names;
+    for (const auto& entry : std::filesystem::directory_iterator(folder))
+        names.push_back(entry.path().filename());
+    std::sort(names.begin(), names.end());
+    return names;
+}
+
+/// Whether OSMesa is there; if not, the test is skipped with the reason.
+inline bool have_osmesa() { return open_context("osmesa").has_value(); }
+
+} // namespace lockstep::test

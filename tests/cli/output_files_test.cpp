@@ -1,0 +1,155 @@
+#include <catch2/catch.hpp>
+
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+#include <string>
+#include <vector>
+
+#include "tests/cli/cli_checks.hpp"
+#include "tests/temporary_folder.hpp"
+
+using namespace lockstep;
+using test::run_lockstep;
+namespace fs = std::filesystem;
+
+namespace {
+
+using Names = std::vector<std::string>;
+
+/// A scene, and a folder for what a run of it leaves.
+struct Setting {
+    test::TemporaryFolder input;
+    test::TemporaryFolder output;
+    std::string scene = input.write("scene.json", test::small_scene).string();
+
+    [[nodiscard]] std::string path(const std::string& name) const { return (output.path() / name).string(); }
+    [[nodiscard]] test::Outcome check(const std::vector<std::string>& outputs,
+                                      const test::Surroundings& surroundings = {}) const {
+        std::vector<std::string> arguments{"check", scene, "--gl", "osmesa"};
+        arguments.insert(arguments.end(), outputs.begin(), outputs.end());
+        return run_lockstep(arguments, surroundings);
+    }
+    [[nodiscard]] Names left() const { return test::names_in(output.path()); }
+};
+
+std::string text_of(const fs::path& file) {
+    std::ifstream stream(file, std::ios::binary);
+    return {std::istreambuf_iterator<char>(stream), {}};
+}
+
+test::Surroundings disk_of(std::size_t bytes) {
+    test::Surroundings surroundings;
+    surroundings.largest_file = bytes;
+    // A driver's cache of compiled shaders would meet the limit as well.
+    surroundings.environment = {{"MESA_SHADER_CACHE_DISABLE", "true"}};
+    return surroundings;
+}
+
+/// The report was shown; the one line of error says that a file could not be written.
+void check_full(const test::Outcome& outcome, const std::string& file) {
+    CHECK(outcome.status == 2);
+    CHECK(outcome.err == "lockstep: " + file + ": cannot be written: File too large\n");
+}
+
+} // namespace
+
+TEST_CASE("output_files: all that was asked for is there after a run") {
+    if (!test::have_osmesa())
+        return;
+    const Setting setting;
+    CHECK(setting
+              .check({"--frames", "3", "--json", setting.path("report.json"), "--hashes", setting.path("hashes"),
+                      "--images", setting.path("deep/images")})
+              .status == 0);
+    CHECK(setting.left() == Names{"deep", "hashes", "report.json"});
+    CHECK(test::names_in(setting.path("deep/images")) == Names{"cdt_difference.png", "cdt_gpu.png", "cdt_reference.png",
+                                                               "frame_difference.png", "frame_gpu.png",
+                                                               "frame_reference.png"});
+    CHECK_THAT(text_of(setting.path("hashes")), Catch::Matches("(\\d [0-9a-f]{16} [0-9a-f]{16}\n){3}"));
+}
+
+TEST_CASE("output_files: what cannot be written is told before the run") {
+    const Setting setting;
+    const std::string way = setting.output.write("way", "in the").string();
+    struct {
+        std::vector<std::string> outputs;
+        std::string message;
+    } const cases[]{
+        {{"--images", way}, way + ": cannot be made a folder: a file of that name is in the way"},
+        {{"--images", way + "/deep"}, way + "/deep: cannot be made: Not a directory"},
+        {{"--images", "/proc/nowhere"}, "/proc/nowhere: cannot be made: No such file or directory"},
+        {{"--json", setting.path("no/report.json")},
+         setting.path("no/report.json") + ": cannot be written: No such file or directory"},
+        {{"--json", setting.output.path().string()},
+         setting.output.path().string() + ": cannot be written: it names a folder"},
+        {{"--hashes", setting.path("no/")}, setting.path("no/") + ": cannot be written: it names a folder"},
+        {{"--hashes", way + "/hashes"}, way + "/hashes: cannot be written: Not a directory"},
+        {{"--json", setting.path("a"), "--hashes", setting.path("./a")},
+         setting.path("./a") + ": cannot be written: two outputs have this name"},
+    };
+    for (const auto& refused : cases) {
+        CAPTURE(refused.outputs);
+        std::vector<std::string> outputs = refused.outputs;
+        outputs.insert(outputs.end(), {"--frames", "100000000"});
+        CHECK(test::refusal(setting.check(outputs)) == refused.message);
+        CHECK(setting.left() == Names{"way"});
+    }
+    CHECK(text_of(way) == "in the");
+    CHECK_THAT(test::refusal(setting.check({"--images", setting.path("new/images"), "--shaders", "/nowhere"})),
+               Catch::Equals("shader folder /nowhere does not exist") || Catch::StartsWith("no GL context"));
+    CHECK(setting.left() == Names{"way"});
+    CHECK(test::refusal(run_lockstep({"render", setting.scene, "--frame", "100000000", "-o", way + "/frame.png"})) ==
+          way + "/frame.png: cannot be written: Not a directory");
+}
+
+TEST_CASE("output_files: on a full disk there is the verdict, one line of error, and no file") {
+    if (!test::have_osmesa())
+        return;
+    const Setting setting;
+    const std::string report = setting.path("report.json");
+    const std::string hashes = setting.path("hashes");
+    const std::string images = setting.path("images");
+    SECTION("report") {
+        const test::Outcome outcome = setting.check({"--frames", "3", "--json", report}, disk_of(100));
+        check_full(outcome, report);
+        CHECK_THAT(outcome.out, Catch::Contains("AGREE"));
+    }
+    SECTION("hashes") { check_full(setting.check({"--frames", "3", "--hashes", hashes}, disk_of(100)), hashes); }
+    SECTION("images") {
+        check_full(setting.check({"--frames", "3", "--images", images}, disk_of(10)), images + "/cdt_reference.png");
+    }
+    SECTION("the second of two") {
+        check_full(setting.check({"--frames", "3", "--json", report, "--hashes", hashes}, disk_of(100)), report);
+        // Shorter than the report, so that only the hashes fit.
+        check_full(setting.check({"--frames", "3", "--images", images, "--hashes", hashes}, disk_of(200)),
+                   images + "/cdt_reference.png");
+    }
+    SECTION("rendered frame") {
+        check_full(run_lockstep({"render", setting.scene, "-o", setting.path("frame.png")}, disk_of(50)),
+                   setting.path("frame.png"));
+    }
+    CHECK(setting.left().empty());
+}
+
+TEST_CASE("output_files: a file from before stays when the new one cannot be written") {
+    if (!test::have_osmesa())
+        return;
+    const Setting setting;
+    const std::string report = setting.output.write("report.json", "from before").string();
+    check_full(setting.check({"--frames", "3", "--json", report}, disk_of(100)), report);
+    CHECK(text_of(report) == "from before");
+    CHECK(setting.check({"--frames", "3", "--json", report}).status == 0);
+    CHECK_THAT(text_of(report), Catch::StartsWith("{\n"));
+    CHECK(setting.left() == Names{"report.json"});
+}
+
+TEST_CASE("output_files: through a symbolic link, the file behind it is written") {
+    const Setting setting;
+    const std::string picture = setting.path("picture.png");
+    fs::create_symlink("picture.png", setting.path("link"));
+    CHECK(run_lockstep({"render", setting.scene, "-o", setting.path("link")}).status == 0);
+    CHECK(fs::is_symlink(setting.path("link")));
+    CHECK_THAT(text_of(picture), Catch::StartsWith("\x89PNG"));
+    CHECK(setting.left() == Names{"link", "picture.png"});
+}

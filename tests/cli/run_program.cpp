@@ -1,0 +1,111 @@
+#include "tests/cli/run_program.hpp"
+
+#include <array>
+#include <csignal>
+#include <cstdlib>
+#include <stdexcept>
+
+#include <fcntl.h>
+#include <poll.h>
+#include <pty.h>
+#include <sys/resource.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+namespace lockstep::test {
+namespace {
+
+/// Becomes lockstep. Only in a child process.
+[[noreturn]] void become_lockstep(const std::vector<std::string>& arguments) {
+    std::vector<char*> argv{const_cast<char*>("lockstep")};
+    for (const std::string& argument : arguments)
+        argv.push_back(const_cast<char*>(argument.c_str()));
+    argv.push_back(nullptr);
+    execv(LOCKSTEP_PROGRAM, argv.data());
+    _exit(127);
+}
+
+void enter(const Surroundings& surroundings) {
+    for (const auto& [name, value] : surroundings.environment)
+        setenv(name.c_str(), value.c_str(), 1);
+    if (surroundings.largest_file) {
+        std::signal(SIGXFSZ, SIG_IGN);
+        const rlimit limit{*surroundings.largest_file, *surroundings.largest_file};
+        setrlimit(RLIMIT_FSIZE, &limit);
+    }
+    if (surroundings.standard_output)
+        dup2(open(surroundings.standard_output->c_str(), O_WRONLY), STDOUT_FILENO);
+}
+
+/// Appends what can be read; false at the end. A terminal whose other side has closed ends with EIO.
+bool read_some(int file, std::string& text) {
+    std::array<char, 4096> chunk{};
+    const ssize_t count = read(file, chunk.data(), chunk.size());
+    if (count <= 0)
+        return false;
+    text.append(chunk.data(), static_cast<std::size_t>(count));
+    return true;
+}
+
+void wait_for(pid_t child, Outcome& outcome) {
+    int status = 0;
+    if (waitpid(child, &status, 0) != child)
+        throw std::runtime_error("waitpid failed");
+    if (WIFEXITED(status))
+        outcome.status = WEXITSTATUS(status);
+    else
+        outcome.signal = WTERMSIG(status);
+}
+
+} // namespace
+
+Outcome run_lockstep(const std::vector<std::string>& arguments, const Surroundings& surroundings) {
+    int out[2];
+    int err[2];
+    if (pipe2(out, O_CLOEXEC) != 0 || pipe2(err, O_CLOEXEC) != 0)
+        throw std::runtime_error("pipe2 failed");
+    const pid_t child = fork();
+    if (child < 0)
+        throw std::runtime_error("fork failed");
+    if (child == 0) {
+        dup2(out[1], STDOUT_FILENO);
+        dup2(err[1], STDERR_FILENO);
+        enter(surroundings);
+        become_lockstep(arguments);
+    }
+    close(out[1]);
+    close(err[1]);
+    Outcome outcome;
+    std::array<pollfd, 2> ends{pollfd{out[0], POLLIN, 0}, pollfd{err[0], POLLIN, 0}};
+    while (ends[0].fd >= 0 || ends[1].fd >= 0) {
+        poll(ends.data(), ends.size(), -1);
+        for (pollfd& end : ends)
+            if (end.fd >= 0 && end.revents != 0 && !read_some(end.fd, end.fd == out[0] ? outcome.out : outcome.err))
+                end.fd = -1;
+    }
+    close(out[0]);
+    close(err[0]);
+    wait_for(child, outcome);
+    return outcome;
+}
+
+Outcome run_lockstep_on_terminal(const std::vector<std::string>& arguments, const std::string& trigger,
+                                 const std::string& typed) {
+    int terminal = -1;
+    const pid_t child = forkpty(&terminal, nullptr, nullptr, nullptr);
+    if (child < 0)
+        throw std::runtime_error("forkpty failed");
+    if (child == 0)
+        become_lockstep(arguments);
+    Outcome outcome;
+    bool waiting = !typed.empty();
+    while (read_some(terminal, outcome.out))
+        if (waiting && outcome.out.find(trigger) != std::string::npos) {
+            waiting = write(terminal, typed.data(), typed.size()) < 0;
+        }
+    close(terminal);
+    wait_for(child, outcome);
+    return outcome;
+}
+
+} // namespace lockstep::test

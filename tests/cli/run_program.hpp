@@ -1,0 +1,31 @@
+#pragma once
+#include <cstddef>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace lockstep::test {
+
+/// How a program ended, and what it said.
+struct Outcome {
+    int status = -1; ///< exit status; -1: ended by a signal
+    int signal = 0;
+    std::string out; ///< standard output; on a terminal, all that was shown
+    std::string err; ///< standard error
+};
+
+struct Surroundings {
+    std::vector<std::pair<std::string, std::string>> environment; ///< set on top of the test's own
+    std::optional<std::size_t> largest_file;    ///< bytes; a longer file fails as on a full disk (EFBIG for ENOSPC)
+    std::optional<std::string> standard_output; ///< a file instead of a pipe
+};
+
+/// Runs lockstep with `arguments`, standard output and error as pipes, and waits for its end.
+Outcome run_lockstep(const std::vector<std::string>& arguments, const Surroundings& surroundings = {});
+
+/// Runs lockstep on a terminal of its own and types `typed` (may be empty) once `trigger` was shown.
+Outcome run_lockstep_on_terminal(const std::vector<std::string>& arguments, const std::string& trigger,
+                                 const std::string& typed);
+
+} // namespace lockstep::test

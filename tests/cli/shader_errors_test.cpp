@@ -1,0 +1,113 @@
+#include <catch2/catch.hpp>
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "tests/cli/cli_checks.hpp"
+#include "tests/planted_shader.hpp"
+#include "tests/temporary_folder.hpp"
+
+using namespace lockstep;
+using test::refusal;
+using test::run_lockstep;
+
+namespace {
+
+/// Checks the small scene with the shaders of a folder, asking for every kind of output; holds that none was left, and
+/// gives the one line of error.
+std::string refusal_of(const test::TemporaryFolder& shaders) {
+    const test::TemporaryFolder folder;
+    const auto scene = folder.write("scene.json", test::small_scene).string();
+    const test::Outcome outcome = run_lockstep({"check", scene, "--frames", "3", "--gl", "osmesa", "--shaders",
+                                                shaders.path(), "--json", folder.path() / "report.json", "--hashes",
+                                                folder.path() / "hashes", "--images", folder.path() / "images"});
+    CHECK(test::names_in(folder.path()) == std::vector<std::string>{"scene.json"});
+    return refusal(outcome);
+}
+
+const test::Surroundings no_gl{
+    {{"LOCKSTEP_OSMESA_LIBRARY", "/no/such/libOSMesa.so"}, {"LOCKSTEP_EGL_LIBRARY", "/no/such/libEGL.so"}}, {}, {}};
+
+} // namespace
+
+TEST_CASE("shader_errors: a shader that does not compile is told with file, line and the compiler's words") {
+    if (!test::have_osmesa())
+        return;
+    const test::TemporaryFolder shaders;
+    const auto file =
+        shaders.write("collision_pass.frag", "#version 330 core\nout vec4 o_Texel;\n\nvoid main() { o_Texel = 3; }\n");
+    CHECK_THAT(refusal_of(shaders), Catch::StartsWith("shader " + file.string() + ":4: ") && Catch::Contains("vec4"));
+}
+
+TEST_CASE("shader_errors: an error in an included file is told there") {
+    if (!test::have_osmesa())
+        return;
+    const test::TemporaryFolder shaders;
+    test::plant(shaders, "collision_code.glsl", "vec3 decode_position(vec4 texel) {",
+                "vec3 decode_position(vec4 texel) { nonsense;");
+    CHECK_THAT(refusal_of(shaders), Catch::StartsWith("shader " + (shaders.path() / "collision_code.glsl:").string()) &&
+                                        Catch::Contains("nonsense"));
+}
+
+TEST_CASE("shader_errors: a missing captured output is named") {
+    if (!test::have_osmesa())
+        return;
+    const test::TemporaryFolder shaders;
+    test::plant(shaders, "collision_pass.geom", "out float out_CollideTime;", "out float out_CollideTiem;");
+    test::plant(shaders, "collision_pass.geom", "out_CollideTime = v_", "out_CollideTiem = v_");
+    CHECK_THAT(
+        refusal_of(shaders),
+        Catch::Equals("collision_pass: output out_CollideTime is not written by the last vertex-processing stage (" +
+                      (shaders.path() / "collision_pass.geom").string() +
+                      "); it is to write out_Position, out_Speed, out_Dir, out_CollideTime"));
+}
+
+TEST_CASE("shader_errors: particles that are not passed on are no verdict") {
+    if (!test::have_osmesa())
+        return;
+    const test::TemporaryFolder shaders;
+    test::plant(shaders, "collision_pass.geom", "    EmitVertex();\n    EndPrimitive();\n", "");
+    CHECK_THAT(refusal_of(shaders),
+               Catch::Equals("collision_pass: transform feedback wrote 0 of 300 particles; the last "
+                             "vertex-processing stage must emit exactly one point a particle"));
+}
+
+TEST_CASE("shader_errors: a shader folder that is not there is named") {
+    if (!test::have_osmesa())
+        return;
+    const test::TemporaryFolder folder;
+    const auto scene = folder.write("scene.json", test::small_scene).string();
+    CHECK(refusal(run_lockstep({"check", scene, "--gl", "osmesa", "--shaders", "/nowhere"})) ==
+          "shader folder /nowhere does not exist");
+}
+
+TEST_CASE("shader_errors: without any GL the reasons are given, and nothing is left") {
+    const test::TemporaryFolder folder;
+    const auto scene = folder.write("scene.json", test::small_scene).string();
+    const auto out = (folder.path() / "out").string();
+    for (const std::vector<std::string>& arguments : {std::vector<std::string>{"check", scene, "--images", out},
+                                                      {"check", scene, "--json", out},
+                                                      {"render", scene, "--side", "gpu", "-o", out},
+                                                      {"bench", scene}}) {
+        CAPTURE(arguments);
+        CHECK_THAT(refusal(run_lockstep(arguments, no_gl)),
+                   Catch::StartsWith("no GL context: osmesa: /no/such/libOSMesa.so: cannot open shared object file") &&
+                       Catch::Contains("; egl: /no/such/libEGL.so: cannot open shared object file"));
+    }
+    CHECK(test::names_in(folder.path()) == std::vector<std::string>{"scene.json"});
+
+    const test::Outcome info = run_lockstep({"info"}, no_gl);
+    CHECK(info.status == 2);
+    CHECK_THAT(info.out, Catch::StartsWith("osmesa        none: /no/such/libOSMesa.so: cannot open"));
+    CHECK(info.err == "lockstep: no GL context: neither OSMesa nor EGL gives one\n");
+}
+
+TEST_CASE("shader_errors: hash and render --side cpu need no GL") {
+    const test::TemporaryFolder folder;
+    const auto scene = folder.write("scene.json", test::small_scene).string();
+    const auto picture = folder.path() / "frame.png";
+    CHECK(run_lockstep({"hash", scene, "--frames", "2"}, no_gl).status == 0);
+    CHECK(run_lockstep({"render", scene, "--frame", "1", "-o", picture}, no_gl).status == 0);
+    CHECK(std::filesystem::file_size(picture) > 100);
+}

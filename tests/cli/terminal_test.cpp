@@ -1,0 +1,63 @@
+#include <catch2/catch.hpp>
+
+#include <string>
+
+#include "tests/cli/cli_checks.hpp"
+#include "tests/planted_shader.hpp"
+#include "tests/temporary_folder.hpp"
+
+using namespace lockstep;
+using test::run_lockstep;
+using test::run_lockstep_on_terminal;
+
+namespace {
+
+const std::string ctrl_c = "\x03";
+const std::string bar = "check [";
+
+} // namespace
+
+TEST_CASE("terminal: a bar on a terminal, wiped at the end; none in a pipe, none when quiet") {
+    if (!test::have_osmesa())
+        return;
+    const test::TemporaryFolder folder;
+    const std::vector<std::string> check{
+        "check", folder.write("scene.json", test::small_scene).string(), "--frames", "5", "--gl", "osmesa"};
+    std::vector<std::string> quiet = check;
+    quiet.emplace_back("--quiet");
+
+    CHECK_THAT(run_lockstep_on_terminal(check, "", "").out, Catch::Contains(bar) && Catch::Contains("/5 ") &&
+                                                                Catch::Contains("\r\x1b[Kscene ") &&
+                                                                Catch::Contains("AGREE"));
+    CHECK(run_lockstep_on_terminal(quiet, "", "").out.empty());
+    const test::Outcome piped = run_lockstep(check);
+    CHECK(piped.err.empty());
+    CHECK_THAT(piped.out, !Catch::Contains(bar) && !Catch::Contains("\x1b"));
+}
+
+TEST_CASE("terminal: Ctrl-C ends with the verdict on the frames done so far") {
+    if (!test::have_osmesa())
+        return;
+    const test::TemporaryFolder folder;
+    const test::TemporaryFolder shaders;
+    const std::vector<std::string> check{"check",     folder.write("scene.json", test::small_scene).string(),
+                                         "--frames",  "100000000",
+                                         "--gl",      "osmesa",
+                                         "--shaders", shaders.path(),
+                                         "--json",    folder.path() / "report.json"};
+    SECTION("agreed so far") {
+        const test::Outcome outcome = run_lockstep_on_terminal(check, bar, ctrl_c);
+        CHECK(outcome.status == 0);
+        CHECK_THAT(
+            outcome.out,
+            Catch::Matches(
+                "(.|\r|\n)*interrupted after \\d+ of 100000000 frames\r\n(.|\r|\n)*AGREE: every bit of (.|\r|\n)*"));
+    }
+    SECTION("differed so far") {
+        test::plant(shaders, "collision_pass.vert", "ls_flush(a_CollideTime) - u_Tick;", "ls_flush(a_CollideTime);");
+        const test::Outcome outcome = run_lockstep_on_terminal(check, bar, ctrl_c);
+        CHECK(outcome.status == 1);
+        CHECK_THAT(outcome.out, Catch::Contains("interrupted after ") && Catch::Contains("DIFFER from frame 0 on"));
+    }
+    CHECK(test::names_in(folder.path()) == std::vector<std::string>{"report.json", "scene.json"});
+}

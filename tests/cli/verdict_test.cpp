@@ -1,0 +1,160 @@
+#include <catch2/catch.hpp>
+
+#include <string>
+#include <vector>
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include "tests/cli/cli_checks.hpp"
+#include "tests/planted_shader.hpp"
+#include "tests/temporary_folder.hpp"
+
+using namespace lockstep;
+using test::run_lockstep;
+
+namespace {
+
+nlohmann::json json_of(const std::filesystem::path& file) {
+    std::ifstream stream(file);
+    return nlohmann::json::parse(stream);
+}
+
+/// The words of a command line after the program's name.
+std::vector<std::string> words(const std::string& line) {
+    std::istringstream stream(line);
+    std::vector<std::string> all{std::istream_iterator<std::string>(stream), {}};
+    all.erase(all.begin());
+    return all;
+}
+
+/// The part of a report that lists the worst differences.
+std::string worst(const std::string& report) {
+    const std::size_t first = report.find("  worst of frame ");
+    const std::size_t last = report.find("\nrepeat");
+    REQUIRE((first != std::string::npos && last != std::string::npos));
+    return report.substr(first, last - first);
+}
+
+struct Setting {
+    test::TemporaryFolder folder;
+    test::TemporaryFolder shaders;
+    std::string scene = folder.write("scene.json", test::small_scene).string();
+    std::filesystem::path report = folder.path() / "report.json";
+
+    [[nodiscard]] test::Outcome check(std::vector<std::string> options) const {
+        std::vector<std::string> arguments{"check",  scene,  "--gl",      "osmesa",
+                                           "--json", report, "--shaders", shaders.path()};
+        arguments.insert(arguments.end(), options.begin(), options.end());
+        return run_lockstep(arguments);
+    }
+};
+
+} // namespace
+
+TEST_CASE("verdict: both sides agree, status 0, and the report says on what") {
+    if (!test::have_osmesa())
+        return;
+    const Setting setting;
+    const test::Outcome outcome = setting.check({"--frames", "6"});
+    CHECK(outcome.status == 0);
+    CHECK(outcome.err.empty());
+    CHECK_THAT(outcome.out,
+               Catch::Contains("verdict   AGREE: every bit of 300 particles and of the CDT in 6 frames\n"));
+    const nlohmann::json report = json_of(setting.report);
+    CHECK(report["verdict"] == "AGREE");
+    CHECK(report["frames"] == 6);
+    CHECK(report["particles"] == 300);
+    CHECK(report["hits"] > 0);
+    CHECK(report["fields"]["position"]["compared"] == 6 * 300 * 3);
+    CHECK(report["fields"]["texel"]["compared"] == 6 * 64 * 48 * 4);
+    CHECK(report["hash"]["reference"] == report["hash"]["gpu"]);
+}
+
+TEST_CASE("verdict: a planted difference is status 1, and the line that repeats it repeats it") {
+    if (!test::have_osmesa())
+        return;
+    const Setting setting;
+    test::plant(setting.shaders, "collision_pass.vert", "v_Speed = ls_length(temp);",
+                "v_Speed = uintBitsToFloat(floatBitsToUint(ls_length(temp)) + 1u);");
+    const test::Outcome outcome = setting.check({"--frames", "6"});
+    CHECK(outcome.status == 1);
+    CHECK(outcome.err.empty());
+    CHECK_THAT(outcome.out, Catch::Contains("verdict   DIFFER from frame 0 on: 1,"));
+    CHECK_THAT(outcome.out,
+               Catch::Matches("(.|\n)*  frame 0 particle \\d+ \\S+: reference \\S+ \\(-?0x1\\.[0-9a-f]+p-\\d+\\), "
+                              "GPU \\S+ \\(-?0x1\\.[0-9a-f]+p-\\d+\\), \\d+ ULP\n(.|\n)*"));
+    const nlohmann::json report = json_of(setting.report);
+    CHECK(report["verdict"] == "DIFFER");
+    CHECK(report["first_frame"] == 0);
+    CHECK(report["fields"]["speed"]["differing"] > 300);
+
+    const test::Outcome repeated = run_lockstep(words(report["repeat"]));
+    CHECK(repeated.status == 1);
+    CHECK_THAT(repeated.out, Catch::Contains("DIFFER from frame 0 on") && Catch::Contains("in 1 frames\n"));
+    CHECK(worst(repeated.out) == worst(outcome.out));
+}
+
+TEST_CASE("verdict: free mode shows how a difference grows") {
+    if (!test::have_osmesa())
+        return;
+    const Setting setting;
+    test::plant(setting.shaders, "collision_pass.vert", "v_Speed = product(a_Speed, u_SpeedFactor);",
+                "v_Speed = product(a_Speed, 0.5);");
+    const test::Outcome outcome = setting.check({"--frames", "6", "--mode", "free"});
+    CHECK(outcome.status == 1);
+    CHECK_THAT(outcome.out, Catch::Contains("growth: frame, differing particles, differing texels, worst ULP\n"));
+    const nlohmann::json rows = json_of(setting.report)["counts"]["rows"];
+    REQUIRE(rows.size() == 6);
+    CHECK(rows[0][1] == 0);
+    CHECK(rows[5][1] >= rows[1][1]);
+    CHECK(rows[5][1] > 0);
+}
+
+TEST_CASE("verdict: quiet leaves the exit status to tell it") {
+    if (!test::have_osmesa())
+        return;
+    const Setting setting;
+    test::Outcome outcome = setting.check({"--frames", "2", "--quiet"});
+    CHECK(outcome.status == 0);
+    CHECK(outcome.out.empty());
+    CHECK(outcome.err.empty());
+    test::plant(setting.shaders, "collision_pass.vert", "ls_flush(a_CollideTime) - u_Tick;",
+                "ls_flush(a_CollideTime);");
+    outcome = setting.check({"--frames", "2", "--quiet"});
+    CHECK(outcome.status == 1);
+    CHECK(outcome.out.empty());
+    CHECK(outcome.err.empty());
+}
+
+TEST_CASE("verdict: hash prints one line, the same for any number of threads, and check's hash") {
+    const Setting setting;
+    const std::vector<std::string> hash{"hash", setting.scene, "--frames", "6", "--profile", "llvmpipe", "--threads"};
+    std::string last;
+    for (const char* threads : {"1", "2", "4"}) {
+        std::vector<std::string> arguments = hash;
+        arguments.emplace_back(threads);
+        const test::Outcome outcome = run_lockstep(arguments);
+        CHECK(outcome.status == 0);
+        CHECK_THAT(outcome.out, Catch::Matches("5 [0-9a-f]{16}\n"));
+        CHECK((last.empty() || outcome.out == last));
+        last = outcome.out;
+    }
+    if (!test::have_osmesa())
+        return;
+    CHECK_THAT(setting.check({"--frames", "6"}).out, Catch::Contains("hash      " + last.substr(2, 16) + " on both"));
+}
+
+TEST_CASE("verdict: both sides render, and bench tells a verdict a row") {
+    if (!test::have_osmesa())
+        return;
+    const Setting setting;
+    const auto picture = setting.folder.path() / "frame.png";
+    CHECK(run_lockstep({"render", setting.scene, "--side", "gpu", "--gl", "osmesa", "-o", picture}).status == 0);
+    CHECK(std::filesystem::file_size(picture) > 100);
+    const test::Outcome bench = run_lockstep(
+        {"bench", setting.scene, "--gl", "osmesa", "--frames", "2", "--counts", "100,200", "--radius", "1"});
+    CHECK(bench.status == 0);
+    CHECK_THAT(bench.out,
+               Catch::Matches("(.|\n)*  1 +100 .* [0-9a-f]{16} AGREE\n +1 +200 .* [0-9a-f]{16} AGREE\n(.|\n)*"));
+}

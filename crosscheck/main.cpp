@@ -69,6 +69,7 @@ int main(int argc, char** argv) {
     add_info_command(app, status);
     add_probe_command(app, status);
     add_bench_command(app, status);
+    add_study_command(app, status);
     try {
         app.parse(argc, argv);
         flush_standard_output();

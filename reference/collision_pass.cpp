@@ -3,6 +3,7 @@
 #include <cassert>
 #include <cmath>
 #include <cstddef>
+#include <cstdint>
 #include <optional>
 #include <type_traits>
 
@@ -19,6 +20,11 @@ struct State {
     float speed, collide_time;
 };
 
+struct Collision {
+    int x, y;       ///< the texel
+    glm::vec3 away; ///< own position minus the one stored there
+};
+
 /// One particle's step, as the listing reads. `A`: the arithmetic (arithmetic.hpp).
 template <class A> class Step {
   public:
@@ -30,8 +36,8 @@ template <class A> class Step {
                       A::flush(before.collide_time)};
         const BaseTexelIndex base = base_texel(a.position);
         if (a.collide_time < 0.0F && base.x >= 0)
-            if (const auto away = nearest_collision(a.position, base))
-                return collide(a, *away);
+            if (const auto collision = nearest_collision(a.position, base))
+                return collide(a, collision->away);
         return integrate(a);
     }
 
@@ -57,13 +63,21 @@ template <class A> class Step {
         return {static_cast<int>(x), static_cast<int>(y)};
     }
 
+    /// Where a search from `position` ends, whatever the collide time.
+    [[nodiscard]] std::int32_t collision_texel(glm::vec3 position) const {
+        const glm::vec3 own = A::flush(position);
+        const BaseTexelIndex base = base_texel(own);
+        const auto collision = base.x >= 0 ? nearest_collision(own, base) : std::nullopt;
+        return collision ? static_cast<std::int32_t>(cdt_.index(collision->x, collision->y)) : no_texel;
+    }
+
   private:
     [[nodiscard]] bool holds_particle(glm::vec4 stored) const {
         return switches_.empty_texel == EmptyTexel::phantom || stored.a != 0.0F;
     }
 
-    /// Lines 5 to 19: own position minus the nearest stored one within the collision range.
-    [[nodiscard]] std::optional<glm::vec3> nearest_collision(glm::vec3 position, BaseTexelIndex base) const {
+    /// Lines 5 to 19: the nearest stored position within the collision range.
+    [[nodiscard]] std::optional<Collision> nearest_collision(glm::vec3 position, BaseTexelIndex base) const {
         glm::vec3 curr_pos = position;
         if (switches_.self_position == SelfPosition::texel) {
             const glm::vec4 self = cdt_.at(base.x, base.y);
@@ -72,7 +86,7 @@ template <class A> class Step {
             curr_pos = A::flush(code_.decode(self));
         }
         float min_length = 100000.0F;
-        std::optional<glm::vec3> away;
+        std::optional<Collision> nearest;
         const int range = constants_.texel_collide_range;
         for (int ty = -range; ty <= range; ++ty) {
             for (int tx = -range; tx <= range; ++tx) {
@@ -87,11 +101,11 @@ template <class A> class Step {
                     continue;
                 if (constants_.collision_range > len && len < min_length) {
                     min_length = len;
-                    away = apart;
+                    nearest = Collision{base.x + tx, base.y + ty, apart};
                 }
             }
         }
-        return away;
+        return nearest;
     }
 
     /// Lines 21 to 24.
@@ -213,6 +227,24 @@ BaseTexelIndex base_texel(glm::vec3 position, const FrameParams& params, const P
     const CollisionImage none;
     return with_arithmetic(profile, params.switches,
                            [&]<class A>(A) { return Step<A>(none, params).base_texel(position); });
+}
+
+std::vector<std::int32_t> collision_texels(std::span<const glm::vec3> positions, const CollisionImage& cdt,
+                                           const FrameParams& params, const Profile& profile) {
+    assert(cdt.width == params.width && cdt.height == params.height);
+    std::vector<std::int32_t> texels(positions.size());
+    const auto count = static_cast<std::ptrdiff_t>(positions.size());
+    with_arithmetic(profile, params.switches, [&]<class A>(A) {
+        const Step<A> step(cdt, params);
+#pragma omp parallel
+        {
+            const FlushSubnormals guard(profile.flush_subnormals);
+#pragma omp for schedule(static)
+            for (std::ptrdiff_t i = 0; i < count; ++i)
+                texels[static_cast<std::size_t>(i)] = step.collision_texel(positions[static_cast<std::size_t>(i)]);
+        }
+    });
+    return texels;
 }
 
 } // namespace lockstep

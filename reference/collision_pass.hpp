@@ -1,4 +1,10 @@
 #pragma once
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include <glm/vec3.hpp>
+
 #include "reference/model/image.hpp"
 #include "reference/model/particles.hpp"
 #include "reference/model/profile.hpp"
@@ -34,5 +40,11 @@ struct BaseTexelIndex {
     int y = -1;
 };
 BaseTexelIndex base_texel(glm::vec3 position, const FrameParams& params, const Profile& profile);
+
+/// For each position the texel, as an index into cdt.texels, whose content update_particles would collide with, were
+/// the collide time negative; no_texel where it would find nothing (listing, lines 5 to 19).
+constexpr std::int32_t no_texel = -1;
+std::vector<std::int32_t> collision_texels(std::span<const glm::vec3> positions, const CollisionImage& cdt,
+                                           const FrameParams& params, const Profile& profile);
 
 } // namespace lockstep

@@ -12,6 +12,7 @@ packages=(
     libosmesa6 libegl1 libgl1-mesa-dri            # contexts without a GPU
     catch2 libnanoflann-dev                       # tests and their oracle for neighbours
     libbenchmark-dev                              # benchmarks
+    gnuplot-nox                                   # charts of lockstep study
 )
 
 missing=()

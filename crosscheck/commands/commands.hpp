@@ -15,5 +15,6 @@ void add_hash_command(CLI::App& app, int& status);
 void add_probe_command(CLI::App& app, int& status);
 void add_info_command(CLI::App& app, int& status);
 void add_bench_command(CLI::App& app, int& status);
+void add_study_command(CLI::App& app, int& status);
 
 } // namespace lockstep

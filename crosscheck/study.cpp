@@ -1,0 +1,53 @@
+#include "crosscheck/study.hpp"
+
+#include <algorithm>
+
+#include "reference/collision_pass.hpp"
+#include "reference/obstacle_pass.hpp"
+#include "reference/simulation.hpp"
+
+namespace lockstep {
+
+std::vector<StudyFrame> study_run(const Scene& scene, const Profile& profile, const StudyOptions& options) {
+    std::vector<StudyFrame> studied;
+    ReferenceSimulation simulation(scene, profile);
+    Particles previous;
+    for (int frame = 0; frame < options.frames; ++frame) {
+        const FrameParams params = frame_params(scene, frame);
+        const Particles before = simulation.particles();
+        if (frame > 0 && (frame - 1) % options.every == 0) {
+            const Owners owners =
+                draw_owners(previous, before, scene.obstacles, frame_params(scene, frame - 1), profile);
+            const Truth truth = find_truth(before.position, params.constants.collision_range);
+            const SearchStudy study = study_search(before, simulation.cdt(), owners, truth, params, profile);
+            studied.push_back({frame, study.counts, {}});
+            if (options.on_state)
+                options.on_state({frame, before, params, study.findings});
+        }
+        simulation.step(params);
+        if (!studied.empty() && studied.back().frame == frame)
+            studied.back().drift = drift(before, simulation.particles(), params.constants);
+        previous = before;
+        if (options.on_frame)
+            options.on_frame(frame + 1);
+    }
+    return studied;
+}
+
+SearchStudy study_start(const Scene& scene, const Truth& truth, const Profile& profile) {
+    Particles particles = scene.start;
+    std::fill(particles.collide_time.begin(), particles.collide_time.end(), -1.0F);
+    const FrameParams params = frame_params(scene, 0);
+    CollisionImage cdt(scene.width, scene.height);
+    DepthImage depth(scene.width, scene.height, 1.0F);
+    obstacle_pass(scene.obstacles, params, profile, cdt, depth);
+    rasterise_particles(particles, particles, params, profile, cdt, depth);
+    const Owners owners = draw_owners(particles, particles, scene.obstacles, params, profile);
+    return study_search(particles, cdt, owners, truth, params, profile);
+}
+
+SearchStudy study_start(const Scene& scene, const Profile& profile) {
+    return study_start(scene, find_truth(scene.start.position, scene.constants.collision_range), profile);
+}
+
+} // namespace lockstep

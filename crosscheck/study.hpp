@@ -1,0 +1,41 @@
+#pragma once
+#include <functional>
+#include <span>
+#include <vector>
+
+#include "reference/model/profile.hpp"
+#include "reference/model/scene.hpp"
+#include "reference/search_study.hpp"
+
+namespace lockstep {
+
+/// A frame of a study.
+struct StudyFrame {
+    int frame = 0;
+    SearchCounts counts;
+    Drift drift;
+};
+
+/// What a studied frame's pictures need.
+struct StudiedState {
+    int frame;
+    const Particles& particles; ///< before the step
+    const FrameParams& params;
+    std::span<const Finding> findings;
+};
+
+struct StudyOptions {
+    int frames = 60;
+    int every = 1;                                     ///< studies frames 1, 1 + every, ...; frame 0 has an empty CDT
+    std::function<void(int done)> on_frame;            ///< after each frame, studied or not
+    std::function<void(const StudiedState&)> on_state; ///< of each studied frame
+};
+
+/// Runs the reference and studies its searches.
+std::vector<StudyFrame> study_run(const Scene& scene, const Profile& profile, const StudyOptions& options);
+
+/// The study of a scene's start: drawn once as it stands, then every particle searches. `truth` of the start.
+SearchStudy study_start(const Scene& scene, const Truth& truth, const Profile& profile);
+SearchStudy study_start(const Scene& scene, const Profile& profile);
+
+} // namespace lockstep

@@ -4,10 +4,11 @@
 #include <array>
 #include <cstdio>
 #include <cstdlib>
+#include <filesystem>
 
 #include <fmt/format.h>
+#include <unistd.h>
 
-#include "crosscheck/atomic_file.hpp"
 #include "reference/collision_pass.hpp"
 #include "reference/model/error.hpp"
 
@@ -48,8 +49,7 @@ std::string in_quotes(std::string_view text) {
     return out;
 }
 
-std::string chart_script(const std::filesystem::path& path, std::span<const StudyFrame> frames,
-                         std::string_view title) {
+std::string chart_script(std::span<const StudyFrame> frames, std::string_view title) {
     std::string script = "$data << EOD\n";
     for (const StudyFrame& frame : frames) {
         const SearchCounts& n = frame.counts;
@@ -59,12 +59,12 @@ std::string chart_script(const std::filesystem::path& path, std::span<const Stud
             script += fmt::format(" {:.6g}", static_cast<double>(missed) / whole);
         script += '\n';
     }
-    script += fmt::format("EOD\nset terminal svg size 900,500 noenhanced background rgb 'white'\nset output {}\n"
+    script += fmt::format("EOD\nset terminal svg size 900,500 noenhanced background rgb 'white'\n"
                           "set title {}\nset xlabel 'frame'\n"
                           "set ylabel 'particles with an exact neighbour, %'\nset yrange [0:100]\n"
                           "set key outside right\nset grid\nplot $data using 1:2 with lines lw 2 lc rgb '#2a8040' "
                           "title 'recalled'",
-                          in_quotes(path.string()), in_quotes(title));
+                          in_quotes(title));
     for (std::size_t m = 0; m < miss_names.size(); ++m) {
         bool any = false;
         for (const StudyFrame& frame : frames)
@@ -76,6 +76,28 @@ std::string chart_script(const std::filesystem::path& path, std::span<const Stud
     }
     return script + "\n";
 }
+
+/// A temporary file with what gnuplot is to do.
+class ScriptFile {
+  public:
+    explicit ScriptFile(const std::string& script)
+        : path_((std::filesystem::temp_directory_path() / "lockstep-chart-XXXXXX").string()) {
+        const int file = mkstemp(path_.data());
+        const bool written = file >= 0 && write(file, script.data(), script.size()) == std::ssize(script);
+        if (file >= 0)
+            close(file);
+        if (!written)
+            throw Error(fmt::format("chart: {} cannot be written", path_));
+    }
+    ~ScriptFile() { std::remove(path_.c_str()); }
+    ScriptFile(const ScriptFile&) = delete;
+    ScriptFile& operator=(const ScriptFile&) = delete;
+
+    [[nodiscard]] const std::string& path() const { return path_; }
+
+  private:
+    std::string path_;
+};
 
 } // namespace
 
@@ -102,19 +124,20 @@ std::string_view picture_legend() {
            "blue outside_window, cyan stale, white coincident, pink rounded, olive cooling_down";
 }
 
-bool write_chart(const std::filesystem::path& path, std::span<const StudyFrame> frames, std::string_view title) {
+std::optional<std::string> chart_svg(std::span<const StudyFrame> frames, std::string_view title) {
     if (std::system("command -v gnuplot >/dev/null 2>&1") != 0)
-        return false;
-    write_atomically(path, [&](const std::filesystem::path& temporary) {
-        std::FILE* gnuplot = popen("gnuplot", "w");
-        if (gnuplot == nullptr)
-            throw Error(fmt::format("{}: gnuplot cannot be started", path.string()));
-        const std::string script = chart_script(temporary, frames, title);
-        std::fwrite(script.data(), 1, script.size(), gnuplot);
-        if (pclose(gnuplot) != 0)
-            throw Error(fmt::format("{}: gnuplot failed, see its message above", path.string()));
-    });
-    return true;
+        return {};
+    const ScriptFile script(chart_script(frames, title));
+    std::FILE* gnuplot = popen(fmt::format("gnuplot '{}'", script.path()).c_str(), "r");
+    if (gnuplot == nullptr)
+        throw Error("chart: gnuplot cannot be started");
+    std::string svg;
+    std::array<char, 4096> part{};
+    while (const std::size_t size = std::fread(part.data(), 1, part.size(), gnuplot))
+        svg.append(part.data(), size);
+    if (pclose(gnuplot) != 0 || svg.empty())
+        throw Error("chart: gnuplot failed; its message stands above");
+    return svg;
 }
 
 } // namespace lockstep

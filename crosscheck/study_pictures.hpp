@@ -1,6 +1,7 @@
 #pragma once
-#include <filesystem>
+#include <optional>
 #include <span>
+#include <string>
 #include <string_view>
 
 #include "crosscheck/study.hpp"
@@ -17,8 +18,8 @@ Rgba8 miss_color(Miss miss);
 /// What the colours mean, one line.
 std::string_view picture_legend();
 
-/// Draws recall and misses by cause over the frames as an SVG file, by gnuplot. False where gnuplot is not installed.
-/// Throws Error if it fails.
-bool write_chart(const std::filesystem::path& path, std::span<const StudyFrame> frames, std::string_view title);
+/// Recall and misses by cause over the frames as an SVG file, drawn by gnuplot; nothing where gnuplot is not
+/// installed. Throws Error if it fails.
+std::optional<std::string> chart_svg(std::span<const StudyFrame> frames, std::string_view title);
 
 } // namespace lockstep

@@ -3,9 +3,11 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
-#include "crosscheck/atomic_file.hpp"
+#include "crosscheck/catalogue.hpp"
 #include "crosscheck/commands/commands.hpp"
+#include "crosscheck/commands/option_values.hpp"
 #include "crosscheck/commands/run_options.hpp"
+#include "crosscheck/output_files.hpp"
 #include "crosscheck/png.hpp"
 #include "crosscheck/progress.hpp"
 #include "crosscheck/recall_table.hpp"
@@ -25,6 +27,7 @@ struct Options {
     std::filesystem::path csv, json, images, chart;
     std::filesystem::path scenes = "data/scenes";
     bool recall_table = false;
+    bool catalogue = false;
 };
 
 void print_recall_table(const Options& options) {
@@ -36,53 +39,77 @@ void print_recall_table(const Options& options) {
     fmt::print("{}", recall_table_foot());
 }
 
+/// Whether every effect is there.
+bool print_catalogue(const Options& options) {
+    bool all = true;
+    fmt::print("{}", catalogue_head());
+    for (const std::string_view name : catalogue_names())
+        for (const CatalogueRow& row : measure_catalogue(name, options.scenes / "catalogue")) {
+            fmt::print("{}", catalogue_text(row));
+            all = all && row.holds();
+        }
+    return all;
+}
+
 void study_scene(const Options& options) {
     const Scene scene = load(options.run);
     const Profile profile = named_profile(options.profile);
+    OutputFiles files;
+    for (const auto& file : {options.csv, options.json, options.chart})
+        if (!file.empty())
+            files.expect(file);
     if (!options.images.empty())
-        make_output_directory(options.images);
+        files.expect_folder(options.images);
 
-    Progress progress("study", options.run.frames, true);
     StudyOptions study_options;
     study_options.frames = options.run.frames;
     study_options.every = options.every;
-    study_options.on_frame = [&](int done) { progress.show(done); };
     if (!options.images.empty())
         study_options.on_state = [&](const StudiedState& state) {
-            write_png(options.images / fmt::format("misses_{:05}.png", state.frame), study_picture(state, profile));
+            files.write(options.images / fmt::format("misses_{:05}.png", state.frame),
+                        png(study_picture(state, profile)));
         };
-    const std::vector<StudyFrame> frames = study_run(scene, profile, study_options);
+    const std::vector<StudyFrame> frames = [&] {
+        Progress progress("study", options.run.frames, true);
+        study_options.on_frame = [&](int done) { progress.show(done); };
+        return study_run(scene, profile, study_options);
+    }();
 
     if (!options.csv.empty())
-        write_text_file(options.csv, study_csv(frames));
+        files.write(options.csv, study_csv(frames));
     if (!options.json.empty()) {
         nlohmann::json json = study_json(frames);
         json["scene"] = scene.name;
         json["switches"] = settings_text(options.run, scene);
         json["repeat"] = command_line("study", options.run, options.run.frames);
-        write_text_file(options.json, json.dump(2) + "\n");
+        files.write(options.json, json.dump(2, ' ', false, nlohmann::json::error_handler_t::replace) + "\n");
     }
+    const auto chart = options.chart.empty() ? std::nullopt : chart_svg(frames, scene.name);
+    if (chart)
+        files.write(options.chart, *chart);
+    files.commit();
     fmt::print("scene     {} ({}): {} particles, range {}\nswitches  {}\n\n{}", scene.name, options.run.scene.string(),
                scene.start.size(), scene.constants.collision_range, settings_text(options.run, scene),
                study_text(frames));
     if (!options.images.empty())
         fmt::print("\npictures  {}: {}\n", options.images.string(), picture_legend());
-    if (!options.chart.empty() && !write_chart(options.chart, frames, scene.name))
+    if (!options.chart.empty() && !chart)
         fmt::print("\nno chart: gnuplot is not installed (Debian package gnuplot-nox)\n");
 }
 
 int run(const Options& options) {
-    if (options.recall_table) {
+    if (options.recall_table || options.catalogue) {
         if (!options.run.scene.empty())
-            throw Error("study: --recall-table has scenes of its own; leave SCENE out");
-        print_recall_table(options);
-    } else {
-        if (options.run.scene.empty())
-            throw Error("study: a SCENE or --recall-table is needed");
-        if (options.run.frames < 2)
-            throw Error("study: --frames 1 is the frame with the empty CDT; 2 or more have something to study");
-        study_scene(options);
+            throw Error("study: --recall-table and --catalogue have scenes of their own; leave SCENE out");
+        if (options.recall_table)
+            print_recall_table(options);
+        return options.catalogue && !print_catalogue(options) ? status_differ : status_agree;
     }
+    if (options.run.scene.empty())
+        throw Error("study: a SCENE, --recall-table or --catalogue is needed");
+    if (options.run.frames < 2)
+        throw Error("study: --frames 1 is the frame with the empty CDT; 2 or more have something to study");
+    study_scene(options);
     return status_agree;
 }
 
@@ -94,11 +121,9 @@ void add_study_command(CLI::App& app, int& status) {
                                                  "why it misses what it misses; needs no GL");
     add_scene_options(*verb, options->run);
     verb->get_option("scene")->required(false);
-    verb->add_option("--frames", options->run.frames, "frames to run")
-        ->check(CLI::Range(1, 100'000'000))
-        ->type_name("N");
+    verb->add_option("--frames", options->run.frames, "frames to run")->check(integer(1, most_frames))->type_name("N");
     verb->add_option("--every", options->every, "study every Nth frame only")
-        ->check(CLI::Range(1, 100'000'000))
+        ->check(integer(1, most_frames))
         ->type_name("N");
     verb->add_option("--profile", options->profile, "strict, llvmpipe or nvidia: the order of sums")->type_name("NAME");
     verb->add_option("--csv", options->csv, "write every number of every studied frame")->type_name("FILE");
@@ -108,7 +133,10 @@ void add_study_command(CLI::App& app, int& status) {
     verb->add_option("--chart", options->chart, "draw recall and misses over the frames as SVG, by gnuplot")
         ->type_name("FILE");
     verb->add_flag("--recall-table", options->recall_table, "clouds at rest instead of a scene: recall by radius");
-    verb->add_option("--scenes", options->scenes, "where the clouds of --recall-table are")->type_name("DIR");
+    verb->add_flag("--catalogue", options->catalogue,
+                   "the thesis's failure catalogue as a table; exit status 1 if an effect is not there");
+    verb->add_option("--scenes", options->scenes, "where the scenes of --recall-table and --catalogue are")
+        ->type_name("DIR");
     verb->footer("Example: lockstep study data/scenes/x_streams.json --frames 60 --every 10");
     verb->callback([options, &status] { status = run(*options); });
 }

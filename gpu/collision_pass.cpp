@@ -54,21 +54,27 @@ void CollisionPass::run(const FrameParams& params, const ParticleBuffer& from, P
     const GlVertexArray vertices = particle_vertex_array(from, program_);
     gl::BindVertexArray(vertices.id());
     to.bind_capture();
+    gl::BeginQuery(GL_PRIMITIVES_GENERATED, emitted_.id());
     gl::BeginQuery(GL_TRANSFORM_FEEDBACK_PRIMITIVES_WRITTEN, written_.id());
     gl::BeginTransformFeedback(GL_POINTS);
     gl::DrawArrays(GL_POINTS, 0, static_cast<GLsizei>(from.size()));
     gl::EndTransformFeedback();
     gl::EndQuery(GL_TRANSFORM_FEEDBACK_PRIMITIVES_WRITTEN);
+    gl::EndQuery(GL_PRIMITIVES_GENERATED);
     check_gl("collision_pass");
 }
 
 void CollisionPass::verify_written(std::size_t expected) const {
+    GLuint emitted = 0;
     GLuint written = 0;
+    gl::GetQueryObjectuiv(emitted_.id(), GL_QUERY_RESULT, &emitted);
     gl::GetQueryObjectuiv(written_.id(), GL_QUERY_RESULT, &written);
-    if (written != expected)
-        throw Error(fmt::format("collision_pass: transform feedback wrote {} of {} particles; the last "
+    if (emitted != expected)
+        throw Error(fmt::format("collision_pass: the shaders emitted {} points for {} particles; the last "
                                 "vertex-processing stage must emit exactly one point a particle",
-                                written, expected));
+                                emitted, expected));
+    if (written != expected)
+        throw Error(fmt::format("collision_pass: transform feedback wrote {} of {} particles", written, expected));
 }
 
 } // namespace lockstep

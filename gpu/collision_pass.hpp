@@ -20,11 +20,12 @@ class CollisionPass {
     void run(const FrameParams& params, const ParticleBuffer& from, ParticleBuffer& to, const CollisionTexture& cdt,
              CollisionTexture& target);
 
-    /// Waits for the last run. Throws Error unless transform feedback wrote every particle.
+    /// Waits for the last run. Throws Error unless the shaders emitted one point a particle and all were captured.
     void verify_written(std::size_t expected) const;
 
   private:
     Program program_;
+    GlQuery emitted_; ///< also what finds no room in the buffer
     GlQuery written_;
 };
 

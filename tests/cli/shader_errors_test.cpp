@@ -69,7 +69,7 @@ TEST_CASE("shader_errors: particles that are not passed on are no verdict") {
     const test::TemporaryFolder shaders;
     test::plant(shaders, "collision_pass.geom", "    EmitVertex();\n    EndPrimitive();\n", "");
     CHECK_THAT(refusal_of(shaders),
-               Catch::Equals("collision_pass: transform feedback wrote 0 of 300 particles; the last "
+               Catch::Equals("collision_pass: the shaders emitted 0 points for 300 particles; the last "
                              "vertex-processing stage must emit exactly one point a particle"));
 }
 

@@ -1,0 +1,135 @@
+#include <bit>
+#include <cstdint>
+
+#include <catch2/catch.hpp>
+
+#include "gpu/gl.hpp"
+#include "reference/model/error.hpp"
+#include "tests/planted_shader.hpp"
+#include "tests/twin/llvmpipe.hpp"
+#include "tests/twin/twin_scenes.hpp"
+
+using namespace lockstep;
+using test::check_twins;
+using test::crowded_scene;
+
+TEST_CASE("no false pass: particles that are not passed on are an error, none or some of them") {
+    const auto context = test::open_context("osmesa");
+    if (!context)
+        return;
+    const test::TemporaryFolder shaders;
+    SECTION("none") {
+        test::plant(shaders, "collision_pass.geom", "    EmitVertex();\n    EndPrimitive();\n", "");
+        CHECK_THROWS_WITH(check_twins(crowded_scene(100), 2, shaders.path()),
+                          "collision_pass: the shaders emitted 0 points for 100 particles; the last vertex-processing "
+                          "stage must emit exactly one point a particle");
+    }
+    SECTION("all but one") {
+        test::plant(shaders, "collision_pass.geom", "    EmitVertex();\n",
+                    "    if (gl_PrimitiveIDIn != 42) EmitVertex();\n");
+        CHECK_THROWS_WITH(check_twins(crowded_scene(100), 2, shaders.path()),
+                          Catch::StartsWith("collision_pass: the shaders emitted 99 points for 100 particles"));
+    }
+    SECTION("twice, where the second finds no room in the buffer") {
+        test::plant(shaders, "collision_pass.geom", "max_vertices = 1", "max_vertices = 2");
+        test::plant(shaders, "collision_pass.geom", "    EmitVertex();\n",
+                    "    EmitVertex();\n    out_Position = v_Position[0];\n    gl_Position = gl_in[0].gl_Position;\n"
+                    "    EmitVertex();\n");
+        CHECK_THROWS_WITH(check_twins(crowded_scene(1), 2, shaders.path()),
+                          Catch::StartsWith("collision_pass: the shaders emitted 2 points for 1 particles"));
+    }
+}
+
+TEST_CASE("no false pass: a shader that answers twice in two ways is nondeterministic") {
+    const auto context = test::open_context("osmesa");
+    if (!context)
+        return;
+    if (!gl::offers(9, 9, "GL_ARB_shader_clock"))
+        return test::skip("no GL_ARB_shader_clock to make a shader nondeterministic with");
+    const test::TemporaryFolder shaders;
+    test::plant(shaders, "collision_pass.vert", "#version 330 core\n",
+                "#version 330 core\n#extension GL_ARB_shader_clock : require\n");
+    SECTION("particles") {
+        test::plant(shaders, "collision_pass.vert", "v_Speed = ls_length(temp);",
+                    "v_Speed = ls_length(temp) + float(clock2x32ARB().x & 0xffffu);");
+    }
+    SECTION("texels") {
+        test::plant(
+            shaders, "collision_pass.vert", "gl_Position = point_position(clip);",
+            "gl_Position = point_position(clip) + vec4(float(clock2x32ARB().x & 0xffu) / 256.0, 0.0, 0.0, 0.0);");
+    }
+    const CheckReport report = check_twins(crowded_scene(), 4, shaders.path());
+    CHECK(report.verdict == Verdict::nondeterministic);
+    CHECK(report.first_frame == 0);
+    CHECK(report.frames == 1);
+    CHECK_FALSE(report.total.agree());
+}
+
+TEST_CASE("no false pass: an image that is neither cleared nor drawn is an error") {
+    const auto context = test::open_context("osmesa");
+    if (!context)
+        return;
+    gl::Enable(GL_SCISSOR_TEST);
+    gl::Scissor(0, 0, 20, 20);
+    CHECK_THROWS_WITH(check_twins(crowded_scene(), 2),
+                      "frame 0: the GPU neither cleared nor drew texel (20, 0) of the CDT");
+}
+
+TEST_CASE("no false pass: a record that was not written is an error that names the particle") {
+    const float canary = std::bit_cast<float>(std::uint32_t{0xca7ca7ca});
+    const Scene scene = crowded_scene(5);
+    const CollisionImage cdt(4, 4);
+    CHECK_NOTHROW(GpuSimulation::find_canary(scene.start, cdt, 1));
+    const std::string message =
+        "frame 1: the GPU did not write particle 3: its record still holds what was laid there before the draw";
+    Particles particles = scene.start;
+    particles.position[3].z = canary;
+    CHECK_THROWS_WITH(GpuSimulation::find_canary(particles, cdt, 1), message);
+    particles = scene.start;
+    particles.direction[3].x = canary;
+    CHECK_THROWS_WITH(GpuSimulation::find_canary(particles, cdt, 1), message);
+    particles = scene.start;
+    particles.speed[3] = canary;
+    CHECK_THROWS_WITH(GpuSimulation::find_canary(particles, cdt, 1), message);
+    particles = scene.start;
+    particles.collide_time[3] = canary;
+    CHECK_THROWS_WITH(GpuSimulation::find_canary(particles, cdt, 1), message);
+}
+
+TEST_CASE("no false pass: the canary is laid, and every frame writes over it") {
+    const auto context = test::open_context("osmesa");
+    if (!context)
+        return;
+    const Scene scene = crowded_scene();
+    GpuSimulation gpu(scene, {});
+    Particles particles;
+    CollisionImage cdt;
+    gpu.lay_canary();
+    gpu.step(frame_params(scene, 0));
+    gpu.read(particles);
+    gpu.read(cdt);
+    CHECK_NOTHROW(GpuSimulation::find_canary(particles, cdt, 0));
+}
+
+TEST_CASE("no false pass: a GL error ends the run") {
+    const auto context = test::open_context("osmesa");
+    if (!context)
+        return;
+    const Scene scene = crowded_scene(10);
+    GpuSimulation gpu(scene, {});
+    gl::Enable(0x1234);
+    CHECK_THROWS_WITH(gpu.step(frame_params(scene, 0)), Catch::EndsWith("GL_INVALID_ENUM"));
+}
+
+TEST_CASE("no false pass: a run that compared nothing is an error") {
+    const auto context = test::open_context("osmesa");
+    if (!context)
+        return;
+    const std::atomic<bool> stop{true};
+    const Scene scene = crowded_scene(10);
+    GpuSimulation gpu(scene, {});
+    CheckOptions options;
+    options.stop = &stop;
+    CHECK_THROWS_WITH(check(scene, named_profile("llvmpipe"), gpu, options),
+                      "crowded: nothing was compared: 0 frames of 10 particles");
+}

@@ -9,6 +9,7 @@
 #include <glm/vec4.hpp>
 
 #include "reference/model/profile.hpp"
+#include "reference/pixel_box.hpp"
 #include "reference/window.hpp"
 
 namespace lockstep {
@@ -52,18 +53,16 @@ inline PixelRect covered_pixels(const Billboard& b, int width, int height, const
 
 /// The window rectangle as the fragment shader sees it, pixels: not snapped.
 struct BillboardWindow {
+    glm::vec2 low{0.0F};
+    glm::vec2 high{0.0F};
     glm::vec2 centre{0.0F};
     glm::vec2 half{0.0F};
 };
 
 template <class A> BillboardWindow billboard_window(const Billboard& b, int width, int height) {
-    const auto window = [&](glm::vec4 corner) {
-        return glm::vec2((A::divide(corner.x, b.low.w) + 1.0F) * 0.5F * static_cast<float>(width),
-                         (A::divide(corner.y, b.low.w) + 1.0F) * 0.5F * static_cast<float>(height));
-    };
-    const glm::vec2 low = window(b.low);
-    const glm::vec2 high = window(b.high);
-    return {(low + high) * 0.5F, (high - low) * 0.5F};
+    const glm::vec2 low = window_place<A>(glm::vec2(b.low), b.low.w, width, height);
+    const glm::vec2 high = window_place<A>(glm::vec2(b.high), b.low.w, width, height);
+    return {low, high, (low + high) * 0.5F, (high - low) * 0.5F};
 }
 
 } // namespace lockstep

@@ -9,7 +9,7 @@
 
 #include "reference/collision_code.hpp"
 #include "reference/collision_pass.hpp"
-#include "reference/draw_in_bands.hpp"
+#include "reference/draw_triangles.hpp"
 #include "reference/subnormals.hpp"
 #include "reference/triangle_interpolation.hpp"
 #include "reference/triangle_raster.hpp"
@@ -25,37 +25,30 @@ template <class A> std::vector<glm::vec4> project(const Mesh& obstacles, const g
     return clip;
 }
 
-template <class T>
-std::array<T, 3> corners(const std::vector<T>& vertices, const Mesh& obstacles, std::uint32_t triangle) {
-    const std::uint32_t* index = &obstacles.indices[std::size_t{triangle} * 3];
-    return {vertices[index[0]], vertices[index[1]], vertices[index[2]]};
+template <class A> std::array<glm::vec3, 3> corners(const Mesh& obstacles, std::size_t triangle) {
+    const std::uint32_t* index = &obstacles.indices[triangle * 3];
+    const auto corner = [&](std::size_t i) { return A::flush(obstacles.positions[index[i]]); };
+    return {corner(0), corner(1), corner(2)};
 }
 
 template <class A> void draw_obstacle_triangles(const Mesh& obstacles, const FrameParams& params,
                                                 const Profile& profile, CollisionImage& cdt, DepthImage& depth) {
     const FlushSubnormals guard(profile.flush_subnormals);
     const std::vector<glm::vec4> clip = project<A>(obstacles, params.collision_proj_view);
-    const auto triangles = assemble_triangles(clip, obstacles.indices, params.width, params.height, profile.raster);
     const CollisionCode code(params);
-    const auto rows = [&](std::size_t i) { return rows_touched(triangles[i], profile.raster); };
-    const auto draw = [&](std::size_t i, const PixelRect& area) {
-        const std::uint32_t triangle = triangles[i].primitive;
-        const TriangleInterpolation<A> interpolation(corners(clip, obstacles, triangle), params.width, params.height);
-        const auto positions = corners(obstacles.positions, obstacles, triangle);
-        for_each_pixel(triangles[i], profile.raster, area, [&](int x, int y) {
-            const auto weights = interpolation.weights(x, y);
-            const float fragment_depth = interpolation.depth(weights);
-            if (!(fragment_depth < depth.at(x, y)))
+    const auto shader = [&](std::size_t triangle) {
+        return [&, positions = corners<A>(obstacles, triangle)](int x, int y, const auto& weights, float window_depth) {
+            if (!(window_depth < depth.at(x, y)))
                 return;
-            depth.at(x, y) = fragment_depth;
-            cdt.at(x, y) = code.encode(interpolation.mix(positions, weights));
-        });
+            depth.at(x, y) = window_depth;
+            cdt.at(x, y) = code.encode(TriangleInterpolation<A>::mix(positions, weights));
+        };
     };
-    draw_in_bands(triangles.size(), params.width, params.height, profile, rows, draw);
+    draw_triangles<A>(clip, obstacles.indices, params.width, params.height, profile, shader);
 }
 
-void draw_obstacle_vertices(const Mesh& obstacles, const FrameParams& params, const Profile& profile,
-                            CollisionImage& cdt, DepthImage& depth) {
+template <class A> void draw_obstacle_vertices(const Mesh& obstacles, const FrameParams& params, const Profile& profile,
+                                               CollisionImage& cdt, DepthImage& depth) {
     const FlushSubnormals guard(profile.flush_subnormals);
     const CollisionCode code(params);
     for (const glm::vec3 position : obstacles.positions) {
@@ -63,7 +56,7 @@ void draw_obstacle_vertices(const Mesh& obstacles, const FrameParams& params, co
         if (point.x < 0 || !(point.depth < depth.at(point.x, point.y)))
             continue;
         depth.at(point.x, point.y) = point.depth;
-        cdt.at(point.x, point.y) = code.encode(position);
+        cdt.at(point.x, point.y) = code.encode(A::flush(position));
     }
 }
 
@@ -77,7 +70,8 @@ void obstacle_pass(const Mesh& obstacles, const FrameParams& params, const Profi
     case ObstaclesInCdt::off:
         return;
     case ObstaclesInCdt::vertices:
-        return draw_obstacle_vertices(obstacles, params, profile, cdt, depth);
+        return with_arithmetic(profile, params.switches,
+                               [&]<class A>(A) { draw_obstacle_vertices<A>(obstacles, params, profile, cdt, depth); });
     case ObstaclesInCdt::triangles:
         return with_arithmetic(profile, params.switches,
                                [&]<class A>(A) { draw_obstacle_triangles<A>(obstacles, params, profile, cdt, depth); });

@@ -4,14 +4,15 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <type_traits>
 #include <utility>
 #include <vector>
 
 #include "reference/draw_in_bands.hpp"
+#include "reference/draw_triangles.hpp"
+#include "reference/pixel_box.hpp"
 #include "reference/shading.hpp"
 #include "reference/subnormals.hpp"
-#include "reference/triangle_interpolation.hpp"
-#include "reference/triangle_raster.hpp"
 #include "reference/with_arithmetic.hpp"
 
 namespace lockstep {
@@ -38,19 +39,13 @@ template <class A> class RenderPass {
             view[i] = to_view(obstacles.positions[i]);
             clip[i] = A::transform(params_.render_projection, view[i]);
         }
-        const auto triangles = assemble_triangles(clip, obstacles.indices, width_, height_, profile_.raster);
-        const auto rows = [&](std::size_t i) { return rows_touched(triangles[i], profile_.raster); };
-        const auto draw = [&](std::size_t i, const PixelRect& area) {
-            const std::uint32_t* index = &obstacles.indices[std::size_t{triangles[i].primitive} * 3];
-            const TriangleInterpolation<A> interpolation({clip[index[0]], clip[index[1]], clip[index[2]]}, width_,
-                                                         height_);
+        const auto shader = [&](std::size_t triangle) {
+            const std::uint32_t* index = &obstacles.indices[triangle * 3];
             const Rgba8 color =
                 Shading<A>::quantise(Shading<A>::obstacle({view[index[0]], view[index[1]], view[index[2]]}));
-            for_each_pixel(triangles[i], profile_.raster, area, [&](int x, int y) {
-                keep_nearer(x, y, interpolation.depth(interpolation.weights(x, y)), color);
-            });
+            return [this, color](int x, int y, const auto&, float depth) { keep_nearer(x, y, depth, color); };
         };
-        draw_in_bands(triangles.size(), width_, height_, profile_, rows, draw);
+        draw_triangles<A>(clip, obstacles.indices, width_, height_, profile_, shader);
     }
 
     void draw_particles(const Particles& particles) {
@@ -86,8 +81,11 @@ template <class A> class RenderPass {
         const Billboard square = billboard(view_centre);
         if (!is_visible(square))
             return {};
-        return {view_centre, billboard_window<A>(square, width_, height_),
-                covered_pixels(square, width_, height_, profile_.raster)};
+        const BillboardWindow window = billboard_window<A>(square, width_, height_);
+        if constexpr (std::is_same_v<A, Portable>)
+            return {view_centre, window, pixel_box(window.low, window.high, width_, height_)};
+        else
+            return {view_centre, window, covered_pixels(square, width_, height_, profile_.raster)};
     }
 
     /// The sphere of the billboard's radius where the square's pixel looks at it, seen without perspective.

@@ -20,7 +20,7 @@ template <class A> struct Shading {
 
     /// Flat, both sides alike, lit from the upper left of the camera.
     static glm::vec3 obstacle(const std::array<glm::vec3, 3>& corners) {
-        glm::vec3 normal = cross(corners[1] - corners[0], corners[2] - corners[0]);
+        glm::vec3 normal = cross(A::flush(corners[1] - corners[0]), A::flush(corners[2] - corners[0]));
         if (dot(normal, corners[0]) > 0.0F)
             normal = -normal;
         const float squared = dot(normal, normal);
@@ -55,9 +55,14 @@ template <class A> struct Shading {
     static constexpr glm::vec3 light{-0.375F, 0.5F, 0.78125F}; // of unit length within 5 / 10000
 
     static float share(float x) { return clamp_to(x, 1.0F); }
-    static float dot(glm::vec3 a, glm::vec3 b) { return (a.x * b.x + a.y * b.y) + a.z * b.z; }
+    static float dot(glm::vec3 a, glm::vec3 b) {
+        const glm::vec3 products = A::flush(a * b);
+        return A::flush(A::flush(products.x + products.y) + products.z);
+    }
     static glm::vec3 cross(glm::vec3 a, glm::vec3 b) {
-        return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
+        const glm::vec3 products = A::flush({a.y * b.z, a.z * b.x, a.x * b.y});
+        const glm::vec3 other_products = A::flush({a.z * b.y, a.x * b.z, a.y * b.x});
+        return A::flush(products - other_products);
     }
     static glm::vec3 blend(glm::vec3 a, glm::vec3 b, float t) {
         return {a.x + t * (b.x - a.x), a.y + t * (b.y - a.y), a.z + t * (b.z - a.z)};

@@ -1,5 +1,7 @@
 #pragma once
 #include <array>
+#include <cmath>
+#include <optional>
 
 #include <glm/vec3.hpp>
 #include <glm/vec4.hpp>
@@ -9,10 +11,11 @@ namespace lockstep {
 /// To 0..high; NaN becomes 0.
 inline float clamp_to(float x, float high) { return x > 0.0F ? (x < high ? x : high) : 0.0F; }
 
-/// Perspective-correct interpolation over a triangle in homogeneous coordinates (Olano and Greer, "Triangle scan
-/// conversion using 2D homogeneous coordinates", 1997), at pixel centres and in a written order of operations. Twin of
-/// shaders/triangle_interpolation.glsl: the fragment shader gets the whole triangle and interpolates by itself, so
-/// that nothing depends on the driver's interpolator. `A`: arithmetic.hpp.
+/// Coverage and perspective-correct interpolation of a triangle in homogeneous coordinates (Olano and Greer, "Triangle
+/// scan conversion using 2D homogeneous coordinates", 1997), at pixel centres and in a written order of operations.
+/// Twin of shaders/triangle_interpolation.glsl: the fragment shader gets the whole triangle and interpolates by itself,
+/// so that nothing depends on the driver's interpolator, nor, in the exact preset, on its rasteriser. `A`:
+/// arithmetic.hpp.
 template <class A> class TriangleInterpolation {
   public:
     /// Shares of the second and third corner; the first has the rest. Both >= 0, their sum <= 1: a centre that is
@@ -20,6 +23,22 @@ template <class A> class TriangleInterpolation {
     struct Weights {
         float second = 0.0F;
         float third = 0.0F;
+    };
+
+    /// Edge functions of the sides opposite to the corners: their shares times `sum`. Two triangles that share a side
+    /// see its edge function with the same bits but for the sign, and the sign is right or the result 0: rounding keeps
+    /// the order of the two products.
+    struct Edges {
+        float first = 0.0F;
+        float second = 0.0F;
+        float third = 0.0F;
+        float sum = 0.0F;
+    };
+
+    /// A pixel that the triangle covers, and its window depth, 0..1.
+    struct Fragment {
+        Weights weights;
+        float depth = 0.0F;
     };
 
     TriangleInterpolation(const std::array<glm::vec4, 3>& clip, int width, int height)
@@ -32,29 +51,51 @@ template <class A> class TriangleInterpolation {
 
     /// At the centre of pixel (x, y). Corners are taken relative to the centre, in half pixels times w: what cancels
     /// cancels before anything is multiplied, which keeps triangles of a pixel's size accurate.
-    [[nodiscard]] Weights weights(int x, int y) const {
+    [[nodiscard]] Edges edges(int x, int y) const {
         const auto centre_x = static_cast<float>(2 * x + 1 - width_);
         const auto centre_y = static_cast<float>(2 * y + 1 - height_);
         std::array<float, 3> rx{}, ry{};
         for (std::size_t i = 0; i < 3; ++i) {
-            rx[i] = x_[i] - centre_x * clip_[i].w;
-            ry[i] = y_[i] - centre_y * clip_[i].w;
+            rx[i] = A::flush(x_[i] - centre_x * clip_[i].w);
+            ry[i] = A::flush(y_[i] - centre_y * clip_[i].w);
         }
-        const float first = rx[1] * ry[2] - rx[2] * ry[1];
-        const float second = rx[2] * ry[0] - rx[0] * ry[2];
-        const float third = rx[0] * ry[1] - rx[1] * ry[0];
-        const float sum = (first + second) + third;
-        if (!(sum < 0.0F) && !(sum > 0.0F))
-            return {};
-        const float second_share = clamp_to(A::divide(second, sum), 1.0F);
-        return {second_share, clamp_to(A::divide(third, sum), 1.0F - second_share)};
+        const auto edge = [&](std::size_t from, std::size_t to) {
+            return A::flush(A::flush(rx[from] * ry[to]) - A::flush(rx[to] * ry[from]));
+        };
+        const float first = edge(1, 2);
+        const float second = edge(2, 0);
+        const float third = edge(0, 1);
+        return {first, second, third, A::flush((first + second) + third)};
     }
 
+    [[nodiscard]] static Weights weights(const Edges& edges) {
+        if (!(edges.sum < 0.0F) && !(edges.sum > 0.0F))
+            return {};
+        const float second_share = clamp_to(A::divide(edges.second, edges.sum), 1.0F);
+        return {second_share, clamp_to(A::divide(edges.third, edges.sum), 1.0F - second_share)};
+    }
+
+    [[nodiscard]] Weights weights(int x, int y) const { return weights(edges(x, y)); }
+
     /// Window depth, 0..1.
-    [[nodiscard]] float depth(const Weights& w) const {
-        const float clip_z = mix(clip_[0].z, clip_[1].z, clip_[2].z, w);
-        const float clip_w = mix(clip_[0].w, clip_[1].w, clip_[2].w, w);
-        return clamp_to(A::divide(clip_z, clip_w) * 0.5F + 0.5F, 1.0F);
+    [[nodiscard]] float depth(const Weights& w) const { return clamp_to(depth_unclamped(w), 1.0F); }
+
+    /// The exact preset's own coverage of pixel (x, y). The triangle is closed, so triangles that share a side leave no
+    /// gap: a centre on the side belongs to both, and the depth test decides. Nothing where it is seen edge-on, behind
+    /// the camera or beyond the near or far plane.
+    [[nodiscard]] std::optional<Fragment> fragment(int x, int y) const {
+        const Edges e = edges(x, y);
+        if (e.sum == 0.0F || !std::isfinite(e.sum))
+            return {};
+        const bool counterclockwise = e.first >= 0.0F && e.second >= 0.0F && e.third >= 0.0F;
+        const bool clockwise = e.first <= 0.0F && e.second <= 0.0F && e.third <= 0.0F;
+        if (!counterclockwise && !clockwise)
+            return {};
+        const Weights w = weights(e);
+        const float window_depth = depth_unclamped(w);
+        if (!(mix(clip_[0].w, clip_[1].w, clip_[2].w, w) > 0.0F) || !(window_depth >= 0.0F && window_depth <= 1.0F))
+            return {};
+        return Fragment{w, window_depth};
     }
 
     [[nodiscard]] static glm::vec3 mix(const std::array<glm::vec3, 3>& p, const Weights& w) {
@@ -62,9 +103,18 @@ template <class A> class TriangleInterpolation {
     }
 
   private:
-    static float mix(float first, float second, float third, const Weights& w) {
-        return (first + w.second * (second - first)) + w.third * (third - first);
+    [[nodiscard]] float depth_unclamped(const Weights& w) const {
+        const float clip_z = mix(clip_[0].z, clip_[1].z, clip_[2].z, w);
+        const float clip_w = mix(clip_[0].w, clip_[1].w, clip_[2].w, w);
+        return A::divide(clip_z, clip_w) * 0.5F + 0.5F;
     }
+
+    static float mix(float first, float second, float third, const Weights& w) {
+        const float towards_second = A::flush(w.second * A::flush(second - first));
+        const float towards_third = A::flush(w.third * A::flush(third - first));
+        return A::flush(A::flush(first + towards_second) + towards_third);
+    }
+
     std::array<glm::vec4, 3> clip_;
     std::array<float, 3> x_{}, y_{};
     int width_, height_;

@@ -15,7 +15,10 @@ uniform int u_ClientHeight;
 out vec4 o_Texel;
 
 void main() {
-    vec2 shares = corner_shares(g_Clip, ivec2(gl_FragCoord.xy), ivec2(u_ClientWidth, u_ClientHeight));
-    gl_FragDepth = interpolated_depth(g_Clip, shares);
-    o_Texel = encode_position(interpolate(g_Position, shares));
+    TriangleFragment fragment =
+        triangle_fragment(g_Clip, ivec2(gl_FragCoord.xy), ivec2(u_ClientWidth, u_ClientHeight));
+    if (!fragment.covered)
+        discard;
+    gl_FragDepth = fragment.depth;
+    o_Texel = encode_position(interpolate(g_Position, fragment.shares));
 }

@@ -11,6 +11,6 @@ out vec3 v_Position;
 precise gl_Position;
 
 void main() {
-    v_Position = a_Position;
+    v_Position = ls_flush3(a_Position);
     gl_Position = ls_transform(u_ProjView, a_Position);
 }

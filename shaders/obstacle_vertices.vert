@@ -12,6 +12,6 @@ out vec3 v_Position;
 precise gl_Position;
 
 void main() {
-    v_Position = a_Position;
+    v_Position = ls_flush3(a_Position);
     gl_Position = point_position(ls_transform(u_ProjView, a_Position));
 }

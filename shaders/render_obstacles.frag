@@ -14,7 +14,10 @@ uniform int u_ClientHeight;
 out vec4 o_Color;
 
 void main() {
-    vec2 shares = corner_shares(g_Clip, ivec2(gl_FragCoord.xy), ivec2(u_ClientWidth, u_ClientHeight));
-    gl_FragDepth = interpolated_depth(g_Clip, shares);
+    TriangleFragment fragment =
+        triangle_fragment(g_Clip, ivec2(gl_FragCoord.xy), ivec2(u_ClientWidth, u_ClientHeight));
+    if (!fragment.covered)
+        discard;
+    gl_FragDepth = fragment.depth;
     o_Color = quantised(obstacle_color(g_Position));
 }

@@ -22,7 +22,7 @@ void main() {
     float dx = ls_divide(off.x, g_WindowHalf.x);
     float dy = ls_divide(off.y, g_WindowHalf.y);
     precise float squared = dx * dx + dy * dy;
-    if (!(squared <= 1.0))
+    if (!in_unit_interval(squared))
         discard;
     precise float rest = 1.0 - squared;
     vec3 normal = vec3(dx, dy, ls_sqrt(rest));

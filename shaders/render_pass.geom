@@ -1,7 +1,9 @@
 #version 330 core
 #extension GL_ARB_gpu_shader5 : require
-// Turns each particle into a camera-facing square (billboard), parallel to the image.
+// Turns each particle into a camera-facing square (billboard), parallel to the image. In the exact preset it draws the
+// pixels the square may cover; the fragments outside the disc are dropped either way.
 #include "arithmetic.glsl"
+#include "pixel_box.glsl"
 
 layout(points) in;
 layout(triangle_strip, max_vertices = 4) out;
@@ -12,8 +14,6 @@ in float v_CollideTime[];
 
 uniform mat4 u_Projection;
 uniform float u_BillboardRadius;
-uniform int u_ClientWidth;
-uniform int u_ClientHeight;
 
 flat out vec3 g_Centre;       // view space
 flat out vec2 g_WindowCentre; // pixels
@@ -28,12 +28,6 @@ bool is_visible(vec4 low, vec4 high) {
     return w > 0.0 && abs(low.z) <= w && low.x <= w && low.y <= w && high.x >= -w && high.y >= -w;
 }
 
-vec2 window(vec2 corner, float w) {
-    precise vec2 place = (vec2(ls_divide(corner.x, w), ls_divide(corner.y, w)) + 1.0) * 0.5;
-    precise vec2 pixels = place * vec2(u_ClientWidth, u_ClientHeight);
-    return pixels;
-}
-
 void main() {
     vec3 centre = v_Centre[0];
     precise vec3 low_corner = vec3(centre.x - u_BillboardRadius, centre.y - u_BillboardRadius, centre.z);
@@ -42,17 +36,26 @@ void main() {
     vec4 high = ls_transform(u_Projection, high_corner);
     if (!is_visible(low, high))
         return;
-    vec2 window_low = window(low.xy, low.w);
-    vec2 window_high = window(high.xy, low.w);
+    vec2 window_low = window_place(low.xy, low.w);
+    vec2 window_high = window_place(high.xy, low.w);
     precise vec2 window_centre = (window_low + window_high) * 0.5;
     precise vec2 window_half = (window_high - window_low) * 0.5;
+#if ARITHMETIC == ARITHMETIC_EXACT
+    ivec4 box = pixel_box(window_low, window_high);
+    if (is_empty(box))
+        return;
+#endif
     for (int i = 0; i < 4; ++i) {
         g_Centre = centre;
         g_WindowCentre = window_centre;
         g_WindowHalf = window_half;
         g_Speed = v_Speed[0];
         g_CollideTime = v_CollideTime[0];
+#if ARITHMETIC == ARITHMETIC_EXACT
+        gl_Position = box_corner(box, i);
+#else
         gl_Position = vec4((i & 1) == 0 ? low.x : high.x, i < 2 ? low.y : high.y, low.z, low.w);
+#endif
         EmitVertex();
     }
     EndPrimitive();

@@ -7,13 +7,16 @@ const vec3 light = vec3(-0.375, 0.5, 0.78125); // of unit length within 5 / 1000
 float share(float x) { return clamp_to(x, 1.0); }
 
 float written_dot(vec3 a, vec3 b) {
-    precise float sum = (a.x * b.x + a.y * b.y) + a.z * b.z;
-    return sum;
+    precise vec3 products = a * b;
+    products = ls_flush3(products);
+    return ls_add(ls_add(products.x, products.y), products.z);
 }
 
 vec3 written_cross(vec3 a, vec3 b) {
-    precise vec3 product = vec3(a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x);
-    return product;
+    precise vec3 products = a.yzx * b.zxy;
+    precise vec3 other_products = a.zxy * b.yzx;
+    precise vec3 cross_product = ls_flush3(products) - ls_flush3(other_products);
+    return ls_flush3(cross_product);
 }
 
 vec3 blend(vec3 a, vec3 b, float t) {
@@ -30,7 +33,7 @@ vec3 background_color(int y, int height) {
 vec3 obstacle_color(vec3 corner[3]) {
     precise vec3 side = corner[1] - corner[0];
     precise vec3 other_side = corner[2] - corner[0];
-    vec3 normal = written_cross(side, other_side);
+    vec3 normal = written_cross(ls_flush3(side), ls_flush3(other_side));
     if (written_dot(normal, corner[0]) > 0.0)
         normal = -normal;
     float squared = written_dot(normal, normal);

@@ -1,20 +1,63 @@
 // A geometry stage that hands all three corners of a triangle to each of its fragments, which interpolate by themselves.
+// In the exact preset they also decide by themselves which of them the triangle covers (triangle_interpolation.glsl):
+// the stage then draws all pixels that may be. Needs arithmetic.glsl.
+#if ARITHMETIC == ARITHMETIC_EXACT
+#include "pixel_box.glsl"
+#endif
+
 layout(triangles) in;
-layout(triangle_strip, max_vertices = 3) out;
+layout(triangle_strip, max_vertices = 4) out;
 
 in vec3 v_Position[];
 
 flat out vec4 g_Clip[3];
 flat out vec3 g_Position[3];
+precise gl_Position;
+
+void emit_corner(vec4 position) {
+    for (int corner = 0; corner < 3; ++corner) {
+        g_Clip[corner] = gl_in[corner].gl_Position;
+        g_Position[corner] = v_Position[corner];
+    }
+    gl_Position = position;
+    EmitVertex();
+}
+
+#if ARITHMETIC == ARITHMETIC_EXACT
+
+bool is_finite(vec4 v) {
+    ivec4 magnitude = floatBitsToInt(v) & ls_magnitude;
+    return all(lessThan(magnitude, ivec4(ls_infinity)));
+}
+
+// The pixels the triangle may cover: all, if a part of it lies behind the camera; none, if a corner is not finite.
+ivec4 triangle_box(vec4 a, vec4 b, vec4 c) {
+    bool finite = is_finite(a) && is_finite(b) && is_finite(c);
+    if (!finite || max(max(a.w, b.w), c.w) <= 0.0)
+        return ivec4(0);
+    if (min(min(a.w, b.w), c.w) <= 0.0)
+        return ivec4(0, 0, u_ClientWidth, u_ClientHeight);
+    vec2 at = window_place(a.xy, a.w);
+    vec2 bt = window_place(b.xy, b.w);
+    vec2 ct = window_place(c.xy, c.w);
+    return pixel_box(min(min(at, bt), ct), max(max(at, bt), ct));
+}
 
 void main() {
-    for (int emitted = 0; emitted < 3; ++emitted) {
-        for (int corner = 0; corner < 3; ++corner) {
-            g_Clip[corner] = gl_in[corner].gl_Position;
-            g_Position[corner] = v_Position[corner];
-        }
-        gl_Position = gl_in[emitted].gl_Position;
-        EmitVertex();
-    }
+    ivec4 box = triangle_box(gl_in[0].gl_Position, gl_in[1].gl_Position, gl_in[2].gl_Position);
+    if (is_empty(box))
+        return;
+    for (int i = 0; i < 4; ++i)
+        emit_corner(box_corner(box, i));
     EndPrimitive();
 }
+
+#else
+
+void main() {
+    for (int corner = 0; corner < 3; ++corner)
+        emit_corner(gl_in[corner].gl_Position);
+    EndPrimitive();
+}
+
+#endif

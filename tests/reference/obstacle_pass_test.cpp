@@ -8,6 +8,9 @@
 #include <omp.h>
 
 #include <catch2/catch.hpp>
+#include <glm/common.hpp>
+#include <glm/geometric.hpp>
+#include <glm/matrix.hpp>
 
 #include "reference/model/state_hash.hpp"
 
@@ -96,6 +99,94 @@ TEST_CASE("obstacle pass: the nearer triangle wins, and the first of two equally
     CHECK(Drawn(both(far, near), params).cdt.texels == near_alone.cdt.texels);
     CHECK(Drawn(both(near, far), params).cdt.texels == near_alone.cdt.texels);
     CHECK(Drawn(both(near, near_too), params).cdt.texels == near_alone.cdt.texels);
+}
+
+TEST_CASE("obstacle pass: in exact arithmetic both neighbours have their shared side, and the first keeps it",
+          "[obstacle_pass]") {
+    // The diagonal of the square passes through the centres of x + y = 7.
+    FrameParams params = flat_view(8);
+    params.switches.arithmetic = ArithmeticSwitch::exact;
+    const std::vector<glm::vec3> lower{{-1, -1, 0}, {1, -1, 0}, {-1, 1, 0}};
+    const std::vector<glm::vec3> upper{{1, 1, 0}, {-1, 1, 0}, {1, -1, 0}};
+    const auto count = [](const Drawn& drawn) {
+        return std::count_if(drawn.cdt.texels.begin(), drawn.cdt.texels.end(), [](glm::vec4 t) { return t.a == 1.0F; });
+    };
+    CHECK(count(Drawn(mesh(lower), params)) == 36);
+    CHECK(count(Drawn(mesh(upper), params)) == 36);
+    std::vector<glm::vec3> square = lower;
+    square.insert(square.end(), upper.begin(), upper.end());
+    const Drawn both(mesh(square), params);
+    CHECK(count(both) == 64);
+    for (int x = 0; x < 8; ++x)
+        CHECK(both.cdt.at(x, 7 - x) == Drawn(mesh(lower), params).cdt.at(x, 7 - x));
+}
+
+TEST_CASE("obstacle pass: in exact arithmetic fans leave no gap", "[obstacle_pass]") {
+    // Round a centre, on a pixel's or beside it, corners of any depth between the planes; every other round the corners
+    // lie on pixel centres too. A closed fan covers exactly the pixels inside its rim.
+    std::mt19937 random(12);
+    FrameParams params = perspective_view(64, 64);
+    params.switches.arithmetic = ArithmeticSwitch::exact;
+    const glm::mat4 to_world = glm::inverse(params.collision_proj_view);
+    std::uniform_real_distribution<float> radius(4.0F, 24.0F);
+    std::uniform_real_distribution<float> depth(0.5F, 0.95F);
+    std::uniform_int_distribution<int> corners(3, 24);
+    const auto world = [&](glm::vec2 pixels) {
+        const glm::vec4 p = to_world * glm::vec4(pixels / 32.0F - 1.0F, depth(random), 1.0F);
+        return glm::vec3(p) / p.w;
+    };
+    for (int round = 0; round < 300; ++round) {
+        const bool on_centres = round % 2 == 0;
+        const glm::vec2 middle = on_centres ? glm::vec2(32.5F, 31.5F) : glm::vec2(32.0F, 31.87F);
+        const int count = corners(random);
+        Mesh fan{{world(middle)}, {}};
+        std::vector<glm::vec2> rim;
+        for (int i = 0; i < count; ++i) {
+            const float angle = 6.2831853F * static_cast<float>(i) / static_cast<float>(count);
+            glm::vec2 p = middle + radius(random) * glm::vec2(std::cos(angle), std::sin(angle));
+            p = on_centres ? glm::floor(p) + 0.5F : p;
+            rim.push_back(p);
+            fan.positions.push_back(world(p));
+            const auto here = static_cast<std::uint32_t>(i);
+            const auto next = static_cast<std::uint32_t>((i + 1) % count);
+            fan.indices.insert(fan.indices.end(), {0, 1 + here, 1 + next});
+            if (i % 3 == 0)
+                std::swap(fan.indices.back(), fan.indices[fan.indices.size() - 3]);
+        }
+        const Drawn drawn(fan, params);
+        for (int y = 0; y < 64; ++y)
+            for (int x = 0; x < 64; ++x) {
+                const glm::dvec2 p = glm::dvec2(x + 0.5, y + 0.5) - glm::dvec2(middle);
+                // The sector p lies in, and how far inside its rim, relative to the sector's area.
+                double inside = -1.0;
+                for (std::size_t i = 0; i < rim.size(); ++i) {
+                    const glm::dvec2 a = glm::dvec2(rim[i]) - glm::dvec2(middle);
+                    const glm::dvec2 b = glm::dvec2(rim[(i + 1) % rim.size()]) - glm::dvec2(middle);
+                    const double area = a.x * b.y - b.x * a.y;
+                    const double second = (p.x * b.y - b.x * p.y) / area;
+                    const double third = (a.x * p.y - p.x * a.y) / area;
+                    if (second > -1e-9 && third > -1e-9)
+                        inside = std::max(inside, 1.0 - second - third);
+                }
+                INFO("round " << round << " pixel " << x << ' ' << y << " inside by " << inside);
+                if (std::abs(inside) > 1e-4)
+                    CHECK((drawn.cdt.at(x, y).a != 0.0F) == (inside > 0.0));
+            }
+    }
+}
+
+TEST_CASE("obstacle pass: exact and plain arithmetic differ in texels on sides only", "[obstacle_pass]") {
+    const Mesh obstacles = random_triangles(31, 60, 0.6F);
+    FrameParams params = perspective_view(120, 90);
+    const Drawn plain(obstacles, params);
+    params.switches.arithmetic = ArithmeticSwitch::exact;
+    const Drawn exact(obstacles, params);
+    for (int y = 0; y < params.height; ++y)
+        for (int x = 0; x < params.width; ++x) {
+            INFO(x << ' ' << y);
+            if (glm::distance(plain.cdt.at(x, y), exact.cdt.at(x, y)) > 1e-4F)
+                CHECK(obstacle_edge_distance(obstacles, params, Profile{}, x, y) <= 1.5);
+        }
 }
 
 TEST_CASE("obstacle pass: what was drawn before takes part in the depth test", "[obstacle_pass]") {

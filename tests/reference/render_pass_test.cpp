@@ -50,7 +50,8 @@ TEST_CASE("render pass: an empty scene is an opaque background, alike in every c
 }
 
 TEST_CASE("render pass: a particle is a disc round its projection", "[render_pass]") {
-    const FrameParams params = view(64);
+    FrameParams params = view(64);
+    params.switches.arithmetic = GENERATE(ArithmeticSwitch::plain, ArithmeticSwitch::exact);
     const ColorImage empty = render({}, {}, params);
     const ColorImage image = render(particles({{0, 0, 0}}), {}, params);
     // Half side in pixels: 32 * 0.2 / (3 tan 22.5) = 5.15.
@@ -119,6 +120,32 @@ TEST_CASE("render pass: particles that are NaN or out of sight draw nothing", "[
     const float nan = std::numeric_limits<float>::quiet_NaN();
     CHECK(render(particles({{nan, 0, 0}, {0, 0, nan}, {0, 0, 5}, {9, 0, 0}, {0, 0, -9}}), {}, params).texels ==
           render({}, {}, params).texels);
+}
+
+TEST_CASE("render pass: exact arithmetic draws what plain arithmetic draws, sides of obstacles aside",
+          "[render_pass]") {
+    std::mt19937 random(16);
+    std::uniform_real_distribution<float> place(-1.5F, 1.5F);
+    std::vector<glm::vec3> positions(300);
+    for (glm::vec3& p : positions)
+        p = {place(random), place(random), place(random)};
+    Mesh obstacles{{positions.begin(), positions.begin() + 30}, std::vector<std::uint32_t>(30)};
+    std::iota(obstacles.indices.begin(), obstacles.indices.end(), 0U);
+    FrameParams params = view(200);
+    const auto differ = [&](const Particles& p, const Mesh& m) {
+        params.switches.arithmetic = ArithmeticSwitch::plain;
+        const ColorImage plain = render(p, m, params);
+        params.switches.arithmetic = ArithmeticSwitch::exact;
+        const ColorImage exact = render(p, m, params);
+        int count = 0;
+        for (std::size_t i = 0; i < plain.texels.size(); ++i) {
+            const Rgba8 a = plain.texels[i], b = exact.texels[i];
+            count += std::abs(a.r - b.r) + std::abs(a.g - b.g) + std::abs(a.b - b.b) > 3 ? 1 : 0;
+        }
+        return count;
+    };
+    CHECK(differ(particles(positions), {}) < 4);
+    CHECK(differ({}, obstacles) < 40);
 }
 
 TEST_CASE("render pass: particles may come in any order", "[render_pass]") {

@@ -9,11 +9,14 @@
 #include <glm/matrix.hpp>
 
 #include "reference/arithmetic.hpp"
+#include "reference/portable.hpp"
+#include "reference/subnormals.hpp"
 
 namespace lockstep {
 namespace {
 
 using Interpolation = TriangleInterpolation<Strict>;
+using Exact = TriangleInterpolation<Portable>;
 
 /// The same in double, from the definition: the shares for which the corners' sum projects to the pixel's centre.
 glm::dvec3 exact_weights(const std::array<glm::vec4, 3>& clip, int x, int y, int width, int height) {
@@ -99,6 +102,103 @@ TEST_CASE("triangle interpolation: accurate where triangles are as small as pixe
             {worst, longest * std::abs(weights.second - exact.y), longest * std::abs(weights.third - exact.z)});
     }
     CHECK(worst < 1.0 / 256);
+}
+
+TEST_CASE("triangle interpolation: the exact preset's own coverage has its sides in", "[triangle_interpolation]") {
+    // Image of 4 x 4, corners on the centres of pixels (0, 0), (2, 0) and (0, 2), either way round.
+    const glm::vec4 a(-0.75F, -0.75F, 0, 1), b(0.25F, -0.75F, 0, 1), c(-0.75F, 0.25F, 0, 1);
+    for (const auto& clip : {std::array{a, b, c}, std::array{a, c, b}})
+        for (int y = 0; y < 4; ++y)
+            for (int x = 0; x < 4; ++x) {
+                INFO(x << ' ' << y);
+                CHECK(Exact(clip, 4, 4).fragment(x, y).has_value() == (x + y <= 2));
+            }
+    const auto corner = Exact({a, b, c}, 4, 4).fragment(2, 0);
+    REQUIRE(corner);
+    CHECK(corner->weights.second == 1.0F);
+    CHECK(corner->weights.third == 0.0F);
+    CHECK(corner->depth == 0.5F);
+}
+
+TEST_CASE("triangle interpolation: a shared side has one edge function but for its sign", "[triangle_interpolation]") {
+    std::mt19937 random(3);
+    std::uniform_real_distribution<float> place(-2.0F, 2.0F);
+    const auto corner = [&] { return glm::vec4(place(random), place(random), place(random), place(random)); };
+    for (int round = 0; round < 1000; ++round) {
+        const glm::vec4 a = corner(), b = corner();
+        const auto here = Exact({a, b, corner()}, 100, 70).edges(30, 20);
+        const auto there = Exact({corner(), b, a}, 100, 70).edges(30, 20);
+        CHECK(here.third == -there.first);
+    }
+}
+
+TEST_CASE("triangle interpolation: nothing is covered behind the camera or beyond near and far plane",
+          "[triangle_interpolation]") {
+    const auto covered = [](float z, float w) {
+        return Exact({glm::vec4(-w, -w, z, w), glm::vec4(3 * w, -w, z, w), glm::vec4(-w, 3 * w, z, w)}, 1, 1)
+            .fragment(0, 0)
+            .has_value();
+    };
+    CHECK(covered(0, 2));
+    CHECK(covered(2, 2));
+    CHECK(covered(-2, 2));
+    CHECK_FALSE(covered(2.001F, 2));
+    CHECK_FALSE(covered(-2.001F, 2));
+    CHECK_FALSE(covered(0, -2));
+    CHECK_FALSE(covered(0, 0));
+}
+
+TEST_CASE("triangle interpolation: the part before the camera of a triangle that reaches behind it is covered",
+          "[triangle_interpolation]") {
+    // The floor y = -1 from w = 4, as wide as the image there, to behind the camera: seen from y / w = -1 / 4
+    // downwards.
+    const Exact floor({glm::vec4(-4, -1, 0, 4), glm::vec4(4, -1, 0, 4), glm::vec4(0, -1, 0, -4)}, 16, 16);
+    for (int y = 0; y < 16; ++y)
+        for (int x = 0; x < 16; ++x) {
+            INFO(x << ' ' << y);
+            CHECK(floor.fragment(x, y).has_value() == (y < 6));
+        }
+}
+
+TEST_CASE("triangle interpolation: nothing is covered without area or where areas overflow",
+          "[triangle_interpolation]") {
+    CHECK_FALSE(Exact({glm::vec4(0, 0, 0, 1), glm::vec4(1, 1, 0, 1), glm::vec4(-1, -1, 0, 1)}, 8, 8).fragment(4, 4));
+    CHECK_FALSE(Exact({glm::vec4(0), glm::vec4(0), glm::vec4(0)}, 8, 8).fragment(4, 4));
+    const float huge = 1e30F;
+    CHECK_FALSE(
+        Exact({glm::vec4(-huge, -huge, 0, huge), glm::vec4(huge, -huge, 0, huge), glm::vec4(0, huge, 0, huge)}, 8, 8)
+            .fragment(4, 4));
+}
+
+TEST_CASE("triangle interpolation: in exact arithmetic it does not matter whether subnormals are flushed",
+          "[triangle_interpolation]") {
+    // Round the middle of one pixel, corners of such magnitudes that products and differences are tiny.
+    std::mt19937 random(4);
+    std::uniform_real_distribution<float> value(-1.0F, 1.0F);
+    std::uniform_int_distribution<int> exponent(-6, 3);
+    int covered = 0;
+    for (int round = 0; round < 100000; ++round) {
+        std::array<glm::vec4, 3> clip{};
+        for (glm::vec4& corner : clip)
+            corner = {std::ldexp(value(random), exponent(random) - (round % 2 == 0 ? 63 : 122)),
+                      std::ldexp(value(random), exponent(random) - (round % 2 == 0 ? 63 : 2)), value(random), 1.0F};
+        for (glm::vec4& corner : clip)
+            corner.x = Portable::flush(corner.x);
+        const auto fragment = [&](bool flush) {
+            const FlushSubnormals guard(flush);
+            return Exact(clip, 1, 1).fragment(0, 0);
+        };
+        const auto flushed = fragment(true);
+        const auto kept = fragment(false);
+        REQUIRE(flushed.has_value() == kept.has_value());
+        if (!flushed)
+            continue;
+        ++covered;
+        CHECK(flushed->weights.second == kept->weights.second);
+        CHECK(flushed->weights.third == kept->weights.third);
+        CHECK(flushed->depth == kept->depth);
+    }
+    CHECK(covered > 1000);
 }
 
 TEST_CASE("triangle interpolation: the bound covers a division off by 2.5 ULP", "[triangle_interpolation]") {

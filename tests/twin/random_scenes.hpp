@@ -1,4 +1,5 @@
 #pragma once
+#include <cmath>
 #include <cstdint>
 #include <random>
 
@@ -46,6 +47,35 @@ class RandomScenes {
             for (int corner = 0; corner < 3; ++corner)
                 append(mesh, {to_clip(middle_x + offset(random_), width), to_clip(middle_y + offset(random_), height),
                               depth});
+        }
+        return mesh;
+    }
+
+    /// Triangles in the cube of half side 1 with two sides almost, or quite, on one line.
+    Mesh slivers(int count) {
+        Mesh mesh;
+        for (int i = 0; i < count; ++i) {
+            const glm::vec3 a = position(1.0F);
+            const glm::vec3 b = position(1.0F);
+            const float off = std::exp2(value(14.0F) - 14.0F);
+            append(mesh, a);
+            append(mesh, b);
+            append(mesh, i % 8 == 0 ? a : a + (b - a) * value(1.0F) + position(off));
+        }
+        return mesh;
+    }
+
+    /// Triangles whose corners have some coordinates near 1 and some of any magnitude a float has, 0 included.
+    Mesh any_magnitude(int count) {
+        Mesh mesh;
+        for (int i = 0; i < 3 * count; ++i) {
+            glm::vec3 corner = position(2.0F);
+            for (int axis = 0; axis < 3; ++axis)
+                if (value(1.0F) > 0.5F)
+                    corner[axis] *= std::exp2(value(160.0F));
+                else if (value(1.0F) > 0.8F)
+                    corner[axis] = 0.0F;
+            append(mesh, corner);
         }
         return mesh;
     }

@@ -53,18 +53,19 @@ TEST_CASE("arithmetic: a vector without length has no direction") {
 }
 
 TEST_CASE("arithmetic: a matrix product sums its columns from left to right") {
-    // Row 0: 2^24 * 1 + 1 * 1 + 1 * 1 + 1. From the left each 1 is lost in a tie to even; from the right 2^24 + 3
-    // would round to 2^24 + 4.
+    // Row 0: ((2^24 + 1) - 2^24) + 1, of which 2^24 + 1 ties to 2^24. Any other order gives 0 or 2.
     glm::mat4 m(0.0F);
     m[0][0] = 0x1p24F;
-    m[1][0] = m[2][0] = m[3][0] = 1.0F;
+    m[1][0] = 1.0F;
+    m[2][0] = -0x1p24F;
+    m[3][0] = 1.0F;
     // Row 1: 2 * x + 3 * y + 4 * z + 5, row 3: the constant alone.
     m[0][1] = 2.0F;
     m[1][1] = 3.0F;
     m[2][1] = 4.0F;
     m[3][1] = 5.0F;
     m[3][3] = 7.0F;
-    CHECK(Strict::transform(m, glm::vec3(1.0F)) == glm::vec4(0x1p24F, 14.0F, 0.0F, 7.0F));
+    CHECK(Strict::transform(m, glm::vec3(1.0F)) == glm::vec4(1.0F, 14.0F, 0.0F, 7.0F));
     CHECK(Strict::transform(m, {0.0F, 10.0F, 100.0F}).y == 435.0F);
 }
 

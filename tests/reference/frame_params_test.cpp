@@ -52,6 +52,15 @@ TEST_CASE("frame: switch cdt_camera: the render camera, with a z offset, or a ca
     CHECK(texel_of_unit_x(s) == 285); // (1/7 + 1) * 250; the offset belongs to a moving camera
 }
 
+TEST_CASE("frame: the offset moves the collision camera without turning it") {
+    Scene s = scene();
+    s.camera.eye = {3.0F, 0.0F, 0.0F}; // looks along -x, with -z to its right
+    s.switches.cdt_camera_offset = 0.5F;
+    const auto texel_of_z = [&](float z) { return base_texel({0.0F, 0.0F, z}, frame_params(s, 0), {}).x; };
+    CHECK(texel_of_z(0.5F - 0.003F) == 250);
+    CHECK(texel_of_z(0.5F + 0.003F) == 249);
+}
+
 TEST_CASE("frame: a moving collision camera follows the path, a fixed one stays") {
     Scene s = scene();
     s.camera_path = {{0, {0.0F, 0.0F, 3.0F}, glm::vec3(0.0F)}, {4, {0.0F, 0.0F, 7.0F}, glm::vec3(0.0F)}};

@@ -19,17 +19,19 @@ volatile float big = 0x1p60F;
 
 TEST_CASE("subnormals: operands and results are zero while the guard lives, and kept before and after") {
     CHECK(smallest_normal * 0.5F > 0.0F);
+    float result, operand, normal; // looked at without the guard, under which a subnormal equals 0
+    bool negative;
     {
         const FlushSubnormals guard(true);
-        const float result = smallest_normal * 0.5F;
-        const float operand = subnormal * big;
-        const bool negative = -subnormal < 0.0F;
-        CHECK(result == 0.0F);
-        CHECK(operand == 0.0F);
-        CHECK_FALSE(negative);
-        const float normal = smallest_normal * 1.5F;
-        CHECK(normal > 0.0F);
+        result = smallest_normal * 0.5F;
+        operand = subnormal * big;
+        normal = smallest_normal * 1.5F;
+        negative = -subnormal < 0.0F;
     }
+    CHECK(result == 0.0F);
+    CHECK(operand == 0.0F);
+    CHECK(normal > smallest_normal);
+    CHECK_FALSE(negative);
     CHECK(smallest_normal * 0.5F > 0.0F);
     CHECK(subnormal * big > 0.0F);
 }

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <utility>
 
-#include "reference/collision_pass.hpp"
+#include "reference/collision_pass_fast.hpp"
 #include "reference/obstacle_pass.hpp"
 
 namespace lockstep {
@@ -14,9 +14,9 @@ ReferenceSimulation::ReferenceSimulation(const Scene& scene, Profile profile)
       depth_(scene.width, scene.height, 1.0F) {}
 
 void ReferenceSimulation::step_from(const Particles& before, const CollisionImage& cdt, const FrameParams& params) {
-    update_particles(before, cdt, params, profile_, after_);
+    update_particles_fast(before, cdt, params, profile_, after_);
     draw_obstacles(params);
-    rasterise_particles(before, after_, params, profile_, cdt_after_, depth_);
+    rasterise_particles_fast(before, after_, params, profile_, cdt_after_, depth_);
 }
 
 void ReferenceSimulation::step(const FrameParams& params) {

@@ -1,4 +1,5 @@
 #pragma once
+#include <cmath>
 #include <cstdint>
 
 #include <glm/vec2.hpp>
@@ -24,19 +25,55 @@ struct WindowPosition {
 };
 
 /// Perspective divide and viewport transform for a viewport of width x height at the origin.
-WindowPosition window_position(glm::vec4 clip, int width, int height, const RasterRules& rules);
+inline WindowPosition window_position(glm::vec4 clip, int width, int height, const RasterRules& rules) {
+    const float half_width = static_cast<float>(width) * 0.5F;
+    const float half_height = static_cast<float>(height) * 0.5F;
+    const float inverse_w = 1.0F / clip.w;
+    const auto to_window = [&](float coordinate, float scale, float offset) {
+        const float ndc = coordinate * inverse_w;
+        return rules.viewport == ViewportRounding::fused ? std::fma(ndc, scale, offset) : ndc * scale + offset;
+    };
+    return {to_window(clip.x, half_width, half_width), to_window(clip.y, half_height, half_height),
+            to_window(clip.z, 0.5F, 0.5F), inverse_w};
+}
 
-/// Sub-pixel position of a point's coordinate. Needs |window| < 2^20.
-std::int32_t snap_point(float window, const RasterRules& rules);
+/// Sub-pixel position of a coordinate. Needs |window| < 2^20.
+inline std::int32_t snap(float window, SnapRounding rounding, int subpixel_bits) {
+    const float scaled = static_cast<float>(1 << subpixel_bits) * (window - 0.5F);
+    switch (rounding) {
+    case SnapRounding::half_to_even:
+        return static_cast<std::int32_t>(std::nearbyint(scaled));
+    case SnapRounding::half_away:
+        return static_cast<std::int32_t>(scaled >= 0.0F ? scaled + 0.5F : scaled - 0.5F);
+    case SnapRounding::half_up:
+        return static_cast<std::int32_t>(std::floor(scaled + 0.5F));
+    case SnapRounding::down:
+        return static_cast<std::int32_t>(std::floor(scaled));
+    }
+    return 0;
+}
+
+/// The same for a point.
+inline std::int32_t snap_point(float window, const RasterRules& rules) {
+    return snap(window, rules.point_snap, rules.subpixel_bits);
+}
 
 /// The same for a triangle's corner.
-std::int32_t snap_vertex(float window, const RasterRules& rules);
+inline std::int32_t snap_vertex(float window, const RasterRules& rules) {
+    return snap(window, rules.vertex_snap, rules.subpixel_bits);
+}
 
 /// The pixel a size-1 point at a sub-pixel position covers along one axis.
-int point_pixel(std::int32_t snapped, const RasterRules& rules);
+inline int point_pixel(std::int32_t snapped, const RasterRules& rules) {
+    // The unit square round the point covers the centres strictly inside it; one edge of the two counts as inside.
+    const std::int32_t half = 1 << (rules.subpixel_bits - 1);
+    return (snapped + half - (rules.point_edge_to_lower ? 1 : 0)) >> rules.subpixel_bits;
+}
 
 /// Whether a point's centre lies in the closed clip volume -w <= x, y, z <= w (GL 13.5). False for NaN, and for w = 0,
-/// which has no place on the image.
-bool in_clip_volume(glm::vec4 clip);
+/// which has no place on the image. No short cuts, so that a loop over points runs on vectors.
+inline bool in_clip_volume(glm::vec4 clip) {
+    return (clip.w > 0.0F) & (std::abs(clip.x) <= clip.w) & (std::abs(clip.y) <= clip.w) & (std::abs(clip.z) <= clip.w);
+}
 
 } // namespace lockstep

@@ -84,9 +84,10 @@ std::string recall_row_text(const RecallRow& row) {
 
 std::string recall_table_foot() {
     return "Recall: of the particles with an exact neighbour within the range, those that find one in the CDT.\n"
-           "The listing skips the base texel (line 12), and so does the reference; the other model looked into it "
-           "too,\n"
-           "which finds the particle that hides the searcher. Visible: particles that own a texel.\n";
+           "Visible: particles that own a texel. The listing skips the base texel (line 12), and so does the "
+           "reference,\n"
+           "which then misses the very particle that hides the searcher; counting it comes closest to the other "
+           "model.\n";
 }
 
 } // namespace lockstep

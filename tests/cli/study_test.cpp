@@ -1,0 +1,62 @@
+#include <catch2/catch.hpp>
+
+#include <string>
+#include <vector>
+
+#include "tests/cli/cli_checks.hpp"
+#include "tests/temporary_folder.hpp"
+
+using namespace lockstep;
+using test::refusal;
+using test::run_lockstep;
+
+namespace {
+
+const test::TemporaryFolder& input() {
+    static const test::TemporaryFolder folder;
+    return folder;
+}
+
+std::string scene() { return input().write("scene.json", test::small_scene).string(); }
+
+} // namespace
+
+TEST_CASE("study: a table, and every output") {
+    const test::TemporaryFolder output;
+    const auto path = [&](const char* name) { return (output.path() / name).string(); };
+    const auto outcome = run_lockstep({"study", scene(), "--frames", "4", "--every", "2", "--csv", path("a.csv"),
+                                       "--json", path("a.json"), "--images", path("pictures")});
+    CHECK(outcome.err.empty());
+    CHECK(outcome.status == 0);
+    CHECK_THAT(outcome.out, Catch::Contains("scene     scene") && Catch::Contains("missed by") &&
+                                Catch::Contains("search ends at") && Catch::Contains("red occluded"));
+    CHECK(test::names_in(output.path()) == std::vector<std::string>{"a.csv", "a.json", "pictures"});
+    CHECK(test::names_in(output.path() / "pictures") ==
+          std::vector<std::string>{"misses_00001.png", "misses_00003.png"});
+}
+
+TEST_CASE("study: a chart, or one line that says what is missing") {
+    const test::TemporaryFolder output;
+    const std::string chart = (output.path() / "a.svg").string();
+    test::Surroundings without;
+    without.environment = {{"PATH", output.path().string()}};
+    const auto outcome = run_lockstep({"study", scene(), "--frames", "3", "--chart", chart}, without);
+    CHECK(outcome.status == 0);
+    CHECK_THAT(outcome.out, Catch::EndsWith("no chart: gnuplot is not installed (Debian package gnuplot-nox)\n"));
+    CHECK(test::names_in(output.path()).empty());
+}
+
+TEST_CASE("study: what cannot be studied is refused in one line") {
+    CHECK(refusal(run_lockstep({"study"})) == "study: a SCENE, --recall-table or --catalogue is needed");
+    CHECK(refusal(run_lockstep({"study", scene(), "--catalogue"})) ==
+          "study: --recall-table and --catalogue have scenes of their own; leave SCENE out");
+    CHECK(refusal(run_lockstep({"study", scene(), "--frames", "1"})) ==
+          "study: --frames 1 is the frame with the empty CDT; 2 or more have something to study");
+    CHECK_THAT(refusal(run_lockstep({"study", scene(), "--csv", "/nowhere/a.csv"})), Catch::StartsWith("/nowhere"));
+}
+
+TEST_CASE("study: a scene of the catalogue that is not there is named") {
+    const auto outcome = run_lockstep({"study", "--catalogue", "--scenes", input().path().string()});
+    CHECK(outcome.status == 2);
+    CHECK_THAT(outcome.err, Catch::Contains("catalogue/close_up.json"));
+}

@@ -1,0 +1,30 @@
+#include <catch2/catch.hpp>
+
+#include <fmt/format.h>
+
+#include "gpu/simulation.hpp"
+#include "reference/model/state_hash.hpp"
+#include "tests/golden.hpp"
+#include "tests/twin/llvmpipe.hpp"
+
+using namespace lockstep;
+
+TEST_CASE("golden hash twin: the shaders come to it by themselves") {
+    const auto context = test::open_llvmpipe("osmesa");
+    if (!context)
+        return;
+    for (const test::Golden& golden : test::golden_hashes()) {
+        const std::optional<Scene> scene = golden.profile == "llvmpipe" ? golden.load() : std::nullopt;
+        if (!scene)
+            continue;
+        INFO(fmt::format("{}, {}", golden.scene, golden.preset));
+        GpuSimulation gpu(*scene, {});
+        for (int frame = 0; frame < golden.frames; ++frame)
+            gpu.step(frame_params(*scene, frame));
+        Particles particles;
+        CollisionImage cdt;
+        gpu.read(particles);
+        gpu.read(cdt);
+        CHECK(hash_text(state_hash(particles, cdt)) == golden.hash);
+    }
+}

@@ -67,10 +67,66 @@ void note_difference(CheckReport& report, int frame, const Comparison& compariso
     report.counts.push_back({frame, comparison.differing_particles, comparison.differing_texels, worst});
     if (comparison.agree() || report.first_frame)
         return;
-    report.verdict = Verdict::differ;
     report.first_frame = frame;
     for (const Difference& difference : comparison.worst)
         report.worst.push_back({frame, difference});
+}
+
+/// Judges the frames of a resync run that are not bit-equal.
+class RunJudge {
+  public:
+    RunJudge(const Scene& scene, const Profile& profile, const KnownOperations& known)
+        : scene_(scene), profile_(profile), known_(known) {}
+
+    /// `earlier`: what the frame before started from, null for frame 0.
+    void judge(int frame, const FrameParams& params, const State& before, const State* earlier,
+               const ReferenceSimulation& reference, const State& gpu) {
+        const JudgedFrame judged{
+            scene_.obstacles,      params,          profile_,      known_, before.particles, before.cdt,
+            reference.particles(), reference.cdt(), gpu.particles, gpu.cdt};
+        const FrameVerdicts verdicts = lockstep::judge(judged);
+        const std::uint64_t divergent_before = summary_.total(DifferenceClass::divergent);
+        summary_.add(frame, verdicts);
+        const bool diverges = summary_.total(DifferenceClass::divergent) > divergent_before;
+        if (diverges && divergent_before == 0)
+            summary_.first = first_of(DifferenceClass::divergent, frame, judged, verdicts);
+        else if (!summary_.first)
+            summary_.first = first_of(DifferenceClass::undefined, frame, judged, verdicts);
+        if (!diverges)
+            return;
+        FrameInputs inputs{.before = &before.particles, .cdt = &before.cdt, .params = &params, .drawn_cdt = &gpu.cdt};
+        const FrameParams earlier_params = frame_params(scene_, std::max(frame - 1, 0));
+        if (earlier != nullptr) {
+            inputs.earlier = &earlier->particles;
+            inputs.earlier_cdt = &earlier->cdt;
+            inputs.earlier_params = &earlier_params;
+        }
+        causes_.add(judged, verdicts, inputs);
+    }
+
+    [[nodiscard]] VerdictSummary summary() const {
+        VerdictSummary summary = summary_;
+        summary.particle_cause = causes_.particles();
+        summary.texel_cause = causes_.texels();
+        return summary;
+    }
+
+  private:
+    const Scene& scene_;
+    const Profile& profile_;
+    KnownOperations known_;
+    VerdictSummary summary_;
+    CauseFinder causes_;
+};
+
+Verdict verdict_on(const CheckReport& report) {
+    if (report.total.agree())
+        return Verdict::agree;
+    if (!report.verdicts)
+        return Verdict::differ;
+    if (report.verdicts->total(DifferenceClass::divergent) > 0)
+        return Verdict::divergent;
+    return report.verdicts->total(DifferenceClass::undefined) > 0 ? Verdict::undefined : Verdict::legal;
 }
 
 } // namespace
@@ -81,6 +137,8 @@ CheckReport check(const Scene& scene, const Profile& profile, GpuSimulation& gpu
     ReferenceSimulation reference(scene, profile);
     State before{scene.start, CollisionImage(scene.width, scene.height)};
     State now = before;
+    State earlier = before;
+    RunJudge judge(scene, profile, options.known.value_or(measured_operations(profile)));
     gpu.upload(before.particles, before.cdt);
 
     for (int frame = 0; frame < options.frames && !(options.stop != nullptr && *options.stop); ++frame) {
@@ -128,10 +186,15 @@ CheckReport check(const Scene& scene, const Profile& profile, GpuSimulation& gpu
             report.hits += count_hits(reference.particles(), scene.constants.collision_time);
             report.drawn_texels += count_drawn(reference.cdt());
         }
+        if (options.mode == CheckMode::resync && !comparison.agree()) {
+            const Stopwatch watch(times.judge);
+            judge.judge(frame, params, before, frame > 0 ? &earlier : nullptr, reference, now);
+        }
         report.times.push_back(times);
         report.frames = frame + 1;
         if (options.on_state)
             options.on_state({frame, reference.particles(), reference.cdt(), now.particles, now.cdt, comparison});
+        std::swap(earlier, before);
         std::swap(before, now);
         if (options.on_frame)
             options.on_frame(report.frames);
@@ -139,6 +202,9 @@ CheckReport check(const Scene& scene, const Profile& profile, GpuSimulation& gpu
     if (report.total.compared() == 0)
         throw Error(fmt::format("{}: nothing was compared: {} frames of {} particles", scene.name, report.frames,
                                 report.particles));
+    if (options.mode == CheckMode::resync)
+        report.verdicts = judge.summary();
+    report.verdict = verdict_on(report);
     report.reference_hash = state_hash(reference.particles(), reference.cdt());
     report.gpu_hash = state_hash(before.particles, before.cdt);
     return report;

@@ -7,6 +7,8 @@
 #include <vector>
 
 #include "crosscheck/compare.hpp"
+#include "crosscheck/verdict_summary.hpp"
+#include "reference/known_operations.hpp"
 #include "reference/model/profile.hpp"
 #include "reference/model/scene.hpp"
 
@@ -19,7 +21,14 @@ enum class CheckMode {
     free    ///< both sides run on by themselves, and the growth of the difference is shown
 };
 
-enum class Verdict { agree, differ, nondeterministic };
+enum class Verdict {
+    agree,            ///< every bit
+    legal,            ///< what differs is rounding or a tie (verdict.hpp)
+    undefined,        ///< something rests on what GL leaves open, nothing is divergent
+    divergent,        ///< no legal run explains something
+    differ,           ///< free mode, where differences are not judged
+    nondeterministic, ///< the GPU gave two answers to one frame
+};
 
 /// A difference and the frame it belongs to.
 struct FrameDifference {
@@ -41,6 +50,7 @@ struct FrameTimes {
     double readback = 0.0; ///< particles and CDT to this side
     double reference = 0.0;
     double compare = 0.0;
+    double judge = 0.0; ///< verdicts and causes
 };
 
 struct CheckReport {
@@ -51,8 +61,9 @@ struct CheckReport {
     std::optional<int> first_frame;     ///< the first frame with a difference, or that did not repeat itself
     std::vector<FrameDifference> worst; ///< of the first differing frame, largest ULP first
     std::vector<FrameCount> counts;
-    std::uint64_t hits = 0;         ///< particle-frames in which the reference found a collision
-    std::uint64_t drawn_texels = 0; ///< texels written by the reference, summed over frames
+    std::optional<VerdictSummary> verdicts; ///< resync mode
+    std::uint64_t hits = 0;                 ///< particle-frames in which the reference found a collision
+    std::uint64_t drawn_texels = 0;         ///< texels written by the reference, summed over frames
     std::uint64_t reference_hash = 0;
     std::uint64_t gpu_hash = 0;    ///< state_hash of particles and CDT after the last frame
     std::vector<FrameTimes> times; ///< one a frame
@@ -75,6 +86,8 @@ struct CheckOptions {
     std::function<void(int frames_done)> on_frame;
     /// Called after each comparison (hash files, images, traces).
     std::function<void(const ComparedFrame&)> on_state;
+    /// What legal outcomes are taken from; not set: what the profile's driver was measured to do.
+    std::optional<KnownOperations> known;
     const std::atomic<bool>* stop = nullptr; ///< set: end after the frame at hand, with the verdict so far
 };
 

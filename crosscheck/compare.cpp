@@ -4,7 +4,7 @@
 #include <cassert>
 #include <tuple>
 
-#include "reference/model/ulp.hpp"
+#include "reference/model/same_bits.hpp"
 
 namespace lockstep {
 namespace {
@@ -135,6 +135,22 @@ Comparison compare(const CollisionImage& reference, const CollisionImage& gpu) {
     });
     result[Field::texel].compared = 4 * count;
     return result;
+}
+
+std::vector<std::size_t> differing_particles(const Particles& reference, const Particles& gpu) {
+    std::vector<std::size_t> differing;
+    for (std::size_t i = 0; i < gpu.size(); ++i)
+        if (!same_bits(reference[i], gpu[i]))
+            differing.push_back(i);
+    return differing;
+}
+
+std::vector<std::size_t> differing_texels(const CollisionImage& reference, const CollisionImage& gpu) {
+    std::vector<std::size_t> differing;
+    for (std::size_t i = 0; i < gpu.texels.size(); ++i)
+        if (!same_bits(reference.texels[i], gpu.texels[i]))
+            differing.push_back(i);
+    return differing;
 }
 
 } // namespace lockstep

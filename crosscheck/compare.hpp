@@ -52,4 +52,8 @@ Comparison compare(const Particles& reference, const Particles& gpu);
 /// Compares every component of two images of the same size.
 Comparison compare(const CollisionImage& reference, const CollisionImage& gpu);
 
+/// The indices of particles, or texels, that are not bit-equal, in order.
+std::vector<std::size_t> differing_particles(const Particles& reference, const Particles& gpu);
+std::vector<std::size_t> differing_texels(const CollisionImage& reference, const CollisionImage& gpu);
+
 } // namespace lockstep

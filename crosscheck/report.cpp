@@ -7,6 +7,7 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
+#include "crosscheck/verdict_text.hpp"
 #include "reference/model/state_hash.hpp"
 
 namespace lockstep {
@@ -16,19 +17,18 @@ std::string_view verdict_name(Verdict verdict) {
     switch (verdict) {
     case Verdict::agree:
         return "AGREE";
+    case Verdict::legal:
+        return "LEGAL";
+    case Verdict::undefined:
+        return "UNDEFINED";
+    case Verdict::divergent:
+        return "DIVERGENT";
     case Verdict::differ:
         return "DIFFER";
     case Verdict::nondeterministic:
         return "NONDETERMINISTIC";
     }
     return "";
-}
-
-std::string grouped(std::uint64_t value) {
-    std::string digits = std::to_string(value);
-    for (auto i = static_cast<std::ptrdiff_t>(digits.size()) - 3; i > 0; i -= 3)
-        digits.insert(static_cast<std::size_t>(i), 1, ',');
-    return digits;
 }
 
 std::string ulp_text(std::int64_t ulp) {
@@ -62,6 +62,7 @@ FrameTimes total_times(const CheckReport& r) {
         sum.readback += t.readback;
         sum.reference += t.reference;
         sum.compare += t.compare;
+        sum.judge += t.judge;
     }
     return sum;
 }
@@ -69,11 +70,25 @@ FrameTimes total_times(const CheckReport& r) {
 /// Frames at which growth is told: 0, 1, 2, 4, 8, ... and the last.
 bool told(std::size_t i, std::size_t count) { return i == 0 || i + 1 == count || std::has_single_bit(i); }
 
+std::string of_class(const CheckReport& r, DifferenceClass kind) {
+    const auto k = static_cast<std::size_t>(kind);
+    return fmt::format("from frame {} on: {} particle states and {} texels in {} frames",
+                       r.verdicts->first->place.frame, grouped(r.verdicts->particles[k]),
+                       grouped(r.verdicts->texels[k]), r.frames);
+}
+
 std::string verdict_line(const CheckReport& r) {
     switch (r.verdict) {
     case Verdict::agree:
         return fmt::format("AGREE: every bit of {} particles and of the CDT in {} frames", grouped(r.particles),
                            r.frames);
+    case Verdict::legal:
+        return fmt::format("LEGAL: {} particle states and {} texels differ in {} frames, as GL allows",
+                           grouped(r.total.differing_particles), grouped(r.total.differing_texels), r.frames);
+    case Verdict::undefined:
+        return fmt::format("UNDEFINED {}, which rest on what GL leaves open", of_class(r, DifferenceClass::undefined));
+    case Verdict::divergent:
+        return fmt::format("DIVERGENT {}, which no legal run explains", of_class(r, DifferenceClass::divergent));
     case Verdict::differ:
         return fmt::format("DIFFER from frame {} on: {} particle states and {} texels in {} frames", *r.first_frame,
                            grouped(r.total.differing_particles), grouped(r.total.differing_texels), r.frames);
@@ -102,8 +117,9 @@ std::string report_text(const CheckReport& r, const RunDescription& run) {
                      grouped(r.total.compared() - r.total[Field::texel].compared),
                      grouped(r.total[Field::texel].compared), grouped(r.hits), grouped(r.drawn_texels), grouped(nan)));
     const FrameTimes seconds = total_times(r);
-    line("time", fmt::format("GL frames {:.2f} s, readback {:.2f} s, reference {:.2f} s, comparison {:.2f} s",
-                             seconds.gpu, seconds.readback, seconds.reference, seconds.compare));
+    line("time", fmt::format("GL frames {:.2f} s, readback {:.2f} s, reference {:.2f} s, comparison {:.2f} s, "
+                             "verdicts {:.2f} s",
+                             seconds.gpu, seconds.readback, seconds.reference, seconds.compare, seconds.judge));
     if (r.verdict != Verdict::nondeterministic)
         line("hash", r.reference_hash == r.gpu_hash
                          ? fmt::format("{} on both sides after the last frame", hash_text(r.gpu_hash))
@@ -111,6 +127,8 @@ std::string report_text(const CheckReport& r, const RunDescription& run) {
     line("verdict", verdict_line(r));
     if (r.total.agree())
         return out;
+    if (r.verdicts)
+        out += verdict_text(*r.verdicts, run.width);
 
     out += "\n  field         differing floats of compared\n";
     for (std::size_t f = 0; f < field_names.size(); ++f)
@@ -180,7 +198,9 @@ nlohmann::json report_json(const CheckReport& r, const RunDescription& run) {
              {{"gpu", seconds.gpu},
               {"readback", seconds.readback},
               {"reference", seconds.reference},
-              {"compare", seconds.compare}}},
+              {"compare", seconds.compare},
+              {"judge", seconds.judge}}},
+            {"verdicts", r.verdicts ? verdict_json(*r.verdicts, run.width) : json()},
             {"repeat", run.repeat}};
 }
 

@@ -2,12 +2,12 @@
 
 #include <algorithm>
 #include <array>
-#include <bit>
 #include <cmath>
 #include <cstdint>
 
 #include "reference/collision_code.hpp"
 #include "reference/collision_pass.hpp"
+#include "reference/model/same_bits.hpp"
 #include "reference/subnormals.hpp"
 #include "reference/triangle_interpolation.hpp"
 #include "reference/triangle_raster.hpp"
@@ -18,14 +18,6 @@ namespace lockstep {
 namespace {
 
 using Kind = TexelOwner::Kind;
-
-bool same_bits(float a, float b) {
-    return std::bit_cast<std::uint32_t>(a) == std::bit_cast<std::uint32_t>(b) || (a != a && b != b);
-}
-
-bool same_bits(glm::vec4 a, glm::vec4 b) {
-    return same_bits(a.x, b.x) && same_bits(a.y, b.y) && same_bits(a.z, b.z) && same_bits(a.w, b.w);
-}
 
 double middle(Interval v) { return (v.low + v.high) * 0.5; }
 

@@ -41,12 +41,38 @@ class InterruptHandler {
     InterruptHandler& operator=(const InterruptHandler&) = delete;
 };
 
+/// What a difference is judged by.
+enum class Legal {
+    measured, ///< what the driver was measured to do, GLSL's rules for the rest
+    glsl,     ///< GLSL's rules alone
+    any_order ///< and + - * in any order, fused or not, for shaders without `precise`
+};
+
 struct Options {
     RunOptions run;
     CheckMode mode = CheckMode::resync;
     std::filesystem::path json, images, hashes;
+    Legal legal = Legal::measured;
+    bool allow_undefined = false;
     bool quiet = false;
 };
+
+int status_of(Verdict verdict, bool allow_undefined) {
+    const bool passes =
+        verdict == Verdict::agree || verdict == Verdict::legal || (verdict == Verdict::undefined && allow_undefined);
+    return passes ? status_agree : status_differ;
+}
+
+std::string repeat_line(const Options& options, int frames) {
+    std::string line = command_line("check", options.run, frames);
+    if (options.mode == CheckMode::free)
+        line += " --mode free";
+    if (options.legal != Legal::measured)
+        line += options.legal == Legal::glsl ? " --legal glsl" : " --legal any_order";
+    if (options.allow_undefined)
+        line += " --allow-undefined";
+    return line;
+}
 
 void expect_files(const Options& options, OutputFiles& files) {
     if (!options.json.empty())
@@ -67,7 +93,7 @@ RunDescription description(const Options& options, const Scene& scene, const Con
             settings_text(options.run, scene),
             free ? "free" : "resync",
             scene.width,
-            command_line("check", options.run, repeat_frames) + (free ? " --mode free" : "")};
+            repeat_line(options, repeat_frames)};
 }
 
 int run(const Options& options) {
@@ -84,6 +110,8 @@ int run(const Options& options) {
     check_options.mode = options.mode;
     check_options.frames = options.run.frames;
     check_options.stop = &interrupted;
+    if (options.legal != Legal::measured)
+        check_options.known = KnownOperations{.sums = options.legal == Legal::glsl};
     if (!options.hashes.empty() || !options.images.empty())
         check_options.on_state = [&](const ComparedFrame& frame) {
             if (!options.hashes.empty())
@@ -112,7 +140,7 @@ int run(const Options& options) {
     if (!options.images.empty())
         images.write(files, options.images, scene, profile, options.run.shaders);
     files.commit();
-    return report.verdict == Verdict::agree ? status_agree : status_differ;
+    return status_of(report.verdict, options.allow_undefined);
 }
 
 } // namespace
@@ -127,13 +155,21 @@ void add_check_command(CLI::App& app, int& status) {
         ->type_name("N");
     add_choice<CheckMode>(*verb, "--mode", options->mode, {{"resync", CheckMode::resync}, {"free", CheckMode::free}},
                           "resync: each frame's step alone; free: both run on by themselves");
+    verb->add_option("--legal", options->legal,
+                     "what differences are judged by: what the driver was measured to do; GLSL's precision rules; "
+                     "these for shaders without `precise`")
+        ->transform(CLI::CheckedTransformer(std::map<std::string, Legal>{
+            {"measured", Legal::measured}, {"glsl", Legal::glsl}, {"any_order", Legal::any_order}}))
+        ->type_name("measured|glsl|any_order");
+    verb->add_flag("--allow-undefined", options->allow_undefined, "do not fail on what rests on what GL leaves open");
     verb->add_option("--json", options->json, "write the report as JSON")->type_name("FILE");
     verb->add_option("--hashes", options->hashes, "write both sides' state hash of every frame")->type_name("FILE");
     verb->add_option("--images", options->images,
                      "write CDT and rendered frame of both sides, and their difference, as PNG")
         ->type_name("DIR");
     verb->add_flag("--quiet", options->quiet, "no report, only the exit status");
-    verb->footer("Exit status: 0 agree, 1 differ, 2 could not run.\n"
+    verb->footer("Exit status: 0 every bit agrees, or what differs is legal (rounding, ties); 1 divergent, undefined "
+                 "without --allow-undefined, or any difference in free mode; 2 could not run.\n"
                  "Example: lockstep check data/scenes/lattice.json --frames 100 --preset paper");
     verb->callback([options, &status] { status = run(*options); });
 }

@@ -57,7 +57,7 @@ TEST_CASE("terminal: Ctrl-C ends with the verdict on the frames done so far") {
         test::plant(shaders, "collision_pass.vert", "ls_flush(a_CollideTime) - u_Tick;", "ls_flush(a_CollideTime);");
         const test::Outcome outcome = run_lockstep_on_terminal(check, bar, ctrl_c);
         CHECK(outcome.status == 1);
-        CHECK_THAT(outcome.out, Catch::Contains("interrupted after ") && Catch::Contains("DIFFER from frame 0 on"));
+        CHECK_THAT(outcome.out, Catch::Contains("interrupted after ") && Catch::Contains("DIVERGENT from frame 0 on"));
     }
     CHECK(test::names_in(folder.path()) == std::vector<std::string>{"report.json", "scene.json"});
 }

@@ -80,18 +80,18 @@ TEST_CASE("verdict: a planted difference is status 1, and the line that repeats 
     const test::Outcome outcome = setting.check({"--frames", "6"});
     CHECK(outcome.status == 1);
     CHECK(outcome.err.empty());
-    CHECK_THAT(outcome.out, Catch::Contains("verdict   DIFFER from frame 0 on: 1,"));
+    CHECK_THAT(outcome.out, Catch::Contains("verdict   DIVERGENT from frame 0 on: 1,"));
     CHECK_THAT(outcome.out,
                Catch::Matches("(.|\n)*  frame 0 particle \\d+ \\S+: reference \\S+ \\(-?0x1\\.[0-9a-f]+p-\\d+\\), "
                               "GPU \\S+ \\(-?0x1\\.[0-9a-f]+p-\\d+\\), \\d+ ULP\n(.|\n)*"));
     const nlohmann::json report = json_of(setting.report);
-    CHECK(report["verdict"] == "DIFFER");
+    CHECK(report["verdict"] == "DIVERGENT");
     CHECK(report["first_frame"] == 0);
     CHECK(report["fields"]["speed"]["differing"] > 300);
 
     const test::Outcome repeated = run_lockstep(words(report["repeat"]));
     CHECK(repeated.status == 1);
-    CHECK_THAT(repeated.out, Catch::Contains("DIFFER from frame 0 on") && Catch::Contains("in 1 frames\n"));
+    CHECK_THAT(repeated.out, Catch::Contains("DIVERGENT from frame 0 on") && Catch::Contains("in 1 frames,"));
     CHECK(worst(repeated.out) == worst(outcome.out));
 }
 

@@ -1,0 +1,315 @@
+#include "crosscheck/cause.hpp"
+
+#include <algorithm>
+#include <iterator>
+#include <tuple>
+#include <utility>
+
+#include "crosscheck/compare.hpp"
+#include "reference/collision_pass.hpp"
+#include "reference/model/same_bits.hpp"
+#include "reference/obstacle_pass.hpp"
+
+namespace lockstep {
+namespace {
+
+constexpr std::size_t pair_sample = 48;
+constexpr std::size_t pairs_kept = 8;
+constexpr std::size_t whole_kept = 8;
+
+/// At most `count` of them, evenly spread.
+std::vector<std::size_t> sample(const std::vector<std::size_t>& all, std::size_t count) {
+    if (all.size() <= count)
+        return all;
+    std::vector<std::size_t> some(count);
+    for (std::size_t i = 0; i < count; ++i)
+        some[i] = all[i * all.size() / count];
+    return some;
+}
+
+std::vector<std::size_t> divergent(const std::vector<ItemVerdict>& verdicts) {
+    std::vector<std::size_t> indices;
+    for (const ItemVerdict& verdict : verdicts)
+        if (verdict.kind == DifferenceClass::divergent)
+            indices.push_back(verdict.index);
+    return indices;
+}
+
+Deviations together(const Cause& cause) {
+    Deviations set;
+    for (const Deviation deviation : cause.deviations)
+        set.add(deviation);
+    return set;
+}
+
+/// More explained than contradicted; then the simpler.
+bool better(const Cause& a, const Cause& b) {
+    const auto balance = [](const Cause& c) {
+        return static_cast<std::int64_t>(c.contradicted) - static_cast<std::int64_t>(c.explained);
+    };
+    return std::tuple(balance(a), a.deviations.size()) < std::tuple(balance(b), b.deviations.size());
+}
+
+bool is_whole(const Cause& cause, std::uint64_t divergent) {
+    return cause.explained == divergent && cause.contradicted == 0;
+}
+
+std::vector<Cause> singles(bool (*wanted)(Deviation, bool), bool places_points) {
+    std::vector<Cause> causes;
+    for (const DeviationInfo& info : deviation_table())
+        if (wanted(info.deviation, places_points))
+            causes.push_back({{info.deviation}});
+    return causes;
+}
+
+bool for_steps(Deviation deviation, bool) { return changes_step(deviation); }
+
+std::vector<Cause> pairs(const std::vector<Cause>& alone) {
+    std::vector<Cause> causes;
+    for (std::size_t a = 0; a < alone.size(); ++a)
+        for (std::size_t b = a + 1; b < alone.size(); ++b)
+            if (alone[a].deviations.size() == 1 && alone[b].deviations.size() == 1)
+                causes.push_back({{alone[a].deviations.front(), alone[b].deviations.front()}});
+    return causes;
+}
+
+/// Counts, for each cause, the particles it explains and contradicts.
+void count_particles(std::vector<Cause>& causes, const JudgedFrame& frame, const FrameInputs& inputs,
+                     const std::vector<std::size_t>& divergent, const std::vector<std::size_t>& agreeing) {
+    const auto n = static_cast<std::ptrdiff_t>(causes.size());
+    const bool worth_threads = causes.size() * (divergent.size() + agreeing.size()) > 100'000;
+#pragma omp parallel for schedule(dynamic) if (worth_threads)
+    for (std::ptrdiff_t c = 0; c < n; ++c) {
+        Cause& cause = causes[static_cast<std::size_t>(c)];
+        const Deviations deviations = together(cause);
+        const auto explains = [&](std::size_t i) {
+            return same_bits(deviating_step(inputs, i, frame.profile, deviations), frame.gpu[i]);
+        };
+        const auto explained = static_cast<std::uint64_t>(std::count_if(divergent.begin(), divergent.end(), explains));
+        cause.explained += explained;
+        if (explained > 0)
+            cause.contradicted +=
+                agreeing.size() - static_cast<std::uint64_t>(std::count_if(agreeing.begin(), agreeing.end(), explains));
+    }
+}
+
+/// The same for texels: the whole image is drawn again.
+class TexelTrials {
+  public:
+    TexelTrials(const JudgedFrame& frame, const FrameInputs& inputs)
+        : frame_(frame), inputs_(inputs), obstacles_cdt_(frame.params.width, frame.params.height),
+          obstacles_depth_(frame.params.width, frame.params.height, 1.0F) {
+        obstacle_pass(frame.obstacles, frame.params, frame.profile, obstacles_cdt_, obstacles_depth_);
+        const CollisionImage expected = draw({});
+        for (std::size_t texel = 0; texel < expected.texels.size(); ++texel)
+            if (same_bits(expected.texels[texel], frame.gpu_cdt.texels[texel]))
+                agreeing_.push_back(texel);
+    }
+
+    void count(std::vector<Cause>& causes, const std::vector<std::size_t>& divergent) const {
+        const auto n = static_cast<std::ptrdiff_t>(causes.size());
+        const bool worth_threads = causes.size() * (frame_.gpu.size() + agreeing_.size()) > 100'000;
+#pragma omp parallel for schedule(dynamic) if (worth_threads)
+        for (std::ptrdiff_t c = 0; c < n; ++c) {
+            Cause& cause = causes[static_cast<std::size_t>(c)];
+            const CollisionImage drawn = draw(together(cause));
+            const auto equal = [&](const std::vector<std::size_t>& texels) {
+                return static_cast<std::uint64_t>(std::count_if(texels.begin(), texels.end(), [&](std::size_t texel) {
+                    return same_bits(drawn.texels[texel], frame_.gpu_cdt.texels[texel]);
+                }));
+            };
+            const std::uint64_t explained = equal(divergent);
+            cause.explained += explained;
+            if (explained > 0)
+                cause.contradicted += agreeing_.size() - equal(agreeing_);
+        }
+    }
+
+    [[nodiscard]] std::uint64_t contradicted(const Cause& cause) const {
+        const CollisionImage drawn = draw(together(cause));
+        return static_cast<std::uint64_t>(std::count_if(agreeing_.begin(), agreeing_.end(), [&](std::size_t texel) {
+            return !same_bits(drawn.texels[texel], frame_.gpu_cdt.texels[texel]);
+        }));
+    }
+
+  private:
+    [[nodiscard]] CollisionImage draw(const Deviations& deviations) const {
+        CollisionImage cdt;
+        deviating_draw(inputs_, frame_.gpu, frame_.profile, deviations, obstacles_cdt_, obstacles_depth_, cdt);
+        return cdt;
+    }
+
+    const JudgedFrame& frame_;
+    const FrameInputs& inputs_;
+    std::vector<std::size_t> agreeing_;
+    CollisionImage obstacles_cdt_;
+    DepthImage obstacles_depth_;
+};
+
+/// A wrong u_ProjView would show in what is drawn, too.
+void contradict_by_drawing(std::vector<Cause>& causes, std::size_t divergent, const JudgedFrame& frame,
+                           const FrameInputs& inputs) {
+    std::vector<Cause*> suspects;
+    for (Cause& cause : causes)
+        if (cause.explained >= divergent && cause.contradicted == 0 &&
+            std::any_of(cause.deviations.begin(), cause.deviations.end(), [](Deviation deviation) {
+                return deviation == Deviation::transposed_matrix || deviation == Deviation::matrix_of_earlier_frame;
+            }))
+            suspects.push_back(&cause);
+    if (suspects.empty())
+        return;
+    const TexelTrials trials(frame, inputs);
+    for (Cause* cause : suspects)
+        cause->contradicted += trials.contradicted(*cause);
+}
+
+/// The best few.
+std::vector<Cause> best_of(std::vector<Cause> causes, std::size_t count) {
+    std::stable_sort(causes.begin(), causes.end(), better);
+    if (causes.size() > count)
+        causes.resize(count);
+    return causes;
+}
+
+void forget_counts(std::vector<Cause>& causes) {
+    for (Cause& cause : causes)
+        cause.explained = cause.contradicted = 0;
+}
+
+} // namespace
+
+std::string Cause::name() const {
+    std::string text;
+    for (const Deviation deviation : deviations)
+        text += (text.empty() ? "" : " + ") + std::string(deviation_name(deviation));
+    return text;
+}
+
+void CauseFinder::add(const JudgedFrame& frame, const FrameVerdicts& verdicts, const FrameInputs& inputs) {
+    try_on_particles(frame, verdicts, inputs);
+    try_on_texels(frame, verdicts, inputs);
+}
+
+/// `count(causes, divergent)` adds a frame's counts to causes; `pairs()` gives those worth trying.
+template <class Count, class Pairs>
+void CauseFinder::hold_against(Trial& trial, const std::vector<std::size_t>& divergent, std::vector<Cause> singles,
+                               const Count& count, const Pairs& pairs) {
+    if (divergent.empty())
+        return;
+    const bool first = trial.frames == 0;
+    const bool tries = trial.frames < trial_frames;
+    ++trial.frames;
+    if (first)
+        trial.causes = std::move(singles);
+    const auto whole_ones = [&] {
+        std::vector<Cause> whole = best_of(trial.causes, whole_kept);
+        std::erase_if(whole, [&](const Cause& cause) { return !is_whole(cause, trial.divergent); });
+        return whole;
+    };
+    if (!tries) {
+        std::vector<Cause> whole = whole_ones();
+        if (whole.empty())
+            return;
+        count(whole, divergent);
+        trial.divergent += divergent.size();
+        trial.causes = std::move(whole);
+        return;
+    }
+    const std::vector<std::size_t> some = sample(divergent, trial_items);
+    count(trial.causes, some);
+    trial.divergent += some.size();
+    if (first && whole_ones().empty()) {
+        const std::vector<Cause> two = pairs();
+        trial.causes.insert(trial.causes.end(), two.begin(), two.end());
+    }
+    std::vector<Cause> whole = whole_ones();
+    if (whole.empty() || some.size() == divergent.size())
+        return;
+    std::vector<std::size_t> rest;
+    std::set_difference(divergent.begin(), divergent.end(), some.begin(), some.end(), std::back_inserter(rest));
+    count(whole, rest);
+    trial.divergent += rest.size();
+    trial.causes = std::move(whole);
+}
+
+void CauseFinder::try_on_particles(const JudgedFrame& frame, const FrameVerdicts& verdicts, const FrameInputs& inputs) {
+    std::vector<std::size_t> equal;
+    for (std::size_t i = 0, next = 0; i < frame.gpu.size(); ++i) {
+        if (next < verdicts.particles.size() && verdicts.particles[next].index == i)
+            ++next;
+        else
+            equal.push_back(i);
+    }
+    equal = sample(equal, trial_items);
+    const std::vector<std::size_t> wrong = divergent(verdicts.particles);
+    const auto count = [&](std::vector<Cause>& causes, const std::vector<std::size_t>& items) {
+        count_particles(causes, frame, inputs, items, equal);
+        contradict_by_drawing(causes, items.size(), frame, inputs);
+    };
+    const auto best_pairs = [&] {
+        std::vector<Cause> two = pairs(particles_.causes);
+        // Where one explains nearly all, the other shows in the rest.
+        const Deviations best = together(best_of(particles_.causes, 1).front());
+        std::vector<std::size_t> rest;
+        for (const std::size_t i : sample(wrong, trial_items))
+            if (!same_bits(deviating_step(inputs, i, frame.profile, best), frame.gpu[i]))
+                rest.push_back(i);
+        std::vector<std::size_t> telling = sample(rest, pair_sample);
+        const std::vector<std::size_t> others = sample(wrong, pair_sample);
+        telling.insert(telling.end(), others.begin(), others.end());
+        count_particles(two, frame, inputs, telling, sample(equal, pair_sample));
+        two = best_of(std::move(two), pairs_kept);
+        forget_counts(two);
+        count(two, sample(wrong, trial_items));
+        return two;
+    };
+    hold_against(particles_, wrong, singles(for_steps, false), count, best_pairs);
+}
+
+void CauseFinder::try_on_texels(const JudgedFrame& frame, const FrameVerdicts& verdicts, const FrameInputs& inputs) {
+    // Texels that only follow their particles are explained with these.
+    std::vector<ItemVerdict> drawn_wrong;
+    std::copy_if(verdicts.texels.begin(), verdicts.texels.end(), std::back_inserter(drawn_wrong),
+                 [](const ItemVerdict& verdict) { return !verdict.follows_particle; });
+    const std::vector<std::size_t> wrong = divergent(drawn_wrong);
+    if (wrong.empty())
+        return;
+    const TexelTrials trials(frame, inputs);
+    const auto count = [&](std::vector<Cause>& causes, const std::vector<std::size_t>& items) {
+        trials.count(causes, items);
+    };
+    const auto best_pairs = [&] {
+        // Each trial draws a whole image: only what explains something alone is worth a partner.
+        std::vector<Cause> two = pairs(texels_.causes);
+        std::erase_if(two, [&](const Cause& pair) {
+            return std::none_of(texels_.causes.begin(), texels_.causes.end(), [&](const Cause& alone) {
+                return alone.explained > 0 && (alone.deviations.front() == pair.deviations.front() ||
+                                               alone.deviations.front() == pair.deviations.back());
+            });
+        });
+        count(two, sample(wrong, trial_items));
+        return best_of(std::move(two), pairs_kept);
+    };
+    const bool places_points = frame.params.switches.arithmetic == ArithmeticSwitch::exact;
+    hold_against(texels_, wrong, singles(changes_drawing, places_points), count, best_pairs);
+}
+
+CauseFindings CauseFinder::findings(const Trial& trial) {
+    CauseFindings found;
+    found.divergent = trial.divergent;
+    const std::vector<Cause> sorted = best_of(trial.causes, trial.causes.size());
+    for (const Cause& cause : sorted) {
+        if (cause.explained == 0)
+            break;
+        if (!found.best.empty() && better(found.best.front(), cause))
+            break;
+        found.best.push_back(cause);
+    }
+    return found;
+}
+
+CauseFindings CauseFinder::particles() const { return findings(particles_); }
+
+CauseFindings CauseFinder::texels() const { return findings(texels_); }
+
+} // namespace lockstep

@@ -269,8 +269,10 @@ template <class A> class DeviatingStep {
         float factor = switches_.speed_factor;
         if (has(speed_reduced_by_instead_of_to))
             factor = 1.0F - factor;
+        if (has(speed_factor_doubled))
+            factor *= 2.0F;
         v.speed = has(speed_kept_at_hit) ? a.speed : A::flush(a.speed * factor);
-        if (has(speed_factor_twice))
+        if (has(speed_factor_squared))
             v.speed = A::flush(v.speed * factor);
         v.direction = has(direction_kept_at_hit)             ? a.direction
                       : has(direction_not_normalised_at_hit) ? away

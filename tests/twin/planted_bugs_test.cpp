@@ -115,29 +115,32 @@ struct Bug {
     const char* text;
     const char* replacement;
     When when;
+    const char* cause; ///< its name in reference/deviation.hpp; empty: it has none
 };
 
 constexpr Bug bugs[] = {
     {"the last neighbour instead of the nearest", "collision_pass.vert",
-     "if (u_CollisionRange > len && len < particle_min_length)", "if (u_CollisionRange > len)", When::any_hit},
+     "if (u_CollisionRange > len && len < particle_min_length)", "if (u_CollisionRange > len)", When::any_hit,
+     "last_found_instead_of_nearest"},
     // A hit sets 3 ticks, which have run out to exactly 0 at the start of the fourth frame after it.
     {"searching at collide time 0", "collision_pass.vert", "ls_flush(a_CollideTime) < 0.0 &&",
-     "ls_flush(a_CollideTime) <= 0.0 &&", When::four_after_first_hit},
+     "ls_flush(a_CollideTime) <= 0.0 &&", When::four_after_first_hit, "collide_time_zero_searches"},
     {"one column of neighbours too few", "collision_pass.vert", "tx <= u_TexelCollideRange; ++tx",
-     "tx < u_TexelCollideRange; ++tx", When::any_hit},
+     "tx < u_TexelCollideRange; ++tx", When::any_hit, "last_column_skipped"},
     {"twice the speed factor", "collision_pass.vert", "product(a_Speed, u_SpeedFactor)",
-     "product(a_Speed, 2.0 * u_SpeedFactor)", When::first_hit},
-    {"a hit's step without the tick", "collision_pass.vert", "    step = product(step, u_Tick);\n", "",
-     When::first_hit},
+     "product(a_Speed, 2.0 * u_SpeedFactor)", When::first_hit, "speed_factor_doubled"},
+    {"a hit's step without the tick", "collision_pass.vert", "    step = product(step, u_Tick);\n", "", When::first_hit,
+     "tick_missing_in_collision_step"},
     {"the image upside down", "base_texel.glsl", "tex_coord.y * float(u_ClientHeight)",
-     "(1.0 - tex_coord.y) * float(u_ClientHeight)", When::any_hit},
-    {"half a texel off", "base_texel.glsl", "texel = ivec2(scaled);", "texel = ivec2(scaled + 0.5);", When::any_hit},
+     "(1.0 - tex_coord.y) * float(u_ClientHeight)", When::any_hit, "y_flipped"},
+    {"half a texel off", "base_texel.glsl", "texel = ivec2(scaled);", "texel = ivec2(scaled + 0.5);", When::any_hit,
+     "half_texel_up"},
     {"collide time not counted", "collision_pass.vert", "ls_flush(a_CollideTime) - u_Tick;", "ls_flush(a_CollideTime);",
-     When::start},
+     When::start, "collide_time_not_counted"},
     {"the own texel not skipped", "collision_pass.vert", "(tx == 0 && ty == 0) || !on_image(texel)", "!on_image(texel)",
-     When::any_hit},
+     When::any_hit, "own_texel_not_skipped"},
     {"speed one ULP too high", "collision_pass.vert", "v_Speed = ls_length(temp);",
-     "v_Speed = uintBitsToFloat(floatBitsToUint(ls_length(temp)) + 1u);", When::start},
+     "v_Speed = uintBitsToFloat(floatBitsToUint(ls_length(temp)) + 1u);", When::start, ""},
 };
 
 bool fits(When when, int frame, int first_hit) {
@@ -156,7 +159,7 @@ bool fits(When when, int frame, int first_hit) {
 
 } // namespace
 
-TEST_CASE("planted bugs: each is found, in the frame in which it first shows") {
+TEST_CASE("planted bugs: each is found, in the frame in which it first shows, by its name") {
     const auto context = test::open_llvmpipe("osmesa");
     if (!context)
         return;
@@ -172,9 +175,14 @@ TEST_CASE("planted bugs: each is found, in the frame in which it first shows") {
         CAPTURE(first_hit, expected);
         CHECK(fits(bug.when, expected, first_hit));
         const CheckReport report = test::check_twins(scene, frames, shaders.path());
-        CHECK(report.verdict == Verdict::differ);
+        CHECK(report.verdict == Verdict::divergent);
         CHECK(report.first_frame == expected);
         CHECK(report.worst.front().frame == expected);
+        REQUIRE(report.verdicts);
+        const CauseFindings& cause = report.verdicts->particle_cause;
+        CHECK(cause.explains_all() == (*bug.cause != '\0'));
+        CHECK((cause.explains_all() ? cause.best.front().name() : "") == bug.cause);
+        CHECK(report.verdicts->first->place.frame == expected);
     }
 }
 

@@ -12,6 +12,7 @@
 #include <fmt/ranges.h>
 
 #include "crosscheck/commands/commands.hpp"
+#include "crosscheck/waiting_threads.hpp"
 #include "reference/model/error.hpp"
 
 namespace {
@@ -55,6 +56,7 @@ void flush_standard_output() {
 
 int main(int argc, char** argv) {
     using namespace lockstep;
+    let_waiting_threads_sleep(argv);
     CLI::App app("lockstep: runs an image-based particle system as plain C++ and as GLSL on OpenGL, and compares every "
                  "bit of every frame");
     app.name("lockstep");

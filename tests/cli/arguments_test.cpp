@@ -1,5 +1,7 @@
 #include <catch2/catch.hpp>
 
+#include <cstdlib>
+
 #include <fmt/format.h>
 
 #include "tests/cli/cli_checks.hpp"
@@ -111,4 +113,19 @@ TEST_CASE("arguments: a full disk behind standard output is no success") {
     full.standard_output = "/dev/full";
     const test::Outcome outcome = run_lockstep({"hash", scene, "--frames", "1", "--particles", "10"}, full);
     CHECK(refusal(outcome) == "standard output: cannot be written: No space left on device");
+}
+
+TEST_CASE("arguments: the program starts itself once more for threads that sleep, unless a policy is set") {
+    const auto starts = [](const std::vector<std::pair<std::string, std::string>>& environment) {
+        test::Surroundings surroundings;
+        surroundings.environment = environment;
+        surroundings.environment.emplace_back("OMP_DISPLAY_ENV", "true");
+        const std::string shown = run_lockstep({"--help"}, surroundings).err;
+        std::size_t count = 0;
+        for (std::size_t at = 0; (at = shown.find("ENVIRONMENT BEGIN", at)) != std::string::npos; ++at)
+            ++count;
+        return count;
+    };
+    CHECK(starts({}) == (std::getenv("OMP_WAIT_POLICY") == nullptr ? 2U : 1U));
+    CHECK(starts({{"OMP_WAIT_POLICY", "active"}}) == 1);
 }

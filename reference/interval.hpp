@@ -42,11 +42,13 @@ namespace interval {
 inline double below(double x) { return x == 0.0 ? x : std::nextafter(x, -HUGE_VAL); }
 inline double above(double x) { return x == 0.0 ? x : std::nextafter(x, HUGE_VAL); }
 
-/// Distance of the two floats around x (GLSL's ULP); 2^-149 below the normal floats.
+/// Distance of the two floats around x (GLSL's ULP); at a power of two, where it could be either, the larger; 2^-149
+/// below the normal floats.
 inline double ulp(double x) {
     if (x == 0.0 || !std::isfinite(x))
         return 0x1p-149;
-    return std::ldexp(1.0, std::max(std::ilogb(x), -126) - 23);
+    constexpr double past_outward = 1.0 + 0x1p-40; // the ends of intervals lie a little to either side
+    return std::ldexp(1.0, std::max(std::ilogb(x * past_outward), -126) - 23);
 }
 
 inline Interval outward(double low, double high) {

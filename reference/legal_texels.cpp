@@ -122,6 +122,8 @@ template <class A> class Candidates {
         const PixelRange columns = pixels_of(window_coordinate(clip[0], clip[3], half_width, half_width), snap);
         const PixelRange rows = pixels_of(window_coordinate(clip[1], clip[3], half_height, half_height), snap);
         owner.depth = window_coordinate(clip[2], clip[3], 0.5, 0.5);
+        if (clip[2].is_point() && clip[3].is_point())
+            owner.clip_zw = glm::vec2(clip[2].as_float(), clip[3].as_float());
         owner.sure = inside == InVolume::yes && columns.first == columns.last && rows.first == rows.last;
         owner.edge_margin = HUGE_VAL;
         if (columns.first != columns.last)
@@ -231,6 +233,8 @@ LegalTexel settle(std::vector<TexelOwner>& candidates) {
         const bool hidden = std::any_of(candidates.begin(), candidates.end(), [&](const TexelOwner& other) {
             if (&other == &candidate || !other.sure)
                 return false;
+            if (other.clip_zw && other.clip_zw == candidate.clip_zw)
+                return &other < &candidate;
             return &other < &candidate ? other.depth.high <= candidate.depth.low
                                        : other.depth.high < candidate.depth.low;
         });

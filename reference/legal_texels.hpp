@@ -1,5 +1,6 @@
 #pragma once
 #include <cstddef>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -22,7 +23,9 @@ struct TexelOwner {
     bool is_reference = false;    ///< the one that the reference leaves here
     float reference_depth = 1.0F; ///< as the reference computes it
     bool sure = true;             ///< drawn to this texel whatever the rounding
-    double edge_margin = 0.0;   ///< its point, or the texel's centre and its triangle's side: 1/256 pixel to the border
+    double edge_margin = 0.0; ///< its point, or the texel's centre and its triangle's side: 1/256 pixel to the border
+    /// Clip z and w of a point: the same two give the same depth, whatever the rounding.
+    std::optional<glm::vec2> clip_zw = std::nullopt;
     Interval depth{1.0F, 1.0F}; ///< window depth
 
     [[nodiscard]] bool stores(glm::vec4 texel) const;

@@ -129,3 +129,12 @@ TEST_CASE("arguments: the program starts itself once more for threads that sleep
     CHECK(starts({}) == (std::getenv("OMP_WAIT_POLICY") == nullptr ? 2U : 1U));
     CHECK(starts({{"OMP_WAIT_POLICY", "active"}}) == 1);
 }
+
+#ifndef __SANITIZE_ADDRESS__ // which needs more address space than there is memory
+TEST_CASE("arguments: more particles than fit into memory are refused in one line") {
+    test::Surroundings small;
+    small.memory = std::size_t{1} << 30U;
+    CHECK(refusal(run_lockstep({"hash", scene, "--particles", "100000000"}, small)) ==
+          "not enough memory; fewer particles (--particles) or a smaller image need less");
+}
+#endif

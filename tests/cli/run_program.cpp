@@ -33,6 +33,10 @@ void enter(const Surroundings& surroundings) {
         const rlimit limit{*surroundings.largest_file, *surroundings.largest_file};
         setrlimit(RLIMIT_FSIZE, &limit);
     }
+    if (surroundings.memory) {
+        const rlimit limit{*surroundings.memory, *surroundings.memory};
+        setrlimit(RLIMIT_AS, &limit);
+    }
     if (surroundings.standard_output)
         dup2(open(surroundings.standard_output->c_str(), O_WRONLY), STDOUT_FILENO);
 }

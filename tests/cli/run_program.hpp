@@ -19,6 +19,7 @@ struct Surroundings {
     std::vector<std::pair<std::string, std::string>> environment; ///< set on top of the test's own
     std::optional<std::size_t> largest_file;    ///< bytes; a longer file fails as on a full disk (EFBIG for ENOSPC)
     std::optional<std::string> standard_output; ///< a file instead of a pipe
+    std::optional<std::size_t> memory;          ///< bytes of address space
 };
 
 /// Runs lockstep with `arguments`, standard output and error as pipes, and waits for its end.

@@ -27,7 +27,7 @@ std::string refusal_of(const test::TemporaryFolder& shaders) {
 }
 
 const test::Surroundings no_gl{
-    {{"LOCKSTEP_OSMESA_LIBRARY", "/no/such/libOSMesa.so"}, {"LOCKSTEP_EGL_LIBRARY", "/no/such/libEGL.so"}}, {}, {}};
+    {{"LOCKSTEP_OSMESA_LIBRARY", "/no/such/libOSMesa.so"}, {"LOCKSTEP_EGL_LIBRARY", "/no/such/libEGL.so"}}, {}, {}, {}};
 
 } // namespace
 

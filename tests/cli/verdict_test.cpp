@@ -8,6 +8,7 @@
 
 #include "tests/cli/cli_checks.hpp"
 #include "tests/planted_shader.hpp"
+#include "tests/shader_clock.hpp"
 #include "tests/temporary_folder.hpp"
 
 using namespace lockstep;
@@ -93,6 +94,21 @@ TEST_CASE("verdict: a planted difference is status 1, and the line that repeats 
     CHECK(repeated.status == 1);
     CHECK_THAT(repeated.out, Catch::Contains("DIVERGENT from frame 0 on") && Catch::Contains("in 1 frames,"));
     CHECK(worst(repeated.out) == worst(outcome.out));
+}
+
+TEST_CASE("verdict: a shader that gives two answers to one frame is NONDETERMINISTIC, status 1") {
+    if (!test::offers_shader_clock())
+        return;
+    const Setting setting;
+    test::plant(setting.shaders, "collision_pass.vert", "#version 330 core\n",
+                "#version 330 core\n#extension GL_ARB_shader_clock : require\n");
+    test::plant(setting.shaders, "collision_pass.vert", "v_Speed = ls_length(temp);",
+                "v_Speed = ls_length(temp) + float(clock2x32ARB().x & 0xffffu);");
+    const test::Outcome outcome = setting.check({"--frames", "6"});
+    CHECK(outcome.status == 1);
+    CHECK_THAT(outcome.out, Catch::Contains("verdict   NONDETERMINISTIC: the GPU gave two answers to frame 0: ") &&
+                                Catch::Contains(", second run "));
+    CHECK(json_of(setting.report)["verdict"] == "NONDETERMINISTIC");
 }
 
 TEST_CASE("verdict: free mode shows how a difference grows") {

@@ -22,20 +22,15 @@ namespace lockstep {
 namespace {
 
 /// What the depth test keeps in a texel: depth above, particle below, so that the least key is the nearest particle
-/// and, of equally near ones, the first.
+/// and, of equally near ones, the first. A depth inside the clip volume is at least +0, and ordered like its bits.
 using DrawingKey = std::uint64_t;
 constexpr DrawingKey undrawn = ~DrawingKey{0};
 
 DrawingKey drawing_key(float depth, std::size_t particle) {
-    const auto bits = std::bit_cast<std::uint32_t>(depth + 0.0F); // -0 is as near as +0
-    const std::uint32_t ordered = (bits >> 31U) != 0 ? ~bits : bits | 0x80000000U;
-    return DrawingKey{ordered} << 32U | particle;
+    return DrawingKey{std::bit_cast<std::uint32_t>(depth)} << 32U | particle;
 }
 
-float depth_of(DrawingKey key) {
-    const auto ordered = static_cast<std::uint32_t>(key >> 32U);
-    return std::bit_cast<float>((ordered >> 31U) != 0 ? ordered & 0x7fffffffU : ~ordered);
-}
+float depth_of(DrawingKey key) { return std::bit_cast<float>(static_cast<std::uint32_t>(key >> 32U)); }
 
 std::size_t particle_of(DrawingKey key) { return key & 0xffffffffU; }
 
@@ -93,7 +88,7 @@ LOCKSTEP_VECTOR_CLONES void draw_slice(const std::vector<glm::vec3>& positions, 
         else
             point_fragments<A, viewport, snap>(position, count, params, rules, texel.data(), depth.data());
         for (std::size_t i = 0; i < count; ++i)
-            if (texel[i] >= 0 && depth[i] == depth[i])
+            if (texel[i] >= 0)
                 keys[texel[i]] = std::min(keys[texel[i]], drawing_key(depth[i], first + i));
     }
 }

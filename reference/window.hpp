@@ -1,6 +1,7 @@
 #pragma once
 #include <cmath>
 #include <cstdint>
+#include <limits>
 
 #include <glm/vec2.hpp>
 #include <glm/vec4.hpp>
@@ -70,10 +71,13 @@ inline int point_pixel(std::int32_t snapped, const RasterRules& rules) {
     return (snapped + half - (rules.point_edge_to_lower ? 1 : 0)) >> rules.subpixel_bits;
 }
 
-/// Whether a point's centre lies in the closed clip volume -w <= x, y, z <= w (GL 13.5). False for NaN, and for w = 0,
-/// which has no place on the image. No short cuts, so that a loop over points runs on vectors.
+/// Whether a point's centre lies in the closed clip volume -w <= x, y, z <= w (GL 13.5). False for NaN, and for
+/// w = 0, subnormal or infinite, which have no place on the image. No short cuts, so that a loop over points runs on
+/// vectors.
 inline bool in_clip_volume(glm::vec4 clip) {
-    return (clip.w > 0.0F) & (std::abs(clip.x) <= clip.w) & (std::abs(clip.y) <= clip.w) & (std::abs(clip.z) <= clip.w);
+    constexpr float least = std::numeric_limits<float>::min(), most = std::numeric_limits<float>::max();
+    return (clip.w >= least) & (clip.w <= most) & (std::abs(clip.x) <= clip.w) & (std::abs(clip.y) <= clip.w) &
+           (std::abs(clip.z) <= clip.w);
 }
 
 } // namespace lockstep

@@ -1,7 +1,9 @@
 // GL discards a point whose centre lies outside the clip volume (4.5, 13.5). A driver with a guard band may let it
-// pass, and NaN decides differently everywhere, so the rule is written out. At w = 0 a point has no place on the image.
+// pass, and NaN decides differently everywhere, so the rule is written out. At w = 0 (or subnormal, which drivers flush)
+// and at infinity a point has no place on the image.
 bool in_clip_volume(vec4 clip) {
-    return clip.w > 0.0 && abs(clip.x) <= clip.w && abs(clip.y) <= clip.w && abs(clip.z) <= clip.w;
+    bool has_place = clip.w >= 1.17549435e-38 && clip.w <= 3.402823466e38;
+    return has_place && abs(clip.x) <= clip.w && abs(clip.y) <= clip.w && abs(clip.z) <= clip.w;
 }
 
 // The position itself, or one outside every clip volume.

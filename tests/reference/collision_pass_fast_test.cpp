@@ -24,13 +24,13 @@ struct Frame {
     DepthImage depth;
 };
 
-/// What obstacles may have left: a third of the texels hold a random depth.
+/// What obstacles may have left: a third of the texels hold a depth, many of them one that a particle has too.
 DepthImage drawn_before(const FrameParams& params) {
     Random random(99);
     DepthImage depth(params.width, params.height, 1.0F);
     for (float& d : depth.texels)
         if (random.chance(0.3F))
-            d = random.between(0.6F, 1.0F);
+            d = std::floor(random.between(0.47F, 0.53F) * 128.0F) / 128.0F;
     return depth;
 }
 
@@ -211,23 +211,78 @@ TEST_CASE("fast collision: equal where squares are subnormal, and round the list
 }
 
 TEST_CASE("fast collision: equal for every raster rule, and where depths are equal") {
-    for (const ViewportRounding viewport : {ViewportRounding::separate, ViewportRounding::fused})
-        for (const SnapRounding snap :
-             {SnapRounding::half_to_even, SnapRounding::half_away, SnapRounding::half_up, SnapRounding::down})
-            for (const bool lower : {true, false})
-                for (const int bits : {4, 8})
-                    for (const float step : {0.0F, 1.0F / 64.0F, 1.0F / 640.0F}) {
-                        RandomScene scene = random_scene(71, 1500, 40, 30);
-                        scene.params.collision_proj_view = glm::mat4(1.0F);
-                        if (step > 0.0F)
-                            quantise(scene, step);
-                        Profile profile;
-                        profile.raster.subpixel_bits = bits;
-                        profile.raster.point_snap = snap;
-                        profile.raster.viewport = viewport;
-                        profile.raster.point_edge_to_lower = lower;
-                        CHECK(check_equal(scene, profile).drawn > 300);
-                    }
+    for (const char* name : {"corrected", "exact"})
+        for (const ViewportRounding viewport : {ViewportRounding::separate, ViewportRounding::fused})
+            for (const SnapRounding snap :
+                 {SnapRounding::half_to_even, SnapRounding::half_away, SnapRounding::half_up, SnapRounding::down})
+                for (const bool lower : {true, false})
+                    for (const int bits : {4, 8})
+                        for (const float step : {0.0F, 1.0F / 64.0F, 1.0F / 640.0F}) {
+                            RandomScene scene = random_scene(71, 1500, 40, 30);
+                            scene.params.switches = preset(name);
+                            scene.params.switches.raster_position = RasterPosition::before_step;
+                            scene.params.collision_proj_view = glm::mat4(1.0F);
+                            if (step > 0.0F)
+                                quantise(scene, step);
+                            Profile profile;
+                            profile.raster.subpixel_bits = bits;
+                            profile.raster.point_snap = snap;
+                            profile.raster.viewport = viewport;
+                            profile.raster.point_edge_to_lower = lower;
+                            CHECK(check_equal(scene, profile).drawn > 300);
+                        }
+}
+
+TEST_CASE("fast collision: equal for any clip space") {
+    const float inf = std::numeric_limits<float>::infinity();
+    for (const char* name : {"corrected", "exact"})
+        for (const bool flush : {true, false}) {
+            RandomScene scene = random_scene(75, 3000, 40, 30);
+            scene.params.switches = preset(name);
+            scene.params.collision_proj_view = glm::mat4(1.0F);
+            scene.params.collision_proj_view[2] = {0.0F, 0.0F, 0.5F, 1.0F}; // w = z
+            scene.params.collision_proj_view[3] = glm::vec4(0.0F);
+            Random random(76);
+            const std::array odd{inf, -inf, 0.0F, 1e-40F, 0x1p-126F, 3e38F, 0x1p-125F};
+            for (glm::vec3& p : scene.particles.position) {
+                p.z = random.between(-2.0F, 2.0F);
+                if (random.chance(0.3F)) {
+                    p = glm::vec3(0.0F, 0.0F, odd[random.below(static_cast<std::uint32_t>(odd.size()))]);
+                    p.x = random.chance(0.5F) ? 0.0F : 0.3F * p.z;
+                }
+            }
+            scene.params.switches.raster_position = RasterPosition::before_step;
+            Profile profile;
+            profile.flush_subnormals = flush;
+            CHECK(check_equal(scene, profile).drawn > 100);
+        }
+}
+
+TEST_CASE("fast collision: equal on the edges of texels and of the image") {
+    for (const BaseTexel base : {BaseTexel::floor, BaseTexel::truncate})
+        for (const bool lower : {true, false}) {
+            RandomScene scene;
+            scene.params = flat_params();
+            scene.params.switches.base_texel = base;
+            scene.params.constants.collision_range = 9.0F;
+            scene.cdt = empty_cdt(scene.params);
+            for (int y = 0; y < 8; ++y)
+                for (int x = 0; x < 8; ++x)
+                    store(scene.cdt, scene.params, x, y, {0.25F * static_cast<float>(x), static_cast<float>(y), 0.1F});
+            const int steps = 48; // eighths of a texel, from two texels outside to two texels outside
+            scene.particles.resize((2 * steps + 1) * (2 * steps + 1));
+            for (std::size_t i = 0; i < scene.particles.size(); ++i) {
+                const auto row = static_cast<int>(i) / (2 * steps + 1), column = static_cast<int>(i) % (2 * steps + 1);
+                scene.particles.position[i] = {static_cast<float>(column - steps) / 32.0F,
+                                               static_cast<float>(row - steps) / 32.0F, 0.0F};
+                scene.particles.direction[i] = {1.0F, 0.0F, 0.0F};
+                scene.particles.collide_time[i] = -1.0F;
+            }
+            Profile profile;
+            profile.raster.point_edge_to_lower = lower;
+            scene.params.switches.raster_position = RasterPosition::before_step;
+            CHECK(check_equal(scene, profile).drawn > 0);
+        }
 }
 
 TEST_CASE("fast collision: equal for any number of particles and threads") {

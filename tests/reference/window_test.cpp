@@ -127,5 +127,9 @@ TEST_CASE("window: the clip volume is closed and holds no NaN") {
         }
     CHECK_FALSE(in_clip_volume({0.0F, 0.0F, 0.0F, -1.0F}));
     CHECK_FALSE(in_clip_volume(glm::vec4(0.0F)));
+    CHECK(in_clip_volume({0.0F, 0.0F, 0.0F, std::numeric_limits<float>::min()}));
+    CHECK_FALSE(in_clip_volume({0.0F, 0.0F, 0.0F, 0.5F * std::numeric_limits<float>::min()}));
+    CHECK(in_clip_volume({0.0F, 0.0F, 0.0F, std::numeric_limits<float>::max()}));
+    CHECK_FALSE(in_clip_volume({0.0F, 0.0F, 0.0F, std::numeric_limits<float>::infinity()}));
     CHECK_FALSE(in_clip_volume({0.0F, 0.0F, 0.0F, std::numeric_limits<float>::quiet_NaN()}));
 }

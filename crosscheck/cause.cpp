@@ -1,6 +1,7 @@
 #include "crosscheck/cause.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <iterator>
 #include <tuple>
 #include <utility>
@@ -73,19 +74,48 @@ std::vector<Cause> pairs(const std::vector<Cause>& alone) {
     return causes;
 }
 
+/// How far a field may be off where a driver's operations are, relative to the largest component: a step chains two
+/// of them at most, a length and a division by it, and a few roundings.
+float allowed_error(const Profile& profile) {
+    const OperationErrors& e = profile.errors;
+    const std::int64_t worst = std::max({e.divide, e.reciprocal, e.sqrt, e.inverse_sqrt, e.length, e.normalize});
+    return worst == 0 ? 0.0F : static_cast<float>(std::min<std::int64_t>(2 * worst + 4, 64)) * 0x1p-23F;
+}
+
+bool near(glm::vec3 a, glm::vec3 b, float error) {
+    if (same_bits(a, b))
+        return true;
+    const float largest = std::max({std::abs(b.x), std::abs(b.y), std::abs(b.z)});
+    for (int c = 0; c < 3; ++c)
+        if (!(std::abs(a[c] - b[c]) <= error * largest))
+            return false;
+    return true;
+}
+
+bool alike(const ParticleState& a, const ParticleState& b, float error) {
+    if (error == 0.0F)
+        return same_bits(a, b);
+    return same_bits(a.collide_time, b.collide_time) && near(glm::vec3(a.speed), glm::vec3(b.speed), error) &&
+           near(a.direction, b.direction, error) && near(a.position, b.position, error);
+}
+
 /// Counts, for each cause, the particles it explains and contradicts.
 void count_particles(std::vector<Cause>& causes, const JudgedFrame& frame, const FrameInputs& inputs,
                      const std::vector<std::size_t>& divergent, const std::vector<std::size_t>& agreeing) {
     const auto n = static_cast<std::ptrdiff_t>(causes.size());
+    const float error = allowed_error(frame.profile);
     const bool worth_threads = causes.size() * (divergent.size() + agreeing.size()) > 100'000;
 #pragma omp parallel for schedule(dynamic) if (worth_threads)
     for (std::ptrdiff_t c = 0; c < n; ++c) {
         Cause& cause = causes[static_cast<std::size_t>(c)];
         const Deviations deviations = together(cause);
         const auto explains = [&](std::size_t i) {
-            return same_bits(deviating_step(inputs, i, frame.profile, deviations), frame.gpu[i]);
+            return alike(deviating_step(inputs, i, frame.profile, deviations), frame.gpu[i], error);
         };
-        const auto explained = static_cast<std::uint64_t>(std::count_if(divergent.begin(), divergent.end(), explains));
+        // What is near without any deviation says nothing about one.
+        const auto telling = [&](std::size_t i) { return !alike(frame.reference[i], frame.gpu[i], error); };
+        const auto explained = static_cast<std::uint64_t>(std::count_if(
+            divergent.begin(), divergent.end(), [&](std::size_t i) { return telling(i) && explains(i); }));
         cause.explained += explained;
         if (explained > 0)
             cause.contradicted +=
@@ -252,7 +282,7 @@ void CauseFinder::try_on_particles(const JudgedFrame& frame, const FrameVerdicts
         const Deviations best = together(best_of(particles_.causes, 1).front());
         std::vector<std::size_t> rest;
         for (const std::size_t i : sample(wrong, trial_items))
-            if (!same_bits(deviating_step(inputs, i, frame.profile, best), frame.gpu[i]))
+            if (!alike(deviating_step(inputs, i, frame.profile, best), frame.gpu[i], allowed_error(frame.profile)))
                 rest.push_back(i);
         std::vector<std::size_t> telling = sample(rest, pair_sample);
         const std::vector<std::size_t> others = sample(wrong, pair_sample);

@@ -11,7 +11,8 @@
 
 namespace lockstep {
 
-/// One deviation, or two at once, and what it explains: where the reference that makes it has the GPU's bits.
+/// One deviation, or two at once, and what it explains: where the reference that makes it has the GPU's bits. On a
+/// driver whose division or roots were measured to err, all fields as near as a few of these errors allow.
 struct Cause {
     std::vector<Deviation> deviations;
     std::uint64_t explained = 0;    ///< divergent particles or texels

@@ -64,7 +64,9 @@ class ParticleDiagnosis {
             return wrong_speed();
         if (!keep([&](const LegalOutcome& o) { return lockstep::contains(o.direction, gpu_.direction); }))
             return wrong_direction();
-        return wrong_position();
+        // What is undefined allows any field: then the first that differs.
+        const bool undefined = outcomes_.front().undefined != Undefined::none;
+        return undefined && !same_bits(gpu_.direction, reference_.direction) ? wrong_direction() : wrong_position();
     }
 
   private:

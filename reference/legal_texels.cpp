@@ -183,15 +183,17 @@ template <class A> class Candidates {
         const TriangleInterpolation<A> interpolation(corners, params_.width, params_.height);
         const auto weights = interpolation.weights(x, y);
         TexelOwner owner{.kind = Kind::obstacle, .index = triangle.primitive};
-        owner.code = code_.encode(interpolation.mix(positions, weights));
-        const float depth = interpolation.depth(weights);
-        owner.reference_depth = depth;
-        owner.depth = depth;
+        const glm::vec3 position = interpolation.mix(positions, weights);
+        owner.code = code_.encode(position);
+        owner.reference_depth = interpolation.depth(weights);
+        owner.depth = owner.reference_depth;
         if (!arithmetic_.known().divide) {
+            glm::vec3 bound;
             for (int k = 0; k < 3; ++k)
-                owner.tolerance[k] = interpolation_bound(positions[0][k], positions[1][k], positions[2][k]);
+                bound[k] = interpolation_bound(positions[0][k], positions[1][k], positions[2][k]);
+            owner.code_range = {code_.encode(position - bound), code_.encode(position + bound)};
             const double error = depth_bound(corners);
-            owner.depth = {depth - error, depth + error};
+            owner.depth = {owner.reference_depth - error, owner.reference_depth + error};
         }
         owner.is_reference = covered;
         owner.sure = covered && margin > snap;
@@ -249,12 +251,15 @@ LegalTexel settle(std::vector<TexelOwner>& candidates) {
 } // namespace
 
 bool TexelOwner::stores(glm::vec4 texel) const {
-    if (kind != Kind::obstacle)
-        return same_bits(code, texel);
-    for (int c = 0; c < 3; ++c)
-        if (!same_bits(code[c], texel[c]) && !(std::abs(code[c] - texel[c]) <= tolerance[c]))
+    if (same_bits(code, texel))
+        return true;
+    if (!code_range)
+        return false;
+    const auto& [low, high] = *code_range;
+    for (int c = 0; c < 4; ++c)
+        if (!(low[c] <= texel[c] && texel[c] <= high[c]))
             return false;
-    return same_bits(code.a, texel.a);
+    return true;
 }
 
 const TexelOwner* LegalTexel::owner_of(glm::vec4 texel) const {

@@ -2,6 +2,7 @@
 #include <cstddef>
 #include <optional>
 #include <span>
+#include <utility>
 #include <vector>
 
 #include "reference/legal_outcomes.hpp"
@@ -17,9 +18,10 @@ namespace lockstep {
 struct TexelOwner {
     enum class Kind { nothing, obstacle, particle };
     Kind kind = Kind::nothing;
-    std::size_t index = 0;        ///< particle; triangle or vertex of the obstacles
-    glm::vec4 code{0.0F};         ///< what it stores (image.hpp)
-    glm::vec3 tolerance{0.0F};    ///< by how much a code of an obstacle's interpolated position may differ
+    std::size_t index = 0; ///< particle; triangle or vertex of the obstacles
+    glm::vec4 code{0.0F};  ///< what it stores (image.hpp)
+    /// Codes between which an obstacle's interpolated position may lie; not set: exactly `code`.
+    std::optional<std::pair<glm::vec4, glm::vec4>> code_range = std::nullopt;
     bool is_reference = false;    ///< the one that the reference leaves here
     float reference_depth = 1.0F; ///< as the reference computes it
     bool sure = true;             ///< drawn to this texel whatever the rounding

@@ -234,6 +234,18 @@ TEST_CASE("cause: two deviations at once are found as a pair") {
     CHECK(drawn.best.front().name() == "point_half_pixel_up + depth_not_tested");
 }
 
+TEST_CASE("cause: a driver that rounds otherwise does not hide the name") {
+    using enum Deviation;
+    const Run run("corrected", RasterPosition::updated, "nvidia");
+    for (const Deviation deviation : {last_found_instead_of_nearest, gravity_doubled, y_flipped}) {
+        const CauseFindings found = run.with(Deviations(deviation).add(sums_left_to_right)).particles;
+        INFO(deviation_name(deviation));
+        REQUIRE(found.explains_all());
+        CHECK(found.best.front().name() == deviation_name(deviation));
+    }
+    CHECK(run.with(sums_left_to_right).particles.best.empty());
+}
+
 TEST_CASE("cause: what is no named deviation is never said to be one") {
     const Run run("corrected", RasterPosition::updated, "llvmpipe");
     const auto spoil = [](Particles& p, const auto& change) {

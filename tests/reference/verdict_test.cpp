@@ -9,8 +9,11 @@
 #include "crosscheck/verdict_text.hpp"
 #include <nlohmann/json.hpp>
 
+#include "reference/collision_code.hpp"
 #include "reference/collision_pass.hpp"
 #include "reference/model/same_bits.hpp"
+#include "reference/obstacle_pass.hpp"
+#include "reference/triangle_interpolation.hpp"
 #include "tests/reference/collision_scenes.hpp"
 
 using namespace lockstep;
@@ -156,6 +159,48 @@ TEST_CASE("verdict: a texel follows its particle's class, and one drawn elsewher
     const auto first = first_of(DifferenceClass::divergent, 0, frame.judged(), verdicts);
     REQUIRE(first);
     CHECK((first->wrong.step == "window position" || first->wrong.step == "texel"));
+}
+
+TEST_CASE("verdict: an obstacle's texel may lie within the bound of its interpolation, in every format") {
+    for (const CdtFormat format : {CdtFormat::rgba32f, CdtFormat::rgba16f, CdtFormat::rgba8}) {
+        Frame frame("corrected", "nvidia");
+        frame.scene.params.cdt_box = {glm::vec3(-2.0F), glm::vec3(2.0F)};
+        frame.scene.params.switches.cdt_format = format;
+        frame.obstacles.positions = {{-0.9F, -0.9F, 0.9F}, {0.9F, -0.8F, 0.7F}, {0.1F, 0.9F, 0.8F}};
+        frame.obstacles.indices = {0, 1, 2};
+        const auto drawn = [&] {
+            CollisionImage cdt = empty_cdt(frame.scene.params);
+            DepthImage depth(cdt.width, cdt.height, 1.0F);
+            obstacle_pass(frame.obstacles, frame.scene.params, frame.profile, cdt, depth);
+            rasterise_particles(frame.scene.particles, frame.reference, frame.scene.params, frame.profile, cdt, depth);
+            return cdt;
+        };
+        frame.scene.params.switches.cdt_format = CdtFormat::rgba32f;
+        const CollisionImage exact = drawn();
+        frame.scene.params.switches.cdt_format = format;
+        frame.reference_cdt = frame.gpu_cdt = drawn();
+        const CollisionCode code(frame.scene.params);
+        const glm::vec3 bound(interpolation_bound(-0.9F, 0.9F, 0.1F), interpolation_bound(-0.9F, -0.8F, 0.9F),
+                              interpolation_bound(0.9F, 0.7F, 0.8F));
+        int moved = 0;
+        for (std::size_t i = 0; i < exact.texels.size(); ++i) {
+            const glm::vec3 position(exact.texels[i]);
+            if (position.z < 0.5F) // a particle's
+                continue;
+            frame.gpu_cdt.texels[i] = code.encode(position + 0.9F * bound);
+            moved += !same_bits(frame.gpu_cdt.texels[i], frame.reference_cdt.texels[i]);
+        }
+        INFO(moved);
+        CHECK(moved > 0);
+        for (const ItemVerdict& item : judge(frame.judged()).texels)
+            CHECK(item.kind == DifferenceClass::rounding);
+        const std::size_t middle = frame.gpu_cdt.index(30, 20);
+        frame.gpu_cdt = frame.reference_cdt;
+        frame.gpu_cdt.texels[middle] = code.encode(glm::vec3(exact.texels[middle]) + glm::vec3(0.05F, 0.0F, 0.0F));
+        const FrameVerdicts far = judge(frame.judged());
+        REQUIRE(far.texels.size() == 1);
+        CHECK(far.texels[0].kind == DifferenceClass::divergent);
+    }
 }
 
 TEST_CASE("verdict: normalize of zero is undefined, but the fields it does not touch are not") {

@@ -7,6 +7,8 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include "gpu/probe/root_tables.hpp"
+
 namespace lockstep {
 namespace {
 
@@ -88,14 +90,16 @@ RasterRules raster_rules(Translation& rows) {
     rules.vertex_snap = rows.pick("triangles: snap", snaps);
     rules.viewport = rows.pick<ViewportRounding>("points: viewport", "triangles: viewport",
                                                  {{"(clip*(1/w))*scale + offset", ViewportRounding::separate},
-                                                  {"fma(clip*(1/w), scale, offset)", ViewportRounding::fused}});
+                                                  {"fma(clip*(1/w), scale, offset)", ViewportRounding::fused},
+                                                  {"(clip*scale)*(1/w) + offset", ViewportRounding::scaled}});
     rules.point_edge_to_lower =
         rows.pick<bool>("points: edge in x", "points: edge in y", {{"lower pixel", true}, {"upper pixel", false}});
     rules.left_edge_in = rows.pick<bool>("triangles: left side", {{"in", true}, {"out", false}});
     rules.lower_edge_in = rows.pick<bool>("triangles: lower side", {{"in", true}, {"out", false}});
     rows.require({"triangles: right side"}, rules.left_edge_in ? "out" : "in");
     rows.require({"triangles: upper side"}, rules.lower_edge_in ? "out" : "in");
-    rows.require({"points: depth"}, "(clip*(1/w))*0.5 + 0.5");
+    rules.depth_by_driver_reciprocal = rows.pick<bool>(
+        "points: depth", {{"(clip*(1/w))*0.5 + 0.5", false}, {"(clip*r)*0.5 + 0.5, r the driver's 1/w", true}});
     rows.require({"equal depth, LESS"}, "first stays");
     return rules;
 }
@@ -150,13 +154,33 @@ Profile profile_from(const ProbeResult& result) {
     return profile;
 }
 
-Profile measured_profile(const Context& context) { return profile_from(probe(context)); }
+bool built_from_driver_roots(const ProbeResult& result) {
+    const auto is = [&](const char* row_name, const char* sequence) {
+        const ProbeRow& row = result.row(row_name);
+        const ProbeCandidate& found = candidate(row, sequence);
+        return found.matched == row.total;
+    };
+    return result.row("a/b, precise").finding != "rounded" && is("a/b, precise", "a*r, r the driver's 1/b") &&
+           is("a/b, b from 2^126, precise", "a*r, r the driver's 1/b") &&
+           is("sqrt, precise", "1/y, y the driver's inversesqrt") && is("length", "1/y, y inversesqrt(dot)") &&
+           is("normalize", "v*inversesqrt(dot)");
+}
+
+Profile measured_profile(const Context& context) {
+    const ProbeResult result = probe(context);
+    Profile profile = profile_from(result);
+    if (built_from_driver_roots(result))
+        profile.roots = std::make_shared<const RootTables>(measure_root_tables());
+    return profile;
+}
 
 std::string describe(const Profile& profile) {
     std::string text =
         fmt::format("{}: dot {}, {}, subnormals {}, {} sub-pixel bits, points on an edge to the {} pixel", profile.name,
-                    dot_text(profile.dot), errors_text(profile.errors), profile.flush_subnormals ? "flushed" : "kept",
-                    profile.raster.subpixel_bits, profile.raster.point_edge_to_lower ? "lower" : "upper");
+                    dot_text(profile.dot),
+                    profile.roots ? "division and roots by the driver's own tables" : errors_text(profile.errors),
+                    profile.flush_subnormals ? "flushed" : "kept", profile.raster.subpixel_bits,
+                    profile.raster.point_edge_to_lower ? "lower" : "upper");
     if (!profile.not_followed.empty())
         text += fmt::format("; not followed: {}", fmt::join(profile.not_followed, ", "));
     return text;

@@ -11,6 +11,9 @@ namespace lockstep {
 /// Throws Error if a row of the probe is missing.
 Profile profile_from(const ProbeResult& result);
 
+/// Whether division, square root and normalize were found to be made of the driver's own 1/x and inversesqrt.
+bool built_from_driver_roots(const ProbeResult& result);
+
 /// Measures the current context (gpu/probe.hpp): the profile that matches it.
 Profile measured_profile(const Context& context);
 

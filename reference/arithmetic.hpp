@@ -5,6 +5,8 @@
 #include <glm/vec3.hpp>
 #include <glm/vec4.hpp>
 
+#include "reference/model/root_tables.hpp"
+
 namespace lockstep {
 
 /// The operations GLSL leaves open, as policy types: a pass is written once, as the listing reads, and takes one of
@@ -44,6 +46,19 @@ struct FusedChain : Strict {
     static float dot(glm::vec3 a, glm::vec3 b) { return std::fma(a.z, b.z, std::fma(a.y, b.y, a.x * b.x)); }
     static float length(glm::vec3 v) { return std::sqrt(dot(v, v)); }
     static glm::vec3 normalize(glm::vec3 v) { return scale(v, 1.0F / std::sqrt(dot(v, v))); }
+};
+
+/// NVIDIA with its own tables: a / b is a times the driver's 1 / b, the square root the driver's 1 / x of its
+/// inversesqrt, and normalize multiplies by inversesqrt. `tables` is set by with_arithmetic before a pass runs.
+struct DriverRoots : FusedChain {
+    static inline const RootTables* tables = nullptr;
+
+    static float reciprocal(float a) { return tables->reciprocal_of(a); }
+    static float divide(float a, float b) { return a * reciprocal(b); }
+    static float inverse_sqrt(float a) { return tables->inverse_sqrt_of(a); }
+    static float sqrt(float a) { return reciprocal(inverse_sqrt(a)); }
+    static float length(glm::vec3 v) { return sqrt(dot(v, v)); }
+    static glm::vec3 normalize(glm::vec3 v) { return scale(v, inverse_sqrt(dot(v, v))); }
 };
 
 } // namespace lockstep

@@ -159,7 +159,7 @@ template <class A> void update(const Particles& before, const CollisionImage& cd
 }
 
 /// Switch arithmetic plain: the fixed function decides, in the driver's way.
-PointFragment rasterised_point(glm::vec4 clip, const FrameParams& params, const RasterRules& rules) {
+template <class A> PointFragment rasterised_point(glm::vec4 clip, const FrameParams& params, const RasterRules& rules) {
     if (!in_clip_volume(clip))
         return {};
     const WindowPosition window = window_position(clip, params.width, params.height, rules);
@@ -167,7 +167,7 @@ PointFragment rasterised_point(glm::vec4 clip, const FrameParams& params, const 
     const int y = point_pixel(snap_point(window.y, rules), rules);
     if (x < 0 || y < 0 || x >= params.width || y >= params.height)
         return {};
-    return {x, y, window.z};
+    return {x, y, rules.depth_by_driver_reciprocal ? (clip.z * A::reciprocal(clip.w)) * 0.5F + 0.5F : window.z};
 }
 
 /// Switch arithmetic exact: the pass itself puts the point on the centre of the texel it computes, its depth on a grid
@@ -186,7 +186,7 @@ template <class A> PointFragment fragment(glm::vec3 position, const FrameParams&
     if constexpr (std::is_same_v<A, Portable>)
         return placed_point(clip, params);
     else
-        return rasterised_point(clip, params, rules);
+        return rasterised_point<A>(clip, params, rules);
 }
 
 } // namespace

@@ -150,10 +150,15 @@ template <class A> void rasterise(const std::vector<glm::vec3>& positions, const
 
 void rasterise_particles_fast(const Particles& before, const Particles& after, const FrameParams& params,
                               const Profile& profile, CollisionImage& cdt, DepthImage& depth) {
+    const RasterRules& rules = profile.raster;
+    if (profile.roots != nullptr || rules.depth_by_driver_reciprocal || rules.viewport == ViewportRounding::scaled)
+        return rasterise_particles(before, after, params, profile, cdt, depth);
     const auto& positions =
         params.switches.raster_position == RasterPosition::updated ? after.position : before.position;
-    with_arithmetic(profile, params.switches,
-                    [&]<class A>(A) { rasterise<A>(positions, after.position, params, profile, cdt, depth); });
+    with_arithmetic(profile, params.switches, [&]<class A>(A) {
+        if constexpr (!std::is_same_v<A, DriverRoots>)
+            rasterise<A>(positions, after.position, params, profile, cdt, depth);
+    });
 }
 
 } // namespace lockstep

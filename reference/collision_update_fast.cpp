@@ -5,6 +5,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <limits>
+#include <type_traits>
 
 #include "reference/collision_pass_fast.hpp"
 #include "reference/stored_positions.hpp"
@@ -242,13 +243,14 @@ template <class A> void update(const Update& u, bool flush) {
 void update_particles_fast(const Particles& before, const CollisionImage& cdt, const FrameParams& params,
                            const Profile& profile, Particles& after) {
     const int radius = params.constants.texel_collide_range;
-    if (radius < 1 || radius > widest_radius)
+    if (radius < 1 || radius > widest_radius || profile.roots != nullptr) // the driver's roots may not be monotonic
         return update_particles(before, cdt, params, profile, after);
     assert(&before != &after && cdt.width == params.width && cdt.height == params.height);
     after.resize(before.size());
     const StoredPositions stored = stored_positions(cdt, params, radius, 3);
     with_arithmetic(profile, params.switches, [&]<class A>(A) {
-        update<A>({before, stored, params, after}, profile.flush_subnormals);
+        if constexpr (!std::is_same_v<A, DriverRoots>)
+            update<A>({before, stored, params, after}, profile.flush_subnormals);
     });
 }
 

@@ -31,6 +31,8 @@ inline WindowPosition window_position(glm::vec4 clip, int width, int height, con
     const float half_height = static_cast<float>(height) * 0.5F;
     const float inverse_w = 1.0F / clip.w;
     const auto to_window = [&](float coordinate, float scale, float offset) {
+        if (rules.viewport == ViewportRounding::scaled)
+            return (coordinate * scale) * inverse_w + offset;
         const float ndc = coordinate * inverse_w;
         return rules.viewport == ViewportRounding::fused ? std::fma(ndc, scale, offset) : ndc * scale + offset;
     };

@@ -10,6 +10,10 @@ namespace lockstep {
 template <class Pass> decltype(auto) with_arithmetic(const Profile& profile, const Switches& switches, Pass&& pass) {
     if (switches.arithmetic == ArithmeticSwitch::exact)
         return pass(Portable{});
+    if (profile.roots != nullptr) {
+        DriverRoots::tables = profile.roots.get();
+        return pass(DriverRoots{});
+    }
     switch (profile.dot) {
     case DotOrder::right_to_left:
         return pass(RightToLeft{});

@@ -28,6 +28,10 @@ Profile named_profile(std::string_view name) {
     if (name == "nvidia") {
         profile.dot = DotOrder::fused_chain;
         profile.errors = {2, 1, 3, 2, 3, 4};
+        profile.raster.point_snap = SnapRounding::half_to_even;
+        profile.raster.viewport = ViewportRounding::scaled;
+        profile.raster.depth_by_driver_reciprocal = true;
+        profile.not_followed = {"points: viewport", "triangles: viewport"};
         return profile;
     }
     throw Error(fmt::format("unknown profile '{}'; the profiles are strict, llvmpipe, nvidia", name));

@@ -1,8 +1,11 @@
 #pragma once
 #include <cstdint>
+#include <memory>
 #include <string>
 #include <string_view>
 #include <vector>
+
+#include "reference/model/root_tables.hpp"
 
 namespace lockstep {
 
@@ -20,6 +23,7 @@ enum class DotOrder {
 enum class ViewportRounding {
     separate, ///< ((clip * (1 / w)) * scale) + offset, each operation rounded
     fused,    ///< fma(clip * (1 / w), scale, offset)
+    scaled,   ///< ((clip * scale) * (1 / w)) + offset; NVIDIA's comes closest to this, but is not it
 };
 
 /// How a window coordinate is put on the sub-pixel grid.
@@ -31,9 +35,10 @@ struct RasterRules {
     SnapRounding point_snap = SnapRounding::half_away;
     SnapRounding vertex_snap = SnapRounding::half_to_even; ///< corners of triangles
     ViewportRounding viewport = ViewportRounding::separate;
-    bool point_edge_to_lower = true; ///< a point on a pixel edge belongs to the lower pixel, in x and in y
-    bool left_edge_in = true;        ///< a pixel centre on a left side of a triangle is inside (else: on a right one)
-    bool lower_edge_in = true;       ///< the same for a horizontal lower side, y up (else: an upper one)
+    bool depth_by_driver_reciprocal = false; ///< a point's depth takes 1 / w from the shader's own division
+    bool point_edge_to_lower = true;         ///< a point on a pixel edge belongs to the lower pixel, in x and in y
+    bool left_edge_in = true;  ///< a pixel centre on a left side of a triangle is inside (else: on a right one)
+    bool lower_edge_in = true; ///< the same for a horizontal lower side, y up (else: an upper one)
 
     bool operator==(const RasterRules&) const = default;
 };
@@ -54,6 +59,9 @@ struct Profile {
     bool flush_subnormals = true; ///< subnormal operands and results are zero
     RasterRules raster;
     OperationErrors errors;
+    /// The driver's own 1/x and inversesqrt, where division, square root and normalize were measured to be made of them
+    /// (policy DriverRoots); null: the reference rounds them correctly.
+    std::shared_ptr<const RootTables> roots;
     /// Rows of the probe that found what the reference cannot follow. It then does what comes closest.
     std::vector<std::string> not_followed;
 };

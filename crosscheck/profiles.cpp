@@ -162,8 +162,8 @@ bool built_from_driver_roots(const ProbeResult& result) {
     };
     return result.row("a/b, precise").finding != "rounded" && is("a/b, precise", "a*r, r the driver's 1/b") &&
            is("a/b, b from 2^126, precise", "a*r, r the driver's 1/b") &&
-           is("sqrt, precise", "1/y, y the driver's inversesqrt") && is("length", "1/y, y inversesqrt(dot)") &&
-           is("normalize", "v*inversesqrt(dot)");
+           is("sqrt, precise", "1/y, y the driver's inversesqrt") && is("length, precise", "1/y, y inversesqrt(dot)") &&
+           is("normalize, precise", "v*inversesqrt(dot)");
 }
 
 Profile measured_profile(const Context& context) {

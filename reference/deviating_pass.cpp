@@ -384,7 +384,7 @@ template <class A> class DeviatingPoint {
         const int y = point_pixel(snap_point(window.y + shift_, rules_), rules_);
         if (x < 0 || y < 0 || x >= params_.width || y >= params_.height)
             return {};
-        return {x, y, window.z};
+        return {x, y, rules_.depth_by_driver_reciprocal ? clip.z * A::reciprocal(clip.w) * 0.5F + 0.5F : window.z};
     }
 
     const FrameParams& params_;

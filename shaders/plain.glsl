@@ -1,5 +1,6 @@
-// GLSL's own operations, `precise` each (a driver may compute a root otherwise elsewhere): as fast as the driver makes them, and as exact as it likes (division 2.5 ULP, sqrt and
-// normalize looser still). Reference twins: the profiles in reference/arithmetic.hpp.
+// GLSL's own operations, each `precise` (a driver may compute a root otherwise elsewhere): as fast as the driver makes
+// them, and as exact as it likes (division 2.5 ULP, sqrt and normalize looser still). Reference twins: the profiles in
+// reference/arithmetic.hpp.
 
 float ls_divide(float a, float b) {
     precise float quotient = a / b;

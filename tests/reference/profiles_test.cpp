@@ -162,7 +162,7 @@ TEST_CASE("profiles: a chain that divides exactly is neither known one") {
 
 TEST_CASE("profiles: an NVIDIA with a root that is never off is not the one measured") {
     ProbeResult result = nvidia();
-    for (const char* name : {"sqrt", "sqrt, precise"})
+    for (const char* name : {"sqrt", "sqrt, precise", "fragment sqrt"})
         find(result, name, "rounded");
     CHECK(profile_from(result).name == "generic");
 }
@@ -235,7 +235,6 @@ TEST_CASE("profiles: what the reference cannot follow is told, each by itself") 
         {"triangles: right side", "in"},
         {"triangles: upper side", "in"},
         {"triangles: viewport", "fma(clip*(1/w), scale, offset)"},
-        {"points: depth", "rounded once"},
         {"equal depth, LESS", "last wins"},
     };
     for (const auto& [name, finding] : odd) {
@@ -246,6 +245,16 @@ TEST_CASE("profiles: what the reference cannot follow is told, each by itself") 
         CHECK(profile.name == "generic");
         CHECK(profile.not_followed == std::vector<std::string>{name});
     }
+}
+
+TEST_CASE("profiles: of a depth that is nothing known the closest is taken, and that is told") {
+    ProbeResult result = llvmpipe();
+    ProbeRow& depth = row(result, "points: depth");
+    depth.finding = none_known;
+    depth.candidates = {{"(clip*(1/w))*0.5 + 0.5", 40, 1}, {"(clip*r)*0.5 + 0.5, r the driver's 1/w", 70, 1}};
+    const Profile profile = profile_from(result);
+    CHECK(profile.raster.depth_by_driver_reciprocal);
+    CHECK(profile.not_followed == std::vector<std::string>{"points: depth"});
 }
 
 TEST_CASE("profiles: NaN against a number is told as such") {

@@ -144,6 +144,11 @@ Profile profile_from(const ProbeResult& result) {
     rows.require({"subnormal operand of *", "subnormal operand of +", "subnormal result of +", "subnormal > 0"},
                  profile.flush_subnormals ? "flushed" : "kept");
     rows.require({"subnormal passed on"}, "kept");
+    if (result.has("compute: subnormal result of *")) {
+        profile.compute_flush_subnormals =
+            rows.pick<bool>("compute: subnormal result of *", {{"flushed", true}, {"kept", false}});
+        rows.require({"compute: subnormal operand of *"}, profile.compute_flush_subnormals ? "flushed" : "kept");
+    }
     rows.require({"transform feedback order"}, "as drawn");
     profile.errors = errors(rows);
     profile.raster = raster_rules(rows);

@@ -10,6 +10,8 @@ struct ConstantInfo {
     void (*set)(Constants&, const JsonValue&);
 };
 
+constexpr NumberRule octree_size{1e-6, 1e6, "a length from 1e-6 to 1e6"};
+
 template <auto Member, const NumberRule& Rule> ConstantInfo real(std::string_view name) {
     return {name, [](Constants& c, const JsonValue& value) { c.*Member = value.number(Rule); }};
 }
@@ -24,6 +26,7 @@ const std::array table{
                      c.texel_collide_range = static_cast<int>(value.integer(0, widest_neighbourhood));
                  }},
     real<&Constants::billboard_radius, number::positive>("billboard_radius"),
+    real<&Constants::octree_size, octree_size>("octree_size"),
 };
 
 } // namespace

@@ -176,7 +176,7 @@ void load(const Resolver& resolve);
 /// Sets every function to null: no context is current.
 void unload();
 
-/// Whether the current context is at least of this version, or offers the extension.
-bool offers(int major, int minor, const char* extension);
+/// Whether the current context is at least of this version, or offers the extension, if one is named.
+bool offers(int major, int minor, const char* extension = "");
 
 } // namespace lockstep::gl

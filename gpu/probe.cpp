@@ -19,6 +19,10 @@ const ProbeRow& ProbeResult::row(std::string_view name) const {
     return *found;
 }
 
+bool ProbeResult::has(std::string_view name) const {
+    return std::any_of(rows.begin(), rows.end(), [&](const ProbeRow& row) { return row.name == name; });
+}
+
 const ProbeCandidate& candidate(const ProbeRow& row, std::string_view name) {
     const auto found = std::find_if(row.candidates.begin(), row.candidates.end(),
                                     [&](const ProbeCandidate& candidate) { return candidate.name == name; });
@@ -36,6 +40,8 @@ ProbeResult probe(const Context& context, const ProbeOptions& options) {
     const probing::DriverArithmetic plain(false);
     probing::measure_vertex_arithmetic(plain, options.inputs, result.rows);
     probing::measure_fragment_arithmetic(result.rows);
+    if (result.context.compute)
+        probing::measure_compute_arithmetic(result.rows);
     probing::measure_storage(result.rows);
     probing::measure_order(result.rows);
     probing::measure_snapping(result.rows);

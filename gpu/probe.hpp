@@ -39,6 +39,7 @@ struct ProbeResult {
 
     /// Throws Error naming the row if there is none.
     [[nodiscard]] const ProbeRow& row(std::string_view name) const;
+    [[nodiscard]] bool has(std::string_view name) const;
 };
 
 /// The candidate of that name. Throws Error naming both if the row has none.
@@ -49,8 +50,8 @@ struct ProbeOptions {
 };
 
 /// Measures `context`, which is current, through the stages the passes use: arithmetic in the vertex stage with
-/// transform feedback and in the fragment stage, points and triangles into a float image behind a geometry stage.
-/// Throws Error without the GLSL qualifier `precise`.
+/// transform feedback and in the fragment stage, subnormals in the compute stage where there is one, points and
+/// triangles into a float image behind a geometry stage. Throws Error without the GLSL qualifier `precise`.
 ProbeResult probe(const Context& context, const ProbeOptions& options = {});
 
 void to_json(nlohmann::json& json, const ProbeResult& result);

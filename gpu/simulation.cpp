@@ -26,6 +26,8 @@ GpuSimulation::GpuSimulation(const Scene& scene, const std::filesystem::path& sh
                                                            ParticleBuffer(scene.start.size())},
       cdts_{CollisionTexture(scene.width, scene.height, scene.switches.cdt_format),
             CollisionTexture(scene.width, scene.height, scene.switches.cdt_format)} {
+    if (scene.switches.search == Search::octree)
+        octree_pass_.emplace(scene, shaders);
     upload(scene.start, CollisionImage(scene.width, scene.height));
 }
 
@@ -42,16 +44,25 @@ void GpuSimulation::step(const FrameParams& params) {
 void GpuSimulation::repeat_step(const FrameParams& params) { run_frame(params, 1 - current_, current_); }
 
 void GpuSimulation::run_frame(const FrameParams& params, std::size_t from, std::size_t to) {
+    if (octree_pass_)
+        octree_pass_->refresh(particles_[from]);
     gl::BeginQuery(GL_TIME_ELAPSED, timer_.id());
-    cdts_[to].clear();
-    obstacle_pass_.run(obstacles_, params, cdts_[to]);
-    collision_pass_.run(params, particles_[from], particles_[to], cdts_[from], cdts_[to]);
+    run_passes(params, from, to);
     gl::EndQuery(GL_TIME_ELAPSED);
     gl::Finish();
     GLuint64 nanoseconds = 0;
     gl::GetQueryObjectui64v(timer_.id(), GL_QUERY_RESULT, &nanoseconds);
     frame_seconds_ = static_cast<double>(nanoseconds) * 1e-9;
-    collision_pass_.verify_written(particles_[from].size());
+    if (!octree_pass_)
+        collision_pass_.verify_written(particles_[from].size());
+}
+
+void GpuSimulation::run_passes(const FrameParams& params, std::size_t from, std::size_t to) {
+    cdts_[to].clear();
+    if (octree_pass_)
+        return octree_pass_->run(params, particles_[from], particles_[to]);
+    obstacle_pass_.run(obstacles_, params, cdts_[to]);
+    collision_pass_.run(params, particles_[from], particles_[to], cdts_[from], cdts_[to]);
 }
 
 void GpuSimulation::read(Particles& particles) const { particles_[current_].read(particles); }

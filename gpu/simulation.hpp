@@ -1,10 +1,12 @@
 #pragma once
 #include <array>
 #include <filesystem>
+#include <optional>
 
 #include "gpu/collision_pass.hpp"
 #include "gpu/mesh_buffer.hpp"
 #include "gpu/obstacle_pass.hpp"
+#include "gpu/octree_pass.hpp"
 #include "reference/model/image.hpp"
 #include "reference/model/particles.hpp"
 
@@ -20,13 +22,15 @@ class GpuSimulation {
     /// The state the next frame starts from.
     void upload(const Particles& particles, const CollisionImage& cdt);
 
-    /// One frame: clear, obstacles, collision pass; returns when the GPU is done.
+    /// One frame: clear, obstacles, collision pass, or with search = octree the octree's two passes and a CDT that
+    /// stays empty; returns when the GPU is done.
     void step(const FrameParams& params);
 
     /// The last frame once more, from the same state.
     void repeat_step(const FrameParams& params);
 
-    /// GPU time of the last frame by a timer query, seconds; 0 where the context has none.
+    /// GPU time of the last frame by a timer query, seconds, without the octree's refresh, which is the CPU's; 0 where
+    /// the context has none.
     [[nodiscard]] double frame_seconds() const { return frame_seconds_; }
 
     /// The state after the last frame.
@@ -40,10 +44,12 @@ class GpuSimulation {
 
   private:
     void run_frame(const FrameParams& params, std::size_t from, std::size_t to);
+    void run_passes(const FrameParams& params, std::size_t from, std::size_t to);
 
     MeshBuffer obstacles_;
     ObstaclePass obstacle_pass_;
     CollisionPass collision_pass_;
+    std::optional<OctreePass> octree_pass_; ///< search = octree: takes the place of these two
     std::array<ParticleBuffer, 2> particles_;
     std::array<CollisionTexture, 2> cdts_;
     GlQuery timer_;

@@ -8,17 +8,13 @@
 #include <type_traits>
 
 #include "reference/collision_code.hpp"
+#include "reference/particle_step.hpp"
 #include "reference/subnormals.hpp"
 #include "reference/window.hpp"
 #include "reference/with_arithmetic.hpp"
 
 namespace lockstep {
 namespace {
-
-struct State {
-    glm::vec3 position, direction;
-    float speed, collide_time;
-};
 
 struct Collision {
     int x, y;       ///< the texel
@@ -29,16 +25,16 @@ struct Collision {
 template <class A> class Step {
   public:
     Step(const CollisionImage& cdt, const FrameParams& params)
-        : cdt_(cdt), params_(params), constants_(params.constants), switches_(params.switches), code_(params) {}
+        : cdt_(cdt), params_(params), constants_(params.constants), switches_(params.switches), code_(params),
+          particle_step_(params) {}
 
-    [[nodiscard]] State operator()(const State& before) const {
-        const State a{A::flush(before.position), A::flush(before.direction), A::flush(before.speed),
-                      A::flush(before.collide_time)};
+    [[nodiscard]] ParticleState operator()(const ParticleState& before) const {
+        const ParticleState a = ParticleStep<A>::flushed(before);
         const BaseTexelIndex base = base_texel(a.position);
         if (a.collide_time < 0.0F && base.x >= 0)
             if (const auto collision = nearest_collision(a.position, base))
-                return collide(a, collision->away);
-        return integrate(a);
+                return particle_step_.collide(a, collision->away);
+        return particle_step_.integrate(a);
     }
 
     /// Lines 2 to 4, in float: where clip space lies on the image, then the cast where it is defined.
@@ -108,35 +104,12 @@ template <class A> class Step {
         return nearest;
     }
 
-    /// Lines 21 to 24.
-    [[nodiscard]] State collide(const State& a, glm::vec3 away) const {
-        State v;
-        v.speed = A::flush(a.speed * switches_.speed_factor);
-        v.direction = A::normalize(away);
-        v.collide_time = constants_.collision_time;
-        glm::vec3 step = A::scale(v.direction, v.speed);
-        if (switches_.collision_step == CollisionStep::tick)
-            step = A::scale(step, constants_.tick);
-        v.position = A::flush(a.position + step);
-        return v;
-    }
-
-    /// Lines 26 to 30.
-    [[nodiscard]] State integrate(const State& a) const {
-        const glm::vec3 temp = A::flush(A::scale(a.direction, a.speed) + A::scale(constants_.gravity, constants_.tick));
-        State v;
-        v.direction = A::normalize(temp);
-        v.speed = A::length(temp);
-        v.collide_time = A::flush(a.collide_time - constants_.tick);
-        v.position = A::flush(a.position + A::scale(A::scale(v.direction, v.speed), constants_.tick));
-        return v;
-    }
-
     const CollisionImage& cdt_;
     const FrameParams& params_;
     const Constants& constants_;
     const Switches& switches_;
     CollisionCode code_;
+    ParticleStep<A> particle_step_;
 };
 
 template <class A> void update(const Particles& before, const CollisionImage& cdt, const FrameParams& params,
@@ -149,11 +122,7 @@ template <class A> void update(const Particles& before, const CollisionImage& cd
 #pragma omp for schedule(static)
         for (std::ptrdiff_t i = 0; i < count; ++i) {
             const auto p = static_cast<std::size_t>(i);
-            const State v = step({before.position[p], before.direction[p], before.speed[p], before.collide_time[p]});
-            after.position[p] = v.position;
-            after.direction[p] = v.direction;
-            after.speed[p] = v.speed;
-            after.collide_time[p] = v.collide_time;
+            after.set(p, step(before[p]));
         }
     }
 }

@@ -5,6 +5,7 @@
 
 #include "reference/collision_pass_fast.hpp"
 #include "reference/obstacle_pass.hpp"
+#include "reference/octree_pass.hpp"
 
 namespace lockstep {
 
@@ -14,8 +15,11 @@ ReferenceSimulation::ReferenceSimulation(const Scene& scene, Profile profile)
       depth_(scene.width, scene.height, 1.0F) {}
 
 void ReferenceSimulation::step_from(const Particles& before, const CollisionImage& cdt, const FrameParams& params) {
+    clear();
+    if (params.switches.search == Search::octree)
+        return octree_pass(before, obstacles_, params, profile_, after_);
     update_particles_fast(before, cdt, params, profile_, after_);
-    draw_obstacles(params);
+    obstacle_pass(obstacles_, params, profile_, cdt_after_, depth_);
     rasterise_particles_fast(before, after_, params, profile_, cdt_after_, depth_);
 }
 
@@ -25,10 +29,9 @@ void ReferenceSimulation::step(const FrameParams& params) {
     step_from(before_, cdt_before_, params);
 }
 
-void ReferenceSimulation::draw_obstacles(const FrameParams& params) {
+void ReferenceSimulation::clear() {
     std::fill(cdt_after_.texels.begin(), cdt_after_.texels.end(), glm::vec4(0.0F));
     std::fill(depth_.texels.begin(), depth_.texels.end(), 1.0F);
-    obstacle_pass(obstacles_, params, profile_, cdt_after_, depth_);
 }
 
 } // namespace lockstep

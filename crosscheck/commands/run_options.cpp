@@ -7,6 +7,7 @@
 
 #include "crosscheck/commands/option_values.hpp"
 #include "crosscheck/scene_file.hpp"
+#include "reference/model/octree.hpp"
 #include "reference/model/switches.hpp"
 
 namespace lockstep {
@@ -72,6 +73,10 @@ std::string settings_text(const RunOptions& options, const Scene& scene) {
     std::string text = options.preset ? fmt::format("preset {}", *options.preset) : "the scene's";
     for (const std::string& change : options.set)
         text += ", " + change;
+    if (scene.switches.search == Search::octree)
+        return text + fmt::format(" (arithmetic {}, octree of depth {}, root {})",
+                                  switch_value(scene.switches, "arithmetic"), octree_depth,
+                                  scene.constants.octree_size);
     text += fmt::format(" (arithmetic {}, CDT {} {}x{}, radius {})", switch_value(scene.switches, "arithmetic"),
                         switch_value(scene.switches, "cdt_format"), scene.width, scene.height,
                         scene.constants.texel_collide_range);

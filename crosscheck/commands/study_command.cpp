@@ -53,6 +53,8 @@ bool print_catalogue(const Options& options) {
 
 void study_scene(const Options& options) {
     const Scene scene = load(options.run);
+    if (scene.switches.search == Search::octree)
+        throw Error("study: search = octree leaves no CDT to study; --thesis has the octree's recall");
     const Profile profile = named_profile(options.profile);
     OutputFiles files;
     for (const auto& file : {options.csv, options.json, options.chart})

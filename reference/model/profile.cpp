@@ -23,6 +23,7 @@ Profile named_profile(std::string_view name) {
         return profile;
     if (name == "llvmpipe") {
         profile.dot = DotOrder::right_to_left;
+        profile.compute_flush_subnormals = false;
         return profile;
     }
     if (name == "nvidia") {

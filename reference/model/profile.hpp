@@ -56,7 +56,8 @@ struct OperationErrors {
 struct Profile {
     std::string name = "strict";
     DotOrder dot = DotOrder::left_to_right;
-    bool flush_subnormals = true; ///< subnormal operands and results are zero
+    bool flush_subnormals = true;         ///< subnormal operands and results are zero
+    bool compute_flush_subnormals = true; ///< the same in compute shaders
     RasterRules raster;
     OperationErrors errors;
     /// The driver's own 1/x and inversesqrt, where division, square root and normalize were measured to be made of them

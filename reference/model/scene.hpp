@@ -18,6 +18,7 @@ struct Constants {
     float collision_time = 0.1F;           ///< seconds a particle does not search after a hit
     int texel_collide_range = 1;           ///< neighbourhood radius, texels
     float billboard_radius = 0.004F;       ///< world units, half the side of a rendered quad
+    float octree_size = 50.0F;             ///< world units, side of the octree's root (octree.hpp)
 };
 
 /// Everything a run needs, ready to use: both sides start from this and nothing else.

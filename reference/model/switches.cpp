@@ -13,6 +13,7 @@ namespace lockstep {
 namespace {
 
 using Names = std::string_view;
+constexpr std::array<Names, 2> search{"cdt", "octree"};
 constexpr std::array<Names, 2> off_on{"off", "on"};
 constexpr std::array<Names, 1> times_half{"times_half"};
 constexpr std::array<Names, 2> base_texel{"truncate", "floor"};
@@ -78,6 +79,8 @@ std::span<const SwitchInfo> switch_table() {
         named<&S::raster_position>("raster_position", raster_position,
                                    "the point is drawn where the particle was, or is now"),
         named<&S::arithmetic>("arithmetic", arithmetic, "GLSL's own functions, or portable.glsl"),
+        named<&S::search>("search", search,
+                          "neighbours are looked for in the CDT, or in an octree (thesis, chapter 5)"),
         number("speed_factor", &S::speed_factor, "factor on the speed at a hit"),
         number("cdt_camera_offset", &S::cdt_camera_offset, "z offset of a moving collision camera, world units"),
     };

@@ -7,6 +7,10 @@ namespace lockstep {
 
 /// Where the thesis's listing (Fig. 3-3) and its text disagree or are silent, both readings can be chosen
 /// (spec, "The listing"). Every switch works in the reference and in the shader.
+
+/// Where a particle looks for neighbours: in the CDT, or in the octree the thesis compares it with (octree.hpp), which
+/// then takes the place of the passes that draw and read the CDT.
+enum class Search { cdt, octree };
 enum class PerspectiveDivide { off, on };
 enum class TexCoord { times_half };
 enum class BaseTexel { truncate, floor };
@@ -29,6 +33,7 @@ enum class RasterPosition { before_step, updated };
 enum class ArithmeticSwitch { plain, exact };
 
 struct Switches {
+    Search search = Search::cdt;
     PerspectiveDivide perspective_divide = PerspectiveDivide::on;
     TexCoord texcoord = TexCoord::times_half;
     BaseTexel base_texel = BaseTexel::floor;

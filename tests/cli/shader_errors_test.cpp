@@ -111,3 +111,16 @@ TEST_CASE("shader_errors: hash and render --side cpu need no GL") {
     CHECK(run_lockstep({"render", scene, "--frame", "1", "-o", picture}, no_gl).status == 0);
     CHECK(std::filesystem::file_size(picture) > 100);
 }
+
+TEST_CASE("shader_errors: an octree where GL has no compute shaders is refused in one line") {
+    if (!test::have_osmesa())
+        return;
+    const test::TemporaryFolder folder;
+    const auto scene = folder.write("scene.json", test::small_scene).string();
+    const std::vector<std::string> arguments{"check", scene,    "--frames", "3",
+                                             "--gl",  "osmesa", "--set",    "search=octree"};
+    CHECK(run_lockstep(arguments).status == 0);
+    CHECK(refusal(run_lockstep(arguments, {{{"GALLIUM_DRIVER", "softpipe"}}, {}, {}, {}})) ==
+          "octree_pass: search = octree needs compute shaders and storage buffers, GL 4.3; this context is of an "
+          "earlier version");
+}

@@ -52,6 +52,8 @@ TEST_CASE("study: what cannot be studied is refused in one line") {
           "study: --recall-table and --catalogue have scenes of their own; leave SCENE out");
     CHECK(refusal(run_lockstep({"study", scene(), "--frames", "1"})) ==
           "study: --frames 1 is the frame with the empty CDT; 2 or more have something to study");
+    CHECK(refusal(run_lockstep({"study", scene(), "--set", "search=octree"})) ==
+          "study: search = octree leaves no CDT to study; --thesis has the octree's recall");
     CHECK_THAT(refusal(run_lockstep({"study", scene(), "--csv", "/nowhere/a.csv"})), Catch::StartsWith("/nowhere"));
 }
 

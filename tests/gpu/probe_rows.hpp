@@ -56,6 +56,8 @@ inline constexpr ExpectedRow llvmpipe_rows[] = {
     {"fragment length", "sqrt(x+(y+z)), rounded"},
     {"fragment a*b+c", "each rounded"},
     {"fragment a*b+c, precise", "each rounded"},
+    {"compute: subnormal operand of *", "kept"},
+    {"compute: subnormal result of *", "kept"},
     {"float to half", "truncate"},
     {"float to subnormal half", "truncate"},
     {"float above the largest half", "largest"},

@@ -59,6 +59,8 @@ ProbeResult llvmpipe() {
         {"subnormal result of +", "flushed"},
         {"subnormal > 0", "flushed"},
         {"subnormal passed on", "kept"},
+        {"compute: subnormal operand of *", "kept"},
+        {"compute: subnormal result of *", "kept"},
         {"transform feedback order", "as drawn"},
         {"points: edge in x", "lower pixel"},
         {"points: edge in y", "lower pixel"},
@@ -229,6 +231,7 @@ TEST_CASE("profiles: what the reference cannot follow is told, each by itself") 
         {"subnormal result of +", "flushed to +0"},
         {"subnormal > 0", "kept"},
         {"subnormal passed on", "flushed"},
+        {"compute: subnormal operand of *", "flushed"},
         {"transform feedback order", "none known"},
         {"points: edge in y", "upper pixel"},
         {"triangles: sub-pixel bits", "4"},
@@ -255,6 +258,17 @@ TEST_CASE("profiles: of a depth that is nothing known the closest is taken, and 
     const Profile profile = profile_from(result);
     CHECK(profile.raster.depth_by_driver_reciprocal);
     CHECK(profile.not_followed == std::vector<std::string>{"points: depth"});
+}
+
+TEST_CASE("profiles: subnormals in compute shaders are followed where there are compute shaders") {
+    ProbeResult result = llvmpipe();
+    CHECK_FALSE(profile_from(result).compute_flush_subnormals);
+    for (const char* name : {"compute: subnormal operand of *", "compute: subnormal result of *"})
+        find(result, name, "flushed");
+    CHECK(profile_from(result).compute_flush_subnormals);
+    std::erase_if(result.rows, [](const ProbeRow& r) { return r.name.starts_with("compute"); });
+    CHECK(profile_from(result).name == "llvmpipe");
+    CHECK(profile_from(result).not_followed.empty());
 }
 
 TEST_CASE("profiles: NaN against a number is told as such") {

@@ -129,6 +129,8 @@ std::string report_text(const CheckReport& r, const RunDescription& run) {
         return out;
     if (r.verdicts)
         out += verdict_text(*r.verdicts, run.width);
+    if (!run.explain.empty())
+        line("", fmt::format("again: {}", run.explain));
 
     out += "\n  field         differing floats of compared\n";
     for (std::size_t f = 0; f < field_names.size(); ++f)
@@ -201,7 +203,8 @@ nlohmann::json report_json(const CheckReport& r, const RunDescription& run) {
               {"compare", seconds.compare},
               {"judge", seconds.judge}}},
             {"verdicts", r.verdicts ? verdict_json(*r.verdicts, run.width) : json()},
-            {"repeat", run.repeat}};
+            {"repeat", run.repeat},
+            {"explain", run.explain.empty() ? json() : json(run.explain)}};
 }
 
 } // namespace lockstep

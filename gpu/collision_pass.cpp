@@ -17,7 +17,16 @@ Program link(const Switches& switches, const std::filesystem::path& shaders) {
             particle_captures()};
 }
 
-void set_uniforms(const Program& program, const FrameParams& params) {
+} // namespace
+
+void set_collision_code(const Program& program, const FrameParams& params) {
+    const glm::vec3 size = params.cdt_box.max - params.cdt_box.min;
+    program.set("u_CdtBoxMin", params.cdt_box.min);
+    program.set("u_CdtBoxStep", size / 255.0F);
+    program.set("u_CdtBoxScale", 255.0F / size);
+}
+
+void set_collision_uniforms(const Program& program, const FrameParams& params) {
     const Constants& constants = params.constants;
     program.set("u_ProjView", params.collision_proj_view);
     program.set("u_ClientWidth", params.width);
@@ -32,21 +41,12 @@ void set_uniforms(const Program& program, const FrameParams& params) {
     program.set_unit("u_CDTexture", 0);
 }
 
-} // namespace
-
-void set_collision_code(const Program& program, const FrameParams& params) {
-    const glm::vec3 size = params.cdt_box.max - params.cdt_box.min;
-    program.set("u_CdtBoxMin", params.cdt_box.min);
-    program.set("u_CdtBoxStep", size / 255.0F);
-    program.set("u_CdtBoxScale", 255.0F / size);
-}
-
 CollisionPass::CollisionPass(const Switches& switches, const std::filesystem::path& shaders)
     : program_(link(switches, shaders)) {}
 
 void CollisionPass::run(const FrameParams& params, const ParticleBuffer& from, ParticleBuffer& to,
                         const CollisionTexture& cdt, CollisionTexture& target) {
-    set_uniforms(program_, params);
+    set_collision_uniforms(program_, params);
     cdt.bind_texture(0);
     target.bind_target();
     gl::Enable(GL_DEPTH_TEST);

@@ -1,12 +1,15 @@
 #include "gpu/program.hpp"
 
 #include <algorithm>
+#include <regex>
+#include <set>
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 #include <glm/gtc/type_ptr.hpp>
 
 #include "gpu/check.hpp"
+#include "gpu/glsl_type.hpp"
 #include "gpu/shader_log.hpp"
 #include "reference/model/error.hpp"
 
@@ -25,61 +28,6 @@ GLenum gl_stage(Stage stage) {
         break;
     }
     return GL_COMPUTE_SHADER;
-}
-
-std::string type_name(GLenum type) {
-    switch (type) {
-    case GL_FLOAT:
-        return "float";
-    case GL_FLOAT_VEC2:
-        return "vec2";
-    case GL_FLOAT_VEC3:
-        return "vec3";
-    case GL_FLOAT_VEC4:
-        return "vec4";
-    case GL_DOUBLE:
-        return "double";
-    case GL_INT:
-        return "int";
-    case GL_INT_VEC2:
-        return "ivec2";
-    case GL_INT_VEC3:
-        return "ivec3";
-    case GL_INT_VEC4:
-        return "ivec4";
-    case GL_UNSIGNED_INT:
-        return "uint";
-    case GL_UNSIGNED_INT_VEC2:
-        return "uvec2";
-    case GL_UNSIGNED_INT_VEC3:
-        return "uvec3";
-    case GL_UNSIGNED_INT_VEC4:
-        return "uvec4";
-    case GL_BOOL:
-        return "bool";
-    case GL_FLOAT_MAT2:
-        return "mat2";
-    case GL_FLOAT_MAT3:
-        return "mat3";
-    case GL_FLOAT_MAT4:
-        return "mat4";
-    case GL_SAMPLER_2D:
-        return "sampler2D";
-    case GL_SAMPLER_3D:
-        return "sampler3D";
-    case GL_SAMPLER_2D_SHADOW:
-        return "sampler2DShadow";
-    case GL_SAMPLER_BUFFER:
-        return "samplerBuffer";
-    case GL_INT_SAMPLER_2D:
-        return "isampler2D";
-    case GL_UNSIGNED_INT_SAMPLER_2D:
-        return "usampler2D";
-    case GL_IMAGE_2D:
-        return "image2D";
-    default:
-        return fmt::format("GL type {:#06x}", type);
-    }
 }
 
 /// A shader object, for as long as it takes to link it.
@@ -132,16 +80,18 @@ std::string link_log(GLuint program) {
     return log;
 }
 
-/// File of the last stage before rasterisation, whose outputs are captured.
-std::string last_vertex_stage(std::span<const ShaderSource> stages) {
-    const auto file = [&](Stage stage) -> const std::string* {
-        const auto found =
-            std::find_if(stages.begin(), stages.end(), [&](const ShaderSource& s) { return s.stage == stage; });
-        return found == stages.end() ? nullptr : &found->files.front();
-    };
-    const std::string* geometry = file(Stage::geometry);
-    const std::string* vertex = file(Stage::vertex);
-    return geometry != nullptr ? *geometry : vertex != nullptr ? *vertex : "no vertex shader";
+/// The last stage before rasterisation, whose outputs are captured; null if there is none.
+const ShaderSource* last_vertex_stage(std::span<const ShaderSource> stages) {
+    for (const Stage stage : {Stage::geometry, Stage::vertex})
+        for (const ShaderSource& source : stages)
+            if (source.stage == stage)
+                return &source;
+    return nullptr;
+}
+
+std::string last_vertex_stage_file(std::span<const ShaderSource> stages) {
+    const ShaderSource* last = last_vertex_stage(stages);
+    return last != nullptr ? last->files.front() : "no vertex shader";
 }
 
 std::string joined_names(std::span<const Capture> captured) {
@@ -160,7 +110,7 @@ std::string link_failure(GLuint program, std::span<const ShaderSource> stages, s
             if (!link(program, {&capture, 1}))
                 return fmt::format(
                     "output {} is not written by the last vertex-processing stage ({}); it is to write {}",
-                    capture.name, last_vertex_stage(stages), joined_names(captured));
+                    capture.name, last_vertex_stage_file(stages), joined_names(captured));
     std::vector<std::string_view> files;
     for (const ShaderSource& stage : stages)
         files.emplace_back(stage.files.front());
@@ -188,17 +138,51 @@ template <class Visit> void for_each_active(GLuint program, GLenum count_name, G
     }
 }
 
-void check_capture_type(GLuint program, GLuint index, const Capture& capture, const std::string& where) {
+std::string declared(GLenum type, GLint size) {
+    return size == 1 ? type_name(type) : fmt::format("{}[{}]", type_name(type), size);
+}
+
+Capture linked_capture(GLuint program, GLuint index) {
     char name[256] = {};
-    GLsizei size = 0;
-    GLenum type = 0;
-    gl::GetTransformFeedbackVarying(program, index, sizeof name, nullptr, &size, &type, name);
-    if (type != capture.type || size != 1)
-        throw Error(fmt::format("{}: output {} is {}{}, but is to be {}", where, capture.name, type_name(type),
-                                size != 1 ? fmt::format("[{}]", size) : "", type_name(capture.type)));
+    Capture capture;
+    gl::GetTransformFeedbackVarying(program, index, sizeof name, nullptr, &capture.size, &capture.type, name);
+    capture.name = name;
+    return capture;
+}
+
+void check_capture_type(GLuint program, GLuint index, const Capture& capture, const std::string& where) {
+    const auto [name, type, size] = linked_capture(program, index);
+    if (type != capture.type || size != capture.size)
+        throw Error(fmt::format("{}: output {} is {}, but is to be {}", where, capture.name, declared(type, size),
+                                declared(capture.type, capture.size)));
+}
+
+/// Words of `text` that start with `prefix`.
+std::set<std::string> words_with(std::string_view prefix, const std::string& text) {
+    const std::regex word(fmt::format("\\b{}\\w+", prefix));
+    return {std::sregex_token_iterator(text.begin(), text.end(), word), std::sregex_token_iterator()};
 }
 
 } // namespace
+
+std::vector<Capture> outputs_with(std::string_view prefix, std::span<const ShaderSource> stages) {
+    const ShaderSource* last = last_vertex_stage(stages);
+    if (last == nullptr)
+        return {};
+    std::vector<Shader> shaders;
+    for (const ShaderSource& stage : stages)
+        shaders.emplace_back(stage);
+    const GLuint program = gl::CreateProgram();
+    for (const Shader& shader : shaders)
+        gl::AttachShader(program, shader.id());
+    std::vector<Capture> outputs;
+    for (const std::string& word : words_with(prefix, last->text))
+        if (const Capture candidate{word}; link(program, {&candidate, 1}))
+            outputs.push_back(linked_capture(program, 0));
+    gl::DeleteProgram(program);
+    check_gl("outputs");
+    return outputs;
+}
 
 Program::Program(std::string name, std::span<const ShaderSource> stages, std::span<const Capture> captured)
     : name_(std::move(name)) {

@@ -19,7 +19,12 @@ namespace lockstep {
 struct Capture {
     std::string name;
     GLenum type = GL_FLOAT;
+    GLint size = 1; ///< elements of an array
 };
+
+/// The outputs of the last vertex-processing stage whose names start with `prefix`, by name: what the linked program
+/// says of each such word in the stage's text. Throws Error where a stage does not compile.
+std::vector<Capture> outputs_with(std::string_view prefix, std::span<const ShaderSource> stages);
 
 /// A linked program. Whatever is wrong with a shader is an Error of one line: `shader FILE:LINE: compiler's message`
 /// for a stage that does not compile, `NAME: ...` for the rest.

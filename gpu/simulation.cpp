@@ -21,7 +21,8 @@ bool any_canary(glm::vec3 v) { return is_canary(v.x) || is_canary(v.y) || is_can
 } // namespace
 
 GpuSimulation::GpuSimulation(const Scene& scene, const std::filesystem::path& shaders)
-    : obstacles_(scene.obstacles), obstacle_pass_(scene.switches, shaders),
+    : switches_(scene.switches), shaders_(shaders), obstacles_(scene.obstacles),
+      obstacle_pass_(scene.switches, shaders),
       collision_pass_(scene.switches, shaders), particles_{ParticleBuffer(scene.start.size()),
                                                            ParticleBuffer(scene.start.size())},
       cdts_{CollisionTexture(scene.width, scene.height, scene.switches.cdt_format),
@@ -63,6 +64,12 @@ void GpuSimulation::run_passes(const FrameParams& params, std::size_t from, std:
         return octree_pass_->run(params, particles_[from], particles_[to]);
     obstacle_pass_.run(obstacles_, params, cdts_[to]);
     collision_pass_.run(params, particles_[from], particles_[to], cdts_[from], cdts_[to]);
+}
+
+StepCapture GpuSimulation::trace(const FrameParams& params, std::size_t particle) {
+    if (!trace_)
+        trace_.emplace(switches_, shaders_, params.width, params.height);
+    return trace_->run(params, particles_[1 - current_], particle, cdts_[1 - current_]);
 }
 
 void GpuSimulation::read(Particles& particles) const { particles_[current_].read(particles); }

@@ -4,6 +4,7 @@
 #include <optional>
 
 #include "gpu/collision_pass.hpp"
+#include "gpu/collision_trace.hpp"
 #include "gpu/mesh_buffer.hpp"
 #include "gpu/obstacle_pass.hpp"
 #include "gpu/octree_pass.hpp"
@@ -29,6 +30,10 @@ class GpuSimulation {
     /// The last frame once more, from the same state.
     void repeat_step(const FrameParams& params);
 
+    /// What the last frame's step of a particle computed on its way, from the buffers that frame read. Compiles the
+    /// trace build at the first call, and then throws Error for what is wrong with it. Needs search = cdt.
+    [[nodiscard]] StepCapture trace(const FrameParams& params, std::size_t particle);
+
     /// GPU time of the last frame by a timer query, seconds, without the octree's refresh, which is the CPU's; 0 where
     /// the context has none.
     [[nodiscard]] double frame_seconds() const { return frame_seconds_; }
@@ -46,12 +51,15 @@ class GpuSimulation {
     void run_frame(const FrameParams& params, std::size_t from, std::size_t to);
     void run_passes(const FrameParams& params, std::size_t from, std::size_t to);
 
+    Switches switches_;
+    std::filesystem::path shaders_;
     MeshBuffer obstacles_;
     ObstaclePass obstacle_pass_;
     CollisionPass collision_pass_;
     std::optional<OctreePass> octree_pass_; ///< search = octree: takes the place of these two
     std::array<ParticleBuffer, 2> particles_;
     std::array<CollisionTexture, 2> cdts_;
+    std::optional<CollisionTrace> trace_;
     GlQuery timer_;
     double frame_seconds_ = 0.0;
     std::size_t current_ = 0; ///< which of the two the next frame starts from

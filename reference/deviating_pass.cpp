@@ -108,6 +108,8 @@ template <class A> class DeviatingStep {
             p.x = 1.0F - p.x;
         if (has(y_flipped))
             p.y = 1.0F - p.y;
+        if (trace_ != nullptr)
+            trace_->texture_coordinate = p;
         int width = params_.width;
         int height = params_.height;
         if (has(width_and_height_swapped))
@@ -494,24 +496,6 @@ void deviating_draw(const FrameInputs& inputs, const Particles& after, const Pro
                 texel.a = 0.0F;
         }
     });
-}
-
-StepTrace trace_step(const ParticleState& before, const CollisionImage& cdt, const FrameParams& params,
-                     const Profile& profile) {
-    Particles one;
-    one.resize(1);
-    one.set(0, before);
-    StepTrace trace;
-    trace.after = deviating_step({.before = &one, .cdt = &cdt, .params = &params}, 0, profile, {}, &trace);
-    const glm::vec3 drawn =
-        params.switches.raster_position == RasterPosition::updated ? trace.after.position : before.position;
-    {
-        const FlushSubnormals guard(profile.flush_subnormals);
-        trace.raster_clip = with_arithmetic(
-            profile, params.switches, [&]<class A>(A) { return A::transform(params.collision_proj_view, drawn); });
-    }
-    trace.fragment = point_fragment(drawn, params, profile);
-    return trace;
 }
 
 } // namespace lockstep

@@ -1,6 +1,8 @@
 // Where a clip-space position lies on the image of u_ClientWidth x u_ClientHeight texels, and where the point that is
 // drawn for it is put. Line numbers are the listing's (thesis, Fig. 3-3). Needs arithmetic.glsl.
 
+#include "trace.glsl"
+
 uniform int u_ClientWidth;
 uniform int u_ClientHeight;
 
@@ -12,6 +14,10 @@ vec2 image_position(vec4 clip) {
 #endif
     precise vec2 tex_coord = (ndc + vec2(1.0)) * 0.5;
     precise vec2 scaled = vec2(tex_coord.x * float(u_ClientWidth), tex_coord.y * float(u_ClientHeight));
+    TRACE(last_clip, clip);
+    TRACE(last_ndc, ndc);
+    TRACE(last_texture_coordinate, tex_coord);
+    TRACE(last_image_position, scaled);
     return scaled;
 }
 

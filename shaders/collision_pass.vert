@@ -7,6 +7,7 @@
 #include "arithmetic.glsl"
 #include "collision_code.glsl"
 #include "base_texel.glsl"
+#include "trace.glsl"
 
 in vec3 a_Position;
 in vec3 a_Dir;
@@ -27,6 +28,48 @@ precise out vec3 v_Dir;
 precise out float v_Speed;
 precise out float v_CollideTime;
 precise gl_Position;
+
+#ifdef LOCKSTEP_TRACE
+// Drawn as several instances of one particle: instance i tells of the i-th texel that is looked at.
+out vec4 trace_clip;
+out vec2 trace_ndc;
+out vec2 trace_texture_coordinate;
+out vec2 trace_image_position;
+flat out ivec2 trace_base_texel; // -1: outside the image
+flat out int trace_searches;
+out vec3 trace_own_position;
+flat out int trace_neighbour_count; // texels looked at
+flat out ivec2 trace_neighbour_texel;
+flat out int trace_neighbour_reached; // 0 skipped unread, 1 read, 2 holds a particle, 3 compared, 4 nearest so far
+out vec3 trace_neighbour_position;
+out vec3 trace_neighbour_apart;
+out float trace_neighbour_distance;
+flat out int trace_hit;
+out vec3 trace_away;     // a hit
+out vec3 trace_velocity; // none
+out vec4 trace_point_clip;
+
+void start_trace() {
+    trace_searches = 0;
+    trace_own_position = vec3(0.0);
+    trace_neighbour_count = 0;
+    trace_neighbour_texel = ivec2(0);
+    trace_neighbour_reached = 0;
+    trace_neighbour_position = vec3(0.0);
+    trace_neighbour_apart = vec3(0.0);
+    trace_neighbour_distance = 0.0;
+    trace_hit = 0;
+    trace_away = vec3(0.0);
+    trace_velocity = vec3(0.0);
+}
+#define START_TRACE() start_trace()
+#define TRACE_NEIGHBOUR(place, value) \
+    if (trace_neighbour_count == gl_InstanceID + 1) \
+    place = value
+#else
+#define START_TRACE()
+#define TRACE_NEIGHBOUR(place, value)
+#endif
 
 // Each operation a rounding of its own: the locals are `precise`, so no product melts into a sum.
 float product(float a, float b) {
@@ -59,6 +102,7 @@ bool on_image(ivec2 texel) {
 // Lines 5 to 19. True when a stored position lies within the collision range; `away` then is own minus nearest.
 bool nearest_collision(ivec2 texel_base, out vec3 away) {
     away = vec3(0.0);
+    TRACE(trace_searches, 1);
     precise vec3 curr_pos = a_Position;
 #if SELF_POSITION == SELF_POSITION_TEXEL
     vec4 stored_self = texelFetch(u_CDTexture, texel_base, 0);
@@ -66,26 +110,36 @@ bool nearest_collision(ivec2 texel_base, out vec3 away) {
         return false;
     curr_pos = decode_position(stored_self);
 #endif
+    TRACE(trace_own_position, curr_pos);
     precise float particle_min_length = 100000.0;
     bool particle_collision = false;
     for (int ty = -u_TexelCollideRange; ty <= u_TexelCollideRange; ++ty) {
         for (int tx = -u_TexelCollideRange; tx <= u_TexelCollideRange; ++tx) {
             ivec2 texel = texel_base + ivec2(tx, ty);
+            TRACE(trace_neighbour_count, trace_neighbour_count + 1);
+            TRACE_NEIGHBOUR(trace_neighbour_texel, texel);
             if ((tx == 0 && ty == 0) || !on_image(texel))
                 continue;
             vec4 stored = texelFetch(u_CDTexture, texel, 0);
+            TRACE_NEIGHBOUR(trace_neighbour_reached, 1);
             if (!holds_particle(stored))
                 continue;
             vec3 apart = sum(curr_pos, -decode_position(stored));
             float len = ls_length(apart);
+            TRACE_NEIGHBOUR(trace_neighbour_reached, 2);
+            TRACE_NEIGHBOUR(trace_neighbour_position, decode_position(stored));
+            TRACE_NEIGHBOUR(trace_neighbour_apart, apart);
+            TRACE_NEIGHBOUR(trace_neighbour_distance, len);
 #if ZERO_DISTANCE == ZERO_DISTANCE_SKIP
             if (len == 0.0)
                 continue;
 #endif
+            TRACE_NEIGHBOUR(trace_neighbour_reached, 3);
             if (u_CollisionRange > len && len < particle_min_length) {
                 particle_min_length = len;
                 away = apart;
                 particle_collision = true;
+                TRACE_NEIGHBOUR(trace_neighbour_reached, 4);
             }
         }
     }
@@ -94,6 +148,8 @@ bool nearest_collision(ivec2 texel_base, out vec3 away) {
 
 // Lines 21 to 24.
 void collide(vec3 away) {
+    TRACE(trace_hit, 1);
+    TRACE(trace_away, away);
     v_Speed = product(a_Speed, u_SpeedFactor);
     v_Dir = ls_normalize(away);
     v_CollideTime = u_CollisionTime;
@@ -107,6 +163,7 @@ void collide(vec3 away) {
 // Lines 26 to 30.
 void integrate() {
     vec3 temp = sum(product(a_Dir, a_Speed), product(u_Gravity, u_Tick));
+    TRACE(trace_velocity, temp);
     v_Dir = ls_normalize(temp);
     v_Speed = ls_length(temp);
     precise float collide_time = ls_flush(a_CollideTime) - u_Tick;
@@ -115,9 +172,15 @@ void integrate() {
 }
 
 void main() {
+    START_TRACE();
     ivec2 texel_base;
     vec3 away;
     bool visible = base_texel(image_position(ls_transform(u_ProjView, a_Position)), texel_base);
+    TRACE(trace_clip, last_clip);
+    TRACE(trace_ndc, last_ndc);
+    TRACE(trace_texture_coordinate, last_texture_coordinate);
+    TRACE(trace_image_position, last_image_position);
+    TRACE(trace_base_texel, visible ? texel_base : ivec2(-1));
     if (ls_flush(a_CollideTime) < 0.0 && visible && nearest_collision(texel_base, away))
         collide(away);
     else
@@ -127,5 +190,6 @@ void main() {
 #else
     vec4 clip = ls_transform(u_ProjView, a_Position);
 #endif
+    TRACE(trace_point_clip, clip);
     gl_Position = point_position(clip);
 }

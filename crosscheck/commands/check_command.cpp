@@ -8,6 +8,7 @@
 
 #include "crosscheck/check.hpp"
 #include "crosscheck/commands/commands.hpp"
+#include "crosscheck/commands/judging_options.hpp"
 #include "crosscheck/commands/option_values.hpp"
 #include "crosscheck/commands/run_options.hpp"
 #include "crosscheck/frame_images.hpp"
@@ -41,13 +42,6 @@ class InterruptHandler {
     InterruptHandler& operator=(const InterruptHandler&) = delete;
 };
 
-/// What a difference is judged by.
-enum class Legal {
-    measured, ///< what the driver was measured to do, GLSL's rules for the rest
-    glsl,     ///< GLSL's rules alone
-    any_order ///< and + - * in any order, fused or not, for shaders without `precise`
-};
-
 struct Options {
     RunOptions run;
     CheckMode mode = CheckMode::resync;
@@ -67,11 +61,22 @@ std::string repeat_line(const Options& options, int frames) {
     std::string line = command_line("check", options.run, frames);
     if (options.mode == CheckMode::free)
         line += " --mode free";
-    if (options.legal != Legal::measured)
-        line += options.legal == Legal::glsl ? " --legal glsl" : " --legal any_order";
+    line += legal_option_text(options.legal);
     if (options.allow_undefined)
         line += " --allow-undefined";
     return line;
+}
+
+/// Empty if nothing is divergent or undefined.
+std::string explain_line(const Options& options, const CheckReport& report, int width) {
+    if (!report.verdicts || !report.verdicts->first)
+        return "";
+    const Place& place = report.verdicts->first->place;
+    const auto columns = static_cast<std::size_t>(width);
+    const std::string item = place.texel ? fmt::format("--texel {},{}", place.index % columns, place.index / columns)
+                                         : fmt::format("--particle {}", place.index);
+    return command_line("explain", options.run, fmt::format("--frame {} {}", place.frame, item)) +
+           legal_option_text(options.legal);
 }
 
 void expect_files(const Options& options, OutputFiles& files) {
@@ -93,7 +98,8 @@ RunDescription description(const Options& options, const Scene& scene, const Con
             settings_text(options.run, scene),
             free ? "free" : "resync",
             scene.width,
-            repeat_line(options, repeat_frames)};
+            repeat_line(options, repeat_frames),
+            explain_line(options, report, scene.width)};
 }
 
 int run(const Options& options) {
@@ -110,8 +116,7 @@ int run(const Options& options) {
     check_options.mode = options.mode;
     check_options.frames = options.run.frames;
     check_options.stop = &interrupted;
-    if (options.legal != Legal::measured)
-        check_options.known = KnownOperations{.sums = options.legal == Legal::glsl};
+    check_options.known = known_operations(options.legal, profile);
     if (!options.hashes.empty() || !options.images.empty())
         check_options.on_state = [&](const ComparedFrame& frame) {
             if (!options.hashes.empty())
@@ -155,12 +160,7 @@ void add_check_command(CLI::App& app, int& status) {
         ->type_name("N");
     add_choice<CheckMode>(*verb, "--mode", options->mode, {{"resync", CheckMode::resync}, {"free", CheckMode::free}},
                           "resync: each frame's step alone; free: both run on by themselves");
-    verb->add_option("--legal", options->legal,
-                     "what differences are judged by: what the driver was measured to do; GLSL's precision rules; "
-                     "these for shaders without `precise`")
-        ->transform(CLI::CheckedTransformer(std::map<std::string, Legal>{
-            {"measured", Legal::measured}, {"glsl", Legal::glsl}, {"any_order", Legal::any_order}}))
-        ->type_name("measured|glsl|any_order");
+    add_legal_option(*verb, options->legal);
     verb->add_flag("--allow-undefined", options->allow_undefined, "do not fail on what rests on what GL leaves open");
     verb->add_option("--json", options->json, "write the report as JSON")->type_name("FILE");
     verb->add_option("--hashes", options->hashes, "write both sides' state hash of every frame")->type_name("FILE");

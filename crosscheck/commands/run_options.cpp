@@ -53,7 +53,11 @@ std::string quoted(const std::string& word) {
 } // namespace
 
 std::string command_line(const std::string& verb, const RunOptions& options, int frames) {
-    std::string line = fmt::format("lockstep {} {} --frames {}", verb, quoted(options.scene.string()), frames);
+    return command_line(verb, options, fmt::format("--frames {}", frames));
+}
+
+std::string command_line(const std::string& verb, const RunOptions& options, const std::string& place) {
+    std::string line = fmt::format("lockstep {} {} {}", verb, quoted(options.scene.string()), place);
     if (options.particles)
         line += fmt::format(" --particles {}", *options.particles);
     if (options.preset)

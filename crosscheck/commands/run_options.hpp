@@ -35,6 +35,9 @@ Scene load(const RunOptions& options);
 /// The options as they would be typed again in a shell, with another frame count.
 std::string command_line(const std::string& verb, const RunOptions& options, int frames);
 
+/// The same with options of the verb's own ("--frame 3 --particle 7") instead.
+std::string command_line(const std::string& verb, const RunOptions& options, const std::string& place);
+
 /// "corrected, texel_collide_range=4"
 std::string settings_text(const RunOptions& options, const Scene& scene);
 

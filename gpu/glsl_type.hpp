@@ -1,0 +1,18 @@
+#pragma once
+#include <string>
+
+#include "gpu/gl.hpp"
+
+namespace lockstep {
+
+/// "vec3" for GL_FLOAT_VEC3; types that shaders here have no use for as "GL type 0x...".
+std::string type_name(GLenum type);
+
+/// 32-bit components that transform feedback writes of an output of this type: 3 of GL_FLOAT_VEC3; 0 for a type that
+/// is no output.
+int output_components(GLenum type);
+
+/// Whether its components are floats; integers otherwise.
+bool is_float_type(GLenum type);
+
+} // namespace lockstep

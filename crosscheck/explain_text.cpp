@@ -132,7 +132,7 @@ std::string head_text(const Profile& profile) {
     return line("", "step", "reference (strict)", fmt::format("reference ({})", profile.name), "GPU", "ULP", "verdict");
 }
 
-std::string particle_head(const FrameRun& run, const StepTable& table, NumberFormat format) {
+std::string particle_head(const StepTable& table, NumberFormat format) {
     const ParticleState& s = table.reference.before;
     std::string text =
         fmt::format("particle {} in frame {}\n  before  position {}\n          direction {}\n"
@@ -143,7 +143,6 @@ std::string particle_head(const FrameRun& run, const StepTable& table, NumberFor
         text += fmt::format("  warning {}\n", table.warning);
     if (table.gpu.vertex.outputs.empty())
         text += "  note    the vertex stage has no trace_* outputs, so the steps between are the reference's alone\n";
-    (void)run;
     return text;
 }
 
@@ -230,9 +229,8 @@ std::string why_texel(FrameRun& run, std::size_t texel) {
 
 std::string explain_particle(FrameRun& run, std::size_t particle, NumberFormat format) {
     const StepTable table = step_table(run, particle);
-    std::string text = particle_head(run, table, format) + "\n" + head_text(run.profile()) +
-                       rows_text(table.rows, format) + "\n" + neighbourhood_picture(run, table) + "\n" +
-                       why_particle(run, particle);
+    std::string text = particle_head(table, format) + "\n" + head_text(run.profile()) + rows_text(table.rows, format) +
+                       "\n" + neighbourhood_picture(run, table) + "\n" + why_particle(run, particle);
     if (const StepRow* first = table.first_divergent())
         text += fmt::format("first     {}: {}\n", first->label, first->reason);
     return text;

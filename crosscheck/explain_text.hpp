@@ -21,8 +21,8 @@ std::string explain_texel(FrameRun& run, std::size_t texel, NumberFormat format)
 std::string row_text(const StepRow& row, NumberFormat format);
 std::string head_text(const Profile& profile);
 
-/// Where and on what the GPU side runs, and what happened before the table.
-std::string particle_head(const FrameRun& run, const StepTable& table, NumberFormat format);
+/// What the particle started from.
+std::string particle_head(const StepTable& table, NumberFormat format);
 
 /// The texels looked at, row by row from the top, with both sides' base texel and pick.
 std::string neighbourhood_picture(const FrameRun& run, const StepTable& table);

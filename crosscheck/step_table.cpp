@@ -452,30 +452,36 @@ template <class A> class TableBuilder {
         }
     }
 
-    /// The fetched position and the difference to the own one: rows of their own only where they differ.
+    /// The fetched position and the difference to the own one: rows of their own only where they differ, or are wrong
+    /// where the reference reads nothing.
     void stored_and_apart(const SeenTexel& seen, const NeighbourTrace* in_reference) {
-        const bool holds = in_reference != nullptr && in_reference->holds_particle;
-        const bool same =
-            holds && same_bits(in_reference->position, seen.position) && same_bits(in_reference->apart, seen.apart);
-        if (same)
-            return;
-        const NeighbourTrace* in_strict = find(strict_, seen.texel);
-        const auto of = [](const NeighbourTrace* neighbour, glm::vec3 NeighbourTrace::*field) {
-            return neighbour != nullptr && neighbour->holds_particle ? std::optional(neighbour->*field) : std::nullopt;
-        };
-        const std::string name = fmt::format("({}, {})", seen.texel.x, seen.texel.y);
         const glm::vec4 stored =
             frame_.cdt.contains(seen.texel.x, seen.texel.y) ? frame_.cdt.at(seen.texel.x, seen.texel.y) : glm::vec4(0);
         Interval3 legal = arithmetic_.read(code().decode(stored));
         if (switches_.cdt_format == CdtFormat::rgba8 && !arithmetic_.known().sums)
             for (Interval& component : legal)
                 component = interval::widen(component, 2.0);
-        rows_.numbers<glm::vec3>("stored " + name, of(in_strict, &NeighbourTrace::position),
-                                 of(in_reference, &NeighbourTrace::position), seen.position, legal.data());
         const glm::vec3 own = gpu_own_.value_or(reference_.own_position.value_or(before_.position));
         const Interval3 apart = arithmetic_.difference(arithmetic_.read(own), arithmetic_.read(seen.position));
+        const bool holds = in_reference != nullptr && in_reference->holds_particle;
+        const bool right =
+            holds ? same_bits(in_reference->position, seen.position) && same_bits(in_reference->apart, seen.apart)
+                  : contains(legal, seen.position) && contains(apart, seen.apart);
+        if (right)
+            return;
+        const NeighbourTrace* in_strict = find(strict_, seen.texel);
+        const auto of = [](const NeighbourTrace* neighbour, glm::vec3 NeighbourTrace::*field) {
+            return neighbour != nullptr && neighbour->holds_particle ? std::optional(neighbour->*field) : std::nullopt;
+        };
+        const std::string name = fmt::format("({}, {})", seen.texel.x, seen.texel.y);
+        rows_.numbers<glm::vec3>("stored " + name, of(in_strict, &NeighbourTrace::position),
+                                 of(in_reference, &NeighbourTrace::position), seen.position, legal.data());
         rows_.numbers<glm::vec3>("apart " + name, of(in_strict, &NeighbourTrace::apart),
                                  of(in_reference, &NeighbourTrace::apart), seen.apart, apart.data());
+    }
+
+    static bool contains(const Interval3& set, glm::vec3 v) {
+        return set[0].contains(v.x) && set[1].contains(v.y) && set[2].contains(v.z);
     }
 
     /// What the GPU has to do with a texel by its own values.

@@ -159,7 +159,7 @@ void check_capture_type(GLuint program, GLuint index, const Capture& capture, co
 
 /// Words of `text` that start with `prefix`.
 std::set<std::string> words_with(std::string_view prefix, const std::string& text) {
-    const std::regex word(fmt::format("\\b{}\\w+", prefix));
+    const std::regex word(fmt::format("\\b{}\\w*", prefix));
     return {std::sregex_token_iterator(text.begin(), text.end(), word), std::sregex_token_iterator()};
 }
 

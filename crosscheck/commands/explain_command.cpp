@@ -1,4 +1,6 @@
 #include <memory>
+#include <optional>
+#include <string>
 
 #include <fmt/format.h>
 
@@ -8,8 +10,8 @@
 #include "crosscheck/commands/run_options.hpp"
 #include "crosscheck/explain_text.hpp"
 #include "crosscheck/frame_run.hpp"
+#include "crosscheck/places.hpp"
 #include "crosscheck/profiles.hpp"
-#include "crosscheck/scene_file.hpp"
 #include "gpu/context.hpp"
 #include "reference/model/error.hpp"
 
@@ -19,8 +21,7 @@ namespace {
 struct Options {
     RunOptions run;
     int frame = 0;
-    std::optional<std::size_t> particle;
-    std::optional<std::pair<int, int>> texel;
+    std::optional<std::string> particle, texel;
     Legal legal = Legal::measured;
     bool hexadecimal = false;
 };
@@ -29,20 +30,17 @@ int run(const Options& options) {
     if (options.particle.has_value() == options.texel.has_value())
         throw Error("explain: either --particle I or --texel X,Y is needed");
     Scene scene = load(options.run);
-    if (options.particle)
-        check_particle(scene, *options.particle);
+    const std::size_t item =
+        options.particle ? particle_named(*options.particle, scene) : texel_named(*options.texel, scene);
     const Context context(parse_context_request(options.run.gl));
     const Profile profile = measured_profile(context);
     FrameRun frames(std::move(scene), profile, known_operations(options.legal, profile), options.run.shaders);
-    const std::optional<std::size_t> texel =
-        options.texel ? std::optional(texel_index(frames.scene(), *options.texel)) : std::nullopt;
     frames.go_to(options.frame);
     const NumberFormat format = options.hexadecimal ? NumberFormat::hexadecimal : NumberFormat::decimal;
     fmt::print("scene     {} ({})\nswitches  {}\nGL        {}\nprofile   {}\n\n", frames.scene().name,
                options.run.scene.string(), settings_text(options.run, frames.scene()), summary(context.describe()),
                describe(profile));
-    fmt::print("{}",
-               texel ? explain_texel(frames, *texel, format) : explain_particle(frames, *options.particle, format));
+    fmt::print("{}", options.texel ? explain_texel(frames, item, format) : explain_particle(frames, item, format));
     return status_agree;
 }
 
@@ -57,11 +55,8 @@ void add_explain_command(CLI::App& app, int& status) {
         ->required()
         ->check(integer(0, most_frames))
         ->type_name("F");
-    verb->add_option("--particle", options->particle, "the particle")
-        ->check(integer(0, most_particles))
-        ->type_name("I");
+    verb->add_option("--particle", options->particle, "the particle")->type_name("I");
     verb->add_option("--texel", options->texel, "the texel of the CDT, column and row from the bottom left")
-        ->delimiter(',')
         ->type_name("X,Y");
     add_legal_option(*verb, options->legal);
     verb->add_flag("--hex", options->hexadecimal, "hexadecimal floats instead of decimal ones");

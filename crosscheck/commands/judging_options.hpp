@@ -1,11 +1,10 @@
 #pragma once
-#include <cstddef>
-#include <utility>
+#include <string>
 
 #include <CLI/CLI.hpp>
 
 #include "reference/known_operations.hpp"
-#include "reference/model/scene.hpp"
+#include "reference/model/profile.hpp"
 
 namespace lockstep {
 
@@ -22,11 +21,5 @@ KnownOperations known_operations(Legal legal, const Profile& profile);
 
 /// " --legal glsl", or nothing for measured.
 std::string legal_option_text(Legal legal);
-
-/// Throws Error if the scene has no such particle.
-void check_particle(const Scene& scene, std::size_t particle);
-
-/// Index of a texel, column and row. Throws Error if the CDT has none there.
-std::size_t texel_index(const Scene& scene, std::pair<int, int> texel);
 
 } // namespace lockstep

@@ -1,0 +1,146 @@
+#include <catch2/catch.hpp>
+
+#include <sstream>
+#include <string>
+#include <vector>
+
+#include "tests/cli/cli_checks.hpp"
+#include "tests/planted_shader.hpp"
+#include "tests/temporary_folder.hpp"
+
+using namespace lockstep;
+using test::refusal;
+using test::run_lockstep;
+
+namespace {
+
+struct Setting {
+    test::TemporaryFolder folder, shaders;
+    std::string scene = folder.write("scene.json", test::small_scene).string();
+
+    [[nodiscard]] test::Outcome explain(const std::vector<std::string>& options) const {
+        std::vector<std::string> arguments{"explain", scene, "--gl", "osmesa", "--shaders", shaders.path()};
+        arguments.insert(arguments.end(), options.begin(), options.end());
+        return run_lockstep(arguments);
+    }
+};
+
+std::vector<std::string> words(const std::string& line) {
+    std::istringstream stream(line);
+    std::vector<std::string> result;
+    std::string word;
+    stream >> word;
+    while (stream >> word)
+        result.push_back(word);
+    return result;
+}
+
+std::string after(const std::string& text, const std::string& mark) {
+    const std::size_t start = text.find(mark);
+    REQUIRE(start != std::string::npos);
+    return text.substr(start + mark.size(), text.find('\n', start) - start - mark.size());
+}
+
+} // namespace
+
+TEST_CASE("explain_command: a particle's table, from clip position to the texel's owner") {
+    if (!test::have_osmesa())
+        return;
+    const Setting setting;
+    const test::Outcome outcome = setting.explain({"--frame", "2", "--particle", "17"});
+    CHECK(outcome.status == 0);
+    CHECK(outcome.err.empty());
+    std::size_t last = 0;
+    for (const char* row : {"particle 17 in frame 2",
+                            "step ",
+                            "clip.x",
+                            "clip / w.x",
+                            "texture coordinate.x",
+                            "image position.x",
+                            "base texel",
+                            "searches",
+                            "speed",
+                            "direction.x",
+                            "collide time",
+                            "position.x",
+                            "point's clip.x",
+                            "gl_Position.x",
+                            "window position.x",
+                            "snapped.x",
+                            "texel",
+                            "depth",
+                            "also wanted by",
+                            "owner of texel",
+                            "stored.x",
+                            "every bit agrees"}) {
+        const std::size_t place = outcome.out.find(row, last);
+        INFO(row);
+        CHECK(place != std::string::npos);
+        last = place == std::string::npos ? last : place;
+    }
+    CHECK(setting.explain({"--frame", "2", "--particle", "17"}).out == outcome.out);
+    CHECK_THAT(setting.explain({"--frame", "2", "--particle", "17", "--hex"}).out, Catch::Contains("0x1."));
+}
+
+TEST_CASE("explain_command: check's first divergence names the command that shows it again") {
+    if (!test::have_osmesa())
+        return;
+    const Setting setting;
+    const auto check = [&] {
+        return run_lockstep(
+            {"check", setting.scene, "--frames", "6", "--gl", "osmesa", "--shaders", setting.shaders.path()});
+    };
+    CHECK_THAT(check().out, !Catch::Contains("again: "));
+    SECTION("a particle") {
+        test::plant(setting.shaders, "collision_pass.vert", "product(a_Speed, u_SpeedFactor)", "a_Speed");
+        const std::string again = after(check().out, "again: ");
+        CHECK_THAT(again, Catch::StartsWith("lockstep explain ") && Catch::Contains(" --particle "));
+        const test::Outcome outcome = run_lockstep(words(again));
+        CHECK(outcome.status == 0);
+        CHECK_THAT(outcome.out, Catch::Contains("first     speed: ") && Catch::Contains(": divergent\n"));
+    }
+    SECTION("a texel") {
+        test::plant(setting.shaders, "collision_pass.frag", "encode_position(out_Position)",
+                    "encode_position(out_Position + 0.5)");
+        const std::string again = after(check().out, "again: ");
+        CHECK_THAT(again, Catch::Contains(" --texel "));
+        const test::Outcome outcome = run_lockstep(words(again));
+        CHECK(outcome.status == 0);
+        CHECK_THAT(outcome.out, Catch::Contains("nobody known") && Catch::Contains("DIVERGENT"));
+    }
+}
+
+TEST_CASE("explain_command: what cannot be explained is told in one line") {
+    const Setting setting;
+    const std::vector<std::string> start{"explain", setting.scene};
+    const auto told = [&](std::vector<std::string> options) {
+        options.insert(options.begin(), start.begin(), start.end());
+        return refusal(run_lockstep(options));
+    };
+    CHECK(told({"--particle", "1"}) == "--frame is required (lockstep --help tells more)");
+    CHECK(told({"--frame", "-1", "--particle", "1"}) ==
+          "--frame: '-1' is not an integer from 0 to 100000000 (lockstep --help tells more)");
+    CHECK(told({"--frame", "1"}) == "explain: either --particle I or --texel X,Y is needed");
+    CHECK(told({"--frame", "1", "--particle", "1", "--texel", "1,1"}) ==
+          "explain: either --particle I or --texel X,Y is needed");
+    for (const char* wrong : {"300", "-1", "x", "1.5", ""})
+        CHECK(told({"--frame", "1", "--particle", wrong}) ==
+              "there is no particle '" + std::string(wrong) + "'; scene has 0 to 299");
+    for (const char* wrong : {"64,0", "0,48", "-1,0", "3", "3,", ",3", "1,2,3", "a,b", "1, 2"})
+        CHECK(told({"--frame", "1", "--texel", wrong}) ==
+              "there is no texel '" + std::string(wrong) + "'; the CDT has 0,0 to 63,47");
+}
+
+TEST_CASE("explain_command: a trace build that does not compile is told with file and line") {
+    if (!test::have_osmesa())
+        return;
+    const Setting setting;
+    test::plant(setting.shaders, "collision_pass.vert", "void start_trace() {", "void start_trace() { nonsense;");
+    const test::Outcome outcome = setting.explain({"--frame", "0", "--particle", "1"});
+    CHECK(outcome.status == 2);
+    CHECK_THAT(outcome.err,
+               Catch::StartsWith("lockstep: shader " + (setting.shaders.path() / "collision_pass.vert:").string()) &&
+                   Catch::Contains("nonsense"));
+    CHECK(run_lockstep({"check", setting.scene, "--frames", "2", "--gl", "osmesa", "--shaders", setting.shaders.path()})
+              .status == 0);
+}

@@ -2,12 +2,25 @@
 
 #include <utility>
 
+#include <fmt/format.h>
+
+#include "reference/model/error.hpp"
 #include "reference/obstacle_pass.hpp"
 
 namespace lockstep {
+namespace {
+
+Scene searched_in_cdt(Scene scene) {
+    if (scene.switches.search != Search::cdt)
+        throw Error(
+            fmt::format("{}: only the search through the CDT is followed step by step; set search=cdt", scene.name));
+    return scene;
+}
+
+} // namespace
 
 FrameRun::FrameRun(Scene scene, Profile profile, const KnownOperations& known, std::filesystem::path shaders)
-    : scene_(std::move(scene)), profile_(std::move(profile)), known_(known), gpu_(scene_, shaders),
+    : scene_(searched_in_cdt(std::move(scene))), profile_(std::move(profile)), known_(known), gpu_(scene_, shaders),
       reference_(scene_, profile_) {}
 
 void FrameRun::go_to(int frame) {

@@ -14,6 +14,7 @@ namespace lockstep {
 class FrameRun {
   public:
     /// `known`: what legal outcomes are taken from. `shaders`: looked into first; may be empty.
+    /// Throws Error for a scene with search = octree.
     FrameRun(Scene scene, Profile profile, const KnownOperations& known, std::filesystem::path shaders);
 
     /// Runs to the end of frame `frame`, counted from 0; back ones from the scene's start again.

@@ -123,12 +123,22 @@ TEST_CASE("explain_command: what cannot be explained is told in one line") {
     CHECK(told({"--frame", "1"}) == "explain: either --particle I or --texel X,Y is needed");
     CHECK(told({"--frame", "1", "--particle", "1", "--texel", "1,1"}) ==
           "explain: either --particle I or --texel X,Y is needed");
+    CHECK(told({"--frame", "1", "--particle", "1", "--legal", "loose"}) ==
+          "--legal: 'loose' is not one of measured, glsl, any_order (lockstep --help tells more)");
     for (const char* wrong : {"300", "-1", "x", "1.5", ""})
         CHECK(told({"--frame", "1", "--particle", wrong}) ==
               "there is no particle '" + std::string(wrong) + "'; scene has 0 to 299");
     for (const char* wrong : {"64,0", "0,48", "-1,0", "3", "3,", ",3", "1,2,3", "a,b", "1, 2"})
         CHECK(told({"--frame", "1", "--texel", wrong}) ==
               "there is no texel '" + std::string(wrong) + "'; the CDT has 0,0 to 63,47");
+}
+
+TEST_CASE("explain_command: the octree's search is not followed") {
+    if (!test::have_osmesa())
+        return;
+    const Setting setting;
+    CHECK(refusal(setting.explain({"--frame", "1", "--particle", "1", "--set", "search=octree"})) ==
+          "scene: only the search through the CDT is followed step by step; set search=cdt");
 }
 
 TEST_CASE("explain_command: a trace build that does not compile is told with file and line") {

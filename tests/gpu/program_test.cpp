@@ -171,6 +171,28 @@ TEST_CASE("program: a captured output of another type is told") {
           "step: output out_Speed is float[2], but is to be float");
 }
 
+TEST_CASE("program: outputs are found by the start of their names, in the last vertex-processing stage") {
+    const auto context = open_context();
+    if (!context)
+        return;
+    const TemporaryFolder folder;
+    folder.write("step.vert", "#version 330 core\nin vec3 a_Position;\n// trace_comment\nvec3 trace_local;\n"
+                              "out vec3 trace_b;\nflat out ivec2 trace_a[2];\nout float other_trace_c;\n"
+                              "void main() { trace_local = a_Position; trace_b = trace_local; trace_a[0] = ivec2(1);"
+                              " trace_a[1] = ivec2(2); other_trace_c = 1.0; gl_Position = vec4(0.0); }\n");
+    const auto of = [&](const std::vector<Stage>& stages) {
+        return outputs_with("trace_", load_stages({folder.path()}, "step", stages));
+    };
+    const std::vector<Capture> found = of({Stage::vertex});
+    REQUIRE(found.size() == 2);
+    CHECK((found[0].name == "trace_a" && found[0].type == GL_INT_VEC2 && found[0].size == 2));
+    CHECK((found[1].name == "trace_b" && found[1].type == GL_FLOAT_VEC3 && found[1].size == 1));
+    folder.write("step.geom", "#version 330 core\nlayout(points) in;\nlayout(points, max_vertices = 1) out;\n"
+                              "out uint trace_g;\nvoid main() { trace_g = 1u; EmitVertex(); }\n");
+    REQUIRE(of({Stage::vertex, Stage::geometry}).size() == 1);
+    CHECK(of({Stage::vertex, Stage::geometry})[0].type == GL_UNSIGNED_INT);
+}
+
 TEST_CASE("program: every built-in shader links with every switch") {
     const auto context = open_context();
     if (!context)

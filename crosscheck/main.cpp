@@ -67,6 +67,7 @@ int main(int argc, char** argv) {
     int status = status_could_not_run;
     add_check_command(app, status);
     add_explain_command(app, status);
+    add_debug_command(app, status);
     add_render_command(app, status);
     add_hash_command(app, status);
     add_info_command(app, status);

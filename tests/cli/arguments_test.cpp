@@ -31,7 +31,7 @@ void check_all(const std::vector<Refused>& cases) {
 } // namespace
 
 TEST_CASE("arguments: an unknown verb, or none, is told with the verbs") {
-    const std::string verbs = "; the verbs are check, explain, render, hash, info, ";
+    const std::string verbs = "; the verbs are check, explain, debug, render, hash, info, ";
     CHECK_THAT(refusal(run_lockstep({})), Catch::StartsWith("a verb is missing" + verbs) && Catch::EndsWith(help));
     CHECK_THAT(refusal(run_lockstep({"chekc", scene})),
                Catch::StartsWith("unknown verb 'chekc'" + verbs) && Catch::EndsWith(help));

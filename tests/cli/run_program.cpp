@@ -37,6 +37,16 @@ void enter(const Surroundings& surroundings) {
         const rlimit limit{*surroundings.memory, *surroundings.memory};
         setrlimit(RLIMIT_AS, &limit);
     }
+    if (surroundings.standard_input) {
+        int in[2];
+        if (pipe(in) != 0)
+            _exit(127);
+        const std::string& text = *surroundings.standard_input;
+        if (write(in[1], text.data(), text.size()) != static_cast<ssize_t>(text.size()))
+            _exit(127);
+        close(in[1]);
+        dup2(in[0], STDIN_FILENO);
+    }
     if (surroundings.standard_output)
         dup2(open(surroundings.standard_output->c_str(), O_WRONLY), STDOUT_FILENO);
 }

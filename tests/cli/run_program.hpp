@@ -16,10 +16,11 @@ struct Outcome {
 };
 
 struct Surroundings {
-    std::vector<std::pair<std::string, std::string>> environment; ///< set on top of the test's own
-    std::optional<std::size_t> largest_file;    ///< bytes; a longer file fails as on a full disk (EFBIG for ENOSPC)
-    std::optional<std::string> standard_output; ///< a file instead of a pipe
-    std::optional<std::size_t> memory;          ///< bytes of address space
+    std::vector<std::pair<std::string, std::string>> environment = {}; ///< set on top of the test's own
+    std::optional<std::size_t> largest_file = {}; ///< bytes; a longer file fails as on a full disk (EFBIG for ENOSPC)
+    std::optional<std::string> standard_output = {}; ///< a file instead of a pipe
+    std::optional<std::size_t> memory = {};          ///< bytes of address space
+    std::optional<std::string> standard_input = {};  ///< through a pipe; at most what one holds, 64 KiB
 };
 
 /// Runs lockstep with `arguments`, standard output and error as pipes, and waits for its end.

@@ -285,6 +285,8 @@ Scene load_scene(const std::filesystem::path& file, const SceneOptions& options)
 
     if (options.particles)
         scale_counts(emitters, *options.particles);
+    if (options.emitter_length != 1.0F)
+        scale_lengths(emitters, options.emitter_length);
     scene.start = emit(emitters, static_cast<std::uint64_t>(seed));
     return scene;
 }

@@ -2,15 +2,11 @@
 
 #include <algorithm>
 #include <array>
-#include <cstdio>
-#include <cstdlib>
-#include <filesystem>
 
 #include <fmt/format.h>
-#include <unistd.h>
 
+#include "crosscheck/gnuplot.hpp"
 #include "reference/collision_pass.hpp"
-#include "reference/model/error.hpp"
 
 namespace lockstep {
 namespace {
@@ -38,17 +34,6 @@ Rgba8 color(int rank) {
     return rank == 0 ? alone : rank == 1 ? recalled : miss_colors[static_cast<std::size_t>(rank - 2)];
 }
 
-std::string in_quotes(std::string_view text) {
-    std::string out(1, '\'');
-    for (const char c : text) {
-        if (c == '\'')
-            out += c;
-        out += c;
-    }
-    out += '\'';
-    return out;
-}
-
 std::string chart_script(std::span<const StudyFrame> frames, std::string_view title) {
     std::string script = "$data << EOD\n";
     for (const StudyFrame& frame : frames) {
@@ -64,7 +49,7 @@ std::string chart_script(std::span<const StudyFrame> frames, std::string_view ti
                           "set ylabel 'particles with an exact neighbour, %'\nset yrange [0:100]\n"
                           "set key outside right\nset grid\nplot $data using 1:2 with lines lw 2 lc rgb '#2a8040' "
                           "title 'recalled'",
-                          in_quotes(title));
+                          gnuplot_quoted(title));
     for (std::size_t m = 0; m < miss_names.size(); ++m) {
         bool any = false;
         for (const StudyFrame& frame : frames)
@@ -76,28 +61,6 @@ std::string chart_script(std::span<const StudyFrame> frames, std::string_view ti
     }
     return script + "\n";
 }
-
-/// A temporary file with what gnuplot is to do.
-class ScriptFile {
-  public:
-    explicit ScriptFile(const std::string& script)
-        : path_((std::filesystem::temp_directory_path() / "lockstep-chart-XXXXXX").string()) {
-        const int file = mkstemp(path_.data());
-        const bool written = file >= 0 && write(file, script.data(), script.size()) == std::ssize(script);
-        if (file >= 0)
-            close(file);
-        if (!written)
-            throw Error(fmt::format("chart: {} cannot be written", path_));
-    }
-    ~ScriptFile() { std::remove(path_.c_str()); }
-    ScriptFile(const ScriptFile&) = delete;
-    ScriptFile& operator=(const ScriptFile&) = delete;
-
-    [[nodiscard]] const std::string& path() const { return path_; }
-
-  private:
-    std::string path_;
-};
 
 } // namespace
 
@@ -125,19 +88,7 @@ std::string_view picture_legend() {
 }
 
 std::optional<std::string> chart_svg(std::span<const StudyFrame> frames, std::string_view title) {
-    if (std::system("command -v gnuplot >/dev/null 2>&1") != 0)
-        return {};
-    const ScriptFile script(chart_script(frames, title));
-    std::FILE* gnuplot = popen(fmt::format("gnuplot '{}'", script.path()).c_str(), "r");
-    if (gnuplot == nullptr)
-        throw Error("chart: gnuplot cannot be started");
-    std::string svg;
-    std::array<char, 4096> part{};
-    while (const std::size_t size = std::fread(part.data(), 1, part.size(), gnuplot))
-        svg.append(part.data(), size);
-    if (pclose(gnuplot) != 0 || svg.empty())
-        throw Error("chart: gnuplot failed; its message stands above");
-    return svg;
+    return run_gnuplot(chart_script(frames, title));
 }
 
 } // namespace lockstep

@@ -1,6 +1,5 @@
 #include <algorithm>
 #include <chrono>
-#include <cmath>
 #include <memory>
 #include <vector>
 
@@ -14,6 +13,7 @@
 #include "crosscheck/profiles.hpp"
 #include "crosscheck/scene_constants.hpp"
 #include "crosscheck/scene_file.hpp"
+#include "crosscheck/statistics.hpp"
 #include "gpu/context.hpp"
 #include "gpu/simulation.hpp"
 #include "reference/model/state_hash.hpp"
@@ -29,12 +29,6 @@ struct Options {
 };
 
 double now() { return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count(); }
-
-double median(std::vector<double> values) {
-    const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-    std::nth_element(values.begin(), middle, values.end());
-    return *middle;
-}
 
 /// Seconds a frame, medians over the run.
 struct Timing {
@@ -84,21 +78,6 @@ Timing time_run(const Scene& scene, const Profile& profile, const Options& optio
     timing.check = median(checked);
     timing.reference = median(reference);
     return timing;
-}
-
-/// Slope of log time over log count by least squares: 1 is linear.
-double fitted_exponent(const std::vector<std::size_t>& counts, const std::vector<double>& seconds) {
-    double n = 0.0, x = 0.0, y = 0.0, xx = 0.0, xy = 0.0;
-    for (std::size_t i = 0; i < counts.size(); ++i) {
-        const double u = std::log(static_cast<double>(counts[i]));
-        const double v = std::log(seconds[i]);
-        n += 1.0;
-        x += u;
-        y += v;
-        xx += u * u;
-        xy += u * v;
-    }
-    return (n * xy - x * y) / (n * xx - x * x);
 }
 
 std::size_t peak_bytes() {

@@ -7,10 +7,13 @@
 #include "crosscheck/commands/commands.hpp"
 #include "crosscheck/commands/option_values.hpp"
 #include "crosscheck/commands/run_options.hpp"
+#include "crosscheck/commands/thesis_study.hpp"
+#include "crosscheck/gnuplot.hpp"
 #include "crosscheck/output_files.hpp"
 #include "crosscheck/png.hpp"
 #include "crosscheck/progress.hpp"
 #include "crosscheck/recall_table.hpp"
+#include "crosscheck/scene_file.hpp"
 #include "crosscheck/study.hpp"
 #include "crosscheck/study_pictures.hpp"
 #include "crosscheck/study_report.hpp"
@@ -28,6 +31,8 @@ struct Options {
     std::filesystem::path scenes = "data/scenes";
     bool recall_table = false;
     bool catalogue = false;
+    bool thesis = false;
+    ThesisStudy thesis_study;
 };
 
 void print_recall_table(const Options& options) {
@@ -96,19 +101,28 @@ void study_scene(const Options& options) {
     if (!options.images.empty())
         fmt::print("\npictures  {}: {}\n", options.images.string(), picture_legend());
     if (!options.chart.empty() && !chart)
-        fmt::print("\nno chart: gnuplot is not installed (Debian package gnuplot-nox)\n");
+        fmt::print("\n{}\n", no_gnuplot);
 }
 
 int run(const Options& options) {
-    if (options.recall_table || options.catalogue) {
+    if (options.recall_table || options.catalogue || options.thesis) {
         if (!options.run.scene.empty())
-            throw Error("study: --recall-table and --catalogue have scenes of their own; leave SCENE out");
+            throw Error("study: --recall-table, --catalogue and --thesis have scenes of their own; leave SCENE out");
+        if (options.thesis) {
+            ThesisStudy study = options.thesis_study;
+            study.run = options.run;
+            study.scenes = options.scenes;
+            study.csv = options.csv;
+            study.json = options.json;
+            study.chart = options.chart;
+            run_thesis_study(study);
+        }
         if (options.recall_table)
             print_recall_table(options);
         return options.catalogue && !print_catalogue(options) ? status_differ : status_agree;
     }
     if (options.run.scene.empty())
-        throw Error("study: a SCENE, --recall-table or --catalogue is needed");
+        throw Error("study: a SCENE, --recall-table, --catalogue or --thesis is needed");
     if (options.run.frames < 2)
         throw Error("study: --frames 1 is the frame with the empty CDT; 2 or more have something to study");
     study_scene(options);
@@ -120,7 +134,7 @@ int run(const Options& options) {
 void add_study_command(CLI::App& app, int& status) {
     auto options = std::make_shared<Options>();
     CLI::App* verb = app.add_subcommand("study", "compare what the CDT search finds with the exact neighbours, and say "
-                                                 "why it misses what it misses; needs no GL");
+                                                 "why it misses what it misses; needs no GL but for --thesis");
     add_scene_options(*verb, options->run);
     verb->get_option("scene")->required(false);
     verb->add_option("--frames", options->run.frames, "frames to run")->check(integer(1, most_frames))->type_name("N");
@@ -137,9 +151,26 @@ void add_study_command(CLI::App& app, int& status) {
     verb->add_flag("--recall-table", options->recall_table, "clouds at rest instead of a scene: recall by radius");
     verb->add_flag("--catalogue", options->catalogue,
                    "the thesis's failure catalogue as a table; exit status 1 if an effect is not there");
-    verb->add_option("--scenes", options->scenes, "where the scenes of --recall-table and --catalogue are")
+    verb->add_flag("--thesis", options->thesis,
+                   "the thesis's tables 4-1 and 5-1 and figures 5-3 and 5-5, CDT and octree, on GL; "
+                   "--frames, --json, --csv, --chart, --set and --gl apply");
+    verb->add_option("--counts", options->thesis_study.counts, "--thesis: particle counts")
+        ->delimiter(',')
+        ->allow_extra_args(false)
+        ->check(integer(1, most_particles))
+        ->type_name("N,...");
+    verb->add_option("--seconds", options->thesis_study.seconds,
+                     "--thesis: a measurement ends with the frame in which this is over")
+        ->check(CLI::PositiveNumber)
+        ->type_name("S");
+    verb->add_option("--from", options->thesis_study.from,
+                     "--thesis: tell and draw what an earlier --json wrote, on a machine without that GL")
+        ->type_name("FILE");
+    add_gl_options(*verb, options->run);
+    verb->add_option("--scenes", options->scenes, "where the scenes of --recall-table, --catalogue and --thesis are")
         ->type_name("DIR");
-    verb->footer("Example: lockstep study data/scenes/x_streams.json --frames 60 --every 10");
+    verb->footer("Examples: lockstep study data/scenes/x_streams.json --frames 60 --every 10\n"
+                 "          lockstep study --thesis --gl egl-device:0 --json thesis.json --chart thesis.svg");
     verb->callback([options, &status] { status = run(*options); });
 }
 

@@ -100,4 +100,18 @@ void scale_counts(std::vector<Emitter>& emitters, std::size_t total) {
     }
 }
 
+void scale_lengths(std::vector<Emitter>& emitters, float factor) {
+    for (Emitter& emitter : emitters) {
+        glm::vec3::length_type axis = 0;
+        for (const glm::vec3::length_type other : {1, 2})
+            if (std::abs(emitter.direction[other]) > std::abs(emitter.direction[axis]))
+                axis = other;
+        const float length = (emitter.box.max[axis] - emitter.box.min[axis]) * factor;
+        if (emitter.direction[axis] > 0.0F)
+            emitter.box.min[axis] = emitter.box.max[axis] - length;
+        else
+            emitter.box.max[axis] = emitter.box.min[axis] + length;
+    }
+}
+
 } // namespace lockstep

@@ -36,4 +36,8 @@ Particles emit(std::span<const Emitter> emitters, std::uint64_t seed);
 /// Changes the counts so that they sum to `total` and keep their proportions. The counts must not all be 0.
 void scale_counts(std::vector<Emitter>& emitters, std::size_t total);
 
+/// Makes each box `factor` (> 0) times as long along the axis that its direction is closest to, and leaves the side in
+/// front where it is: with counts scaled alike, as dense as before.
+void scale_lengths(std::vector<Emitter>& emitters, float factor);
+
 } // namespace lockstep

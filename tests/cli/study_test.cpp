@@ -47,9 +47,9 @@ TEST_CASE("study: a chart, or one line that says what is missing") {
 }
 
 TEST_CASE("study: what cannot be studied is refused in one line") {
-    CHECK(refusal(run_lockstep({"study"})) == "study: a SCENE, --recall-table or --catalogue is needed");
+    CHECK(refusal(run_lockstep({"study"})) == "study: a SCENE, --recall-table, --catalogue or --thesis is needed");
     CHECK(refusal(run_lockstep({"study", scene(), "--catalogue"})) ==
-          "study: --recall-table and --catalogue have scenes of their own; leave SCENE out");
+          "study: --recall-table, --catalogue and --thesis have scenes of their own; leave SCENE out");
     CHECK(refusal(run_lockstep({"study", scene(), "--frames", "1"})) ==
           "study: --frames 1 is the frame with the empty CDT; 2 or more have something to study");
     CHECK(refusal(run_lockstep({"study", scene(), "--set", "search=octree"})) ==
@@ -61,4 +61,38 @@ TEST_CASE("study: a scene of the catalogue that is not there is named") {
     const auto outcome = run_lockstep({"study", "--catalogue", "--scenes", input().path().string()});
     CHECK(outcome.status == 2);
     CHECK_THAT(outcome.err, Catch::Contains("catalogue/close_up.json"));
+}
+
+TEST_CASE("study: the thesis's tables, measured, and told again from what was written") {
+    if (!test::have_osmesa())
+        return;
+    const test::TemporaryFolder scenes, output;
+    for (const char* name : {"bunny_a", "bunny_b", "dragon_a", "dragon_b", "x_streams"})
+        scenes.write(std::string(name) + ".json", test::small_scene);
+    const auto path = [&](const char* name) { return (output.path() / name).string(); };
+    const auto measured =
+        run_lockstep({"study", "--thesis", "--scenes", scenes.path().string(), "--counts", "100,200", "--frames", "2",
+                      "--gl", "osmesa", "--json", path("a.json"), "--csv", path("a.csv")});
+    CHECK(measured.err.empty());
+    CHECK(measured.status == 0);
+    CHECK(test::names_in(output.path()) == std::vector<std::string>{"a.csv", "a.json"});
+    const auto told = run_lockstep({"study", "--thesis", "--from", path("a.json"), "--csv", path("b.csv")});
+    CHECK(told.status == 0);
+    CHECK_THAT(told.out, Catch::StartsWith("GL ") && Catch::Contains("Figure 5-5"));
+    CHECK_THAT(measured.out, Catch::Contains(" 2 ") && Catch::EndsWith(told.out));
+
+    const auto without = run_lockstep(
+        {"study", "--thesis", "--scenes", scenes.path().string(), "--counts", "100", "--frames", "1", "--gl", "osmesa"},
+        {{{"GALLIUM_DRIVER", "softpipe"}}, {}, {}, {}});
+    CHECK(without.status == 0);
+    CHECK_THAT(without.out, Catch::StartsWith("no octree: it needs compute shaders, GL 4.3; this context is 3.3"));
+}
+
+TEST_CASE("study: what the thesis's tables cannot be made of is refused in one line") {
+    CHECK(refusal(run_lockstep({"study", "--thesis", "--particles", "9"})) ==
+          "study: --thesis has several counts; --counts N,... names them");
+    CHECK_THAT(refusal(run_lockstep({"study", "--thesis", "--from", "/nowhere/a.json"})),
+               Catch::StartsWith("/nowhere/a.json"));
+    CHECK_THAT(refusal(run_lockstep({"study", "--thesis", "--json", "/nowhere/a.json"})),
+               Catch::StartsWith("/nowhere"));
 }

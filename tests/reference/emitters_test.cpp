@@ -124,3 +124,17 @@ TEST_CASE("emitters: scaled counts keep their proportions and sum exactly") {
         CHECK(static_cast<double>(scaled[0].count) == Approx(0.6 * static_cast<double>(total)).margin(1.0));
     }
 }
+
+TEST_CASE("emitters: a shorter box keeps its side in front, and the density") {
+    std::vector<Emitter> emitters{emitter(EmitterShape::box, 1000), emitter(EmitterShape::box, 1000),
+                                  emitter(EmitterShape::box, 1000)};
+    emitters[1].direction = {0.0F, -1.0F, 0.2F};
+    emitters[2].direction = {-0.1F, 0.0F, 3.0F};
+    scale_lengths(emitters, 0.5F);
+    CHECK(emitters[0].box.min == glm::vec3(0.0F, 2.0F, 0.0F));
+    CHECK(emitters[0].box.max == glm::vec3(1.0F, 3.0F, 0.5F));
+    CHECK(emitters[1].box.min == glm::vec3(-1.0F, 2.0F, 0.0F));
+    CHECK(emitters[1].box.max == glm::vec3(1.0F, 2.5F, 0.5F));
+    CHECK(emitters[2].box.min == glm::vec3(-1.0F, 2.0F, 0.25F));
+    CHECK(emitters[2].box.max == glm::vec3(1.0F, 3.0F, 0.5F));
+}

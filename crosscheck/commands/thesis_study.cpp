@@ -1,0 +1,68 @@
+#include "crosscheck/commands/thesis_study.hpp"
+
+#include <algorithm>
+#include <cstdio>
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+#include <omp.h>
+
+#include "crosscheck/gnuplot.hpp"
+#include "crosscheck/output_files.hpp"
+#include "crosscheck/thesis_report.hpp"
+#include "gpu/context.hpp"
+#include "reference/model/error.hpp"
+
+namespace lockstep {
+namespace {
+
+ThesisRun measure(const ThesisStudy& study) {
+    if (study.run.threads > 0)
+        omp_set_num_threads(study.run.threads);
+    const Context context(parse_context_request(study.run.gl));
+    ThesisOptions options;
+    options.scenes = study.scenes;
+    options.shaders = study.run.shaders;
+    options.preset = study.run.preset;
+    options.set = study.run.set;
+    options.counts = study.counts;
+    options.frames = study.run.frames;
+    options.seconds = study.seconds;
+    options.octree = context.describe().compute;
+    options.on_cell = [](const ThesisCell& cell) {
+        fmt::print("{}", thesis_cell_text(cell));
+        std::fflush(stdout);
+    };
+    if (!options.octree)
+        fmt::print("no octree: it needs compute shaders, GL 4.3; this context is {}\n", context.describe().version);
+    fmt::print("{}", thesis_cell_head());
+    ThesisRun run{summary(context.describe()), thesis_study(options)};
+    fmt::print("\n");
+    return run;
+}
+
+} // namespace
+
+void run_thesis_study(const ThesisStudy& study) {
+    if (study.run.particles)
+        throw Error("study: --thesis has several counts; --counts N,... names them");
+    OutputFiles files;
+    for (const auto& file : {study.csv, study.json, study.chart})
+        if (!file.empty())
+            files.expect(file);
+    const ThesisRun run = study.from.empty() ? measure(study) : read_thesis_json(study.from);
+    fmt::print("{}", thesis_text(run));
+    if (!study.csv.empty())
+        files.write(study.csv, thesis_csv(run));
+    if (!study.json.empty())
+        files.write(study.json, thesis_json(run).dump(2, ' ', false, nlohmann::json::error_handler_t::replace) + "\n");
+    if (!study.chart.empty()) {
+        if (const auto svg = run_gnuplot(thesis_chart(run)))
+            files.write(study.chart, *svg);
+        else
+            fmt::print("\n{}\n", no_gnuplot);
+    }
+    files.commit();
+}
+
+} // namespace lockstep

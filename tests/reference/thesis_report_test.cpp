@@ -1,0 +1,115 @@
+#include <catch2/catch.hpp>
+
+#include <algorithm>
+#include <array>
+#include <iterator>
+#include <limits>
+#include <sstream>
+#include <string>
+#include <vector>
+
+#include <nlohmann/json.hpp>
+
+#include "crosscheck/statistics.hpp"
+#include "crosscheck/thesis_report.hpp"
+#include "tests/temporary_folder.hpp"
+
+using namespace lockstep;
+
+namespace {
+
+/// CDT: 1 ms per 10,000 particles; octree: six times that and a little more.
+ThesisRun linear_run(bool with_octree = true) {
+    ThesisRun run;
+    run.context = "made up";
+    for (const std::string_view scene : thesis_scenes)
+        for (const std::size_t count : {50'000U, 100'000U, 150'000U, 200'000U}) {
+            ThesisCell cell{std::string(scene), count, {}, {}};
+            cell.cdt = {60, static_cast<double>(count) * 1e-7, static_cast<double>(count) * 0.5e-7, 0.25};
+            if (with_octree)
+                cell.octree = SystemTimes{30, static_cast<double>(count) * 6e-7, 0.0, 0.9375};
+            run.cells.push_back(cell);
+        }
+    return run;
+}
+
+} // namespace
+
+TEST_CASE("statistics: the median of an odd and an even number of values") {
+    CHECK(median({3.0, 1.0, 2.0}) == 2.0);
+    CHECK(median({4.0, 1.0, 3.0, 2.0}) == 3.0);
+    CHECK(median({5.0}) == 5.0);
+}
+
+TEST_CASE("statistics: the exponent of powers") {
+    const std::array<std::size_t, 3> counts{10, 100, 1000};
+    CHECK(fitted_exponent(counts, std::array{3.0, 30.0, 300.0}) == Approx(1.0));
+    CHECK(fitted_exponent(counts, std::array{1.0, 100.0, 10000.0}) == Approx(2.0));
+    CHECK(fitted_exponent(counts, std::array{7.0, 7.0, 7.0}) == Approx(0.0).margin(1e-12));
+}
+
+TEST_CASE("thesis_report: tables, figures and ratios, the thesis's beside") {
+    const std::string text = thesis_text(linear_run());
+    CHECK_THAT(text, Catch::Contains("Table 4-1") && Catch::Contains("Table 5-1") && Catch::Contains("Figure 5-3") &&
+                         Catch::Contains("Figure 5-5"));
+    const auto has_row = [&](std::vector<std::string> words) {
+        std::istringstream lines(text);
+        for (std::string line; std::getline(lines, line);) {
+            std::istringstream split(line);
+            if (std::vector<std::string>{std::istream_iterator<std::string>(split), {}} == words)
+                return true;
+        }
+        return false;
+    };
+    CHECK(
+        has_row({"bunny", "A", "5.00", "10.00", "15.00", "20.00", "1.00", "12.00", "27.00", "52.00", "65.00", "1.26"}));
+    CHECK(has_row({"dragon", "B", "30.00", "60.00", "90.00", "120", "1.00", "104", "194", "284", "370", "0.92"}));
+    CHECK(has_row({"octree", "30.00", "60.00", "90.00", "120", "1.00", "102", "194", "284", "392", "0.96"}));
+    CHECK(has_row({"bunny", "B", "6.0", "6.0", "6.0", "6.0", "7.7", "6.3", "5.7", "5.9"}));
+    CHECK(has_row({"x-streams", "6.0", "6.0", "6.0", "6.0", "-", "-", "-", "-"}));
+    CHECK_THAT(text, Catch::Contains("25.0 / 93.8") && Catch::Contains("12.50 ms at 125000 particles") &&
+                         Catch::Contains("x 1.00 to 1.00 (CDT), 1.00 to 1.00 (octree)") &&
+                         Catch::Contains("octree / CDT: 6.0 to 6.0 (thesis 4.5 to 7.7); the octree is slower in every "
+                                         "cell"));
+}
+
+TEST_CASE("thesis_report: without an octree its columns are empty") {
+    const ThesisRun run = linear_run(false);
+    CHECK_THAT(thesis_text(run), Catch::Contains("25.0 / -") && Catch::Contains("the octree is not slower"));
+    CHECK_THAT(thesis_csv(run), Catch::Contains("\nbunny_b,50000,5,2.5,0.25,,,,,13,100\n"));
+    CHECK_FALSE(thesis_json(run).at("cells").front().contains("octree"));
+}
+
+TEST_CASE("thesis_report: CSV has a line a cell, what is not known left empty") {
+    const std::string csv = thesis_csv(linear_run());
+    CHECK_THAT(csv, Catch::StartsWith("scene,particles,cdt_ms,cdt_gpu_ms,cdt_recall,octree_ms,octree_gpu_ms,"
+                                      "octree_recall,octree_over_cdt,thesis_cdt_ms,thesis_octree_ms\n"));
+    CHECK_THAT(csv, Catch::Contains("\nbunny_b,50000,5,2.5,0.25,30,,0.9375,6,13,100\n"));
+    CHECK_THAT(csv, Catch::Contains("\nx_streams,200000,20,10,0.25,120,,0.9375,6,,\n"));
+    CHECK(std::count(csv.begin(), csv.end(), '\n') == 21);
+}
+
+TEST_CASE("thesis_report: what was written as JSON is read back, what is wrong in it told") {
+    const test::TemporaryFolder folder;
+    ThesisRun run = linear_run();
+    run.cells[3].cdt.recall = std::numeric_limits<double>::quiet_NaN();
+    run.cells[4].octree.reset();
+    const auto file = folder.write("run.json", thesis_json(run).dump());
+    const ThesisRun read = read_thesis_json(file);
+    CHECK(thesis_csv(read) == thesis_csv(run));
+    CHECK(thesis_text(read) == thesis_text(run));
+
+    run.cells.pop_back();
+    folder.write("run.json", thesis_json(run).dump());
+    CHECK_THROWS_WITH(read_thesis_json(file), Catch::Contains("/cells: scene x_streams has another number of cells"));
+    nlohmann::json json = thesis_json(run);
+    json["cells"][0]["cdt"]["recall"] = 2.0;
+    folder.write("run.json", json.dump());
+    CHECK_THROWS_WITH(read_thesis_json(file), Catch::Contains("/cells/0/cdt/recall: 2.0 is not a share from 0 to 1"));
+}
+
+TEST_CASE("thesis_report: the chart has both tables and both figures") {
+    const std::string script = thesis_chart(linear_run(false));
+    CHECK_THAT(script, Catch::Contains("Table 4-1") && Catch::Contains("Table 5-1") && Catch::Contains("Figure 5-3") &&
+                           Catch::Contains("Figure 5-5") && Catch::Contains("\n50000 5 NaN 13.5 102\n"));
+}

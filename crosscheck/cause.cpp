@@ -14,6 +14,8 @@
 namespace lockstep {
 namespace {
 
+constexpr std::size_t first_pair_sample = 8;
+constexpr std::size_t first_pairs_kept = 256;
 constexpr std::size_t pair_sample = 48;
 constexpr std::size_t pairs_kept = 8;
 constexpr std::size_t whole_kept = 8;
@@ -43,6 +45,14 @@ Deviations together(const Cause& cause) {
     return set;
 }
 
+/// Says what is seen, and so cannot be wrong where it explains everything; other causes of it are guesses.
+bool describes(const Cause& cause) {
+    return std::all_of(cause.deviations.begin(), cause.deviations.end(), [](Deviation deviation) {
+        return deviation == Deviation::never_collides || deviation == Deviation::cdt_not_drawn ||
+               deviation == Deviation::obstacles_not_drawn;
+    });
+}
+
 /// More explained than contradicted; then the simpler.
 bool better(const Cause& a, const Cause& b) {
     const auto balance = [](const Cause& c) {
@@ -50,6 +60,9 @@ bool better(const Cause& a, const Cause& b) {
     };
     return std::tuple(balance(a), a.deviations.size()) < std::tuple(balance(b), b.deviations.size());
 }
+
+/// `better`, with a description before its equals.
+bool before(const Cause& a, const Cause& b) { return better(a, b) || (!better(b, a) && describes(a) && !describes(b)); }
 
 bool is_whole(const Cause& cause, std::uint64_t divergent) {
     return cause.explained == divergent && cause.contradicted == 0;
@@ -82,8 +95,16 @@ float allowed_error(const Profile& profile) {
     return worst == 0 ? 0.0F : static_cast<float>(std::min<std::int64_t>(2 * worst + 4, 64)) * 0x1p-23F;
 }
 
+/// The same bits but for the sign of zero, which depends on how a mistake was written down.
+bool same_values(glm::vec3 a, glm::vec3 b) {
+    for (int c = 0; c < 3; ++c)
+        if (!same_bits(a[c], b[c]) && !(a[c] == 0.0F && b[c] == 0.0F))
+            return false;
+    return true;
+}
+
 bool near(glm::vec3 a, glm::vec3 b, float error) {
-    if (same_bits(a, b))
+    if (same_values(a, b))
         return true;
     const float largest = std::max({std::abs(b.x), std::abs(b.y), std::abs(b.z)});
     for (int c = 0; c < 3; ++c)
@@ -93,8 +114,6 @@ bool near(glm::vec3 a, glm::vec3 b, float error) {
 }
 
 bool alike(const ParticleState& a, const ParticleState& b, float error) {
-    if (error == 0.0F)
-        return same_bits(a, b);
     return same_bits(a.collide_time, b.collide_time) && near(glm::vec3(a.speed), glm::vec3(b.speed), error) &&
            near(a.direction, b.direction, error) && near(a.position, b.position, error);
 }
@@ -193,9 +212,36 @@ void contradict_by_drawing(std::vector<Cause>& causes, std::size_t divergent, co
         cause->contradicted += trials.contradicted(*cause);
 }
 
+/// What is drawn in a wrong place because the step computes it wrongly would show in the particles, too.
+void contradict_by_steps(std::vector<Cause>& causes, std::size_t divergent, const JudgedFrame& frame,
+                         const FrameInputs& inputs, const std::vector<std::size_t>& agreeing) {
+    const float error = allowed_error(frame.profile);
+    for (Cause& cause : causes) {
+        if (cause.explained < divergent || std::none_of(cause.deviations.begin(), cause.deviations.end(), changes_step))
+            continue;
+        const Deviations deviations = together(cause);
+        cause.contradicted +=
+            static_cast<std::uint64_t>(std::count_if(agreeing.begin(), agreeing.end(), [&](std::size_t i) {
+                return !alike(deviating_step(inputs, i, frame.profile, deviations), frame.gpu[i], error);
+            }));
+    }
+}
+
+/// At most trial_items particles that do not differ.
+std::vector<std::size_t> agreeing_particles(const JudgedFrame& frame, const FrameVerdicts& verdicts) {
+    std::vector<std::size_t> equal;
+    for (std::size_t i = 0, next = 0; i < frame.gpu.size(); ++i) {
+        if (next < verdicts.particles.size() && verdicts.particles[next].index == i)
+            ++next;
+        else
+            equal.push_back(i);
+    }
+    return sample(equal, CauseFinder::trial_items);
+}
+
 /// The best few.
 std::vector<Cause> best_of(std::vector<Cause> causes, std::size_t count) {
-    std::stable_sort(causes.begin(), causes.end(), better);
+    std::stable_sort(causes.begin(), causes.end(), before);
     if (causes.size() > count)
         causes.resize(count);
     return causes;
@@ -263,14 +309,7 @@ void CauseFinder::hold_against(Trial& trial, const std::vector<std::size_t>& div
 }
 
 void CauseFinder::try_on_particles(const JudgedFrame& frame, const FrameVerdicts& verdicts, const FrameInputs& inputs) {
-    std::vector<std::size_t> equal;
-    for (std::size_t i = 0, next = 0; i < frame.gpu.size(); ++i) {
-        if (next < verdicts.particles.size() && verdicts.particles[next].index == i)
-            ++next;
-        else
-            equal.push_back(i);
-    }
-    equal = sample(equal, trial_items);
+    const std::vector<std::size_t> equal = agreeing_particles(frame, verdicts);
     const std::vector<std::size_t> wrong = divergent(verdicts.particles);
     const auto count = [&](std::vector<Cause>& causes, const std::vector<std::size_t>& items) {
         count_particles(causes, frame, inputs, items, equal);
@@ -284,12 +323,16 @@ void CauseFinder::try_on_particles(const JudgedFrame& frame, const FrameVerdicts
         for (const std::size_t i : sample(wrong, trial_items))
             if (!alike(deviating_step(inputs, i, frame.profile, best), frame.gpu[i], allowed_error(frame.profile)))
                 rest.push_back(i);
-        std::vector<std::size_t> telling = sample(rest, pair_sample);
-        const std::vector<std::size_t> others = sample(wrong, pair_sample);
-        telling.insert(telling.end(), others.begin(), others.end());
-        count_particles(two, frame, inputs, telling, sample(equal, pair_sample));
-        two = best_of(std::move(two), pairs_kept);
-        forget_counts(two);
+        const auto keep_best = [&](std::size_t items, std::size_t kept) {
+            std::vector<std::size_t> telling = sample(rest, items);
+            const std::vector<std::size_t> others = sample(wrong, items);
+            telling.insert(telling.end(), others.begin(), others.end());
+            count_particles(two, frame, inputs, telling, sample(equal, items));
+            two = best_of(std::move(two), kept);
+            forget_counts(two);
+        };
+        keep_best(first_pair_sample, first_pairs_kept);
+        keep_best(pair_sample, pairs_kept);
         count(two, sample(wrong, trial_items));
         return two;
     };
@@ -305,8 +348,10 @@ void CauseFinder::try_on_texels(const JudgedFrame& frame, const FrameVerdicts& v
     if (wrong.empty())
         return;
     const TexelTrials trials(frame, inputs);
+    const std::vector<std::size_t> equal = agreeing_particles(frame, verdicts);
     const auto count = [&](std::vector<Cause>& causes, const std::vector<std::size_t>& items) {
         trials.count(causes, items);
+        contradict_by_steps(causes, items.size(), frame, inputs, equal);
     };
     const auto best_pairs = [&] {
         // Each trial draws a whole image: only what explains something alone is worth a partner.

@@ -13,24 +13,6 @@
 namespace lockstep {
 namespace {
 
-std::string_view verdict_name(Verdict verdict) {
-    switch (verdict) {
-    case Verdict::agree:
-        return "AGREE";
-    case Verdict::legal:
-        return "LEGAL";
-    case Verdict::undefined:
-        return "UNDEFINED";
-    case Verdict::divergent:
-        return "DIVERGENT";
-    case Verdict::differ:
-        return "DIFFER";
-    case Verdict::nondeterministic:
-        return "NONDETERMINISTIC";
-    }
-    return "";
-}
-
 std::string ulp_text(std::int64_t ulp) {
     if (ulp == INT64_MAX)
         return "NaN on one side";
@@ -101,6 +83,24 @@ std::string verdict_line(const CheckReport& r) {
 }
 
 } // namespace
+
+std::string_view verdict_name(Verdict verdict) {
+    switch (verdict) {
+    case Verdict::agree:
+        return "AGREE";
+    case Verdict::legal:
+        return "LEGAL";
+    case Verdict::undefined:
+        return "UNDEFINED";
+    case Verdict::divergent:
+        return "DIVERGENT";
+    case Verdict::differ:
+        return "DIFFER";
+    case Verdict::nondeterministic:
+        return "NONDETERMINISTIC";
+    }
+    return "";
+}
 
 std::string report_text(const CheckReport& r, const RunDescription& run) {
     std::string out;

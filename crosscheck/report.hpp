@@ -19,6 +19,9 @@ struct RunDescription {
     std::string explain; ///< one that shows the first divergence step by step; empty if there is none
 };
 
+/// "AGREE", "LEGAL", ...
+std::string_view verdict_name(Verdict verdict);
+
 /// The report as a person reads it, verdict last but one, at most 60 lines. See README, "How to read a report".
 std::string report_text(const CheckReport& report, const RunDescription& run);
 

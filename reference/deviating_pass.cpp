@@ -4,6 +4,7 @@
 #include <cmath>
 #include <optional>
 #include <type_traits>
+#include <utility>
 
 #include "reference/collision_code.hpp"
 #include "reference/subnormals.hpp"
@@ -22,6 +23,14 @@ FrameParams stored_as(FrameParams params, CdtFormat format) {
     params.switches.cdt_format = format;
     return params;
 }
+
+struct PortableRightToLeft : Portable {
+    static float dot(glm::vec3 a, glm::vec3 b) {
+        return add(multiply(a.x, b.x), add(multiply(a.y, b.y), multiply(a.z, b.z)));
+    }
+    static float length(glm::vec3 v) { return sqrt(dot(v, v)); }
+    static glm::vec3 normalize(glm::vec3 v) { return scale(v, inverse_sqrt(dot(v, v))); }
+};
 
 /// The arithmetic a step is made with: the profile's, or a deviating one.
 template <class Pass> decltype(auto) with_deviating_arithmetic(const Profile& profile, Switches switches,
@@ -110,10 +119,7 @@ template <class A> class DeviatingStep {
             p.y = 1.0F - p.y;
         if (trace_ != nullptr)
             trace_->texture_coordinate = p;
-        int width = params_.width;
-        int height = params_.height;
-        if (has(width_and_height_swapped))
-            std::swap(width, height);
+        const auto [width, height] = client_size();
         const float less = has(size_minus_one) ? 1.0F : 0.0F;
         p = {p.x * (static_cast<float>(width) - less), p.y * (static_cast<float>(height) - less)};
         if (has(half_texel_up))
@@ -135,6 +141,22 @@ template <class A> class DeviatingStep {
 
   private:
     [[nodiscard]] bool has(Deviation deviation) const { return deviations_.has(deviation); }
+
+    [[nodiscard]] std::pair<int, int> client_size() const {
+        return has(width_and_height_swapped) ? std::pair(params_.height, params_.width)
+                                             : std::pair(params_.width, params_.height);
+    }
+
+    /// As the shader asks it, by its uniforms.
+    [[nodiscard]] bool on_image(BaseTexelIndex texel) const {
+        const auto [width, height] = client_size();
+        return texel.x >= 0 && texel.y >= 0 && texel.x < width && texel.y < height;
+    }
+
+    /// Outside, where only a wrong size leads, drivers answer 0.
+    [[nodiscard]] glm::vec4 fetch(BaseTexelIndex texel) const {
+        return cdt_.contains(texel.x, texel.y) ? cdt_.at(texel.x, texel.y) : glm::vec4(0.0F);
+    }
 
     [[nodiscard]] bool may_search(float collide_time) const {
         if (has(never_collides))
@@ -201,13 +223,13 @@ template <class A> class DeviatingStep {
     }
 
     std::optional<glm::vec3> nearest_collision(glm::vec3 position, BaseTexelIndex base) {
-        if (!cdt_.contains(base.x, base.y))
+        if (!on_image(base))
             return {};
         glm::vec3 own = position;
         const bool from_texel = switches_.self_position == SelfPosition::texel ? !has(own_position_from_vertex)
                                                                                : has(own_position_from_texel);
         if (from_texel) {
-            const glm::vec4 self = cdt_.at(base.x, base.y);
+            const glm::vec4 self = fetch(base);
             if (!holds_particle(self))
                 return {};
             own = decode(self);
@@ -231,11 +253,11 @@ template <class A> class DeviatingStep {
                 BaseTexelIndex texel{base.x + tx, base.y + ty};
                 NeighbourTrace seen;
                 seen.texel = texel;
-                seen.on_image = cdt_.contains(texel.x, texel.y);
+                seen.on_image = on_image(texel);
                 glm::vec4 stored(0.0F);
                 bool fetched = seen.on_image || bring_inside(texel);
                 if (fetched)
-                    stored = cdt_.at(texel.x, texel.y);
+                    stored = fetch(texel);
                 bool holds = fetched && holds_particle(stored);
                 if (!fetched && has(outside_fetched_as_origin))
                     fetched = holds = true;
@@ -353,9 +375,9 @@ template <class A> class DeviatingPoint {
         if (has(point_on_upper_pixel))
             rules_.point_edge_to_lower = !rules_.point_edge_to_lower;
         if (has(point_half_pixel_up))
-            shift_ = 0.5F;
+            shift_ = 1.0F;
         if (has(point_half_pixel_down))
-            shift_ = -0.5F;
+            shift_ = -1.0F;
     }
 
     [[nodiscard]] PointFragment operator()(glm::vec3 position) const {
@@ -364,6 +386,10 @@ template <class A> class DeviatingPoint {
             clip.w = 1.0F;
         if (has(point_y_flipped))
             clip.y = -clip.y;
+        if (shift_ != 0.0F) {
+            clip.x += clip.w * (shift_ / static_cast<float>(params_.width));
+            clip.y += clip.w * (shift_ / static_cast<float>(params_.height));
+        }
         return std::is_same_v<A, Portable> ? placed(clip) : rasterised(clip);
     }
 
@@ -382,8 +408,8 @@ template <class A> class DeviatingPoint {
         if (!in_clip_volume(clip))
             return {};
         const WindowPosition window = window_position(clip, viewport_width_, viewport_height_, rules_);
-        const int x = point_pixel(snap_point(window.x + shift_, rules_), rules_);
-        const int y = point_pixel(snap_point(window.y + shift_, rules_), rules_);
+        const int x = point_pixel(snap_point(window.x, rules_), rules_);
+        const int y = point_pixel(snap_point(window.y, rules_), rules_);
         if (x < 0 || y < 0 || x >= params_.width || y >= params_.height)
             return {};
         return {x, y, rules_.depth_by_driver_reciprocal ? clip.z * A::reciprocal(clip.w) * 0.5F + 0.5F : window.z};
@@ -395,7 +421,7 @@ template <class A> class DeviatingPoint {
     DeviatingStep<A> step_;
     int viewport_width_ = params_.width;
     int viewport_height_ = params_.height;
-    float shift_ = 0.0F;
+    float shift_ = 0.0F; ///< half pixels
 };
 
 class DepthTest {
@@ -472,16 +498,23 @@ void deviating_draw(const FrameInputs& inputs, const Particles& after, const Pro
     const FlushSubnormals guard(profile.flush_subnormals);
     DepthImage depth;
     prepare(inputs, profile, deviations, obstacles_cdt, obstacles_depth, cdt, depth);
+    const CollisionCode code(*inputs.params);
+    const bool is_coarse = deviations.has(half_cdt) || deviations.has(unorm8_cdt);
+    const CollisionCode coarse(
+        stored_as(*inputs.params, deviations.has(half_cdt) ? CdtFormat::rgba16f : CdtFormat::rgba8));
+    const auto stored_code = [&](glm::vec3 position) {
+        return code.encode(is_coarse ? coarse.decode(coarse.encode(position)) : position);
+    };
+    if (is_coarse)
+        for (glm::vec4& texel : cdt.texels)
+            if (texel.a != 0.0F)
+                texel = stored_code(code.decode(texel));
     if (deviations.has(cdt_not_drawn))
         return;
     const std::vector<glm::vec3>& positions = drawn_positions(inputs, after, deviations);
     const std::vector<glm::vec3>& stored = deviations.has(stores_direction)         ? after.direction
                                            : deviations.has(stores_position_before) ? inputs.before->position
                                                                                     : after.position;
-    const CollisionCode code(*inputs.params);
-    const bool is_coarse = deviations.has(half_cdt) || deviations.has(unorm8_cdt);
-    const CollisionCode coarse(
-        stored_as(*inputs.params, deviations.has(half_cdt) ? CdtFormat::rgba16f : CdtFormat::rgba8));
     const DepthTest test(deviations);
     with_deviating_arithmetic(profile, inputs.params->switches, deviations, [&]<class A>(A) {
         const DeviatingPoint<A> fragment(inputs, deviations, profile.raster);
@@ -491,7 +524,7 @@ void deviating_draw(const FrameInputs& inputs, const Particles& after, const Pro
                 continue;
             depth.at(point.x, point.y) = point.depth;
             glm::vec4& texel = cdt.at(point.x, point.y);
-            texel = code.encode(is_coarse ? coarse.decode(coarse.encode(stored[i])) : stored[i]);
+            texel = stored_code(stored[i]);
             if (deviations.has(alpha_missing))
                 texel.a = 0.0F;
         }

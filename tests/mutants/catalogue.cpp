@@ -1,0 +1,118 @@
+#include "tests/mutants/catalogue.hpp"
+
+#include <algorithm>
+#include <fstream>
+#include <iterator>
+#include <set>
+
+#include <fmt/format.h>
+
+#include "crosscheck/json_reader.hpp"
+#include "reference/deviation.hpp"
+#include "reference/model/error.hpp"
+#include "tests/mutants/host_faults.hpp"
+
+namespace lockstep::test {
+namespace {
+
+Edit read_edit(const JsonValue& json) {
+    Edit edit{json.at("file").text(), json.at("text").text(), json.at("replacement").text()};
+    if (const auto times = json.find("times"))
+        edit.times = static_cast<int>(times->integer(1, 1000));
+    return edit;
+}
+
+std::string text_or_nothing(const JsonValue& json, std::string_view key) {
+    const auto value = json.find(key);
+    return value ? value->text() : std::string();
+}
+
+Mutant read_mutant(const JsonValue& json) {
+    Mutant mutant;
+    mutant.name = json.at("name").text();
+    mutant.cause = text_or_nothing(json, "cause");
+    mutant.equivalent = text_or_nothing(json, "equivalent");
+    if (const auto alike = json.find("alike"))
+        for (const std::string& name : alike->keys())
+            mutant.alike[name] = alike->at(name).text();
+    if (json.find("fault")) {
+        json.check_keys({"name", "fault", "cause", "alike", "equivalent"});
+        mutant.fault = json.at("fault").text();
+        if (!is_host_fault(mutant.fault))
+            json.at("fault").fail("host_faults.cpp has no such fault");
+    } else if (json.find("edits")) {
+        json.check_keys({"name", "edits", "cause", "alike", "equivalent"});
+        for (const JsonValue& edit : json.at("edits").items()) {
+            edit.check_keys({"file", "text", "replacement", "times"});
+            mutant.edits.push_back(read_edit(edit));
+        }
+    } else {
+        json.check_keys({"name", "file", "text", "replacement", "times", "cause", "alike", "equivalent"});
+        mutant.edits.push_back(read_edit(json));
+    }
+    const auto table = deviation_table();
+    if (!mutant.cause.empty() &&
+        std::none_of(table.begin(), table.end(), [&](const DeviationInfo& info) { return info.name == mutant.cause; }))
+        json.at("cause").fail("reference/deviation.hpp has no such deviation");
+    return mutant;
+}
+
+std::string content(const std::filesystem::path& file) {
+    std::ifstream stream(file, std::ios::binary);
+    return {std::istreambuf_iterator<char>(stream), {}};
+}
+
+/// Replaces each `edit.text`; how many there were.
+int replace_each(std::string& shader, const Edit& edit) {
+    int found = 0;
+    for (std::size_t at = shader.find(edit.text); at != std::string::npos;
+         at = shader.find(edit.text, at + edit.replacement.size())) {
+        shader.replace(at, edit.text.size(), edit.replacement);
+        ++found;
+    }
+    return found;
+}
+
+} // namespace
+
+std::string Mutant::where() const {
+    if (!fault.empty())
+        return "host";
+    std::string files;
+    for (const Edit& edit : edits)
+        if (files.find(edit.file) == std::string::npos)
+            files += (files.empty() ? "" : ", ") + edit.file;
+    return files;
+}
+
+std::vector<Mutant> read_catalogue(const std::filesystem::path& file) {
+    const nlohmann::json document = read_json(file);
+    std::vector<Mutant> mutants;
+    std::set<std::string> names;
+    for (const JsonValue& item : JsonValue(document, file.string()).items()) {
+        mutants.push_back(read_mutant(item));
+        if (!names.insert(mutants.back().name).second)
+            item.at("name").fail("the name of another mutant, too");
+    }
+    return mutants;
+}
+
+std::vector<Mutant> whole_catalogue() {
+    std::vector<Mutant> mutants = read_catalogue("tests/mutants/shaders.json");
+    const std::vector<Mutant> host = read_catalogue("tests/mutants/host.json");
+    mutants.insert(mutants.end(), host.begin(), host.end());
+    return mutants;
+}
+
+void plant(const Mutant& mutant, const TemporaryFolder& folder) {
+    for (const Edit& edit : mutant.edits) {
+        const bool planted = std::filesystem::exists(folder.path() / edit.file);
+        std::string shader = content((planted ? folder.path() : std::filesystem::path("shaders")) / edit.file);
+        if (const int found = replace_each(shader, edit); found != edit.times)
+            throw Error(fmt::format("mutant {}: the text to replace stands {} times in shaders/{}, not {}", mutant.name,
+                                    found, edit.file, edit.times));
+        folder.write(edit.file, shader);
+    }
+}
+
+} // namespace lockstep::test

@@ -1,0 +1,48 @@
+#pragma once
+#include <filesystem>
+#include <map>
+#include <string>
+#include <vector>
+
+#include "tests/temporary_folder.hpp"
+
+namespace lockstep::test {
+
+/// A change to the text of a shipped shader.
+struct Edit {
+    std::string file;        ///< in shaders/
+    std::string text;        ///< what stands there, exactly `times` times
+    std::string replacement; ///< what each becomes
+    int times = 1;
+};
+
+/// One bug: edits of the shipped shaders, or a fault of the host (host_faults.hpp).
+struct Mutant {
+    std::string name;
+    std::vector<Edit> edits;
+    std::string fault;
+    std::string cause; ///< its name in reference/deviation.hpp; empty: it has none
+    /// What else does just the same in some scenes, and why.
+    std::map<std::string, std::string> alike;
+    std::string equivalent; ///< why nothing can tell it from the original; empty: it is to be found
+
+    /// Whether that is what it does.
+    [[nodiscard]] bool is_called(const std::string& by) const { return by == cause || alike.contains(by); }
+
+    /// File or host, for a table.
+    [[nodiscard]] std::string where() const;
+};
+
+/// Reads a catalogue: a JSON array of objects with `name`, then `file`, `text`, `replacement` and `times` (default 1),
+/// or an array `edits` of such, or `fault`; `cause`, `alike` (an object) and `equivalent` as above. Throws Error naming
+/// the value that is wrong: an unknown fault or cause, a name that stands twice.
+std::vector<Mutant> read_catalogue(const std::filesystem::path& file);
+
+/// All of tests/mutants/: shaders.json and host.json.
+std::vector<Mutant> whole_catalogue();
+
+/// Writes the edited shaders into `folder`. Throws Error if a text does not stand there as often as it should: a mutant
+/// that changes nothing proves nothing.
+void plant(const Mutant& mutant, const TemporaryFolder& folder);
+
+} // namespace lockstep::test

@@ -1,0 +1,112 @@
+#include <algorithm>
+#include <set>
+
+#include <catch2/catch.hpp>
+
+#include "reference/deviation.hpp"
+#include "reference/model/error.hpp"
+#include "tests/mutants/score.hpp"
+#include "tests/twin/llvmpipe.hpp"
+
+using namespace lockstep;
+using namespace lockstep::test;
+
+namespace {
+
+/// A few of each kind; scripts/mutation_score.sh runs all.
+const std::set<std::string> few{"nearest_last_found",
+                                "range_one_ulp_wider",
+                                "own_row_and_column_skipped",
+                                "hit_speed_reduced_by",
+                                "hit_direction_one_ulp",
+                                "gravity_doubled",
+                                "drawn_before_step",
+                                "y_flipped",
+                                "half_ties_down",
+                                "exact_root_not_set_right",
+                                "obstacle_stores_one_ulp",
+                                "render_truncated",
+                                "host_depth_func_greater",
+                                "host_cdt_cleared_twice_only",
+                                "host_captures_half",
+                                "host_tick_one_ulp"};
+
+} // namespace
+
+TEST_CASE("mutants: each text stands in the shipped shader as often as the catalogue says") {
+    const std::vector<Mutant> mutants = whole_catalogue();
+    CHECK(mutants.size() >= 80);
+    for (const Mutant& mutant : mutants) {
+        const TemporaryFolder folder;
+        CHECK_NOTHROW(plant(mutant, folder));
+    }
+}
+
+TEST_CASE("mutants: a few of the catalogue are found and named, and the shipped shaders are not") {
+    const auto context = open_llvmpipe("osmesa");
+    if (!context)
+        return;
+    std::vector<TrialScene> scenes = trial_scenes(named_profile("llvmpipe"));
+    const Outcome unmutated = run_mutant({}, scenes);
+    CHECK(unmutated.killer() == nullptr);
+    for (std::size_t rule = 0; rule < common_rule_count; ++rule)
+        CHECK_FALSE(unmutated.rejected_by(rule));
+    std::size_t run = 0;
+    for (const Mutant& mutant : whole_catalogue()) {
+        if (!few.contains(mutant.name))
+            continue;
+        ++run;
+        const Outcome outcome = run_mutant(mutant, scenes);
+        INFO(outcome_line(outcome));
+        CHECK(outcome.killer() != nullptr);
+        CHECK((mutant.cause.empty() || outcome.named()));
+        CHECK_FALSE(outcome.wrongly_named());
+    }
+    CHECK(run == few.size());
+}
+
+TEST_CASE("mutants: a catalogue that is wrong is an error that says where") {
+    const TemporaryFolder folder;
+    const auto read = [&](const char* text) { return read_catalogue(folder.write("mutants.json", text)); };
+    const std::string file = (folder.path() / "mutants.json").string();
+    CHECK_THROWS_WITH(read(R"([{ "name": "a", "fault": "none_such" }])"),
+                      file + ": /0/fault: host_faults.cpp has no such fault");
+    CHECK_THROWS_WITH(read(R"([{ "name": "a", "fault": "tick_doubled", "cause": "none_such" }])"),
+                      file + ": /0/cause: reference/deviation.hpp has no such deviation");
+    CHECK_THROWS_WITH(read(R"([{ "name": "a", "fault": "tick_doubled" }, { "name": "a", "fault": "tick_halved" }])"),
+                      file + ": /1/name: the name of another mutant, too");
+    const std::vector<Mutant> mutants = read(
+        R"([{ "name": "a", "file": "collision_pass.vert", "text": "u_Tick", "replacement": "0.5", "times": 99 }])");
+    CHECK_THROWS_WITH(plant(mutants[0], folder),
+                      Catch::Contains("mutant a: the text to replace stands") && Catch::Contains("not 99"));
+}
+
+TEST_CASE("mutants: the rules of others accept what is equal and reject what is far") {
+    FinalState reference;
+    reference.particles.resize(2);
+    reference.cdt = CollisionImage(2, 2);
+    reference.picture = ColorImage(8, 8);
+    const auto rejecting = [&](const FinalState& gpu) {
+        std::set<std::string> names;
+        for (const CommonRule& rule : common_rules())
+            if (!rule.accepts(reference, gpu))
+                names.emplace(rule.name);
+        return names;
+    };
+    using Names = std::set<std::string>;
+    CHECK(rejecting(reference) == Names{});
+    FinalState gpu = reference;
+    gpu.particles.position[1].y = 2e-4F;
+    CHECK(rejecting(gpu) == Names{"abs 1e-5", "rel 1e-7", "RMSE 1e-5", "hash"});
+    gpu.particles.position[1].y = 1e-6F;
+    CHECK(rejecting(gpu) == Names{"rel 1e-7", "hash"});
+    gpu.particles.position[1].y = std::numeric_limits<float>::quiet_NaN();
+    CHECK(rejecting(gpu) == Names{"abs 1e-3", "abs 1e-5", "rel 1e-7", "RMSE 1e-5", "hash"});
+    gpu = reference;
+    gpu.picture.at(3, 3).g = 5;
+    CHECK(rejecting(gpu) == Names{"image"});
+    gpu.picture.at(3, 3).g = 4;
+    CHECK(rejecting(gpu) == Names{});
+    gpu.cdt.at(1, 1).a = 1.0F;
+    CHECK(rejecting(gpu) == Names{"hash"});
+}

@@ -1,0 +1,70 @@
+#include <numeric>
+#include <random>
+#include <string>
+
+#include <catch2/catch.hpp>
+
+#include "crosscheck/check.hpp"
+#include "crosscheck/scene_file.hpp"
+#include "gpu/simulation.hpp"
+#include "reference/model/same_bits.hpp"
+#include "tests/mutants/planted_fault.hpp"
+#include "tests/twin/llvmpipe.hpp"
+
+using namespace lockstep;
+
+namespace {
+
+constexpr int frames = 12;
+
+/// Field and component of a float of a ParticleRecord.
+std::pair<Field, int> place_of(int component) {
+    if (component < 3)
+        return {Field::position, component};
+    if (component == 3)
+        return {Field::speed, 0};
+    return component < 7 ? std::pair{Field::direction, component - 4} : std::pair{Field::collide_time, 0};
+}
+
+} // namespace
+
+TEST_CASE("planted faults: 100 in the GPU's state, each located to the frame, the particle and the field") {
+    const auto context = test::open_llvmpipe("osmesa");
+    if (!context)
+        return;
+    const Scene scene = load_scene("tests/mutants/scenes/crowd.json");
+    std::mt19937 random(1);
+    const auto below = [&](std::size_t n) { return static_cast<int>(random() % n); };
+    constexpr int sizes[] = {1, -1, 1, -1, 2, -16, 1 << 12, 1 << 22, 0}; // ULP; 0: the sign
+    int planted = 0;
+    while (planted < 100) {
+        const test::Fault fault{below(frames), static_cast<std::size_t>(below(scene.start.size())), below(8),
+                                sizes[below(std::size(sizes))]};
+        CheckOptions options;
+        options.frames = frames;
+        const test::PlantedFault plant(fault, options.repeated_frames);
+        GpuSimulation gpu(scene, {});
+        const CheckReport report = check(scene, named_profile("llvmpipe"), gpu, options);
+        if (plant.before() == 0.0F)
+            continue; // a zero's sign and what is flushed to zero are GLSL's to choose
+        ++planted;
+        INFO("frame " << fault.frame << " particle " << fault.particle << " component " << fault.component << " by "
+                      << fault.ulps << " ULP: " << plant.before() << " to " << plant.after());
+        REQUIRE(report.verdict == Verdict::divergent);
+        CHECK(report.verdicts->total(DifferenceClass::divergent) == 1);
+        REQUIRE(report.verdicts->first);
+        const FirstDivergence& first = *report.verdicts->first;
+        CHECK(first.place.frame == fault.frame);
+        CHECK_FALSE(first.place.texel);
+        CHECK(first.place.index == fault.particle);
+        const auto [field, component] = place_of(fault.component);
+        CHECK(first.wrong.difference.field == field);
+        CHECK(first.wrong.difference.component == component);
+        CHECK(same_bits(first.wrong.difference.reference, plant.before()));
+        CHECK(same_bits(first.wrong.difference.gpu, plant.after()));
+        CHECK_FALSE(report.verdicts->particle_cause.explains_all());
+        const double answering = std::accumulate(report.times.begin(), report.times.end(), 0.0,
+                                                 [](double sum, const FrameTimes& times) { return sum + times.judge; });
+        CHECK(answering < 5.0);
+    }
+}

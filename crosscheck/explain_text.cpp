@@ -242,7 +242,7 @@ std::string explain_texel(FrameRun& run, std::size_t texel, NumberFormat format)
     std::string text = fmt::format("texel ({}, {}) in frame {}\n\n", texel % width, texel / width, run.frame()) +
                        head_text(run.profile()) + rows_text(table.rows, format) + "\n" + why_texel(run, texel);
     for (const std::size_t particle : table.particles)
-        text += "\n" + explain_particle(run, particle, format);
+        text.append("\n").append(explain_particle(run, particle, format));
     return text;
 }
 

@@ -24,6 +24,7 @@ FrameParams stored_as(FrameParams params, CdtFormat format) {
     return params;
 }
 
+/// The exact preset's arithmetic with sums the other way.
 struct PortableRightToLeft : Portable {
     static float dot(glm::vec3 a, glm::vec3 b) {
         return add(multiply(a.x, b.x), add(multiply(a.y, b.y), multiply(a.z, b.z)));
@@ -45,6 +46,8 @@ template <class Pass> decltype(auto) with_deviating_arithmetic(const Profile& pr
         deviating.dot = DotOrder::fused_chain;
     if (deviations.has(portable_arithmetic))
         switches.arithmetic = ArithmeticSwitch::exact;
+    if (switches.arithmetic == ArithmeticSwitch::exact && deviations.has(sums_right_to_left))
+        return pass(PortableRightToLeft{});
     return with_arithmetic(deviating, switches, pass);
 }
 
@@ -390,7 +393,7 @@ template <class A> class DeviatingPoint {
             clip.x += clip.w * (shift_ / static_cast<float>(params_.width));
             clip.y += clip.w * (shift_ / static_cast<float>(params_.height));
         }
-        return std::is_same_v<A, Portable> ? placed(clip) : rasterised(clip);
+        return std::is_base_of_v<Portable, A> ? placed(clip) : rasterised(clip);
     }
 
   private:

@@ -2,15 +2,39 @@
 
 #include <algorithm>
 
+#include "gpu/simulation.hpp"
 #include "reference/collision_pass.hpp"
 #include "reference/obstacle_pass.hpp"
 #include "reference/simulation.hpp"
 
 namespace lockstep {
 
-std::vector<StudyFrame> study_run(const Scene& scene, const Profile& profile, const StudyOptions& options) {
+namespace {
+
+/// The GL side, read back after every frame.
+class ReadBack {
+  public:
+    ReadBack(const Scene& scene, GpuSimulation& gpu) : gpu_(gpu), cdt_(scene.width, scene.height) {
+        gpu_.upload(scene.start, cdt_);
+        particles_ = scene.start;
+    }
+    void step(const FrameParams& params) {
+        gpu_.step(params);
+        gpu_.read(particles_);
+        gpu_.read(cdt_);
+    }
+    [[nodiscard]] const Particles& particles() const { return particles_; }
+    [[nodiscard]] const CollisionImage& cdt() const { return cdt_; }
+
+  private:
+    GpuSimulation& gpu_;
+    Particles particles_;
+    CollisionImage cdt_;
+};
+
+template <class Simulation> std::vector<StudyFrame> run(const Scene& scene, const Profile& profile,
+                                                        Simulation simulation, const StudyOptions& options) {
     std::vector<StudyFrame> studied;
-    ReferenceSimulation simulation(scene, profile);
     Particles previous;
     for (int frame = 0; frame < options.frames; ++frame) {
         const FrameParams params = frame_params(scene, frame);
@@ -32,6 +56,17 @@ std::vector<StudyFrame> study_run(const Scene& scene, const Profile& profile, co
             options.on_frame(frame + 1);
     }
     return studied;
+}
+
+} // namespace
+
+std::vector<StudyFrame> study_run(const Scene& scene, const Profile& profile, const StudyOptions& options) {
+    return run(scene, profile, ReferenceSimulation(scene, profile), options);
+}
+
+std::vector<StudyFrame> study_run(const Scene& scene, const Profile& profile, GpuSimulation& gpu,
+                                  const StudyOptions& options) {
+    return run(scene, profile, ReadBack(scene, gpu), options);
 }
 
 SearchStudy study_start(const Scene& scene, const Truth& truth, const Profile& profile) {

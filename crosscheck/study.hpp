@@ -9,6 +9,8 @@
 
 namespace lockstep {
 
+class GpuSimulation;
+
 /// A frame of a study.
 struct StudyFrame {
     int frame = 0;
@@ -33,6 +35,10 @@ struct StudyOptions {
 
 /// Runs the reference and studies its searches.
 std::vector<StudyFrame> study_run(const Scene& scene, const Profile& profile, const StudyOptions& options);
+
+/// The same of the GL side; `profile`: what its driver computes.
+std::vector<StudyFrame> study_run(const Scene& scene, const Profile& profile, GpuSimulation& gpu,
+                                  const StudyOptions& options);
 
 /// The study of a scene's start: drawn once as it stands, then every particle searches. `truth` of the start.
 SearchStudy study_start(const Scene& scene, const Truth& truth, const Profile& profile);

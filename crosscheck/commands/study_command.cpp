@@ -1,9 +1,12 @@
 #include <memory>
+#include <optional>
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
+#include "crosscheck/camera_experiments.hpp"
 #include "crosscheck/catalogue.hpp"
+#include "crosscheck/catalogue_pictures.hpp"
 #include "crosscheck/commands/commands.hpp"
 #include "crosscheck/commands/option_values.hpp"
 #include "crosscheck/commands/run_options.hpp"
@@ -11,17 +14,22 @@
 #include "crosscheck/gnuplot.hpp"
 #include "crosscheck/output_files.hpp"
 #include "crosscheck/png.hpp"
+#include "crosscheck/profiles.hpp"
 #include "crosscheck/progress.hpp"
 #include "crosscheck/recall_table.hpp"
 #include "crosscheck/scene_file.hpp"
 #include "crosscheck/study.hpp"
 #include "crosscheck/study_pictures.hpp"
 #include "crosscheck/study_report.hpp"
+#include "gpu/context.hpp"
+#include "gpu/simulation.hpp"
 #include "reference/model/error.hpp"
 #include "reference/model/profile.hpp"
 
 namespace lockstep {
 namespace {
+
+enum class Side { cpu, gpu };
 
 struct Options {
     RunOptions run;
@@ -31,6 +39,8 @@ struct Options {
     std::filesystem::path scenes = "data/scenes";
     bool recall_table = false;
     bool catalogue = false;
+    bool cameras = false;
+    Side side = Side::cpu;
     bool thesis = false;
     ThesisStudy thesis_study;
 };
@@ -46,21 +56,50 @@ void print_recall_table(const Options& options) {
 
 /// Whether every effect is there.
 bool print_catalogue(const Options& options) {
+    const std::filesystem::path scenes = options.scenes / "catalogue";
+    OutputFiles files;
+    if (!options.images.empty())
+        files.expect_folder(options.images);
     bool all = true;
     fmt::print("{}", catalogue_head());
-    for (const std::string_view name : catalogue_names())
-        for (const CatalogueRow& row : measure_catalogue(name, options.scenes / "catalogue")) {
+    for (const std::string_view name : catalogue_names()) {
+        for (const CatalogueRow& row : measure_catalogue(name, scenes)) {
             fmt::print("{}", catalogue_text(row));
             all = all && row.holds();
         }
+        if (!options.images.empty())
+            files.write(options.images / fmt::format("{}.png", name), png(catalogue_picture(name, scenes)));
+    }
+    files.commit();
+    if (!options.images.empty())
+        fmt::print("\npictures  {}: what the viewer sees, and the collision camera's texels: {}\n",
+                   options.images.string(), picture_legend());
     return all;
+}
+
+void print_cameras(const Options& options, const Scene& scene, const Profile& profile) {
+    CameraOptions cameras;
+    cameras.frames = options.run.frames;
+    cameras.every = options.every;
+    cameras.on_row = [](const CameraRow& row) {
+        fmt::print("{}", camera_text(row));
+        std::fflush(stdout);
+    };
+    fmt::print("{}", camera_head());
+    camera_experiments(scene, profile, cameras);
+    fmt::print("\nHoles: of the particles in contact that the viewer sees, those that find no neighbour.\n");
 }
 
 void study_scene(const Options& options) {
     const Scene scene = load(options.run);
     if (scene.switches.search == Search::octree)
         throw Error("study: search = octree leaves no CDT to study; --thesis has the octree's recall");
-    const Profile profile = named_profile(options.profile);
+    std::optional<Context> context;
+    if (options.side == Side::gpu)
+        context.emplace(parse_context_request(options.run.gl));
+    const Profile profile = context ? measured_profile(*context) : named_profile(options.profile);
+    if (options.cameras)
+        return print_cameras(options, scene, profile);
     OutputFiles files;
     for (const auto& file : {options.csv, options.json, options.chart})
         if (!file.empty())
@@ -79,7 +118,10 @@ void study_scene(const Options& options) {
     const std::vector<StudyFrame> frames = [&] {
         Progress progress("study", options.run.frames, true);
         study_options.on_frame = [&](int done) { progress.show(done); };
-        return study_run(scene, profile, study_options);
+        if (!context)
+            return study_run(scene, profile, study_options);
+        GpuSimulation gpu(scene, options.run.shaders);
+        return study_run(scene, profile, gpu, study_options);
     }();
 
     if (!options.csv.empty())
@@ -133,8 +175,9 @@ int run(const Options& options) {
 
 void add_study_command(CLI::App& app, int& status) {
     auto options = std::make_shared<Options>();
-    CLI::App* verb = app.add_subcommand("study", "compare what the CDT search finds with the exact neighbours, and say "
-                                                 "why it misses what it misses; needs no GL but for --thesis");
+    CLI::App* verb =
+        app.add_subcommand("study", "compare what the CDT search finds with the exact neighbours, and say "
+                                    "why it misses what it misses; needs no GL but for --thesis and --side gpu");
     add_scene_options(*verb, options->run);
     verb->get_option("scene")->required(false);
     verb->add_option("--frames", options->run.frames, "frames to run")->check(integer(1, most_frames))->type_name("N");
@@ -144,13 +187,19 @@ void add_study_command(CLI::App& app, int& status) {
     verb->add_option("--profile", options->profile, "strict, llvmpipe or nvidia: the order of sums")->type_name("NAME");
     verb->add_option("--csv", options->csv, "write every number of every studied frame")->type_name("FILE");
     verb->add_option("--json", options->json, "the same as JSON")->type_name("FILE");
-    verb->add_option("--images", options->images, "write a false-colour picture of each studied frame, by cause")
+    verb->add_option(
+            "--images", options->images,
+            "write a false-colour picture of each studied frame, by cause; with --catalogue one of each effect")
         ->type_name("DIR");
     verb->add_option("--chart", options->chart, "draw recall and misses over the frames as SVG, by gnuplot")
         ->type_name("FILE");
     verb->add_flag("--recall-table", options->recall_table, "clouds at rest instead of a scene: recall by radius");
     verb->add_flag("--catalogue", options->catalogue,
                    "the thesis's failure catalogue as a table; exit status 1 if an effect is not there");
+    verb->add_flag("--cameras", options->cameras,
+                   "SCENE with the thesis's collision cameras (chapter 3.4): z offsets, fixed, side, rear");
+    add_choice<Side>(*verb, "--side", options->side, {{"cpu", Side::cpu}, {"gpu", Side::gpu}},
+                     "the side that runs SCENE: the reference, or the shaders, read back each frame");
     verb->add_flag("--thesis", options->thesis,
                    "the thesis's tables 4-1 and 5-1 and figures 5-3 and 5-5, CDT and octree, on GL; "
                    "--frames, --json, --csv, --chart, --set and --gl apply");

@@ -1,5 +1,6 @@
 #include <catch2/catch.hpp>
 
+#include <algorithm>
 #include <string>
 #include <vector>
 
@@ -86,6 +87,22 @@ TEST_CASE("study: the thesis's tables, measured, and told again from what was wr
         {{{"GALLIUM_DRIVER", "softpipe"}}, {}, {}, {}});
     CHECK(without.status == 0);
     CHECK_THAT(without.out, Catch::StartsWith("no octree: it needs compute shaders, GL 4.3; this context is 3.3"));
+}
+
+TEST_CASE("study: the GL side, and the collision cameras") {
+    if (!test::have_osmesa())
+        return;
+    const auto table = [&](std::vector<std::string> more) {
+        more.insert(more.begin(), {"study", scene(), "--frames", "4", "--gl", "osmesa"});
+        const auto outcome = run_lockstep(more);
+        CHECK(outcome.status == 0);
+        return outcome.out;
+    };
+    CHECK(table({"--side", "gpu"}) == table({"--profile", "llvmpipe"}));
+    const std::string cameras = table({"--cameras"});
+    CHECK_THAT(cameras, Catch::StartsWith("| collision camera |") &&
+                            Catch::Contains("\n| fixed behind | 0.00 | stands |") && Catch::Contains("\nHoles: "));
+    CHECK(std::count(cameras.begin(), cameras.end(), '\n') == 12);
 }
 
 TEST_CASE("study: what the thesis's tables cannot be made of is refused in one line") {

@@ -8,6 +8,8 @@
 #include <string>
 
 #include "crosscheck/catalogue.hpp"
+#include "crosscheck/catalogue_pictures.hpp"
+#include "crosscheck/study_pictures.hpp"
 #include "reference/model/error.hpp"
 
 using namespace lockstep;
@@ -46,6 +48,8 @@ TEST_CASE("catalogue: every scene has an effect, and every effect a scene and it
         INFO(name);
         CHECK(std::count(catalogue_names().begin(), catalogue_names().end(), name) == 1);
         CHECK(page.str().find("| " + name + " |") != std::string::npos);
+        CHECK(page.str().find("../data/pictures/catalogue/" + name + ".png") != std::string::npos);
+        CHECK(std::filesystem::exists("data/pictures/catalogue/" + name + ".png"));
         ++files;
     }
     CHECK(files == catalogue_names().size());
@@ -66,4 +70,15 @@ TEST_CASE("catalogue: an unknown effect is told with those there are") {
     CHECK_THROWS_WITH(measure_catalogue("horn", scenes),
                       "catalogue: nothing is named horn; the effects are close_up, one_sided, overlap_jitter, "
                       "horn_growth, camera_drop, occluded_neighbour, off_axis_spread, plane_hides, side_view");
+}
+
+TEST_CASE("catalogue: a picture shows the viewer's frame and the searches beside it") {
+    const ColorImage picture = catalogue_picture("occluded_neighbour", scenes);
+    CHECK(picture.width == 808);
+    CHECK(picture.height == 400);
+    const auto count = [&](Rgba8 color) { return std::count(picture.texels.begin(), picture.texels.end(), color); };
+    CHECK(count({255, 255, 255, 255}) == 8 * 400);
+    CHECK(count(miss_color(Miss::occluded)) > 20000); // the rear sheet, behind the front one
+    CHECK(count(miss_color(Miss::outside_image)) == 0);
+    CHECK_THROWS_WITH(catalogue_picture("horn", scenes), Catch::StartsWith("catalogue: nothing is named horn"));
 }

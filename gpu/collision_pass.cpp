@@ -52,6 +52,7 @@ void CollisionPass::run(const FrameParams& params, const ParticleBuffer& from, P
     gl::Enable(GL_DEPTH_TEST);
     gl::DepthFunc(GL_LESS);
     const GlVertexArray vertices = particle_vertex_array(from, program_);
+    program_.check_interface();
     gl::BindVertexArray(vertices.id());
     to.bind_capture();
     gl::BeginQuery(GL_PRIMITIVES_GENERATED, emitted_.id());

@@ -33,6 +33,7 @@ void ObstaclePass::run(const MeshBuffer& obstacles, const FrameParams& params, C
     gl::Enable(GL_DEPTH_TEST);
     gl::DepthFunc(GL_LESS);
     const GlVertexArray vertices = mesh_vertex_array(obstacles, *program_);
+    program_->check_interface();
     gl::BindVertexArray(vertices.id());
     if (kind_ == ObstaclesInCdt::triangles)
         gl::DrawElements(GL_TRIANGLES, obstacles.index_count(), GL_UNSIGNED_INT, nullptr);

@@ -81,6 +81,7 @@ void OctreePass::run(const FrameParams& params, const ParticleBuffer& from, Part
     program_.set("u_Tick", constants.tick);
     program_.set("u_Gravity", constants.gravity);
     program_.set_unit("u_NodeTexture", 0, GL_UNSIGNED_INT_SAMPLER_2D);
+    program_.check_interface();
     gl::ActiveTexture(GL_TEXTURE0);
     gl::BindTexture(GL_TEXTURE_2D, node_texture_.id());
     gl::BindBufferBase(GL_SHADER_STORAGE_BUFFER, Binding::before, from.id());

@@ -150,10 +150,32 @@ Capture linked_capture(GLuint program, GLuint index) {
     return capture;
 }
 
-void check_capture_type(GLuint program, GLuint index, const Capture& capture, const std::string& where) {
+/// Of an active variable: GL calls an array's first element by the array's name and [0].
+Declaration declaration(std::span<const ShaderSource> stages, std::string_view qualifier, const std::string& name) {
+    return find_declaration(stages, qualifier, std::string_view(name).substr(0, name.find_first_of("[.")));
+}
+
+/// How many letters to add, drop or change to make one word of the other.
+std::size_t edits(std::string_view a, std::string_view b) {
+    std::vector<std::size_t> row(b.size() + 1);
+    for (std::size_t j = 0; j <= b.size(); ++j)
+        row[j] = j;
+    for (std::size_t i = 1; i <= a.size(); ++i) {
+        std::size_t diagonal = std::exchange(row[0], i);
+        for (std::size_t j = 1; j <= b.size(); ++j)
+            diagonal = std::exchange(
+                row[j], std::min({row[j] + 1, row[j - 1] + 1, diagonal + (a[i - 1] == b[j - 1] ? 0U : 1U)}));
+    }
+    return row[b.size()];
+}
+
+void check_capture_type(GLuint program, GLuint index, const Capture& capture, std::span<const ShaderSource> stages) {
     const auto [name, type, size] = linked_capture(program, index);
+    const ShaderSource* last = last_vertex_stage(stages);
+    const std::span from(last, last == nullptr ? 0 : 1);
     if (type != capture.type || size != capture.size)
-        throw Error(fmt::format("{}: output {} is {}, but is to be {}", where, capture.name, declared(type, size),
+        throw Error(fmt::format("shader {}: output {} is {}, but is to be {}",
+                                find_declaration(from, "out", capture.name).place, capture.name, declared(type, size),
                                 declared(capture.type, capture.size)));
 }
 
@@ -196,16 +218,16 @@ Program::Program(std::string name, std::span<const ShaderSource> stages, std::sp
         if (!link(id_, captured))
             throw Error(fmt::format("{}: {}", name_, link_failure(id_, stages, captured)));
         for (std::size_t i = 0; i < captured.size(); ++i)
-            check_capture_type(id_, static_cast<GLuint>(i), captured[i], name_);
+            check_capture_type(id_, static_cast<GLuint>(i), captured[i], stages);
         for (const Shader& shader : shaders)
             gl::DetachShader(id_, shader.id());
         for_each_active(id_, GL_ACTIVE_UNIFORMS, GL_ACTIVE_UNIFORM_MAX_LENGTH, gl::GetActiveUniform,
                         gl::GetUniformLocation, [&](const std::string& variable, GLenum type, GLint where) {
-                            uniforms_[variable] = {where, type};
+                            uniforms_.active[variable] = {where, type, declaration(stages, "uniform", variable)};
                         });
         for_each_active(id_, GL_ACTIVE_ATTRIBUTES, GL_ACTIVE_ATTRIBUTE_MAX_LENGTH, gl::GetActiveAttrib,
                         gl::GetAttribLocation, [&](const std::string& variable, GLenum type, GLint where) {
-                            attributes_[variable] = {where, type};
+                            attributes_.active[variable] = {where, type, declaration(stages, "in", variable)};
                         });
         check_gl(name_);
     } catch (...) {
@@ -233,19 +255,40 @@ Program::~Program() {
 
 void Program::use() const { gl::UseProgram(id_); }
 
-GLint Program::location(const Variables& variables, std::string_view kind, std::string_view variable,
-                        GLenum type) const {
-    const auto found = variables.find(variable);
-    if (found == variables.end())
+GLint Program::Interface::location(std::string_view variable, GLenum type) const {
+    if (!asked_for.contains(variable))
+        asked_for.emplace(variable, type);
+    const auto found = active.find(variable);
+    if (found == active.end())
         return -1;
-    if (found->second.type != type)
-        throw Error(fmt::format("{}: {} {} is {} in the shader, but is to be {}", name_, kind, variable,
-                                type_name(found->second.type), type_name(type)));
-    return found->second.location;
+    const Variable& known = found->second;
+    if (known.type != type)
+        throw Error(fmt::format("shader {}: {} {} is {}, but is to be {}", known.declared.place, kind, variable,
+                                type_name(known.type), type_name(type)));
+    return known.location;
+}
+
+void Program::Interface::check() const {
+    for (const auto& [name, variable] : active) {
+        if (asked_for.contains(name) || variable.declared.is_initialised || name.starts_with("gl_"))
+            continue;
+        const auto nearest = std::min_element(asked_for.begin(), asked_for.end(), [&](const auto& a, const auto& b) {
+            return edits(a.first, name) < edits(b.first, name);
+        });
+        throw Error(fmt::format("shader {}: nothing is given for {} {}{}", variable.declared.place, kind, name,
+                                nearest == asked_for.end() ? std::string()
+                                                           : fmt::format("; did you mean {} {}?",
+                                                                         type_name(nearest->second), nearest->first)));
+    }
+}
+
+void Program::check_interface() const {
+    uniforms_.check();
+    attributes_.check();
 }
 
 GLint Program::use_uniform(std::string_view uniform, GLenum type) const {
-    const GLint where = location(uniforms_, "uniform", uniform, type);
+    const GLint where = uniforms_.location(uniform, type);
     use();
     return where;
 }
@@ -284,7 +327,7 @@ void Program::set_unit(std::string_view uniform, int unit, GLenum type) const {
 }
 
 GLint Program::attribute(std::string_view attribute, GLenum type) const {
-    return location(attributes_, "attribute", attribute, type);
+    return attributes_.location(attribute, type);
 }
 
 } // namespace lockstep

@@ -10,6 +10,7 @@
 #include <glm/vec3.hpp>
 #include <glm/vec4.hpp>
 
+#include "gpu/declaration.hpp"
 #include "gpu/gl.hpp"
 #include "gpu/shader_source.hpp"
 
@@ -26,8 +27,8 @@ struct Capture {
 /// says of each such word in the stage's text. Throws Error where a stage does not compile.
 std::vector<Capture> outputs_with(std::string_view prefix, std::span<const ShaderSource> stages);
 
-/// A linked program. Whatever is wrong with a shader is an Error of one line: `shader FILE:LINE: compiler's message`
-/// for a stage that does not compile, `NAME: ...` for the rest.
+/// A linked program. Whatever is wrong with a shader is an Error of one line: `shader FILE:LINE: ...` where a stage
+/// does not compile or declares something as another type, `NAME: ...` for the rest.
 class Program {
   public:
     /// Links `stages`; `captured` outputs of the last vertex-processing stage go interleaved, in this order, into the
@@ -55,6 +56,10 @@ class Program {
     /// Location of a vertex attribute, -1 if the program does not use it. Throws Error if it has another type.
     [[nodiscard]] GLint attribute(std::string_view attribute, GLenum type) const;
 
+    /// Throws Error if the shader uses a uniform that was never set and has no initialiser, or an attribute that was
+    /// never asked for: a misspelt name would otherwise read as 0.
+    void check_interface() const;
+
     [[nodiscard]] const std::string& name() const { return name_; }
     [[nodiscard]] GLuint id() const { return id_; }
 
@@ -62,17 +67,23 @@ class Program {
     struct Variable {
         GLint location = -1;
         GLenum type = 0;
+        Declaration declared;
     };
-    using Variables = std::map<std::string, Variable, std::less<>>;
+    /// The uniforms, or attributes, of the program, and those that its owner asked for.
+    struct Interface {
+        std::string_view kind;
+        std::map<std::string, Variable, std::less<>> active;
+        mutable std::map<std::string, GLenum, std::less<>> asked_for;
 
-    [[nodiscard]] GLint location(const Variables& variables, std::string_view kind, std::string_view variable,
-                                 GLenum type) const;
+        [[nodiscard]] GLint location(std::string_view variable, GLenum type) const;
+        void check() const;
+    };
     [[nodiscard]] GLint use_uniform(std::string_view uniform, GLenum type) const;
 
     std::string name_;
     GLuint id_ = 0;
-    Variables uniforms_;
-    Variables attributes_;
+    Interface uniforms_{"uniform", {}, {}};
+    Interface attributes_{"attribute", {}, {}};
 };
 
 } // namespace lockstep

@@ -85,6 +85,7 @@ void RenderPass::set_uniforms(const Program& program, const FrameParams& params)
     program.set("u_ClientHeight", height_);
     program.set("u_BillboardRadius", params.constants.billboard_radius);
     program.set("u_CollisionTime", params.constants.collision_time);
+    program.check_interface();
 }
 
 void RenderPass::read(ColorImage& image) const {

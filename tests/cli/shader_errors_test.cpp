@@ -63,6 +63,48 @@ TEST_CASE("shader_errors: a missing captured output is named") {
                       "); it is to write out_Position, out_Speed, out_Dir, out_CollideTime"));
 }
 
+TEST_CASE("shader_errors: a misspelt uniform or attribute is told where it is declared, with what may be meant") {
+    if (!test::have_osmesa())
+        return;
+    const test::TemporaryFolder shaders;
+    const std::string file = "shader " + (shaders.path() / "collision_pass.vert").string();
+    SECTION("uniform") {
+        test::plant(shaders, "collision_pass.vert", "uniform float u_Tick;",
+                    "uniform float u_Tick;\nuniform float u_Tik;");
+        test::plant(shaders, "collision_pass.vert", "ls_flush(a_CollideTime) - u_Tick;",
+                    "ls_flush(a_CollideTime) - u_Tik;");
+        CHECK_THAT(refusal_of(shaders),
+                   Catch::StartsWith(file + ":") &&
+                       Catch::EndsWith(": nothing is given for uniform u_Tik; did you mean float u_Tick?"));
+    }
+    SECTION("attribute") {
+        test::plant(shaders, "collision_pass.vert", "in float a_Speed;", "in float a_Speed;\nin float a_CollideTme;");
+        test::plant(shaders, "collision_pass.vert", "ls_flush(a_CollideTime) - u_Tick;",
+                    "ls_flush(a_CollideTme) - u_Tick;");
+        CHECK_THAT(
+            refusal_of(shaders),
+            Catch::StartsWith(file + ":") &&
+                Catch::EndsWith(": nothing is given for attribute a_CollideTme; did you mean float a_CollideTime?"));
+    }
+    SECTION("of another type") {
+        test::plant(shaders, "collision_pass.vert", "uniform float u_Tick;", "uniform vec2 u_Tick;");
+        test::plant(shaders, "collision_pass.vert", "ls_flush(a_CollideTime) - u_Tick;",
+                    "ls_flush(a_CollideTime) - u_Tick.x;");
+        test::plant(shaders, "collision_pass.vert", "product(u_Gravity, u_Tick)", "product(u_Gravity, u_Tick.x)");
+        test::plant(shaders, "collision_pass.vert", "v_Speed), u_Tick)", "v_Speed), u_Tick.x)");
+        test::plant(shaders, "collision_pass.vert", "product(step, u_Tick)", "product(step, u_Tick.x)");
+        CHECK_THAT(refusal_of(shaders),
+                   Catch::StartsWith(file + ":") && Catch::EndsWith(": uniform u_Tick is vec2, but is to be float"));
+    }
+    SECTION("an output of another type") {
+        test::plant(shaders, "collision_pass.geom", "out float out_Speed;", "out vec2 out_Speed;");
+        test::plant(shaders, "collision_pass.geom", "out_Speed = v_Speed[0];", "out_Speed = vec2(v_Speed[0]);");
+        CHECK_THAT(refusal_of(shaders),
+                   Catch::StartsWith("shader " + (shaders.path() / "collision_pass.geom").string() + ":") &&
+                       Catch::EndsWith(": output out_Speed is vec2, but is to be float"));
+    }
+}
+
 TEST_CASE("shader_errors: particles that are not passed on are no verdict") {
     if (!test::have_osmesa())
         return;

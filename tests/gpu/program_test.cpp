@@ -1,6 +1,9 @@
+#include <array>
+
 #include <catch2/catch.hpp>
 
 #include "gpu/check.hpp"
+#include "gpu/declaration.hpp"
 #include "gpu/particle_buffer.hpp"
 #include "gpu/program.hpp"
 #include "tests/gpu/any_context.hpp"
@@ -90,13 +93,76 @@ TEST_CASE("program: a wrong uniform or attribute type is told") {
     folder.write("step.vert", vertex);
     folder.write("step.frag", fragment);
     const Program program = build(folder, {Stage::vertex, Stage::fragment}, captures);
-    CHECK_THROWS_WITH(program.set("u_Tick", 1), "step: uniform u_Tick is float in the shader, but is to be int");
+    const std::string file = (folder.path() / "step.vert").string();
+    CHECK_THROWS_WITH(program.set("u_Tick", 1), "shader " + file + ":4: uniform u_Tick is float, but is to be int");
     CHECK_THROWS_WITH(program.set("u_Gravity", 1.0F),
-                      "step: uniform u_Gravity is vec3 in the shader, but is to be float");
+                      "shader " + file + ":5: uniform u_Gravity is vec3, but is to be float");
     CHECK_THROWS_WITH(program.set_unit("u_ClientWidth", 0),
-                      "step: uniform u_ClientWidth is int in the shader, but is to be sampler2D");
+                      "shader " + file + ":8: uniform u_ClientWidth is int, but is to be sampler2D");
     CHECK_THROWS_WITH(program.attribute("a_Speed", GL_FLOAT_VEC3),
-                      "step: attribute a_Speed is float in the shader, but is to be vec3");
+                      "shader " + file + ":3: attribute a_Speed is float, but is to be vec3");
+}
+
+TEST_CASE("program: what the shader uses and nobody gives is told with the name it may be meant as") {
+    const auto context = open_context();
+    if (!context)
+        return;
+    const TemporaryFolder folder;
+    const std::string file = folder.write("step.vert", vertex).string();
+    folder.write("step.frag", fragment);
+    const Program program = build(folder, {Stage::vertex, Stage::fragment}, captures);
+    const auto give = [&](const char* tick, const char* speed) {
+        program.set(tick, 0.5F);
+        program.set("u_Gravity", glm::vec3(0.0F));
+        program.set("u_ProjView", glm::mat4(1.0F));
+        program.set("u_ClientWidth", 500);
+        program.set_unit("u_CDTexture", 0);
+        CHECK(program.attribute("a_Position", GL_FLOAT_VEC3) >= 0);
+        static_cast<void>(program.attribute(speed, GL_FLOAT));
+    };
+    give("u_Tack", "a_Sped");
+    CHECK_THROWS_WITH(program.check_interface(),
+                      "shader " + file + ":4: nothing is given for uniform u_Tick; did you mean float u_Tack?");
+    give("u_Tick", "a_Sped");
+    CHECK_THROWS_WITH(program.check_interface(),
+                      "shader " + file + ":3: nothing is given for attribute a_Speed; did you mean float a_Sped?");
+    give("u_Tick", "a_Speed");
+    CHECK_NOTHROW(program.check_interface());
+}
+
+TEST_CASE("program: a uniform with an initialiser may be the shader's own; one in an array may not be forgotten") {
+    const auto context = open_context();
+    if (!context)
+        return;
+    const TemporaryFolder folder;
+    folder.write("lib.glsl", "// uniform float u_Own = 1.0;\nuniform float u_Own = 0.5; // own\n"
+                             "uniform vec2 u_Pairs[2];\n");
+    folder.write("step.vert", "#version 330 core\n#include \"lib.glsl\"\nin vec3 a_Position;\n"
+                              "void main() { gl_Position = vec4(a_Position * u_Own, u_Pairs[gl_VertexID % 2].x); }\n");
+    folder.write("step.frag", fragment);
+    const Program program = build(folder, {Stage::vertex, Stage::fragment});
+    CHECK(program.attribute("a_Position", GL_FLOAT_VEC3) >= 0);
+    CHECK_THROWS_WITH(program.check_interface(), "shader " + (folder.path() / "lib.glsl").string() +
+                                                     ":3: nothing is given for uniform u_Pairs[0]");
+}
+
+TEST_CASE("program: a declaration is found whatever stands round it") {
+    const TemporaryFolder folder;
+    const std::string file =
+        folder
+            .write("step.vert", "#version 330 core\n// uniform int u_A;\nuniform int u_AB;\n"
+                                "layout(location = 0) in vec3 a_P; uniform highp int u_A = 3;\n"
+                                "precise flat out vec3 out_P;\nvoid f(in int u_C) {}\nuniform int u_B, u_C[2];\n")
+            .string();
+    const std::vector<ShaderSource> stages = load_stages({folder.path()}, "step", std::array{Stage::vertex});
+    CHECK(find_declaration(stages, "uniform", "u_A").place == file + ":4");
+    CHECK(find_declaration(stages, "uniform", "u_A").is_initialised);
+    CHECK(find_declaration(stages, "uniform", "u_AB").place == file + ":3");
+    CHECK_FALSE(find_declaration(stages, "uniform", "u_AB").is_initialised);
+    CHECK(find_declaration(stages, "in", "a_P").place == file + ":4");
+    CHECK(find_declaration(stages, "out", "out_P").place == file + ":5");
+    CHECK(find_declaration(stages, "uniform", "u_C").place == file + ":7");
+    CHECK(find_declaration(stages, "uniform", "u_Nowhere").place == file);
 }
 
 TEST_CASE("program: a compile error names file and line, in an included file too") {
@@ -165,10 +231,11 @@ TEST_CASE("program: a captured output of another type is told") {
                  "void main() { out_Position = vec4(a_Position, 1.0); out_Speed = float[2](1.0, 2.0);"
                  " gl_Position = vec4(0.0); }\n");
     folder.write("step.frag", fragment);
+    const std::string file = (folder.path() / "step.vert").string();
     CHECK(message(folder, {Stage::vertex, Stage::fragment}, captures) ==
-          "step: output out_Position is vec4, but is to be vec3");
+          "shader " + file + ":3: output out_Position is vec4, but is to be vec3");
     CHECK(message(folder, {Stage::vertex, Stage::fragment}, std::span(captures).subspan(1)) ==
-          "step: output out_Speed is float[2], but is to be float");
+          "shader " + file + ":4: output out_Speed is float[2], but is to be float");
 }
 
 TEST_CASE("program: outputs are found by the start of their names, in the last vertex-processing stage") {

@@ -1,0 +1,57 @@
+#include <catch2/catch.hpp>
+
+#include <fstream>
+#include <iterator>
+#include <sstream>
+#include <string>
+#include <vector>
+
+#include "tests/cli/cli_checks.hpp"
+
+using namespace lockstep;
+using test::run_lockstep;
+
+namespace {
+
+/// The README's command lines of one verb on the example that starts from the thesis's listing, without `lockstep`.
+/// A line that ends with a backslash goes on in the next.
+std::vector<std::vector<std::string>> commands_on_listing(const std::string& verb) {
+    std::ifstream stream("README.md");
+    std::string text{std::istreambuf_iterator<char>(stream), {}};
+    for (std::size_t end = text.find("\\\n"); end != std::string::npos; end = text.find("\\\n"))
+        text.replace(end, 2, " ");
+    std::istringstream lines(text);
+    std::vector<std::vector<std::string>> commands;
+    for (std::string line; std::getline(lines, line);) {
+        std::istringstream words(line);
+        std::vector<std::string> command{std::istream_iterator<std::string>(words), {}};
+        if (command.size() < 2 || command[0] != "lockstep" || command[1] != verb ||
+            line.find("data/examples/thesis_listing") == std::string::npos)
+            continue;
+        command.erase(command.begin());
+        commands.push_back(command);
+    }
+    return commands;
+}
+
+} // namespace
+
+TEST_CASE("readme: the example that starts from the thesis's listing agrees in every bit") {
+    if (!test::have_osmesa())
+        return;
+    const auto commands = commands_on_listing("check");
+    REQUIRE(commands.size() == 1);
+    const test::Outcome outcome = run_lockstep(commands[0]);
+    CHECK(outcome.status == 0);
+    CHECK_THAT(outcome.out, Catch::Contains("verdict   AGREE: every bit of "));
+}
+
+TEST_CASE("readme: explain shows the example's own output") {
+    if (!test::have_osmesa())
+        return;
+    const auto commands = commands_on_listing("explain");
+    REQUIRE(commands.size() == 1);
+    const test::Outcome outcome = run_lockstep(commands[0]);
+    CHECK(outcome.status == 0);
+    CHECK_THAT(outcome.out, Catch::Contains("  trace_particle_min_length ") && Catch::Contains("every bit agrees"));
+}

@@ -44,6 +44,19 @@ Comparison compare(const Particles& reference, const CollisionImage& reference_c
     return result;
 }
 
+/// What the GPU has now, against what it had. Particles are only read back where they differ: a copy of 4 million
+/// would be the peak of the whole run.
+Comparison compare_again(const State& first, GpuSimulation& gpu) {
+    State again;
+    gpu.read(again.cdt);
+    Comparison result = lockstep::compare(first.cdt, again.cdt);
+    if (!gpu.holds(first.particles)) {
+        gpu.read(again.particles);
+        result.add(lockstep::compare(first.particles, again.particles));
+    }
+    return result;
+}
+
 std::uint64_t count_hits(const Particles& particles, float collision_time) {
     const auto n = static_cast<std::ptrdiff_t>(particles.size());
     std::uint64_t hits = 0;
@@ -160,9 +173,7 @@ CheckReport check(const Scene& scene, const Profile& profile, GpuSimulation& gpu
         if (repeat) {
             gpu.find_canary(now.particles, now.cdt, frame);
             gpu.repeat_step(params);
-            State again;
-            read(gpu, again);
-            const Comparison repeated = compare(now.particles, now.cdt, again);
+            const Comparison repeated = compare_again(now, gpu);
             if (!repeated.agree()) {
                 note_difference(report, frame, repeated);
                 report.verdict = Verdict::nondeterministic;

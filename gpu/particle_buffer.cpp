@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cassert>
+#include <cstring>
 #include <limits>
 #include <span>
 
@@ -75,6 +76,22 @@ void ParticleBuffer::read(Particles& particles) const {
                                               particles.collide_time[i] = record.collide_time;
                                           }
                                       });
+}
+
+bool ParticleBuffer::holds(const Particles& particles) const {
+    assert(particles.size() == count_);
+    if (count_ == 0)
+        return true;
+    bool same = true;
+    with_mapped<const ParticleRecord>(
+        id(), count_ * sizeof(ParticleRecord), GL_MAP_READ_BIT, [&](std::span<const ParticleRecord> records) {
+            for (std::size_t i = 0; i < records.size() && same; ++i) {
+                const ParticleRecord record{particles.position[i], particles.speed[i], particles.direction[i],
+                                            particles.collide_time[i]};
+                same = std::memcmp(&record, &records[i], sizeof record) == 0;
+            }
+        });
+    return same;
 }
 
 void ParticleBuffer::fill(std::uint32_t word) {

@@ -37,6 +37,9 @@ class ParticleBuffer {
     void upload(const Particles& particles);
     void read(Particles& particles) const;
 
+    /// Whether it has exactly these bits, without a copy.
+    [[nodiscard]] bool holds(const Particles& particles) const;
+
     /// Every 32-bit word becomes `word`: what a pass did not write then shows.
     void fill(std::uint32_t word);
 

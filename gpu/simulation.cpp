@@ -76,6 +76,8 @@ void GpuSimulation::read(Particles& particles) const { particles_[current_].read
 
 void GpuSimulation::read(CollisionImage& cdt) const { cdts_[current_].read(cdt); }
 
+bool GpuSimulation::holds(const Particles& particles) const { return particles_[current_].holds(particles); }
+
 void GpuSimulation::lay_canary() {
     particles_[1 - current_].fill(canary);
     CollisionTexture& target = cdts_[1 - current_];

@@ -42,6 +42,9 @@ class GpuSimulation {
     void read(Particles& particles) const;
     void read(CollisionImage& cdt) const;
 
+    /// Whether read() would give exactly these bits.
+    [[nodiscard]] bool holds(const Particles& particles) const;
+
     /// Fills what the next frame writes with a pattern that no step computes, and looks for it in what was read back:
     /// throws Error when a buffer or the image was not really written.
     void lay_canary();

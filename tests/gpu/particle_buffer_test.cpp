@@ -1,6 +1,7 @@
 #include <catch2/catch.hpp>
 
 #include <bit>
+#include <cmath>
 #include <cstring>
 #include <limits>
 
@@ -63,6 +64,22 @@ TEST_CASE("particle buffer: upload and read-back keep every bit") {
         CHECK(same_bits(original, read));
         check_gl("particle buffer");
     }
+}
+
+TEST_CASE("particle buffer: it holds the particles that have its very bits") {
+    const auto context = open_context();
+    if (!context)
+        return;
+    const Particles original = varied(3);
+    ParticleBuffer buffer(3);
+    buffer.upload(original);
+    CHECK(buffer.holds(original));
+    Particles other = original;
+    other.collide_time[2] = std::nextafter(other.collide_time[2], 1e9F);
+    CHECK_FALSE(buffer.holds(other));
+    other = original;
+    other.position[0].x = -other.position[0].x;
+    CHECK_FALSE(buffer.holds(other));
 }
 
 TEST_CASE("particle buffer: a record lies as transform feedback writes it") {

@@ -11,18 +11,43 @@ double median(std::vector<double> values) {
     return *middle;
 }
 
-double fitted_exponent(std::span<const std::size_t> counts, std::span<const double> seconds) {
-    double n = 0.0, x = 0.0, y = 0.0, xx = 0.0, xy = 0.0;
-    for (std::size_t i = 0; i < counts.size(); ++i) {
-        const double u = std::log(static_cast<double>(counts[i]));
-        const double v = std::log(seconds[i]);
-        n += 1.0;
-        x += u;
-        y += v;
-        xx += u * u;
-        xy += u * v;
+namespace {
+
+struct Line {
+    double start, slope;
+};
+
+Line fitted_line(std::span<const double> x, std::span<const double> y) {
+    double sx = 0.0, sy = 0.0, sxx = 0.0, sxy = 0.0;
+    for (std::size_t i = 0; i < x.size(); ++i) {
+        sx += x[i];
+        sy += y[i];
+        sxx += x[i] * x[i];
+        sxy += x[i] * y[i];
     }
-    return (n * xy - x * y) / (n * xx - x * x);
+    const auto n = static_cast<double>(x.size());
+    const double slope = (n * sxy - sx * sy) / (n * sxx - sx * sx);
+    return {(sy - slope * sx) / n, slope};
+}
+
+} // namespace
+
+double fitted_exponent(std::span<const std::size_t> counts, std::span<const double> seconds) {
+    std::vector<double> x, y;
+    for (std::size_t i = 0; i < counts.size(); ++i) {
+        x.push_back(std::log(static_cast<double>(counts[i])));
+        y.push_back(std::log(seconds[i]));
+    }
+    return fitted_line(x, y).slope;
+}
+
+double deviation_from_line(std::span<const std::size_t> counts, std::span<const double> seconds) {
+    const std::vector<double> x(counts.begin(), counts.end());
+    const Line line = fitted_line(x, seconds);
+    double largest = 0.0;
+    for (std::size_t i = 0; i < x.size(); ++i)
+        largest = std::max(largest, std::abs(line.start + line.slope * x[i] - seconds[i]) / seconds[i]);
+    return largest;
 }
 
 } // namespace lockstep

@@ -78,6 +78,11 @@ double exponent(std::span<const std::size_t> counts, std::span<const double> ms)
     return counts.size() > 1 && known ? fitted_exponent(counts, ms) : not_a_number;
 }
 
+/// How far times are from growing along a straight line; NaN where it cannot be told.
+double off_line(std::span<const std::size_t> counts, std::span<const double> ms) {
+    return std::isnan(exponent(counts, ms)) ? not_a_number : deviation_from_line(counts, ms);
+}
+
 std::string digits_text(double value, int digits = 2) {
     return std::isnan(value) ? "-" : fmt::format("{:.{}f}", value, digits);
 }
@@ -183,11 +188,13 @@ std::string range(const std::vector<double>& values, int digits) {
 
 std::string findings(const ThesisRun& run) {
     const std::vector<std::size_t> n = counts(run);
-    std::vector<double> cdt, octree, ratios;
+    std::vector<double> cdt, octree, ratios, cdt_off, octree_off;
     double sum = 0.0, particles = 0.0, cells = 0.0;
     for (const std::string_view scene : thesis_scenes) {
         cdt.push_back(exponent(n, series(run, System::cdt, scene).ms));
         octree.push_back(exponent(n, series(run, System::octree, scene).ms));
+        cdt_off.push_back(100.0 * off_line(n, series(run, System::cdt, scene).ms));
+        octree_off.push_back(100.0 * off_line(n, series(run, System::octree, scene).ms));
     }
     bool slower = true;
     for (const ThesisCell& cell : run.cells) {
@@ -201,9 +208,10 @@ std::string findings(const ThesisRun& run) {
     }
     return fmt::format("CDT, average of table 4-1: {} ms at {:.0f} particles (thesis {} ms at 125000)\n"
                        "time ~ particles^x: x {} (CDT), {} (octree); 0.9 to 1.1 is linear\n"
+                       "off the line a + b * particles: {} % (CDT), {} % (octree) at most\n"
                        "octree / CDT: {} (thesis 4.5 to 7.7); the octree is {}slower in every cell\n",
                        ms_text(sum / cells), particles / cells, published_average, range(cdt, 2), range(octree, 2),
-                       range(ratios, 1), slower ? "" : "not ");
+                       range(cdt_off, 1), range(octree_off, 1), range(ratios, 1), slower ? "" : "not ");
 }
 
 struct Column {

@@ -1,5 +1,7 @@
+#include <filesystem>
 #include <memory>
 #include <optional>
+#include <system_error>
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
@@ -31,12 +33,20 @@ namespace {
 
 enum class Side { cpu, gpu };
 
+/// Those of the installation the program is in, or of the source tree one stands in.
+std::filesystem::path shipped_scenes() {
+    std::error_code error;
+    const auto program = std::filesystem::read_symlink("/proc/self/exe", error);
+    const auto installed = program.parent_path().parent_path() / "share" / "lockstep" / "scenes";
+    return !error && std::filesystem::is_directory(installed, error) ? installed : "data/scenes";
+}
+
 struct Options {
     RunOptions run;
     int every = 1;
     std::string profile = "strict";
     std::filesystem::path csv, json, images, chart;
-    std::filesystem::path scenes = "data/scenes";
+    std::filesystem::path scenes = shipped_scenes();
     bool recall_table = false;
     bool catalogue = false;
     bool cameras = false;

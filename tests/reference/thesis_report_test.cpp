@@ -48,6 +48,12 @@ TEST_CASE("statistics: the exponent of powers") {
     CHECK(fitted_exponent(counts, std::array{7.0, 7.0, 7.0}) == Approx(0.0).margin(1e-12));
 }
 
+TEST_CASE("statistics: how far times are off a straight line") {
+    const std::array<std::size_t, 3> counts{10, 20, 30};
+    CHECK(deviation_from_line(counts, std::array{7.0, 9.0, 11.0}) == Approx(0.0).margin(1e-12));
+    CHECK(deviation_from_line(counts, std::array{1.0, 4.0, 1.0}) == Approx(1.0)); // the line is 2
+}
+
 TEST_CASE("thesis_report: tables, figures and ratios, the thesis's beside") {
     const std::string text = thesis_text(linear_run());
     CHECK_THAT(text, Catch::Contains("Table 4-1") && Catch::Contains("Table 5-1") && Catch::Contains("Figure 5-3") &&
@@ -69,6 +75,7 @@ TEST_CASE("thesis_report: tables, figures and ratios, the thesis's beside") {
     CHECK(has_row({"x-streams", "6.0", "6.0", "6.0", "6.0", "-", "-", "-", "-"}));
     CHECK_THAT(text, Catch::Contains("25.0 / 93.8") && Catch::Contains("12.50 ms at 125000 particles") &&
                          Catch::Contains("x 1.00 to 1.00 (CDT), 1.00 to 1.00 (octree)") &&
+                         Catch::Contains("0.0 to 0.0 % (CDT), 0.0 to 0.0 % (octree) at most") &&
                          Catch::Contains("octree / CDT: 6.0 to 6.0 (thesis 4.5 to 7.7); the octree is slower in every "
                                          "cell"));
 }

@@ -209,9 +209,9 @@ std::string findings(const ThesisRun& run) {
     return fmt::format("CDT, average of table 4-1: {} ms at {:.0f} particles (thesis {} ms at 125000)\n"
                        "time ~ particles^x: x {} (CDT), {} (octree); 0.9 to 1.1 is linear\n"
                        "off the line a + b * particles: {} % (CDT), {} % (octree) at most\n"
-                       "octree / CDT: {} (thesis 4.5 to 7.7); the octree is {}slower in every cell\n",
+                       "octree / CDT: {} (thesis 4.5 to 7.7); octree slower in every cell: {}\n",
                        ms_text(sum / cells), particles / cells, published_average, range(cdt, 2), range(octree, 2),
-                       range(cdt_off, 1), range(octree_off, 1), range(ratios, 1), slower ? "" : "not ");
+                       range(cdt_off, 1), range(octree_off, 1), range(ratios, 1), slower ? "yes" : "no");
 }
 
 struct Column {

@@ -63,9 +63,7 @@ void start_trace() {
     trace_velocity = vec3(0.0);
 }
 #define START_TRACE() start_trace()
-#define TRACE_NEIGHBOUR(place, value) \
-    if (trace_neighbour_count == gl_InstanceID + 1) \
-    place = value
+#define TRACE_NEIGHBOUR(place, value) if (trace_neighbour_count == gl_InstanceID + 1) place = value
 #else
 #define START_TRACE()
 #define TRACE_NEIGHBOUR(place, value)

@@ -49,70 +49,7 @@ std::optional<StepTable> first_divergent(FrameRun& run) {
     return {};
 }
 
-struct Mutant {
-    const char* file;
-    const char* text;
-    const char* replacement;
-    const char* row; ///< start of the label of the row that computes what is mutated
-};
-
-constexpr const char* vertex = "collision_pass.vert";
-constexpr Mutant mutants[] = {
-    {vertex, "base_texel(image_position(ls_transform(u_ProjView, a",
-     "base_texel(image_position(ls_transform(transpose(u_ProjView), a", "clip."},
-    {"base_texel.glsl", "ndc = vec2(ls_divide(clip.x, clip.w), ls_divide(clip.y, clip.w));", "", "clip / w"},
-    {"base_texel.glsl", "(ndc + vec2(1.0)) * 0.5", "(ndc + vec2(1.0)) / 0.5", "texture coordinate"},
-    {"base_texel.glsl", "tex_coord.y * float(u_ClientHeight)", "(1.0 - tex_coord.y) * float(u_ClientHeight)",
-     "image position.y"},
-    {"base_texel.glsl", "texel = ivec2(scaled);", "texel = ivec2(scaled + 0.5);", "base texel"},
-    {vertex, "ls_flush(a_CollideTime) < 0.0 &&", "", "searches"},
-    {vertex, "precise vec3 curr_pos = a_Position;", "precise vec3 curr_pos = a_Position.yxz;", "own position"},
-    {"collision_code.glsl", "return texel.xyz;", "return texel.xzy;", "stored ("},
-    {vertex, "sum(curr_pos, -decode_position(stored))", "sum(curr_pos, decode_position(stored))", "apart ("},
-    {vertex, "float len = ls_length(apart);", "float len = ls_length(vec3(apart.xy, 0.0));", "texel ("},
-    {vertex, "if (u_CollisionRange > len && len < particle_min_length)", "if (u_CollisionRange > len)", "texel ("},
-    {vertex, "tx <= u_TexelCollideRange; ++tx", "tx < u_TexelCollideRange; ++tx", "texel ("},
-    {vertex, "(tx == 0 && ty == 0) || !on_image(texel)", "!on_image(texel)", "texel ("},
-    {vertex, "away = apart;", "away = -apart;", "away"},
-    {vertex, "product(a_Speed, u_SpeedFactor)", "product(a_Speed, 2.0 * u_SpeedFactor)", "speed"},
-    {vertex, "v_Dir = ls_normalize(away);", "v_Dir = away;", "direction"},
-    {vertex, "v_CollideTime = u_CollisionTime;", "v_CollideTime = u_CollisionTime - u_Tick;", "collide time"},
-    {vertex, "    step = product(step, u_Tick);\n", "", "position"},
-    {vertex, "product(u_Gravity, u_Tick)", "u_Gravity", "velocity"},
-    {vertex, "v_Dir = ls_normalize(temp);", "v_Dir = temp;", "direction"},
-    {vertex, "v_Speed = ls_length(temp);", "v_Speed = uintBitsToFloat(floatBitsToUint(ls_length(temp)) + 1u);",
-     "speed"},
-    {vertex, "ls_flush(a_CollideTime) - u_Tick;", "ls_flush(a_CollideTime);", "collide time"},
-    {vertex, "product(product(v_Dir, v_Speed), u_Tick)", "product(product(a_Dir, a_Speed), u_Tick)", "position"},
-    {vertex, "ls_transform(u_ProjView, v_Position)", "ls_transform(u_ProjView, v_Position + 0.01)", "point's clip"},
-    {"collision_pass.geom", "kept_position(gl_in[0].gl_Position)",
-     "kept_position(gl_in[0].gl_Position + vec4(0.05, 0.0, 0.0, 0.0))", "gl_Position"},
-    {"collision_pass.geom", "out_Speed = v_Speed[0];", "out_Speed = v_Speed[0] * 0.5;", "speed captured"},
-    {"collision_pass.frag", "encode_position(out_Position)", "encode_position(out_Position.xyz + 0.5)",
-     "owner of texel"},
-};
-
 } // namespace
-
-TEST_CASE("explain: the first divergent row is the mutated operation") {
-    const auto context = test::open_llvmpipe("osmesa");
-    if (!context)
-        return;
-    for (const Mutant& mutant : mutants) {
-        INFO(mutant.file << ": " << mutant.text);
-        const test::TemporaryFolder shaders;
-        test::plant(shaders, mutant.file, mutant.text, mutant.replacement);
-        FrameRun run = run_of(busy_scene(), shaders.path());
-        const auto table = first_divergent(run);
-        REQUIRE(table);
-        const StepRow* row = table->first_divergent();
-        REQUIRE(row != nullptr);
-        INFO(explain_particle(run, table->particle, NumberFormat::decimal));
-        CHECK_THAT(row->label, Catch::StartsWith(mutant.row));
-        CHECK_FALSE(row->reason.empty());
-        CHECK(std::none_of(table->rows.data(), row, [](const StepRow& r) { return r.differs(); }));
-    }
-}
 
 TEST_CASE("explain: the trace build changes no output, and every row of a right shader is the reference's") {
     const auto context = test::open_llvmpipe("osmesa");

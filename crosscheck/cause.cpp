@@ -19,6 +19,7 @@ constexpr std::size_t first_pairs_kept = 256;
 constexpr std::size_t pair_sample = 48;
 constexpr std::size_t pairs_kept = 8;
 constexpr std::size_t whole_kept = 8;
+constexpr std::ptrdiff_t parts_kept = 8;
 
 /// At most `count` of them, evenly spread.
 std::vector<std::size_t> sample(const std::vector<std::size_t>& all, std::size_t count) {
@@ -247,6 +248,15 @@ std::vector<Cause> best_of(std::vector<Cause> causes, std::size_t count) {
     return causes;
 }
 
+/// What has failed to explain everything stays so: only the best of that is kept, to be told as a part.
+void drop_hopeless(std::vector<Cause>& causes, std::uint64_t divergent) {
+    std::stable_sort(causes.begin(), causes.end(), before);
+    const auto failed = std::stable_partition(causes.begin(), causes.end(),
+                                              [&](const Cause& cause) { return is_whole(cause, divergent); });
+    if (causes.end() - failed > parts_kept)
+        causes.erase(failed + parts_kept, causes.end());
+}
+
 void forget_counts(std::vector<Cause>& causes) {
     for (Cause& cause : causes)
         cause.explained = cause.contradicted = 0;
@@ -298,6 +308,7 @@ void CauseFinder::hold_against(Trial& trial, const std::vector<std::size_t>& div
         const std::vector<Cause> two = pairs();
         trial.causes.insert(trial.causes.end(), two.begin(), two.end());
     }
+    drop_hopeless(trial.causes, trial.divergent);
     std::vector<Cause> whole = whole_ones();
     if (whole.empty() || some.size() == divergent.size())
         return;

@@ -7,7 +7,6 @@
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
-#include <nlohmann/json.hpp>
 #include <omp.h>
 
 #include "crosscheck/atomic_file.hpp"
@@ -40,7 +39,7 @@ int run(const std::vector<std::string>& only, const std::string& gl, const std::
     score.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
     fmt::print("\n{}", score_text(score));
     if (!json.empty())
-        write_text_file(json, score_json(score).dump(1) + "\n");
+        write_text_file(json, score_json(score));
     if (!markdown.empty())
         write_text_file(markdown, score_markdown(score));
     return score.is_full() ? 0 : 1;

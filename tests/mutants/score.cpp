@@ -184,48 +184,69 @@ std::string score_markdown(const Score& score) {
     return text;
 }
 
-nlohmann::json score_json(const Score& score) {
+namespace {
+
+nlohmann::json trial_json(const Trial& trial) {
+    std::vector<std::string_view> rejecting;
+    for (std::size_t rule = 0; rule < common_rule_count; ++rule)
+        if (trial.rules[rule] == false)
+            rejecting.push_back(common_rules()[rule].name);
+    nlohmann::json json{{"scene", trial.scene}, {"verdict", trial.verdict}};
+    if (trial.rules[0])
+        json["rejected_by"] = rejecting;
+    if (trial.frame >= 0)
+        json["frame"] = trial.frame;
+    if (!trial.error.empty())
+        json["error"] = trial.error;
+    if (!trial.step.empty())
+        json["step"] = trial.step;
+    if (trial.divergent > 0)
+        json["divergent"] = trial.divergent;
+    if (!trial.causes.empty())
+        json[trial.explained ? "cause" : "cause_in_part"] =
+            trial.explained ? trial.causes : std::vector{trial.causes.front()};
+    return json;
+}
+
+nlohmann::json outcome_json(const Outcome& outcome) {
+    nlohmann::json json{{"name", outcome.mutant.name}, {"in", outcome.mutant.where()}};
+    if (!outcome.mutant.cause.empty())
+        json["cause"] = outcome.mutant.cause;
+    if (!outcome.mutant.equivalent.empty())
+        json["equivalent"] = outcome.mutant.equivalent;
+    json["found"] = nlohmann::json::array();
+    for (const Trial& trial : outcome.trials)
+        if (trial.killed())
+            json["found"].push_back(trial_json(trial));
+    return json;
+}
+
+} // namespace
+
+std::string score_json(const Score& score) {
     nlohmann::json rules = nlohmann::json::object();
     for (std::size_t rule = 0; rule < common_rule_count; ++rule)
         rules[std::string(common_rules()[rule].name)] = {{"found", score.rejected_by(rule)},
                                                          {"of", score.judged_by(rule)}};
-    nlohmann::json mutants = nlohmann::json::array();
-    for (const Outcome& outcome : score.outcomes) {
-        nlohmann::json trials = nlohmann::json::array();
-        for (const Trial& trial : outcome.trials) {
-            nlohmann::json accepted = nlohmann::json::object();
-            for (std::size_t rule = 0; rule < common_rule_count; ++rule)
-                if (trial.rules[rule])
-                    accepted[std::string(common_rules()[rule].name)] = *trial.rules[rule];
-            nlohmann::json json{{"scene", trial.scene}, {"verdict", trial.verdict}, {"accepted", accepted}};
-            if (trial.frame >= 0)
-                json["frame"] = trial.frame;
-            if (!trial.error.empty())
-                json["error"] = trial.error;
-            if (!trial.step.empty())
-                json["step"] = trial.step;
-            if (trial.divergent > 0)
-                json["divergent"] = trial.divergent;
-            if (!trial.causes.empty())
-                json[trial.explained ? "cause" : "cause_in_part"] = trial.causes;
-            trials.push_back(json);
-        }
-        nlohmann::json json{{"name", outcome.mutant.name}, {"in", outcome.mutant.where()}, {"trials", trials}};
-        if (!outcome.mutant.cause.empty())
-            json["cause"] = outcome.mutant.cause;
-        if (!outcome.mutant.equivalent.empty())
-            json["equivalent"] = outcome.mutant.equivalent;
-        mutants.push_back(json);
-    }
-    return {{"command", "scripts/mutation_score.sh"},
-            {"commit", score.commit},
-            {"renderer", score.renderer},
-            {"seconds", score.seconds},
-            {"frames", trial_frames},
-            {"verdict", {{"found", score.killed()}, {"of", score.wanted()}, {"false_alarms", score.false_alarms()}}},
-            {"cause", {{"named", score.named()}, {"of", score.hypotheses()}, {"wrongly_named", score.wrongly_named()}}},
-            {"other_rules", rules},
-            {"mutants", mutants}};
+    nlohmann::json scenes = nlohmann::json::array();
+    for (const Trial& trial : score.unmutated.trials)
+        scenes.push_back(trial.scene);
+    const nlohmann::json sums{
+        {"command", "scripts/mutation_score.sh"},
+        {"commit", score.commit},
+        {"renderer", score.renderer},
+        {"seconds", score.seconds},
+        {"scenes", scenes},
+        {"frames", trial_frames},
+        {"verdict", {{"found", score.killed()}, {"of", score.wanted()}, {"false_alarms", score.false_alarms()}}},
+        {"cause", {{"named", score.named()}, {"of", score.hypotheses()}, {"wrongly_named", score.wrongly_named()}}},
+        {"other_rules", rules}};
+    std::string text = sums.dump(2);
+    text.resize(text.size() - 2); // "\n}"
+    text += ",\n  \"mutants\": [";
+    for (const Outcome& outcome : score.outcomes)
+        text += fmt::format("{}\n    {}", &outcome == &score.outcomes.front() ? "" : ",", outcome_json(outcome).dump());
+    return text + "\n  ]\n}\n";
 }
 
 } // namespace lockstep::test

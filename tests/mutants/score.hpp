@@ -2,8 +2,6 @@
 #include <string>
 #include <vector>
 
-#include <nlohmann/json_fwd.hpp>
-
 #include "tests/mutants/trial.hpp"
 
 namespace lockstep::test {
@@ -41,6 +39,8 @@ std::string score_text(const Score& score);
 
 /// Everything, as a page of tables.
 std::string score_markdown(const Score& score);
-nlohmann::json score_json(const Score& score);
+
+/// Everything as JSON, a mutant a line; trials that found nothing are left out.
+std::string score_json(const Score& score);
 
 } // namespace lockstep::test

@@ -96,13 +96,14 @@ ColorImage TrialScene::render_reference(const Particles& particles) const {
     return render_pass(particles, scene_.obstacles, last_frame_, profile_);
 }
 
-std::vector<TrialScene> trial_scenes(const Profile& profile) {
+std::vector<TrialScene> trial_scenes(const Profile& profile, std::span<const std::string_view> names) {
     constexpr std::pair<const char*, const char*> set[] = {
         {"crowd", ""},   {"listing", ""},      {"exact", ""},        {"halves", ""}, {"bytes", ""},
         {"lattice", ""}, {"lattice", "paper"}, {"lattice", "exact"}, {"strip", ""},  {"strip", "paper"}};
     std::vector<TrialScene> scenes;
     for (const auto& [name, preset] : set)
-        scenes.emplace_back(name, preset, profile);
+        if (names.empty() || std::find(names.begin(), names.end(), name) != names.end())
+            scenes.emplace_back(name, preset, profile);
     return scenes;
 }
 

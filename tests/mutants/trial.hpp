@@ -4,7 +4,9 @@
 #include <filesystem>
 #include <memory>
 #include <optional>
+#include <span>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "crosscheck/check.hpp"
@@ -41,9 +43,9 @@ class TrialScene {
     std::unique_ptr<RenderPass> render_pass_; ///< the shipped one
 };
 
-/// The scenes of tests/mutants/scenes, small enough for hundreds of runs. Needs a current context, which has to outlive
-/// them.
-std::vector<TrialScene> trial_scenes(const Profile& profile);
+/// The scenes of tests/mutants/scenes, small enough for hundreds of runs, or those of them that `names` lists. Needs a
+/// current context, which has to outlive them.
+std::vector<TrialScene> trial_scenes(const Profile& profile, std::span<const std::string_view> names = {});
 
 /// How one run of a mutant ended.
 struct Trial {

@@ -8,6 +8,7 @@
 
 #include "gpu/simulation.hpp"
 #include "reference/model/error.hpp"
+#include "reference/model/layered_cdt.hpp"
 #include "reference/model/state_hash.hpp"
 #include "reference/simulation.hpp"
 
@@ -148,11 +149,12 @@ CheckReport check(const Scene& scene, const Profile& profile, GpuSimulation& gpu
     CheckReport report;
     report.particles = scene.start.size();
     ReferenceSimulation reference(scene, profile);
-    State before{scene.start, CollisionImage(scene.width, scene.height)};
+    State before{scene.start, empty_cdt(scene)};
     State now = before;
     State earlier = before;
-    // Legal runs of the octree's passes are not known: what differs there is told, not judged.
-    const bool judged = options.mode == CheckMode::resync && scene.switches.search == Search::cdt;
+    // Legal runs are known of the listing's pass alone: what differs with an octree or remedies is told, not judged.
+    const bool judged =
+        options.mode == CheckMode::resync && scene.switches.search == Search::cdt && !has_remedies(scene.switches);
     RunJudge judge(scene, profile, options.known.value_or(measured_operations(profile)));
     gpu.upload(before.particles, before.cdt);
 

@@ -26,7 +26,7 @@ enum class Verdict {
     legal,            ///< what differs is rounding or a tie (verdict.hpp)
     undefined,        ///< something rests on what GL leaves open, nothing is divergent
     divergent,        ///< no legal run explains something
-    differ,           ///< free mode, or search = octree, where differences are not judged
+    differ,           ///< free mode, search = octree or remedies, where differences are not judged
     nondeterministic, ///< the GPU gave two answers to one frame
 };
 
@@ -61,7 +61,7 @@ struct CheckReport {
     std::optional<int> first_frame;     ///< the first frame with a difference, or that did not repeat itself
     std::vector<FrameDifference> worst; ///< of the first differing frame, largest ULP first
     std::vector<FrameCount> counts;
-    std::optional<VerdictSummary> verdicts; ///< resync mode, search = cdt
+    std::optional<VerdictSummary> verdicts; ///< resync mode, search = cdt, no remedies
     std::uint64_t hits = 0;                 ///< particle-frames in which the reference found a collision
     std::uint64_t drawn_texels = 0;         ///< texels written by the reference, summed over frames
     std::uint64_t reference_hash = 0;

@@ -12,6 +12,7 @@
 #include "crosscheck/surface.hpp"
 #include "reference/model/emitters.hpp"
 #include "reference/model/error.hpp"
+#include "reference/model/layered_cdt.hpp"
 
 namespace lockstep {
 namespace {
@@ -256,6 +257,7 @@ Scene load_scene(const std::filesystem::path& file, const SceneOptions& options)
         read_constants(*constants, scene.constants);
     for (const std::string& setting : options.set)
         apply_setting(setting, scene);
+    check_remedies(scene.switches);
 
     if (const auto camera = json.find("camera"))
         scene.camera = read_camera(*camera);

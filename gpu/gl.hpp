@@ -69,7 +69,9 @@
     X(Finish)                                                                                                          \
     X(Flush)                                                                                                           \
     X(FlushMappedBufferRange)                                                                                          \
+    X(FramebufferTexture)                                                                                              \
     X(FramebufferTexture2D)                                                                                            \
+    X(FramebufferTextureLayer)                                                                                         \
     X(FrontFace)                                                                                                       \
     X(GenBuffers)                                                                                                      \
     X(GenFramebuffers)                                                                                                 \
@@ -116,8 +118,10 @@
     X(ShaderSource)                                                                                                    \
     X(TexBuffer)                                                                                                       \
     X(TexImage2D)                                                                                                      \
+    X(TexImage3D)                                                                                                      \
     X(TexParameteri)                                                                                                   \
     X(TexSubImage2D)                                                                                                   \
+    X(TexSubImage3D)                                                                                                   \
     X(TransformFeedbackVaryings)                                                                                       \
     X(Uniform1f)                                                                                                       \
     X(Uniform1i)                                                                                                       \

@@ -22,14 +22,13 @@ std::optional<Program> link(const Switches& switches, const std::filesystem::pat
 ObstaclePass::ObstaclePass(const Switches& switches, const std::filesystem::path& shaders)
     : kind_(switches.obstacles_in_cdt), program_(link(switches, shaders)) {}
 
-void ObstaclePass::run(const MeshBuffer& obstacles, const FrameParams& params, CollisionTexture& target) {
+void ObstaclePass::run(const MeshBuffer& obstacles, const FrameParams& params) {
     if (!program_ || obstacles.vertex_count() == 0)
         return;
     program_->set("u_ProjView", params.collision_proj_view);
     program_->set("u_ClientWidth", params.width);
     program_->set("u_ClientHeight", params.height);
     set_collision_code(*program_, params);
-    target.bind_target();
     gl::Enable(GL_DEPTH_TEST);
     gl::DepthFunc(GL_LESS);
     const GlVertexArray vertices = mesh_vertex_array(obstacles, *program_);

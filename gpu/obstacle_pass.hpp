@@ -2,7 +2,6 @@
 #include <filesystem>
 #include <optional>
 
-#include "gpu/collision_texture.hpp"
 #include "gpu/mesh_buffer.hpp"
 #include "gpu/program.hpp"
 #include "reference/model/scene.hpp"
@@ -16,8 +15,8 @@ class ObstaclePass {
     /// `shaders` is looked into before the shipped folder; may be empty.
     ObstaclePass(const Switches& switches, const std::filesystem::path& shaders);
 
-    /// Draws into `target` on top of what it holds.
-    void run(const MeshBuffer& obstacles, const FrameParams& params, CollisionTexture& target);
+    /// Draws into the bound framebuffer on top of what it holds; the viewport is the whole image.
+    void run(const MeshBuffer& obstacles, const FrameParams& params);
 
   private:
     ObstaclesInCdt kind_;

@@ -1,5 +1,6 @@
 #include "gpu/simulation.hpp"
 
+#include <algorithm>
 #include <bit>
 #include <cstdint>
 
@@ -7,6 +8,7 @@
 
 #include "gpu/check.hpp"
 #include "reference/model/error.hpp"
+#include "reference/model/layered_cdt.hpp"
 
 namespace lockstep {
 namespace {
@@ -26,15 +28,28 @@ GpuSimulation::GpuSimulation(const Scene& scene, const std::filesystem::path& sh
       collision_pass_(scene.switches, shaders), particles_{ParticleBuffer(scene.start.size()),
                                                            ParticleBuffer(scene.start.size())},
       cdts_{CollisionTexture(scene.width, scene.height, scene.switches.cdt_format),
-            CollisionTexture(scene.width, scene.height, scene.switches.cdt_format)} {
+            CollisionTexture(scene.width, scene.height, scene.switches.cdt_format)},
+      layered_(layered(scene, shaders)) {
     if (scene.switches.search == Search::octree)
         octree_pass_.emplace(scene, shaders);
-    upload(scene.start, CollisionImage(scene.width, scene.height));
+    upload(scene.start, empty_cdt(scene));
+}
+
+std::optional<GpuSimulation::Layered> GpuSimulation::layered(const Scene& scene, const std::filesystem::path& shaders) {
+    if (!has_remedies(scene.switches))
+        return {};
+    const auto cdt = [&] {
+        return LayeredTexture(scene.width, scene.height, cdt_planes(scene.switches), scene.switches.cdt_format);
+    };
+    return Layered{{scene.switches, shaders, scene.width, scene.height}, {cdt(), cdt()}};
 }
 
 void GpuSimulation::upload(const Particles& particles, const CollisionImage& cdt) {
     particles_[current_].upload(particles);
-    cdts_[current_].upload(cdt);
+    if (layered_)
+        layered_->cdts[current_].upload(cdt);
+    else
+        cdts_[current_].upload(cdt);
 }
 
 void GpuSimulation::step(const FrameParams& params) {
@@ -54,15 +69,18 @@ void GpuSimulation::run_frame(const FrameParams& params, std::size_t from, std::
     GLuint64 nanoseconds = 0;
     gl::GetQueryObjectui64v(timer_.id(), GL_QUERY_RESULT, &nanoseconds);
     frame_seconds_ = static_cast<double>(nanoseconds) * 1e-9;
-    if (!octree_pass_)
-        collision_pass_.verify_written(particles_[from].size());
+    verify_written();
 }
 
 void GpuSimulation::run_passes(const FrameParams& params, std::size_t from, std::size_t to) {
+    if (layered_)
+        return layered_->pass.run(params, obstacles_, obstacle_pass_, particles_[from], particles_[to],
+                                  layered_->cdts[from], layered_->cdts[to]);
     cdts_[to].clear();
     if (octree_pass_)
         return octree_pass_->run(params, particles_[from], particles_[to]);
-    obstacle_pass_.run(obstacles_, params, cdts_[to]);
+    cdts_[to].bind_target();
+    obstacle_pass_.run(obstacles_, params);
     collision_pass_.run(params, particles_[from], particles_[to], cdts_[from], cdts_[to]);
 }
 
@@ -72,17 +90,37 @@ StepCapture GpuSimulation::trace(const FrameParams& params, std::size_t particle
     return trace_->run(params, particles_[1 - current_], particle, cdts_[1 - current_]);
 }
 
+void GpuSimulation::verify_written() const {
+    if (layered_)
+        layered_->pass.verify_written(particles_[0].size());
+    else if (!octree_pass_)
+        collision_pass_.verify_written(particles_[0].size());
+}
+
 void GpuSimulation::read(Particles& particles) const { particles_[current_].read(particles); }
 
-void GpuSimulation::read(CollisionImage& cdt) const { cdts_[current_].read(cdt); }
+void GpuSimulation::read(CollisionImage& cdt) const {
+    if (layered_)
+        layered_->cdts[current_].read(cdt);
+    else
+        cdts_[current_].read(cdt);
+}
 
 bool GpuSimulation::holds(const Particles& particles) const { return particles_[current_].holds(particles); }
 
 void GpuSimulation::lay_canary() {
     particles_[1 - current_].fill(canary);
-    CollisionTexture& target = cdts_[1 - current_];
-    const bool floats = target.format() == CdtFormat::rgba32f;
-    target.upload(CollisionImage(target.width(), target.height(), floats ? canary_texel : glm::vec4(1.0F)));
+    const auto fill = [](auto& target) {
+        CollisionImage image;
+        target.read(image);
+        const bool floats = target.format() == CdtFormat::rgba32f;
+        std::fill(image.texels.begin(), image.texels.end(), floats ? canary_texel : glm::vec4(1.0F));
+        target.upload(image);
+    };
+    if (layered_)
+        fill(layered_->cdts[1 - current_]);
+    else
+        fill(cdts_[1 - current_]);
 }
 
 void GpuSimulation::find_canary(const Particles& particles, const CollisionImage& cdt, int frame) {

@@ -5,6 +5,7 @@
 
 #include "gpu/collision_pass.hpp"
 #include "gpu/collision_trace.hpp"
+#include "gpu/layered_collision_pass.hpp"
 #include "gpu/mesh_buffer.hpp"
 #include "gpu/obstacle_pass.hpp"
 #include "gpu/octree_pass.hpp"
@@ -23,8 +24,8 @@ class GpuSimulation {
     /// The state the next frame starts from.
     void upload(const Particles& particles, const CollisionImage& cdt);
 
-    /// One frame: clear, obstacles, collision pass, or with search = octree the octree's two passes and a CDT that
-    /// stays empty; returns when the GPU is done.
+    /// One frame: clear, obstacles, collision pass, or with remedies the layered one; with search = octree the octree's
+    /// two passes and a CDT that stays empty. Returns when the GPU is done.
     void step(const FrameParams& params);
 
     /// The last frame once more, from the same state.
@@ -51,8 +52,16 @@ class GpuSimulation {
     static void find_canary(const Particles& particles, const CollisionImage& cdt, int frame);
 
   private:
+    /// The pass with remedies and the CDTs it reads and draws.
+    struct Layered {
+        LayeredCollisionPass pass;
+        std::array<LayeredTexture, 2> cdts;
+    };
+    static std::optional<Layered> layered(const Scene& scene, const std::filesystem::path& shaders);
+
     void run_frame(const FrameParams& params, std::size_t from, std::size_t to);
     void run_passes(const FrameParams& params, std::size_t from, std::size_t to);
+    void verify_written() const;
 
     Switches switches_;
     std::filesystem::path shaders_;
@@ -63,6 +72,7 @@ class GpuSimulation {
     std::array<ParticleBuffer, 2> particles_;
     std::array<CollisionTexture, 2> cdts_;
     std::optional<CollisionTrace> trace_;
+    std::optional<Layered> layered_; ///< with remedies, in the place of collision_pass_ and cdts_
     GlQuery timer_;
     double frame_seconds_ = 0.0;
     std::size_t current_ = 0; ///< which of the two the next frame starts from

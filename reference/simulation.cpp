@@ -4,17 +4,22 @@
 #include <utility>
 
 #include "reference/collision_pass_fast.hpp"
+#include "reference/layered_collision_pass.hpp"
 #include "reference/obstacle_pass.hpp"
 #include "reference/octree_pass.hpp"
 
 namespace lockstep {
 
 ReferenceSimulation::ReferenceSimulation(const Scene& scene, Profile profile)
-    : obstacles_(scene.obstacles), profile_(std::move(profile)), after_(scene.start),
-      cdt_before_(scene.width, scene.height), cdt_after_(scene.width, scene.height),
-      depth_(scene.width, scene.height, 1.0F) {}
+    : obstacles_(scene.obstacles), profile_(std::move(profile)), after_(scene.start), cdt_before_(empty_cdt(scene)),
+      cdt_after_(empty_cdt(scene)), depth_(scene.width, scene.height, 1.0F) {}
 
 void ReferenceSimulation::step_from(const Particles& before, const CollisionImage& cdt, const FrameParams& params) {
+    if (has_remedies(params.switches)) {
+        update_particles_layered(before, cdt, params, profile_, after_);
+        draw_layered_cdt(after_, obstacles_, params, profile_, cdt_after_);
+        return;
+    }
     clear();
     if (params.switches.search == Search::octree)
         return octree_pass(before, obstacles_, params, profile_, after_);

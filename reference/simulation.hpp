@@ -12,8 +12,8 @@ class ReferenceSimulation {
   public:
     ReferenceSimulation(const Scene& scene, Profile profile);
 
-    /// One frame from a given state: clear, obstacles, collision pass, or with search = octree the octree pass and a
-    /// CDT that stays empty. The answer is in particles() and cdt().
+    /// One frame from a given state: clear, obstacles, collision pass, or with remedies the layered one; with search =
+    /// octree the octree pass and a CDT that stays empty. The answer is in particles() and cdt().
     void step_from(const Particles& before, const CollisionImage& cdt, const FrameParams& params);
 
     /// One frame from where the last one ended.

@@ -16,6 +16,7 @@
 #include "crosscheck/statistics.hpp"
 #include "gpu/context.hpp"
 #include "gpu/simulation.hpp"
+#include "reference/model/layered_cdt.hpp"
 #include "reference/model/state_hash.hpp"
 
 namespace lockstep {
@@ -42,7 +43,7 @@ struct Timing {
 /// GL frames from the scene's start, without any check.
 void time_alone(GpuSimulation& gpu, const Scene& scene, int frames, std::vector<double>& wall,
                 std::vector<double>& timer) {
-    gpu.upload(scene.start, CollisionImage(scene.width, scene.height));
+    gpu.upload(scene.start, empty_cdt(scene));
     for (int frame = 0; frame < frames; ++frame) {
         const FrameParams params = frame_params(scene, frame);
         const double start = now();

@@ -40,4 +40,12 @@ Camera camera_at(const Camera& camera, const std::vector<CameraKey>& keys, int f
     return moved;
 }
 
+Camera turned_aside(const Camera& camera) {
+    const glm::dvec3 up = glm::normalize(glm::dvec3(camera.up));
+    const glm::dvec3 offset = glm::dvec3(camera.eye) - glm::dvec3(camera.target);
+    Camera turned = camera;
+    turned.eye = glm::vec3(glm::dvec3(camera.target) + glm::dot(offset, up) * up + glm::cross(up, offset));
+    return turned;
+}
+
 } // namespace lockstep

@@ -35,4 +35,7 @@ glm::mat4 view_projection_matrix(const Camera& camera, float aspect);
 /// `camera` moved along `keys` (sorted by frame) to where it is at `frame`. No keys: unchanged.
 Camera camera_at(const Camera& camera, const std::vector<CameraKey>& keys, int frame);
 
+/// `camera` turned by a right angle round its target, about its up axis. Computed in double and rounded once.
+Camera turned_aside(const Camera& camera);
+
 } // namespace lockstep

@@ -14,6 +14,7 @@ FrameParams frame_params(const Scene& scene, int frame) {
     const auto aspect = [](int width, int height) { return static_cast<float>(width) / static_cast<float>(height); };
     FrameParams params;
     params.collision_proj_view = view_projection_matrix(collision, aspect(scene.width, scene.height));
+    params.second_proj_view = view_projection_matrix(turned_aside(collision), aspect(scene.width, scene.height));
     params.render_view = view_matrix(render);
     params.render_projection = projection_matrix(render, aspect(scene.render_width, scene.render_height));
     params.width = scene.width;

@@ -41,6 +41,7 @@ struct Scene {
 /// What one frame's passes need besides their images and particles.
 struct FrameParams {
     glm::mat4 collision_proj_view{1.0F}; ///< u_ProjView of the collision pass
+    glm::mat4 second_proj_view{1.0F};    ///< the same of the second collision camera, cdt_cameras = 2
     glm::mat4 render_view{1.0F};
     glm::mat4 render_projection{1.0F};
     int width = 500; ///< CDT, texels

@@ -28,6 +28,9 @@ constexpr std::array<Names, 2> cdt_camera{"moving", "fixed"};
 constexpr std::array<Names, 3> obstacles_in_cdt{"off", "vertices", "triangles"};
 constexpr std::array<Names, 2> raster_position{"before_step", "updated"};
 constexpr std::array<Names, 2> arithmetic{"plain", "exact"};
+constexpr std::array<Names, 8> one_to_eight{"1", "2", "3", "4", "5", "6", "7", "8"};
+constexpr std::array<Names, 2> search_window{"texels", "projected"};
+constexpr std::array<Names, 2> response{"single", "mutual"};
 
 template <auto Member> SwitchInfo named(Names name, std::span<const Names> values, Names meaning) {
     return {name,
@@ -35,6 +38,16 @@ template <auto Member> SwitchInfo named(Names name, std::span<const Names> value
             meaning,
             [](const Switches& s) { return static_cast<int>(s.*Member); },
             [](Switches& s, int index) { s.*Member = static_cast<std::decay_t<decltype(s.*Member)>>(index); },
+            nullptr};
+}
+
+/// A count from 1 on.
+template <auto Member> SwitchInfo count(Names name, std::span<const Names> values, Names meaning) {
+    return {name,
+            values,
+            meaning,
+            [](const Switches& s) { return s.*Member - 1; },
+            [](Switches& s, int index) { s.*Member = index + 1; },
             nullptr};
 }
 
@@ -81,6 +94,13 @@ std::span<const SwitchInfo> switch_table() {
         named<&S::arithmetic>("arithmetic", arithmetic, "GLSL's own functions, or portable.glsl"),
         named<&S::search>("search", search,
                           "neighbours are looked for in the CDT, or in an octree (thesis, chapter 5)"),
+        count<&S::cdt_layers>("cdt_layers", one_to_eight, "particles a texel of the CDT holds, nearest first"),
+        count<&S::cdt_cameras>("cdt_cameras", std::span(one_to_eight).first(2),
+                               "collision cameras; the second stands at a right angle to the first"),
+        named<&S::search_window>("search_window", search_window,
+                                 "texel_collide_range each way, or of these what the collision range projects to"),
+        named<&S::response>("response", response,
+                            "a particle answers its nearest by itself, or both of a pair do, by momentum"),
         number("speed_factor", &S::speed_factor, "factor on the speed at a hit"),
         number("cdt_camera_offset", &S::cdt_camera_offset, "z offset of a moving collision camera, world units"),
     };

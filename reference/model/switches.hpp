@@ -32,6 +32,11 @@ enum class RasterPosition { before_step, updated };
 /// every driver.
 enum class ArithmeticSwitch { plain, exact };
 
+/// Beyond the thesis (layered_cdt.hpp): with any of cdt_layers, search_window, cdt_cameras and response off its first
+/// value, the layered collision pass takes the collision pass's place.
+enum class SearchWindow { texels, projected };
+enum class Response { single, mutual };
+
 struct Switches {
     Search search = Search::cdt;
     PerspectiveDivide perspective_divide = PerspectiveDivide::on;
@@ -48,6 +53,10 @@ struct Switches {
     ObstaclesInCdt obstacles_in_cdt = ObstaclesInCdt::triangles;
     RasterPosition raster_position = RasterPosition::updated;
     ArithmeticSwitch arithmetic = ArithmeticSwitch::plain;
+    int cdt_layers = 1;  ///< 1 to 8
+    int cdt_cameras = 1; ///< 1 or 2
+    SearchWindow search_window = SearchWindow::texels;
+    Response response = Response::single;
     float speed_factor = 0.8F;      ///< factor on the speed at a hit
     float cdt_camera_offset = 0.0F; ///< world units along +z (eq. 1), for a moving collision camera
 

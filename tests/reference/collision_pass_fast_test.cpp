@@ -11,6 +11,7 @@
 #include <omp.h>
 
 #include "reference/collision_pass_fast.hpp"
+#include "reference/model/layered_cdt.hpp"
 #include "tests/reference/collision_scenes.hpp"
 
 using namespace lockstep;
@@ -80,7 +81,7 @@ TEST_CASE("fast collision: the obvious pass's bits for every combination of swit
     std::vector<Switches> combinations{preset("corrected"), preset("exact")};
     for (const SwitchInfo& info : switch_table()) {
         if (info.values.size() < 2 || info.name == "arithmetic" || info.name == "cdt_camera" ||
-            info.name == "obstacles_in_cdt" || info.name == "search")
+            info.name == "obstacles_in_cdt" || chooses_pass(info.name))
             continue;
         std::vector<Switches> next;
         for (const Switches& switches : combinations)

@@ -39,7 +39,8 @@ Images draw_cpu(const Mesh& obstacles, const FrameParams& params, const Profile&
 
 Images draw_gpu(const Mesh& obstacles, const FrameParams& params) {
     CollisionTexture texture(params.width, params.height, params.switches.cdt_format);
-    ObstaclePass(params.switches, {}).run(MeshBuffer(obstacles), params, texture);
+    texture.bind_target();
+    ObstaclePass(params.switches, {}).run(MeshBuffer(obstacles), params);
     Images images;
     texture.read(images.cdt);
     texture.read(images.depth);

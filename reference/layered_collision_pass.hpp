@@ -1,0 +1,39 @@
+#pragma once
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include <glm/vec3.hpp>
+
+#include "reference/model/image.hpp"
+#include "reference/model/layered_cdt.hpp"
+#include "reference/model/mesh.hpp"
+#include "reference/model/particles.hpp"
+#include "reference/model/profile.hpp"
+#include "reference/model/scene.hpp"
+
+namespace lockstep {
+
+/// The collision pass with the remedies (docs/remedies.md). Twin of shaders/layered_collision_pass.vert and
+/// shaders/layered_cdt.*. A CDT is a stack of planes (reference/model/layered_cdt.hpp); switches as check_remedies
+/// wants them. Pure: the answer depends on the arguments alone, not on the thread count.
+///
+/// A particle looks at every position stored in its search windows, camera by camera, row by row, in each texel the
+/// obstacle and then the layers from the front; its base texel too, but not at its own stored position, nor at one at
+/// distance 0.
+///
+/// response = single: it answers to the nearest, the first of equally near ones, as in the collision pass.
+/// response = mutual: each particle within the range that it approaches, and that searches too, changes its velocity by
+/// -(1 + speed_factor) / 2 of the component along the line between them of their relative velocity, speed_factor being
+/// the coefficient of restitution: the other's share is the same with the opposite sign. It takes part only if it finds
+/// itself in the CDT, since else the others cannot see it. The nearest obstacle point in range reflects it.
+
+/// Vertex stage: the state after the step. `after` is resized; it must not be `before`.
+void update_particles_layered(const Particles& before, const CollisionImage& cdt, const FrameParams& params,
+                              const Profile& profile, Particles& after);
+
+/// Draws obstacles and particles into every plane of `cdt`; what it held is gone.
+void draw_layered_cdt(const Particles& particles, const Mesh& obstacles, const FrameParams& params,
+                      const Profile& profile, CollisionImage& cdt);
+
+} // namespace lockstep

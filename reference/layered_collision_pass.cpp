@@ -224,6 +224,10 @@ template <class A> std::vector<PointFragment> place(std::span<const glm::vec3> p
 struct Kept {
     float depth = 1.0F;
     std::int32_t particle = -1;
+
+    [[nodiscard]] bool comes_after(const Kept& other) const {
+        return particle < 0 || other.depth < depth || (other.depth == depth && other.particle < particle);
+    }
 };
 
 /// The particle in each texel of each layer, layer by layer, -1 where there is none.
@@ -237,7 +241,7 @@ std::vector<std::int32_t> layer_owners(std::span<const PointFragment> placed, co
         Kept next{placed[i].depth, static_cast<std::int32_t>(i)};
         auto slot = static_cast<std::size_t>(placed[i].y * params.width + placed[i].x);
         for (int layer = 0; layer < layers && next.particle >= 0; ++layer, slot += texels)
-            if (kept[slot].particle < 0 || next.depth < kept[slot].depth)
+            if (kept[slot].comes_after(next))
                 std::swap(kept[slot], next);
     }
     std::vector<std::int32_t> owners(kept.size());

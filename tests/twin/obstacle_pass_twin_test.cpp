@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 #include <glm/common.hpp>
 
+#include "gpu/collision_texture.hpp"
 #include "gpu/obstacle_pass.hpp"
 #include "reference/obstacle_pass.hpp"
 #include "reference/triangle_interpolation.hpp"

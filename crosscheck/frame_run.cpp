@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 
 #include "reference/model/error.hpp"
+#include "reference/model/layered_cdt.hpp"
 #include "reference/obstacle_pass.hpp"
 
 namespace lockstep {
@@ -14,6 +15,10 @@ Scene searched_in_cdt(Scene scene) {
     if (scene.switches.search != Search::cdt)
         throw Error(
             fmt::format("{}: only the search through the CDT is followed step by step; set search=cdt", scene.name));
+    for (const std::string_view name : remedy_switches)
+        if (const std::string first = switch_value({}, name); switch_value(scene.switches, name) != first)
+            throw Error(fmt::format("{}: only the listing's own search is followed step by step; set {}={}", scene.name,
+                                    name, first));
     return scene;
 }
 

@@ -4,6 +4,7 @@
 
 #include "gpu/simulation.hpp"
 #include "reference/collision_pass.hpp"
+#include "reference/layered_collision_pass.hpp"
 #include "reference/obstacle_pass.hpp"
 #include "reference/simulation.hpp"
 
@@ -40,10 +41,15 @@ template <class Simulation> std::vector<StudyFrame> run(const Scene& scene, cons
         const FrameParams params = frame_params(scene, frame);
         const Particles before = simulation.particles();
         if (frame > 0 && (frame - 1) % options.every == 0) {
-            const Owners owners =
-                draw_owners(previous, before, scene.obstacles, frame_params(scene, frame - 1), profile);
             const Truth truth = find_truth(before.position, params.constants.collision_range);
-            const SearchStudy study = study_search(before, simulation.cdt(), owners, truth, params, profile);
+            const FrameParams drawn = frame_params(scene, frame - 1);
+            const SearchStudy study =
+                has_remedies(scene.switches)
+                    ? study_layered_search(before, simulation.cdt(), draw_layered_owners(before, drawn, profile), truth,
+                                           params, profile)
+                    : study_search(before, simulation.cdt(),
+                                   draw_owners(previous, before, scene.obstacles, drawn, profile), truth, params,
+                                   profile);
             studied.push_back({frame, study.counts, {}});
             if (options.on_state)
                 options.on_state({frame, before, params, study.findings});
@@ -73,7 +79,12 @@ SearchStudy study_start(const Scene& scene, const Truth& truth, const Profile& p
     Particles particles = scene.start;
     std::fill(particles.collide_time.begin(), particles.collide_time.end(), -1.0F);
     const FrameParams params = frame_params(scene, 0);
-    CollisionImage cdt(scene.width, scene.height);
+    CollisionImage cdt = empty_cdt(scene);
+    if (has_remedies(scene.switches)) {
+        draw_layered_cdt(particles, scene.obstacles, params, profile, cdt);
+        return study_layered_search(particles, cdt, draw_layered_owners(particles, params, profile), truth, params,
+                                    profile);
+    }
     DepthImage depth(scene.width, scene.height, 1.0F);
     obstacle_pass(scene.obstacles, params, profile, cdt, depth);
     rasterise_particles(particles, particles, params, profile, cdt, depth);

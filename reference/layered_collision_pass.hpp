@@ -1,9 +1,6 @@
 #pragma once
 #include <cstdint>
-#include <span>
 #include <vector>
-
-#include <glm/vec3.hpp>
 
 #include "reference/model/image.hpp"
 #include "reference/model/layered_cdt.hpp"
@@ -11,6 +8,7 @@
 #include "reference/model/particles.hpp"
 #include "reference/model/profile.hpp"
 #include "reference/model/scene.hpp"
+#include "reference/owners.hpp"
 
 namespace lockstep {
 
@@ -35,5 +33,13 @@ void update_particles_layered(const Particles& before, const CollisionImage& cdt
 /// Draws obstacles and particles into every plane of `cdt`; what it held is gone.
 void draw_layered_cdt(const Particles& particles, const Mesh& obstacles, const FrameParams& params,
                       const Profile& profile, CollisionImage& cdt);
+
+/// Whose positions it holds then: the particle in each texel of the planes with positions, else empty_owner; and the
+/// texel of its plane each particle is drawn to, whoever has it, or no_texel, camera by camera.
+struct LayeredOwners {
+    Image<std::int32_t> owner;
+    std::vector<std::int32_t> drawn;
+};
+LayeredOwners draw_layered_owners(const Particles& particles, const FrameParams& params, const Profile& profile);
 
 } // namespace lockstep

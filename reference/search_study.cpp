@@ -12,6 +12,7 @@
 
 #include "reference/collision_code.hpp"
 #include "reference/collision_pass.hpp"
+#include "reference/search_counting.hpp"
 #include "reference/subnormals.hpp"
 #include "reference/with_arithmetic.hpp"
 
@@ -26,8 +27,6 @@ double ratio(std::size_t part, std::size_t whole) {
 template <std::size_t N> void add(std::array<std::size_t, N>& to, const std::array<std::size_t, N>& from) {
     std::transform(to.begin(), to.end(), from.begin(), to.begin(), std::plus<>());
 }
-
-template <class Enum> constexpr std::size_t at(Enum value) { return static_cast<std::size_t>(value); }
 
 std::size_t index(std::int32_t i) { return static_cast<std::size_t>(i); }
 
@@ -166,61 +165,6 @@ template <class A> class Search {
     std::vector<BaseTexelIndex> base_;
 };
 
-/// Particle i's contribution.
-template <class A> Finding count_particle(const Search<A>& search, const Truth& truth, std::size_t i, SearchCounts& n) {
-    Finding finding;
-    finding.hit = search.hit(i);
-    ++n.hits[at(finding.hit)];
-    if (finding.hit == Hit::nearest || finding.hit == Hit::neighbour)
-        n.non_mutual += search.partner(index(search.partner(i))) != static_cast<std::int32_t>(i) ? 1U : 0U;
-
-    const Neighbourhood& nearest = truth.nearest.particle[i];
-    if (nearest.nearest == no_neighbour)
-        return finding;
-    ++n.with_neighbour;
-    n.with_neighbour_inside += search.inside(i) ? 1U : 0U;
-    n.with_neighbour_search += search.searches(i) ? 1U : 0U;
-    bool recalled = false;
-    bool in_base = false;
-    for (const std::int32_t j : truth.lists.of(i)) {
-        ++n.pairs;
-        const std::optional<Miss> miss = search.miss(i, j);
-        if (miss)
-            ++n.missed_pairs[at(*miss)];
-        else
-            ++n.found_pairs;
-        recalled = recalled || !miss;
-        in_base = in_base || (search.searches(i) && search.base_owned_by(i, j));
-        if (j == nearest.nearest)
-            finding.miss = miss.value_or(finding.miss);
-    }
-    n.recalled += recalled ? 1U : 0U;
-    n.recalled_with_base += recalled || in_base ? 1U : 0U;
-    finding.kind = recalled ? Finding::Kind::recalled : Finding::Kind::missed;
-    if (!recalled)
-        ++n.missed_particles[at(finding.miss)];
-    return finding;
-}
-
-template <class A> SearchStudy study(const Inputs& in) {
-    SearchStudy result;
-    result.findings.resize(in.particles.size());
-    const Search<A> search(in);
-    const auto count = static_cast<std::ptrdiff_t>(in.particles.size());
-#pragma omp parallel
-    {
-        const FlushSubnormals guard(in.profile.flush_subnormals);
-        SearchCounts counts;
-#pragma omp for schedule(dynamic, 1024)
-        for (std::ptrdiff_t i = 0; i < count; ++i)
-            result.findings[static_cast<std::size_t>(i)] =
-                count_particle(search, in.truth, static_cast<std::size_t>(i), counts);
-#pragma omp critical
-        result.counts += counts;
-    }
-    return result;
-}
-
 glm::dvec3 momentum(const Particles& p, std::size_t i) {
     return glm::dvec3(p.direction[i]) * static_cast<double>(p.speed[i]);
 }
@@ -251,9 +195,9 @@ SearchCounts& SearchCounts::operator+=(const SearchCounts& other) {
     return *this;
 }
 
-std::size_t SearchCounts::true_hits() const { return hits[at(Hit::nearest)] + hits[at(Hit::neighbour)]; }
+std::size_t SearchCounts::true_hits() const { return hits[place_of(Hit::nearest)] + hits[place_of(Hit::neighbour)]; }
 std::size_t SearchCounts::false_hits() const {
-    return std::accumulate(hits.begin() + at(Hit::phantom_origin), hits.end(), std::size_t{0});
+    return std::accumulate(hits.begin() + place_of(Hit::phantom_origin), hits.end(), std::size_t{0});
 }
 double SearchCounts::recall() const { return ratio(recalled, with_neighbour); }
 double SearchCounts::recall_with_base() const { return ratio(recalled_with_base, with_neighbour); }
@@ -275,16 +219,12 @@ SearchStudy study_search(const Particles& particles, const CollisionImage& cdt, 
     assert(owners.drawn.size() == particles.size() && truth.nearest.particle.size() == particles.size());
     assert(cdt.width == params.width && cdt.height == params.height);
     const Inputs in{particles, cdt, owners, truth, params, profile};
-    SearchStudy result = with_arithmetic(profile, params.switches, [&]<class A>(A) { return study<A>(in); });
-
+    SearchStudy result = with_arithmetic(profile, params.switches, [&]<class A>(A) {
+        return count_search(Search<A>(in), particles.size(), truth, params, profile);
+    });
     SearchCounts& n = result.counts;
-    n.particles = particles.size();
-    n.ignored = truth.nearest.ignored;
     n.owners = static_cast<std::size_t>(std::count_if(owners.owner.texels.begin(), owners.owner.texels.end(),
                                                       [](std::int32_t owner) { return owner >= 0; }));
-    for (const Neighbourhood& neighbourhood : truth.nearest.particle)
-        if (neighbourhood.nearest != no_neighbour)
-            n.depth += double{params.constants.collision_range} - std::sqrt(neighbourhood.squared_distance);
     return result;
 }
 

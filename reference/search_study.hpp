@@ -6,6 +6,7 @@
 #include <string_view>
 #include <vector>
 
+#include "reference/layered_collision_pass.hpp"
 #include "reference/model/image.hpp"
 #include "reference/model/particles.hpp"
 #include "reference/model/profile.hpp"
@@ -105,6 +106,12 @@ Truth find_truth(std::span<const glm::vec3> positions, float range);
 /// `params`: of the frame that searches; `truth` within its collision range. All of one size.
 SearchStudy study_search(const Particles& particles, const CollisionImage& cdt, const Owners& owners,
                          const Truth& truth, const FrameParams& params, const Profile& profile);
+
+/// The same of a CDT with remedies (layered_cdt.hpp). What is hidden from all cameras counts under what hides it from
+/// the first. Layers leave out no base texel and no particle behind an obstacle; with response = mutual a pair is
+/// missed too where i itself is in no layer (occluded), and where j does not search (cooling_down).
+SearchStudy study_layered_search(const Particles& particles, const CollisionImage& cdt, const LayeredOwners& owners,
+                                 const Truth& truth, const FrameParams& params, const Profile& profile);
 
 /// What one step did to the sums over all particles of finite state, beyond what gravity explains; mass 1 each.
 struct Drift {

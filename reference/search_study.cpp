@@ -39,10 +39,10 @@ struct Inputs {
     const Profile& profile;
 };
 
-/// The questions about one particle and one texel. `A`: the arithmetic (arithmetic.hpp).
-template <class A> class Search {
+/// The questions of search_counting.hpp, to a CDT of one plane. `A`: the arithmetic (arithmetic.hpp).
+template <class A> class CdtQuestions {
   public:
-    explicit Search(const Inputs& in)
+    explicit CdtQuestions(const Inputs& in)
         : in_(in), code_(in.params), hit_(collision_texels(in.particles.position, in.cdt, in.params, in.profile)),
           drawn_now_(drawn_texels(in.particles.position, in.params, in.profile)), base_(in.particles.size()) {
         const auto count = static_cast<std::ptrdiff_t>(base_.size());
@@ -203,7 +203,7 @@ double SearchCounts::recall() const { return ratio(recalled, with_neighbour); }
 double SearchCounts::recall_with_base() const { return ratio(recalled_with_base, with_neighbour); }
 double SearchCounts::recall_inside() const { return ratio(recalled, with_neighbour_inside); }
 double SearchCounts::recall_searching() const { return ratio(recalled, with_neighbour_search); }
-double SearchCounts::true_nearest() const { return ratio(hits[at(Hit::nearest)], with_neighbour); }
+double SearchCounts::true_nearest() const { return ratio(hits[place_of(Hit::nearest)], with_neighbour); }
 double SearchCounts::precision() const { return ratio(true_hits(), true_hits() + false_hits()); }
 double SearchCounts::non_mutual_rate() const { return ratio(non_mutual, true_hits()); }
 double SearchCounts::mean_depth() const {
@@ -220,7 +220,7 @@ SearchStudy study_search(const Particles& particles, const CollisionImage& cdt, 
     assert(cdt.width == params.width && cdt.height == params.height);
     const Inputs in{particles, cdt, owners, truth, params, profile};
     SearchStudy result = with_arithmetic(profile, params.switches, [&]<class A>(A) {
-        return count_search(Search<A>(in), particles.size(), truth, params, profile);
+        return count_search(CdtQuestions<A>(in), particles.size(), truth, params, profile);
     });
     SearchCounts& n = result.counts;
     n.owners = static_cast<std::size_t>(std::count_if(owners.owner.texels.begin(), owners.owner.texels.end(),

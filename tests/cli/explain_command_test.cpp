@@ -139,6 +139,8 @@ TEST_CASE("explain_command: the octree's search is not followed") {
     const Setting setting;
     CHECK(refusal(setting.explain({"--frame", "1", "--particle", "1", "--set", "search=octree"})) ==
           "scene: only the search through the CDT is followed step by step; set search=cdt");
+    CHECK(refusal(setting.explain({"--frame", "1", "--particle", "1", "--set", "cdt_layers=2"})) ==
+          "scene: only the listing's own search is followed step by step; set cdt_layers=1");
 }
 
 TEST_CASE("explain_command: a trace build that does not compile is told with file and line") {

@@ -406,3 +406,59 @@ TEST_CASE("study: recall of the cube agrees with the other model") {
     CHECK(100.0 * static_cast<double>(row.counts[0].owners) / 50'000.0 == Approx(83.6).margin(0.5));
     CHECK(recall_row_text(row).find("83.6; 40 / 75 / 83") != std::string::npos);
 }
+
+TEST_CASE("search study: with remedies too, causes sum to the misses and hits are the step's") {
+    for (const std::vector<std::string>& remedies : {std::vector<std::string>{"cdt_layers=3"},
+                                                     {"cdt_cameras=2"},
+                                                     {"search_window=projected", "cdt_format=rgba16f"},
+                                                     {"cdt_layers=2", "arithmetic=exact"},
+                                                     {"response=mutual", "cdt_layers=2"}}) {
+        std::vector<std::string> settings = remedies;
+        settings.emplace_back("collision_range=0.04");
+        Scene scene = small_scene("x_streams", 3000, settings);
+        scene.camera_path = {{0, {0, 0, 2.4F}, {0, 0, 0}}, {12, {0.6F, 0, 2.0F}, {0.2F, 0, 0}}};
+        INFO(remedies.front());
+        ReferenceSimulation simulation(scene, {});
+        simulation.step(frame_params(scene, 0));
+        for (int frame = 1; frame < 12; ++frame) {
+            const Particles before = simulation.particles();
+            const CollisionImage cdt = simulation.cdt();
+            const FrameParams params = frame_params(scene, frame);
+            simulation.step(params);
+            const SearchStudy study =
+                study_layered_search(before, cdt, draw_layered_owners(before, frame_params(scene, frame - 1), {}),
+                                     find_truth(before.position, params.constants.collision_range), params, {});
+            const SearchCounts& n = study.counts;
+            CHECK(n.pairs > 0);
+            CHECK(sum(n.missed_pairs) == n.pairs - n.found_pairs);
+            CHECK(sum(n.missed_particles) == n.with_neighbour - n.recalled);
+            CHECK(sum(n.hits) == n.particles);
+            std::size_t wrong_hits = 0;
+            for (std::size_t i = 0; i < before.size(); ++i) {
+                const bool collided = before.collide_time[i] < 0.0F &&
+                                      simulation.particles().collide_time[i] == params.constants.collision_time;
+                const bool hit = study.findings[i].hit != Hit::none;
+                wrong_hits += scene.switches.response == Response::single ? collided != hit : collided && !hit;
+            }
+            CHECK(wrong_hits == 0);
+        }
+    }
+}
+
+TEST_CASE("search study: layers and a second camera find more, and eight layers with a projected window all") {
+    Scene scene = small_scene("x_streams", 3000, {"collision_range=0.04", "texel_collide_range=32"});
+    const double plain = study_start(scene, {}).counts.recall();
+    const auto counts = [&](int layers, int cameras, SearchWindow window) {
+        Scene changed = scene;
+        changed.switches.cdt_layers = layers;
+        changed.switches.cdt_cameras = cameras;
+        changed.switches.search_window = window;
+        return study_start(changed, {}).counts;
+    };
+    CHECK(counts(2, 1, SearchWindow::texels).recall() > plain);
+    CHECK(counts(1, 2, SearchWindow::texels).recall() > plain);
+    for (const SearchWindow window : {SearchWindow::texels, SearchWindow::projected}) {
+        const SearchCounts n = counts(8, 1, window);
+        CHECK(n.pairs - n.found_pairs == n.missed_pairs[static_cast<std::size_t>(Miss::outside_image)]);
+    }
+}

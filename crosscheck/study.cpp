@@ -15,7 +15,7 @@ namespace {
 /// The GL side, read back after every frame.
 class ReadBack {
   public:
-    ReadBack(const Scene& scene, GpuSimulation& gpu) : gpu_(gpu), cdt_(scene.width, scene.height) {
+    ReadBack(const Scene& scene, GpuSimulation& gpu) : gpu_(gpu), cdt_(empty_cdt(scene)) {
         gpu_.upload(scene.start, cdt_);
         particles_ = scene.start;
     }

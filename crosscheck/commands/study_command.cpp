@@ -19,6 +19,7 @@
 #include "crosscheck/profiles.hpp"
 #include "crosscheck/progress.hpp"
 #include "crosscheck/recall_table.hpp"
+#include "crosscheck/remedy_table.hpp"
 #include "crosscheck/scene_file.hpp"
 #include "crosscheck/study.hpp"
 #include "crosscheck/study_pictures.hpp"
@@ -51,6 +52,8 @@ struct Options {
     bool catalogue = false;
     bool cameras = false;
     Side side = Side::cpu;
+    bool remedies = false;
+    bool gl_asked = false;
     bool thesis = false;
     ThesisStudy thesis_study;
 };
@@ -62,6 +65,35 @@ void print_recall_table(const Options& options) {
         std::fflush(stdout);
     });
     fmt::print("{}", recall_table_foot());
+}
+
+/// With --gl on that context, else recall alone.
+void print_remedies(const Options& options) {
+    const bool gl = options.gl_asked;
+    OutputFiles files;
+    if (!options.json.empty())
+        files.expect(options.json);
+    std::optional<Context> context;
+    if (gl)
+        context.emplace(parse_context_request(options.run.gl));
+    RemedyOptions remedies;
+    remedies.scenes = options.scenes;
+    remedies.shaders = options.run.shaders;
+    remedies.particles = options.run.particles.value_or(remedies.particles);
+    remedies.gl = gl;
+    remedies.profile = context ? measured_profile(*context) : named_profile(options.profile);
+    remedies.on_row = [](const RemedyRow& row) {
+        fmt::print("{}", remedy_text(row));
+        std::fflush(stdout);
+    };
+    const std::string where = context ? summary(context->describe()) : "no GL: recall alone; --gl measures the cost";
+    fmt::print("{}\n{} particles in a cube at rest, radius 4\n\n{}", where, remedies.particles, remedy_head());
+    const std::vector<RemedyRow> rows = remedy_table(remedies);
+    if (!options.json.empty())
+        files.write(options.json, nlohmann::json{{"gl", where}, {"rows", remedy_json(rows)}}.dump(
+                                      2, ' ', false, nlohmann::json::error_handler_t::replace) +
+                                      "\n");
+    files.commit();
 }
 
 /// Whether every effect is there.
@@ -157,9 +189,10 @@ void study_scene(const Options& options) {
 }
 
 int run(const Options& options) {
-    if (options.recall_table || options.catalogue || options.thesis) {
+    if (options.recall_table || options.catalogue || options.remedies || options.thesis) {
         if (!options.run.scene.empty())
-            throw Error("study: --recall-table, --catalogue and --thesis have scenes of their own; leave SCENE out");
+            throw Error("study: --recall-table, --catalogue, --remedies and --thesis have scenes of their own; leave "
+                        "SCENE out");
         if (options.thesis) {
             ThesisStudy study = options.thesis_study;
             study.run = options.run;
@@ -171,10 +204,12 @@ int run(const Options& options) {
         }
         if (options.recall_table)
             print_recall_table(options);
+        if (options.remedies)
+            print_remedies(options);
         return options.catalogue && !print_catalogue(options) ? status_differ : status_agree;
     }
     if (options.run.scene.empty())
-        throw Error("study: a SCENE, --recall-table, --catalogue or --thesis is needed");
+        throw Error("study: a SCENE, --recall-table, --catalogue, --remedies or --thesis is needed");
     if (options.run.frames < 2)
         throw Error("study: --frames 1 is the frame with the empty CDT; 2 or more have something to study");
     study_scene(options);
@@ -225,12 +260,18 @@ void add_study_command(CLI::App& app, int& status) {
     verb->add_option("--from", options->thesis_study.from,
                      "--thesis: tell and draw what an earlier --json wrote, on a machine without that GL")
         ->type_name("FILE");
+    verb->add_flag("--remedies", options->remedies,
+                   "what the remedies find (docs/remedies.md), and with --gl what they cost, as a table; --json and "
+                   "--particles apply");
     add_gl_options(*verb, options->run);
     verb->add_option("--scenes", options->scenes, "where the scenes of --recall-table, --catalogue and --thesis are")
         ->type_name("DIR");
     verb->footer("Examples: lockstep study data/scenes/x_streams.json --frames 60 --every 10\n"
                  "          lockstep study --thesis --gl egl-device:0 --json thesis.json --chart thesis.svg");
-    verb->callback([options, &status] { status = run(*options); });
+    verb->callback([options, verb, &status] {
+        options->gl_asked = verb->count("--gl") > 0;
+        status = run(*options);
+    });
 }
 
 } // namespace lockstep

@@ -48,9 +48,10 @@ TEST_CASE("study: a chart, or one line that says what is missing") {
 }
 
 TEST_CASE("study: what cannot be studied is refused in one line") {
-    CHECK(refusal(run_lockstep({"study"})) == "study: a SCENE, --recall-table, --catalogue or --thesis is needed");
+    CHECK(refusal(run_lockstep({"study"})) ==
+          "study: a SCENE, --recall-table, --catalogue, --remedies or --thesis is needed");
     CHECK(refusal(run_lockstep({"study", scene(), "--catalogue"})) ==
-          "study: --recall-table, --catalogue and --thesis have scenes of their own; leave SCENE out");
+          "study: --recall-table, --catalogue, --remedies and --thesis have scenes of their own; leave SCENE out");
     CHECK(refusal(run_lockstep({"study", scene(), "--frames", "1"})) ==
           "study: --frames 1 is the frame with the empty CDT; 2 or more have something to study");
     CHECK(refusal(run_lockstep({"study", scene(), "--set", "search=octree"})) ==
@@ -112,4 +113,20 @@ TEST_CASE("study: what the thesis's tables cannot be made of is refused in one l
                Catch::StartsWith("/nowhere/a.json"));
     CHECK_THAT(refusal(run_lockstep({"study", "--thesis", "--json", "/nowhere/a.json"})),
                Catch::StartsWith("/nowhere"));
+}
+
+TEST_CASE("study: the remedies' table, with and without GL") {
+    const test::TemporaryFolder output;
+    const std::string json = (output.path() / "remedies.json").string();
+    const auto recall = run_lockstep({"study", "--remedies", "--particles", "3000", "--json", json});
+    CHECK(recall.status == 0);
+    CHECK_THAT(recall.out, Catch::Contains("no GL") && Catch::Contains("cdt_layers=4 search_window=projected"));
+    CHECK(test::names_in(output.path()) == std::vector<std::string>{"remedies.json"});
+    CHECK_THAT(refusal(run_lockstep({"study", "--remedies", "--json", "/nowhere/a.json"})),
+               Catch::Contains("/nowhere"));
+    if (!test::have_osmesa())
+        return;
+    const auto cost = run_lockstep({"study", "--remedies", "--particles", "3000", "--gl", "osmesa"});
+    CHECK(cost.status == 0);
+    CHECK_THAT(cost.out, Catch::Contains("AGREE") && !Catch::Contains("DIFFER"));
 }

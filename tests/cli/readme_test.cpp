@@ -19,7 +19,7 @@ std::vector<std::vector<std::string>> commands_on_listing(const std::string& ver
     std::ifstream stream("README.md");
     std::string text{std::istreambuf_iterator<char>(stream), {}};
     for (std::size_t end = text.find("\\\n"); end != std::string::npos; end = text.find("\\\n"))
-        text.replace(end, 2, " ");
+        text[end] = text[end + 1] = ' ';
     std::istringstream lines(text);
     std::vector<std::vector<std::string>> commands;
     for (std::string line; std::getline(lines, line);) {

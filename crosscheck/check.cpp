@@ -6,7 +6,7 @@
 
 #include <fmt/format.h>
 
-#include "gpu/simulation.hpp"
+#include "gpu/gpu_side.hpp"
 #include "reference/model/error.hpp"
 #include "reference/model/layered_cdt.hpp"
 #include "reference/model/state_hash.hpp"
@@ -34,7 +34,7 @@ struct State {
     CollisionImage cdt;
 };
 
-void read(GpuSimulation& gpu, State& state) {
+void read(GpuSide& gpu, State& state) {
     gpu.read(state.particles);
     gpu.read(state.cdt);
 }
@@ -47,7 +47,7 @@ Comparison compare(const Particles& reference, const CollisionImage& reference_c
 
 /// What the GPU has now, against what it had. Particles are only read back where they differ: a copy of 4 million
 /// would be the peak of the whole run.
-Comparison compare_again(const State& first, GpuSimulation& gpu) {
+Comparison compare_again(const State& first, GpuSide& gpu) {
     State again;
     gpu.read(again.cdt);
     Comparison result = lockstep::compare(first.cdt, again.cdt);
@@ -145,7 +145,7 @@ Verdict verdict_on(const CheckReport& report) {
 
 } // namespace
 
-CheckReport check(const Scene& scene, const Profile& profile, GpuSimulation& gpu, const CheckOptions& options) {
+CheckReport check(const Scene& scene, const Profile& profile, GpuSide& gpu, const CheckOptions& options) {
     CheckReport report;
     report.particles = scene.start.size();
     ReferenceSimulation reference(scene, profile);
@@ -161,7 +161,7 @@ CheckReport check(const Scene& scene, const Profile& profile, GpuSimulation& gpu
     for (int frame = 0; frame < options.frames && !(options.stop != nullptr && *options.stop); ++frame) {
         const FrameParams params = frame_params(scene, frame);
         FrameTimes times;
-        const bool repeat = frame < options.repeated_frames;
+        const bool repeat = frame < options.repeated_frames && gpu.repeats();
         if (repeat)
             gpu.lay_canary();
         {

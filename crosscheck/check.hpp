@@ -14,7 +14,7 @@
 
 namespace lockstep {
 
-class GpuSimulation;
+class GpuSide;
 
 enum class CheckMode {
     resync, ///< after each frame the reference restarts from the GPU's state, so each step is judged alone
@@ -93,6 +93,6 @@ struct CheckOptions {
 
 /// Runs both sides from the scene's start and compares every float of every frame. Throws Error when the run would
 /// prove nothing: a GL error, an incomplete framebuffer, output that was not written, no frame compared.
-CheckReport check(const Scene& scene, const Profile& profile, GpuSimulation& gpu, const CheckOptions& options);
+CheckReport check(const Scene& scene, const Profile& profile, GpuSide& gpu, const CheckOptions& options);
 
 } // namespace lockstep

@@ -123,7 +123,7 @@ void GpuSimulation::lay_canary() {
         fill(cdts_[1 - current_]);
 }
 
-void GpuSimulation::find_canary(const Particles& particles, const CollisionImage& cdt, int frame) {
+void GpuSimulation::find_canary(const Particles& particles, const CollisionImage& cdt, int frame) const {
     for (std::size_t i = 0; i < particles.size(); ++i)
         if (any_canary(particles.position[i]) || any_canary(particles.direction[i]) || is_canary(particles.speed[i]) ||
             is_canary(particles.collide_time[i]))

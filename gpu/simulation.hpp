@@ -5,6 +5,7 @@
 
 #include "gpu/collision_pass.hpp"
 #include "gpu/collision_trace.hpp"
+#include "gpu/gpu_side.hpp"
 #include "gpu/layered_collision_pass.hpp"
 #include "gpu/mesh_buffer.hpp"
 #include "gpu/obstacle_pass.hpp"
@@ -16,20 +17,19 @@ namespace lockstep {
 
 /// The GPU side of a run in the current context: whole frames, one after the other, particles and CDT in two copies
 /// each that swap roles. Twin of reference/simulation.hpp.
-class GpuSimulation {
+class GpuSimulation final : public GpuSide {
   public:
     /// `shaders`: a folder looked into before the shipped one, or empty.
     GpuSimulation(const Scene& scene, const std::filesystem::path& shaders);
 
-    /// The state the next frame starts from.
-    void upload(const Particles& particles, const CollisionImage& cdt);
+    void upload(const Particles& particles, const CollisionImage& cdt) override;
 
     /// One frame: clear, obstacles, collision pass, or with remedies the layered one; with search = octree the octree's
     /// two passes and a CDT that stays empty. Returns when the GPU is done.
-    void step(const FrameParams& params);
+    void step(const FrameParams& params) override;
 
-    /// The last frame once more, from the same state.
-    void repeat_step(const FrameParams& params);
+    [[nodiscard]] bool repeats() const override { return true; }
+    void repeat_step(const FrameParams& params) override;
 
     /// What the last frame's step of a particle computed on its way, from the buffers that frame read. Compiles the
     /// trace build at the first call, and then throws Error for what is wrong with it. Needs search = cdt.
@@ -39,17 +39,12 @@ class GpuSimulation {
     /// the context has none.
     [[nodiscard]] double frame_seconds() const { return frame_seconds_; }
 
-    /// The state after the last frame.
-    void read(Particles& particles) const;
-    void read(CollisionImage& cdt) const;
+    void read(Particles& particles) const override;
+    void read(CollisionImage& cdt) const override;
+    [[nodiscard]] bool holds(const Particles& particles) const override;
 
-    /// Whether read() would give exactly these bits.
-    [[nodiscard]] bool holds(const Particles& particles) const;
-
-    /// Fills what the next frame writes with a pattern that no step computes, and looks for it in what was read back:
-    /// throws Error when a buffer or the image was not really written.
-    void lay_canary();
-    static void find_canary(const Particles& particles, const CollisionImage& cdt, int frame);
+    void lay_canary() override;
+    void find_canary(const Particles& particles, const CollisionImage& cdt, int frame) const override;
 
   private:
     /// The pass with remedies and the CDTs it reads and draws.

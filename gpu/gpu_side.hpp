@@ -1,0 +1,42 @@
+#pragma once
+#include "reference/model/image.hpp"
+#include "reference/model/particles.hpp"
+#include "reference/model/scene.hpp"
+
+namespace lockstep {
+
+/// Whatever computes the frames that a check holds against the reference: GpuSimulation runs them on GL, a trace gives
+/// back what was recorded, and an engine of one's own is another by deriving from this.
+class GpuSide {
+  public:
+    GpuSide() = default;
+    virtual ~GpuSide() = default;
+    GpuSide(const GpuSide&) = delete;
+    GpuSide& operator=(const GpuSide&) = delete;
+
+    /// The state the next frame starts from.
+    virtual void upload(const Particles& particles, const CollisionImage& cdt) = 0;
+
+    /// One frame. Returns when it is done.
+    virtual void step(const FrameParams& params) = 0;
+
+    /// The state after the last frame; `cdt` as stored codes, row 0 at the bottom.
+    virtual void read(Particles& particles) const = 0;
+    virtual void read(CollisionImage& cdt) const = 0;
+
+    /// Whether a frame can be run twice from one state, to prove that it repeats itself. The rest is called only then.
+    [[nodiscard]] virtual bool repeats() const { return false; }
+
+    /// Fills what the next frame writes with a pattern that no step computes, and looks for it in what was read back:
+    /// throws Error when a buffer or the image was not really written.
+    virtual void lay_canary() {}
+    virtual void find_canary(const Particles& /*particles*/, const CollisionImage& /*cdt*/, int /*frame*/) const {}
+
+    /// The last frame once more, from the same state.
+    virtual void repeat_step(const FrameParams& /*params*/) {}
+
+    /// Whether read() would give exactly these bits.
+    [[nodiscard]] virtual bool holds(const Particles& /*particles*/) const { return true; }
+};
+
+} // namespace lockstep

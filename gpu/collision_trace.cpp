@@ -27,6 +27,10 @@ std::vector<ShaderSource> trace_build(const Switches& switches, const std::files
     return load_stages(shader_folders(shaders), "collision_pass", stages, defines);
 }
 
+std::string declared(const Capture& capture) {
+    return capture.size == 1 ? type_name(capture.type) : fmt::format("{}[{}]", type_name(capture.type), capture.size);
+}
+
 int components(const Capture& capture) { return output_components(capture.type) * capture.size; }
 
 bool has_stage(std::span<const ShaderSource> stages, Stage stage) {
@@ -153,8 +157,9 @@ std::vector<CollisionTrace::Part> CollisionTrace::parts(const std::string& name,
     int room = 0;
     for (const Capture& capture : captured) {
         if (components(capture) == 0 || components(capture) > most)
-            throw Error(fmt::format("{}: output {} is {}[{}], which cannot be captured", name, capture.name,
-                                    type_name(capture.type), capture.size));
+            throw Error(fmt::format("{}: output {} is {}, which cannot be captured; scalars, vectors and matrices of "
+                                    "float, int and uint can",
+                                    name, capture.name, declared(capture)));
         if (groups.empty() || components(capture) > room) {
             groups.emplace_back();
             room = most;
@@ -207,9 +212,7 @@ std::vector<CapturedVertex> CollisionTrace::capture(const Part& part, const Fram
         for (const Capture& output : part.captured) {
             const auto end = word + components(output);
             vertex.outputs.push_back(
-                {output.name,
-                 output.size == 1 ? type_name(output.type) : fmt::format("{}[{}]", type_name(output.type), output.size),
-                 is_float_type(output.type), std::vector<std::uint32_t>(word, end)});
+                {output.name, declared(output), is_float_type(output.type), std::vector<std::uint32_t>(word, end)});
             word = end;
         }
     return captured;

@@ -3,6 +3,7 @@
 #include <string>
 
 #include <catch2/catch.hpp>
+#include <fmt/format.h>
 
 #include "crosscheck/explain_text.hpp"
 #include "crosscheck/frame_run.hpp"
@@ -194,4 +195,49 @@ TEST_CASE("explain: the picture shows both sides' picks") {
     CHECK(std::count(texels.begin(), texels.end(), 'G') == 1);
     CHECK(std::count(texels.begin(), texels.end(), '[') == 1);
     CHECK(std::count(texels.begin(), texels.end(), '\n') == 4);
+}
+
+TEST_CASE("explain: more outputs than one draw can capture are captured by several") {
+    const auto context = test::open_llvmpipe("osmesa");
+    if (!context)
+        return;
+    const test::TemporaryFolder shaders;
+    std::string declared, written;
+    for (int i = 0; i < 8; ++i) {
+        declared += fmt::format("out vec4 trace_more{};\n", i);
+        written += fmt::format("    trace_more{0} = vec4({0}.0, 0.0, 0.0, {0}.5);\n", i);
+    }
+    test::plant(shaders, "collision_pass.vert", "precise out vec3 v_Position;",
+                declared + "precise out vec3 v_Position;");
+    test::plant(shaders, "collision_pass.vert", "    START_TRACE();\n", "    START_TRACE();\n" + written);
+    FrameRun run = run_of(busy_scene(), shaders.path());
+    run.go_to(1);
+    const StepCapture capture = run.capture(3);
+    for (int i = 0; i < 8; ++i) {
+        const auto value = capture.vertex.vec4(fmt::format("trace_more{}", i));
+        REQUIRE(value);
+        CHECK(*value == glm::vec4(static_cast<float>(i), 0.0F, 0.0F, static_cast<float>(i) + 0.5F));
+    }
+    CHECK(capture.vertex.vec4("trace_clip").has_value());
+    REQUIRE(capture.vertex_state);
+    CHECK(same_bits(*capture.vertex_state, run.judged().gpu[3]));
+    CHECK(capture.vertex.integer("trace_neighbour_count").value_or(-1) ==
+          static_cast<int>(capture.neighbours.size()) * capture.vertex.integer("trace_searches").value_or(0));
+}
+
+TEST_CASE("explain: an output that cannot be captured is named") {
+    const auto context = test::open_llvmpipe("osmesa");
+    if (!context)
+        return;
+    const test::TemporaryFolder shaders;
+    test::plant(shaders, "collision_pass.vert", "precise out vec3 v_Position;",
+                "precise out vec3 v_Position;\nflat out double trace_long;");
+    test::plant(shaders, "collision_pass.vert", "#version 330 core\n",
+                "#version 330 core\n#extension GL_ARB_gpu_shader_fp64 : require\n");
+    test::plant(shaders, "collision_pass.vert", "    START_TRACE();\n",
+                "    START_TRACE();\n    trace_long = double(a_Speed);\n");
+    FrameRun run = run_of(busy_scene(), shaders.path());
+    run.go_to(1);
+    CHECK_THROWS_WITH(run.capture(3), "trace build of collision_pass, vertex stage: output trace_long is double, which "
+                                      "cannot be captured; scalars, vectors and matrices of float, int and uint can");
 }

@@ -74,15 +74,23 @@ template <class A> class LayeredSearch {
                 span(at.y, A::divide(reach.y, before), params_.height)};
     }
 
-    /// Calls look(StoredAt, stored position) for everything in the windows of a particle, in the pass's order.
+    /// Calls look(StoredAt, stored position) for everything in the windows of a particle, in the pass's order. A
+    /// texel's layers are looked at from the front, up to one that lies farther behind than the range reaches.
     template <class Look> void for_each_stored(glm::vec3 position, const Look& look) const {
         for (int camera = 0; camera < planes_.cameras; ++camera) {
             const auto [columns, rows] = window(position, camera);
+            const float behind =
+                A::flush(depth(position, camera) + A::flush(reach_[static_cast<std::size_t>(camera)].z));
             for (int y = rows.low; y <= rows.high; ++y)
                 for (int x = columns.low; x <= columns.high; ++x)
-                    for (int layer = -1; layer < planes_.layers; ++layer)
-                        if (const glm::vec4 code = texel(planes_.position(camera, layer), x, y); code.a != 0.0F)
-                            look(StoredAt{camera, layer, x, y}, A::flush(code_.decode(code)));
+                    for (int layer = -1; layer < planes_.layers; ++layer) {
+                        const glm::vec4 code = texel(planes_.position(camera, layer), x, y);
+                        const glm::vec3 stored = A::flush(code_.decode(code));
+                        if (code.a != 0.0F && !(depth(stored, camera) > behind))
+                            look(StoredAt{camera, layer, x, y}, stored);
+                        else if (layer >= 0)
+                            break; // the layers behind are empty, or out of reach too
+                    }
         }
     }
 
@@ -117,6 +125,11 @@ template <class A> class LayeredSearch {
     }
 
   private:
+    /// Clip w.
+    [[nodiscard]] float depth(glm::vec3 position, int camera) const {
+        return A::transform(collision_proj_view(params_, camera), position).w;
+    }
+
     [[nodiscard]] Span span(float at, float reach, int size) const {
         const int base = static_cast<int>(at);
         const int range = params_.constants.texel_collide_range;

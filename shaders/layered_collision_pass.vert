@@ -123,7 +123,7 @@ void meet(vec3 stored, ivec3 texel, bool obstacle, inout Contacts contacts) {
     keep_nearest(apart, len, contacts);
 }
 
-// All texels of the window, and in each the obstacle and the layers. One loop, not three in
+// All texels of the window, and in each the obstacle and the layers as far back as the range reaches. One loop, not three in
 // one another: particles that run side by side have different windows, and each goes through its own.
 void search(mat4 proj_view, vec3 reach, int first_plane, inout Contacts contacts) {
     vec4 clip = ls_transform(proj_view, a_Position);
@@ -132,6 +132,7 @@ void search(mat4 proj_view, vec3 reach, int first_plane, inout Contacts contacts
     if (!base_texel(at, base))
         return;
     float before = sum(clip.w, -reach.z);
+    float behind = sum(clip.w, reach.z);
     ivec2 columns = window(at.x, ls_divide(reach.x, before), u_ClientWidth);
     ivec2 rows = window(at.y, ls_divide(reach.y, before), u_ClientHeight);
     ivec3 texel = ivec3(columns.x, rows.x, 0);
@@ -139,10 +140,12 @@ void search(mat4 proj_view, vec3 reach, int first_plane, inout Contacts contacts
     while (texel.y <= rows.y) {
         texel.z = first_plane + plane;
         vec4 stored = texelFetch(u_CDTexture, texel, 0);
-        if (stored.a != 0.0)
-            meet(ls_flush3(decode_position(stored)), texel, plane == 0, contacts);
+        vec3 position = ls_flush3(decode_position(stored));
+        bool reaches = stored.a != 0.0 && !(ls_transform(proj_view, position).w > behind);
+        if (reaches)
+            meet(position, texel, plane == 0, contacts);
         else if (plane > 0)
-            plane = layers; // those behind are empty too
+            plane = layers; // those behind are empty, or out of reach too
         if (++plane > layers) {
             plane = 1 - u_Obstacles;
             ++texel.x;

@@ -55,7 +55,8 @@ glm::vec3 projected_reach(const glm::mat4& proj_view, const FrameParams& params)
     const glm::dmat4 m(proj_view);
     const auto row = [&](int r) { return glm::dvec3(m[0][r], m[1][r], m[2][r]); };
     const auto steepest = [&](int r) { return std::max(glm::length(row(r) - row(3)), glm::length(row(r) + row(3))); };
-    const glm::dvec3 texels(0.5 * params.width * steepest(0), 0.5 * params.height * steepest(1), glm::length(row(3)));
+    const glm::dvec3 texels(0.5 * params.width * steepest(0), 0.5 * params.height * steepest(1),
+                            glm::length(row(3)) * (1.0 + 0x1p-10));
     return glm::vec3(texels * static_cast<double>(params.constants.collision_range));
 }
 

@@ -52,7 +52,8 @@ void check_remedies(const Switches& switches);
 CollisionImage empty_cdt(const Scene& scene);
 
 /// For search_window = projected: two points within the collision range of each other, the one at clip w, project to at
-/// most x / (w - z) texels apart along x and y / (w - z) along y, where w > z.
+/// most x / (w - z) texels apart along x and y / (w - z) along y, where w > z; clip w of the two differs by at most z,
+/// which has a thousandth more for what rounding makes of it.
 ///
 /// With r the row of the matrix that gives clip x, q the one that gives w, and d the way from one point to the other,
 /// ndc x moves by (r - ndc * q) . d / (w + q . d), which is largest in magnitude for ndc = -1 or 1.

@@ -32,7 +32,4 @@ class CollisionPass {
 /// Sets every uniform of the pass (spec, "Names a foreign shader must use"), u_CDTexture to texture unit 0.
 void set_collision_uniforms(const Program& program, const FrameParams& params);
 
-/// Sets the uniforms of shaders/collision_code.glsl.
-void set_collision_code(const Program& program, const FrameParams& params);
-
 } // namespace lockstep

@@ -6,20 +6,11 @@
 
 #include "gpu/check.hpp"
 #include "gpu/stored_codes.hpp"
+#include "gpu/texture.hpp"
 #include "reference/model/error.hpp"
 
 namespace lockstep {
 namespace {
-
-void allocate(GLuint texture, GLenum internal, int width, int height, GLenum format) {
-    gl::BindTexture(GL_TEXTURE_2D, texture);
-    gl::TexImage2D(GL_TEXTURE_2D, 0, static_cast<GLint>(internal), width, height, 0, format, GL_FLOAT, nullptr);
-    gl::TexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAX_LEVEL, 0);
-    gl::TexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, GL_NEAREST);
-    gl::TexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAG_FILTER, GL_NEAREST);
-    gl::TexParameteri(GL_TEXTURE_2D, GL_TEXTURE_WRAP_S, GL_CLAMP_TO_EDGE);
-    gl::TexParameteri(GL_TEXTURE_2D, GL_TEXTURE_WRAP_T, GL_CLAMP_TO_EDGE);
-}
 
 template <class Texel> void fit(Image<Texel>& image, int width, int height) {
     if (image.width != width || image.height != height)
@@ -34,8 +25,8 @@ CollisionTexture::CollisionTexture(int width, int height, CdtFormat format)
     gl::GetIntegerv(GL_MAX_TEXTURE_SIZE, &limit);
     if (width < 1 || height < 1 || width > limit || height > limit)
         throw Error(fmt::format("CDT of {} x {} texels: this GL allows 1 to {} a side", width, height, limit));
-    allocate(color_.id(), stored_format(format), width, height, GL_RGBA);
-    allocate(depth_.id(), GL_DEPTH_COMPONENT32F, width, height, GL_DEPTH_COMPONENT);
+    allocate_texture(color_.id(), {stored_format(format), GL_RGBA, GL_FLOAT}, width, height);
+    allocate_texture(depth_.id(), depth32f, width, height);
     gl::BindFramebuffer(GL_FRAMEBUFFER, framebuffer_.id());
     gl::FramebufferTexture2D(GL_FRAMEBUFFER, GL_COLOR_ATTACHMENT0, GL_TEXTURE_2D, color_.id(), 0);
     gl::FramebufferTexture2D(GL_FRAMEBUFFER, GL_DEPTH_ATTACHMENT, GL_TEXTURE_2D, depth_.id(), 0);

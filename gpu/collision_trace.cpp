@@ -27,10 +27,6 @@ std::vector<ShaderSource> trace_build(const Switches& switches, const std::files
     return load_stages(shader_folders(shaders), "collision_pass", stages, defines);
 }
 
-std::string declared(const Capture& capture) {
-    return capture.size == 1 ? type_name(capture.type) : fmt::format("{}[{}]", type_name(capture.type), capture.size);
-}
-
 int components(const Capture& capture) { return output_components(capture.type) * capture.size; }
 
 bool has_stage(std::span<const ShaderSource> stages, Stage stage) {
@@ -159,7 +155,7 @@ std::vector<CollisionTrace::Part> CollisionTrace::parts(const std::string& name,
         if (components(capture) == 0 || components(capture) > most)
             throw Error(fmt::format("{}: output {} is {}, which cannot be captured; scalars, vectors and matrices of "
                                     "float, int and uint can",
-                                    name, capture.name, declared(capture)));
+                                    name, capture.name, declared_type(capture.type, capture.size)));
         if (groups.empty() || components(capture) > room) {
             groups.emplace_back();
             room = most;
@@ -211,8 +207,8 @@ std::vector<CapturedVertex> CollisionTrace::capture(const Part& part, const Fram
     for (CapturedVertex& vertex : captured)
         for (const Capture& output : part.captured) {
             const auto end = word + components(output);
-            vertex.outputs.push_back(
-                {output.name, declared(output), is_float_type(output.type), std::vector<std::uint32_t>(word, end)});
+            vertex.outputs.push_back({output.name, declared_type(output.type, output.size), is_float_type(output.type),
+                                      std::vector<std::uint32_t>(word, end)});
             word = end;
         }
     return captured;

@@ -55,6 +55,10 @@ std::string type_name(GLenum type) {
     return known != nullptr ? known->name : fmt::format("GL type {:#06x}", type);
 }
 
+std::string declared_type(GLenum type, GLint size) {
+    return size == 1 ? type_name(type) : fmt::format("{}[{}]", type_name(type), size);
+}
+
 int output_components(GLenum type) {
     const GlslType* known = find(type);
     return known != nullptr ? known->components : 0;

@@ -8,6 +8,9 @@ namespace lockstep {
 /// "vec3" for GL_FLOAT_VEC3; types that shaders here have no use for as "GL type 0x...".
 std::string type_name(GLenum type);
 
+/// An array of `size`, or for 1 the type alone: "vec3[4]", "vec3".
+std::string declared_type(GLenum type, GLint size);
+
 /// 32-bit components that transform feedback writes of an output of this type: 3 of GL_FLOAT_VEC3; 0 for a type that
 /// is no output.
 int output_components(GLenum type);

@@ -5,8 +5,9 @@
 #include <fmt/format.h>
 
 #include "gpu/check.hpp"
-#include "gpu/collision_pass.hpp"
 #include "gpu/shader_source.hpp"
+#include "gpu/step_uniforms.hpp"
+#include "gpu/texture.hpp"
 #include "reference/model/error.hpp"
 #include "reference/model/layered_cdt.hpp"
 
@@ -25,14 +26,6 @@ Program link_draw(const Switches& switches, const std::filesystem::path& shaders
     return {"layered_cdt", load_stages(shader_folders(shaders), "layered_cdt", stages, switch_defines(switches))};
 }
 
-void allocate(const GlTexture& texture, GLenum internal, int width, int height, GLenum format, GLenum type) {
-    gl::BindTexture(GL_TEXTURE_2D, texture.id());
-    gl::TexImage2D(GL_TEXTURE_2D, 0, static_cast<GLint>(internal), width, height, 0, format, type, nullptr);
-    gl::TexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAX_LEVEL, 0);
-    gl::TexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, GL_NEAREST);
-    gl::TexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAG_FILTER, GL_NEAREST);
-}
-
 const glm::mat4& proj_view(const FrameParams& params, int camera) {
     return camera == 0 ? params.collision_proj_view : params.second_proj_view;
 }
@@ -47,9 +40,9 @@ LayeredCollisionPass::LayeredCollisionPass(const Switches& switches, const std::
                                            int height)
     : width_(width), height_(height), planes_(cdt_planes(switches)), step_(link_step(switches, shaders)),
       draw_(link_draw(switches, shaders)) {
-    allocate(depth_, GL_DEPTH_COMPONENT32F, width, height, GL_DEPTH_COMPONENT, GL_FLOAT);
+    allocate_texture(depth_.id(), depth32f, width, height);
     for (const GlTexture& key : keys_)
-        allocate(key, GL_RG32I, width, height, GL_RG_INTEGER, GL_INT);
+        allocate_texture(key.id(), {GL_RG32I, GL_RG_INTEGER, GL_INT}, width, height);
     for (const GlFramebuffer* target : {&obstacle_plane_, &layer_}) {
         gl::BindFramebuffer(GL_FRAMEBUFFER, target->id());
         gl::FramebufferTexture2D(GL_FRAMEBUFFER, GL_DEPTH_ATTACHMENT, GL_TEXTURE_2D, depth_.id(), 0);
@@ -91,22 +84,13 @@ void LayeredCollisionPass::run(const FrameParams& params, const MeshBuffer& obst
 
 void LayeredCollisionPass::step(const FrameParams& params, bool obstacles, const ParticleBuffer& from,
                                 ParticleBuffer& to, const LayeredTexture& cdt) {
-    const Constants& constants = params.constants;
-    step_.set("u_ProjView", params.collision_proj_view);
+    set_search_uniforms(step_, params);
+    set_step_uniforms(step_, params);
     step_.set("u_SecondProjView", params.second_proj_view);
     step_.set("u_Reach", projected_reach(params.collision_proj_view, params));
     step_.set("u_SecondReach", projected_reach(params.second_proj_view, params));
     step_.set("u_WindowMargin", window_margin);
     step_.set("u_Obstacles", obstacles ? 1 : 0);
-    step_.set("u_ClientWidth", params.width);
-    step_.set("u_ClientHeight", params.height);
-    step_.set("u_TexelCollideRange", constants.texel_collide_range);
-    step_.set("u_CollisionRange", constants.collision_range);
-    step_.set("u_CollisionTime", constants.collision_time);
-    step_.set("u_SpeedFactor", params.switches.speed_factor);
-    step_.set("u_Tick", constants.tick);
-    step_.set("u_Gravity", constants.gravity);
-    set_collision_code(step_, params);
     step_.set_unit("u_CDTexture", 0, GL_SAMPLER_2D_ARRAY);
     step_.set_unit("u_Velocities", 1, GL_SAMPLER_2D_ARRAY);
     cdt.bind_positions(0);

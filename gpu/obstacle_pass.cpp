@@ -3,8 +3,8 @@
 #include <array>
 
 #include "gpu/check.hpp"
-#include "gpu/collision_pass.hpp"
 #include "gpu/shader_source.hpp"
+#include "gpu/step_uniforms.hpp"
 
 namespace lockstep {
 namespace {

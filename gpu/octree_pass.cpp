@@ -7,6 +7,8 @@
 
 #include "gpu/check.hpp"
 #include "gpu/shader_source.hpp"
+#include "gpu/step_uniforms.hpp"
+#include "gpu/texture.hpp"
 #include "reference/model/error.hpp"
 
 namespace lockstep {
@@ -48,11 +50,8 @@ template <class Element> void upload(GLuint buffer, std::span<const Element> ele
 void upload_node_texture(GLuint texture) {
     const auto texels = Octree::node_texture();
     gl::ActiveTexture(GL_TEXTURE0);
-    gl::BindTexture(GL_TEXTURE_2D, texture);
-    gl::TexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, GL_NEAREST);
-    gl::TexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAG_FILTER, GL_NEAREST);
-    gl::TexImage2D(GL_TEXTURE_2D, 0, GL_RGBA32UI, 8, Octree::node_texture_rows, 0, GL_RGBA_INTEGER, GL_UNSIGNED_INT,
-                   texels.data());
+    allocate_texture(texture, {GL_RGBA32UI, GL_RGBA_INTEGER, GL_UNSIGNED_INT}, 8, Octree::node_texture_rows,
+                     texels.data());
 }
 
 } // namespace
@@ -73,13 +72,8 @@ void OctreePass::refresh(const ParticleBuffer& particles) {
 }
 
 void OctreePass::run(const FrameParams& params, const ParticleBuffer& from, ParticleBuffer& to) {
-    const Constants& constants = params.constants;
     program_.set("u_ParticleCount", static_cast<unsigned>(from.size()));
-    program_.set("u_CollisionRange", constants.collision_range);
-    program_.set("u_CollisionTime", constants.collision_time);
-    program_.set("u_SpeedFactor", params.switches.speed_factor);
-    program_.set("u_Tick", constants.tick);
-    program_.set("u_Gravity", constants.gravity);
+    set_step_uniforms(program_, params);
     program_.set_unit("u_NodeTexture", 0, GL_UNSIGNED_INT_SAMPLER_2D);
     program_.check_interface();
     gl::ActiveTexture(GL_TEXTURE0);

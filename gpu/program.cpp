@@ -138,10 +138,6 @@ template <class Visit> void for_each_active(GLuint program, GLenum count_name, G
     }
 }
 
-std::string declared(GLenum type, GLint size) {
-    return size == 1 ? type_name(type) : fmt::format("{}[{}]", type_name(type), size);
-}
-
 Capture linked_capture(GLuint program, GLuint index) {
     char name[256] = {};
     Capture capture;
@@ -175,8 +171,8 @@ void check_capture_type(GLuint program, GLuint index, const Capture& capture, st
     const std::span from(last, last == nullptr ? 0 : 1);
     if (type != capture.type || size != capture.size)
         throw Error(fmt::format("shader {}: output {} is {}, but is to be {}",
-                                find_declaration(from, "out", capture.name).place, capture.name, declared(type, size),
-                                declared(capture.type, capture.size)));
+                                find_declaration(from, "out", capture.name).place, capture.name,
+                                declared_type(type, size), declared_type(capture.type, capture.size)));
 }
 
 /// Words of `text` that start with `prefix`.

@@ -9,6 +9,7 @@
 
 #include "gpu/check.hpp"
 #include "gpu/shader_source.hpp"
+#include "gpu/texture.hpp"
 #include "reference/model/error.hpp"
 
 namespace lockstep {
@@ -22,12 +23,6 @@ Program link(const std::string& name, std::span<const Stage> stages, const Switc
 constexpr std::array two_stages{Stage::vertex, Stage::fragment};
 constexpr std::array three_stages{Stage::vertex, Stage::geometry, Stage::fragment};
 
-void allocate(GLuint texture, GLint internal, int width, int height, GLenum format) {
-    gl::BindTexture(GL_TEXTURE_2D, texture);
-    gl::TexImage2D(GL_TEXTURE_2D, 0, internal, width, height, 0, format, GL_FLOAT, nullptr);
-    gl::TexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAX_LEVEL, 0);
-}
-
 } // namespace
 
 RenderPass::RenderPass(const Switches& switches, const std::filesystem::path& shaders, int width, int height)
@@ -39,8 +34,8 @@ RenderPass::RenderPass(const Switches& switches, const std::filesystem::path& sh
     if (width < 1 || height < 1 || width > limit || height > limit)
         throw Error(
             fmt::format("rendered image of {} x {} pixels: this GL allows 1 to {} a side", width, height, limit));
-    allocate(color_.id(), GL_RGBA8, width, height, GL_RGBA);
-    allocate(depth_.id(), GL_DEPTH_COMPONENT32F, width, height, GL_DEPTH_COMPONENT);
+    allocate_texture(color_.id(), {GL_RGBA8, GL_RGBA, GL_UNSIGNED_BYTE}, width, height);
+    allocate_texture(depth_.id(), depth32f, width, height);
     gl::BindFramebuffer(GL_FRAMEBUFFER, framebuffer_.id());
     gl::FramebufferTexture2D(GL_FRAMEBUFFER, GL_COLOR_ATTACHMENT0, GL_TEXTURE_2D, color_.id(), 0);
     gl::FramebufferTexture2D(GL_FRAMEBUFFER, GL_DEPTH_ATTACHMENT, GL_TEXTURE_2D, depth_.id(), 0);

@@ -4,7 +4,6 @@
 #include <memory>
 
 #include <fmt/format.h>
-#include <nlohmann/json.hpp>
 
 #include "crosscheck/check.hpp"
 #include "crosscheck/commands/commands.hpp"
@@ -13,6 +12,7 @@
 #include "crosscheck/commands/run_options.hpp"
 #include "crosscheck/frame_images.hpp"
 #include "crosscheck/hash_file.hpp"
+#include "crosscheck/json_text.hpp"
 #include "crosscheck/output_files.hpp"
 #include "crosscheck/profiles.hpp"
 #include "crosscheck/progress.hpp"
@@ -22,8 +22,6 @@
 
 namespace lockstep {
 namespace {
-
-constexpr auto replace_invalid_utf8 = nlohmann::json::error_handler_t::replace;
 
 std::atomic<bool> interrupted{false};
 static_assert(std::atomic<bool>::is_always_lock_free, "a signal handler sets it");
@@ -139,7 +137,7 @@ int run(const Options& options) {
         std::fflush(stdout);
     }
     if (!options.json.empty())
-        files.write(options.json, report_json(report, run).dump(2, ' ', false, replace_invalid_utf8) + "\n");
+        files.write(options.json, json_text(report_json(report, run)));
     if (!options.hashes.empty())
         files.write(options.hashes, hashes.text());
     if (!options.images.empty())

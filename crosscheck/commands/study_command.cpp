@@ -14,6 +14,7 @@
 #include "crosscheck/commands/run_options.hpp"
 #include "crosscheck/commands/thesis_study.hpp"
 #include "crosscheck/gnuplot.hpp"
+#include "crosscheck/json_text.hpp"
 #include "crosscheck/output_files.hpp"
 #include "crosscheck/png.hpp"
 #include "crosscheck/profiles.hpp"
@@ -90,9 +91,7 @@ void print_remedies(const Options& options) {
     fmt::print("{}\n{} particles in a cube at rest, radius 4\n\n{}", where, remedies.particles, remedy_head());
     const std::vector<RemedyRow> rows = remedy_table(remedies);
     if (!options.json.empty())
-        files.write(options.json, nlohmann::json{{"gl", where}, {"rows", remedy_json(rows)}}.dump(
-                                      2, ' ', false, nlohmann::json::error_handler_t::replace) +
-                                      "\n");
+        files.write(options.json, json_text({{"gl", where}, {"rows", remedy_json(rows)}}));
     files.commit();
 }
 
@@ -173,7 +172,7 @@ void study_scene(const Options& options) {
         json["scene"] = scene.name;
         json["switches"] = settings_text(options.run, scene);
         json["repeat"] = command_line("study", options.run, options.run.frames);
-        files.write(options.json, json.dump(2, ' ', false, nlohmann::json::error_handler_t::replace) + "\n");
+        files.write(options.json, json_text(json));
     }
     const auto chart = options.chart.empty() ? std::nullopt : chart_svg(frames, scene.name);
     if (chart)

@@ -4,10 +4,10 @@
 #include <cstdio>
 
 #include <fmt/format.h>
-#include <nlohmann/json.hpp>
 #include <omp.h>
 
 #include "crosscheck/gnuplot.hpp"
+#include "crosscheck/json_text.hpp"
 #include "crosscheck/output_files.hpp"
 #include "crosscheck/thesis_report.hpp"
 #include "gpu/context.hpp"
@@ -55,7 +55,7 @@ void run_thesis_study(const ThesisStudy& study) {
     if (!study.csv.empty())
         files.write(study.csv, thesis_csv(run));
     if (!study.json.empty())
-        files.write(study.json, thesis_json(run).dump(2, ' ', false, nlohmann::json::error_handler_t::replace) + "\n");
+        files.write(study.json, json_text(thesis_json(run)));
     if (!study.chart.empty()) {
         if (const auto svg = run_gnuplot(thesis_chart(run)))
             files.write(study.chart, *svg);

@@ -6,12 +6,7 @@ namespace lockstep::probing {
 
 GlTexture make_texture(const TexelLayout& layout, int width, int height, const void* texels) {
     GlTexture texture;
-    gl::BindTexture(GL_TEXTURE_2D, texture.id());
-    gl::TexImage2D(GL_TEXTURE_2D, 0, static_cast<GLint>(layout.internal), width, height, 0, layout.format, layout.type,
-                   texels);
-    gl::TexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAX_LEVEL, 0);
-    gl::TexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, GL_NEAREST);
-    gl::TexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAG_FILTER, GL_NEAREST);
+    allocate_texture(texture.id(), layout, width, height, texels);
     check_gl("probe: texture");
     return texture;
 }

@@ -3,21 +3,14 @@
 
 #include "gpu/object.hpp"
 #include "gpu/probe/judge.hpp"
+#include "gpu/texture.hpp"
 
 namespace lockstep::probing {
-
-/// How texels lie in memory: GL's names.
-struct TexelLayout {
-    GLenum internal = GL_RGBA32F;
-    GLenum format = GL_RGBA;
-    GLenum type = GL_FLOAT;
-};
 
 inline constexpr TexelLayout rgba32f{GL_RGBA32F, GL_RGBA, GL_FLOAT};
 inline constexpr TexelLayout rgba16f{GL_RGBA16F, GL_RGBA, GL_HALF_FLOAT};
 inline constexpr TexelLayout rgba8{GL_RGBA8, GL_RGBA, GL_UNSIGNED_BYTE};
 inline constexpr TexelLayout r32f{GL_R32F, GL_RED, GL_FLOAT};
-inline constexpr TexelLayout depth32f{GL_DEPTH_COMPONENT32F, GL_DEPTH_COMPONENT, GL_FLOAT};
 
 /// A texture without mipmaps or filtering; `texels` may be null.
 GlTexture make_texture(const TexelLayout& layout, int width, int height, const void* texels);

@@ -2,12 +2,14 @@
 #include <algorithm>
 #include <filesystem>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include <catch2/catch.hpp>
 
 #include "tests/cli/run_program.hpp"
 #include "tests/gpu/any_context.hpp"
+#include "tests/temporary_folder.hpp"
 
 namespace lockstep::test {
 
@@ -18,6 +20,24 @@ inline const std::string small_scene = R"({
   "emitters": [{ "count": 300, "min": [-0.4, -0.4, -0.4], "max": [0.4, 0.4, 0.4], "speed": 0.5 }],
   "obstacles": [{ "shape": "plane", "size": [1, 1], "position": [0, -0.6, 0] }]
 })";
+
+/// The small scene in a folder of its own, and one for shaders, to run a verb on.
+class SceneSetting {
+  public:
+    explicit SceneSetting(std::string verb) : verb_(std::move(verb)) {}
+    TemporaryFolder folder, shaders;
+    std::string scene = folder.write("scene.json", small_scene).string();
+
+    /// The verb on the scene with these shaders, on OSMesa.
+    [[nodiscard]] std::vector<std::string> command(const std::vector<std::string>& options = {}) const {
+        std::vector<std::string> arguments{verb_, scene, "--gl", "osmesa", "--shaders", shaders.path()};
+        arguments.insert(arguments.end(), options.begin(), options.end());
+        return arguments;
+    }
+
+  private:
+    std::string verb_;
+};
 
 /// Holds status 2, nothing on standard output, and one line on standard error, "lockstep: MESSAGE"; gives MESSAGE.
 inline std::string refusal(const Outcome& outcome) {

@@ -15,15 +15,8 @@ using test::run_lockstep_on_terminal;
 
 namespace {
 
-struct Setting {
-    test::TemporaryFolder folder, shaders;
-    std::string scene = folder.write("scene.json", test::small_scene).string();
-
-    [[nodiscard]] std::vector<std::string> command(const std::vector<std::string>& options = {}) const {
-        std::vector<std::string> arguments{"debug", scene, "--gl", "osmesa", "--shaders", shaders.path()};
-        arguments.insert(arguments.end(), options.begin(), options.end());
-        return arguments;
-    }
+struct Setting : test::SceneSetting {
+    Setting() : SceneSetting("debug") {}
     [[nodiscard]] test::Outcome obey(const std::string& script, const std::vector<std::string>& options = {}) const {
         return run_lockstep(command(options), {.standard_input = script});
     }

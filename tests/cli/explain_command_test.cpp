@@ -14,14 +14,10 @@ using test::run_lockstep;
 
 namespace {
 
-struct Setting {
-    test::TemporaryFolder folder, shaders;
-    std::string scene = folder.write("scene.json", test::small_scene).string();
-
+struct Setting : test::SceneSetting {
+    Setting() : SceneSetting("explain") {}
     [[nodiscard]] test::Outcome explain(const std::vector<std::string>& options) const {
-        std::vector<std::string> arguments{"explain", scene, "--gl", "osmesa", "--shaders", shaders.path()};
-        arguments.insert(arguments.end(), options.begin(), options.end());
-        return run_lockstep(arguments);
+        return run_lockstep(command(options));
     }
 };
 

@@ -1,9 +1,9 @@
 #include <catch2/catch.hpp>
 
 #include <limits>
-#include <random>
 
 #include "gpu/octree.hpp"
+#include "tests/random_positions.hpp"
 
 using namespace lockstep;
 
@@ -14,15 +14,6 @@ bool holds(const OctreeNode& node, glm::vec3 p) {
         if (!(p[axis] >= node.min[axis] && p[axis] < node.max[axis]))
             return false;
     return true;
-}
-
-std::vector<glm::vec3> random_positions(std::size_t count, float half_side) {
-    std::mt19937 random(9);
-    std::uniform_real_distribution<float> value(-half_side, half_side);
-    std::vector<glm::vec3> positions(count);
-    for (glm::vec3& p : positions)
-        p = {value(random), value(random), value(random)};
-    return positions;
 }
 
 } // namespace
@@ -46,10 +37,10 @@ TEST_CASE("octree: 585 nodes, eight children to a node, halves of their parent")
 
 TEST_CASE("octree: each position lies once, in order, in the one leaf that holds it") {
     Octree octree(1.7F);
-    std::vector<glm::vec3> particles = random_positions(2000, 0.9F);
+    std::vector<glm::vec3> particles = test::random_positions(2000, 0.9F, 9);
     particles[7].y = std::numeric_limits<float>::quiet_NaN();
     particles[8].y = std::numeric_limits<float>::infinity();
-    const std::vector<glm::vec3> obstacles = random_positions(100, 0.5F);
+    const std::vector<glm::vec3> obstacles = test::random_positions(100, 0.5F, 9);
     for (int round = 0; round < 2; ++round) { // a refresh leaves nothing of the one before
         octree.refresh(particles, obstacles);
         std::vector<int> seen(particles.size() + obstacles.size());
@@ -76,7 +67,7 @@ TEST_CASE("octree: each position lies once, in order, in the one leaf that holds
 
 TEST_CASE("octree: a node's entries are those of its children") {
     Octree octree(2.0F);
-    octree.refresh(random_positions(500, 0.9F), {});
+    octree.refresh(test::random_positions(500, 0.9F, 9), {});
     const auto nodes = octree.nodes();
     for (std::size_t n = 0; n < Octree::first_leaf; ++n) {
         std::uint32_t sum = 0;

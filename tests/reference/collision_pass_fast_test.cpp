@@ -19,12 +19,6 @@ using namespace lockstep::test;
 
 namespace {
 
-struct Frame {
-    Particles particles;
-    CollisionImage cdt;
-    DepthImage depth;
-};
-
 /// What obstacles may have left: a third of the texels hold a depth, many of them one that a particle has too.
 DepthImage drawn_before(const FrameParams& params) {
     Random random(99);
@@ -36,8 +30,8 @@ DepthImage drawn_before(const FrameParams& params) {
 }
 
 template <class Update, class Rasterise>
-Frame frame(const Update& update, const Rasterise& rasterise, const RandomScene& scene, const Profile& profile) {
-    Frame next{
+PassOutput frame(const Update& update, const Rasterise& rasterise, const RandomScene& scene, const Profile& profile) {
+    PassOutput next{
         {}, CollisionImage(scene.params.width, scene.params.height, glm::vec4(7.0F)), drawn_before(scene.params)};
     update(scene.particles, scene.cdt, scene.params, profile, next.particles);
     rasterise(scene.particles, next.particles, scene.params, profile, next.cdt, next.depth);
@@ -49,8 +43,8 @@ struct Seen {
     std::size_t hits = 0, nans = 0, drawn = 0;
 };
 Seen check_equal(const RandomScene& scene, const Profile& profile = {}) {
-    const Frame obvious = frame(update_particles, rasterise_particles, scene, profile);
-    const Frame fast = frame(update_particles_fast, rasterise_particles_fast, scene, profile);
+    const PassOutput obvious = frame(update_particles, rasterise_particles, scene, profile);
+    const PassOutput fast = frame(update_particles_fast, rasterise_particles_fast, scene, profile);
     CHECK(same_bits(fast.particles, obvious.particles));
     CHECK(same_bits(fast.cdt, obvious.cdt));
     CHECK(fast.depth.texels == obvious.depth.texels);

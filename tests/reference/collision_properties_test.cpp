@@ -17,15 +17,9 @@ using namespace lockstep::test;
 
 namespace {
 
-struct Frame {
-    Particles particles;
-    CollisionImage cdt;
-    DepthImage depth;
-};
-
-Frame frame(const Particles& before, const CollisionImage& cdt, const FrameParams& params,
-            const Profile& profile = {}) {
-    Frame next{{}, empty_cdt(params), DepthImage(params.width, params.height, 1.0F)};
+PassOutput frame(const Particles& before, const CollisionImage& cdt, const FrameParams& params,
+                 const Profile& profile = {}) {
+    PassOutput next{{}, empty_cdt(params), DepthImage(params.width, params.height, 1.0F)};
     update_particles(before, cdt, params, profile, next.particles);
     rasterise_particles(before, next.particles, params, profile, next.cdt, next.depth);
     return next;
@@ -92,7 +86,7 @@ TEST_CASE("collision property: a search of the whole image finds the same neares
     for (const int radius : {1, 2, 4}) {
         RandomScene scene = random_scene(7U + static_cast<std::uint32_t>(radius), 2000, 48, 32);
         scene.params.constants.texel_collide_range = radius;
-        const Frame next = frame(scene.particles, scene.cdt, scene.params);
+        const PassOutput next = frame(scene.particles, scene.cdt, scene.params);
         std::size_t judged = 0, wrong = 0;
         for (std::size_t i = 0; i < scene.particles.size(); ++i) {
             const Oracle expected =
@@ -119,8 +113,8 @@ TEST_CASE("collision property: permuting the particles permutes the answer and l
     Random random(12);
     for (std::size_t i = order.size() - 1; i > 0; --i)
         std::swap(order[i], order[random.below(static_cast<std::uint32_t>(i + 1))]);
-    const Frame straight = frame(scene.particles, scene.cdt, scene.params);
-    const Frame shuffled = frame(permuted(scene.particles, order), scene.cdt, scene.params);
+    const PassOutput straight = frame(scene.particles, scene.cdt, scene.params);
+    const PassOutput shuffled = frame(permuted(scene.particles, order), scene.cdt, scene.params);
     CHECK(same_bits(shuffled.particles, permuted(straight.particles, order)));
     CHECK(same_bits(shuffled.cdt, straight.cdt)); // no two depths are equal in a texel here
     CHECK(hits(straight.particles, scene.params) > 500);
@@ -153,7 +147,7 @@ TEST_CASE("collision property: translation by whole texels translates the answer
     for (glm::vec3& p : there.position)
         p += shift;
 
-    Frame cdt_here{{}, empty_cdt(params), DepthImage(64, 64, 1.0F)}, cdt_there = cdt_here;
+    PassOutput cdt_here{{}, empty_cdt(params), DepthImage(64, 64, 1.0F)}, cdt_there = cdt_here;
     rasterise_particles(here, here, params, {}, cdt_here.cdt, cdt_here.depth);
     rasterise_particles(there, there, params, {}, cdt_there.cdt, cdt_there.depth);
     int drawn = 0, moved = 0;
@@ -186,10 +180,10 @@ TEST_CASE("collision property: the same bits for 1, 2 and 4 threads") {
         RandomScene scene = random_scene(21, 4001, 80, 60);
         scene.params.switches = preset(name);
         scene.params.constants.texel_collide_range = 2;
-        std::vector<Frame> last;
+        std::vector<PassOutput> last;
         for (const int count : {1, 2, 4}) {
             omp_set_num_threads(count);
-            Frame now{scene.particles, scene.cdt, {}};
+            PassOutput now{scene.particles, scene.cdt, {}};
             for (int i = 0; i < 4; ++i)
                 now = frame(now.particles, now.cdt, scene.params);
             last.push_back(now);

@@ -29,6 +29,13 @@ bool collided(const Particles& particles, std::size_t i = 0);
 bool same_bits(const Particles& a, const Particles& b);
 bool same_bits(const CollisionImage& a, const CollisionImage& b);
 
+/// What a collision pass makes: particles and the images it draws.
+struct PassOutput {
+    Particles particles;
+    CollisionImage cdt;
+    DepthImage depth;
+};
+
 /// Floats of a fixed sequence, the same on every platform.
 class Random {
   public:

@@ -2,11 +2,11 @@
 
 #include <cmath>
 #include <limits>
-#include <random>
 #include <set>
 
 #include "reference/neighbours.hpp"
 #include "reference/octree_pass.hpp"
+#include "tests/random_positions.hpp"
 
 using namespace lockstep;
 
@@ -30,15 +30,6 @@ Particles at_rest(std::initializer_list<glm::vec3> positions) {
         particles.collide_time.push_back(-1.0F);
     }
     return particles;
-}
-
-std::vector<glm::vec3> random_positions(std::size_t count, float half_side, unsigned seed) {
-    std::mt19937 random(seed);
-    std::uniform_real_distribution<float> value(-half_side, half_side);
-    std::vector<glm::vec3> positions(count);
-    for (glm::vec3& p : positions)
-        p = {value(random), value(random), value(random)};
-    return positions;
 }
 
 } // namespace
@@ -82,7 +73,7 @@ TEST_CASE("octree: tiny coordinates count as 0, whatever their sign") {
 }
 
 TEST_CASE("octree: in one leaf the nearest within range is found, as brute force finds it") {
-    std::vector<glm::vec3> positions = random_positions(400, 0.45F, 3);
+    std::vector<glm::vec3> positions = test::random_positions(400, 0.45F, 3);
     for (glm::vec3& p : positions)
         p += 0.5F; // all in one leaf
     const FrameParams params = params_of_range(0.1F);
@@ -98,7 +89,7 @@ TEST_CASE("octree: in one leaf the nearest within range is found, as brute force
 }
 
 TEST_CASE("octree: over many leaves only what shares a leaf is found") {
-    const std::vector<glm::vec3> positions = random_positions(3000, 4.2F, 4);
+    const std::vector<glm::vec3> positions = test::random_positions(3000, 4.2F, 4);
     const FrameParams params = params_of_range(0.3F);
     const auto partners = octree_partners(positions, {}, params, Profile{});
     std::size_t found = 0, apart = 0;

@@ -93,12 +93,12 @@ class RunJudge {
         : scene_(scene), profile_(profile), known_(known) {}
 
     /// `earlier`: what the frame before started from, null for frame 0.
-    void judge(int frame, const FrameParams& params, const State& before, const State* earlier,
-               const ReferenceSimulation& reference, const State& gpu) {
+    FrameVerdicts judge(int frame, const FrameParams& params, const State& before, const State* earlier,
+                        const ReferenceSimulation& reference, const State& gpu) {
         const JudgedFrame judged{
             scene_.obstacles,      params,          profile_,      known_, before.particles, before.cdt,
             reference.particles(), reference.cdt(), gpu.particles, gpu.cdt};
-        const FrameVerdicts verdicts = lockstep::judge(judged);
+        FrameVerdicts verdicts = lockstep::judge(judged);
         const std::uint64_t divergent_before = summary_.total(DifferenceClass::divergent);
         summary_.add(frame, verdicts);
         const bool diverges = summary_.total(DifferenceClass::divergent) > divergent_before;
@@ -107,7 +107,7 @@ class RunJudge {
         else if (!summary_.first)
             summary_.first = first_of(DifferenceClass::undefined, frame, judged, verdicts);
         if (!diverges)
-            return;
+            return verdicts;
         FrameInputs inputs{.before = &before.particles, .cdt = &before.cdt, .params = &params, .drawn_cdt = &gpu.cdt};
         const FrameParams earlier_params = frame_params(scene_, std::max(frame - 1, 0));
         if (earlier != nullptr) {
@@ -116,6 +116,7 @@ class RunJudge {
             inputs.earlier_params = &earlier_params;
         }
         causes_.add(judged, verdicts, inputs);
+        return verdicts;
     }
 
     [[nodiscard]] VerdictSummary summary() const {
@@ -201,14 +202,16 @@ CheckReport check(const Scene& scene, const Profile& profile, GpuSide& gpu, cons
             report.hits += count_hits(reference.particles(), scene.constants.collision_time);
             report.drawn_texels += count_drawn(reference.cdt());
         }
+        std::optional<FrameVerdicts> verdicts;
         if (judged && !comparison.agree()) {
             const Stopwatch watch(times.judge);
-            judge.judge(frame, params, before, frame > 0 ? &earlier : nullptr, reference, now);
+            verdicts = judge.judge(frame, params, before, frame > 0 ? &earlier : nullptr, reference, now);
         }
         report.times.push_back(times);
         report.frames = frame + 1;
         if (options.on_state)
-            options.on_state({frame, reference.particles(), reference.cdt(), now.particles, now.cdt, comparison});
+            options.on_state({frame, reference.particles(), reference.cdt(), now.particles, now.cdt, comparison,
+                              verdicts ? &*verdicts : nullptr});
         std::swap(earlier, before);
         std::swap(before, now);
         if (options.on_frame)

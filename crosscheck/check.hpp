@@ -77,6 +77,7 @@ struct ComparedFrame {
     const Particles& gpu;
     const CollisionImage& gpu_cdt;
     const Comparison& comparison;
+    const FrameVerdicts* verdicts = nullptr; ///< null where nothing differs, or differences are not judged
 };
 
 struct CheckOptions {

@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 
 #include "crosscheck/diagnosis.hpp"
+#include "crosscheck/neighbourhood.hpp"
 #include "crosscheck/verdict_text.hpp"
 #include "reference/model/same_bits.hpp"
 
@@ -147,27 +148,10 @@ std::string particle_head(const StepTable& table, NumberFormat format) {
 }
 
 std::string neighbourhood_picture(const FrameRun& run, const StepTable& table) {
-    const StepTrace& reference = table.reference;
-    const glm::ivec2 base(reference.base.x, reference.base.y);
-    const glm::ivec2 gpu_base = table.gpu.vertex.integers("trace_base_texel").value_or(base);
-    if (base.x < 0 && gpu_base.x < 0)
+    const std::optional<Neighbourhood> round = neighbourhood(table, run.scene().constants.texel_collide_range);
+    if (!round)
         return "";
-    glm::ivec2 pick(-1), gpu_pick(-1);
-    if (reference.nearest) {
-        const BaseTexelIndex texel = reference.neighbours[*reference.nearest].texel;
-        pick = {texel.x, texel.y};
-    }
-    if (table.gpu.vertex.integer("trace_hit").value_or(0) != 0)
-        for (const CapturedVertex& neighbour : table.gpu.neighbours)
-            if (neighbour.integer("trace_neighbour_reached") == 4)
-                gpu_pick = neighbour.integers("trace_neighbour_texel").value_or(gpu_pick);
-    const int reach = run.scene().constants.texel_collide_range;
-    const glm::ivec2 a = base.x < 0 ? gpu_base : base;
-    const glm::ivec2 b = gpu_base.x < 0 ? base : gpu_base;
-    constexpr int widest = 40;
-    const bool both = std::abs(a.x - b.x) <= widest && std::abs(a.y - b.y) <= widest;
-    const glm::ivec2 low = both ? glm::min(a, b) - reach : a - reach;
-    const glm::ivec2 high = both ? glm::max(a, b) + reach : a + reach;
+    const auto& [low, high, base, gpu_base, pick, gpu_pick] = *round;
     const JudgedFrame frame = run.judged();
 
     std::string text = fmt::format("  texels {} to {} across, {} at the top\n", low.x, high.x, high.y);

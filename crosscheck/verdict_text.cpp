@@ -84,7 +84,10 @@ nlohmann::json cause_json(const CauseFindings& found) {
         nlohmann::json names = nlohmann::json::array();
         for (const Deviation deviation : cause.deviations)
             names.push_back(deviation_name(deviation));
-        best.push_back({{"deviations", names}, {"explained", cause.explained}, {"contradicted", cause.contradicted}});
+        best.push_back({{"deviations", names},
+                        {"meaning", meaning(cause)},
+                        {"explained", cause.explained},
+                        {"contradicted", cause.contradicted}});
     }
     return {{"divergent", found.divergent}, {"explains_all", found.explains_all()}, {"best", best}};
 }

@@ -3,6 +3,7 @@
 set -euo pipefail
 cd "$(dirname "$0")/.."
 scripts/install_packages.sh
+scripts/build_report_page.sh
 cmake --preset release
 cmake --build --preset release --target lockstep lockstep_decimate
 scripts/fetch_meshes.sh bunny

@@ -7,6 +7,7 @@ packages=(
     g++ cmake ninja-build                         # build; g++ brings OpenMP
     libglm-dev libfmt-dev libcli11-dev            # vectors, text, command line
     nlohmann-json3-dev libpng-dev                 # scenes and reports, pictures
+    zlib1g-dev                                    # the report page's data
     libassimp-dev libmeshoptimizer-dev            # meshes: reading, decimation
     libgl-dev libegl-dev                          # GL headers; the libraries are opened at run time
     libosmesa6 libegl1 libgl1-mesa-dri            # contexts without a GPU
@@ -14,6 +15,11 @@ packages=(
     libbenchmark-dev                              # benchmarks
     gnuplot-nox                                   # charts of lockstep study
 )
+
+# Where Node.js did not come from Debian, npm came with it.
+command -v node >/dev/null || packages+=(nodejs)
+command -v npm >/dev/null || packages+=(npm)
+packages+=(chromium)                              # the report page is built by npm and tested in Chromium
 
 missing=()
 for package in "${packages[@]}"; do

@@ -2,6 +2,9 @@
 #include <csignal>
 #include <cstdio>
 #include <memory>
+#include <optional>
+#include <string>
+#include <vector>
 
 #include <fmt/format.h>
 
@@ -14,11 +17,15 @@
 #include "crosscheck/hash_file.hpp"
 #include "crosscheck/json_text.hpp"
 #include "crosscheck/output_files.hpp"
+#include "crosscheck/page/explained.hpp"
+#include "crosscheck/page/report_page.hpp"
+#include "crosscheck/page/template.hpp"
 #include "crosscheck/profiles.hpp"
 #include "crosscheck/progress.hpp"
 #include "crosscheck/report.hpp"
 #include "gpu/context.hpp"
 #include "gpu/simulation.hpp"
+#include "reference/model/layered_cdt.hpp"
 
 namespace lockstep {
 namespace {
@@ -43,7 +50,7 @@ class InterruptHandler {
 struct Options {
     RunOptions run;
     CheckMode mode = CheckMode::resync;
-    std::filesystem::path json, images, hashes;
+    std::filesystem::path json, images, hashes, report;
     Legal legal = Legal::measured;
     bool allow_undefined = false;
     bool quiet = false;
@@ -65,11 +72,7 @@ std::string repeat_line(const Options& options, int frames) {
     return line;
 }
 
-/// Empty if nothing is divergent or undefined.
-std::string explain_line(const Options& options, const CheckReport& report, int width) {
-    if (!report.verdicts || !report.verdicts->first)
-        return "";
-    const Place& place = report.verdicts->first->place;
+std::string explain_line(const Options& options, const Place& place, int width) {
     const auto columns = static_cast<std::size_t>(width);
     const std::string item = place.texel ? fmt::format("--texel {},{}", place.index % columns, place.index / columns)
                                          : fmt::format("--particle {}", place.index);
@@ -84,6 +87,32 @@ void expect_files(const Options& options, OutputFiles& files) {
         files.expect(options.hashes);
     if (!options.images.empty())
         files.expect_folder(options.images);
+    if (!options.report.empty())
+        files.expect_folder(options.report);
+}
+
+/// The step tables of what the page lists, made on a second run of the GPU.
+std::vector<ExplainedItem> explain_items(const Options& options, const Scene& scene, const Profile& profile,
+                                         const std::vector<PageItem>& items) {
+    std::optional<FrameRun> frames;
+    if (scene.switches.search == Search::cdt && !has_remedies(scene.switches) && !items.empty())
+        frames.emplace(scene, profile, known_operations(options.legal, profile), options.run.shaders);
+    std::vector<ExplainedItem> explained_items;
+    for (const PageItem& item : items)
+        explained_items.push_back({item, explain_line(options, {item.frame, item.texel, item.index}, scene.width),
+                                   frames ? explained(*frames, item) : nlohmann::json()});
+    return explained_items;
+}
+
+std::vector<PageCommand> page_commands(const Options& options, const RunDescription& run, const CheckReport& report) {
+    std::vector<PageCommand> commands{{"This run", repeat_line(options, report.frames)}};
+    if (report.first_frame && *report.first_frame + 1 < report.frames)
+        commands.push_back({"Up to the first frame that differs", run.repeat});
+    if (!run.explain.empty()) {
+        commands.push_back({"The first divergence, step by step", run.explain});
+        commands.push_back({"The same, walked through by commands", command_line("debug", options.run, "")});
+    }
+    return commands;
 }
 
 RunDescription description(const Options& options, const Scene& scene, const Context& context, const Profile& profile,
@@ -97,11 +126,14 @@ RunDescription description(const Options& options, const Scene& scene, const Con
             free ? "free" : "resync",
             scene.width,
             repeat_line(options, repeat_frames),
-            explain_line(options, report, scene.width)};
+            report.verdicts && report.verdicts->first
+                ? explain_line(options, report.verdicts->first->place, scene.width)
+                : std::string()};
 }
 
 int run(const Options& options) {
     const Scene scene = load(options.run);
+    const std::string page = options.report.empty() ? std::string() : report_page_template();
     OutputFiles files;
     expect_files(options, files);
     const Context context(parse_context_request(options.run.gl));
@@ -115,12 +147,17 @@ int run(const Options& options) {
     check_options.frames = options.run.frames;
     check_options.stop = &interrupted;
     check_options.known = known_operations(options.legal, profile);
-    if (!options.hashes.empty() || !options.images.empty())
+    std::optional<PageCollector> collector;
+    if (!options.report.empty())
+        collector.emplace(scene, profile, options.mode, options.run.frames);
+    if (!options.hashes.empty() || !options.images.empty() || collector)
         check_options.on_state = [&](const ComparedFrame& frame) {
             if (!options.hashes.empty())
                 hashes.add(frame);
             if (!options.images.empty())
                 images.keep(frame);
+            if (collector)
+                collector->add(frame);
         };
     const CheckReport report = [&] {
         const InterruptHandler handler;
@@ -142,6 +179,10 @@ int run(const Options& options) {
         files.write(options.hashes, hashes.text());
     if (!options.images.empty())
         images.write(files, options.images, scene, profile, options.run.shaders);
+    if (collector)
+        files.write(options.report / "report.html",
+                    report_page(page, *collector, report, run, page_commands(options, run, report),
+                                explain_items(options, scene, profile, collector->frames().items())));
     files.commit();
     return status_of(report.verdict, options.allow_undefined);
 }
@@ -164,6 +205,8 @@ void add_check_command(CLI::App& app, int& status) {
     verb->add_option("--hashes", options->hashes, "write both sides' state hash of every frame")->type_name("FILE");
     verb->add_option("--images", options->images,
                      "write CDT and rendered frame of both sides, and their difference, as PNG")
+        ->type_name("DIR");
+    verb->add_option("--report", options->report, "write report.html, a page that opens in any browser")
         ->type_name("DIR");
     verb->add_flag("--quiet", options->quiet, "no report, only the exit status");
     verb->footer("Exit status: 0 every bit agrees, or what differs is legal (rounding, ties); 1 divergent, undefined "

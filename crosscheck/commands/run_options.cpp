@@ -57,7 +57,8 @@ std::string command_line(const std::string& verb, const RunOptions& options, int
 }
 
 std::string command_line(const std::string& verb, const RunOptions& options, const std::string& place) {
-    std::string line = fmt::format("lockstep {} {} {}", verb, quoted(options.scene.string()), place);
+    std::string line =
+        fmt::format("lockstep {} {}{}{}", verb, quoted(options.scene.string()), place.empty() ? "" : " ", place);
     if (options.particles)
         line += fmt::format(" --particles {}", *options.particles);
     if (options.preset)

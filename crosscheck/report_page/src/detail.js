@@ -1,0 +1,55 @@
+// Exact values of a frame's texels and particles; layout: crosscheck/page/frame_blobs.hpp, detail_blob.
+import { blob, Reader } from "./data.js";
+
+export const PARTICLE_FIELDS = [
+  "position.x", "position.y", "position.z", "direction.x", "direction.y", "direction.z", "speed", "collide time",
+];
+export const NOBODY = -1;
+export const OBSTACLE = -2;
+
+// Two sides of `count` items: bits of component c of item k.
+function readValues(reader, count, components) {
+  const reference = reader.words(count * components);
+  const changes = reader.words(count * components);
+  return (k) =>
+    Array.from({ length: components }, (_, c) => {
+      const at = c * count + k;
+      return { reference: reference[at], gpu: (reference[at] ^ changes[at]) >>> 0 };
+    });
+}
+
+function decode(bytes) {
+  const reader = new Reader(bytes);
+  const texelCount = reader.word();
+  const particleCount = reader.word();
+  const texels = reader.words(texelCount);
+  const referenceOwners = reader.words(texelCount);
+  const gpuOwners = reader.words(texelCount);
+  const texelClasses = reader.bytes(texelCount);
+  const texelValues = readValues(reader, texelCount, 4);
+  const particles = reader.words(particleCount);
+  const particleClasses = reader.bytes(particleCount);
+  const particleValues = readValues(reader, particleCount, 8);
+  const texelAt = new Map(Array.from(texels, (texel, k) => [texel, k]));
+  const particleAt = new Map(Array.from(particles, (particle, k) => [particle, k]));
+  return {
+    texel(index) {
+      const k = texelAt.get(index);
+      if (k === undefined) return null;
+      return {
+        owners: { reference: referenceOwners[k] | 0, gpu: gpuOwners[k] | 0 },
+        kind: texelClasses[k],
+        values: texelValues(k),
+      };
+    },
+    particle(index) {
+      const k = particleAt.get(index);
+      return k === undefined ? null : { kind: particleClasses[k], values: particleValues(k) };
+    },
+  };
+}
+
+// Of a kept frame; null where it has none.
+export async function readDetail(kept) {
+  return kept.detail === "none" ? null : decode(await blob(`detail-${kept.frame}`));
+}

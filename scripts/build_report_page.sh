@@ -1,0 +1,13 @@
+#!/usr/bin/env bash
+# Builds the page that `lockstep check --report` fills in, into build/report_page/report.html: one file, from
+# crosscheck/report_page and the npm packages its lock file names. Needs node and npm; lockstep itself does not.
+# Usage: scripts/build_report_page.sh
+set -euo pipefail
+cd "$(dirname "$0")/../crosscheck/report_page"
+for program in node npm; do
+    command -v $program >/dev/null || { echo "build_report_page: $program is missing; apt-get install nodejs npm" >&2; exit 2; }
+done
+# Node trusts only its own certificates; a machine behind a proxy has more in the system's store.
+export NODE_EXTRA_CA_CERTS=${NODE_EXTRA_CA_CERTS:-/etc/ssl/certs/ca-certificates.crt}
+if [ ! node_modules/.package-lock.json -nt package-lock.json ]; then npm ci --ignore-scripts --loglevel=error; fi
+node build.mjs ../../build/report_page/report.html

@@ -1,0 +1,119 @@
+#include <catch2/catch.hpp>
+
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+#include <string>
+#include <vector>
+
+#include <nlohmann/json.hpp>
+
+#include "tests/cli/cli_checks.hpp"
+#include "tests/planted_shader.hpp"
+#include "tests/temporary_folder.hpp"
+
+using namespace lockstep;
+using test::run_lockstep;
+namespace fs = std::filesystem;
+
+namespace {
+
+/// A data folder with the shipped shaders and a page template.
+struct Setting {
+    explicit Setting(const std::string& page = "<main></main>\n<!-- lockstep data -->\n") {
+        fs::create_directory_symlink(fs::absolute("shaders"), data.path() / "shaders");
+        if (!page.empty())
+            data.write("report.html", page);
+    }
+
+    test::TemporaryFolder data, input, output;
+    std::string scene = input.write("scene.json", test::small_scene).string();
+    std::string folder = (output.path() / "report").string();
+
+    [[nodiscard]] test::Outcome check(const std::vector<std::string>& more = {}) const {
+        std::vector<std::string> arguments{"check", scene, "--gl", "osmesa", "--report", folder};
+        arguments.insert(arguments.end(), more.begin(), more.end());
+        test::Surroundings surroundings;
+        surroundings.environment = {{"LOCKSTEP_DATA", data.path().string()}};
+        return run_lockstep(arguments, surroundings);
+    }
+
+    [[nodiscard]] std::string page() const {
+        std::ifstream stream(folder + "/report.html", std::ios::binary);
+        return {std::istreambuf_iterator<char>(stream), {}};
+    }
+
+    /// What the page's head says.
+    [[nodiscard]] nlohmann::json head() const {
+        const std::string text = page();
+        const std::string before = "<script type=\"application/json\" id=\"lockstep-head\">";
+        const std::size_t start = text.find(before) + before.size();
+        return nlohmann::json::parse(text.substr(start, text.find("</script>", start) - start));
+    }
+};
+
+} // namespace
+
+TEST_CASE("report page: where it is not built, one line says what to run, before the run") {
+    const Setting setting("");
+    CHECK(test::refusal(setting.check({"--frames", "100000000"})) ==
+          "report: the page is not built, there is no " + setting.data.path().string() +
+              "/report.html; run scripts/build_report_page.sh");
+    CHECK(test::names_in(setting.output.path()).empty());
+}
+
+TEST_CASE("report page: what cannot be written is told before the run") {
+    Setting setting;
+    setting.folder = setting.output.write("way", "in the").string();
+    CHECK(test::refusal(setting.check({"--frames", "100000000"})) ==
+          setting.folder + ": cannot be made a folder: a file of that name is in the way");
+}
+
+TEST_CASE("report page: a template without a place for data is refused before the run") {
+    const Setting setting("<main></main>");
+    CHECK(test::refusal(setting.check({"--frames", "100000000"})) ==
+          "report: " + setting.data.path().string() +
+              "/report.html has no place for data; run scripts/build_report_page.sh again");
+}
+
+TEST_CASE("report page: one file with the run's data, the template round it") {
+    if (!test::have_osmesa())
+        return;
+    const Setting setting;
+    CHECK(setting.check({"--frames", "5"}).status == 0);
+    CHECK(test::names_in(setting.folder) == std::vector<std::string>{"report.html"});
+    CHECK_THAT(setting.page(), Catch::StartsWith("<main></main>\n<script") && Catch::EndsWith("</script>\n\n"));
+    const nlohmann::json head = setting.head();
+    CHECK(head.at("report").at("verdict") == "AGREE");
+    CHECK(head.at("width") == 64);
+    CHECK(head.at("frames").size() == 5);
+    CHECK(head.at("items").size() > 0);
+    CHECK(head.at("commands").at(0).at("line") == "lockstep check " + setting.scene + " --frames 5 --gl osmesa");
+}
+
+TEST_CASE("report page: nothing in the data ends its element") {
+    if (!test::have_osmesa())
+        return;
+    Setting setting;
+    fs::create_directory(setting.input.path() / "<");
+    setting.scene = setting.input.write("</script><b>&amp;", test::small_scene).string();
+    CHECK(setting.check({"--frames", "2"}).status == 0);
+    CHECK(setting.page().find("</script><b>") == std::string::npos);
+    CHECK_THAT(setting.head().at("report").at("scene").get<std::string>(), Catch::Contains("</script><b>&amp;"));
+}
+
+TEST_CASE("report page: a planted bug is named, and its items are listed with the wrong step") {
+    if (!test::have_osmesa())
+        return;
+    const Setting setting;
+    const test::TemporaryFolder shaders;
+    test::plant(shaders, "collision_pass.vert", " && len < particle_min_length", "");
+    CHECK(setting.check({"--frames", "8", "--shaders", shaders.path().string()}).status == 1);
+    const nlohmann::json head = setting.head();
+    CHECK(head.at("report").at("verdicts").at("particle_cause").at("best").at(0).at("deviations") ==
+          nlohmann::json{"last_found_instead_of_nearest"});
+    const nlohmann::json item = head.at("items").at(0);
+    CHECK(item.at("class") == 3);
+    CHECK_THAT(item.at("step").get<std::string>(), Catch::StartsWith("texel ("));
+    CHECK_THAT(item.at("command").get<std::string>(), Catch::StartsWith("lockstep explain "));
+}

@@ -1,0 +1,81 @@
+// Headless Chromium, and pages that lockstep wrote.
+import { execFileSync, spawnSync } from "node:child_process";
+import { mkdtempSync, rmSync, writeFileSync } from "node:fs";
+import { createRequire } from "node:module";
+import { tmpdir } from "node:os";
+import { join } from "node:path";
+import { pathToFileURL } from "node:url";
+
+const packages = createRequire(new URL("../../crosscheck/report_page/package.json", import.meta.url));
+const { chromium } = packages("playwright-core");
+export const axePath = packages.resolve("axe-core/axe.min.js");
+
+const program = process.env.LOCKSTEP_PROGRAM;
+
+const folders = [];
+
+// A folder that is gone after cleanUp().
+export function temporaryFolder() {
+  folders.push(mkdtempSync(join(tmpdir(), "lockstep-page-")));
+  return folders.at(-1);
+}
+
+export function lockstep(...args) {
+  const { status, stdout, stderr } = spawnSync(program, args, { encoding: "utf8" });
+  return { status, stdout, stderr };
+}
+
+// 300 particles that meet, over a plane.
+const smallScene = {
+  constants: { collision_range: 0.1 },
+  image: [64, 48],
+  render: [40, 30],
+  emitters: [{ count: 300, min: [-0.4, -0.4, -0.4], max: [0.4, 0.4, 0.4], speed: 0.5 }],
+  obstacles: [{ shape: "plane", size: [1, 1], position: [0, -0.6, 0] }],
+};
+
+export function writeScene(folder, changes = {}) {
+  const path = join(folder, "scene.json");
+  writeFileSync(path, JSON.stringify({ ...smallScene, ...changes }));
+  return path;
+}
+
+// A folder of shaders with one line of the collision pass changed.
+export function plantedShader(folder, from, to) {
+  const text = execFileSync("cat", ["shaders/collision_pass.vert"], { encoding: "utf8" });
+  if (!text.includes(from)) throw new Error(`collision_pass.vert has no '${from}'`);
+  writeFileSync(join(folder, "collision_pass.vert"), text.replace(from, to));
+  return folder;
+}
+
+// Writes a report and gives its path.
+export function report(...args) {
+  const out = temporaryFolder();
+  const outcome = lockstep("check", ...args, "--gl", "osmesa", "--report", out, "--quiet");
+  if (outcome.status === 2) throw new Error(outcome.stderr);
+  return join(out, "report.html");
+}
+
+let browser = null;
+
+export async function cleanUp() {
+  await browser?.close();
+  browser = null;
+  for (const folder of folders.splice(0)) rmSync(folder, { recursive: true, force: true });
+}
+
+// The page, opened from disk; `complaints` gathers errors, warnings and whatever it asks of a network.
+export async function open(path, options = {}) {
+  browser ??= await chromium.launch({
+    executablePath: "/usr/bin/chromium",
+    args: ["--no-sandbox", "--disable-gpu", "--disable-quic", "--no-first-run", "--disable-background-networking", "--disable-component-update", "--disable-sync"],
+  });
+  const page = await browser.newPage({ viewport: { width: 1280, height: 900 }, reducedMotion: "reduce", ...options });
+  const complaints = [];
+  page.on("console", (message) => ["error", "warning"].includes(message.type()) && complaints.push(message.text()));
+  page.on("pageerror", (error) => complaints.push(String(error)));
+  page.on("request", (request) => !/^(file|data|blob):/.test(request.url()) && complaints.push(`asks for ${request.url()}`));
+  await page.goto(pathToFileURL(path).href);
+  await page.waitForSelector("html[data-ready]", { timeout: 20000 });
+  return { page, complaints };
+}

@@ -4,8 +4,9 @@
 #include <chrono>
 #include <limits>
 
+#include <fmt/format.h>
+
 #include "crosscheck/scene_file.hpp"
-#include "crosscheck/statistics.hpp"
 #include "crosscheck/study.hpp"
 #include "gpu/simulation.hpp"
 #include "reference/octree_pass.hpp"
@@ -14,6 +15,7 @@ namespace lockstep {
 namespace {
 
 constexpr float full_count = 200'000.0F;
+constexpr int thesis_octree_size = 50; // world units; `set` may say otherwise
 
 double now() { return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count(); }
 
@@ -21,17 +23,24 @@ double now() { return std::chrono::duration<double>(std::chrono::steady_clock::n
 SystemTimes time_system(const Scene& scene, const ThesisOptions& options, Particles& last) {
     GpuSimulation gpu(scene, options.shaders);
     gpu.step(frame_params(scene, 0));
-    std::vector<double> wall, timer;
+    SystemTimes sum;
     const double first = now();
-    for (int frame = 1; frame <= options.frames && now() - first < options.seconds; ++frame) {
-        const FrameParams params = frame_params(scene, frame);
+    while (sum.frames < options.frames && now() - first < options.seconds) {
+        const FrameParams params = frame_params(scene, ++sum.frames);
         const double start = now();
         gpu.step(params);
-        wall.push_back(now() - start);
-        timer.push_back(gpu.frame_seconds());
+        sum.wall += now() - start;
+        sum.gpu += gpu.frame_seconds();
     }
     gpu.read(last);
-    return {static_cast<int>(wall.size()), median(wall), median(timer), 0.0};
+    return {sum.frames, sum.wall / sum.frames, sum.gpu / sum.frames};
+}
+
+/// Of a frame with the first particle alone.
+double fixed_time(Scene scene, const ThesisOptions& options) {
+    scene.start.resize(1);
+    Particles ignored;
+    return time_system(scene, options, ignored).wall;
 }
 
 /// What shares a leaf is seen.
@@ -59,14 +68,17 @@ ThesisCell measure(const std::string& name, std::size_t count, const ThesisOptio
     scene_options.emitter_length = static_cast<float>(count) / full_count;
     scene_options.preset = options.preset;
     scene_options.set = options.set;
+    scene_options.set.insert(scene_options.set.begin(), fmt::format("octree_size={}", thesis_octree_size));
     Scene scene = load_scene(options.scenes / (name + ".json"), scene_options);
     ThesisCell cell{name, count, {}, {}};
     Particles last, ignored;
     scene.switches.search = Search::cdt;
     cell.cdt = time_system(scene, options, last);
+    cell.cdt.fixed = fixed_time(scene, options);
     if (options.octree) {
         scene.switches.search = Search::octree;
         cell.octree = time_system(scene, options, ignored);
+        cell.octree->fixed = fixed_time(scene, options);
     }
     scene.start = last;
     const Truth truth = find_truth(last.position, scene.constants.collision_range);

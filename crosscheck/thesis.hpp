@@ -19,8 +19,9 @@ namespace lockstep {
 /// One system over some frames.
 struct SystemTimes {
     int frames = 0;      ///< measured
-    double wall = 0.0;   ///< seconds a frame until GL has finished, the octree's refresh on the CPU included; median
+    double wall = 0.0;   ///< seconds a frame until GL has finished, the octree's refresh on the CPU included; mean
     double gpu = 0.0;    ///< seconds a frame by the GPU's own clock, without that refresh; 0: it has none
+    double fixed = 0.0;  ///< `wall` of the same scene with one particle: obstacles, clearing, waiting; 0: not measured
     double recall = 0.0; ///< of the particles in contact after the CDT's last frame, those that see a neighbour; may be
                          ///< NaN
 };
@@ -42,7 +43,7 @@ struct ThesisOptions {
     std::filesystem::path scenes; ///< folder of the scene files
     std::filesystem::path shaders;
     std::optional<std::string> preset; ///< this and `set` as in SceneOptions
-    std::vector<std::string> set;
+    std::vector<std::string> set;      ///< octree_size is the thesis's 50 unless named here
     std::vector<std::size_t> counts{50'000, 100'000, 150'000, 200'000};
     int frames = 60;      ///< a measurement, at most; frame 0, in which nobody searches, is not measured
     double seconds = 5.0; ///< a measurement ends with the frame in which this is over

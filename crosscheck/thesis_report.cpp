@@ -57,6 +57,12 @@ double measured_ms(System system, const ThesisCell& cell) {
     return 1e3 * (system == System::cdt ? cell.cdt.wall : cell.octree->wall);
 }
 
+/// What the particles add to a frame with one alone; NaN where that was not measured.
+double added_ms(System system, const ThesisCell& cell) {
+    const double fixed = system == System::cdt ? cell.cdt.fixed : cell.octree ? cell.octree->fixed : 0.0;
+    return fixed > 0.0 ? measured_ms(system, cell) - 1e3 * fixed : not_a_number;
+}
+
 std::vector<const ThesisCell*> of_scene(const ThesisRun& run, std::string_view scene) {
     std::vector<const ThesisCell*> cells;
     for (const ThesisCell& cell : run.cells)
@@ -132,13 +138,14 @@ std::string times_row(std::string_view name, const std::vector<std::size_t>& cou
 }
 
 struct Series {
-    std::vector<double> ms, thesis;
+    std::vector<double> ms, added, thesis;
 };
 
 Series series(const ThesisRun& run, System system, std::string_view scene) {
     Series s;
     for (const ThesisCell* cell : of_scene(run, scene)) {
         s.ms.push_back(measured_ms(system, *cell));
+        s.added.push_back(added_ms(system, *cell));
         s.thesis.push_back(published_ms(system, scene, cell->particles));
     }
     return s;
@@ -188,11 +195,13 @@ std::string range(const std::vector<double>& values, int digits) {
 
 std::string findings(const ThesisRun& run) {
     const std::vector<std::size_t> n = counts(run);
-    std::vector<double> cdt, octree, ratios, cdt_off, octree_off;
+    std::vector<double> cdt, octree, ratios, cdt_added, octree_added, cdt_off, octree_off;
     double sum = 0.0, particles = 0.0, cells = 0.0;
     for (const std::string_view scene : thesis_scenes) {
         cdt.push_back(exponent(n, series(run, System::cdt, scene).ms));
         octree.push_back(exponent(n, series(run, System::octree, scene).ms));
+        cdt_added.push_back(exponent(n, series(run, System::cdt, scene).added));
+        octree_added.push_back(exponent(n, series(run, System::octree, scene).added));
         cdt_off.push_back(100.0 * off_line(n, series(run, System::cdt, scene).ms));
         octree_off.push_back(100.0 * off_line(n, series(run, System::octree, scene).ms));
     }
@@ -208,10 +217,12 @@ std::string findings(const ThesisRun& run) {
     }
     return fmt::format("CDT, average of table 4-1: {} ms at {:.0f} particles (thesis {} ms at 125000)\n"
                        "time ~ particles^x: x {} (CDT), {} (octree); 0.9 to 1.1 is linear\n"
+                       "the same of what particles add to a frame with one alone: x {} (CDT), {} (octree)\n"
                        "off the line a + b * particles: {} % (CDT), {} % (octree) at most\n"
                        "octree / CDT: {} (thesis 4.5 to 7.7); octree slower in every cell: {}\n",
                        ms_text(sum / cells), particles / cells, published_average, range(cdt, 2), range(octree, 2),
-                       range(cdt_off, 1), range(octree_off, 1), range(ratios, 1), slower ? "yes" : "no");
+                       range(cdt_added, 2), range(octree_added, 2), range(cdt_off, 1), range(octree_off, 1),
+                       range(ratios, 1), slower ? "yes" : "no");
 }
 
 struct Column {
@@ -242,6 +253,8 @@ constexpr std::array csv_columns{
 
 nlohmann::json system_json(const SystemTimes& times) {
     nlohmann::json json{{"frames", times.frames}, {"seconds", times.wall}, {"gpu_seconds", times.gpu}};
+    if (times.fixed > 0.0)
+        json["fixed_seconds"] = times.fixed;
     if (!std::isnan(times.recall))
         json["recall"] = times.recall;
     return json;
@@ -250,11 +263,13 @@ nlohmann::json system_json(const SystemTimes& times) {
 SystemTimes read_system(const JsonValue& json) {
     constexpr NumberRule seconds{0.0, 1e9, "a time in seconds"};
     constexpr NumberRule share{0.0, 1.0, "a share from 0 to 1"};
-    json.check_keys({"frames", "seconds", "gpu_seconds", "recall"});
+    json.check_keys({"frames", "seconds", "gpu_seconds", "fixed_seconds", "recall"});
     SystemTimes times;
     times.frames = static_cast<int>(json.at("frames").integer(1, 100'000'000));
     times.wall = json.at("seconds").number(seconds);
     times.gpu = json.at("gpu_seconds").number(seconds);
+    if (const auto fixed = json.find("fixed_seconds"))
+        times.fixed = fixed->number(seconds);
     const auto recall = json.find("recall");
     times.recall = recall ? recall->number(share) : not_a_number;
     return times;
@@ -302,7 +317,7 @@ std::string thesis_cell_text(const ThesisCell& cell) {
 
 std::string thesis_text(const ThesisRun& run) {
     const std::vector<std::size_t> n = counts(run);
-    std::string out = fmt::format("GL {}\nms a frame, median, until GL has finished; thesis: RTX 2060\n", run.context);
+    std::string out = fmt::format("GL {}\nms a frame, mean, until GL has finished; thesis: RTX 2060\n", run.context);
     const auto table = [&](System system) {
         for (const std::string_view scene : thesis_scenes)
             if (scene != "x_streams") {

@@ -77,6 +77,13 @@ void Octree::refresh(std::span<const glm::vec3> particles, std::span<const glm::
             OctreeNode& node = nodes_[static_cast<std::size_t>(leaf_[i])];
             indices_[node.first + node.entries++] = static_cast<std::uint32_t>(i);
         }
+    order_.clear();
+    for (const std::uint32_t entry : indices_)
+        if (entry < particles.size())
+            order_.push_back(entry);
+    for (std::size_t i = 0; i < particles.size(); ++i)
+        if (leaf_[i] < 0)
+            order_.push_back(static_cast<std::uint32_t>(i));
     for (std::size_t n = node_count; n-- > 1;)
         nodes_[(n - 1) / 8].entries += nodes_[n].entries;
 }

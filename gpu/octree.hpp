@@ -43,6 +43,9 @@ class Octree {
     [[nodiscard]] std::span<const OctreeNode> nodes() const { return nodes_; }
     [[nodiscard]] std::span<const std::uint32_t> indices() const { return indices_; }
 
+    /// Every particle once, those of a leaf side by side: what runs in this order looks at the same entries.
+    [[nodiscard]] std::span<const std::uint32_t> order() const { return order_; }
+
     /// The node texture, 8 x node_texture_rows texels: node 0 at (0, 0), child k of node n at (k, n + 1). A texel holds
     /// x and y of the first child, the number of children, and the node's index.
     static constexpr int node_texture_rows = static_cast<int>(first_leaf) + 1;
@@ -52,7 +55,7 @@ class Octree {
     [[nodiscard]] std::int32_t leaf_of(glm::vec3 position) const;
 
     std::vector<OctreeNode> nodes_;
-    std::vector<std::uint32_t> indices_;
+    std::vector<std::uint32_t> indices_, order_;
     std::vector<std::int32_t> leaf_; ///< scratch: of each entry, -1 outside the root
 };
 

@@ -17,7 +17,7 @@ namespace {
 constexpr GLuint group_size = 64; // local_size_x of the shader
 
 /// The bindings of the shader's buffers.
-enum Binding : GLuint { before, after, nodes, indices, obstacle_vertices };
+enum Binding : GLuint { before, after, nodes, indices, obstacle_vertices, order };
 
 Program link(const Scene& scene, const std::filesystem::path& shaders) {
     if (!gl::offers(4, 3))
@@ -68,6 +68,7 @@ void OctreePass::refresh(const ParticleBuffer& particles) {
     octree_.refresh(read_back_.position, obstacles_);
     upload(nodes_.id(), octree_.nodes(), GL_STREAM_DRAW);
     upload(indices_.id(), octree_.indices(), GL_STREAM_DRAW);
+    upload(order_.id(), octree_.order(), GL_STREAM_DRAW);
     check_gl("octree_pass, refresh");
 }
 
@@ -83,6 +84,7 @@ void OctreePass::run(const FrameParams& params, const ParticleBuffer& from, Part
     gl::BindBufferBase(GL_SHADER_STORAGE_BUFFER, Binding::nodes, nodes_.id());
     gl::BindBufferBase(GL_SHADER_STORAGE_BUFFER, Binding::indices, indices_.id());
     gl::BindBufferBase(GL_SHADER_STORAGE_BUFFER, Binding::obstacle_vertices, obstacle_vertices_.id());
+    gl::BindBufferBase(GL_SHADER_STORAGE_BUFFER, Binding::order, order_.id());
     gl::DispatchCompute((static_cast<GLuint>(from.size()) + group_size - 1) / group_size, 1, 1);
     gl::MemoryBarrier(GL_BUFFER_UPDATE_BARRIER_BIT | GL_CLIENT_MAPPED_BUFFER_BARRIER_BIT |
                       GL_VERTEX_ATTRIB_ARRAY_BARRIER_BIT | GL_SHADER_STORAGE_BARRIER_BIT);

@@ -31,7 +31,7 @@ class OctreePass {
     std::vector<glm::vec3> obstacles_; ///< vertices that take part
     Particles read_back_;
     GlTexture node_texture_;
-    GlBuffer nodes_, indices_, obstacle_vertices_;
+    GlBuffer nodes_, indices_, order_, obstacle_vertices_;
 };
 
 } // namespace lockstep

@@ -30,6 +30,7 @@ layout(std430, binding = 1) writeonly buffer After { Particle after[]; };
 layout(std430, binding = 2) readonly buffer Nodes { Node nodes[]; };
 layout(std430, binding = 3) readonly buffer Indices { uint indices[]; }; // particles, then obstacles' vertices
 layout(std430, binding = 4) readonly buffer ObstacleVertices { float obstacle_vertices[]; };
+layout(std430, binding = 5) readonly buffer Order { uint order[]; }; // every particle once, leaf by leaf
 
 // A texel a node: x and y of its first child, the number of children, the index into `nodes`.
 uniform usampler2D u_NodeTexture;
@@ -147,9 +148,9 @@ Particle integrate(Particle a) {
 }
 
 void main() {
-    uint self = gl_GlobalInvocationID.x;
-    if (self >= u_ParticleCount)
+    if (gl_GlobalInvocationID.x >= u_ParticleCount)
         return;
+    uint self = order[gl_GlobalInvocationID.x];
     Particle a = before[self];
     vec3 away;
     if (ls_flush(a.collide_time) < 0.0 && nearest_collision(self, a.position, away))

@@ -25,9 +25,9 @@ ThesisRun linear_run(bool with_octree = true) {
     for (const std::string_view scene : thesis_scenes)
         for (const std::size_t count : {50'000U, 100'000U, 150'000U, 200'000U}) {
             ThesisCell cell{std::string(scene), count, {}, {}};
-            cell.cdt = {60, static_cast<double>(count) * 1e-7, static_cast<double>(count) * 0.5e-7, 0.25};
+            cell.cdt = {60, static_cast<double>(count) * 1e-7, static_cast<double>(count) * 0.5e-7, 0.0, 0.25};
             if (with_octree)
-                cell.octree = SystemTimes{30, static_cast<double>(count) * 6e-7, 0.0, 0.9375};
+                cell.octree = SystemTimes{30, static_cast<double>(count) * 6e-7, 0.0, 0.0, 0.9375};
             run.cells.push_back(cell);
         }
     return run;
@@ -80,6 +80,19 @@ TEST_CASE("thesis_report: tables, figures and ratios, the thesis's beside") {
                    Catch::Contains("octree / CDT: 6.0 to 6.0 (thesis 4.5 to 7.7); octree slower in every cell: yes"));
 }
 
+TEST_CASE("thesis_report: how time grows without what a frame costs anyway") {
+    ThesisRun run = linear_run();
+    CHECK_THAT(thesis_text(run), Catch::Contains("to a frame with one alone: x - (CDT), - (octree)"));
+    for (ThesisCell& cell : run.cells) {
+        cell.cdt.fixed = 0.02;
+        cell.cdt.wall += 0.02;
+        cell.octree->fixed = 0.001;
+        cell.octree->wall = 0.001 + 1e-9 * static_cast<double>(cell.particles) * static_cast<double>(cell.particles);
+    }
+    CHECK_THAT(thesis_text(run), Catch::Contains("x 0.33 to 0.33 (CDT), 2.00 to 2.00 (octree); 0.9") &&
+                                     Catch::Contains("alone: x 1.00 to 1.00 (CDT), 2.00 to 2.00 (octree)"));
+}
+
 TEST_CASE("thesis_report: without an octree its columns are empty") {
     const ThesisRun run = linear_run(false);
     CHECK_THAT(thesis_text(run), Catch::Contains("25.0 / -") && Catch::Contains("octree slower in every cell: no"));
@@ -101,6 +114,8 @@ TEST_CASE("thesis_report: what was written as JSON is read back, what is wrong i
     ThesisRun run = linear_run();
     run.cells[3].cdt.recall = std::numeric_limits<double>::quiet_NaN();
     run.cells[4].octree.reset();
+    for (ThesisCell& cell : run.cells)
+        cell.cdt.fixed = 0.001;
     const auto file = folder.write("run.json", thesis_json(run).dump());
     const ThesisRun read = read_thesis_json(file);
     CHECK(thesis_csv(read) == thesis_csv(run));

@@ -6,6 +6,7 @@
 #include <nlohmann/json.hpp>
 
 #include "crosscheck/page/blob.hpp"
+#include "crosscheck/page/live_scene.hpp"
 #include "crosscheck/page/template.hpp"
 #include "reference/model/layered_cdt.hpp"
 
@@ -49,8 +50,8 @@ json item_json(const ExplainedItem& explained, int width) {
 } // namespace
 
 PageCollector::PageCollector(const Scene& scene, const Profile& profile, CheckMode mode, int frames)
-    : scene_(scene), series_(scene, profile, mode), keeper_(scene, profile, frames), before_(scene.start),
-      cdt_before_(empty_cdt(scene)) {}
+    : scene_(scene), profile_(profile), series_(scene, profile, mode), keeper_(scene, profile, frames),
+      before_(scene.start), cdt_before_(empty_cdt(scene)) {}
 
 void PageCollector::add(const ComparedFrame& frame) {
     const FrameParams params = frame_params(scene_, frame.frame);
@@ -88,6 +89,9 @@ std::string report_page(std::string_view page_template, const PageCollector& run
     };
     add("series", packed(run.series().json()));
     add("tables", packed(tables));
+    const LiveScene live = live_scene(run.scene(), report.frames, run.profile());
+    add("live", packed(live.head));
+    add("live-arrays", base64(deflated(live.arrays.str())));
 
     constexpr std::size_t of_head = 60'000; // the list of frames is not in it yet
     const std::size_t used = page_template.size() + blobs.size() + text_of(head).size() + of_head;

@@ -27,9 +27,11 @@ class PageCollector {
     [[nodiscard]] const FrameKeeper& frames() const { return keeper_; }
     [[nodiscard]] const DifferenceSeries& series() const { return series_; }
     [[nodiscard]] const Scene& scene() const { return scene_; }
+    [[nodiscard]] const Profile& profile() const { return profile_; }
 
   private:
     const Scene& scene_;
+    const Profile& profile_;
     DifferenceSeries series_;
     FrameKeeper keeper_;
     Particles before_; ///< the GPU's, which the next frame starts from

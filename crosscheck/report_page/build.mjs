@@ -2,6 +2,7 @@
 import { build } from "esbuild";
 import { mkdir, readFile, rename, writeFile } from "node:fs/promises";
 import { dirname, join } from "node:path";
+import { shaderPlugin } from "./shader_sources.mjs";
 
 const here = import.meta.dirname ?? dirname(new URL(import.meta.url).pathname);
 const out = process.argv[2];
@@ -17,6 +18,7 @@ const { outputFiles } = await build({
   format: "iife",
   target: "es2022",
   legalComments: "inline",
+  plugins: [shaderPlugin()],
   outdir: "out",
   write: false,
 });

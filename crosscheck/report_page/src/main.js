@@ -8,6 +8,7 @@ import { h } from "./dom.js";
 import { Frames } from "./frames_section.js";
 import { Inspector } from "./inspector.js";
 import { itemAt } from "./items.js";
+import { liveSection } from "./live/live_section.js";
 import { Selection } from "./selection.js";
 import { stepsSection } from "./steps_section.js";
 
@@ -44,6 +45,7 @@ async function start() {
   add(commandsSection(head));
   document.getElementById("foot").append(h("p", {}, "Written by lockstep. Charts by uPlot."));
   await frames.show();
+  document.getElementById("repeat").before(await liveSection());
   document.documentElement.dataset.ready = "true";
 }
 

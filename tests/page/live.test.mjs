@@ -1,0 +1,142 @@
+import assert from "node:assert/strict";
+import { readFileSync, writeFileSync } from "node:fs";
+import { join } from "node:path";
+import { after, before, test } from "node:test";
+import { gunzipSync } from "node:zlib";
+import { axePath, cleanUp, open, report, temporaryFolder, writeScene } from "./browser.mjs";
+
+const frames = 12;
+let plain;
+
+const scene = (set = []) =>
+  report(writeScene(temporaryFolder()), "--frames", String(frames), ...set.flatMap((value) => ["--set", value]));
+
+before(() => (plain = scene()));
+after(cleanUp);
+
+const status = (page) => page.locator("#live-status").innerText();
+
+// Runs one of the page's presets to its end.
+async function run(page, name) {
+  await page.selectOption("#live-run", name);
+  await page.click("#live-start");
+  await page.waitForFunction(() => document.getElementById("live-start").textContent === "Run", null, { timeout: 60000 });
+  return status(page);
+}
+
+// The same page with one line of a shader in it changed.
+function planted(path, from, to) {
+  const text = readFileSync(path, "utf8");
+  assert.ok(text.includes(from), from);
+  const changed = join(temporaryFolder(), "report.html");
+  writeFileSync(changed, text.replaceAll(from, to));
+  return changed;
+}
+
+for (const set of [[], ["cdt_format=rgba16f"], ["cdt_format=rgba8"], ["obstacles_in_cdt=vertices"], ["raster_position=before_step"]])
+  test(`live view: preset exact has the reference's bits on SwiftShader ${set}`, async () => {
+    const { page, complaints } = await open(set.length > 0 ? scene(set) : plain);
+    assert.equal(
+      await run(page, "exact"),
+      `AGREE: every bit of 300 particles and of the CDT in ${frames} frames, as the strict reference has them.`,
+    );
+    assert.equal(await page.locator(".live-frame .good").count(), 2 * frames);
+    assert.deepEqual(complaints, []);
+    await page.close();
+  });
+
+test("live view: a bug in a shader shows in its frame", async () => {
+  const { page } = await open(planted(plain, " && len < particle_min_length", ""));
+  assert.match(
+    await run(page, "exact"),
+    /^DIFFERS: \d+ of 12 frames differ from the strict reference, the first is frame [1-9]\d*, in particles/,
+  );
+  assert.ok((await page.locator(".live-frame .bad").count()) > 0);
+  await page.close();
+});
+
+test("live view: a shader that does not compile is told", async () => {
+  const { page } = await open(planted(plain, "bool particle_collision = false;", "bool particle_collision = 0;"));
+  await page.click("#live-step");
+  assert.match(await status(page), /^Could not run: collision_pass, vertex stage: ERROR: .*bool/);
+  await page.close();
+});
+
+test("live view: in plain arithmetic other bits are no mistake", async () => {
+  const { page, complaints } = await open(plain);
+  for (const preset of ["paper", "corrected"]) assert.match(await run(page, preset), /^(AGREE|Other bits): /);
+  assert.deepEqual(complaints, []);
+  await page.close();
+});
+
+test("live view: a frame at a time, and back to the start", async () => {
+  const { page } = await open(plain);
+  await page.click("#live-step");
+  await page.click("#live-step");
+  assert.match(await status(page), /in 2 frames/);
+  assert.match(await page.locator("#live").innerText(), /2 of 12 frames, 2 checked, on .*SwiftShader/);
+  await page.click("#live-again");
+  assert.equal(await status(page), "Nothing has run yet.");
+  await page.close();
+});
+
+// Colours on the canvas that is shown.
+const colours = (page) =>
+  page.evaluate(() => {
+    const canvas = [...document.querySelectorAll(".live-picture canvas")].find((c) => !c.hidden);
+    const copy = document.createElement("canvas");
+    [copy.width, copy.height] = [canvas.width, canvas.height];
+    const context = copy.getContext("2d");
+    context.drawImage(canvas, 0, 0);
+    return new Set(new Uint32Array(context.getImageData(0, 0, copy.width, copy.height).data.buffer)).size;
+  });
+
+test("live view: both pictures show something", async () => {
+  const { page } = await open(scene(["billboard_radius=0.05"]));
+  await page.click("#live-step");
+  assert.ok((await colours(page)) > 100);
+  await page.selectOption("#live-shown", "cdt");
+  assert.ok((await colours(page)) > 100);
+  await page.close();
+});
+
+test("live view: saved states hold the start and each frame's particles and CDT", async () => {
+  const { page } = await open(plain);
+  await page.selectOption("#live-run", "exact");
+  const [download] = await Promise.all([page.waitForEvent("download"), page.click("#live-save")]);
+  assert.equal(download.suggestedFilename(), "scene_exact.states.gz");
+  const bytes = gunzipSync(readFileSync(await download.path()));
+  const line = bytes.indexOf("\n");
+  const head = JSON.parse(bytes.subarray(0, line).toString());
+  assert.deepEqual([head.lockstep, head.run, head.particles, head.frames], ["states 1", "exact", 300, frames]);
+  assert.equal(bytes.length - line - 1, 4 * (8 * 300 + frames * (8 * 300 + 4 * 64 * 48)));
+  assert.match(await status(page), /^The states are saved/);
+  await page.close();
+});
+
+test("live view: without WebGL2 one line says so", async () => {
+  const { page } = await open(plain);
+  await page.evaluate(() => (HTMLCanvasElement.prototype.getContext = () => null));
+  await page.click("#live-start");
+  assert.equal(await status(page), "Could not run: this browser has no WebGL2");
+  await page.close();
+});
+
+test("live view: what WebGL2 cannot run is not offered", async () => {
+  const { page } = await open(scene(["cdt_layers=2"]));
+  assert.match(await page.locator("#live").innerText(), /Not for this run: the layered collision pass/);
+  assert.equal(await page.locator("#live-start").count(), 0);
+  await page.close();
+});
+
+test("live view: reached and run by keyboard, and nothing for an accessibility checker to find", async () => {
+  const { page } = await open(plain);
+  await page.locator("#live-run").focus();
+  for (let i = 0; i < 3; ++i) await page.keyboard.press("Tab");
+  await page.keyboard.press("Enter");
+  assert.match(await status(page), /in 1 frame,/);
+  await page.addScriptTag({ path: axePath });
+  const { violations } = await page.evaluate(() => axe.run("#live"));
+  assert.deepEqual(violations.map(({ id, nodes }) => `${id}: ${nodes[0].html}`), []);
+  await page.close();
+});

@@ -90,13 +90,14 @@ std::string read_text(const std::filesystem::path& file) {
 
 } // namespace
 
-json read_json(const std::filesystem::path& file) {
-    const std::string text = read_text(file);
+json parse_json(std::string_view text, const std::string& name) {
     Syntax syntax(text);
     if (!json::sax_parse(text, &syntax))
-        throw Error(fmt::format("{}:{}", file.string(), syntax.problem));
+        throw Error(fmt::format("{}:{}", name, syntax.problem));
     return json::parse(text);
 }
+
+json read_json(const std::filesystem::path& file) { return parse_json(read_text(file), file.string()); }
 
 JsonValue::JsonValue(const json& value, std::string file, std::string path)
     : value_(&value), file_(std::move(file)), path_(std::move(path)) {}

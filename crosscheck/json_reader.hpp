@@ -64,7 +64,10 @@ class JsonValue {
     std::string path_;
 };
 
-/// Reads a JSON file. Throws Error with line and column where it is malformed, or naming a key that stands twice.
+/// Throws Error, `NAME:LINE:COLUMN: ...`, where the text is malformed or has a key twice in one object.
+nlohmann::json parse_json(std::string_view text, const std::string& name);
+
+/// The same of a file.
 nlohmann::json read_json(const std::filesystem::path& file);
 
 } // namespace lockstep

@@ -8,23 +8,29 @@ namespace {
 struct ConstantInfo {
     std::string_view name;
     void (*set)(Constants&, const JsonValue&);
+    nlohmann::json (*get)(const Constants&);
 };
 
 constexpr NumberRule octree_size{1e-6, 1e6, "a length from 1e-6 to 1e6"};
 
 template <auto Member, const NumberRule& Rule> ConstantInfo real(std::string_view name) {
-    return {name, [](Constants& c, const JsonValue& value) { c.*Member = value.number(Rule); }};
+    return {name, [](Constants& c, const JsonValue& value) { c.*Member = value.number(Rule); },
+            [](const Constants& c) { return nlohmann::json(c.*Member); }};
 }
 
 const std::array table{
     real<&Constants::tick, number::positive>("tick"),
-    ConstantInfo{"gravity", [](Constants& c, const JsonValue& value) { c.gravity = value.vector(); }},
+    ConstantInfo{"gravity", [](Constants& c, const JsonValue& value) { c.gravity = value.vector(); },
+                 [](const Constants& c) {
+                     return nlohmann::json{c.gravity.x, c.gravity.y, c.gravity.z};
+                 }},
     real<&Constants::collision_range, number::positive>("collision_range"),
     real<&Constants::collision_time, number::not_negative>("collision_time"),
     ConstantInfo{"texel_collide_range",
                  [](Constants& c, const JsonValue& value) {
                      c.texel_collide_range = static_cast<int>(value.integer(0, widest_neighbourhood));
-                 }},
+                 },
+                 [](const Constants& c) { return nlohmann::json(c.texel_collide_range); }},
     real<&Constants::billboard_radius, number::positive>("billboard_radius"),
     real<&Constants::octree_size, octree_size>("octree_size"),
 };
@@ -45,6 +51,13 @@ void set_constant(Constants& constants, std::string_view name, const JsonValue& 
     for (const ConstantInfo& info : table)
         if (info.name == name)
             info.set(constants, value);
+}
+
+nlohmann::json constants_json(const Constants& constants) {
+    nlohmann::json json = nlohmann::json::object();
+    for (const ConstantInfo& info : table)
+        json[std::string(info.name)] = info.get(constants);
+    return json;
 }
 
 } // namespace lockstep

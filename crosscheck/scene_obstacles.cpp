@@ -1,0 +1,77 @@
+#include "crosscheck/scene_obstacles.hpp"
+
+#include <cstdint>
+
+#include "crosscheck/surface.hpp"
+#include "reference/model/error.hpp"
+
+namespace lockstep {
+namespace {
+
+constexpr std::int64_t most_segments = 512;
+
+Surface read_surface(const JsonValue& json, Placement& placement, const std::optional<std::filesystem::path>& folder) {
+    const auto real = [&](std::string_view key) { return static_cast<double>(json.at(key).number(number::positive)); };
+    const auto segments = [&](int otherwise) {
+        const auto value = json.find("segments");
+        return value ? static_cast<int>(value->integer(4, most_segments)) : otherwise;
+    };
+    switch (json.at("shape").choice({"mesh", "plane", "box", "sphere", "torus"})) {
+    case 0: {
+        json.check_keys({"shape", "file", "height", "position", "rotate_y"});
+        const JsonValue file = json.at("file");
+        if (!folder)
+            file.fail("no mesh file is read here; give its triangles beside the scene");
+        const auto path = (*folder / file.text()).lexically_normal();
+        placement.height = real("height");
+        try {
+            return load_surface(path);
+        } catch (const Error& error) {
+            file.fail(error.what());
+        }
+    }
+    case 1: {
+        json.check_keys({"shape", "size", "position", "rotate_y"});
+        const JsonValue size = json.at("size");
+        const std::vector<JsonValue> sides = size.items();
+        if (sides.size() != 2)
+            size.fail("the size of a plane is two numbers above 0, [x, z]");
+        return plane_surface(sides[0].number(number::positive), sides[1].number(number::positive));
+    }
+    case 2: {
+        json.check_keys({"shape", "size", "position", "rotate_y"});
+        const JsonValue size = json.at("size");
+        const glm::vec3 sides = size.vector();
+        for (const JsonValue& side : size.items())
+            static_cast<void>(side.number(number::positive));
+        return box_surface(sides);
+    }
+    case 3:
+        json.check_keys({"shape", "radius", "segments", "position", "rotate_y"});
+        return sphere_surface(real("radius"), segments(16));
+    default:
+        json.check_keys({"shape", "radius", "tube_radius", "segments", "position", "rotate_y"});
+        return torus_surface(real("radius"), real("tube_radius"), segments(48));
+    }
+}
+
+void read_obstacle(const JsonValue& json, const std::optional<std::filesystem::path>& folder, Mesh& mesh) {
+    Placement placement;
+    const Surface surface = read_surface(json, placement, folder);
+    if (const auto position = json.find("position"))
+        placement.position = position->vector();
+    if (const auto angle = json.find("rotate_y"))
+        placement.rotate_y = angle->number();
+    place(surface, placement, mesh);
+}
+
+} // namespace
+
+Mesh read_obstacles(const JsonValue& json, const std::optional<std::filesystem::path>& folder) {
+    Mesh mesh;
+    for (const JsonValue& obstacle : json.items())
+        read_obstacle(obstacle, folder, mesh);
+    return mesh;
+}
+
+} // namespace lockstep

@@ -36,12 +36,14 @@ struct State {
 
 void read(GpuSide& gpu, State& state) {
     gpu.read(state.particles);
-    gpu.read(state.cdt);
+    if (gpu.has_cdt())
+        gpu.read(state.cdt);
 }
 
-Comparison compare(const Particles& reference, const CollisionImage& reference_cdt, const State& gpu) {
+Comparison compare(const Particles& reference, const CollisionImage& reference_cdt, const State& gpu, bool has_cdt) {
     Comparison result = lockstep::compare(reference, gpu.particles);
-    result.add(lockstep::compare(reference_cdt, gpu.cdt));
+    if (has_cdt)
+        result.add(lockstep::compare(reference_cdt, gpu.cdt));
     return result;
 }
 
@@ -89,8 +91,9 @@ void note_difference(CheckReport& report, int frame, const Comparison& compariso
 /// Judges the frames of a resync run that are not bit-equal.
 class RunJudge {
   public:
-    RunJudge(const Scene& scene, const Profile& profile, const KnownOperations& known)
-        : scene_(scene), profile_(profile), known_(known) {}
+    /// `has_cdt`: texels are judged too.
+    RunJudge(const Scene& scene, const Profile& profile, const KnownOperations& known, bool has_cdt)
+        : scene_(scene), profile_(profile), known_(known), has_cdt_(has_cdt) {}
 
     /// `earlier`: what the frame before started from, null for frame 0.
     FrameVerdicts judge(int frame, const FrameParams& params, const State& before, const State* earlier,
@@ -99,6 +102,8 @@ class RunJudge {
             scene_.obstacles,      params,          profile_,      known_, before.particles, before.cdt,
             reference.particles(), reference.cdt(), gpu.particles, gpu.cdt};
         FrameVerdicts verdicts = lockstep::judge(judged);
+        if (!has_cdt_)
+            verdicts.texels.clear();
         const std::uint64_t divergent_before = summary_.total(DifferenceClass::divergent);
         summary_.add(frame, verdicts);
         const bool diverges = summary_.total(DifferenceClass::divergent) > divergent_before;
@@ -130,6 +135,7 @@ class RunJudge {
     const Scene& scene_;
     const Profile& profile_;
     KnownOperations known_;
+    bool has_cdt_;
     VerdictSummary summary_;
     CauseFinder causes_;
 };
@@ -156,7 +162,7 @@ CheckReport check(const Scene& scene, const Profile& profile, GpuSide& gpu, cons
     // Legal runs are known of the listing's pass alone: what differs with an octree or remedies is told, not judged.
     const bool judged =
         options.mode == CheckMode::resync && scene.switches.search == Search::cdt && !has_remedies(scene.switches);
-    RunJudge judge(scene, profile, options.known.value_or(measured_operations(profile)));
+    RunJudge judge(scene, profile, options.known.value_or(measured_operations(profile)), gpu.has_cdt());
     gpu.upload(before.particles, before.cdt);
 
     for (int frame = 0; frame < options.frames && !(options.stop != nullptr && *options.stop); ++frame) {
@@ -195,7 +201,11 @@ CheckReport check(const Scene& scene, const Profile& profile, GpuSide& gpu, cons
         Comparison comparison;
         {
             const Stopwatch watch(times.compare);
-            comparison = compare(reference.particles(), reference.cdt(), now);
+            comparison = compare(reference.particles(), reference.cdt(), now, gpu.has_cdt());
+            if (!gpu.has_cdt() && comparison.agree() && options.mode == CheckMode::resync)
+                now.cdt = reference.cdt();
+            else if (!gpu.has_cdt())
+                reference.draw(before.particles, now.particles, params, now.cdt);
             if (!comparison.agree() || options.mode == CheckMode::free)
                 note_difference(report, frame, comparison);
             report.total.add(comparison);

@@ -74,6 +74,8 @@ int main(int argc, char** argv) {
     add_probe_command(app, status);
     add_bench_command(app, status);
     add_study_command(app, status);
+    add_record_command(app, status);
+    add_trace_command(app, status);
     try {
         app.parse(argc, argv);
         flush_standard_output();

@@ -171,8 +171,9 @@ bool built_from_driver_roots(const ProbeResult& result) {
            is("normalize, precise", "v*inversesqrt(dot)");
 }
 
-Profile measured_profile(const Context& context) {
-    const ProbeResult result = probe(context);
+Profile measured_profile(const Context& context) { return measured_profile(probe(context)); }
+
+Profile measured_profile(const ProbeResult& result) {
     Profile profile = profile_from(result);
     if (built_from_driver_roots(result))
         profile.roots = std::make_shared<const RootTables>(measure_root_tables());

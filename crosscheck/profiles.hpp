@@ -17,6 +17,9 @@ bool built_from_driver_roots(const ProbeResult& result);
 /// Measures the current context (gpu/probe.hpp): the profile that matches it.
 Profile measured_profile(const Context& context);
 
+/// The same of what a probe of the current context found; measures the driver's tables where it has some.
+Profile measured_profile(const ProbeResult& result);
+
 /// One line: "llvmpipe: dot x + (y + z), division and roots rounded, subnormals flushed, 8 sub-pixel bits, ..."
 std::string describe(const Profile& profile);
 

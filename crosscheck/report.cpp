@@ -62,8 +62,8 @@ std::string of_class(const CheckReport& r, DifferenceClass kind) {
 std::string verdict_line(const CheckReport& r) {
     switch (r.verdict) {
     case Verdict::agree:
-        return fmt::format("AGREE: every bit of {} particles and of the CDT in {} frames", grouped(r.particles),
-                           r.frames);
+        return fmt::format("AGREE: every bit of {} particles{} in {} frames", grouped(r.particles),
+                           r.total[Field::texel].compared > 0 ? " and of the CDT" : "", r.frames);
     case Verdict::legal:
         return fmt::format("LEGAL: {} particle states and {} texels differ in {} frames, as GL allows",
                            grouped(r.total.differing_particles), grouped(r.total.differing_texels), r.frames);
@@ -124,6 +124,8 @@ std::string report_text(const CheckReport& r, const RunDescription& run) {
         line("hash", r.reference_hash == r.gpu_hash
                          ? fmt::format("{} on both sides after the last frame", hash_text(r.gpu_hash))
                          : fmt::format("reference {}, GPU {}", hash_text(r.reference_hash), hash_text(r.gpu_hash)));
+    for (const std::string& note : run.notes)
+        line("note", note);
     line("verdict", verdict_line(r));
     if (r.total.agree())
         return out;
@@ -204,6 +206,7 @@ nlohmann::json report_json(const CheckReport& r, const RunDescription& run) {
               {"judge", seconds.judge}}},
             {"verdicts", r.verdicts ? verdict_json(*r.verdicts, run.width) : json()},
             {"repeat", run.repeat},
+            {"notes", run.notes},
             {"explain", run.explain.empty() ? json() : json(run.explain)}};
 }
 

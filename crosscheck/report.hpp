@@ -1,5 +1,6 @@
 #pragma once
 #include <string>
+#include <vector>
 
 #include <nlohmann/json_fwd.hpp>
 
@@ -17,6 +18,7 @@ struct RunDescription {
     int width = 0;       ///< CDT, to turn a texel index into x, y
     std::string repeat;  ///< a command line that repeats a run up to the first difference; {frames} is filled in
     std::string explain; ///< one that shows the first divergence step by step; empty if there is none
+    std::vector<std::string> notes = {}; ///< what a reader of the verdict has to know besides
 };
 
 /// "AGREE", "LEGAL", ...

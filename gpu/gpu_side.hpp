@@ -24,7 +24,12 @@ class GpuSide {
     virtual void read(Particles& particles) const = 0;
     virtual void read(CollisionImage& cdt) const = 0;
 
-    /// Whether a frame can be run twice from one state, to prove that it repeats itself. The rest is called only then.
+    /// Whether there is a CDT to compare. If not, read(cdt) is never called, and the reference draws the CDT of the
+    /// particles that were read.
+    [[nodiscard]] virtual bool has_cdt() const { return true; }
+
+    /// Whether a frame can be run twice from one state, to prove that it repeats itself. What follows is called only
+    /// then.
     [[nodiscard]] virtual bool repeats() const { return false; }
 
     /// Fills what the next frame writes with a pattern that no step computes, and looks for it in what was read back:

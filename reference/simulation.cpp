@@ -17,15 +17,23 @@ ReferenceSimulation::ReferenceSimulation(const Scene& scene, Profile profile)
 void ReferenceSimulation::step_from(const Particles& before, const CollisionImage& cdt, const FrameParams& params) {
     if (has_remedies(params.switches)) {
         update_particles_layered(before, cdt, params, profile_, after_);
-        draw_layered_cdt(after_, obstacles_, params, profile_, cdt_after_);
-        return;
+    } else if (params.switches.search == Search::octree) {
+        octree_pass(before, obstacles_, params, profile_, after_);
+    } else {
+        update_particles_fast(before, cdt, params, profile_, after_);
     }
-    clear();
+    draw(before, after_, params, cdt_after_);
+}
+
+void ReferenceSimulation::draw(const Particles& before, const Particles& after, const FrameParams& params,
+                               CollisionImage& cdt) {
+    if (has_remedies(params.switches))
+        return draw_layered_cdt(after, obstacles_, params, profile_, cdt);
+    clear(cdt);
     if (params.switches.search == Search::octree)
-        return octree_pass(before, obstacles_, params, profile_, after_);
-    update_particles_fast(before, cdt, params, profile_, after_);
-    obstacle_pass(obstacles_, params, profile_, cdt_after_, depth_);
-    rasterise_particles_fast(before, after_, params, profile_, cdt_after_, depth_);
+        return;
+    obstacle_pass(obstacles_, params, profile_, cdt, depth_);
+    rasterise_particles_fast(before, after, params, profile_, cdt, depth_);
 }
 
 void ReferenceSimulation::step(const FrameParams& params) {
@@ -34,8 +42,8 @@ void ReferenceSimulation::step(const FrameParams& params) {
     step_from(before_, cdt_before_, params);
 }
 
-void ReferenceSimulation::clear() {
-    std::fill(cdt_after_.texels.begin(), cdt_after_.texels.end(), glm::vec4(0.0F));
+void ReferenceSimulation::clear(CollisionImage& cdt) {
+    std::fill(cdt.texels.begin(), cdt.texels.end(), glm::vec4(0.0F));
     std::fill(depth_.texels.begin(), depth_.texels.end(), 1.0F);
 }
 

@@ -19,11 +19,14 @@ class ReferenceSimulation {
     /// One frame from where the last one ended.
     void step(const FrameParams& params);
 
+    /// The CDT that a step from `before` to `after` draws, whoever made it. particles() and cdt() stay.
+    void draw(const Particles& before, const Particles& after, const FrameParams& params, CollisionImage& cdt);
+
     [[nodiscard]] const Particles& particles() const { return after_; }
     [[nodiscard]] const CollisionImage& cdt() const { return cdt_after_; }
 
   private:
-    void clear();
+    void clear(CollisionImage& cdt);
 
     const Mesh& obstacles_;
     Profile profile_;

@@ -9,6 +9,7 @@ packages=(
     nlohmann-json3-dev libpng-dev                 # scenes and reports, pictures
     zlib1g-dev                                    # the report page's data
     libassimp-dev libmeshoptimizer-dev            # meshes: reading, decimation
+    libhdf5-dev libaec-dev zlib1g-dev nettle-dev  # traces: H5MD, their seal
     libgl-dev libegl-dev                          # GL headers; the libraries are opened at run time
     libosmesa6 libegl1 libgl1-mesa-dri            # contexts without a GPU
     catch2 libnanoflann-dev                       # tests and their oracle for neighbours

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include <fmt/format.h>
+#include <omp.h>
 
 #include "crosscheck/check.hpp"
 #include "crosscheck/commands/commands.hpp"
@@ -23,8 +24,10 @@
 #include "crosscheck/profiles.hpp"
 #include "crosscheck/progress.hpp"
 #include "crosscheck/report.hpp"
+#include "crosscheck/trace/trace_side.hpp"
 #include "gpu/context.hpp"
 #include "gpu/simulation.hpp"
+#include "reference/model/error.hpp"
 #include "reference/model/layered_cdt.hpp"
 
 namespace lockstep {
@@ -49,6 +52,8 @@ class InterruptHandler {
 
 struct Options {
     RunOptions run;
+    std::filesystem::path trace; ///< instead of a scene and GL
+    bool frames_given = false;
     CheckMode mode = CheckMode::resync;
     std::filesystem::path json, images, hashes, report;
     Legal legal = Legal::measured;
@@ -63,7 +68,9 @@ int status_of(Verdict verdict, bool allow_undefined) {
 }
 
 std::string repeat_line(const Options& options, int frames) {
-    std::string line = command_line("check", options.run, frames);
+    std::string line = options.trace.empty()
+                           ? command_line("check", options.run, frames)
+                           : fmt::format("lockstep check --trace {} --frames {}", options.trace.string(), frames);
     if (options.mode == CheckMode::free)
         line += " --mode free";
     line += legal_option_text(options.legal);
@@ -72,7 +79,10 @@ std::string repeat_line(const Options& options, int frames) {
     return line;
 }
 
+/// Empty for a trace: there is no GPU to ask.
 std::string explain_line(const Options& options, const Place& place, int width) {
+    if (!options.trace.empty())
+        return "";
     const auto columns = static_cast<std::size_t>(width);
     const std::string item = place.texel ? fmt::format("--texel {},{}", place.index % columns, place.index / columns)
                                          : fmt::format("--particle {}", place.index);
@@ -91,19 +101,6 @@ void expect_files(const Options& options, OutputFiles& files) {
         files.expect_folder(options.report);
 }
 
-/// The step tables of what the page lists, made on a second run of the GPU.
-std::vector<ExplainedItem> explain_items(const Options& options, const Scene& scene, const Profile& profile,
-                                         const std::vector<PageItem>& items) {
-    std::optional<FrameRun> frames;
-    if (scene.switches.search == Search::cdt && !has_remedies(scene.switches) && !items.empty())
-        frames.emplace(scene, profile, known_operations(options.legal, profile), options.run.shaders);
-    std::vector<ExplainedItem> explained_items;
-    for (const PageItem& item : items)
-        explained_items.push_back({item, explain_line(options, {item.frame, item.texel, item.index}, scene.width),
-                                   frames ? explained(*frames, item) : nlohmann::json()});
-    return explained_items;
-}
-
 std::vector<PageCommand> page_commands(const Options& options, const RunDescription& run, const CheckReport& report) {
     std::vector<PageCommand> commands{{"This run", repeat_line(options, report.frames)}};
     if (report.first_frame && *report.first_frame + 1 < report.frames)
@@ -115,41 +112,61 @@ std::vector<PageCommand> page_commands(const Options& options, const RunDescript
     return commands;
 }
 
-RunDescription description(const Options& options, const Scene& scene, const Context& context, const Profile& profile,
-                           const CheckReport& report) {
-    const bool free = options.mode == CheckMode::free;
-    const int repeat_frames = report.first_frame ? *report.first_frame + 1 : report.frames;
-    return {fmt::format("{} ({})", scene.name, options.run.scene.string()),
-            summary(context.describe()),
-            describe(profile),
-            settings_text(options.run, scene),
-            free ? "free" : "resync",
-            scene.width,
-            repeat_line(options, repeat_frames),
-            report.verdicts && report.verdicts->first
-                ? explain_line(options, report.verdicts->first->place, scene.width)
-                : std::string()};
+/// What is checked: a scene on this machine's GL, or a recorded run.
+struct Checked {
+    const Scene& scene;
+    const Profile& profile;
+    GpuSide& gpu;
+    KnownOperations known;
+    std::string file;     ///< the scene's, or the trace's
+    std::string context;  ///< renderer, version
+    std::string settings; ///< preset and changed switches
+    std::vector<std::string> notes;
+};
+
+/// The step tables of what the page lists, made on a second run of the GPU; of a trace there are none.
+std::vector<ExplainedItem> explain_items(const Options& options, const Checked& checked,
+                                         const std::vector<PageItem>& items) {
+    std::optional<FrameRun> frames;
+    const Scene& scene = checked.scene;
+    if (options.trace.empty() && scene.switches.search == Search::cdt && !has_remedies(scene.switches) &&
+        !items.empty())
+        frames.emplace(scene, checked.profile, checked.known, options.run.shaders);
+    std::vector<ExplainedItem> explained_items;
+    for (const PageItem& item : items)
+        explained_items.push_back({item, explain_line(options, {item.frame, item.texel, item.index}, scene.width),
+                                   frames ? explained(*frames, item) : nlohmann::json()});
+    return explained_items;
 }
 
-int run(const Options& options) {
-    const Scene scene = load(options.run);
-    const std::string page = options.report.empty() ? std::string() : report_page_template();
-    OutputFiles files;
-    expect_files(options, files);
-    const Context context(parse_context_request(options.run.gl));
-    const Profile profile = measured_profile(context);
-    GpuSimulation gpu(scene, options.run.shaders);
+RunDescription description(const Options& options, const Checked& checked, const CheckReport& report) {
+    const bool free = options.mode == CheckMode::free;
+    const int repeat_frames = report.first_frame ? *report.first_frame + 1 : report.frames;
+    return {fmt::format("{} ({})", checked.scene.name, checked.file),
+            checked.context,
+            describe(checked.profile),
+            checked.settings,
+            free ? "free" : "resync",
+            checked.scene.width,
+            repeat_line(options, repeat_frames),
+            report.verdicts && report.verdicts->first
+                ? explain_line(options, report.verdicts->first->place, checked.scene.width)
+                : std::string(),
+            checked.notes};
+}
 
+int check_and_tell(const Options& options, OutputFiles& files, const Checked& checked) {
+    const std::string page = options.report.empty() ? std::string() : report_page_template();
     HashFile hashes;
     FrameImages images;
     CheckOptions check_options;
     check_options.mode = options.mode;
     check_options.frames = options.run.frames;
     check_options.stop = &interrupted;
-    check_options.known = known_operations(options.legal, profile);
+    check_options.known = checked.known;
     std::optional<PageCollector> collector;
     if (!options.report.empty())
-        collector.emplace(scene, profile, options.mode, options.run.frames);
+        collector.emplace(checked.scene, checked.profile, options.mode, options.run.frames);
     if (!options.hashes.empty() || !options.images.empty() || collector)
         check_options.on_state = [&](const ComparedFrame& frame) {
             if (!options.hashes.empty())
@@ -163,10 +180,10 @@ int run(const Options& options) {
         const InterruptHandler handler;
         Progress progress("check", options.run.frames, !options.quiet);
         check_options.on_frame = [&](int done) { progress.show(done); };
-        return check(scene, profile, gpu, check_options);
+        return check(checked.scene, checked.profile, checked.gpu, check_options);
     }();
 
-    const RunDescription run = description(options, scene, context, profile, report);
+    const RunDescription run = description(options, checked, report);
     if (!options.quiet) {
         if (interrupted)
             fmt::print("interrupted after {} of {} frames\n", report.frames, options.run.frames);
@@ -178,13 +195,63 @@ int run(const Options& options) {
     if (!options.hashes.empty())
         files.write(options.hashes, hashes.text());
     if (!options.images.empty())
-        images.write(files, options.images, scene, profile, options.run.shaders);
+        images.write(files, options.images, checked.scene, checked.profile, options.run.shaders);
     if (collector)
         files.write(options.report / "report.html",
                     report_page(page, *collector, report, run, page_commands(options, run, report),
-                                explain_items(options, scene, profile, collector->frames().items())));
+                                explain_items(options, checked, collector->frames().items())));
     files.commit();
     return status_of(report.verdict, options.allow_undefined);
+}
+
+int run_scene(const Options& options) {
+    const Scene scene = load(options.run);
+    OutputFiles files;
+    expect_files(options, files);
+    const Context context(parse_context_request(options.run.gl));
+    const Profile profile = measured_profile(context);
+    GpuSimulation gpu(scene, options.run.shaders);
+    return check_and_tell(options, files,
+                          {scene,
+                           profile,
+                           gpu,
+                           known_operations(options.legal, profile),
+                           options.run.scene.string(),
+                           summary(context.describe()),
+                           settings_text(options.run, scene),
+                           {}});
+}
+
+int run_trace(Options options) {
+    if (options.run.threads > 0)
+        omp_set_num_threads(options.run.threads);
+    OutputFiles files;
+    expect_files(options, files);
+    TraceReader trace(options.trace);
+    const TraceInfo& info = trace.info();
+    if (!options.frames_given)
+        options.run.frames = info.frames;
+    if (options.run.frames > info.frames)
+        throw Error(fmt::format("--frames {}: {} holds {} frames", options.run.frames, info.file, info.frames));
+    const Profile profile = followed_profile(info);
+    TraceSide recorded(trace);
+    const KnownOperations known = info.profile ? known_operations(options.legal, profile)
+                                               : KnownOperations{.sums = options.legal != Legal::any_order};
+    return check_and_tell(options, files,
+                          {info.scene, profile, recorded, known, info.file,
+                           fmt::format("recorded: {}", info.renderer.empty() ? "untold" : info.renderer),
+                           info.settings.empty() ? "untold" : info.settings, notes_on(info)});
+}
+
+void check_arguments(const Options& options, const CLI::App& verb) {
+    if (options.run.scene.empty() == options.trace.empty())
+        throw Error(options.trace.empty() ? "check: a scene or --trace FILE is needed"
+                                          : "check: a scene does not go with --trace, which brings its own");
+    if (options.trace.empty())
+        return;
+    for (const char* name : {"--particles", "--preset", "--set", "--gl", "--shaders", "--images"})
+        if (verb.get_option(name)->count() > 0)
+            throw Error(fmt::format("check: {} goes with a scene that is run here, not with --trace", name));
 }
 
 } // namespace
@@ -193,8 +260,11 @@ void add_check_command(CLI::App& app, int& status) {
     auto options = std::make_shared<Options>();
     CLI::App* verb = app.add_subcommand("check", "run both sides and compare every bit of every frame");
     add_scene_options(*verb, options->run);
+    verb->get_option("scene")->required(false);
     add_gl_options(*verb, options->run);
-    verb->add_option("--frames", options->run.frames, "frames to compare")
+    verb->add_option("--trace", options->trace, "instead of a scene: a recorded run (lockstep record); needs no GL")
+        ->type_name("FILE");
+    verb->add_option("--frames", options->run.frames, "frames to compare; of a trace: all")
         ->check(integer(1, most_frames))
         ->type_name("N");
     add_choice<CheckMode>(*verb, "--mode", options->mode, {{"resync", CheckMode::resync}, {"free", CheckMode::free}},
@@ -212,7 +282,11 @@ void add_check_command(CLI::App& app, int& status) {
     verb->footer("Exit status: 0 every bit agrees, or what differs is legal (rounding, ties); 1 divergent, undefined "
                  "without --allow-undefined, or any difference in free mode; 2 could not run.\n"
                  "Example: lockstep check data/scenes/lattice.json --frames 100 --preset paper");
-    verb->callback([options, &status] { status = run(*options); });
+    verb->callback([options, verb, &status] {
+        check_arguments(*options, *verb);
+        options->frames_given = verb->get_option("--frames")->count() > 0;
+        status = options->trace.empty() ? run_scene(*options) : run_trace(*options);
+    });
 }
 
 } // namespace lockstep

@@ -18,5 +18,7 @@ void add_probe_command(CLI::App& app, int& status);
 void add_info_command(CLI::App& app, int& status);
 void add_bench_command(CLI::App& app, int& status);
 void add_study_command(CLI::App& app, int& status);
+void add_record_command(CLI::App& app, int& status);
+void add_trace_command(CLI::App& app, int& status);
 
 } // namespace lockstep

@@ -41,7 +41,8 @@ TEST_CASE("arguments: an unknown verb, or none, is told with the verbs") {
 TEST_CASE("arguments: an unknown option, or a missing one, is named") {
     check_all({
         {{"check", scene, "--particle", "3"}, "unknown option '--particle'" + help},
-        {{"check"}, "scene is required" + help},
+        {{"check"}, "check: a scene or --trace FILE is needed"},
+        {{"explain", "--frame", "3"}, "scene is required" + help},
         {{"render", scene}, "--output is required" + help},
         {{"check", scene, "--frames"}, "--frames needs a value" + help},
         {{"check", scene, "--frames", "2", "--frames", "3"}, "--frames is given more than once" + help},

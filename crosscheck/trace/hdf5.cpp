@@ -1,0 +1,44 @@
+#include "crosscheck/trace/hdf5.hpp"
+
+#include <fmt/format.h>
+
+#include "reference/model/error.hpp"
+
+namespace lockstep::hdf5 {
+namespace {
+
+/// The innermost reason on the library's error stack.
+std::string reason() {
+    std::string text;
+    H5Ewalk2(
+        H5E_DEFAULT, H5E_WALK_DOWNWARD,
+        [](unsigned, const H5E_error2_t* error, void* into) -> herr_t {
+            if (error->desc != nullptr)
+                *static_cast<std::string*>(into) = error->desc;
+            return 0;
+        },
+        &text);
+    H5Eclear2(H5E_DEFAULT);
+    return text.empty() ? "HDF5 gives no reason" : text;
+}
+
+} // namespace
+
+Id::Id(hid_t id, Close close, const std::string& what) : id_(id), close_(close) {
+    if (id < 0)
+        throw Error(fmt::format("{}: {}", what, reason()));
+}
+
+Id::~Id() {
+    if (id_ >= 0)
+        close_(id_);
+}
+
+void expect(herr_t status, const std::string& what) {
+    if (status < 0)
+        throw Error(fmt::format("{}: {}", what, reason()));
+}
+
+void silence() { H5Eset_auto2(H5E_DEFAULT, nullptr, nullptr); }
+
+} // namespace lockstep::hdf5

@@ -1,0 +1,42 @@
+#pragma once
+#include <string>
+#include <utility>
+#include <vector>
+
+#include <hdf5.h>
+
+namespace lockstep::hdf5 {
+
+/// An open HDF5 object; closed when it dies.
+class Id {
+  public:
+    using Close = herr_t (*)(hid_t);
+
+    Id() = default;
+    /// Throws Error, `WHAT: the library's reason`, where `id` says that opening failed.
+    Id(hid_t id, Close close, const std::string& what);
+    ~Id();
+    Id(Id&& other) noexcept : id_(std::exchange(other.id_, -1)), close_(other.close_) {}
+    Id& operator=(Id&& other) noexcept {
+        std::swap(id_, other.id_);
+        std::swap(close_, other.close_);
+        return *this;
+    }
+
+    [[nodiscard]] hid_t get() const { return id_; }
+
+  private:
+    hid_t id_ = -1;
+    Close close_ = nullptr;
+};
+
+/// What a dataset has a row of: the extents after the first, which counts rows.
+using Extents = std::vector<hsize_t>;
+
+/// Throws Error like Id where the library says that something failed.
+void expect(herr_t status, const std::string& what);
+
+/// Keeps the library from printing its own error stack.
+void silence();
+
+} // namespace lockstep::hdf5

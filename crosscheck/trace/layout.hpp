@@ -1,0 +1,41 @@
+#pragma once
+#include <array>
+
+namespace lockstep {
+
+/// Where things stand in a trace (docs/traces.md), as H5MD 1.1 has it.
+namespace layout {
+
+struct Field {
+    const char* value; ///< path of its values
+    int components;
+};
+
+/// Particles: float32 [rows][particles], and [3] where there are three components. Row 0 is the start, row k the state
+/// after frame k - 1.
+inline constexpr std::array<Field, 4> fields{{{"particles/all/position/value", 3},
+                                              {"particles/all/direction/value", 3},
+                                              {"particles/all/speed/value", 1},
+                                              {"particles/all/collide_time/value", 1}}};
+
+/// Stored codes: float32 [frames][height][width][4], the bottom row first; row k is the CDT after frame k.
+inline constexpr const char* cdt = "observables/cdt/value";
+
+/// Texts.
+inline constexpr const char* scene = "parameters/lockstep/scene"; ///< of a scene file
+inline constexpr const char* name = "parameters/lockstep/name";   ///< the scene's
+inline constexpr const char* profile = "parameters/lockstep/profile";
+inline constexpr const char* renderer = "parameters/lockstep/renderer";
+inline constexpr const char* settings = "parameters/lockstep/settings";
+inline constexpr const char* probe = "parameters/lockstep/probe";
+
+/// Obstacles in the world: float32 [corners][3], and the three corners of each triangle, uint32 [triangles][3].
+inline constexpr const char* obstacle_positions = "parameters/lockstep/obstacles/positions";
+inline constexpr const char* obstacle_triangles = "parameters/lockstep/obstacles/triangles";
+
+/// The driver's tables (root_tables.hpp): int8, units in the last place from the rounded value.
+inline constexpr const char* reciprocals = "parameters/lockstep/roots/reciprocal";
+inline constexpr const char* inverse_sqrts = "parameters/lockstep/roots/inverse_sqrt";
+
+} // namespace layout
+} // namespace lockstep

@@ -1,0 +1,70 @@
+#pragma once
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "crosscheck/trace/hdf5.hpp"
+#include "crosscheck/trace/layout.hpp"
+
+namespace lockstep {
+
+/// A trace seen through libhdf5, read only. That library is known to break on files made to break it, so this lives in
+/// a process of its own (trace_process.hpp). Every function throws Error: `DATASET: what is wrong; what would be
+/// right`.
+class TraceFile {
+  public:
+    /// Opens the file and looks at the shape and type of everything in it, but at no values.
+    explicit TraceFile(const std::filesystem::path& path);
+
+    [[nodiscard]] std::size_t rows() const { return rows_; } ///< states: the start, and one a whole frame
+    [[nodiscard]] std::size_t particles() const { return particles_; }
+    [[nodiscard]] bool has_cdt() const { return cdt_.set.get() >= 0; }
+    [[nodiscard]] const hdf5::Extents& cdt_extents() const { return cdt_.extents; } ///< height, width, 4
+    [[nodiscard]] const std::vector<std::string>& warnings() const { return warnings_; }
+
+    /// Bytes of one state.
+    [[nodiscard]] std::size_t particle_bytes() const { return particles_ * 32; }
+    [[nodiscard]] std::size_t cdt_bytes() const;
+
+    /// Position, direction, speed and collide time of all particles, one after the other.
+    void read_particles(std::size_t row, std::byte* into) const;
+    void read_cdt(std::size_t frame, std::byte* into) const;
+
+    /// A text, or nothing where there is none.
+    [[nodiscard]] std::string text(const char* path) const;
+    [[nodiscard]] std::string program() const;
+
+    /// Values of a small dataset, or nothing where there is none.
+    [[nodiscard]] std::vector<float> obstacle_positions() const;
+    [[nodiscard]] std::vector<std::uint32_t> obstacle_triangles() const;
+    [[nodiscard]] std::vector<std::int8_t> root_offsets(const char* path, std::size_t count) const;
+
+  private:
+    struct Dataset {
+        hdf5::Id set;
+        hdf5::Id type;
+        std::string path;
+        hsize_t rows = 0;
+        hdf5::Extents extents; ///< of a row
+    };
+
+    [[nodiscard]] bool exists(const std::string& path) const;
+    [[nodiscard]] hdf5::Id open_dataset(const std::string& path) const;
+    [[nodiscard]] Dataset floats(const std::string& path, const char* right, const hdf5::Extents& last) const;
+    std::size_t find_particles();
+    void find_cdt(std::size_t rows_of_particles);
+    void find_head();
+    void read_row(const Dataset& dataset, std::size_t row, std::byte* into) const;
+
+    hdf5::Id file_;
+    std::array<Dataset, layout::fields.size()> fields_;
+    Dataset cdt_;
+    std::size_t rows_ = 0;
+    std::size_t particles_ = 0;
+    std::vector<std::string> warnings_;
+};
+
+} // namespace lockstep

@@ -1,0 +1,94 @@
+#include "crosscheck/trace/trace_reader.hpp"
+
+#include <cerrno>
+#include <cstring>
+#include <string>
+
+#include <fmt/format.h>
+#include <poll.h>
+#include <sys/socket.h>
+#include <unistd.h>
+
+#include "crosscheck/trace/seal.hpp"
+#include "crosscheck/trace/trace_messages.hpp"
+#include "crosscheck/trace/trace_process.hpp"
+#include "reference/model/error.hpp"
+#include "reference/model/layered_cdt.hpp"
+
+namespace lockstep {
+namespace {
+
+constexpr int patience = 120'000; // milliseconds without a byte
+
+} // namespace
+
+/// The process that reads, and what it says.
+class TraceReader::Process : public ByteSource {
+  public:
+    explicit Process(const std::filesystem::path& file) : file_(file.string()), process_(start_trace_process(file)) {}
+    ~Process() override { end_trace_process(process_, std::chrono::milliseconds(0)); }
+
+    void ask(MessageKind kind, int index) {
+        const Request request{kind, static_cast<std::uint32_t>(index)};
+        if (send(process_.requests, &request, sizeof request, MSG_NOSIGNAL) != sizeof request)
+            broke();
+    }
+
+    void read(void* into, std::size_t bytes) override {
+        char* at = static_cast<char*>(into);
+        while (bytes > 0) {
+            pollfd ready{process_.answers, POLLIN, 0};
+            const int polled = poll(&ready, 1, patience);
+            if (polled < 0 && errno == EINTR)
+                continue;
+            if (polled == 0)
+                throw Error(fmt::format("{}: nothing could be read from it for {} s", file_, patience / 1000));
+            const ssize_t got = ::read(process_.answers, at, bytes);
+            if (got < 0 && errno == EINTR)
+                continue;
+            if (got <= 0)
+                broke();
+            at += got;
+            bytes -= static_cast<std::size_t>(got);
+        }
+    }
+
+    [[nodiscard]] const std::string& file() const { return file_; }
+
+  private:
+    [[noreturn]] void broke() {
+        const int signal = end_trace_process(process_, std::chrono::seconds(2));
+        throw Error(fmt::format("{}: HDF5 broke on it{}: the file is not what its seal says, or was made to do harm",
+                                file_, signal == 0 ? "" : fmt::format(" ({})", strsignal(signal))));
+    }
+
+    std::string file_;
+    TraceProcess process_;
+};
+
+TraceReader::TraceReader(const std::filesystem::path& file) {
+    check_seal(file);
+    process_ = std::make_unique<Process>(file);
+    info_ = read_contents(*process_, process_->file());
+    const CollisionImage cdt = empty_cdt(info_.scene);
+    width_ = cdt.width;
+    height_ = cdt.height;
+}
+
+TraceReader::~TraceReader() = default;
+
+void TraceReader::read(int frame, Particles& particles) {
+    particles.resize(info_.scene.start.size());
+    process_->ask(MessageKind::particles, frame + 1);
+    read_particles(*process_, process_->file(), static_cast<std::uint32_t>(frame + 1), particles);
+}
+
+void TraceReader::read(int frame, CollisionImage& cdt) {
+    cdt.width = width_;
+    cdt.height = height_;
+    cdt.texels.resize(static_cast<std::size_t>(width_) * static_cast<std::size_t>(height_));
+    process_->ask(MessageKind::cdt, frame);
+    read_cdt(*process_, process_->file(), static_cast<std::uint32_t>(frame), cdt);
+}
+
+} // namespace lockstep

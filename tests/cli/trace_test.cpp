@@ -1,0 +1,156 @@
+#include <catch2/catch.hpp>
+
+#include <fstream>
+#include <string>
+#include <vector>
+
+#include "tests/cli/cli_checks.hpp"
+#include "tests/planted_shader.hpp"
+#include "tests/temporary_folder.hpp"
+
+using namespace lockstep;
+using Catch::Contains;
+using test::refusal;
+using test::run_lockstep;
+
+namespace {
+
+struct Setting {
+    test::TemporaryFolder folder;
+    test::TemporaryFolder shaders;
+    std::string scene = folder.write("scene.json", test::small_scene).string();
+    std::string file = (folder.path() / "run.h5").string();
+
+    [[nodiscard]] test::Outcome record(std::vector<std::string> options = {}) const {
+        std::vector<std::string> arguments{"record", scene,      "--gl", "osmesa",    "-o",
+                                           file,     "--frames", "6",    "--shaders", shaders.path()};
+        arguments.insert(arguments.end(), options.begin(), options.end());
+        return run_lockstep(arguments);
+    }
+    [[nodiscard]] test::Outcome check(std::vector<std::string> options = {}) const {
+        std::vector<std::string> arguments{"check", "--trace", file};
+        arguments.insert(arguments.end(), options.begin(), options.end());
+        return run_lockstep(arguments);
+    }
+    [[nodiscard]] test::Outcome check_live() const {
+        return run_lockstep({"check", scene, "--gl", "osmesa", "--shaders", shaders.path(), "--frames", "6"});
+    }
+};
+
+/// The lines of a report that start with one of these words.
+std::string lines(const std::string& report, const std::vector<std::string>& words) {
+    std::istringstream stream(report);
+    std::string line, kept;
+    while (std::getline(stream, line))
+        for (const std::string& word : words)
+            if (line.starts_with(word))
+                kept += line + "\n";
+    return kept;
+}
+
+} // namespace
+
+TEST_CASE("record: what was recorded here is checked there, with the verdict of a live check") {
+    if (!test::have_osmesa())
+        return;
+    const Setting setting;
+    const test::Outcome recorded = setting.record({"--cdt"});
+    CHECK(recorded.status == 0);
+    CHECK_THAT(recorded.out, Contains("run.h5: 300 particles, 6 frames with the CDT, ") && Contains("llvmpipe"));
+    const test::Outcome checked = setting.check();
+    CHECK(checked.status == 0);
+    CHECK(checked.err.empty());
+    const std::vector<std::string> same{"switches", "profile", "compared", "hash", "verdict"};
+    CHECK(lines(checked.out, same) == lines(setting.check_live().out, same));
+    CHECK_THAT(checked.out, Contains("GL        recorded: llvmpipe"));
+    CHECK(test::names_in(setting.folder.path()) == std::vector<std::string>{"run.h5", "scene.json"});
+
+    const test::Outcome told = run_lockstep({"trace", setting.file});
+    CHECK(told.status == 0);
+    CHECK_THAT(told.out, Contains("scene     scene: 300 particles, 6 frames, 2 triangles of obstacles\n") &&
+                             Contains("CDT       64x48 texels\n") && Contains("sealed, every value read"));
+}
+
+TEST_CASE("record: a planted bug is found in the trace as it is live") {
+    if (!test::have_osmesa())
+        return;
+    const Setting setting;
+    test::plant(setting.shaders, "collision_pass.vert", "v_Speed = product(a_Speed, u_SpeedFactor);",
+                "v_Speed = product(a_Speed, 0.5);");
+    const test::Outcome live = setting.check_live();
+    CHECK(live.status == 1);
+    REQUIRE(setting.record({"--cdt"}).status == 0);
+    const test::Outcome whole = setting.check();
+    CHECK(whole.status == 1);
+    const std::vector<std::string> same{"hash", "verdict", "classes", "outcomes", "cause", "first", "  frame"};
+    CHECK(lines(whole.out, same) == lines(live.out, same));
+
+    REQUIRE(setting.record().status == 0);
+    const test::Outcome particles = setting.check();
+    CHECK(particles.status == 1);
+    CHECK_THAT(particles.out,
+               Contains("0 of texels") && Contains("note      no CDT was recorded") && Contains("texels: none"));
+    CHECK(lines(particles.out, {"cause"}) == lines(live.out, {"cause"}));
+    CHECK(setting.check({"--mode", "free"}).status == 1);
+}
+
+TEST_CASE("check trace: takes frames, mode, legal and files, and no option of a run here") {
+    if (!test::have_osmesa())
+        return;
+    const Setting setting;
+    REQUIRE(setting.record().status == 0);
+    const std::string hashes = (setting.folder.path() / "hashes").string();
+    const test::Outcome checked =
+        setting.check({"--frames", "3", "--hashes", hashes, "--legal", "glsl", "--threads", "1"});
+    CHECK(checked.status == 0);
+    CHECK_THAT(checked.out, Contains("AGREE: every bit of 300 particles in 3 frames"));
+    CHECK(std::filesystem::exists(hashes));
+    CHECK_THAT(refusal(setting.check({"--frames", "7"})), Contains("--frames 7: ") && Contains("holds 6 frames"));
+    CHECK_THAT(refusal(setting.check({setting.scene})), Contains("a scene does not go with --trace"));
+    CHECK_THAT(refusal(run_lockstep({"check"})), Contains("a scene or --trace FILE is needed"));
+    for (const std::vector<std::string>& option : std::vector<std::vector<std::string>>{{"--particles", "5"},
+                                                                                        {"--preset", "paper"},
+                                                                                        {"--set", "tick=1"},
+                                                                                        {"--gl", "osmesa"},
+                                                                                        {"--shaders", "."},
+                                                                                        {"--images", "pictures"}})
+        CHECK_THAT(refusal(setting.check(option)), Contains(option.front() + " goes with a scene that is run here"));
+}
+
+TEST_CASE("check trace: what is no trace, or was damaged, is refused in a line") {
+    const test::TemporaryFolder folder;
+    const std::string scene = folder.write("scene.json", test::small_scene).string();
+    for (const char* verb : {"trace", "check"}) {
+        const auto told = [&](const std::string& file) {
+            return verb == std::string("trace") ? refusal(run_lockstep({"trace", file}))
+                                                : refusal(run_lockstep({"check", "--trace", file}));
+        };
+        CHECK_THAT(told(scene), Contains("scene.json: not a trace"));
+        CHECK_THAT(told((folder.path() / "none").string()), Contains("none: cannot be opened"));
+        CHECK_THAT(told(folder.path().string()), Contains("a folder, not a trace"));
+    }
+}
+
+TEST_CASE("record: what cannot be written is told before the run, and nothing is left") {
+    if (!test::have_osmesa())
+        return;
+    const Setting setting;
+    CHECK_THAT(refusal(run_lockstep({"record", setting.scene, "--gl", "osmesa", "-o", "/dev/full"})),
+               Contains("/dev/full: cannot be written: a trace is a regular file"));
+    CHECK_THAT(refusal(run_lockstep({"record", setting.scene, "--gl", "osmesa", "-o", setting.folder.path()})),
+               Contains("it names a folder"));
+    CHECK_THAT(refusal(run_lockstep({"record", setting.scene})), Contains("output is required"));
+    CHECK(test::names_in(setting.folder.path()) == std::vector<std::string>{"scene.json"});
+}
+
+TEST_CASE("record: a GPU that gives two answers is not recorded") {
+    if (!test::have_osmesa())
+        return;
+    const Setting setting;
+    test::plant(setting.shaders, "collision_pass.vert", "#version 330 core\n",
+                "#version 330 core\n#extension GL_ARB_shader_clock : require\n");
+    test::plant(setting.shaders, "collision_pass.vert", "v_Speed = ls_length(temp);",
+                "v_Speed = ls_length(temp) + float(clock2x32ARB().x & 0xffffu);");
+    CHECK_THAT(refusal(setting.record()), Contains("the GPU gave two answers to frame 0, so nothing was recorded"));
+    CHECK(test::names_in(setting.folder.path()) == std::vector<std::string>{"scene.json"});
+}

@@ -56,24 +56,17 @@ std::uint64_t hash_of(glm::vec4 code) {
     return hash;
 }
 
-void add_owners(Blob& blob, const std::vector<std::int32_t>& owners, const std::vector<std::size_t>& texels) {
-    std::vector<std::uint32_t> words;
-    for (const std::size_t texel : texels)
-        words.push_back(static_cast<std::uint32_t>(owners.empty() ? owner_unknown : owners[texel]));
-    blob.words(words);
-}
-
-/// `reference(i, c)`, `gpu(i, c)`: component c of item i.
-template <class Value> void add_values(Blob& blob, const std::vector<std::size_t>& items, std::size_t components,
-                                       const Value& reference, const Value& gpu) {
-    std::vector<std::uint32_t> words, changes;
-    for (std::size_t c = 0; c < components; ++c)
-        for (const std::size_t i : items) {
-            words.push_back(bits(reference(i, c)));
-            changes.push_back(bits(reference(i, c)) ^ bits(gpu(i, c)));
-        }
-    blob.words(words);
-    blob.words(changes);
+/// A plane a component: the words of one side, and what the other changes in them.
+template <class Word> void add_planes(Blob& blob, const std::vector<std::size_t>& items, std::size_t components,
+                                      const Word& reference, const Word& gpu) {
+    for (const bool changes : {false, true}) {
+        std::vector<std::uint32_t> words;
+        words.reserve(items.size() * components);
+        for (std::size_t c = 0; c < components; ++c)
+            for (const std::size_t i : items)
+                words.push_back(changes ? reference(i, c) ^ gpu(i, c) : reference(i, c));
+        blob.words(words);
+    }
 }
 
 void add_items(Blob& blob, const std::vector<std::size_t>& items) {
@@ -187,20 +180,32 @@ Blob detail_blob(const ComparedFrame& frame, const FrameClasses& classes, const 
     Blob blob;
     blob.word(static_cast<std::uint32_t>(selection.texels.size()));
     blob.word(static_cast<std::uint32_t>(selection.particles.size()));
-    add_items(blob, selection.texels);
-    add_owners(blob, owners.reference, selection.texels);
-    add_owners(blob, owners.gpu, selection.texels);
-    add_classes(blob, selection.texels, classes.texels);
-    const auto texel_of = [](const CollisionImage& cdt) {
-        return [&cdt](std::size_t i, std::size_t c) { return cdt.texels[i][static_cast<int>(c)]; };
-    };
-    add_values(blob, selection.texels, 4, texel_of(frame.reference_cdt), texel_of(frame.gpu_cdt));
     add_items(blob, selection.particles);
     add_classes(blob, selection.particles, classes.particles);
     const auto field_of = [](const Particles& particles) {
-        return [&particles](std::size_t i, std::size_t c) { return fields(particles, i)[c]; };
+        return [&particles](std::size_t i, std::size_t c) { return bits(fields(particles, i)[c]); };
     };
-    add_values(blob, selection.particles, 8, field_of(frame.reference), field_of(frame.gpu));
+    add_planes(blob, selection.particles, 8, field_of(frame.reference), field_of(frame.gpu));
+
+    add_items(blob, selection.texels);
+    add_classes(blob, selection.texels, classes.texels);
+    const auto owner_of = [](const std::vector<std::int32_t>& side) {
+        return [&side](std::size_t i, std::size_t) {
+            return static_cast<std::uint32_t>(side.empty() ? owner_unknown : side[i]);
+        };
+    };
+    add_planes(blob, selection.texels, 1, owner_of(owners.reference), owner_of(owners.gpu));
+    const auto texel_of = [&](const CollisionImage& cdt) {
+        return [&](std::size_t i, std::size_t c) {
+            const std::int32_t owner = owners.reference.empty() ? owner_unknown : owners.reference[i];
+            const auto particle = static_cast<std::size_t>(owner);
+            const bool listed = c < 3 && owner >= 0 &&
+                                std::binary_search(selection.particles.begin(), selection.particles.end(), particle);
+            const int component = static_cast<int>(c);
+            return bits(cdt.texels[i][component]) ^ (listed ? bits(frame.reference.position[particle][component]) : 0U);
+        };
+    };
+    add_planes(blob, selection.texels, 4, texel_of(frame.reference_cdt), texel_of(frame.gpu_cdt));
     return blob;
 }
 

@@ -53,13 +53,12 @@ Selection differing(const FrameClasses& classes, std::size_t most);
 
 /// Their values, bit for bit. As read by crosscheck/report_page/src/detail.js:
 ///   2 words             numbers of texels t and particles p
-///   t words             texels, counted row by row from the bottom
-///   t words, t words    owners: the reference's, the GPU's
-///   t bytes             classes
-///   4 x t words         the reference's x, y, z, w; then 4 x t words: these XOR the GPU's
 ///   p words, p bytes    particles, classes
 ///   8 x p words         the reference's position, direction, speed, collide time; then 8 x p words: these XOR the
-///   GPU's
+///   GPU's t words, t bytes    texels, counted row by row from the bottom; classes t words, t words    owners: the
+///   reference's; these XOR the GPU's 4 x t words         the reference's x, y, z, w, the first three XOR the owner's
+///   position if it is listed above: most
+///                       are 0 then; and 4 x t words: these XOR the GPU's
 Blob detail_blob(const ComparedFrame& frame, const FrameClasses& classes, const BothOwners& owners,
                  const Selection& selection);
 

@@ -14,8 +14,8 @@ constexpr std::size_t values_of_first = 2000; ///< differing texels and particle
 constexpr std::size_t values_of_later = 250;
 
 /// Rough sizes on the page.
-constexpr std::size_t room = 3'000'000;
-constexpr std::size_t bytes_of_texel = 3;   ///< in a picture
+constexpr std::size_t room = 5'000'000;
+constexpr std::size_t bytes_of_texel = 2;   ///< in a picture
 constexpr std::size_t bytes_of_values = 30; ///< of a particle and its texel
 constexpr std::size_t room_for_whole = 800'000;
 
@@ -121,7 +121,7 @@ std::vector<KeptFrame> FrameKeeper::within(std::size_t bytes) const {
     std::stable_sort(frames.begin(), frames.end(), [&](const KeptFrame& a, const KeptFrame& b) {
         return rank(a, first_difference, frames_, spread_) < rank(b, first_difference, frames_, spread_);
     });
-    // Pictures first; all values of a frame where two thirds of the room are left for pictures.
+    // Pictures first; all values of a frame where nearly half of the room is left for pictures.
     std::size_t used = 0;
     const auto fits = [&](const std::string& blob) { return used + blob.size() <= bytes; };
     std::vector<KeptFrame> chosen;
@@ -132,7 +132,7 @@ std::vector<KeptFrame> FrameKeeper::within(std::size_t bytes) const {
         used += size;
         std::string whole = std::move(frame.whole);
         frame.whole.clear();
-        if (!whole.empty() && fits(whole) && (keep_whole_ || used + whole.size() <= bytes / 3)) {
+        if (!whole.empty() && fits(whole) && (keep_whole_ || used + whole.size() <= bytes / 20 * 11)) {
             used += whole.size();
             frame.whole = std::move(whole);
         }

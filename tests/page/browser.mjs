@@ -34,8 +34,8 @@ const smallScene = {
   obstacles: [{ shape: "plane", size: [1, 1], position: [0, -0.6, 0] }],
 };
 
-export function writeScene(folder, changes = {}) {
-  const path = join(folder, "scene.json");
+export function writeScene(folder, changes = {}, name = "scene.json") {
+  const path = join(folder, name);
   writeFileSync(path, JSON.stringify({ ...smallScene, ...changes }));
   return path;
 }

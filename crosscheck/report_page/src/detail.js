@@ -22,24 +22,33 @@ function decode(bytes) {
   const reader = new Reader(bytes);
   const texelCount = reader.word();
   const particleCount = reader.word();
-  const texels = reader.words(texelCount);
-  const referenceOwners = reader.words(texelCount);
-  const gpuOwners = reader.words(texelCount);
-  const texelClasses = reader.bytes(texelCount);
-  const texelValues = readValues(reader, texelCount, 4);
   const particles = reader.words(particleCount);
   const particleClasses = reader.bytes(particleCount);
   const particleValues = readValues(reader, particleCount, 8);
+  const texels = reader.words(texelCount);
+  const texelClasses = reader.bytes(texelCount);
+  const owners = readValues(reader, texelCount, 1);
+  const texelValues = readValues(reader, texelCount, 4);
   const texelAt = new Map(Array.from(texels, (texel, k) => [texel, k]));
   const particleAt = new Map(Array.from(particles, (particle, k) => [particle, k]));
+  // The first three components are stored as what is left of the owner's position.
+  const stored = (k, owner) => {
+    const values = texelValues(k);
+    const listed = particleAt.get(owner);
+    if (listed === undefined) return values;
+    const position = particleValues(listed);
+    const restored = (bits, c) => (c < 3 ? (bits ^ position[c].reference) >>> 0 : bits);
+    return values.map(({ reference, gpu }, c) => ({ reference: restored(reference, c), gpu: restored(gpu, c) }));
+  };
   return {
     texel(index) {
       const k = texelAt.get(index);
       if (k === undefined) return null;
+      const [owner] = owners(k);
       return {
-        owners: { reference: referenceOwners[k] | 0, gpu: gpuOwners[k] | 0 },
+        owners: { reference: owner.reference | 0, gpu: owner.gpu | 0 },
         kind: texelClasses[k],
-        values: texelValues(k),
+        values: stored(k, owner.reference),
       };
     },
     particle(index) {

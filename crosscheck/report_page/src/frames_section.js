@@ -90,8 +90,22 @@ export class Frames {
     this.picture = picture;
     for (const [side] of SIDES) paint(this.canvases[side], picture, side, this.head);
     ring(this.canvases.difference, picture, this.head);
+    if (!this.selection.texel) this.selection.setTexel(this.telling());
     this.selection.dispatchEvent(new Event("picture"));
     if (performance.getEntriesByName("first-picture").length === 0) performance.mark("first-picture");
+  }
+
+  // A texel worth a look: the first that differs, else one drawn near the middle.
+  telling() {
+    const { width, height } = this.head;
+    const { classes, reference } = this.picture;
+    const texel = (index) => ({ x: index % width, y: Math.floor(index / width) });
+    const differing = classes.findIndex((kind) => kind !== SAME);
+    if (differing >= 0) return texel(differing);
+    const middle = (width * height + width) >> 1;
+    for (let away = 0; away <= middle; ++away)
+      for (const index of [middle + away, middle - away]) if (reference[index * 4 + 3]) return texel(index);
+    return null;
   }
 
   statistics() {
@@ -164,7 +178,6 @@ export class Frames {
         "aria-describedby": "keys",
         "aria-label": `${title}: CDT, ${width} by ${height} texels`,
         mousemove: (event) => !this.selection.texel?.pinned && this.selection.setTexel(pointed(event)),
-        mouseleave: () => !this.selection.texel?.pinned && this.selection.setTexel(null),
         click: (event) => {
           // A key's click has no place of its own.
           const texel = event.detail === 0 ? this.selection.texel : pointed(event);

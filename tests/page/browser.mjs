@@ -1,6 +1,6 @@
 // Headless Chromium, and pages that lockstep wrote.
-import { execFileSync, spawnSync } from "node:child_process";
-import { mkdtempSync, rmSync, writeFileSync } from "node:fs";
+import { spawnSync } from "node:child_process";
+import { mkdtempSync, readFileSync, rmSync, writeFileSync } from "node:fs";
 import { createRequire } from "node:module";
 import { tmpdir } from "node:os";
 import { join } from "node:path";
@@ -40,11 +40,14 @@ export function writeScene(folder, changes = {}, name = "scene.json") {
   return path;
 }
 
-// A folder of shaders with one line of the collision pass changed.
-export function plantedShader(folder, from, to) {
-  const text = execFileSync("cat", ["shaders/collision_pass.vert"], { encoding: "utf8" });
-  if (!text.includes(from)) throw new Error(`collision_pass.vert has no '${from}'`);
-  writeFileSync(join(folder, "collision_pass.vert"), text.replace(from, to));
+// A folder of shaders with the collision pass changed: pairs of what stands there and what is to.
+export function plantedShader(folder, ...changes) {
+  let text = readFileSync("shaders/collision_pass.vert", "utf8");
+  for (const [from, to] of changes) {
+    if (!text.includes(from)) throw new Error(`collision_pass.vert has no '${from}'`);
+    text = text.replace(from, to);
+  }
+  writeFileSync(join(folder, "collision_pass.vert"), text);
   return folder;
 }
 

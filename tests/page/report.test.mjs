@@ -4,7 +4,7 @@ import { join } from "node:path";
 import { after, before, test } from "node:test";
 import { axePath, cleanUp, open, plantedShader, report, temporaryFolder, writeScene } from "./browser.mjs";
 
-const lastFound = [" && len < particle_min_length", ""];
+const lastFound = [[" && len < particle_min_length", ""]];
 const pages = {};
 let divergentJson;
 
@@ -73,6 +73,24 @@ for (const name of ["free", "octree", "layered", "short"])
       assert.match(await text(page, "#verdict"), name === "free" ? /DIFFER/ : /AGREE/);
       await page.locator(".picture").first().click();
     }));
+
+test("a run that does not repeat itself has a verdict, and nothing to look into", async (context) => {
+  const shaders = plantedShader(
+    temporaryFolder(),
+    ["#version 330 core\n", "#version 330 core\n#extension GL_ARB_shader_clock : require\n"],
+    ["v_Speed = ls_length(temp);", "v_Speed = ls_length(temp) + float(clock2x32ARB().x & 0xffffu);"],
+  );
+  try {
+    pages.nondeterministic = report(writeScene(temporaryFolder()), "--frames", "4", "--shaders", shaders);
+  } catch (error) {
+    if (!error.message.includes("shader_clock")) throw error;
+    return context.skip("this driver has no clock in shaders");
+  }
+  await on("nondeterministic", async (page) => {
+    assert.match(await text(page, "#verdict"), /NONDETERMINISTIC/);
+    assert.equal(await page.locator("#frames").count(), 0);
+  });
+});
 
 test("the slider moves through all frames, by pointer, by keyboard, by number and to what differs", () =>
   on("divergent", async (page) => {

@@ -24,6 +24,17 @@ function openClickedItems(head, frames, selection) {
   });
 }
 
+function showRun(head, series, add) {
+  const selection = new Selection(head);
+  const frames = new Frames(head, series, selection);
+  const pictures = frames.section(new Inspector(head, frames, selection).part());
+  add(chartSection(head, series, selection));
+  add(pictures);
+  openClickedItems(head, frames, selection);
+  add(stepsSection(head, selection));
+  return frames;
+}
+
 async function start() {
   const head = readHead();
   document.title = `${head.report.verdict}: ${head.report.scene} – lockstep report`;
@@ -34,17 +45,11 @@ async function start() {
   add(causeSection(head));
 
   const series = await jsonBlob("series");
-  const selection = new Selection(head);
-  const frames = new Frames(head, series, selection);
-  const inspector = new Inspector(head, frames, selection);
-  const pictures = frames.section(inspector.part());
-  add(chartSection(head, series, selection));
-  add(pictures);
-  openClickedItems(head, frames, selection);
-  add(stepsSection(head, selection));
+  // A run that did not repeat itself ends before anything is compared.
+  const frames = series.frame.length > 0 ? showRun(head, series, add) : null;
   add(commandsSection(head));
   document.getElementById("foot").append(h("p", {}, "Written by lockstep. Charts by uPlot."));
-  await frames.show();
+  await frames?.show();
   document.getElementById("repeat").before(await liveSection());
   document.documentElement.dataset.ready = "true";
 }

@@ -30,6 +30,11 @@ enum class Verdict {
     nondeterministic, ///< the GPU gave two answers to one frame
 };
 
+/// Agree and legal pass, undefined where it is allowed.
+[[nodiscard]] constexpr bool passes(Verdict verdict, bool allow_undefined) {
+    return verdict == Verdict::agree || verdict == Verdict::legal || (verdict == Verdict::undefined && allow_undefined);
+}
+
 /// A difference and the frame it belongs to.
 struct FrameDifference {
     int frame = 0;

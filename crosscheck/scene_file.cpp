@@ -6,6 +6,7 @@
 #include <glm/geometric.hpp>
 
 #include "crosscheck/json_reader.hpp"
+#include "crosscheck/run_text.hpp"
 #include "crosscheck/scene_obstacles.hpp"
 #include "crosscheck/scene_settings.hpp"
 #include "reference/model/emitters.hpp"
@@ -70,6 +71,7 @@ Scene load_scene(const std::filesystem::path& file, const SceneOptions& options)
     json.check_keys(scene_keys);
     Scene scene;
     scene.name = file.stem().string();
+    scene.origin = scene_arguments(file, options);
     read_settings(json, options.preset, options.set, scene);
 
     std::vector<Emitter> emitters = read_emitters(json.at("emitters"));

@@ -1,9 +1,21 @@
 #pragma once
+#include <optional>
+#include <string>
+
 #include "reference/model/image.hpp"
 #include "reference/model/particles.hpp"
+#include "reference/model/profile.hpp"
 #include "reference/model/scene.hpp"
 
 namespace lockstep {
+
+/// What a side tells of itself.
+struct SideDescription {
+    std::string name = "an engine of its own"; ///< what it runs on, one line: renderer, version, context
+    Profile profile;                           ///< its driver's arithmetic, which the reference follows
+    /// The options with which `lockstep check` runs it again ("--shaders mine"); not set: the program cannot.
+    std::optional<std::string> arguments;
+};
 
 /// Whatever computes the frames that a check holds against the reference: GpuSimulation runs them on GL, a trace gives
 /// back what was recorded, and an engine of one's own is another by deriving from this.
@@ -27,6 +39,8 @@ class GpuSide {
     /// Whether there is a CDT to compare. If not, read(cdt) is never called, and the reference draws the CDT of the
     /// particles that were read.
     [[nodiscard]] virtual bool has_cdt() const { return true; }
+
+    [[nodiscard]] virtual SideDescription describe() const { return {}; }
 
     /// Whether a frame can be run twice from one state, to prove that it repeats itself. What follows is called only
     /// then.

@@ -2,13 +2,13 @@
 
 #include <algorithm>
 #include <cctype>
-#include <cstdlib>
 #include <fstream>
 #include <optional>
 #include <sstream>
 
 #include <fmt/format.h>
 
+#include "gpu/data_folder.hpp"
 #include "reference/model/error.hpp"
 
 namespace lockstep {
@@ -122,25 +122,6 @@ std::string upper(std::string_view text) {
 
 bool blank(const std::string& text) { return text.find_first_not_of(" \t\r\n") == std::string::npos; }
 
-fs::path built_in_folder() {
-    if (const char* data = std::getenv("LOCKSTEP_DATA"); data != nullptr && *data != '\0') {
-        fs::path folder = fs::path(data) / "shaders";
-        if (!fs::is_directory(folder))
-            throw Error(fmt::format("LOCKSTEP_DATA is {}, but there is no folder {}", data, folder.string()));
-        return folder;
-    }
-    std::error_code error;
-    const fs::path program = fs::read_symlink("/proc/self/exe", error);
-    fs::path installed = program.parent_path().parent_path() / "share" / "lockstep" / "shaders";
-    if (!error && fs::is_directory(installed, error))
-        return installed;
-    fs::path source_tree = LOCKSTEP_SOURCE_SHADERS;
-    if (fs::is_directory(source_tree, error))
-        return source_tree;
-    throw Error(fmt::format("no built-in shaders in {} or {}; set LOCKSTEP_DATA to the folder that holds shaders/",
-                            installed.string(), source_tree.string()));
-}
-
 } // namespace
 
 std::string_view extension(Stage stage) {
@@ -165,7 +146,7 @@ ShaderFolders shader_folders(const fs::path& user) {
             throw Error(fmt::format("shader folder {} does not exist", user.string()));
         folders.push_back(user);
     }
-    folders.push_back(built_in_folder());
+    folders.push_back(built_in_shaders());
     return folders;
 }
 

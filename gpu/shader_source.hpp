@@ -20,9 +20,8 @@ std::string_view extension(Stage stage);
 /// Folders a shader file is looked for in, in this order.
 using ShaderFolders = std::vector<std::filesystem::path>;
 
-/// `user` (--shaders DIR), if given, then the built-in folder: $LOCKSTEP_DATA/shaders, else share/lockstep/shaders of
-/// the installation the program is in, else the source tree it was built from.
-/// Throws Error if `user` or $LOCKSTEP_DATA is no folder of shaders, or there is no built-in one.
+/// `user` (--shaders DIR), if given, then the built-in folder (data_folder.hpp).
+/// Throws Error if `user` is no folder, or there is no built-in one.
 ShaderFolders shader_folders(const std::filesystem::path& user = {});
 
 /// Preprocessor definitions, name and value.

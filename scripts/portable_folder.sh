@@ -11,7 +11,7 @@ folder=$1
 cmake --preset release >/dev/null
 cmake --build --preset release --target lockstep >/dev/null
 rm -rf "$folder"
-cmake --install build/release --prefix "$folder" --strip >/dev/null
+cmake --install build/release --prefix "$folder" --component program --strip >/dev/null
 mkdir -p "$folder/lib"
 ldd build/release/crosscheck/lockstep | awk '$3 ~ /^\// { print $3 }' |
     grep -vE '/(libc|libm|libdl|libpthread|librt|ld-linux[^/]*)\.so' | xargs -I{} cp -L {} "$folder/lib/"

@@ -1,11 +1,10 @@
 #pragma once
-#include <string>
+#include <lockstep/skip.hpp>
 
 namespace lockstep::test {
 
-/// Ends the running test case early because the machine lacks something (a GL context, a mesh). The program then ends
-/// with 77, which CTest shows as "Skipped"; with LOCKSTEP_REQUIRE_GL=1 it is a failure instead. Use as
+/// Ends the running test case early because the machine lacks something (a GL context, a mesh). Use as
 /// `if (!context) return skip("no OSMesa: ...");` in a void test case.
-void skip(const std::string& reason);
+using lockstep::skip;
 
 } // namespace lockstep::test

@@ -24,6 +24,7 @@
 #include "crosscheck/profiles.hpp"
 #include "crosscheck/progress.hpp"
 #include "crosscheck/report.hpp"
+#include "crosscheck/run_text.hpp"
 #include "crosscheck/trace/trace_side.hpp"
 #include "gpu/context.hpp"
 #include "gpu/simulation.hpp"
@@ -61,12 +62,6 @@ struct Options {
     bool quiet = false;
 };
 
-int status_of(Verdict verdict, bool allow_undefined) {
-    const bool passes =
-        verdict == Verdict::agree || verdict == Verdict::legal || (verdict == Verdict::undefined && allow_undefined);
-    return passes ? status_agree : status_differ;
-}
-
 std::string repeat_line(const Options& options, int frames) {
     std::string line = options.trace.empty()
                            ? command_line("check", options.run, frames)
@@ -83,11 +78,7 @@ std::string repeat_line(const Options& options, int frames) {
 std::string explain_line(const Options& options, const Place& place, int width) {
     if (!options.trace.empty())
         return "";
-    const auto columns = static_cast<std::size_t>(width);
-    const std::string item = place.texel ? fmt::format("--texel {},{}", place.index % columns, place.index / columns)
-                                         : fmt::format("--particle {}", place.index);
-    return command_line("explain", options.run, fmt::format("--frame {} {}", place.frame, item)) +
-           legal_option_text(options.legal);
+    return command_line("explain", options.run, place_arguments(place, width)) + legal_option_text(options.legal);
 }
 
 void expect_files(const Options& options, OutputFiles& files) {
@@ -201,7 +192,7 @@ int check_and_tell(const Options& options, OutputFiles& files, const Checked& ch
                     report_page(page, *collector, report, run, page_commands(options, run, report),
                                 explain_items(options, checked, collector->frames().items())));
     files.commit();
-    return status_of(report.verdict, options.allow_undefined);
+    return passes(report.verdict, options.allow_undefined) ? status_agree : status_differ;
 }
 
 int run_scene(const Options& options) {

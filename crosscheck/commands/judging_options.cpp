@@ -11,14 +11,4 @@ void add_legal_option(CLI::App& verb, Legal& legal) {
                       "these for shaders without `precise`");
 }
 
-KnownOperations known_operations(Legal legal, const Profile& profile) {
-    return legal == Legal::measured ? measured_operations(profile) : KnownOperations{.sums = legal == Legal::glsl};
-}
-
-std::string legal_option_text(Legal legal) {
-    if (legal == Legal::measured)
-        return "";
-    return legal == Legal::glsl ? " --legal glsl" : " --legal any_order";
-}
-
 } // namespace lockstep

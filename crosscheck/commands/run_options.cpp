@@ -1,14 +1,12 @@
 #include "crosscheck/commands/run_options.hpp"
 
-#include <string_view>
-
 #include <fmt/format.h>
 #include <omp.h>
 
 #include "crosscheck/commands/option_values.hpp"
+#include "crosscheck/run_text.hpp"
 #include "crosscheck/scene_file.hpp"
-#include "reference/model/octree.hpp"
-#include "reference/model/switches.hpp"
+#include "crosscheck/shell_words.hpp"
 
 namespace lockstep {
 
@@ -37,40 +35,25 @@ Scene load(const RunOptions& options) {
     return load_scene(options.scene, {options.particles, options.preset, options.set});
 }
 
-namespace {
-
-/// As a shell takes it back to one word.
-std::string quoted(const std::string& word) {
-    constexpr std::string_view plain = "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_-+=,.:/@%";
-    if (!word.empty() && word.find_first_not_of(plain) == std::string::npos)
-        return word;
-    std::string text = "'";
-    for (const char c : word)
-        text += c == '\'' ? "'\\''" : std::string(1, c);
-    return text + "'";
-}
-
-} // namespace
-
 std::string command_line(const std::string& verb, const RunOptions& options, int frames) {
     return command_line(verb, options, fmt::format("--frames {}", frames));
 }
 
 std::string command_line(const std::string& verb, const RunOptions& options, const std::string& place) {
     std::string line =
-        fmt::format("lockstep {} {}{}{}", verb, quoted(options.scene.string()), place.empty() ? "" : " ", place);
+        fmt::format("lockstep {} {}{}{}", verb, shell_word(options.scene.string()), place.empty() ? "" : " ", place);
     if (options.particles)
         line += fmt::format(" --particles {}", *options.particles);
     if (options.preset)
-        line += fmt::format(" --preset {}", quoted(*options.preset));
+        line += fmt::format(" --preset {}", shell_word(*options.preset));
     for (const std::string& change : options.set)
-        line += fmt::format(" --set {}", quoted(change));
+        line += fmt::format(" --set {}", shell_word(change));
     if (options.threads > 0)
         line += fmt::format(" --threads {}", options.threads);
     if (options.gl != "auto")
         line += fmt::format(" --gl {}", options.gl);
     if (!options.shaders.empty())
-        line += fmt::format(" --shaders {}", quoted(options.shaders.string()));
+        line += fmt::format(" --shaders {}", shell_word(options.shaders.string()));
     return line;
 }
 
@@ -78,14 +61,7 @@ std::string settings_text(const RunOptions& options, const Scene& scene) {
     std::string text = options.preset ? fmt::format("preset {}", *options.preset) : "the scene's";
     for (const std::string& change : options.set)
         text += ", " + change;
-    if (scene.switches.search == Search::octree)
-        return text + fmt::format(" (arithmetic {}, octree of depth {}, root {})",
-                                  switch_value(scene.switches, "arithmetic"), octree_depth,
-                                  scene.constants.octree_size);
-    text += fmt::format(" (arithmetic {}, CDT {} {}x{}, radius {})", switch_value(scene.switches, "arithmetic"),
-                        switch_value(scene.switches, "cdt_format"), scene.width, scene.height,
-                        scene.constants.texel_collide_range);
-    return text;
+    return fmt::format("{} ({})", text, switches_text(scene));
 }
 
 } // namespace lockstep

@@ -36,6 +36,9 @@ struct Scene {
     Box cdt_box; ///< the box an rgba8 CDT scales positions by
     Constants constants;
     Switches switches;
+    /// The command line's words that load it again ("/scenes/lattice.json --particles 500"); empty for one made, or
+    /// changed, in code. A report repeats a run by them.
+    std::string origin;
 };
 
 /// What one frame's passes need besides their images and particles.

@@ -1,0 +1,75 @@
+#pragma once
+/// A matcher for Catch2 v2 (docs/unit_tests.md):
+///
+///     CHECK_THAT(gpu, MatchesReference(scene).frames(120));
+///
+/// The package itself does not depend on Catch2; who includes this does.
+#include <ostream>
+#include <string>
+
+#include <catch2/catch.hpp>
+
+#include "lockstep/lockstep.hpp"
+#include "lockstep/skip.hpp"
+
+namespace lockstep {
+
+/// Names a side in a failed assertion.
+inline std::ostream& operator<<(std::ostream& stream, const GpuSide& gpu) { return stream << gpu.describe().name; }
+
+/// Columns of an expansion. Catch2 has 80 for it and its indentation and breaks longer lines anywhere, long paths too,
+/// unless CATCH_CONFIG_CONSOLE_WIDTH is defined where its main is; <lockstep/catch_main.hpp> defines 120.
+inline constexpr std::size_t expansion_width = 77;
+
+/// The command that runs the test case at hand alone.
+inline std::string this_test_again() {
+    std::string name;
+    for (const char c : Catch::getResultCapture().getCurrentTestName()) {
+        if (c == '\\' || c == ',' || c == '[' || c == '"')
+            name += '\\';
+        name += c;
+    }
+    return this_program({name});
+}
+
+/// Holds a GpuSide against the reference, from the scene's start (match_reference). The scene outlives the matcher.
+class MatchesReference : public Catch::MatcherBase<GpuSide> {
+  public:
+    explicit MatchesReference(const Scene& scene) : scene_(&scene) {}
+    explicit MatchesReference(Scene&&) = delete;
+
+    MatchesReference& frames(int count) {
+        options_.frames = count;
+        return *this;
+    }
+    MatchesReference& mode(CheckMode mode) {
+        options_.mode = mode;
+        return *this;
+    }
+    MatchesReference& legal(Legal legal) {
+        options_.legal = legal;
+        return *this;
+    }
+    MatchesReference& allow_undefined() {
+        options_.allow_undefined = true;
+        return *this;
+    }
+
+    /// CHECK_THAT hands the side over as const, and it has to run: it is not to be a constant.
+    bool match(const GpuSide& gpu) const override {
+        MatchOptions options = options_;
+        options.repeat = this_test_again();
+        const MatchResult result = match_reference(const_cast<GpuSide&>(gpu), *scene_, options);
+        text_ = result.text(expansion_width);
+        return result.passed();
+    }
+
+    std::string describe() const override { return "is to match the reference\n" + text_; }
+
+  private:
+    const Scene* scene_;
+    MatchOptions options_;
+    mutable std::string text_; ///< of the last match
+};
+
+} // namespace lockstep

@@ -1,0 +1,133 @@
+#pragma once
+/// lockstep in a test of one's own, whatever the test framework (docs/unit_tests.md):
+///
+///     const lockstep::Gl gl;                                        // false where there is none
+///     const auto scene = lockstep::load_scene("streams.json", {.particles = 2000});
+///     lockstep::UserShaders gpu(gl, scene, "my_shaders");           // or an engine derived from lockstep::GpuSide
+///     const auto result = lockstep::match_reference(gpu, scene, {.frames = 120});
+///     if (!result.passed())
+///         std::cerr << result.text();
+///
+/// Errors that keep a test from running (a file, a shader that does not compile) are thrown: lockstep::Error.
+#ifdef __FAST_MATH__
+#error "lockstep compares bits: compile what includes its headers without -ffast-math"
+#endif
+
+#include <filesystem>
+#include <memory>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "crosscheck/check.hpp"
+#include "crosscheck/legal.hpp"
+#include "crosscheck/scene_file.hpp"
+#include "gpu/context.hpp"
+#include "gpu/data_folder.hpp"
+#include "gpu/gpu_side.hpp"
+#include "reference/model/error.hpp"
+
+namespace lockstep {
+
+/// A GL to test on: a context without a window, current from now on, and its driver measured (half a second on
+/// llvmpipe). A test program needs one, for as long as its UserShaders live.
+class Gl {
+  public:
+    /// `context`: auto, osmesa, egl or egl-device:N; empty: $LOCKSTEP_GL, else auto. Where that context cannot be had
+    /// this is false and missing() tells why. Throws Error for a name that is none of these, and for a driver that
+    /// cannot be measured (GLSL without `precise`).
+    explicit Gl(std::string_view context = "");
+
+    explicit operator bool() const { return context_.has_value(); }
+
+    /// Why there is none, one line; empty if there is.
+    [[nodiscard]] const std::string& missing() const { return missing_; }
+
+    /// Renderer, version and context, one line.
+    [[nodiscard]] std::string name() const;
+
+    /// How the driver computes what GL leaves open.
+    [[nodiscard]] const Profile& profile() const { return profile_; }
+
+    /// The context's name as asked for.
+    [[nodiscard]] const std::string& asked() const { return asked_; }
+
+  private:
+    std::string asked_;
+    std::optional<Context> context_;
+    std::string missing_;
+    Profile profile_;
+};
+
+class GpuSimulation;
+
+/// The passes on GL, with shaders of one's own.
+class UserShaders : public GpuSide {
+  public:
+    /// `folder`: any of the stages collision_pass.vert, .geom, .frag and of the other passes, and files they include;
+    /// lockstep's own for the rest (README, "Bringing your own shader"). Throws Error for what the compiler says, with
+    /// file and line, for names that do not fit, and where `gl` is missing. `gl` outlives this.
+    UserShaders(const Gl& gl, const Scene& scene, const std::filesystem::path& folder);
+    ~UserShaders() override;
+
+    [[nodiscard]] SideDescription describe() const override;
+    void upload(const Particles& particles, const CollisionImage& cdt) override;
+    void step(const FrameParams& params) override;
+    void read(Particles& particles) const override;
+    void read(CollisionImage& cdt) const override;
+    [[nodiscard]] bool repeats() const override;
+    void lay_canary() override;
+    void find_canary(const Particles& particles, const CollisionImage& cdt, int frame) const override;
+    void repeat_step(const FrameParams& params) override;
+    [[nodiscard]] bool holds(const Particles& particles) const override;
+
+  private:
+    const Gl& gl_;
+    std::filesystem::path folder_;
+    std::unique_ptr<GpuSimulation> simulation_;
+};
+
+/// How a side is held against the reference; as the options of `lockstep check`.
+struct MatchOptions {
+    int frames = 60; ///< from the scene's start
+    CheckMode mode = CheckMode::resync;
+    Legal legal = Legal::measured;
+    bool allow_undefined = false; ///< pass what rests on what GL leaves open
+    /// The command that repeats it where `lockstep check` cannot, for an engine or a scene made in code; empty: this
+    /// program's own command line.
+    std::string repeat = {};
+};
+
+/// What match_reference found.
+class MatchResult {
+  public:
+    MatchResult(CheckReport report, std::string text, bool passed);
+
+    /// Every bit agrees, or what differs is legal; in free mode every bit.
+    [[nodiscard]] bool passed() const { return passed_; }
+
+    /// The report of `lockstep check` (README, "How to read a report"), at most 60 lines, the last the command that
+    /// repeats it where something differs. Lines that are longer than `width` columns are folded; 0: none is.
+    [[nodiscard]] std::string text(std::size_t width = 0) const;
+
+    [[nodiscard]] const CheckReport& report() const { return report_; }
+
+  private:
+    CheckReport report_;
+    std::string text_;
+    bool passed_;
+};
+
+/// Runs `gpu` and the reference from the scene's start and compares every bit of every particle and texel after every
+/// frame. Throws Error when that would prove nothing: a GL error, output that was not written, no frame.
+MatchResult match_reference(GpuSide& gpu, const Scene& scene, const MatchOptions& options = {});
+
+/// A command line that runs this program again from the folder it runs in, with these arguments.
+std::string this_program(const std::vector<std::string>& arguments);
+
+#ifdef LOCKSTEP_PACKAGE_DATA
+inline const bool package_data_known = use_package_data(LOCKSTEP_PACKAGE_DATA);
+#endif
+
+} // namespace lockstep

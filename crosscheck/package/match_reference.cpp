@@ -1,0 +1,100 @@
+#include <fstream>
+#include <iterator>
+#include <utility>
+
+#include <fmt/format.h>
+
+#include "crosscheck/package/folded_text.hpp"
+#include "crosscheck/profiles.hpp"
+#include "crosscheck/report.hpp"
+#include "crosscheck/run_text.hpp"
+#include "crosscheck/shell_words.hpp"
+#include "lockstep/lockstep.hpp"
+
+namespace lockstep {
+namespace {
+
+constexpr std::size_t most_lines = 58; // of 60, two are the caller's: a heading
+
+/// What this program was called with, after its name.
+std::vector<std::string> own_arguments() {
+    std::ifstream stream("/proc/self/cmdline", std::ios::binary);
+    std::vector<std::string> words;
+    for (std::string word; std::getline(stream, word, '\0');)
+        words.push_back(word);
+    if (!words.empty())
+        words.erase(words.begin());
+    return words;
+}
+
+/// The lines that lead back to what differs.
+class CommandLines {
+  public:
+    CommandLines(const Scene& scene, const SideDescription& side, const MatchOptions& options)
+        : scene_(scene), side_(side), options_(options) {}
+
+    [[nodiscard]] std::string repeat(const CheckReport& report) const {
+        if (!program_can())
+            return options_.repeat.empty() ? this_program(own_arguments()) : options_.repeat;
+        const int frames = report.first_frame ? *report.first_frame + 1 : report.frames;
+        return fmt::format("lockstep check {} --frames {}{}{}{}{}", scene_.origin, frames, *side_.arguments,
+                           options_.mode == CheckMode::free ? " --mode free" : "", legal_option_text(options_.legal),
+                           options_.allow_undefined ? " --allow-undefined" : "");
+    }
+
+    [[nodiscard]] std::string explain(const CheckReport& report) const {
+        if (!program_can() || !report.verdicts || !report.verdicts->first)
+            return "";
+        return fmt::format("lockstep explain {} {}{}{}", scene_.origin,
+                           place_arguments(report.verdicts->first->place, scene_.width), *side_.arguments,
+                           legal_option_text(options_.legal));
+    }
+
+  private:
+    [[nodiscard]] bool program_can() const { return !scene_.origin.empty() && side_.arguments; }
+
+    const Scene& scene_;
+    const SideDescription& side_;
+    const MatchOptions& options_;
+};
+
+} // namespace
+
+std::string this_program(const std::vector<std::string>& arguments) {
+    std::string line = fmt::format("cd {} && {}", shell_word(std::filesystem::current_path().string()),
+                                   shell_word(std::filesystem::read_symlink("/proc/self/exe").string()));
+    for (const std::string& argument : arguments)
+        line += fmt::format(" {}", shell_word(argument));
+    return line;
+}
+
+MatchResult::MatchResult(CheckReport report, std::string text, bool passed)
+    : report_(std::move(report)), text_(std::move(text)), passed_(passed) {}
+
+std::string MatchResult::text(std::size_t width) const {
+    return width == 0 ? text_ : folded_text(text_, width, most_lines);
+}
+
+MatchResult match_reference(GpuSide& gpu, const Scene& scene, const MatchOptions& options) {
+    const SideDescription side = gpu.describe();
+    CheckOptions check_options;
+    check_options.mode = options.mode;
+    check_options.frames = options.frames;
+    check_options.known = known_operations(options.legal, side.profile);
+    CheckReport report = check(scene, side.profile, gpu, check_options);
+
+    const CommandLines commands(scene, side, options);
+    const RunDescription run{fmt::format("{} ({})", scene.name, scene.origin.empty() ? "made in code" : scene.origin),
+                             side.name,
+                             lockstep::describe(side.profile),
+                             switches_text(scene),
+                             options.mode == CheckMode::free ? "free" : "resync",
+                             scene.width,
+                             commands.repeat(report),
+                             commands.explain(report)};
+    std::string text = report_text(report, run);
+    const bool passed = passes(report.verdict, options.allow_undefined);
+    return {std::move(report), std::move(text), passed};
+}
+
+} // namespace lockstep

@@ -1,0 +1,40 @@
+#include <fmt/format.h>
+
+#include "crosscheck/shell_words.hpp"
+#include "gpu/simulation.hpp"
+#include "lockstep/lockstep.hpp"
+
+namespace lockstep {
+
+UserShaders::UserShaders(const Gl& gl, const Scene& scene, const std::filesystem::path& folder)
+    : gl_(gl), folder_(folder) {
+    if (!gl)
+        throw Error(gl.missing());
+    simulation_ = std::make_unique<GpuSimulation>(scene, folder);
+}
+
+UserShaders::~UserShaders() = default;
+
+SideDescription UserShaders::describe() const {
+    std::string arguments;
+    if (gl_.asked() != "auto")
+        arguments += fmt::format(" --gl {}", gl_.asked());
+    if (!folder_.empty())
+        arguments +=
+            fmt::format(" --shaders {}", shell_word(std::filesystem::absolute(folder_).lexically_normal().string()));
+    return {gl_.name(), gl_.profile(), arguments};
+}
+
+void UserShaders::upload(const Particles& particles, const CollisionImage& cdt) { simulation_->upload(particles, cdt); }
+void UserShaders::step(const FrameParams& params) { simulation_->step(params); }
+void UserShaders::read(Particles& particles) const { simulation_->read(particles); }
+void UserShaders::read(CollisionImage& cdt) const { simulation_->read(cdt); }
+bool UserShaders::repeats() const { return simulation_->repeats(); }
+void UserShaders::lay_canary() { simulation_->lay_canary(); }
+void UserShaders::find_canary(const Particles& particles, const CollisionImage& cdt, int frame) const {
+    simulation_->find_canary(particles, cdt, frame);
+}
+void UserShaders::repeat_step(const FrameParams& params) { simulation_->repeat_step(params); }
+bool UserShaders::holds(const Particles& particles) const { return simulation_->holds(particles); }
+
+} // namespace lockstep

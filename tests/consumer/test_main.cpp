@@ -1,0 +1,1 @@
+#include <lockstep/catch_main.hpp>

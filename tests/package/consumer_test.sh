@@ -1,0 +1,53 @@
+#!/usr/bin/env bash
+# Installs lockstep, moves the installation, and builds and runs tests/consumer against it: its shader passes, the broken
+# one fails with the program's report and a line that repeats it, and without GL its tests are skipped.
+# Usage: consumer_test.sh SOURCE BUILD [CMAKE_OPTION...]     exit status 77: no GL here
+set -euo pipefail
+source=$1 build=$2
+shift 2
+
+work=$(mktemp -d)
+trap 'rm -rf "$work"' EXIT
+cd "$work"
+
+fail() { printf 'consumer_test: %s\n' "$1" >&2; cat out.txt >&2; exit 1; }
+succeeds() { "$@" >out.txt 2>&1 || fail "status $?: $*"; }
+ends_with() {
+    local expected=$1 status=0
+    shift
+    "$@" >out.txt 2>&1 || status=$?
+    [ "$status" = "$expected" ] || fail "status $status, not $expected: $*"
+}
+# Wherever its lines are broken.
+says() { tr -s '\\\n ' ' ' <out.txt | grep -qF -- "$1" || fail "this is not said: $1"; }
+
+succeeds cmake --install "$build" --prefix "$work/built"
+mv built prefix
+succeeds cmake -S "$source/tests/consumer" -B build "-DCMAKE_PREFIX_PATH=$work/prefix" "$@"
+succeeds cmake --build build
+
+# Without GL.
+succeeds env -u LOCKSTEP_REQUIRE_GL LOCKSTEP_GL=egl-device:99 ctest --test-dir build -V
+says 'skipped: no GL context: egl-device:99: '
+says '(Skipped)'
+ends_with 8 env LOCKSTEP_REQUIRE_GL=1 LOCKSTEP_GL=egl-device:99 ctest --test-dir build -V
+says 'LOCKSTEP_REQUIRE_GL is set, but no GL context: egl-device:99: '
+
+# With it.
+succeeds ctest --test-dir build -V
+if grep -qF '(Skipped)' out.txt; then exit 77; fi
+ends_with 1 build/shader_tests '[.broken]'
+says 'CHECK_THAT( gpu, MatchesReference(scene).frames(60) )'
+says "scene x_streams ($work/prefix/share/lockstep/scenes/x_streams.json --particles 10000)"
+says 'verdict DIVERGENT from frame '
+says 'cause all 12 particles are explained by last_found_instead_of_nearest'
+says "again: lockstep explain $work/prefix/share/lockstep/scenes/x_streams.json --particles 10000 --frame "
+says "repeat lockstep check $work/prefix/share/lockstep/scenes/x_streams.json --particles 10000 --frames "
+sed -n '/^  repeat    /,/^$/p' out.txt | sed 's/repeat    //' >repeat.sh
+PATH="$work/prefix/bin:$PATH" ends_with 1 bash repeat.sh
+says 'verdict DIVERGENT from frame '
+
+# The shaders are the package's.
+echo 'not GLSL' >>prefix/share/lockstep/shaders/collision_pass.frag
+ends_with 8 ctest --test-dir build -V
+says "$work/prefix/share/lockstep/shaders/collision_pass.frag:"

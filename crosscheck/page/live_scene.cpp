@@ -12,6 +12,7 @@
 
 #include <fmt/format.h>
 
+#include "crosscheck/scene_settings.hpp"
 #include "gpu/shader_source.hpp"
 #include "reference/model/layered_cdt.hpp"
 #include "reference/model/state_hash.hpp"
@@ -93,6 +94,7 @@ json run(const Scene& scene, const std::string& name, int frames, std::span<cons
         references.push_back(reference(scene, frames, profile));
     return {{"name", name},
             {"exact", exact},
+            {"settings", settings_json(scene)},
             {"definitions", definitions},
             {"cdt_format", switch_value(scene.switches, "cdt_format")},
             {"obstacles_in_cdt", switch_value(scene.switches, "obstacles_in_cdt")},

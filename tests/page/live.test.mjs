@@ -109,7 +109,8 @@ test("live view: saved states hold the start and each frame's particles and CDT"
   const line = bytes.indexOf("\n");
   const head = JSON.parse(bytes.subarray(0, line).toString());
   assert.deepEqual([head.lockstep, head.run, head.particles, head.frames], ["states 1", "exact", 300, frames]);
-  assert.equal(bytes.length - line - 1, 4 * (8 * 300 + frames * (8 * 300 + 4 * 64 * 48)));
+  const obstacles = 3 * (head.corners + head.triangles);
+  assert.equal(bytes.length - line - 1, 4 * (8 * 300 + obstacles + frames * (8 * 300 + 4 * 64 * 48)));
   assert.match(await status(page), /^The states are saved/);
   await page.close();
 });

@@ -1,4 +1,4 @@
-#!/usr/bin/env python3
+#!/usr/bin/python3
 """Makes a trace of the states that the report page's live view saved, so that `lockstep check --trace` can judge them.
 
 Usage: scripts/trace_of_states.py STATES.gz TRACE.h5 [PROFILE.json]
@@ -19,8 +19,11 @@ SEAL = 512  # bytes, docs/traces.md
 
 
 def read(stream, type, *shape):
-    bytes = stream.read(int(np.prod(shape)) * np.dtype(type).itemsize)
-    return np.frombuffer(bytes, type).reshape(shape)
+    size = int(np.prod(shape)) * np.dtype(type).itemsize
+    data = stream.read(size)
+    if len(data) < size:
+        raise ValueError("cut off")
+    return np.frombuffer(data, type).reshape(shape)
 
 
 def write(states, path, profile):

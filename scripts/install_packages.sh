@@ -21,6 +21,7 @@ packages=(
 command -v node >/dev/null || packages+=(nodejs)
 command -v npm >/dev/null || packages+=(npm)
 packages+=(chromium)                              # the report page is built by npm and tested in Chromium
+packages+=(python3-h5py)                          # states that the page saved become a trace
 
 missing=()
 for package in "${packages[@]}"; do

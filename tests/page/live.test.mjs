@@ -1,9 +1,10 @@
 import assert from "node:assert/strict";
-import { readFileSync, writeFileSync } from "node:fs";
-import { join } from "node:path";
+import { spawnSync } from "node:child_process";
+import { readdirSync, readFileSync, writeFileSync } from "node:fs";
+import { basename, dirname, join } from "node:path";
 import { after, before, test } from "node:test";
-import { gunzipSync } from "node:zlib";
-import { axePath, cleanUp, open, report, temporaryFolder, writeScene } from "./browser.mjs";
+import { gunzipSync, gzipSync } from "node:zlib";
+import { axePath, cleanUp, lockstep, open, report, temporaryFolder, writeScene } from "./browser.mjs";
 
 const frames = 12;
 let plain;
@@ -100,19 +101,68 @@ test("live view: both pictures show something", async () => {
   await page.close();
 });
 
-test("live view: saved states hold the start and each frame's particles and CDT", async () => {
-  const { page } = await open(plain);
-  await page.selectOption("#live-run", "exact");
+// A file that the page offers.
+async function savedStates(path, preset) {
+  const { page } = await open(path);
+  await page.selectOption("#live-run", preset);
   const [download] = await Promise.all([page.waitForEvent("download"), page.click("#live-save")]);
-  assert.equal(download.suggestedFilename(), "scene_exact.states.gz");
-  const bytes = gunzipSync(readFileSync(await download.path()));
+  const file = join(temporaryFolder(), download.suggestedFilename());
+  await download.saveAs(file);
+  assert.match(await status(page), /^The states are saved/);
+  await page.close();
+  return file;
+}
+
+test("live view: saved states hold the start and each frame's particles and CDT", async () => {
+  const file = await savedStates(plain, "exact");
+  assert.equal(basename(file), "scene_exact.states.gz");
+  const bytes = gunzipSync(readFileSync(file));
   const line = bytes.indexOf("\n");
   const head = JSON.parse(bytes.subarray(0, line).toString());
   assert.deepEqual([head.lockstep, head.run, head.particles, head.frames], ["states 1", "exact", 300, frames]);
   const obstacles = 3 * (head.corners + head.triangles);
   assert.equal(bytes.length - line - 1, 4 * (8 * 300 + obstacles + frames * (8 * 300 + 4 * 64 * 48)));
-  assert.match(await status(page), /^The states are saved/);
-  await page.close();
+});
+
+const python = spawnSync("/usr/bin/python3", ["-c", "import h5py"]).status === 0;
+const withPython = { skip: python || process.env.LOCKSTEP_REQUIRE_GL === "1" ? false : "no python3-h5py" };
+
+function traceOf(states) {
+  const trace = join(temporaryFolder(), "run.h5");
+  const { status, stderr } = spawnSync("scripts/trace_of_states.py", [states, trace], { encoding: "utf8" });
+  return { status, stderr, trace };
+}
+
+test("live view: saved states become a trace that is judged like any run", withPython, async () => {
+  const { stderr, trace } = traceOf(await savedStates(plain, "exact"));
+  assert.equal(stderr, "");
+  const judged = lockstep("check", "--trace", trace);
+  assert.match(judged.stdout, /verdict   AGREE: every bit of 300 particles and of the CDT in 12 frames/);
+  assert.equal(judged.status, 0);
+});
+
+test("live view: a bug in a shader is named from its trace", withPython, async () => {
+  const { trace } = traceOf(await savedStates(planted(plain, " && len < particle_min_length", ""), "exact"));
+  const judged = lockstep("check", "--trace", trace);
+  assert.match(judged.stdout, /verdict   DIVERGENT[\s\S]*cause .*last_found_instead_of_nearest/);
+  assert.equal(judged.status, 1);
+});
+
+test("live view: states that are cut off make no trace", withPython, async () => {
+  const states = await savedStates(plain, "exact");
+  const whole = gunzipSync(readFileSync(states));
+  for (const [damaged, said] of [
+    [readFileSync(states).subarray(0, 5000), /^trace_of_states: .*: Compressed file ended/],
+    [gzipSync(whole.subarray(0, -4)), /^trace_of_states: .*: cut off\n$/],
+    [gzipSync(Buffer.concat([whole, whole])), /^trace_of_states: .*: more states than the first line says\n$/],
+    [gzipSync("{}\n"), /^trace_of_states: .*: not states that a report page saved\n$/],
+  ]) {
+    writeFileSync(states, damaged);
+    const { status, stderr, trace } = traceOf(states);
+    assert.equal(status, 1);
+    assert.match(stderr, said);
+    assert.deepEqual(readdirSync(dirname(trace)), []);
+  }
 });
 
 test("live view: without WebGL2 one line says so", async () => {

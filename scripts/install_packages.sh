@@ -7,9 +7,11 @@ packages=(
     g++ cmake ninja-build                         # build; g++ brings OpenMP
     libglm-dev libfmt-dev libcli11-dev            # vectors, text, command line
     nlohmann-json3-dev libpng-dev                 # scenes and reports, pictures
-    zlib1g-dev                                    # the report page's data
+    zlib1g-dev                                    # the report page's data, traces
     libassimp-dev libmeshoptimizer-dev            # meshes: reading, decimation
-    libhdf5-dev libaec-dev zlib1g-dev nettle-dev  # traces: H5MD, their seal
+    libhdf5-dev libaec-dev                        # traces: H5MD
+    libdeflate-dev nettle-dev                     # reading them fast, their seal
+    python3-numpy python3-h5py                    # the example that writes one
     libgl-dev libegl-dev                          # GL headers; the libraries are opened at run time
     libosmesa6 libegl1 libgl1-mesa-dri            # contexts without a GPU
     catch2 libnanoflann-dev                       # tests and their oracle for neighbours

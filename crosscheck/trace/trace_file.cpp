@@ -217,7 +217,9 @@ std::size_t TraceFile::cdt_bytes() const {
     return has_cdt() ? static_cast<std::size_t>(cdt_.extents[0] * cdt_.extents[1]) * 16 : 0;
 }
 
-void TraceFile::read_row(const Dataset& dataset, std::size_t row, std::byte* into) const {
+void TraceFile::read_row(const Dataset& dataset, std::size_t row, std::byte* into) {
+    if (chunks_.read(dataset.set.get(), dataset.extents, row, into))
+        return;
     Extents start(dataset.extents.size() + 1, 0), block{1};
     start[0] = row;
     block.insert(block.end(), dataset.extents.begin(), dataset.extents.end());
@@ -230,14 +232,14 @@ void TraceFile::read_row(const Dataset& dataset, std::size_t row, std::byte* int
            fmt::format("{}: row {}", dataset.path, row));
 }
 
-void TraceFile::read_particles(std::size_t row, std::byte* into) const {
+void TraceFile::read_particles(std::size_t row, std::byte* into) {
     for (std::size_t f = 0; f < fields_.size(); ++f) {
         read_row(fields_[f], row, into);
         into += particles_ * sizeof(float) * static_cast<std::size_t>(layout::fields[f].components);
     }
 }
 
-void TraceFile::read_cdt(std::size_t frame, std::byte* into) const { read_row(cdt_, frame, into); }
+void TraceFile::read_cdt(std::size_t frame, std::byte* into) { read_row(cdt_, frame, into); }
 
 std::string TraceFile::text(const char* path) const {
     if (!exists(path))

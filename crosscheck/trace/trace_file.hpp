@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "crosscheck/trace/chunk.hpp"
 #include "crosscheck/trace/hdf5.hpp"
 #include "crosscheck/trace/layout.hpp"
 
@@ -30,8 +31,8 @@ class TraceFile {
     [[nodiscard]] std::size_t cdt_bytes() const;
 
     /// Position, direction, speed and collide time of all particles, one after the other.
-    void read_particles(std::size_t row, std::byte* into) const;
-    void read_cdt(std::size_t frame, std::byte* into) const;
+    void read_particles(std::size_t row, std::byte* into);
+    void read_cdt(std::size_t frame, std::byte* into);
 
     /// A text, or nothing where there is none.
     [[nodiscard]] std::string text(const char* path) const;
@@ -57,9 +58,10 @@ class TraceFile {
     std::size_t find_particles();
     void find_cdt(std::size_t rows_of_particles);
     void find_head();
-    void read_row(const Dataset& dataset, std::size_t row, std::byte* into) const;
+    void read_row(const Dataset& dataset, std::size_t row, std::byte* into);
 
     hdf5::Id file_;
+    ChunkReader chunks_;
     std::array<Dataset, layout::fields.size()> fields_;
     Dataset cdt_;
     std::size_t rows_ = 0;

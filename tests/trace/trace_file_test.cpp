@@ -1,5 +1,8 @@
 #include <catch2/catch.hpp>
 
+#include <algorithm>
+#include <bit>
+#include <cmath>
 #include <cstdint>
 #include <vector>
 
@@ -172,6 +175,56 @@ TEST_CASE("trace: the driver's tables travel along") {
     REQUIRE(trace.info().profile->roots);
     CHECK(trace.info().profile->roots->reciprocal == info.profile->roots->reciprocal);
     CHECK(trace.info().profile->roots->inverse_sqrt == info.profile->roots->inverse_sqrt);
+}
+
+TEST_CASE("trace: values come out the same however they are stored") {
+    struct Storage {
+        std::vector<hsize_t> chunk; ///< empty: in one piece
+        bool shuffle = false, deflate = false, checksum = false, big_endian = false;
+    };
+    const std::vector<Storage> storages{{},
+                                        {{}, false, false, false, true},
+                                        {{2, 7, 3}, true, true, true},
+                                        {{1, 7, 3}, true, true, true},
+                                        {{1, 60, 3}, true, true, false},
+                                        {{1, 60, 2}, true, true, true},
+                                        {{1, 60, 3}, false, true, true},
+                                        {{1, 100, 3}, true, false, true},
+                                        {{1, 60, 3}, true, true, true, true}};
+    std::vector<float> values(4 * 60 * 3);
+    for (std::size_t i = 0; i < values.size(); ++i)
+        values[i] = std::ldexp(static_cast<float>(i) + 0.37F, static_cast<int>(i % 40) - 20);
+    for (const Storage& storage : storages) {
+        Changed changed(false);
+        changed.remove(layout::fields[0].value).with_file([&](hid_t file) {
+            const std::vector<hsize_t> extents{4, 60, 3}, most{H5S_UNLIMITED, H5S_UNLIMITED, 3};
+            const bool chunked = !storage.chunk.empty();
+            const hid_t space = H5Screate_simple(3, extents.data(), chunked ? most.data() : nullptr);
+            const hid_t creation = H5Pcreate(H5P_DATASET_CREATE);
+            if (chunked)
+                H5Pset_chunk(creation, 3, storage.chunk.data());
+            if (storage.shuffle)
+                H5Pset_shuffle(creation);
+            if (storage.deflate)
+                H5Pset_deflate(creation, 6);
+            if (storage.checksum)
+                H5Pset_fletcher32(creation);
+            const hid_t set =
+                H5Dcreate2(file, layout::fields[0].value, storage.big_endian ? H5T_IEEE_F32BE : H5T_IEEE_F32LE, space,
+                           H5P_DEFAULT, creation, H5P_DEFAULT);
+            REQUIRE(H5Dwrite(set, H5T_NATIVE_FLOAT, H5S_ALL, H5S_ALL, H5P_DEFAULT, values.data()) >= 0);
+            H5Dclose(set);
+            H5Pclose(creation);
+            H5Sclose(space);
+        });
+        TraceReader trace(changed.file());
+        Particles particles;
+        for (const int frame : {-1, 0, 1, 2}) {
+            trace.read(frame, particles);
+            const float* row = values.data() + (frame + 1) * 60 * 3;
+            CHECK(std::equal(row, row + 60 * 3, &particles.position[0].x));
+        }
+    }
 }
 
 TEST_CASE("trace: a run that ends early leaves no file, and no name is taken twice") {

@@ -1,0 +1,202 @@
+#include <catch2/catch.hpp>
+
+#include <csignal>
+#include <fstream>
+#include <random>
+#include <string>
+#include <vector>
+
+#include <unistd.h>
+
+#include "crosscheck/check.hpp"
+#include "crosscheck/trace/seal.hpp"
+#include "crosscheck/trace/trace_side.hpp"
+#include "reference/model/error.hpp"
+#include "reference/model/state_hash.hpp"
+#include "tests/temporary_folder.hpp"
+#include "tests/trace/small_trace.hpp"
+
+using namespace lockstep;
+using Catch::Contains;
+
+namespace {
+
+constexpr int frames = 4;
+
+/// Every state of a trace, as far as it can be read.
+struct Reading {
+    std::string refusal; ///< empty: all of it was read
+    Verdict verdict = Verdict::differ;
+    std::size_t warnings = 0;
+    std::vector<std::uint64_t> hashes; ///< of the start and each frame
+};
+
+Reading reading_of(const std::filesystem::path& file) {
+    Reading reading;
+    try {
+        TraceReader trace(file);
+        TraceSide recorded(trace);
+        reading.warnings = trace.info().warnings.size();
+        reading.hashes.push_back(state_hash(trace.info().scene.start, {}));
+        CheckOptions options;
+        options.frames = trace.info().frames;
+        options.known = known_operations(trace.info());
+        options.on_state = [&](const ComparedFrame& frame) {
+            reading.hashes.push_back(state_hash(frame.gpu, frame.gpu_cdt));
+        };
+        reading.verdict = check(trace.info().scene, followed_profile(trace.info()), recorded, options).verdict;
+    } catch (const Error& error) {
+        reading.refusal = error.what();
+        CHECK(!reading.refusal.empty());
+    }
+    return reading;
+}
+
+/// AGREE is said of the states that were recorded, or of the first ones with a warning, and of nothing else.
+bool trusted_rightly(const Reading& original, const Reading& damaged) {
+    if (!damaged.refusal.empty() || damaged.verdict != Verdict::agree)
+        return true;
+    const bool whole = damaged.hashes.size() == original.hashes.size() || damaged.warnings > 0;
+    return whole && damaged.hashes.size() <= original.hashes.size() &&
+           std::equal(damaged.hashes.begin(), damaged.hashes.end(), original.hashes.begin());
+}
+
+struct Original {
+    test::TemporaryFolder folder;
+    std::filesystem::path file = folder.path() / "run.h5";
+    std::string bytes;
+    Reading reading;
+
+    explicit Original(bool has_cdt) {
+        test::record(file, test::small_info(has_cdt), frames);
+        bytes = test::bytes_of(file);
+        reading = reading_of(file);
+        CHECK(reading.verdict == Verdict::agree);
+        REQUIRE(reading.hashes.size() == frames + 1);
+    }
+};
+
+/// The process that reads for this one.
+int reading_process() {
+    std::ifstream children("/proc/self/task/" + std::to_string(getpid()) + "/children");
+    int pid = -1;
+    children >> pid;
+    return pid;
+}
+
+} // namespace
+
+TEST_CASE("damaged traces: 60 that were cut off are refused") {
+    const Original original(true);
+    std::mt19937_64 random(1);
+    for (int i = 0; i < 60; ++i) {
+        test::write_bytes(original.file, original.bytes.substr(0, random() % original.bytes.size()));
+        CHECK(!reading_of(original.file).refusal.empty());
+    }
+}
+
+TEST_CASE("damaged traces: 60 with flipped bits are refused") {
+    const Original original(true);
+    std::mt19937_64 random(2);
+    for (int i = 0; i < 60; ++i) {
+        std::string bytes = original.bytes;
+        for (std::uint64_t flips = 1 + random() % 8; flips > 0; --flips) {
+            char& byte = bytes[random() % bytes.size()];
+            byte = static_cast<char>(byte ^ (1 << random() % 8));
+        }
+        if (bytes == original.bytes)
+            continue;
+        test::write_bytes(original.file, bytes);
+        CHECK(!reading_of(original.file).refusal.empty());
+    }
+}
+
+TEST_CASE("damaged traces: 120 changed and sealed again end in an error or a verdict, and no false AGREE") {
+    int refused = 0, agreed = 0;
+    for (const bool has_cdt : {true, false}) {
+        const Original original(has_cdt);
+        std::mt19937_64 random(has_cdt ? 3 : 4);
+        for (int i = 0; i < 60; ++i) {
+            std::string bytes = original.bytes;
+            for (std::uint64_t changes = 1 + random() % 12; changes > 0; --changes) {
+                const std::size_t place = seal_size + random() % (bytes.size() - seal_size);
+                switch (random() % 4) {
+                case 0:
+                    bytes[place] = static_cast<char>(random());
+                    break;
+                case 1:
+                    bytes[place] = static_cast<char>(bytes[place] ^ (1 << random() % 8));
+                    break;
+                case 2:
+                    std::fill_n(bytes.begin() + static_cast<std::ptrdiff_t>(place),
+                                std::min<std::size_t>(8, bytes.size() - place), random() % 2 == 0 ? '\xff' : '\0');
+                    break;
+                default:
+                    bytes.resize(place + 1);
+                }
+            }
+            test::write_bytes(original.file, bytes);
+            seal_file(original.file);
+            const Reading damaged = reading_of(original.file);
+            INFO("file " << i << " " << damaged.refusal);
+            CHECK(trusted_rightly(original.reading, damaged));
+            (damaged.refusal.empty() ? agreed : refused) += 1;
+        }
+    }
+    CHECK(refused > 30);
+    CHECK(agreed > 5); // changes that nobody reads: else this test would prove nothing about verdicts
+}
+
+TEST_CASE("damaged traces: a state changed on purpose, all checksums right, is no AGREE") {
+    const test::TemporaryFolder folder;
+    const auto file = folder.path() / "run.h5";
+    for (const int frame : {0, 1, frames - 1}) {
+        test::record(file, test::small_info(false), frames, [&](int at, Particles& particles, CollisionImage&) {
+            if (at == frame)
+                particles.position[3].x = -particles.position[3].x;
+        });
+        CHECK(reading_of(file).verdict == Verdict::divergent);
+    }
+}
+
+TEST_CASE("damaged traces: a reading process that dies is an error, whatever it was doing") {
+    const test::TemporaryFolder folder;
+    const auto file = folder.path() / "run.h5";
+    test::record(file, test::small_info(true), frames);
+    TraceReader trace(file);
+    const int pid = reading_process();
+    REQUIRE(pid > 0);
+    REQUIRE(kill(pid, SIGSEGV) == 0);
+    Particles particles;
+    const std::string refusal = test::error_of([&] {
+        trace.read(0, particles);
+        trace.read(2, particles);
+    });
+    CHECK_THAT(refusal, Contains("run.h5: HDF5 broke on it (Segmentation fault)"));
+    CHECK_THAT(test::error_of([&] { trace.read(1, particles); }), Contains("HDF5 broke on it"));
+}
+
+TEST_CASE("damaged traces: the reading process can write nothing, open nothing more, and take so much memory") {
+    const test::TemporaryFolder folder;
+    const auto file = folder.path() / "run.h5";
+    test::record(file, test::small_info(true), frames);
+    const TraceReader trace(file);
+    const std::string limits = test::bytes_of("/proc/" + std::to_string(reading_process()) + "/limits");
+    CHECK_THAT(limits, Catch::Matches("(.|\n)*Max file size +0 +0 (.|\n)*"));
+    CHECK_THAT(limits, Catch::Matches("(.|\n)*Max core file size +0 +0 (.|\n)*"));
+    CHECK_THAT(limits, Catch::Matches("(.|\n)*Max processes +0 +0 (.|\n)*"));
+    CHECK_THAT(limits, Catch::Matches("(.|\n)*Max open files +\\d{1,2} +\\d{1,2} (.|\n)*"));
+    CHECK_THAT(limits, Catch::Matches("(.|\n)*Max address space +\\d+ (.|\n)*"));
+    CHECK_THAT(limits, Catch::Matches("(.|\n)*Max cpu time +\\d+ (.|\n)*"));
+}
+
+TEST_CASE("damaged traces: no reading process stays behind") {
+    const test::TemporaryFolder folder;
+    const auto file = folder.path() / "run.h5";
+    test::record(file, test::small_info(false), frames);
+    { const TraceReader trace(file); }
+    CHECK(reading_process() == -1);
+    test::tamper(file, [](std::string& bytes) { std::fill(bytes.begin() + 512, bytes.begin() + 700, 'x'); });
+    CHECK_THAT(test::error_of([&] { const TraceReader trace(file); }), Contains("run.h5: HDF5: "));
+    CHECK(reading_process() == -1);
+}

@@ -24,36 +24,64 @@ Scene searched_in_cdt(Scene scene) {
 
 } // namespace
 
-FrameRun::FrameRun(Scene scene, Profile profile, const KnownOperations& known, std::filesystem::path shaders)
-    : scene_(searched_in_cdt(std::move(scene))), profile_(std::move(profile)), known_(known), gpu_(scene_, shaders),
-      reference_(scene_, profile_) {}
+FrameRun::FrameRun(Scene scene, Profile profile, const KnownOperations& known, const std::filesystem::path& shaders)
+    : scene_(searched_in_cdt(std::move(scene))), profile_(std::move(profile)), known_(known),
+      simulation_(std::make_unique<GpuSimulation>(scene_, shaders)), gpu_(*simulation_), reference_(scene_, profile_),
+      cdt_before_(empty_cdt(scene_)), cdt_after_(cdt_before_) {}
+
+FrameRun::FrameRun(Scene scene, Profile profile, const KnownOperations& known, GpuSide& gpu)
+    : scene_(searched_in_cdt(std::move(scene))), profile_(std::move(profile)), known_(known), gpu_(gpu),
+      reference_(scene_, profile_), cdt_before_(empty_cdt(scene_)), cdt_after_(cdt_before_) {}
+
+/// From the state in after_, which is kept in before_.
+void FrameRun::step(int frame) {
+    std::swap(before_, after_);
+    std::swap(cdt_before_, cdt_after_);
+    params_ = frame_params(scene_, frame);
+    gpu_.step(params_);
+    gpu_.read(after_);
+    if (gpu_.has_cdt())
+        gpu_.read(cdt_after_);
+    else
+        reference_.draw(before_, after_, params_, cdt_after_);
+    frame_ = frame;
+}
 
 void FrameRun::go_to(int frame) {
     if (frame == frame_)
         return;
-    const bool next = frame_ >= 0 && frame == frame_ + 1;
     if (frame < frame_ || frame_ < 0) {
-        gpu_.upload(scene_.start, CollisionImage(scene_.width, scene_.height));
+        after_ = scene_.start;
+        cdt_after_ = empty_cdt(scene_);
+        gpu_.upload(after_, cdt_after_);
         frame_ = -1;
     }
-    for (int earlier = frame_ + 1; earlier < frame; ++earlier)
+    // A step from a state that was read takes the two states before it.
+    for (int earlier = frame_ + 1; earlier < frame - 2; ++earlier)
         gpu_.step(frame_params(scene_, earlier));
-    if (next) {
-        std::swap(before_, after_);
-        std::swap(cdt_before_, cdt_after_);
-    } else {
-        gpu_.read(before_);
-        gpu_.read(cdt_before_);
+    if (frame - 2 > frame_) {
+        params_ = frame_params(scene_, frame - 2);
+        gpu_.step(params_);
+        gpu_.read(after_);
+        if (gpu_.has_cdt())
+            gpu_.read(cdt_after_);
+        frame_ = frame - 2;
     }
-    params_ = frame_params(scene_, frame);
-    gpu_.step(params_);
-    gpu_.read(after_);
-    gpu_.read(cdt_after_);
+    while (frame_ < frame)
+        step(frame_ + 1);
     reference_.step_from(before_, cdt_before_, params_);
-    frame_ = frame;
     verdicts_.reset();
     redrawn_.reset();
     obstacle_depth_.reset();
+}
+
+StepCapture FrameRun::capture(std::size_t particle) {
+    if (simulation_)
+        return simulation_->trace(params_, particle);
+    StepCapture untold;
+    untold.state = after_[particle];
+    untold.drawn_alone = false;
+    return untold;
 }
 
 JudgedFrame FrameRun::judged() const {

@@ -1,6 +1,7 @@
 #pragma once
 #include <cstddef>
 #include <filesystem>
+#include <memory>
 #include <optional>
 
 #include "crosscheck/verdict.hpp"
@@ -15,7 +16,10 @@ class FrameRun {
   public:
     /// `known`: what legal outcomes are taken from. `shaders`: looked into first; may be empty.
     /// Throws Error for a scene with search = octree.
-    FrameRun(Scene scene, Profile profile, const KnownOperations& known, std::filesystem::path shaders);
+    FrameRun(Scene scene, Profile profile, const KnownOperations& known, const std::filesystem::path& shaders);
+
+    /// The same of frames computed elsewhere, of whose steps nothing is told in between. `gpu` has to outlive this.
+    FrameRun(Scene scene, Profile profile, const KnownOperations& known, GpuSide& gpu);
 
     /// Runs to the end of frame `frame`, counted from 0; back ones from the scene's start again.
     void go_to(int frame);
@@ -29,13 +33,16 @@ class FrameRun {
     const FrameVerdicts& verdicts();
     const CollisionImage& redrawn();    ///< the CDT the reference draws of the GPU's particles
     const DepthImage& obstacle_depth(); ///< 1 where there is none
-    StepCapture capture(std::size_t particle) { return gpu_.trace(params_, particle); }
+    StepCapture capture(std::size_t particle);
 
   private:
+    void step(int frame);
+
     Scene scene_;
     Profile profile_;
     KnownOperations known_;
-    GpuSimulation gpu_;
+    std::unique_ptr<GpuSimulation> simulation_; ///< null: gpu_ is another's
+    GpuSide& gpu_;
     ReferenceSimulation reference_;
     FrameParams params_;
     int frame_ = -1;

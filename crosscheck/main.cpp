@@ -76,6 +76,7 @@ int main(int argc, char** argv) {
     add_study_command(app, status);
     add_record_command(app, status);
     add_trace_command(app, status);
+    add_report_command(app, status);
     try {
         app.parse(argc, argv);
         flush_standard_output();

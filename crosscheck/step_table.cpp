@@ -628,13 +628,15 @@ template <class A> class TableBuilder {
         const auto legal_clip = arithmetic_.transform(params_.collision_proj_view, arithmetic_.read(drawn_at));
         rows_.numbers<glm::vec4>("point's clip", strict_.raster_clip, reference_.raster_clip, clip, legal_clip.data());
 
-        const bool gpu_drawn = in_clip_volume(gpu_.position);
-        const bool reference_drawn = in_clip_volume(reference_.point_position);
         const glm::vec4 follows =
             point_position(clip.value_or(A::transform(params_.collision_proj_view, drawn_at)), params_);
+        if (!gpu_.drawn_alone)
+            gpu_.position = follows;
+        const bool gpu_drawn = in_clip_volume(gpu_.position);
+        const bool reference_drawn = in_clip_volume(reference_.point_position);
         const auto yes = [](bool drawn) { return std::string(drawn ? "yes" : "no"); };
         rows_.decision("in clip volume", yes(in_clip_volume(strict_.point_position)), yes(reference_drawn),
-                       yes(gpu_drawn), yes(in_clip_volume(follows)));
+                       told(yes(gpu_drawn)), yes(in_clip_volume(follows)));
         if (!gpu_drawn && !reference_drawn)
             return;
         Interval legal[4];
@@ -644,8 +646,12 @@ template <class A> class TableBuilder {
                            : legal_clip[static_cast<std::size_t>(c)];
         const auto of = [](glm::vec4 p) { return in_clip_volume(p) ? std::optional(p) : std::nullopt; };
         rows_.numbers<glm::vec4>("gl_Position", of(strict_.point_position), of(reference_.point_position),
-                                 of(gpu_.position), legal);
+                                 gpu_.drawn_alone ? of(gpu_.position) : std::nullopt, legal);
         rasterise();
+    }
+
+    [[nodiscard]] std::optional<std::string> told(std::string text) const {
+        return gpu_.drawn_alone ? std::optional(std::move(text)) : std::nullopt;
     }
 
     void rasterise() {
@@ -661,6 +667,8 @@ template <class A> class TableBuilder {
         });
         const auto texel = [](const PointFragment& f) { return texel_text({f.x, f.y}); };
         const PointFragment follows = drawn_point(gpu_.position, params_, frame_.profile.raster);
+        if (!gpu_.drawn_alone)
+            gpu_.texel = {follows.x, follows.y};
         Interval depth(follows.depth);
         bool may = false;
         if (!arithmetic_.known().points && gpu_.texel.x >= 0) {
@@ -671,10 +679,10 @@ template <class A> class TableBuilder {
                     depth = owner.depth;
                 }
         }
-        rows_.decision("texel", texel(strict_.fragment), texel(reference_.fragment), texel_text(gpu_.texel),
+        rows_.decision("texel", texel(strict_.fragment), texel(reference_.fragment), told(texel_text(gpu_.texel)),
                        texel(follows), may);
         if (gpu_.texel.x >= 0 || reference_.fragment.x >= 0) {
-            const Optional gpu = gpu_.texel.x >= 0 ? Optional(gpu_.depth) : std::nullopt;
+            const Optional gpu = gpu_.texel.x >= 0 && gpu_.drawn_alone ? Optional(gpu_.depth) : std::nullopt;
             rows_.number("depth", strict_.fragment.depth, reference_.fragment.depth, gpu, legality(depth, gpu));
         }
         const glm::ivec2 at = gpu_.texel.x >= 0 ? gpu_.texel : glm::ivec2(reference_.fragment.x, reference_.fragment.y);

@@ -53,6 +53,7 @@ struct StepCapture {
     std::optional<ParticleState> vertex_state; ///< what the vertex stage hands on as v_* or out_*, if all of it
     CapturedVertex last;                       ///< trace_* outputs of the geometry stage, if there is one
     ParticleState state;                       ///< out_*, which the pass captures
+    bool drawn_alone = true;                   ///< what follows is known
     glm::vec4 position{0.0F};                  ///< gl_Position of the last vertex-processing stage
     glm::ivec2 texel{-1};                      ///< the one the point alone is drawn to; -1: none
     float depth = 1.0F;

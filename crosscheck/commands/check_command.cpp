@@ -25,6 +25,7 @@
 #include "crosscheck/progress.hpp"
 #include "crosscheck/report.hpp"
 #include "crosscheck/run_text.hpp"
+#include "crosscheck/shell_words.hpp"
 #include "crosscheck/trace/trace_side.hpp"
 #include "gpu/context.hpp"
 #include "gpu/simulation.hpp"
@@ -63,9 +64,9 @@ struct Options {
 };
 
 std::string repeat_line(const Options& options, int frames) {
-    std::string line = options.trace.empty()
-                           ? command_line("check", options.run, frames)
-                           : fmt::format("lockstep check --trace {} --frames {}", options.trace.string(), frames);
+    std::string line = options.trace.empty() ? command_line("check", options.run, frames)
+                                             : fmt::format("lockstep check --trace {} --frames {}",
+                                                           shell_word(options.trace.string()), frames);
     if (options.mode == CheckMode::free)
         line += " --mode free";
     line += legal_option_text(options.legal);
@@ -74,11 +75,12 @@ std::string repeat_line(const Options& options, int frames) {
     return line;
 }
 
-/// Empty for a trace: there is no GPU to ask.
 std::string explain_line(const Options& options, const Place& place, int width) {
-    if (!options.trace.empty())
-        return "";
-    return command_line("explain", options.run, place_arguments(place, width)) + legal_option_text(options.legal);
+    const std::string at = place_arguments(place, width);
+    return (options.trace.empty()
+                ? command_line("explain", options.run, at)
+                : fmt::format("lockstep explain --trace {} {}", shell_word(options.trace.string()), at)) +
+           legal_option_text(options.legal);
 }
 
 void expect_files(const Options& options, OutputFiles& files) {
@@ -98,7 +100,8 @@ std::vector<PageCommand> page_commands(const Options& options, const RunDescript
         commands.push_back({"Up to the first frame that differs", run.repeat});
     if (!run.explain.empty()) {
         commands.push_back({"The first divergence, step by step", run.explain});
-        commands.push_back({"The same, walked through by commands", command_line("debug", options.run, "")});
+        if (options.trace.empty())
+            commands.push_back({"The same, walked through by commands", command_line("debug", options.run, "")});
     }
     return commands;
 }
@@ -115,14 +118,17 @@ struct Checked {
     std::vector<std::string> notes;
 };
 
-/// The step tables of what the page lists, made on a second run of the GPU; of a trace there are none.
+/// The step tables of what the page lists, made on a second run of the GPU, or of what was recorded of it.
 std::vector<ExplainedItem> explain_items(const Options& options, const Checked& checked,
                                          const std::vector<PageItem>& items) {
     std::optional<FrameRun> frames;
     const Scene& scene = checked.scene;
-    if (options.trace.empty() && scene.switches.search == Search::cdt && !has_remedies(scene.switches) &&
-        !items.empty())
-        frames.emplace(scene, checked.profile, checked.known, options.run.shaders);
+    if (scene.switches.search == Search::cdt && !has_remedies(scene.switches) && !items.empty()) {
+        if (options.trace.empty())
+            frames.emplace(scene, checked.profile, checked.known, options.run.shaders);
+        else
+            frames.emplace(scene, checked.profile, checked.known, checked.gpu);
+    }
     std::vector<ExplainedItem> explained_items;
     for (const PageItem& item : items)
         explained_items.push_back({item, explain_line(options, {item.frame, item.texel, item.index}, scene.width),
@@ -226,35 +232,43 @@ int run_trace(Options options) {
         throw Error(fmt::format("--frames {}: {} holds {} frames", options.run.frames, info.file, info.frames));
     const Profile profile = followed_profile(info);
     TraceSide recorded(trace);
-    const KnownOperations known = info.profile ? known_operations(options.legal, profile)
-                                               : KnownOperations{.sums = options.legal != Legal::any_order};
     return check_and_tell(options, files,
-                          {info.scene, profile, recorded, known, info.file,
+                          {info.scene, profile, recorded, known_operations(info, options.legal), info.file,
                            fmt::format("recorded: {}", info.renderer.empty() ? "untold" : info.renderer),
                            info.settings.empty() ? "untold" : info.settings, notes_on(info)});
 }
 
-void check_arguments(const Options& options, const CLI::App& verb) {
-    if (options.run.scene.empty() == options.trace.empty())
-        throw Error(options.trace.empty() ? "check: a scene or --trace FILE is needed"
-                                          : "check: a scene does not go with --trace, which brings its own");
-    if (options.trace.empty())
-        return;
-    for (const char* name : {"--particles", "--preset", "--set", "--gl", "--shaders", "--images"})
-        if (verb.get_option(name)->count() > 0)
-            throw Error(fmt::format("check: {} goes with a scene that is run here, not with --trace", name));
-}
-
 } // namespace
+
+void add_report_command(CLI::App& app, int& status) {
+    auto options = std::make_shared<Options>();
+    options->report = ".";
+    CLI::App* verb = app.add_subcommand("report", "check a recorded run, and write report.html about it");
+    verb->add_option("trace", options->trace, "what `lockstep record` wrote, or an engine of your own (docs/traces.md)")
+        ->required()
+        ->type_name("FILE");
+    verb->add_option("-o,--output", options->report, "where report.html goes; else here")->type_name("DIR");
+    verb->add_option("--frames", options->run.frames, "frames to compare; else all")
+        ->check(integer(1, most_frames))
+        ->type_name("N");
+    add_threads_option(*verb, options->run);
+    add_legal_option(*verb, options->legal);
+    verb->add_flag("--allow-undefined", options->allow_undefined, "do not fail on what rests on what GL leaves open");
+    verb->add_flag("--quiet", options->quiet, "the page alone, and the exit status");
+    verb->footer("Exit status: as lockstep check --trace FILE --report DIR, which does the same.\n"
+                 "Example: lockstep report run.h5 -o pages");
+    verb->callback([options, verb, &status] {
+        options->frames_given = verb->get_option("--frames")->count() > 0;
+        status = run_trace(*options);
+    });
+}
 
 void add_check_command(CLI::App& app, int& status) {
     auto options = std::make_shared<Options>();
     CLI::App* verb = app.add_subcommand("check", "run both sides and compare every bit of every frame");
     add_scene_options(*verb, options->run);
-    verb->get_option("scene")->required(false);
     add_gl_options(*verb, options->run);
-    verb->add_option("--trace", options->trace, "instead of a scene: a recorded run (lockstep record); needs no GL")
-        ->type_name("FILE");
+    add_trace_option(*verb, options->trace);
     verb->add_option("--frames", options->run.frames, "frames to compare; of a trace: all")
         ->check(integer(1, most_frames))
         ->type_name("N");
@@ -274,7 +288,7 @@ void add_check_command(CLI::App& app, int& status) {
                  "without --allow-undefined, or any difference in free mode; 2 could not run.\n"
                  "Example: lockstep check data/scenes/lattice.json --frames 100 --preset paper");
     verb->callback([options, verb, &status] {
-        check_arguments(*options, *verb);
+        check_scene_or_trace(*verb, options->run, options->trace);
         options->frames_given = verb->get_option("--frames")->count() > 0;
         status = options->trace.empty() ? run_scene(*options) : run_trace(*options);
     });

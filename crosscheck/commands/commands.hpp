@@ -10,6 +10,7 @@ inline constexpr int status_could_not_run = 2;
 
 /// Each adds one verb; its callback leaves the exit status in `status`, or throws Error.
 void add_check_command(CLI::App& app, int& status);
+void add_report_command(CLI::App& app, int& status);
 void add_explain_command(CLI::App& app, int& status);
 void add_debug_command(CLI::App& app, int& status);
 void add_render_command(CLI::App& app, int& status);

@@ -1,8 +1,10 @@
+#include <filesystem>
 #include <memory>
 #include <optional>
 #include <string>
 
 #include <fmt/format.h>
+#include <omp.h>
 
 #include "crosscheck/commands/commands.hpp"
 #include "crosscheck/commands/judging_options.hpp"
@@ -12,6 +14,7 @@
 #include "crosscheck/frame_run.hpp"
 #include "crosscheck/places.hpp"
 #include "crosscheck/profiles.hpp"
+#include "crosscheck/trace/trace_side.hpp"
 #include "gpu/context.hpp"
 #include "reference/model/error.hpp"
 
@@ -21,26 +24,58 @@ namespace {
 struct Options {
     RunOptions run;
     int frame = 0;
+    std::filesystem::path trace; ///< instead of a scene and GL
     std::optional<std::string> particle, texel;
     Legal legal = Legal::measured;
     bool hexadecimal = false;
 };
 
-int run(const Options& options) {
-    if (options.particle.has_value() == options.texel.has_value())
-        throw Error("explain: either --particle I or --texel X,Y is needed");
-    Scene scene = load(options.run);
-    const std::size_t item =
-        options.particle ? particle_named(*options.particle, scene) : texel_named(*options.texel, scene);
-    const Context context(parse_context_request(options.run.gl));
-    const Profile profile = measured_profile(context);
-    FrameRun frames(std::move(scene), profile, known_operations(options.legal, profile), options.run.shaders);
+std::size_t item_of(const Options& options, const Scene& scene) {
+    return options.particle ? particle_named(*options.particle, scene) : texel_named(*options.texel, scene);
+}
+
+void tell(const Options& options, FrameRun& frames, const std::string& file, const std::string& settings,
+          const std::string& renderer) {
+    const Scene& scene = frames.scene();
+    const std::size_t item = item_of(options, scene);
     frames.go_to(options.frame);
     const NumberFormat format = options.hexadecimal ? NumberFormat::hexadecimal : NumberFormat::decimal;
-    fmt::print("scene     {} ({})\nswitches  {}\nGL        {}\nprofile   {}\n\n", frames.scene().name,
-               options.run.scene.string(), settings_text(options.run, frames.scene()), summary(context.describe()),
-               describe(profile));
+    fmt::print("scene     {} ({})\nswitches  {}\nGL        {}\nprofile   {}\n\n", scene.name, file, settings, renderer,
+               describe(frames.profile()));
     fmt::print("{}", options.texel ? explain_texel(frames, item, format) : explain_particle(frames, item, format));
+}
+
+void explain_scene(const Options& options) {
+    const Scene scene = load(options.run);
+    item_of(options, scene);
+    const Context context(parse_context_request(options.run.gl));
+    const Profile profile = measured_profile(context);
+    FrameRun frames(scene, profile, known_operations(options.legal, profile), options.run.shaders);
+    tell(options, frames, options.run.scene.string(), settings_text(options.run, scene), summary(context.describe()));
+}
+
+void explain_trace(const Options& options) {
+    if (options.run.threads > 0)
+        omp_set_num_threads(options.run.threads);
+    TraceReader trace(options.trace);
+    const TraceInfo& info = trace.info();
+    item_of(options, info.scene);
+    if (options.frame >= info.frames)
+        throw Error(fmt::format("--frame {}: {} holds frames 0 to {}", options.frame, info.file, info.frames - 1));
+    TraceSide recorded(trace);
+    FrameRun frames(info.scene, followed_profile(info), known_operations(info, options.legal), recorded);
+    tell(options, frames, info.file, info.settings.empty() ? "untold" : info.settings,
+         fmt::format("recorded: {}", info.renderer.empty() ? "untold" : info.renderer));
+}
+
+int run(const Options& options, const CLI::App& verb) {
+    if (options.particle.has_value() == options.texel.has_value())
+        throw Error("explain: either --particle I or --texel X,Y is needed");
+    check_scene_or_trace(verb, options.run, options.trace);
+    if (options.trace.empty())
+        explain_scene(options);
+    else
+        explain_trace(options);
     return status_agree;
 }
 
@@ -51,6 +86,7 @@ void add_explain_command(CLI::App& app, int& status) {
     CLI::App* verb = app.add_subcommand("explain", "both sides of one particle or texel in one frame, step by step");
     add_scene_options(*verb, options->run);
     add_gl_options(*verb, options->run);
+    add_trace_option(*verb, options->trace);
     verb->add_option("--frame", options->frame, "the frame, counted from 0")
         ->required()
         ->check(integer(0, most_frames))
@@ -62,7 +98,7 @@ void add_explain_command(CLI::App& app, int& status) {
     verb->add_flag("--hex", options->hexadecimal, "hexadecimal floats instead of decimal ones");
     verb->footer("Exit status: 0 told, 2 could not run.\n"
                  "Example: lockstep explain data/scenes/lattice.json --frame 30 --particle 17");
-    verb->callback([options, &status] { status = run(*options); });
+    verb->callback([options, verb, &status] { status = run(*options, *verb); });
 }
 
 } // namespace lockstep

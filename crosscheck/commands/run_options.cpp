@@ -7,6 +7,7 @@
 #include "crosscheck/run_text.hpp"
 #include "crosscheck/scene_file.hpp"
 #include "crosscheck/shell_words.hpp"
+#include "reference/model/error.hpp"
 
 namespace lockstep {
 
@@ -19,6 +20,10 @@ void add_scene_options(CLI::App& verb, RunOptions& options) {
     verb.add_option("--set", options.set, "change one switch or constant; may be repeated")
         ->type_name("NAME=VALUE")
         ->allow_extra_args(false);
+    add_threads_option(verb, options);
+}
+
+void add_threads_option(CLI::App& verb, RunOptions& options) {
     verb.add_option("--threads", options.threads, "threads of the reference, 0: one a core")
         ->check(integer(0, 1024))
         ->type_name("N");
@@ -27,6 +32,25 @@ void add_scene_options(CLI::App& verb, RunOptions& options) {
 void add_gl_options(CLI::App& verb, RunOptions& options) {
     verb.add_option("--gl", options.gl, "auto, osmesa, egl, or egl-device:N")->type_name("CONTEXT");
     verb.add_option("--shaders", options.shaders, "take shader files from here first")->type_name("DIR");
+}
+
+void add_trace_option(CLI::App& verb, std::filesystem::path& trace) {
+    verb.get_option("scene")->required(false);
+    verb.add_option("--trace", trace, "instead of a scene: a recorded run (lockstep record); needs no GL")
+        ->type_name("FILE");
+}
+
+void check_scene_or_trace(const CLI::App& verb, const RunOptions& options, const std::filesystem::path& trace) {
+    if (options.scene.empty() && trace.empty())
+        throw Error(fmt::format("{}: a scene or --trace FILE is needed", verb.get_name()));
+    if (trace.empty())
+        return;
+    if (!options.scene.empty())
+        throw Error(fmt::format("{}: a scene does not go with --trace, which brings its own", verb.get_name()));
+    for (const char* name : {"--particles", "--preset", "--set", "--gl", "--shaders", "--images"})
+        if (const CLI::Option* option = verb.get_option_no_throw(name); option != nullptr && option->count() > 0)
+            throw Error(
+                fmt::format("{}: {} goes with a scene that is run here, not with --trace", verb.get_name(), name));
 }
 
 Scene load(const RunOptions& options) {

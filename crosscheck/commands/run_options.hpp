@@ -27,7 +27,13 @@ struct RunOptions {
 };
 
 void add_scene_options(CLI::App& verb, RunOptions& options);
+void add_threads_option(CLI::App& verb, RunOptions& options);
 void add_gl_options(CLI::App& verb, RunOptions& options);
+
+/// --trace FILE instead of the scene, which is then no longer required. check_scene_or_trace throws Error unless one of
+/// both is given, or when an option stands there that only a run on this machine's GL has.
+void add_trace_option(CLI::App& verb, std::filesystem::path& trace);
+void check_scene_or_trace(const CLI::App& verb, const RunOptions& options, const std::filesystem::path& trace);
 
 /// Loads the scene and sets the thread count.
 Scene load(const RunOptions& options);

@@ -94,7 +94,8 @@ void FrameKeeper::note_items(const ComparedFrame& frame, const FrameClasses& cla
                     items.push_back({frame.frame, texel, i, kinds[i]});
     };
     note(classes.particles, false);
-    note(classes.texels, true);
+    if (frame.comparison[Field::texel].compared > 0)
+        note(classes.texels, true);
 }
 
 void FrameKeeper::note_examples(const ComparedFrame& frame) {

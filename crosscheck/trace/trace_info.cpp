@@ -4,8 +4,8 @@ namespace lockstep {
 
 Profile followed_profile(const TraceInfo& info) { return info.profile.value_or(Profile{}); }
 
-KnownOperations known_operations(const TraceInfo& info) {
-    return info.profile ? measured_operations(*info.profile) : KnownOperations{};
+KnownOperations known_operations(const TraceInfo& info, Legal legal) {
+    return info.profile ? known_operations(legal, *info.profile) : KnownOperations{.sums = legal != Legal::any_order};
 }
 
 std::vector<std::string> notes_on(const TraceInfo& info) {

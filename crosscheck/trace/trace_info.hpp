@@ -3,6 +3,7 @@
 #include <string>
 #include <vector>
 
+#include "crosscheck/legal.hpp"
 #include "reference/known_operations.hpp"
 #include "reference/model/profile.hpp"
 #include "reference/model/scene.hpp"
@@ -28,8 +29,8 @@ struct TraceInfo {
 /// What the reference follows: the recorded profile, or strict.
 Profile followed_profile(const TraceInfo& info);
 
-/// What is known of the driver beyond GLSL's rules: what was measured, or nothing.
-KnownOperations known_operations(const TraceInfo& info);
+/// What a difference is judged by; where nothing was measured, GLSL's rules.
+KnownOperations known_operations(const TraceInfo& info, Legal legal = Legal::measured);
 
 /// What a report on the trace has to say besides: warnings, and what the trace cannot prove.
 std::vector<std::string> notes_on(const TraceInfo& info);

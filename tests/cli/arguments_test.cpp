@@ -42,7 +42,10 @@ TEST_CASE("arguments: an unknown option, or a missing one, is named") {
     check_all({
         {{"check", scene, "--particle", "3"}, "unknown option '--particle'" + help},
         {{"check"}, "check: a scene or --trace FILE is needed"},
-        {{"explain", "--frame", "3"}, "scene is required" + help},
+        {{"debug"}, "scene is required" + help},
+        {{"report"}, "trace is required" + help},
+        {{"explain", "--frame", "3"}, "explain: either --particle I or --texel X,Y is needed"},
+        {{"explain", "--frame", "3", "--particle", "1"}, "explain: a scene or --trace FILE is needed"},
         {{"render", scene}, "--output is required" + help},
         {{"check", scene, "--frames"}, "--frames needs a value" + help},
         {{"check", scene, "--frames", "2", "--frames", "3"}, "--frames is given more than once" + help},

@@ -117,3 +117,33 @@ TEST_CASE("report page: a planted bug is named, and its items are listed with th
     CHECK_THAT(item.at("step").get<std::string>(), Catch::StartsWith("texel ("));
     CHECK_THAT(item.at("command").get<std::string>(), Catch::StartsWith("lockstep explain "));
 }
+
+TEST_CASE("report page: of a trace, by check or by report, with its step tables and command lines") {
+    if (!test::have_osmesa())
+        return;
+    const Setting setting;
+    const test::TemporaryFolder shaders;
+    test::plant(shaders, "collision_pass.vert", " && len < particle_min_length", "");
+    const std::string trace = (setting.input.path() / "run.h5").string();
+    test::Surroundings surroundings;
+    surroundings.environment = {{"LOCKSTEP_DATA", setting.data.path().string()}};
+    REQUIRE(run_lockstep({"record", setting.scene, "--gl", "osmesa", "--shaders", shaders.path(), "--frames", "8",
+                          "--cdt", "-o", trace})
+                .status == 0);
+    CHECK(run_lockstep({"check", "--trace", trace, "--report", setting.folder, "--quiet"}, surroundings).status == 1);
+    const nlohmann::json checked = setting.head();
+    const test::Outcome reported = run_lockstep({"report", trace, "-o", setting.folder}, surroundings);
+    CHECK(reported.status == 1);
+    CHECK_THAT(reported.out, Catch::Contains("DIVERGENT"));
+    nlohmann::json head = setting.head();
+    head["report"]["seconds"] = checked.at("report").at("seconds");
+    head["text"] = checked.at("text");
+    CHECK(head == checked);
+    CHECK(head.at("report").at("verdicts").at("particle_cause").at("best").at(0).at("deviations") ==
+          nlohmann::json{"last_found_instead_of_nearest"});
+    const nlohmann::json item = head.at("items").at(0);
+    CHECK(item.contains("step"));
+    CHECK_THAT(item.at("command").get<std::string>(), Catch::StartsWith("lockstep explain --trace " + trace));
+    CHECK(test::refusal(run_lockstep({"report", trace, "-o", trace}, surroundings)) ==
+          trace + ": cannot be made a folder: a file of that name is in the way");
+}

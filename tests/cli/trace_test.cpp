@@ -154,3 +154,38 @@ TEST_CASE("record: a GPU that gives two answers is not recorded") {
     CHECK_THAT(refusal(setting.record()), Contains("the GPU gave two answers to frame 0, so nothing was recorded"));
     CHECK(test::names_in(setting.folder.path()) == std::vector<std::string>{"scene.json"});
 }
+
+TEST_CASE("explain trace: the first divergence step by step, the GPU's values where they were recorded") {
+    if (!test::have_osmesa())
+        return;
+    const Setting setting;
+    test::plant(setting.shaders, "collision_pass.vert", "v_Speed = product(a_Speed, u_SpeedFactor);",
+                "v_Speed = product(a_Speed, 0.5);");
+    for (const std::vector<std::string>& options : std::vector<std::vector<std::string>>{{"--cdt"}, {}}) {
+        REQUIRE(setting.record(options).status == 0);
+        const std::string checked = setting.check().out;
+        const std::size_t at = checked.find("lockstep explain --trace ") + 9;
+        std::istringstream words(checked.substr(at, checked.find('\n', at) - at));
+        std::vector<std::string> arguments;
+        for (std::string word; words >> word;)
+            arguments.push_back(word);
+        const test::Outcome told = run_lockstep(arguments);
+        CHECK(told.status == 0);
+        CHECK_THAT(told.out,
+                   Contains("GL        recorded: llvmpipe") && Contains("the steps between are the reference's alone"));
+        CHECK_THAT(lines(told.out, {"> speed "}), Catch::EndsWith("DIVERGENT\n"));
+        CHECK_THAT(lines(told.out, {"> "}), Catch::StartsWith("> speed "));
+        CHECK_THAT(lines(told.out, {"  owner of texel"}), Contains("particle"));
+        CHECK_THAT(lines(told.out, {"  clip.x"}), Catch::EndsWith(" -\n"));
+    }
+    CHECK_THAT(refusal(run_lockstep({"explain", "--trace", setting.file, "--frame", "6", "--particle", "0"})),
+               Contains("--frame 6: ") && Contains("holds frames 0 to 5"));
+    CHECK_THAT(refusal(run_lockstep({"explain", "--trace", setting.file, "--frame", "1", "--particle", "300"})),
+               Contains("300"));
+    CHECK_THAT(
+        refusal(run_lockstep({"explain", setting.scene, "--trace", setting.file, "--frame", "1", "--particle", "0"})),
+        Contains("explain: a scene does not go with --trace"));
+    CHECK_THAT(refusal(run_lockstep(
+                   {"explain", "--trace", setting.file, "--gl", "osmesa", "--frame", "1", "--particle", "0"})),
+               Contains("explain: --gl goes with a scene that is run here"));
+}

@@ -196,7 +196,8 @@ export class Frames {
         cross.style.top = `${(100 * (height - texel.y - 0.5)) / height}%`;
       }
     });
-    return h("figure", {}, h("figcaption", {}, title), button);
+    const untold = side === "gpu" && this.head.report.fields.texel.compared === 0;
+    return h("figure", {}, h("figcaption", {}, title, untold ? h("span", { class: "muted" }, " not recorded; drawn of its particles by the reference") : null), button);
   }
 
   key(event) {

@@ -50,6 +50,7 @@ export function verdictSection(head) {
       h("div", {}, h("p", { class: "says" }, verdict.says), h("p", { class: "muted" }, differences(head))),
     ),
     facts(head),
+    (head.report.notes ?? []).map((note) => h("p", { class: "warning note" }, note)),
   );
 }
 

@@ -47,6 +47,7 @@ void CollisionPass::run(const FrameParams& params, const ParticleBuffer& from, P
     gl::EndTransformFeedback();
     gl::EndQuery(GL_TRANSFORM_FEEDBACK_PRIMITIVES_WRITTEN);
     gl::EndQuery(GL_PRIMITIVES_GENERATED);
+    gl::UseProgram(0);
     check_gl("collision_pass");
 }
 

@@ -30,4 +30,16 @@ using GlFramebuffer = GlObject<gl::GenFramebuffers, gl::DeleteFramebuffers>;
 using GlVertexArray = GlObject<gl::GenVertexArrays, gl::DeleteVertexArrays>;
 using GlQuery = GlObject<gl::GenQueries, gl::DeleteQueries>;
 
+/// A query that runs while this lives, and ends with it also where an error leaves the scope.
+class RunningQuery {
+  public:
+    RunningQuery(GLenum target, const GlQuery& query) : target_(target) { gl::BeginQuery(target, query.id()); }
+    ~RunningQuery() { gl::EndQuery(target_); }
+    RunningQuery(const RunningQuery&) = delete;
+    RunningQuery& operator=(const RunningQuery&) = delete;
+
+  private:
+    GLenum target_;
+};
+
 } // namespace lockstep

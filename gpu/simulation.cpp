@@ -62,9 +62,10 @@ void GpuSimulation::repeat_step(const FrameParams& params) { run_frame(params, 1
 void GpuSimulation::run_frame(const FrameParams& params, std::size_t from, std::size_t to) {
     if (octree_pass_)
         octree_pass_->refresh(particles_[from]);
-    gl::BeginQuery(GL_TIME_ELAPSED, timer_.id());
-    run_passes(params, from, to);
-    gl::EndQuery(GL_TIME_ELAPSED);
+    {
+        const RunningQuery timing(GL_TIME_ELAPSED, timer_);
+        run_passes(params, from, to);
+    }
     gl::Finish();
     GLuint64 nanoseconds = 0;
     gl::GetQueryObjectui64v(timer_.id(), GL_QUERY_RESULT, &nanoseconds);

@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
 # Installs what the tests need (Debian 12), builds with warnings as errors, and runs every test. A missing GL is a
-# failure here, not a skip.
+# failure here, not a skip. build/ci/junit.xml tells each test's result, and renderer and profile.
 set -euo pipefail
 cd "$(dirname "$0")/.."
 scripts/install_packages.sh
@@ -8,4 +8,7 @@ scripts/build_report_page.sh
 cmake --preset ci
 cmake --build --preset ci
 scripts/fetch_meshes.sh bunny
-LOCKSTEP_REQUIRE_GL=1 ctest --test-dir build/ci --output-on-failure -j 2 "$@"
+status=0
+LOCKSTEP_REQUIRE_GL=1 ctest --test-dir build/ci --output-on-failure --output-junit junit.xml -j 2 "$@" || status=$?
+scripts/junit_properties.sh build/ci/junit.xml build/ci/crosscheck/lockstep
+exit "$status"

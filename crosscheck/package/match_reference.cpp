@@ -6,7 +6,6 @@
 
 #include "crosscheck/package/folded_text.hpp"
 #include "crosscheck/profiles.hpp"
-#include "crosscheck/report.hpp"
 #include "crosscheck/run_text.hpp"
 #include "crosscheck/shell_words.hpp"
 #include "lockstep/lockstep.hpp"
@@ -68,11 +67,12 @@ std::string this_program(const std::vector<std::string>& arguments) {
     return line;
 }
 
-MatchResult::MatchResult(CheckReport report, std::string text, bool passed)
-    : report_(std::move(report)), text_(std::move(text)), passed_(passed) {}
+MatchResult::MatchResult(CheckReport report, RunDescription run, bool passed)
+    : report_(std::move(report)), run_(std::move(run)), passed_(passed) {}
 
 std::string MatchResult::text(std::size_t width) const {
-    return width == 0 ? text_ : folded_text(text_, width, most_lines);
+    const std::string text = report_text(report_, run_);
+    return width == 0 ? text : folded_text(text, width, most_lines);
 }
 
 MatchResult match_reference(GpuSide& gpu, const Scene& scene, const MatchOptions& options) {
@@ -84,17 +84,16 @@ MatchResult match_reference(GpuSide& gpu, const Scene& scene, const MatchOptions
     CheckReport report = check(scene, side.profile, gpu, check_options);
 
     const CommandLines commands(scene, side, options);
-    const RunDescription run{fmt::format("{} ({})", scene.name, scene.origin.empty() ? "made in code" : scene.origin),
-                             side.name,
-                             lockstep::describe(side.profile),
-                             switches_text(scene),
-                             options.mode == CheckMode::free ? "free" : "resync",
-                             scene.width,
-                             commands.repeat(report),
-                             commands.explain(report)};
-    std::string text = report_text(report, run);
+    RunDescription run{fmt::format("{} ({})", scene.name, scene.origin.empty() ? "made in code" : scene.origin),
+                       side.name,
+                       lockstep::describe(side.profile),
+                       switches_text(scene),
+                       options.mode == CheckMode::free ? "free" : "resync",
+                       scene.width,
+                       commands.repeat(report),
+                       commands.explain(report)};
     const bool passed = passes(report.verdict, options.allow_undefined);
-    return {std::move(report), std::move(text), passed};
+    return {std::move(report), std::move(run), passed};
 }
 
 } // namespace lockstep

@@ -89,7 +89,7 @@ TEST_CASE("match_reference: the report of a failed match is at most 60 lines") {
         for (glm::vec3& position : particles.position)
             position += 1.0F;
     });
-    const MatchResult result = match_reference(engine, scene, {.frames = 8});
+    const MatchResult result = match_reference(engine, scene, {.frames = 1});
     const std::string wide = result.text();
     const std::string narrow = result.text(60);
     CHECK(std::count(wide.begin(), wide.end(), '\n') <= 60);

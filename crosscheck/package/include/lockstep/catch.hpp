@@ -11,6 +11,7 @@
 
 #include "lockstep/lockstep.hpp"
 #include "lockstep/skip.hpp"
+#include "lockstep/test_notes.hpp"
 
 namespace lockstep {
 
@@ -61,6 +62,9 @@ class MatchesReference : public Catch::MatcherBase<GpuSide> {
         options.repeat = this_test_again();
         const MatchResult result = match_reference(const_cast<GpuSide&>(gpu), *scene_, options);
         text_ = result.text(expansion_width);
+        test_notes().properties = {{"renderer", result.run().context},
+                                   {"profile", result.run().profile},
+                                   {"verdict", std::string(verdict_name(result.report().verdict))}};
         return result.passed();
     }
 

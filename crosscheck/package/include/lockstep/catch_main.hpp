@@ -1,5 +1,6 @@
 #pragma once
-/// main() of a test program with Catch2 v2, and skip(); included in one source file, before any other Catch2 header.
+/// main() of a test program with Catch2 v2, skip(), and a reporter of one's own (junit_reporter.hpp); included in one
+/// source file, before any other Catch2 header.
 /// Exit status: 0 all passed, 1 a test failed, 77 none failed but some were skipped.
 #define CATCH_CONFIG_RUNNER
 #ifndef CATCH_CONFIG_CONSOLE_WIDTH
@@ -11,7 +12,9 @@
 #include <iostream>
 #include <string>
 
+#include "lockstep/junit_reporter.hpp"
 #include "lockstep/skip.hpp"
+#include "lockstep/test_notes.hpp"
 
 namespace {
 int skipped_tests = 0;
@@ -22,6 +25,7 @@ void lockstep::skip(const std::string& reason) {
     if (required != nullptr && std::string(required) == "1")
         FAIL("LOCKSTEP_REQUIRE_GL is set, but " << reason);
     ++skipped_tests;
+    test_notes().skipped = reason;
     std::cout << "skipped: " << reason << '\n';
 }
 

@@ -22,6 +22,7 @@
 
 #include "crosscheck/check.hpp"
 #include "crosscheck/legal.hpp"
+#include "crosscheck/report.hpp"
 #include "crosscheck/scene_file.hpp"
 #include "gpu/context.hpp"
 #include "gpu/data_folder.hpp"
@@ -102,7 +103,7 @@ struct MatchOptions {
 /// What match_reference found.
 class MatchResult {
   public:
-    MatchResult(CheckReport report, std::string text, bool passed);
+    MatchResult(CheckReport report, RunDescription run, bool passed);
 
     /// Every bit agrees, or what differs is legal; in free mode every bit.
     [[nodiscard]] bool passed() const { return passed_; }
@@ -113,9 +114,12 @@ class MatchResult {
 
     [[nodiscard]] const CheckReport& report() const { return report_; }
 
+    /// Renderer, profile and the rest of a report's heading.
+    [[nodiscard]] const RunDescription& run() const { return run_; }
+
   private:
     CheckReport report_;
-    std::string text_;
+    RunDescription run_;
     bool passed_;
 };
 

@@ -70,12 +70,22 @@ test("live view: in plain arithmetic other bits are no mistake", async () => {
   await page.close();
 });
 
+test("live view: beyond the checked frames the state hash is that of lockstep hash", async () => {
+  const file = writeScene(temporaryFolder());
+  const { page } = await open(report(file, "--frames", "70"));
+  assert.match(await run(page, "exact"), /^AGREE: .* in 60 frames/);
+  const { stdout } = lockstep("hash", file, "--preset", "exact", "--frames", "70");
+  const hash = stdout.match(/^69 ([0-9a-f]{16})$/m)[1];
+  assert.match(await page.locator("#live").innerText(), new RegExp(`70 of 70 frames, state hash ${hash}, 60 checked, on `));
+  await page.close();
+});
+
 test("live view: a frame at a time, and back to the start", async () => {
   const { page } = await open(plain);
   await page.click("#live-step");
   await page.click("#live-step");
   assert.match(await status(page), /in 2 frames/);
-  assert.match(await page.locator("#live").innerText(), /2 of 12 frames, 2 checked, on .*SwiftShader/);
+  assert.match(await page.locator("#live").innerText(), /2 of 12 frames, state hash [0-9a-f]{16}, 2 checked, on .*SwiftShader/);
   await page.click("#live-again");
   assert.equal(await status(page), "Nothing has run yet.");
   await page.close();

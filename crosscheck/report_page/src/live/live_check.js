@@ -1,6 +1,6 @@
 import { RenderPass } from "./render_pass.js";
 import { context, Simulation } from "./simulation.js";
-import { cdtHash, hashText, particleHash } from "./state_hash.js";
+import { cdtHash, hashText, particleHash, stateHash } from "./state_hash.js";
 
 // One run of a scene on this browser's GPU; the state hash of the first frames is held against the references'.
 export class LiveCheck {
@@ -33,6 +33,11 @@ export class LiveCheck {
     if (this.frames > this.scene.checked_frames) return;
     const particles = hashText(particleHash(this.simulation.particles()));
     this.hashes.push({ particles, cdt: hashText(cdtHash(this.simulation.cdt())) });
+  }
+
+  // Of the last frame's state, as `lockstep hash` prints it.
+  stateHash() {
+    return hashText(stateHash(particleHash(this.simulation.particles()), cdtHash(this.simulation.cdt())));
   }
 
   draw() {

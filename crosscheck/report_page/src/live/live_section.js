@@ -120,6 +120,7 @@ class LiveView {
     while (this.running && this.step()) await nextPicture();
     this.running = false;
     this.start.textContent = "Run";
+    this.showProgress();
   }
 
   show() {
@@ -128,12 +129,19 @@ class LiveView {
     this.canvas.hidden = !rendered;
     this.cdt.hidden = rendered;
     this.showStrip();
-    this.about.textContent = check
-      ? `${check.frames} of ${counted(this.scene.frames, "frame")}, ${check.checked} checked, on ${renderer(check.gl)}.`
-      : "";
+    this.showProgress();
     if (!check) return;
     if (rendered) check.draw();
     else cdtPicture(this.cdt, check.simulation.cdt(), this.scene.cdt_box, check.run.cdt_format);
+  }
+
+  showProgress() {
+    const { check } = this;
+    const done = check?.frames > 0;
+    const hash = done && !this.running ? `, state hash ${check.stateHash()}` : "";
+    this.about.textContent = done
+      ? `${check.frames} of ${counted(this.scene.frames, "frame")}${hash}, ${check.checked} checked, on ${renderer(check.gl)}.`
+      : "";
   }
 
   // A column a frame: particles above, CDT below.

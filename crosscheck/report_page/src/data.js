@@ -4,6 +4,14 @@ export function readHead() {
   return JSON.parse(document.getElementById("lockstep-head").textContent);
 }
 
+function fromBase64(text) {
+  if (Uint8Array.fromBase64) return Uint8Array.fromBase64(text);
+  const binary = atob(text);
+  const bytes = new Uint8Array(binary.length);
+  for (let i = 0; i < bytes.length; ++i) bytes[i] = binary.charCodeAt(i);
+  return bytes;
+}
+
 async function inflate(bytes) {
   const stream = new Blob([bytes]).stream().pipeThrough(new DecompressionStream("deflate"));
   return new Uint8Array(await new Response(stream).arrayBuffer());
@@ -13,10 +21,7 @@ const kept = new Map();
 
 // The bytes of a blob, unpacked once.
 export function blob(name) {
-  if (!kept.has(name)) {
-    const text = document.getElementById(`lockstep-${name}`).textContent;
-    kept.set(name, inflate(Uint8Array.from(atob(text), (c) => c.charCodeAt(0))));
-  }
+  if (!kept.has(name)) kept.set(name, inflate(fromBase64(document.getElementById(`lockstep-${name}`).textContent)));
   return kept.get(name);
 }
 

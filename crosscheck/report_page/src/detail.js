@@ -18,6 +18,18 @@ function readValues(reader, count, components) {
     });
 }
 
+// Where a value stands in a sorted array; -1: nowhere.
+function find(sorted, value) {
+  let low = 0;
+  let high = sorted.length;
+  while (low < high) {
+    const middle = (low + high) >> 1;
+    if (sorted[middle] < value) low = middle + 1;
+    else high = middle;
+  }
+  return sorted[low] === value ? low : -1;
+}
+
 function decode(bytes) {
   const reader = new Reader(bytes);
   const texelCount = reader.word();
@@ -29,21 +41,19 @@ function decode(bytes) {
   const texelClasses = reader.bytes(texelCount);
   const owners = readValues(reader, texelCount, 1);
   const texelValues = readValues(reader, texelCount, 4);
-  const texelAt = new Map(Array.from(texels, (texel, k) => [texel, k]));
-  const particleAt = new Map(Array.from(particles, (particle, k) => [particle, k]));
   // The first three components are stored as what is left of the owner's position.
   const stored = (k, owner) => {
     const values = texelValues(k);
-    const listed = particleAt.get(owner);
-    if (listed === undefined) return values;
+    const listed = find(particles, owner);
+    if (listed < 0) return values;
     const position = particleValues(listed);
     const restored = (bits, c) => (c < 3 ? (bits ^ position[c].reference) >>> 0 : bits);
     return values.map(({ reference, gpu }, c) => ({ reference: restored(reference, c), gpu: restored(gpu, c) }));
   };
   return {
     texel(index) {
-      const k = texelAt.get(index);
-      if (k === undefined) return null;
+      const k = find(texels, index);
+      if (k < 0) return null;
       const [owner] = owners(k);
       return {
         owners: { reference: owner.reference | 0, gpu: owner.gpu | 0 },
@@ -52,13 +62,17 @@ function decode(bytes) {
       };
     },
     particle(index) {
-      const k = particleAt.get(index);
-      return k === undefined ? null : { kind: particleClasses[k], values: particleValues(k) };
+      const k = find(particles, index);
+      return k < 0 ? null : { kind: particleClasses[k], values: particleValues(k) };
     },
   };
 }
 
-// Of a kept frame; null where it has none.
-export async function readDetail(kept) {
-  return kept.detail === "none" ? null : decode(await blob(`detail-${kept.frame}`));
+const decoded = new Map();
+
+// A promise of those of a kept frame; null where it has none.
+export function readDetail({ detail, frame }) {
+  if (detail === "none") return null;
+  if (!decoded.has(frame)) decoded.set(frame, blob(`detail-${frame}`).then(decode));
+  return decoded.get(frame);
 }

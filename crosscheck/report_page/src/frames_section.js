@@ -70,6 +70,7 @@ export class Frames {
     this.picture = null; // of this.kept
     this.kept = null;
     this.canvases = {};
+    this.untold = head.report.fields.texel.compared === 0;
     this.differing = series.frame.filter(
       (_, i) => series.resync.particles[i] + series.resync.texels[i] + series.free.particles[i] + series.free.texels[i] > 0,
     );
@@ -90,9 +91,15 @@ export class Frames {
     this.picture = picture;
     for (const [side] of SIDES) paint(this.canvases[side], picture, side, this.head);
     ring(this.canvases.difference, picture, this.head);
-    if (!this.selection.texel) this.selection.setTexel(this.telling());
+    if (performance.getEntriesByName("first-picture").length === 0) await this.firstShown();
     this.selection.dispatchEvent(new Event("picture"));
-    if (performance.getEntriesByName("first-picture").length === 0) performance.mark("first-picture");
+  }
+
+  // What takes longer waits until there is something to see.
+  async firstShown() {
+    await new Promise((resolve) => requestAnimationFrame(() => setTimeout(resolve)));
+    performance.mark("first-picture");
+    if (!this.selection.texel) this.selection.setTexel(this.telling());
   }
 
   // A texel worth a look: the first that differs, else one drawn near the middle.
@@ -126,7 +133,8 @@ export class Frames {
     if (!this.kept) return "No picture found room on this page.";
     const of = this.kept.frame === this.selection.frame ? "this frame" : `frame ${grouped(this.kept.frame)}, the nearest that is kept`;
     const values = { whole: "with all exact values", differing: "with the exact values of what differs", none: "without exact values" };
-    return `Pictures of ${of}, ${values[this.kept.detail]}.`;
+    const untold = this.untold ? " The GPU's CDT was not recorded: here the reference drew it of the GPU's particles." : "";
+    return `Pictures of ${of}, ${values[this.kept.detail]}.${untold}`;
   }
 
   slider() {
@@ -196,8 +204,7 @@ export class Frames {
         cross.style.top = `${(100 * (height - texel.y - 0.5)) / height}%`;
       }
     });
-    const untold = side === "gpu" && this.head.report.fields.texel.compared === 0;
-    return h("figure", {}, h("figcaption", {}, title, untold ? h("span", { class: "muted" }, " not recorded; drawn of its particles by the reference") : null), button);
+    return h("figure", {}, h("figcaption", {}, title), button);
   }
 
   key(event) {
@@ -229,6 +236,7 @@ export class Frames {
     const used = new Set(["divergent", "same"]);
     const { verdicts } = this.head.report;
     if (verdicts) for (const name of CLASS_NAMES.slice(0, 4)) if (verdicts.texels[name] > 0) used.add(name);
+    if (this.untold) used.add("not judged").delete("divergent");
     if (!verdicts) used.add("not judged").delete("divergent");
     const chip = (name) => h("span", { class: "chip" }, h("span", { class: "swatch", style: `background: rgb(${CLASS_COLOURS[name]})` }), name);
     return h("p", { class: "legend" }, "Position as colour: x red, y green, z blue. Difference: ", [...used].map(chip));

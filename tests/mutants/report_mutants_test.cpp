@@ -1,0 +1,102 @@
+#include <algorithm>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include <catch2/catch.hpp>
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+#include <nlohmann/json.hpp>
+
+#include "crosscheck/page/explained.hpp"
+#include "crosscheck/page/report_page.hpp"
+#include "crosscheck/page/template.hpp"
+#include "gpu/simulation.hpp"
+#include "tests/mutants/catalogue.hpp"
+#include "tests/mutants/trial.hpp"
+#include "tests/temporary_folder.hpp"
+#include "tests/twin/llvmpipe.hpp"
+
+using namespace lockstep;
+
+namespace {
+
+/// A mutant of the catalogue, and the start of the label of the row that computes what it changes.
+struct Expectation {
+    const char* mutant;
+    const char* row;
+};
+
+constexpr Expectation expectations[] = {
+    {"no_perspective_divide", "clip / w."},     {"y_flipped", "image position.y"},
+    {"collide_time_zero_searches", "searches"}, {"distance_without_z", "texel ("},
+    {"nearest_last_found", "texel ("},          {"range_not_tested", "texel ("},
+    {"hit_direction_kept", "direction."},       {"hit_time_not_set", "collide time"},
+    {"gravity_missing", "velocity."},           {"move_reversed", "position."},
+};
+
+/// The page that a red build leaves.
+std::string page_on(const test::TrialScene& trial, const std::filesystem::path& shaders) {
+    const Scene& scene = trial.scene();
+    PageCollector collector(scene, trial.profile(), CheckMode::resync, test::trial_frames);
+    GpuSimulation gpu(scene, shaders);
+    CheckOptions options;
+    options.frames = test::trial_frames;
+    options.on_state = [&](const ComparedFrame& frame) { collector.add(frame); };
+    const CheckReport report = check(scene, trial.profile(), gpu, options);
+    FrameRun frames(scene, trial.profile(), measured_operations(trial.profile()), shaders);
+    std::vector<ExplainedItem> items;
+    for (const PageItem& item : collector.frames().items())
+        items.push_back({item, "", explained(frames, item)});
+    const RunDescription run{trial.name(), "", "", "", "resync", scene.width, "", ""};
+    return report_page(page_data_marker, collector, report, run, {}, items);
+}
+
+/// What the page says the bug is: names that explain it all alike, and the row where it shows.
+struct Told {
+    std::vector<std::string> causes;
+    std::string row;
+};
+
+Told told_by(const std::string& page) {
+    const std::size_t start = page.find('>') + 1;
+    const auto head = nlohmann::json::parse(page.substr(start, page.find("</script>") - start));
+    Told told;
+    const nlohmann::json& verdicts = head.at("report").at("verdicts");
+    for (const char* kind : {"particle_cause", "texel_cause"})
+        for (const nlohmann::json& cause : verdicts.at(kind).at("best"))
+            told.causes.push_back(
+                fmt::format("{}", fmt::join(cause.at("deviations").get<std::vector<std::string>>(), " + ")));
+    for (const nlohmann::json& item : head.at("items"))
+        if (told.row.empty() && item.contains("step"))
+            told.row = item.at("step");
+    return told;
+}
+
+} // namespace
+
+TEST_CASE("report mutants: the page alone names the planted bug, 10 of 10, and the operation where it shows") {
+    const auto context = test::open_llvmpipe("osmesa");
+    if (!context)
+        return;
+    const std::vector<test::Mutant> catalogue = test::whole_catalogue();
+    constexpr std::string_view names[] = {"crowd", "lattice"};
+    const std::vector<test::TrialScene> scenes = test::trial_scenes(named_profile("llvmpipe"), names);
+    std::vector<std::string> named, other;
+    for (const Expectation& expected : expectations) {
+        const auto mutant = std::find_if(catalogue.begin(), catalogue.end(),
+                                         [&](const test::Mutant& m) { return m.name == expected.mutant; });
+        REQUIRE(mutant != catalogue.end());
+        const test::TemporaryFolder shaders;
+        test::plant(*mutant, shaders);
+        Told told;
+        for (std::size_t i = 0; i < scenes.size() && told.row.empty(); ++i)
+            told = told_by(page_on(scenes[i], shaders.path()));
+        const bool right = std::find(told.causes.begin(), told.causes.end(), mutant->cause) != told.causes.end() &&
+                           told.row.starts_with(expected.row);
+        (right ? named : other)
+            .push_back(fmt::format("{}: {}, at {}", mutant->name, fmt::join(told.causes, " or "), told.row));
+    }
+    CAPTURE(named, other);
+    CHECK(named.size() == std::size(expectations));
+}

@@ -20,6 +20,7 @@
 #include "crosscheck/output_files.hpp"
 #include "crosscheck/page/explained.hpp"
 #include "crosscheck/page/report_page.hpp"
+#include "crosscheck/page/study_results.hpp"
 #include "crosscheck/page/template.hpp"
 #include "crosscheck/profiles.hpp"
 #include "crosscheck/progress.hpp"
@@ -154,6 +155,7 @@ RunDescription description(const Options& options, const Checked& checked, const
 
 int check_and_tell(const Options& options, OutputFiles& files, const Checked& checked) {
     const std::string page = options.report.empty() ? std::string() : report_page_template();
+    const nlohmann::json study = options.report.empty() ? nlohmann::json() : study_results(options.report);
     HashFile hashes;
     FrameImages images;
     CheckOptions check_options;
@@ -196,7 +198,7 @@ int check_and_tell(const Options& options, OutputFiles& files, const Checked& ch
     if (collector)
         files.write(options.report / "report.html",
                     report_page(page, *collector, report, run, page_commands(options, run, report),
-                                explain_items(options, checked, collector->frames().items())));
+                                explain_items(options, checked, collector->frames().items()), study));
     files.commit();
     return passes(report.verdict, options.allow_undefined) ? status_agree : status_differ;
 }
@@ -281,7 +283,8 @@ void add_check_command(CLI::App& app, int& status) {
     verb->add_option("--images", options->images,
                      "write CDT and rendered frame of both sides, and their difference, as PNG")
         ->type_name("DIR");
-    verb->add_option("--report", options->report, "write report.html, a page that opens in any browser")
+    verb->add_option("--report", options->report,
+                     "write report.html, a page that opens in any browser; with what study.json there says")
         ->type_name("DIR");
     verb->add_flag("--quiet", options->quiet, "no report, only the exit status");
     verb->footer("Exit status: 0 every bit agrees, or what differs is legal (rounding, ties); 1 divergent, undefined "

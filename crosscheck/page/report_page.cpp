@@ -63,7 +63,7 @@ void PageCollector::add(const ComparedFrame& frame) {
 
 std::string report_page(std::string_view page_template, const PageCollector& run, const CheckReport& report,
                         const RunDescription& description, const std::vector<PageCommand>& commands,
-                        const std::vector<ExplainedItem>& items) {
+                        const std::vector<ExplainedItem>& items, const json& study) {
     const std::size_t place = page_template.find(page_data_marker);
 
     json tables = json::array(), listed = json::array();
@@ -82,7 +82,8 @@ std::string report_page(std::string_view page_template, const PageCollector& run
               {"plane_height", run.scene().height},
               {"format", switch_value(run.scene().switches, "cdt_format")},
               {"commands", lines},
-              {"items", listed}};
+              {"items", listed},
+              {"study", study}};
     std::string blobs;
     const auto add = [&](const std::string& id, const std::string& base64) {
         blobs += element(id, "application/octet-stream", base64);

@@ -52,9 +52,9 @@ struct PageCommand {
 };
 
 /// The page: `page_template` (template.hpp) with the run's data in it; one file, at most largest_page bytes unless the
-/// step tables alone are more.
+/// step tables alone are more. `study`: study_results(), or null.
 std::string report_page(std::string_view page_template, const PageCollector& run, const CheckReport& report,
                         const RunDescription& description, const std::vector<PageCommand>& commands,
-                        const std::vector<ExplainedItem>& items);
+                        const std::vector<ExplainedItem>& items, const nlohmann::json& study);
 
 } // namespace lockstep

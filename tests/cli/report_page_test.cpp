@@ -147,3 +147,21 @@ TEST_CASE("report page: of a trace, by check or by report, with its step tables 
     CHECK(test::refusal(run_lockstep({"report", trace, "-o", trace}, surroundings)) ==
           trace + ": cannot be made a folder: a file of that name is in the way");
 }
+
+TEST_CASE("report page: tells of the study that lies beside it; what is no study is refused before the run") {
+    if (!test::have_osmesa())
+        return;
+    const Setting setting;
+    fs::create_directory(setting.folder);
+    const std::string study = setting.folder + "/study.json";
+    REQUIRE(run_lockstep({"study", setting.scene, "--frames", "4", "--json", study}).status == 0);
+    CHECK(setting.check({"--frames", "2"}).status == 0);
+    CHECK(setting.head().at("study").at("frames").size() == 3);
+    for (const char* other :
+         {"", "{", "[]", "{}", R"({"total": {}, "frames": []})", R"({"frames": [1], "total": 2})"}) {
+        CAPTURE(other);
+        std::ofstream(study) << other;
+        CHECK(test::refusal(setting.check({"--frames", "100000000"})) ==
+              study + ": is not what `lockstep study SCENE --json` writes; write it again, or remove it");
+    }
+}

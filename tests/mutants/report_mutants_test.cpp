@@ -49,7 +49,7 @@ std::string page_on(const test::TrialScene& trial, const std::filesystem::path& 
     for (const PageItem& item : collector.frames().items())
         items.push_back({item, "", explained(frames, item)});
     const RunDescription run{trial.name(), "", "", "", "resync", scene.width, "", ""};
-    return report_page(page_data_marker, collector, report, run, {}, items);
+    return report_page(page_data_marker, collector, report, run, {}, items, {});
 }
 
 /// What the page says the bug is: names that explain it all alike, and the row where it shows.

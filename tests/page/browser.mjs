@@ -52,11 +52,12 @@ export function plantedShader(folder, ...changes) {
 }
 
 // Writes a report and gives its path.
-export function report(...args) {
-  const out = temporaryFolder();
-  const outcome = lockstep("check", ...args, "--gl", "osmesa", "--report", out, "--quiet");
+export const report = (...args) => reportInto(temporaryFolder(), ...args);
+
+export function reportInto(folder, ...args) {
+  const outcome = lockstep("check", ...args, "--gl", "osmesa", "--report", folder, "--quiet");
   if (outcome.status === 2) throw new Error(outcome.stderr);
-  return join(out, "report.html");
+  return join(folder, "report.html");
 }
 
 let browser = null;

@@ -2,7 +2,7 @@ import assert from "node:assert/strict";
 import { readFileSync, statSync } from "node:fs";
 import { join } from "node:path";
 import { after, before, test } from "node:test";
-import { axePath, cleanUp, open, plantedShader, report, temporaryFolder, writeScene } from "./browser.mjs";
+import { axePath, cleanUp, lockstep, open, plantedShader, report, reportInto, temporaryFolder, writeScene } from "./browser.mjs";
 
 const lastFound = [[" && len < particle_min_length", ""]];
 const pages = {};
@@ -17,6 +17,9 @@ before(() => {
   pages.free = report(scene, "--frames", "20", "--shaders", shaders, "--mode", "free");
   pages.octree = report(scene, "--frames", "4", "--set", "search=octree");
   pages.layered = report(scene, "--frames", "4", "--set", "cdt_layers=2");
+  const studied = temporaryFolder();
+  lockstep("study", scene, "--frames", "6", "--json", join(studied, "study.json"));
+  pages.studied = reportInto(studied, scene, "--frames", "2");
   pages.short = report(scene, "--frames", "1");
   divergentJson = JSON.parse(readFileSync(json, "utf8"));
 });
@@ -73,6 +76,11 @@ for (const name of ["free", "octree", "layered", "short"])
       assert.match(await text(page, "#verdict"), name === "free" ? /DIFFER/ : /AGREE/);
       await page.locator(".picture").first().click();
     }));
+
+test("the study that lies beside the page is told: recall, and what is missed why", () =>
+  on("studied", async (page) => {
+    assert.match(await text(page, "#study"), /Of the particles in contact, \d+\.\d % find a neighbour[\s\S]*Missed pairs, by cause[\s\S]*lockstep study /);
+  }));
 
 test("a run that does not repeat itself has a verdict, and nothing to look into", async (context) => {
   const shaders = plantedShader(

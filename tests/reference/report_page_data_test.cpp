@@ -215,7 +215,7 @@ TEST_CASE("report page data: a page of frames that all differ stays within 5 MB"
     const Scene scene = small_scene(30'000, 256);
     const auto run = collect(scene, CheckMode::free, 28, 30'000, 1);
     const std::string page = report_page("<!-- lockstep data -->", run->page, run->report,
-                                         RunDescription{"small", "", "", "", "resync", 256, "", ""}, {}, {});
+                                         RunDescription{"small", "", "", "", "resync", 256, "", ""}, {}, {}, {});
     CHECK(page.size() <= largest_page);
     CHECK(page.size() > largest_page / 2);
 }

@@ -11,6 +11,7 @@ import { itemAt } from "./items.js";
 import { liveSection } from "./live/live_section.js";
 import { Selection } from "./selection.js";
 import { stepsSection } from "./steps_section.js";
+import { studySection } from "./study_section.js";
 
 // A click on a texel shows the steps of the item there, if they are on the page.
 function openClickedItems(head, frames, selection) {
@@ -47,6 +48,7 @@ async function start() {
   const series = await jsonBlob("series");
   // A run that did not repeat itself ends before anything is compared.
   const frames = series.frame.length > 0 ? showRun(head, series, add) : null;
+  add(studySection(head));
   add(commandsSection(head));
   document.getElementById("foot").append(h("p", {}, "Written by lockstep. Charts by uPlot."));
   await frames?.show();

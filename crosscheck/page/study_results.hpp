@@ -1,0 +1,12 @@
+#pragma once
+#include <filesystem>
+
+#include <nlohmann/json.hpp>
+
+namespace lockstep {
+
+/// What `lockstep study SCENE --json FOLDER/study.json` wrote, if it lies there; else null. Throws Error naming the
+/// file if it is anything else.
+nlohmann::json study_results(const std::filesystem::path& folder);
+
+} // namespace lockstep

@@ -34,6 +34,7 @@ class FrameKeeper {
     static constexpr std::size_t items_of_a_class = 12; ///< particles, and as many texels
     static constexpr std::size_t examples = 6;
 
+    /// `scene` has to outlive this.
     FrameKeeper(const Scene& scene, const Profile& profile, int frames);
 
     void add(const ComparedFrame& frame, const Particles& before, const FrameParams& params);
@@ -52,7 +53,7 @@ class FrameKeeper {
     void note_examples(const ComparedFrame& frame);
 
     const Scene& scene_;
-    const Profile& profile_;
+    Profile profile_;
     int frames_;
     int spread_;      ///< between frames that are kept whatever they hold
     bool keep_whole_; ///< every kept frame has all its values

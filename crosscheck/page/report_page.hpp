@@ -19,6 +19,7 @@ inline constexpr std::size_t largest_page = 5'000'000;
 /// Gathers what the report page shows while a check runs.
 class PageCollector {
   public:
+    /// `scene` has to outlive this.
     PageCollector(const Scene& scene, const Profile& profile, CheckMode mode, int frames);
 
     /// Every frame, in order.
@@ -31,7 +32,7 @@ class PageCollector {
 
   private:
     const Scene& scene_;
-    const Profile& profile_;
+    Profile profile_;
     DifferenceSeries series_;
     FrameKeeper keeper_;
     Particles before_; ///< the GPU's, which the next frame starts from

@@ -77,6 +77,10 @@ int main(int argc, char** argv) {
     add_record_command(app, status);
     add_trace_command(app, status);
     add_report_command(app, status);
+    add_completion_command(app, status);
+    add_manual_command(app, status);
+    app.footer("lockstep VERB --help tells more of each.\n"
+               "Example: lockstep check data/scenes/lattice.json --frames 100");
     try {
         app.parse(argc, argv);
         flush_standard_output();

@@ -21,5 +21,7 @@ void add_bench_command(CLI::App& app, int& status);
 void add_study_command(CLI::App& app, int& status);
 void add_record_command(CLI::App& app, int& status);
 void add_trace_command(CLI::App& app, int& status);
+void add_completion_command(CLI::App& app, int& status);
+void add_manual_command(CLI::App& app, int& status);
 
 } // namespace lockstep

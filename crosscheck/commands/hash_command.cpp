@@ -37,7 +37,8 @@ void add_hash_command(CLI::App& app, int& status) {
     CLI::App* verb = app.add_subcommand("hash", "run the reference alone and print its state hash; needs no GL");
     add_scene_options(*verb, options->run);
     verb->add_option("--frames", options->run.frames, "frames to run")->check(integer(1, most_frames))->type_name("N");
-    verb->add_option("--profile", options->profile, "strict, llvmpipe or nvidia: the order of sums")->type_name("NAME");
+    verb->add_option("--profile", options->profile, "strict, llvmpipe or nvidia: the order of sums")
+        ->type_name("strict|llvmpipe|nvidia");
     verb->add_flag("--every", options->every, "print every frame's hash, not only the last");
     verb->footer("Example: lockstep hash data/scenes/lattice.json --frames 1000 --preset exact");
     verb->callback([options, &status] { status = run(*options); });

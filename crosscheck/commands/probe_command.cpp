@@ -43,7 +43,7 @@ int run(const Options& options) {
 void add_probe_command(CLI::App& app, int& status) {
     auto options = std::make_shared<Options>();
     CLI::App* verb = app.add_subcommand("probe", "measure the arithmetic and the rasterisation of a GL driver");
-    verb->add_option("--gl", options->run.gl, "auto, osmesa, egl, or egl-device:N")->type_name("CONTEXT");
+    verb->add_option("--gl", options->run.gl, "which GL to open")->type_name("auto|osmesa|egl|egl-device:N");
     verb->add_option("--json", options->json, "write the measurements as JSON")->type_name("FILE");
     verb->add_option("--inputs", options->probe.inputs, "random inputs an arithmetic row")
         ->check(integer(64, 1 << 22))

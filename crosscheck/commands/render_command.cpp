@@ -74,7 +74,7 @@ void add_render_command(CLI::App& app, int& status) {
     add_choice<Side>(*verb, "--side", options->side, {{"cpu", Side::cpu}, {"gpu", Side::gpu}},
                      "cpu: the reference, needs no GL; gpu: the shaders");
     verb->add_option("--profile", options->profile, "strict, llvmpipe or nvidia: the reference's order of sums")
-        ->type_name("NAME");
+        ->type_name("strict|llvmpipe|nvidia");
     verb->footer("Example: lockstep render data/scenes/lattice.json --frame 120 -o lattice.png --side cpu");
     verb->callback([options, &status] { status = run(*options); });
 }

@@ -16,7 +16,7 @@ void add_scene_options(CLI::App& verb, RunOptions& options) {
     verb.add_option("--particles", options.particles, "number of particles instead of the scene's")
         ->check(integer(1, most_particles))
         ->type_name("N");
-    verb.add_option("--preset", options.preset, "paper, corrected or exact, instead of the scene's")->type_name("NAME");
+    verb.add_option("--preset", options.preset, "instead of the scene's preset")->type_name("paper|corrected|exact");
     verb.add_option("--set", options.set, "change one switch or constant; may be repeated")
         ->type_name("NAME=VALUE")
         ->allow_extra_args(false);
@@ -30,7 +30,7 @@ void add_threads_option(CLI::App& verb, RunOptions& options) {
 }
 
 void add_gl_options(CLI::App& verb, RunOptions& options) {
-    verb.add_option("--gl", options.gl, "auto, osmesa, egl, or egl-device:N")->type_name("CONTEXT");
+    verb.add_option("--gl", options.gl, "which GL to open")->type_name("auto|osmesa|egl|egl-device:N");
     verb.add_option("--shaders", options.shaders, "take shader files from here first")->type_name("DIR");
 }
 

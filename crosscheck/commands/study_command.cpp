@@ -228,7 +228,8 @@ void add_study_command(CLI::App& app, int& status) {
     verb->add_option("--every", options->every, "study every Nth frame only")
         ->check(integer(1, most_frames))
         ->type_name("N");
-    verb->add_option("--profile", options->profile, "strict, llvmpipe or nvidia: the order of sums")->type_name("NAME");
+    verb->add_option("--profile", options->profile, "strict, llvmpipe or nvidia: the order of sums")
+        ->type_name("strict|llvmpipe|nvidia");
     verb->add_option("--csv", options->csv, "write every number of every studied frame")->type_name("FILE");
     verb->add_option("--json", options->json, "the same as JSON")->type_name("FILE");
     verb->add_option(

@@ -1,6 +1,7 @@
 #include "crosscheck/profiles.hpp"
 
 #include <algorithm>
+#include <array>
 #include <initializer_list>
 #include <utility>
 
@@ -8,6 +9,7 @@
 #include <fmt/ranges.h>
 
 #include "gpu/probe/root_tables.hpp"
+#include "gpu/shader_source.hpp"
 
 namespace lockstep {
 namespace {
@@ -104,6 +106,11 @@ RasterRules raster_rules(Translation& rows) {
     return rules;
 }
 
+bool has_geometry_stage(const std::filesystem::path& shaders) {
+    constexpr std::array stages{Stage::geometry};
+    return !load_stages(shader_folders(shaders), "collision_pass", stages).empty();
+}
+
 std::string errors_text(const OperationErrors& e) {
     const std::pair<const char*, std::int64_t> all[] = {{"a/b", e.divide},    {"1/b", e.reciprocal},
                                                         {"sqrt", e.sqrt},     {"inversesqrt", e.inverse_sqrt},
@@ -171,12 +178,21 @@ bool built_from_driver_roots(const ProbeResult& result) {
            is("normalize, precise", "v*inversesqrt(dot)");
 }
 
-Profile measured_profile(const Context& context) { return measured_profile(probe(context)); }
+Profile measured_profile(const Context& context, const std::filesystem::path& shaders) {
+    return measured_profile(probe(context), shaders);
+}
 
-Profile measured_profile(const ProbeResult& result) {
+Profile measured_profile(const ProbeResult& result, const std::filesystem::path& shaders) {
     Profile profile = profile_from(result);
     if (built_from_driver_roots(result))
         profile.roots = std::make_shared<const RootTables>(measure_root_tables());
+    return with_shaders(std::move(profile), result, shaders);
+}
+
+Profile with_shaders(Profile profile, const ProbeResult& result, const std::filesystem::path& shaders) {
+    const char* row = "points: viewport, no geometry stage";
+    if (!has_geometry_stage(shaders) && result.row(row).finding != result.row("points: viewport").finding)
+        profile.not_followed.emplace_back(row);
     return profile;
 }
 

@@ -1,4 +1,5 @@
 #pragma once
+#include <filesystem>
 #include <string>
 
 #include "gpu/probe.hpp"
@@ -14,11 +15,15 @@ Profile profile_from(const ProbeResult& result);
 /// Whether division, square root and normalize were found to be made of the driver's own 1/x and inversesqrt.
 bool built_from_driver_roots(const ProbeResult& result);
 
-/// Measures the current context (gpu/probe.hpp): the profile that matches it.
-Profile measured_profile(const Context& context);
+/// Measures the current context (gpu/probe.hpp): the profile that matches it, for passes of `shaders`.
+Profile measured_profile(const Context& context, const std::filesystem::path& shaders = {});
 
 /// The same of what a probe of the current context found; measures the driver's tables where it has some.
-Profile measured_profile(const ProbeResult& result);
+Profile measured_profile(const ProbeResult& result, const std::filesystem::path& shaders = {});
+
+/// `profile`, for passes of `shaders`: where their collision pass has no geometry stage, and the driver places such
+/// points otherwise, that stands in not_followed.
+Profile with_shaders(Profile profile, const ProbeResult& result, const std::filesystem::path& shaders);
 
 /// One line: "llvmpipe: dot x + (y + z), division and roots rounded, subnormals flushed, 8 sub-pixel bits, ..."
 std::string describe(const Profile& profile);

@@ -208,7 +208,7 @@ int run_scene(const Options& options) {
     OutputFiles files;
     expect_files(options, files);
     const Context context(parse_context_request(options.run.gl));
-    const Profile profile = measured_profile(context);
+    const Profile profile = measured_profile(context, options.run.shaders);
     GpuSimulation gpu(scene, options.run.shaders);
     return check_and_tell(options, files,
                           {scene,

@@ -58,7 +58,7 @@ int run(const Options& options) {
     };
     load_with({});
     const Context context(parse_context_request(options.run.gl));
-    const Profile profile = measured_profile(context);
+    const Profile profile = measured_profile(context, options.run.shaders);
     DebugSession session({.load = load_with,
                           .start =
                               [&](Scene scene) {

@@ -49,7 +49,7 @@ void explain_scene(const Options& options) {
     const Scene scene = load(options.run);
     item_of(options, scene);
     const Context context(parse_context_request(options.run.gl));
-    const Profile profile = measured_profile(context);
+    const Profile profile = measured_profile(context, options.run.shaders);
     FrameRun frames(scene, profile, known_operations(options.legal, profile), options.run.shaders);
     tell(options, frames, options.run.scene.string(), settings_text(options.run, scene), summary(context.describe()));
 }

@@ -46,7 +46,7 @@ void prove(GpuSimulation& gpu, const FrameParams& params, const Particles& parti
 TraceInfo info_of(const Options& options, Scene scene, const Context& context) {
     const ProbeResult probed = probe(context);
     TraceInfo info;
-    info.profile = measured_profile(probed);
+    info.profile = measured_profile(probed, options.run.shaders);
     info.renderer = summary(context.describe());
     info.settings = settings_text(options.run, scene);
     info.probe = nlohmann::json(probed).dump(1);

@@ -1,6 +1,7 @@
 #include <cstdlib>
 
 #include "crosscheck/profiles.hpp"
+#include "gpu/probe.hpp"
 #include "lockstep/lockstep.hpp"
 
 namespace lockstep {
@@ -23,7 +24,12 @@ Gl::Gl(std::string_view context) : asked_(asked_for(context)) {
         missing_ = error.what();
         return;
     }
-    profile_ = measured_profile(*context_);
+    probed_ = std::make_shared<const ProbeResult>(probe(*context_));
+    profile_ = measured_profile(*probed_);
+}
+
+Profile Gl::profile(const std::filesystem::path& shaders) const {
+    return probed_ ? with_shaders(profile_, *probed_, shaders) : profile_;
 }
 
 std::string Gl::name() const { return context_ ? summary(context_->describe()) : missing_; }

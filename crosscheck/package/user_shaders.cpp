@@ -22,7 +22,7 @@ SideDescription UserShaders::describe() const {
     if (!folder_.empty())
         arguments +=
             fmt::format(" --shaders {}", shell_word(std::filesystem::absolute(folder_).lexically_normal().string()));
-    return {gl_.name(), gl_.profile(), arguments};
+    return {gl_.name(), gl_.profile(folder_), arguments};
 }
 
 void UserShaders::upload(const Particles& particles, const CollisionImage& cdt) { simulation_->upload(particles, cdt); }

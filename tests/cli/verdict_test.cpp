@@ -96,6 +96,16 @@ TEST_CASE("verdict: a planted difference is status 1, and the line that repeats 
     CHECK(worst(repeated.out) == worst(outcome.out));
 }
 
+TEST_CASE("verdict: points that come from no geometry stage are placed as the driver places such points") {
+    if (!test::have_osmesa())
+        return;
+    const test::Outcome outcome = run_lockstep(
+        {"check", "data/scenes/x_streams.json", "--frames", "6", "--preset", "paper", "--set", "perspective_divide=off",
+         "--set", "raster_position=before_step", "--shaders", "data/examples/thesis_listing", "--gl", "osmesa"});
+    CHECK(outcome.status == 0);
+    CHECK_THAT(outcome.out, !Catch::Contains("DIVERGENT"));
+}
+
 TEST_CASE("verdict: a shader that gives two answers to one frame is NONDETERMINISTIC, status 1") {
     if (!test::offers_shader_clock())
         return;

@@ -31,6 +31,8 @@
 
 namespace lockstep {
 
+struct ProbeResult;
+
 /// A GL to test on: a context without a window, current from now on, and its driver measured (half a second on
 /// llvmpipe). A test program needs one, for as long as its UserShaders live.
 class Gl {
@@ -48,8 +50,8 @@ class Gl {
     /// Renderer, version and context, one line.
     [[nodiscard]] std::string name() const;
 
-    /// How the driver computes what GL leaves open.
-    [[nodiscard]] const Profile& profile() const { return profile_; }
+    /// How the driver computes what GL leaves open, in passes of `shaders`.
+    [[nodiscard]] Profile profile(const std::filesystem::path& shaders = {}) const;
 
     /// The context's name as asked for.
     [[nodiscard]] const std::string& asked() const { return asked_; }
@@ -58,6 +60,7 @@ class Gl {
     std::string asked_;
     std::optional<Context> context_;
     std::string missing_;
+    std::shared_ptr<const ProbeResult> probed_;
     Profile profile_;
 };
 

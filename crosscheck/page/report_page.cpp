@@ -39,11 +39,17 @@ json item_json(const ExplainedItem& explained, int width) {
     else
         out["particle"] = item.index;
     // The list shows where it first goes wrong; the table itself is read when asked for.
-    if (!explained.told.is_null())
-        for (const json& particle : explained.told.at("particles"))
-            for (const json& row : particle.at("rows"))
-                if (row.at("verdict") == "DIVERGENT" && !out.contains("step"))
-                    out["step"] = row.at("label");
+    const auto note_step = [&](const json& rows) {
+        for (const json& row : rows)
+            if (row.at("verdict") == "DIVERGENT" && !out.contains("step"))
+                out["step"] = row.at("label");
+    };
+    if (explained.told.is_null())
+        return out;
+    for (const json& particle : explained.told.at("particles"))
+        note_step(particle.at("rows"));
+    if (explained.told.contains("texel"))
+        note_step(explained.told.at("texel").at("rows"));
     return out;
 }
 

@@ -189,3 +189,31 @@ TEST_CASE("explain trace: the first divergence step by step, the GPU's values wh
                    {"explain", "--trace", setting.file, "--gl", "osmesa", "--frame", "1", "--particle", "0"})),
                Contains("explain: --gl goes with a scene that is run here"));
 }
+
+TEST_CASE("explain trace: the reference's steps are those of a live run, with the CDT recorded or not, at any frame") {
+    if (!test::have_osmesa())
+        return;
+    const Setting setting;
+    // What the particle started from, and the reference's two columns of what it looked at.
+    const auto reference_of = [](const test::Outcome& told) {
+        std::istringstream stream(lines(told.out, {"  before", "  clip", "  image", "  base", "  own", "  texel ("}));
+        std::string line, kept;
+        while (std::getline(stream, line))
+            kept += line.substr(0, 76) + "\n";
+        return kept;
+    };
+    for (const std::vector<std::string>& options : std::vector<std::vector<std::string>>{{"--cdt"}, {}}) {
+        REQUIRE(setting.record(options).status == 0);
+        for (const char* frame : {"0", "1", "2", "5"}) {
+            CAPTURE(options, frame);
+            const std::vector<std::string> at{"--frame", frame, "--particle", "4"};
+            std::vector<std::string> live{"explain", setting.scene, "--gl", "osmesa"};
+            std::vector<std::string> recorded{"explain", "--trace", setting.file};
+            live.insert(live.end(), at.begin(), at.end());
+            recorded.insert(recorded.end(), at.begin(), at.end());
+            const std::string expected = reference_of(run_lockstep(live));
+            CHECK_THAT(expected, Contains("before") && Contains("clip.x") && Contains("base texel"));
+            CHECK(reference_of(run_lockstep(recorded)) == expected);
+        }
+    }
+}

@@ -158,6 +158,11 @@ test("the pointer shows a texel, its owner, and both sides' values bit for bit",
     const [, values] = after.match(new RegExp(`${row}\\s+([\\s\\S]*?)(?=position|direction|speed|collide|$)`));
     assert.ok(values.includes(reference_hex) && values.includes(gpu_hex), `${values} has ${reference_hex} and ${gpu_hex}`);
 
+    // What the GPU stores in a texel of its own is its owner's position.
+    const own = [...seen.values()].find((words) => /Owner on both sides: particle/.test(words));
+    const component_x = (from) => own.slice(own.indexOf(from)).match(/x\s+(\S+)\s+\S+\s+(\S+)/).slice(1);
+    assert.deepEqual(component_x("Stored in the texel"), component_x("position."));
+
     const [, x, y] = (await text(page, "#told h3")).match(/\((\d+), (\d+)\)/).map(Number);
     await page.keyboard.press("Escape");
     await gpu.hover(await pointOf(page, "gpu", x, y));

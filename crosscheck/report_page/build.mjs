@@ -2,9 +2,10 @@
 import { build } from "esbuild";
 import { mkdir, readFile, rename, writeFile } from "node:fs/promises";
 import { dirname, join } from "node:path";
+import { fileURLToPath } from "node:url";
 import { shaderPlugin } from "./shader_sources.mjs";
 
-const here = import.meta.dirname ?? dirname(new URL(import.meta.url).pathname);
+const here = dirname(fileURLToPath(import.meta.url));
 const out = process.argv[2];
 if (!out) {
   console.error("usage: node build.mjs OUT.html");

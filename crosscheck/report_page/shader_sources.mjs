@@ -1,9 +1,9 @@
 // esbuild: `import shaders from "lockstep:shaders"` is the text of every file in shaders/ that WebGL2 can run, by name.
 import { readdir, readFile } from "node:fs/promises";
 import { join } from "node:path";
+import { fileURLToPath } from "node:url";
 
-const here = import.meta.dirname;
-export const shaderFolder = join(here, "../../shaders");
+export const shaderFolder = fileURLToPath(new URL("../../shaders", import.meta.url));
 
 export async function shaderSources(folder = shaderFolder) {
   const names = (await readdir(folder)).filter((name) => /\.(vert|geom|frag|glsl)$/.test(name));

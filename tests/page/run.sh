@@ -14,4 +14,4 @@ command -v node >/dev/null || skip "no node"
 command -v chromium >/dev/null || skip "no chromium"
 [ -f build/report_page/report.html ] && [ -d crosscheck/report_page/node_modules/playwright-core ] ||
     skip "the page is not built; run scripts/build_report_page.sh"
-LOCKSTEP_PROGRAM=$(realpath "$1") exec node --test --test-reporter=spec tests/page/
+LOCKSTEP_PROGRAM=$(realpath "$1") exec node --test --test-reporter=spec tests/page/*.test.mjs

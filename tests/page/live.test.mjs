@@ -17,6 +17,9 @@ after(cleanUp);
 
 const status = (page) => page.locator("#live-status").innerText();
 
+// Waits for the status to say that; steps are taken one after the other, not at once.
+const said = (page, words) => page.locator("#live-status", { hasText: words }).waitFor({ timeout: 20000 });
+
 // Runs one of the page's presets to its end.
 async function run(page, name) {
   await page.selectOption("#live-run", name);
@@ -59,7 +62,7 @@ test("live view: a bug in a shader shows in its frame", async () => {
 test("live view: a shader that does not compile is told", async () => {
   const { page } = await open(planted(plain, "bool particle_collision = false;", "bool particle_collision = 0;"));
   await page.click("#live-step");
-  assert.match(await status(page), /^Could not run: collision_pass, vertex stage: ERROR: .*bool/);
+  await said(page, /^Could not run: collision_pass, vertex stage: ERROR: .*bool/);
   await page.close();
 });
 
@@ -84,7 +87,7 @@ test("live view: a frame at a time, and back to the start", async () => {
   const { page } = await open(plain);
   await page.click("#live-step");
   await page.click("#live-step");
-  assert.match(await status(page), /in 2 frames/);
+  await said(page, /in 2 frames/);
   assert.match(await page.locator("#live").innerText(), /2 of 12 frames, state hash [0-9a-f]{16}, 2 checked, on .*SwiftShader/);
   await page.click("#live-again");
   assert.equal(await status(page), "Nothing has run yet.");
@@ -105,6 +108,7 @@ const colours = (page) =>
 test("live view: both pictures show something", async () => {
   const { page } = await open(scene(["billboard_radius=0.05"]));
   await page.click("#live-step");
+  await said(page, /in 1 frame,/);
   assert.ok((await colours(page)) > 100);
   await page.selectOption("#live-shown", "cdt");
   assert.ok((await colours(page)) > 100);
@@ -179,7 +183,7 @@ test("live view: without WebGL2 one line says so", async () => {
   const { page } = await open(plain);
   await page.evaluate(() => (HTMLCanvasElement.prototype.getContext = () => null));
   await page.click("#live-start");
-  assert.equal(await status(page), "Could not run: this browser has no WebGL2");
+  await said(page, /^Could not run: this browser has no WebGL2$/);
   await page.close();
 });
 
@@ -195,7 +199,7 @@ test("live view: reached and run by keyboard, and nothing for an accessibility c
   await page.locator("#live-run").focus();
   for (let i = 0; i < 3; ++i) await page.keyboard.press("Tab");
   await page.keyboard.press("Enter");
-  assert.match(await status(page), /in 1 frame,/);
+  await said(page, /in 1 frame,/);
   await page.addScriptTag({ path: axePath });
   const { violations } = await page.evaluate(() => axe.run("#live"));
   assert.deepEqual(violations.map(({ id, nodes }) => `${id}: ${nodes[0].html}`), []);

@@ -87,10 +87,13 @@ class LiveView {
     this.status.textContent = text;
   }
 
-  prepare() {
+  // The arrays are unpacked when they are first asked for: the page is there sooner.
+  async prepare() {
+    this.arrays ??= blob("live-arrays");
+    const scene = liveScene(this.scene, await this.arrays);
     if (this.check) return;
-    const run = this.scene.runs.find(({ name }) => name === this.runs.value);
-    this.check = new LiveCheck(this.canvas, shaders, this.scene, run);
+    const run = scene.runs.find(({ name }) => name === this.runs.value);
+    this.check = new LiveCheck(this.canvas, shaders, scene, run);
   }
 
   fail(error) {
@@ -98,9 +101,9 @@ class LiveView {
   }
 
   // One frame; false if there was none.
-  step() {
+  async step() {
     try {
-      this.prepare();
+      if (!this.check) await this.prepare();
       if (this.check.done) return false;
       this.check.step();
       this.tell(verdict(this.check));
@@ -117,7 +120,7 @@ class LiveView {
     if (this.check?.done) this.reset();
     this.running = true;
     this.start.textContent = "Pause";
-    while (this.running && this.step()) await nextPicture();
+    while (this.running && (await this.step())) await nextPicture();
     this.running = false;
     this.start.textContent = "Run";
     this.showProgress();
@@ -160,7 +163,7 @@ class LiveView {
   async saveStates() {
     this.reset();
     try {
-      this.prepare();
+      await this.prepare();
       const file = await savedStates(this.check, renderer(this.check.gl), (frame) => {
         this.tell(["", `Saving frame ${frame + 1} of ${this.scene.checked_frames}`]);
         return nextPicture();
@@ -184,6 +187,6 @@ export async function liveSection() {
     "Here this browser's GPU runs the scene from lockstep's own shader sources, in WebGL2, and the state hash of each ",
     `of the first ${counted(head.checked_frames, "frame")} is held against the reference's.`,
   );
-  const view = new LiveView(liveScene(head, await blob("live-arrays")));
+  const view = new LiveView(head);
   return section("live", "Live view", about, view.elements());
 }

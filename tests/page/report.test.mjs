@@ -295,6 +295,17 @@ test("text of the scene is text, whatever it looks like", async () => {
   });
 });
 
+test("of a page of some MB the first picture is there within 1.5 s", async () => {
+  pages.large = report("data/scenes/lattice.json", "--particles", "50000", "--frames", "25");
+  assert.ok(statSync(pages.large).size > 2e6);
+  const times = [];
+  for (let i = 0; i < 3; ++i)
+    await on("large", async (page) => {
+      times.push(await page.evaluate(() => performance.getEntriesByName("first-picture")[0].startTime));
+    });
+  assert.ok(Math.min(...times) < 1500, `${times} ms`);
+});
+
 test("a page is one file of at most 5 MB", () => {
   for (const page of Object.values(pages)) assert.ok(statSync(page).size <= 5e6);
 });

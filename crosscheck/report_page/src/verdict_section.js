@@ -144,10 +144,8 @@ export function causeSection(head) {
     h(
       "div",
       { class: "cards" },
-      causeCard(verdicts.particle_cause, "particles"),
-      causeCard(verdicts.texel_cause, "texels"),
+      h("div", { class: "stack" }, causeCard(verdicts.particle_cause, "particles"), causeCard(verdicts.texel_cause, "texels"), h("div", { class: "card" }, classCounts(head))),
       firstPlace(head),
-      h("div", { class: "card" }, classCounts(head)),
     ),
   );
 }

@@ -97,8 +97,12 @@ std::string report_page(std::string_view page_template, const PageCollector& run
     add("series", packed(run.series().json()));
     add("tables", packed(tables));
     const LiveScene live = live_scene(run.scene(), report.frames, run.profile());
-    add("live", packed(live.head));
-    add("live-arrays", base64(deflated(live.arrays.str())));
+    const std::string arrays = base64(deflated(live.arrays.str()));
+    constexpr std::size_t room_for_live = 3'000'000;
+    const bool fits = arrays.size() <= room_for_live;
+    add("live",
+        packed(fits ? live.head : json{{"unavailable", "its particles and obstacles have no room on the page"}}));
+    add("live-arrays", fits ? arrays : base64(deflated("")));
 
     constexpr std::size_t of_head = 60'000; // the list of frames is not in it yet
     const std::size_t used = page_template.size() + blobs.size() + text_of(head).size() + of_head;

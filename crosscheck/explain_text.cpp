@@ -147,12 +147,11 @@ std::string particle_head(const StepTable& table, NumberFormat format) {
     return text;
 }
 
-std::string neighbourhood_picture(const FrameRun& run, const StepTable& table) {
-    const std::optional<Neighbourhood> round = neighbourhood(table, run.scene().constants.texel_collide_range);
+std::string neighbourhood_picture(const JudgedFrame& frame, const StepTable& table) {
+    const std::optional<Neighbourhood> round = neighbourhood(table, frame.params.constants.texel_collide_range);
     if (!round)
         return "";
     const auto& [low, high, base, gpu_base, pick, gpu_pick] = *round;
-    const JudgedFrame frame = run.judged();
 
     std::string text = fmt::format("  texels {} to {} across, {} at the top\n", low.x, high.x, high.y);
     for (int y = high.y; y >= low.y; --y) {
@@ -184,12 +183,14 @@ std::string neighbourhood_picture(const FrameRun& run, const StepTable& table) {
 }
 
 std::string why_particle(FrameRun& run, std::size_t particle) {
-    const JudgedFrame frame = run.judged();
+    return why_particle(run.judged(), particle, fmt::format("particle {} in frame {}", particle, run.frame()));
+}
+
+std::string why_particle(const JudgedFrame& frame, std::size_t particle, const std::string& name) {
     const ParticleState gpu = frame.gpu[particle];
     const bool differs = !same_bits(frame.reference[particle], gpu);
     const ItemVerdict verdict = judge_particle(frame, particle);
-    std::string text =
-        fmt::format("particle {} in frame {}: {}\n", particle, run.frame(), class_text(differs ? &verdict : nullptr));
+    std::string text = fmt::format("{}: {}\n", name, class_text(differs ? &verdict : nullptr));
     const std::vector<LegalOutcome> outcomes =
         legal_outcomes(frame.before[particle], frame.cdt, frame.params, frame.profile, frame.known, &gpu);
     for (std::size_t i = 0; i < outcomes.size(); ++i)
@@ -211,13 +212,19 @@ std::string why_texel(FrameRun& run, std::size_t texel) {
     return text;
 }
 
+std::string table_text(const JudgedFrame& frame, const StepTable& table, NumberFormat format) {
+    return particle_head(table, format) + "\n" + head_text(frame.profile) + rows_text(table.rows, format) + "\n" +
+           neighbourhood_picture(frame, table) + "\n";
+}
+
+std::string first_divergent_text(const StepTable& table) {
+    const StepRow* first = table.first_divergent();
+    return first == nullptr ? "" : fmt::format("first     {}: {}\n", first->label, first->reason);
+}
+
 std::string explain_particle(FrameRun& run, std::size_t particle, NumberFormat format) {
     const StepTable table = step_table(run, particle);
-    std::string text = particle_head(table, format) + "\n" + head_text(run.profile()) + rows_text(table.rows, format) +
-                       "\n" + neighbourhood_picture(run, table) + "\n" + why_particle(run, particle);
-    if (const StepRow* first = table.first_divergent())
-        text += fmt::format("first     {}: {}\n", first->label, first->reason);
-    return text;
+    return table_text(run.judged(), table, format) + why_particle(run, particle) + first_divergent_text(table);
 }
 
 std::string explain_texel(FrameRun& run, std::size_t texel, NumberFormat format) {

@@ -25,10 +25,17 @@ std::string head_text(const Profile& profile);
 std::string particle_head(const StepTable& table, NumberFormat format);
 
 /// The texels looked at, row by row from the top, with both sides' base texel and pick.
-std::string neighbourhood_picture(const FrameRun& run, const StepTable& table);
+std::string neighbourhood_picture(const JudgedFrame& frame, const StepTable& table);
+
+/// What the particle started from, the rows and the neighbourhood.
+std::string table_text(const JudgedFrame& frame, const StepTable& table, NumberFormat format);
+
+/// The first row no legal run explains; empty if there is none.
+std::string first_divergent_text(const StepTable& table);
 
 /// The verdict on a particle, what it rests on, and where it first shows.
 std::string why_particle(FrameRun& run, std::size_t particle);
+std::string why_particle(const JudgedFrame& frame, std::size_t particle, const std::string& name);
 std::string why_texel(FrameRun& run, std::size_t texel);
 
 } // namespace lockstep

@@ -49,6 +49,7 @@ class JsonValue {
     [[nodiscard]] float number(const NumberRule& rule = number::finite) const;
     [[nodiscard]] std::int64_t integer(std::int64_t min, std::int64_t max) const;
     [[nodiscard]] glm::vec3 vector() const;
+    [[nodiscard]] bool is_null() const { return value_->is_null(); }
     [[nodiscard]] std::string text() const;
     /// The index of a text among `allowed`.
     [[nodiscard]] std::size_t choice(std::span<const std::string_view> allowed) const;

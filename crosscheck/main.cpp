@@ -76,6 +76,7 @@ int main(int argc, char** argv) {
     add_study_command(app, status);
     add_record_command(app, status);
     add_trace_command(app, status);
+    add_capsule_command(app, status);
     add_report_command(app, status);
     add_completion_command(app, status);
     add_manual_command(app, status);

@@ -276,11 +276,12 @@ std::string list_of(const std::vector<Contender>& contenders, std::optional<std:
 /// `A`: the profile's arithmetic.
 template <class A> class TableBuilder {
   public:
-    TableBuilder(FrameRun& run, std::size_t particle)
-        : run_(run), frame_(run.judged()), params_(frame_.params), constants_(params_.constants),
-          switches_(params_.switches), particle_(particle), arithmetic_(frame_.known), before_(frame_.before[particle]),
+    /// `run`: null where the particle is alone.
+    TableBuilder(const JudgedFrame& frame, std::size_t particle, StepCapture capture, FrameRun* run)
+        : run_(run), frame_(frame), params_(frame_.params), constants_(params_.constants), switches_(params_.switches),
+          particle_(particle), arithmetic_(frame_.known), before_(frame_.before[particle]),
           strict_(trace_step(before_, frame_.cdt, params_, named_profile("strict"))),
-          reference_(trace_step(before_, frame_.cdt, params_, frame_.profile)), gpu_(run.capture(particle)),
+          reference_(trace_step(before_, frame_.cdt, params_, frame_.profile)), gpu_(std::move(capture)),
           seen_(seen_texels(gpu_)), state_(gpu_.vertex_state.value_or(frame_.gpu[particle])) {
         const ParticleState captured = frame_.gpu[particle];
         outcomes_ = legal_outcomes(before_, frame_.cdt, params_, frame_.profile, frame_.known, &captured);
@@ -299,7 +300,7 @@ template <class A> class TableBuilder {
         pass_on();
         draw();
         others();
-        StepTable table{run_.frame(), particle_, reference_, std::move(gpu_), rows_.take(), {}};
+        StepTable table{0, particle_, reference_, std::move(gpu_), rows_.take(), {}};
         if (!same_bits(table.gpu.state, frame_.gpu[particle_]))
             table.warning = "the trace build's outputs are not the ones the frame had; what it tells of the steps "
                             "between may not be what happened";
@@ -686,14 +687,14 @@ template <class A> class TableBuilder {
             rows_.number("depth", strict_.fragment.depth, reference_.fragment.depth, gpu, legality(depth, gpu));
         }
         const glm::ivec2 at = gpu_.texel.x >= 0 ? gpu_.texel : glm::ivec2(reference_.fragment.x, reference_.fragment.y);
-        if (at.x < 0)
+        if (at.x < 0 || run_ == nullptr)
             return;
         const std::vector<Contender> wanted = contenders(frame_, at);
         std::string rivals = list_of(wanted, particle_);
-        if (run_.obstacle_depth().at(at.x, at.y) < 1.0F)
+        if (run_->obstacle_depth().at(at.x, at.y) < 1.0F)
             rivals = rivals == "nobody" ? "an obstacle" : "an obstacle, " + rivals;
         rows_.only_reference("also wanted by", {}, {{}, rivals});
-        add_winner(run_, at, wanted, rows_);
+        add_winner(*run_, at, wanted, rows_);
     }
 
     /// Captured outputs of names this table has no row for.
@@ -720,7 +721,7 @@ template <class A> class TableBuilder {
     static Interval point(float value) { return value != value ? Interval::anything() : Interval(value); }
     [[nodiscard]] CollisionCode code() const { return CollisionCode(params_); }
 
-    FrameRun& run_;
+    FrameRun* run_;
     JudgedFrame frame_;
     const FrameParams& params_;
     const Constants& constants_;
@@ -762,8 +763,16 @@ const StepRow* StepTable::first_divergent() const {
 }
 
 StepTable step_table(FrameRun& run, std::size_t particle) {
-    return with_arithmetic(run.profile(), run.scene().switches,
-                           [&]<class A>(A) { return TableBuilder<A>(run, particle)(); });
+    StepTable table = with_arithmetic(run.profile(), run.scene().switches, [&]<class A>(A) {
+        return TableBuilder<A>(run.judged(), particle, run.capture(particle), &run)();
+    });
+    table.frame = run.frame();
+    return table;
+}
+
+StepTable step_table(const JudgedFrame& frame, std::size_t particle, const StepCapture& capture) {
+    return with_arithmetic(frame.profile, frame.params.switches,
+                           [&]<class A>(A) { return TableBuilder<A>(frame, particle, capture, nullptr)(); });
 }
 
 TexelTable texel_table(FrameRun& run, std::size_t texel) {

@@ -67,6 +67,13 @@ struct StepTable {
 
 StepTable step_table(FrameRun& run, std::size_t particle);
 
+/// The same of a particle by itself, up to where it is drawn; `frame` of the table is 0.
+StepTable step_table(const JudgedFrame& frame, std::size_t particle, const StepCapture& capture);
+
+/// The same of a particle by itself, up to where it is drawn. `capture`: null where nothing of the GPU's steps is
+/// known; the table then ends with the particle's new state. Its number of the frame is 0.
+StepTable step_table(const JudgedFrame& frame, std::size_t particle, const StepCapture* capture);
+
 /// A texel: everybody who was drawn to it on either side, its owners and what is stored.
 struct TexelTable {
     int frame = 0;

@@ -38,6 +38,9 @@ template <class Pass> decltype(auto) with_deviating_arithmetic(const Profile& pr
                                                                const Deviations& deviations, Pass&& pass) {
     Profile deviating;
     deviating.dot = profile.dot;
+    // The driver's tables come with its own order of sums.
+    if (!deviations.has(sums_left_to_right) && !deviations.has(sums_right_to_left) && !deviations.has(sums_fused))
+        deviating.roots = profile.roots;
     if (deviations.has(sums_left_to_right))
         deviating.dot = DotOrder::left_to_right;
     if (deviations.has(sums_right_to_left))

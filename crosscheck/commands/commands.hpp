@@ -23,5 +23,6 @@ void add_record_command(CLI::App& app, int& status);
 void add_trace_command(CLI::App& app, int& status);
 void add_completion_command(CLI::App& app, int& status);
 void add_manual_command(CLI::App& app, int& status);
+void add_capsule_command(CLI::App& app, int& status);
 
 } // namespace lockstep

@@ -189,7 +189,7 @@ TEST_CASE("explain: the picture shows both sides' picks") {
     FrameRun run = run_of(busy_scene(), shaders.path());
     const auto table = first_divergent(run);
     REQUIRE(table);
-    const std::string picture = neighbourhood_picture(run, *table);
+    const std::string picture = neighbourhood_picture(run.judged(), *table);
     const std::string texels = picture.substr(0, picture.find("  . empty"));
     CHECK(std::count(texels.begin(), texels.end(), 'R') == 1);
     CHECK(std::count(texels.begin(), texels.end(), 'G') == 1);

@@ -1,0 +1,138 @@
+#include <catch2/catch.hpp>
+
+#include <fstream>
+#include <iterator>
+#include <string>
+#include <vector>
+
+#include "tests/cli/cli_checks.hpp"
+#include "tests/planted_shader.hpp"
+#include "tests/temporary_folder.hpp"
+
+using namespace lockstep;
+using Catch::Contains;
+using test::refusal;
+using test::run_lockstep;
+
+namespace {
+
+struct Setting {
+    test::TemporaryFolder folder;
+    test::TemporaryFolder shaders;
+    std::string scene = folder.write("scene.json", test::small_scene).string();
+    std::string trace = (folder.path() / "run.h5").string();
+    std::string file = (folder.path() / "capsule.json").string();
+
+    [[nodiscard]] std::vector<std::string> live(const char* verb) const {
+        return {verb, scene, "--gl", "osmesa", "--shaders", shaders.path()};
+    }
+    [[nodiscard]] test::Outcome cut(std::vector<std::string> from, const std::string& frame,
+                                    const std::string& particle) const {
+        std::vector<std::string> arguments{"capsule", "cut", "--frame", frame, "--particle", particle, "-o", file};
+        arguments.insert(arguments.end(), from.begin(), from.end());
+        return run_lockstep(arguments);
+    }
+    [[nodiscard]] test::Outcome cut_live(const std::string& frame, const std::string& particle) const {
+        return cut({scene, "--gl", "osmesa", "--shaders", shaders.path()}, frame, particle);
+    }
+    [[nodiscard]] test::Outcome show() const { return run_lockstep({"capsule", "show", file}); }
+};
+
+/// From the line that names the particle's verdict on.
+std::string verdict_of(const std::string& text) {
+    const std::size_t place = text.find(": ", text.find("\nparticle "));
+    REQUIRE(place != std::string::npos);
+    return text.substr(place);
+}
+
+/// The first divergent particle's number, of a report.
+std::string first_particle(const std::string& report) {
+    const std::size_t place = report.find("--particle ");
+    REQUIRE(place != std::string::npos);
+    const std::size_t number = place + std::string("--particle ").size();
+    return report.substr(number, report.find_first_not_of("0123456789", number) - number);
+}
+
+} // namespace
+
+TEST_CASE("capsule: cut out of a live run, it tells what explain tells, without GL") {
+    if (!test::have_osmesa())
+        return;
+    const Setting setting;
+    for (const char* particle : {"0", "17", "123"}) {
+        REQUIRE(setting.cut_live("4", particle).status == 0);
+        const test::Outcome shown = setting.show();
+        CHECK(shown.status == 0);
+        CHECK(shown.err.empty());
+        const test::Outcome explained =
+            run_lockstep({"explain", setting.scene, "--gl", "osmesa", "--frame", "4", "--particle", particle});
+        CHECK(verdict_of(shown.out) == verdict_of(explained.out));
+        CHECK_THAT(shown.out, Contains("every bit agrees") && Contains("texture coordinate.x"));
+    }
+}
+
+TEST_CASE("capsule: of a planted bug it names the wrong operation anywhere, from a live run and from a trace") {
+    if (!test::have_osmesa())
+        return;
+    const Setting setting;
+    test::plant(setting.shaders, "collision_pass.vert", "v_Speed = product(a_Speed, u_SpeedFactor);",
+                "v_Speed = product(a_Speed, 0.5);");
+    const test::Outcome checked =
+        run_lockstep({"check", setting.scene, "--gl", "osmesa", "--shaders", setting.shaders.path(), "--frames", "4"});
+    REQUIRE(checked.status == 1);
+    const std::string particle = first_particle(checked.out);
+    const std::string frame = checked.out.substr(checked.out.find("--frame ") + 8, 1);
+
+    CHECK(setting.cut_live(frame, particle).status == 1);
+    const test::Outcome live = setting.show();
+    CHECK(live.status == 1);
+    CHECK_THAT(live.out, Contains("first     speed: ") && Contains(": divergent\n") && Contains("DIVERGENT"));
+
+    REQUIRE(run_lockstep({"record", setting.scene, "--gl", "osmesa", "--shaders", setting.shaders.path(), "--cdt",
+                          "--frames", "4", "-o", setting.trace})
+                .status == 0);
+    CHECK(setting.cut({"--trace", setting.trace}, frame, particle).status == 1);
+    const test::Outcome recorded = setting.show();
+    CHECK(recorded.status == 1);
+    CHECK_THAT(recorded.out, Contains("GL        recorded: llvmpipe") && Contains("note    the vertex stage"));
+    const std::string of_live = verdict_of(live.out), of_recorded = verdict_of(recorded.out);
+    CHECK(of_live.substr(0, of_live.find("first ")) == of_recorded.substr(0, of_recorded.find("first ")));
+
+    // Without the CDT too, as long as the reference draws what the GPU drew.
+    REQUIRE(run_lockstep({"record", setting.scene, "--gl", "osmesa", "--shaders", setting.shaders.path(), "--frames",
+                          "4", "-o", setting.trace})
+                .status == 0);
+    CHECK(setting.cut({"--trace", setting.trace}, frame, particle).status == 1);
+    CHECK(verdict_of(setting.show().out) == of_recorded);
+}
+
+TEST_CASE("capsule: at most 100 kB, in every preset, format and at a wide radius") {
+    if (!test::have_osmesa())
+        return;
+    const Setting setting;
+    for (const std::vector<std::string>& options :
+         std::vector<std::vector<std::string>>{{"--preset", "paper"},
+                                               {"--preset", "exact"},
+                                               {"--set", "cdt_format=rgba8"},
+                                               {"--set", "cdt_format=rgba16f", "--set", "texel_collide_range=8"}}) {
+        std::vector<std::string> from{setting.scene, "--gl", "osmesa"};
+        from.insert(from.end(), options.begin(), options.end());
+        CHECK(setting.cut(from, "7", "42").status == 0);
+        CHECK(std::filesystem::file_size(setting.file) <= 100'000);
+        CHECK(setting.show().status == 0);
+    }
+}
+
+TEST_CASE("capsule: what cannot be cut or read is refused in a line, and no file is left") {
+    if (!test::have_osmesa())
+        return;
+    const Setting setting;
+    CHECK_THAT(refusal(setting.cut_live("3", "300")), Contains("300"));
+    CHECK_THAT(refusal(setting.cut({}, "3", "3")), Contains("a scene or --trace FILE is needed"));
+    CHECK_THAT(refusal(setting.cut({setting.scene, "--gl", "osmesa", "--set", "search=octree"}, "3", "3")),
+               Contains("search=cdt"));
+    CHECK_THAT(refusal(setting.show()), Contains("capsule.json: cannot be read"));
+    CHECK_THAT(refusal(run_lockstep({"capsule", "show", setting.scene})),
+               Contains("scene.json: /: no capsule: the key \"lockstep_capsule\" is missing"));
+    CHECK(test::names_in(setting.folder.path()) == std::vector<std::string>{"scene.json"});
+}

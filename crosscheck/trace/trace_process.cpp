@@ -63,8 +63,18 @@ void limit_time() {
     limit(RLIMIT_CPU, static_cast<rlim_t>(used.ru_utime.tv_sec + used.ru_stime.tv_sec) + 1 + seconds_a_request);
 }
 
+/// The asking process's handlers are not to run here, and Ctrl-C is its alone.
+void default_signals() {
+    for (int signal = 1; signal < NSIG; ++signal)
+        std::signal(signal, signal == SIGINT ? SIG_IGN : SIG_DFL);
+    sigset_t none;
+    sigemptyset(&none);
+    sigprocmask(SIG_SETMASK, &none, nullptr);
+}
+
 /// What is left to a process that reads one file. `memory`: bytes of address space.
 void fence(std::size_t memory) {
+    default_signals();
     prctl(PR_SET_NO_NEW_PRIVS, 1, 0, 0, 0);
     const int null = open("/dev/null", O_RDWR);
     dup2(null, STDIN_FILENO);

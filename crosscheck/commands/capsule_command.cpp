@@ -81,6 +81,8 @@ void add_capsule_command(CLI::App& app, int& status) {
     CLI::App* verb =
         app.add_subcommand("capsule", "one particle's step as a small file that repeats its verdict anywhere");
     verb->require_subcommand(1);
+    verb->footer("Example: lockstep capsule cut data/scenes/lattice.json --frame 30 --particle 17 -o 17.json\n"
+                 "then, anywhere: lockstep capsule show 17.json");
 
     CLI::App* cut_verb = verb->add_subcommand("cut", "cut one out of a run, live or recorded");
     add_scene_options(*cut_verb, options->run);

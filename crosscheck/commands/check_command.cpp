@@ -1,5 +1,7 @@
+#include <algorithm>
 #include <atomic>
 #include <csignal>
+#include <cstdint>
 #include <cstdio>
 #include <memory>
 #include <optional>
@@ -9,6 +11,7 @@
 #include <fmt/format.h>
 #include <omp.h>
 
+#include "crosscheck/capsule/capsule_json.hpp"
 #include "crosscheck/check.hpp"
 #include "crosscheck/commands/commands.hpp"
 #include "crosscheck/commands/judging_options.hpp"
@@ -119,9 +122,29 @@ struct Checked {
     std::vector<std::string> notes;
 };
 
-/// The step tables of what the page lists, made on a second run of the GPU, or of what was recorded of it.
-std::vector<ExplainedItem> explain_items(const Options& options, const Checked& checked,
-                                         const std::vector<PageItem>& items) {
+/// The first divergent particle's step, for a file; empty where there is none, or it cannot be cut out.
+std::string first_capsule(const Checked& checked, FrameRun& frames, const std::vector<PageItem>& items) {
+    const auto first = std::find_if(items.begin(), items.end(), [](const PageItem& item) {
+        return !item.texel && item.kind == static_cast<std::uint8_t>(DifferenceClass::divergent);
+    });
+    if (first == items.end())
+        return "";
+    frames.go_to(first->frame);
+    try {
+        return capsule_file(cut_capsule(frames.judged(), {checked.scene, checked.context, checked.settings,
+                                                          first->frame, first->index, frames.capture(first->index)}));
+    } catch (const Error&) {
+        return "";
+    }
+}
+
+/// What a second run of the GPU, or of what was recorded of it, tells of the items that the page lists.
+struct SecondLook {
+    std::vector<ExplainedItem> items;
+    std::string capsule; ///< may be empty
+};
+
+SecondLook look_again(const Options& options, const Checked& checked, const std::vector<PageItem>& items) {
     std::optional<FrameRun> frames;
     const Scene& scene = checked.scene;
     if (scene.switches.search == Search::cdt && !has_remedies(scene.switches) && !items.empty()) {
@@ -130,11 +153,13 @@ std::vector<ExplainedItem> explain_items(const Options& options, const Checked& 
         else
             frames.emplace(scene, checked.profile, checked.known, checked.gpu);
     }
-    std::vector<ExplainedItem> explained_items;
+    SecondLook look;
+    if (frames)
+        look.capsule = first_capsule(checked, *frames, items);
     for (const PageItem& item : items)
-        explained_items.push_back({item, explain_line(options, {item.frame, item.texel, item.index}, scene.width),
-                                   frames ? explained(*frames, item) : nlohmann::json()});
-    return explained_items;
+        look.items.push_back({item, explain_line(options, {item.frame, item.texel, item.index}, scene.width),
+                              frames ? explained(*frames, item) : nlohmann::json()});
+    return look;
 }
 
 RunDescription description(const Options& options, const Checked& checked, const CheckReport& report) {
@@ -195,10 +220,18 @@ int check_and_tell(const Options& options, OutputFiles& files, const Checked& ch
         files.write(options.hashes, hashes.text());
     if (!options.images.empty())
         images.write(files, options.images, checked.scene, checked.profile, options.run.shaders);
-    if (collector)
+    if (collector) {
+        const SecondLook look = look_again(options, checked, collector->frames().items());
+        std::vector<PageCommand> commands = page_commands(options, run, report);
+        if (!look.capsule.empty()) {
+            files.write(options.report / "capsule.json", look.capsule);
+            commands.push_back(
+                {"The first divergent particle's step, from the file beside this page; needs no GL",
+                 fmt::format("lockstep capsule show {}", shell_word((options.report / "capsule.json").string()))});
+        }
         files.write(options.report / "report.html",
-                    report_page(page, *collector, report, run, page_commands(options, run, report),
-                                explain_items(options, checked, collector->frames().items()), study));
+                    report_page(page, *collector, report, run, commands, look.items, study));
+    }
     files.commit();
     return passes(report.verdict, options.allow_undefined) ? status_agree : status_differ;
 }

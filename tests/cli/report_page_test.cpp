@@ -116,6 +116,14 @@ TEST_CASE("report page: a planted bug is named, and its items are listed with th
     CHECK(item.at("class") == 3);
     CHECK_THAT(item.at("step").get<std::string>(), Catch::StartsWith("texel ("));
     CHECK_THAT(item.at("command").get<std::string>(), Catch::StartsWith("lockstep explain "));
+
+    // The artefact alone repeats the verdict: the command is on the page, the file beside it.
+    const std::string capsule = setting.folder + "/capsule.json";
+    CHECK(test::names_in(setting.folder) == std::vector<std::string>{"capsule.json", "report.html"});
+    CHECK(head.at("commands").back().at("line") == "lockstep capsule show " + capsule);
+    const test::Outcome shown = run_lockstep({"capsule", "show", capsule});
+    CHECK(shown.status == 1);
+    CHECK_THAT(shown.out, Catch::Contains("> " + item.at("step").get<std::string>()) && Catch::Contains("DIVERGENT"));
 }
 
 TEST_CASE("report page: of a trace, by check or by report, with its step tables and command lines") {

@@ -1,4 +1,6 @@
 #include <algorithm>
+#include <cstdint>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -8,6 +10,7 @@
 #include <fmt/ranges.h>
 #include <nlohmann/json.hpp>
 
+#include "crosscheck/capsule/capsule.hpp"
 #include "crosscheck/page/explained.hpp"
 #include "crosscheck/page/report_page.hpp"
 #include "crosscheck/page/template.hpp"
@@ -35,8 +38,13 @@ constexpr Expectation expectations[] = {
     {"gravity_missing", "velocity."},           {"move_reversed", "position."},
 };
 
-/// The page that a red build leaves.
-std::string page_on(const test::TrialScene& trial, const std::filesystem::path& shaders) {
+/// What a red build leaves: the page, and the first divergent particle's step; empty where none diverges.
+struct Artefact {
+    std::string page;
+    std::optional<Capsule> capsule;
+};
+
+Artefact artefact_of(const test::TrialScene& trial, const std::filesystem::path& shaders) {
     const Scene& scene = trial.scene();
     PageCollector collector(scene, trial.profile(), CheckMode::resync, test::trial_frames);
     GpuSimulation gpu(scene, shaders);
@@ -48,17 +56,27 @@ std::string page_on(const test::TrialScene& trial, const std::filesystem::path& 
     std::vector<ExplainedItem> items;
     for (const PageItem& item : collector.frames().items())
         items.push_back({item, "", explained(frames, item)});
+    Artefact artefact;
+    for (const PageItem& item : collector.frames().items())
+        if (!item.texel && item.kind == static_cast<std::uint8_t>(DifferenceClass::divergent) && !artefact.capsule) {
+            frames.go_to(item.frame);
+            artefact.capsule =
+                cut_capsule(frames.judged(), {scene, "", "", item.frame, item.index, frames.capture(item.index)});
+        }
     const RunDescription run{trial.name(), "", "", "", "resync", scene.width, "", ""};
-    return report_page(page_data_marker, collector, report, run, {}, items, {});
+    artefact.page = report_page(page_data_marker, collector, report, run, {}, items, {});
+    return artefact;
 }
 
-/// What the page says the bug is: names that explain it all alike, and the row where it shows.
+/// What they say the bug is: names that explain it all alike, and the row where it shows.
 struct Told {
     std::vector<std::string> causes;
     std::string row;
+    std::string row_of_capsule;
 };
 
-Told told_by(const std::string& page) {
+Told told_by(const Artefact& artefact) {
+    const std::string& page = artefact.page;
     const std::size_t start = page.find('>') + 1;
     const auto head = nlohmann::json::parse(page.substr(start, page.find("</script>") - start));
     Told told;
@@ -70,12 +88,17 @@ Told told_by(const std::string& page) {
     for (const nlohmann::json& item : head.at("items"))
         if (told.row.empty() && item.contains("step"))
             told.row = item.at("step");
+    if (artefact.capsule) {
+        const std::string text = capsule_text(*artefact.capsule, NumberFormat::decimal);
+        const std::size_t row = text.find("\n> ");
+        told.row_of_capsule = row == std::string::npos ? "" : text.substr(row + 3, text.find('\n', row + 1) - row - 3);
+    }
     return told;
 }
 
 } // namespace
 
-TEST_CASE("report mutants: the page alone names the planted bug, 10 of 10, and the operation where it shows") {
+TEST_CASE("report mutants: page and capsule alone name the planted bug, 10 of 10, and the operation where it shows") {
     const auto context = test::open_llvmpipe("osmesa");
     if (!context)
         return;
@@ -91,11 +114,12 @@ TEST_CASE("report mutants: the page alone names the planted bug, 10 of 10, and t
         test::plant(*mutant, shaders);
         Told told;
         for (std::size_t i = 0; i < scenes.size() && told.row.empty(); ++i)
-            told = told_by(page_on(scenes[i], shaders.path()));
+            told = told_by(artefact_of(scenes[i], shaders.path()));
         const bool right = std::find(told.causes.begin(), told.causes.end(), mutant->cause) != told.causes.end() &&
-                           told.row.starts_with(expected.row);
+                           told.row.starts_with(expected.row) && told.row_of_capsule.starts_with(expected.row);
         (right ? named : other)
-            .push_back(fmt::format("{}: {}, at {}", mutant->name, fmt::join(told.causes, " or "), told.row));
+            .push_back(fmt::format("{}: {}, at {}; capsule: {}", mutant->name, fmt::join(told.causes, " or "), told.row,
+                                   told.row_of_capsule));
     }
     CAPTURE(named, other);
     CHECK(named.size() == std::size(expectations));

@@ -266,10 +266,11 @@ GLint Program::Interface::location(std::string_view variable, GLenum type) const
 
 void Program::Interface::check() const {
     for (const auto& [name, variable] : active) {
+        const std::string& active_name = name; // Clang 14 captures no structured binding
         if (asked_for.contains(name) || variable.declared.is_initialised || name.starts_with("gl_"))
             continue;
         const auto nearest = std::min_element(asked_for.begin(), asked_for.end(), [&](const auto& a, const auto& b) {
-            return edits(a.first, name) < edits(b.first, name);
+            return edits(a.first, active_name) < edits(b.first, active_name);
         });
         throw Error(fmt::format("shader {}: nothing is given for {} {}{}", variable.declared.place, kind, name,
                                 nearest == asked_for.end() ? std::string()

@@ -79,7 +79,7 @@ Scene read_scene(const JsonValue& contents, const std::string& file) {
     json.check_keys(scene_keys);
     Scene scene;
     read_settings(json, {}, {}, scene);
-    static_cast<void>(empty_cdt(scene)); // refuses switches that do not go together
+    check_remedies(scene.switches);
     scene.name = contents.at("name").text();
     if (scene.name.empty())
         scene.name = "trace";
@@ -111,12 +111,11 @@ void check_obstacles(const Mesh& mesh, const std::string& file) {
 }
 
 void check_cdt_size(const JsonValue& contents, const Scene& scene) {
-    const CollisionImage expected = empty_cdt(scene);
     const auto width = contents.at("cdt_width").integer(1, INT32_MAX);
     const auto height = contents.at("cdt_height").integer(1, INT32_MAX);
-    if (width != expected.width || height != expected.height)
-        throw Error(fmt::format("{}: is {}x{} texels, the scene's is {}x{}", layout::cdt, width, height, expected.width,
-                                expected.height));
+    if (width != scene.width || height != cdt_height(scene))
+        throw Error(fmt::format("{}: is {}x{} texels, the scene's is {}x{}", layout::cdt, width, height, scene.width,
+                                cdt_height(scene)));
 }
 
 } // namespace

@@ -13,7 +13,6 @@
 #include "crosscheck/trace/trace_messages.hpp"
 #include "crosscheck/trace/trace_process.hpp"
 #include "reference/model/error.hpp"
-#include "reference/model/layered_cdt.hpp"
 
 namespace lockstep {
 namespace {
@@ -70,9 +69,6 @@ TraceReader::TraceReader(const std::filesystem::path& file) {
     check_seal(file);
     process_ = std::make_unique<Process>(file);
     info_ = read_contents(*process_, process_->file());
-    const CollisionImage cdt = empty_cdt(info_.scene);
-    width_ = cdt.width;
-    height_ = cdt.height;
 }
 
 TraceReader::~TraceReader() = default;
@@ -84,9 +80,9 @@ void TraceReader::read(int frame, Particles& particles) {
 }
 
 void TraceReader::read(int frame, CollisionImage& cdt) {
-    cdt.width = width_;
-    cdt.height = height_;
-    cdt.texels.resize(static_cast<std::size_t>(width_) * static_cast<std::size_t>(height_));
+    cdt.width = info_.scene.width;
+    cdt.height = cdt_height(info_.scene);
+    cdt.texels.resize(static_cast<std::size_t>(cdt.width) * static_cast<std::size_t>(cdt.height));
     process_->ask(MessageKind::cdt, frame);
     read_cdt(*process_, process_->file(), static_cast<std::uint32_t>(frame), cdt);
 }

@@ -28,8 +28,6 @@ class TraceReader {
 
     std::unique_ptr<Process> process_;
     TraceInfo info_;
-    int width_ = 0; ///< CDT, texels
-    int height_ = 0;
 };
 
 } // namespace lockstep

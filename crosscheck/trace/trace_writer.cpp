@@ -17,7 +17,6 @@
 #include "crosscheck/trace/root_offsets.hpp"
 #include "crosscheck/trace/seal.hpp"
 #include "reference/model/error.hpp"
-#include "reference/model/layered_cdt.hpp"
 
 namespace lockstep {
 namespace {
@@ -93,9 +92,8 @@ TraceWriter::File::File(const std::filesystem::path& temporary, std::string name
                                   fmt::format("particles/all/{}/{}", other, axis).c_str(), links_.get(), H5P_DEFAULT),
                    name_);
     if (info.has_cdt) {
-        const CollisionImage empty = empty_cdt(info.scene);
         cdt_ = make_rows(layout::cdt, H5T_IEEE_F32LE,
-                         {static_cast<hsize_t>(empty.height), static_cast<hsize_t>(empty.width), 4}, 1);
+                         {static_cast<hsize_t>(cdt_height(info.scene)), static_cast<hsize_t>(info.scene.width), 4}, 1);
         make_steps("observables/cdt", cdt_step_, cdt_time_);
     }
     append_particles(info.scene.start);

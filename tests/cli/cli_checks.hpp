@@ -9,6 +9,7 @@
 
 #include "tests/cli/run_program.hpp"
 #include "tests/gpu/any_context.hpp"
+#include "tests/skip.hpp"
 #include "tests/temporary_folder.hpp"
 
 namespace lockstep::test {
@@ -59,5 +60,13 @@ inline std::vector<std::string> names_in(const std::filesystem::path& folder) {
 
 /// Whether OSMesa is there; if not, the test is skipped with the reason.
 inline bool have_osmesa() { return open_context("osmesa").has_value(); }
+
+/// And whether a program can be given a terminal: a container without /dev/pts has none.
+inline bool have_terminal() {
+    const std::string missing = why_no_terminal();
+    if (!missing.empty())
+        skip(missing, "LOCKSTEP_REQUIRE_TERMINAL");
+    return missing.empty();
+}
 
 } // namespace lockstep::test

@@ -170,7 +170,7 @@ TEST_CASE("debug_command: what cannot be done is told with the line of the scrip
 }
 
 TEST_CASE("debug_command: on a terminal there is a prompt, and an error does not end it") {
-    if (!test::have_osmesa())
+    if (!test::have_osmesa() || !test::have_terminal())
         return;
     const Setting setting;
     const std::string shown =

@@ -1,8 +1,10 @@
 #include "tests/cli/run_program.hpp"
 
 #include <array>
+#include <cerrno>
 #include <csignal>
 #include <cstdlib>
+#include <cstring>
 #include <stdexcept>
 
 #include <fcntl.h>
@@ -101,6 +103,16 @@ Outcome run_lockstep(const std::vector<std::string>& arguments, const Surroundin
     close(err[0]);
     wait_for(child, outcome);
     return outcome;
+}
+
+std::string why_no_terminal() {
+    int master = -1;
+    int terminal = -1;
+    if (openpty(&master, &terminal, nullptr, nullptr, nullptr) != 0)
+        return std::string("no pseudo-terminal: ").append(std::strerror(errno)).append("; is /dev/pts mounted?");
+    close(master);
+    close(terminal);
+    return "";
 }
 
 Outcome run_lockstep_on_terminal(const std::vector<std::string>& arguments, const std::string& trigger,

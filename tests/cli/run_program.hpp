@@ -26,6 +26,9 @@ struct Surroundings {
 /// Runs lockstep with `arguments`, standard output and error as pipes, and waits for its end.
 Outcome run_lockstep(const std::vector<std::string>& arguments, const Surroundings& surroundings = {});
 
+/// Empty if run_lockstep_on_terminal can be called; else what is missing.
+std::string why_no_terminal();
+
 /// Runs lockstep on a terminal of its own and types `typed` (may be empty) once `trigger` was shown.
 Outcome run_lockstep_on_terminal(const std::vector<std::string>& arguments, const std::string& trigger,
                                  const std::string& typed);

@@ -18,7 +18,7 @@ const std::string bar = "check [";
 } // namespace
 
 TEST_CASE("terminal: a bar on a terminal, wiped at the end; none in a pipe, none when quiet") {
-    if (!test::have_osmesa())
+    if (!test::have_osmesa() || !test::have_terminal())
         return;
     const test::TemporaryFolder folder;
     const std::vector<std::string> check{
@@ -36,7 +36,7 @@ TEST_CASE("terminal: a bar on a terminal, wiped at the end; none in a pipe, none
 }
 
 TEST_CASE("terminal: Ctrl-C ends with the verdict on the frames done so far") {
-    if (!test::have_osmesa())
+    if (!test::have_osmesa() || !test::have_terminal())
         return;
     const test::TemporaryFolder folder;
     const test::TemporaryFolder shaders;

@@ -20,10 +20,10 @@ namespace {
 int skipped_tests = 0;
 }
 
-void lockstep::skip(const std::string& reason) {
-    const char* required = std::getenv("LOCKSTEP_REQUIRE_GL");
+void lockstep::skip(const std::string& reason, const std::string& required_by) {
+    const char* required = std::getenv(required_by.c_str());
     if (required != nullptr && std::string(required) == "1")
-        FAIL("LOCKSTEP_REQUIRE_GL is set, but " << reason);
+        FAIL(required_by << " is set, but " << reason);
     ++skipped_tests;
     test_notes().skipped = reason;
     std::cout << "skipped: " << reason << '\n';

@@ -24,7 +24,7 @@ struct RunDescription {
 /// "AGREE", "LEGAL", ...
 std::string_view verdict_name(Verdict verdict);
 
-/// The report as a person reads it, verdict last but one, at most 60 lines. See README, "How to read a report".
+/// The report as a person reads it, verdict last but one, at most 60 lines. See docs/report_lines.md.
 std::string report_text(const CheckReport& report, const RunDescription& run);
 
 /// The same as data.

@@ -2,7 +2,7 @@
 #extension GL_ARB_gpu_shader5 : require
 // The collision pass (thesis, Fig. 3-3), one vertex a particle: projects it to a texel of the collision detection
 // texture, finds the nearest stored position round that texel, and answers, or lets gravity move it.
-// Line numbers are the listing's. The switches are the scene file's; see README.
+// Line numbers are the listing's. The switches are the scene file's; see docs/switches.md.
 
 #include "arithmetic.glsl"
 #include "collision_code.glsl"

@@ -70,7 +70,7 @@ class GpuSimulation;
 class UserShaders : public GpuSide {
   public:
     /// `folder`: any of the stages collision_pass.vert, .geom, .frag and of the other passes, and files they include;
-    /// lockstep's own for the rest (README, "Bringing your own shader"). Throws Error for what the compiler says, with
+    /// lockstep's own for the rest (docs/own_shader.md). Throws Error for what the compiler says, with
     /// file and line, for names that do not fit, and where `gl` is missing. `gl` outlives this.
     UserShaders(const Gl& gl, const Scene& scene, const std::filesystem::path& folder);
     ~UserShaders() override;
@@ -111,7 +111,7 @@ class MatchResult {
     /// Every bit agrees, or what differs is legal; in free mode every bit.
     [[nodiscard]] bool passed() const { return passed_; }
 
-    /// The report of `lockstep check` (README, "How to read a report"), at most 60 lines, the last the command that
+    /// The report of `lockstep check` (docs/report_lines.md), at most 60 lines, the last the command that
     /// repeats it where something differs. Lines that are longer than `width` columns are folded; 0: none is.
     [[nodiscard]] std::string text(std::size_t width = 0) const;
 

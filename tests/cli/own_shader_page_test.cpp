@@ -13,10 +13,10 @@ using test::run_lockstep;
 
 namespace {
 
-/// The README's command lines of one verb on the example that starts from the thesis's listing, without `lockstep`.
+/// The page's command lines of one verb on the example that starts from the thesis's listing, without `lockstep`.
 /// A line that ends with a backslash goes on in the next.
 std::vector<std::vector<std::string>> commands_on_listing(const std::string& verb) {
-    std::ifstream stream("README.md");
+    std::ifstream stream("docs/own_shader.md");
     std::string text{std::istreambuf_iterator<char>(stream), {}};
     for (std::size_t end = text.find("\\\n"); end != std::string::npos; end = text.find("\\\n"))
         text[end] = text[end + 1] = ' ';
@@ -36,7 +36,7 @@ std::vector<std::vector<std::string>> commands_on_listing(const std::string& ver
 
 } // namespace
 
-TEST_CASE("readme: the example that starts from the thesis's listing agrees in every bit") {
+TEST_CASE("own shader page: the example that starts from the thesis's listing agrees in every bit") {
     if (!test::have_osmesa())
         return;
     const auto commands = commands_on_listing("check");
@@ -46,7 +46,7 @@ TEST_CASE("readme: the example that starts from the thesis's listing agrees in e
     CHECK_THAT(outcome.out, Catch::Contains("verdict   AGREE: every bit of "));
 }
 
-TEST_CASE("readme: explain shows the example's own output") {
+TEST_CASE("own shader page: explain shows the example's own output") {
     if (!test::have_osmesa())
         return;
     const auto commands = commands_on_listing("explain");

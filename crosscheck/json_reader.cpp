@@ -18,36 +18,39 @@ namespace {
 
 using nlohmann::json;
 
-std::string shown(const json& value) {
-    constexpr std::size_t longest = 40;
-    std::string text = value.dump(-1, ' ', true, json::error_handler_t::replace);
+std::string shortened(std::string text, std::size_t longest) {
     if (text.size() > longest)
         text = text.substr(0, longest - 3) + "...";
     return text;
 }
 
-/// Walks a text for what the parser itself does not tell: where it breaks off, and keys that stand twice.
+std::string shown(const json& value) {
+    return shortened(value.dump(-1, ' ', true, json::error_handler_t::replace), 40);
+}
+
+/// Walks a text for what the parser itself does not tell: where it breaks off, keys that stand twice, and more than a
+/// file may ask for. The parser needs no stack for depth, but whoever walks the value does.
 class Syntax : public nlohmann::json_sax<json> {
   public:
     explicit Syntax(std::string_view text) : text_(text) {}
     std::string problem; ///< empty: none
 
-    bool null() override { return true; }
-    bool boolean(bool) override { return true; }
-    bool number_integer(number_integer_t) override { return true; }
-    bool number_unsigned(number_unsigned_t) override { return true; }
-    bool number_float(number_float_t, const string_t&) override { return true; }
-    bool string(string_t&) override { return true; }
-    bool binary(binary_t&) override { return true; }
-    bool start_array(std::size_t) override { return true; }
-    bool end_array() override { return true; }
+    bool null() override { return count(); }
+    bool boolean(bool) override { return count(); }
+    bool number_integer(number_integer_t) override { return count(); }
+    bool number_unsigned(number_unsigned_t) override { return count(); }
+    bool number_float(number_float_t, const string_t&) override { return count(); }
+    bool string(string_t&) override { return count(); }
+    bool binary(binary_t&) override { return count(); }
+    bool start_array(std::size_t) override { return enter(); }
+    bool end_array() override { return leave(); }
     bool start_object(std::size_t) override {
         keys_.emplace_back();
-        return true;
+        return enter();
     }
     bool end_object() override {
         keys_.pop_back();
-        return true;
+        return leave();
     }
     bool key(string_t& name) override {
         if (keys_.back().insert(name).second)
@@ -65,24 +68,47 @@ class Syntax : public nlohmann::json_sax<json> {
     }
 
   private:
+    bool count() {
+        if (++values_ <= json_limits::values)
+            return true;
+        problem = fmt::format(" more than {} values", json_limits::values);
+        return false;
+    }
+    bool enter() {
+        if (++depth_ > json_limits::depth)
+            problem = fmt::format(" arrays and objects within each other more than {} deep", json_limits::depth);
+        return problem.empty() && count();
+    }
+    bool leave() {
+        --depth_;
+        return true;
+    }
+
     /// "[json.exception...] parse error at line 1, column 2: syntax error ..." without what we say ourselves.
     static std::string detail(std::string text) {
         text.erase(0, text.find("] ") + 2);
         if (text.starts_with("parse error"))
             text.erase(0, text.find(": ") + 2);
-        return text;
+        return shortened(std::move(text), 200); // it quotes what it read last, a number of any length
     }
 
     std::string_view text_;
     std::vector<std::set<std::string>> keys_;
+    std::size_t depth_ = 0;
+    std::size_t values_ = 0;
 };
+
+std::string too_long() { return fmt::format("more than {} MiB of JSON", json_limits::bytes >> 20U); }
 
 std::string read_text(const std::filesystem::path& file) {
     std::ifstream stream(file, std::ios::binary);
     std::string text;
     std::array<char, 1U << 16U> block{};
-    while (stream.read(block.data(), block.size()) || stream.gcount() > 0)
+    while (stream.read(block.data(), block.size()) || stream.gcount() > 0) {
         text.append(block.data(), static_cast<std::size_t>(stream.gcount()));
+        if (text.size() > json_limits::bytes)
+            throw Error(fmt::format("{}: {}", file.string(), too_long()));
+    }
     if (!stream.eof())
         throw Error(fmt::format("{}: cannot be read: {}", file.string(), std::strerror(errno)));
     return text;
@@ -91,6 +117,8 @@ std::string read_text(const std::filesystem::path& file) {
 } // namespace
 
 json parse_json(std::string_view text, const std::string& name) {
+    if (text.size() > json_limits::bytes)
+        throw Error(fmt::format("{}: {}", name, too_long()));
     Syntax syntax(text);
     if (!json::sax_parse(text, &syntax))
         throw Error(fmt::format("{}:{}", name, syntax.problem));
@@ -152,6 +180,8 @@ float JsonValue::number(const NumberRule& rule) const {
     if (!value_->is_number())
         fail_not(rule.text);
     const double number = value_->get<double>();
+    if (number > 0.0 && number < rule.min && rule.min == number::positive.min)
+        fail_not("a normal float, which is 1.2e-38 or more");
     if (!(number >= rule.min && number <= rule.max))
         fail_not(rule.text);
     return static_cast<float>(number);
@@ -181,8 +211,10 @@ std::string JsonValue::text() const {
 }
 
 std::size_t JsonValue::choice(std::span<const std::string_view> allowed) const {
-    const auto found =
-        value_->is_string() ? std::find(allowed.begin(), allowed.end(), value_->get<std::string>()) : allowed.end();
+    const std::string given = value_->is_string()           ? value_->get<std::string>()
+                              : value_->is_number_integer() ? value_->dump() // 2 as "2"
+                                                            : "";
+    const auto found = std::find(allowed.begin(), allowed.end(), given);
     if (found == allowed.end())
         fail_not(fmt::format("one of {}", fmt::join(allowed, ", ")));
     return static_cast<std::size_t>(found - allowed.begin());

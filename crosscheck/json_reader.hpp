@@ -51,7 +51,7 @@ class JsonValue {
     [[nodiscard]] glm::vec3 vector() const;
     [[nodiscard]] bool is_null() const { return value_->is_null(); }
     [[nodiscard]] std::string text() const;
-    /// The index of a text among `allowed`.
+    /// The index of a text, or of a whole number, among `allowed`.
     [[nodiscard]] std::size_t choice(std::span<const std::string_view> allowed) const;
     [[nodiscard]] std::size_t choice(std::initializer_list<std::string_view> allowed) const {
         return choice(std::span(allowed.begin(), allowed.size()));
@@ -65,7 +65,15 @@ class JsonValue {
     std::string path_;
 };
 
-/// Throws Error, `NAME:LINE:COLUMN: ...`, where the text is malformed or has a key twice in one object.
+/// What a JSON text may ask for: far more than anything read here needs.
+namespace json_limits {
+inline constexpr std::size_t bytes = std::size_t{64} << 20U;
+inline constexpr std::size_t depth = 64; ///< arrays and objects within each other
+inline constexpr std::size_t values = 4'000'000;
+} // namespace json_limits
+
+/// All JSON from elsewhere is read here. Throws Error, `NAME:LINE:COLUMN: ...`, where the text is malformed, has a key
+/// twice in one object, or is beyond the limits.
 nlohmann::json parse_json(std::string_view text, const std::string& name);
 
 /// The same of a file.

@@ -101,10 +101,11 @@ void apply_setting(const std::string& setting, Scene& scene) {
 
     const auto constants = constant_names();
     if (std::find(constants.begin(), constants.end(), name) != constants.end()) {
-        nlohmann::json value = nlohmann::json::parse(
-            name == "gravity" && !text.starts_with('[') ? "[" + text + "]" : text, nullptr, false);
-        if (value.is_discarded())
-            value = text;
+        nlohmann::json value = text;
+        try {
+            value = parse_json(name == "gravity" && !text.starts_with('[') ? "[" + text + "]" : text, "--set");
+        } catch (const Error&) { // a text, which no constant is
+        }
         return set_constant(scene.constants, name, JsonValue(value, "--set", name));
     }
     std::vector<std::string_view> switches;

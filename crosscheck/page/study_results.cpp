@@ -1,11 +1,11 @@
 #include "crosscheck/page/study_results.hpp"
 
 #include <algorithm>
-#include <fstream>
 #include <system_error>
 
 #include <fmt/format.h>
 
+#include "crosscheck/json_reader.hpp"
 #include "reference/model/error.hpp"
 
 namespace lockstep {
@@ -34,8 +34,11 @@ json study_results(const std::filesystem::path& folder) {
     std::error_code none;
     if (!std::filesystem::exists(file, none))
         return nullptr;
-    std::ifstream stream(file, std::ios::binary);
-    json study = json::parse(stream, nullptr, false);
+    json study;
+    try {
+        study = read_json(file);
+    } catch (const Error&) { // null is no study
+    }
     if (!is_study(study))
         throw Error(fmt::format("{}: is not what `lockstep study SCENE --json` writes; write it again, or remove it",
                                 file.string()));

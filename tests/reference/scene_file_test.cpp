@@ -215,7 +215,7 @@ TEST_CASE("scene_file: a member that is wrong is told with path and what is allo
          "/constants: unknown key \"ticks\"; the keys here are tick, gravity, collision_range, collision_time, "
          "texel_collide_range, billboard_radius, octree_size"},
         {R"("constants": {"tick": 0})", "/constants/tick: 0 is not a number above 0"},
-        {R"("constants": {"tick": 1e-39})", "/constants/tick: 1e-39 is not a number above 0"},
+        {R"("constants": {"tick": 1e-39})", "/constants/tick: 1e-39 is not a normal float, which is 1.2e-38 or more"},
         {R"("constants": {"collision_range": -0.01})", "/constants/collision_range: -0.01 is not a number above 0"},
         {R"("constants": {"collision_time": -1})", "/constants/collision_time: -1 is not a number from 0 up"},
         {R"("constants": {"texel_collide_range": -1})",

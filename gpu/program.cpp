@@ -1,7 +1,6 @@
 #include "gpu/program.hpp"
 
 #include <algorithm>
-#include <regex>
 #include <set>
 
 #include <fmt/format.h>
@@ -11,6 +10,7 @@
 #include "gpu/check.hpp"
 #include "gpu/glsl_type.hpp"
 #include "gpu/shader_log.hpp"
+#include "gpu/shader_words.hpp"
 #include "reference/model/error.hpp"
 
 namespace lockstep {
@@ -176,9 +176,12 @@ void check_capture_type(GLuint program, GLuint index, const Capture& capture, st
 }
 
 /// Words of `text` that start with `prefix`.
-std::set<std::string> words_with(std::string_view prefix, const std::string& text) {
-    const std::regex word(fmt::format("\\b{}\\w*", prefix));
-    return {std::sregex_token_iterator(text.begin(), text.end(), word), std::sregex_token_iterator()};
+std::set<std::string> words_with(std::string_view prefix, std::string_view text) {
+    std::set<std::string> found;
+    for (ShaderWords words(text); words.next();)
+        if (words.token().starts_with(prefix))
+            found.emplace(words.token());
+    return found;
 }
 
 } // namespace

@@ -50,6 +50,25 @@ TEST_CASE("shader_errors: an error in an included file is told there") {
                                         Catch::Contains("nonsense"));
 }
 
+TEST_CASE("shader_errors: a line of 40,000 characters is read like any other, in a right shader and in a wrong one") {
+    if (!test::have_osmesa())
+        return;
+    const test::TemporaryFolder folder, shaders;
+    const auto scene = folder.write("scene.json", test::small_scene).string();
+    test::plant(
+        shaders, "collision_pass.vert", "uniform float u_Tick;", "const float many_terms = 0.0" + [] {
+            std::string terms;
+            for (int i = 0; i < 5'000; ++i)
+                terms += " + 0.25";
+            return terms;
+        }() + "; uniform float u_Tick;");
+    const auto outcome = run_lockstep({"check", scene, "--frames", "3", "--gl", "osmesa", "--shaders", shaders.path()});
+    CHECK(outcome.status == 0);
+    const std::string name(50'000, 'x');
+    test::plant(shaders, "collision_pass.frag", "void main() {", "void main() { " + name + ";");
+    CHECK_THAT(refusal_of(shaders), Catch::Contains("collision_pass.frag:") && Catch::Contains("xxx..."));
+}
+
 TEST_CASE("shader_errors: a missing captured output is named") {
     if (!test::have_osmesa())
         return;

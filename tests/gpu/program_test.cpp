@@ -165,6 +165,20 @@ TEST_CASE("program: a declaration is found whatever stands round it") {
     CHECK(find_declaration(stages, "uniform", "u_Nowhere").place == file);
 }
 
+TEST_CASE(
+    "program: a declaration is found beside a line of a million characters, over several lines, not in comments") {
+    const TemporaryFolder folder;
+    const std::string file =
+        folder
+            .write("step.vert", "#version 330 core\n/* uniform int u_A;\n */ const int k = 1" +
+                                    std::string(1'000'000, ' ') + "+ 1; // " + std::string(1'000'000, 'x') +
+                                    "\nuniform highp\n  int u_A [ 2 * 1 ]\n = 3;\n")
+            .string();
+    const std::vector<ShaderSource> stages = load_stages({folder.path()}, "step", std::array{Stage::vertex});
+    CHECK(find_declaration(stages, "uniform", "u_A").place == file + ":5");
+    CHECK(find_declaration(stages, "uniform", "u_A").is_initialised);
+}
+
 TEST_CASE("program: a compile error names file and line, in an included file too") {
     const auto context = open_context();
     if (!context)

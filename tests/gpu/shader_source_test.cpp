@@ -139,5 +139,11 @@ TEST_CASE("shader log: the first error is found in every compiler's form") {
     CHECK(first_compile_error("0:6(1): error: odd\n", source) == "a.vert: 0:6(1): error: odd");
     CHECK(first_compile_error("0:0(1): error: odd\n", source) == "a.vert: 0:0(1): error: odd");
     CHECK(first_compile_error("", source) == "a.vert: the driver gives no reason");
+    CHECK(first_compile_error("0:99999999999999999999(1): error: odd\n", source) ==
+          "a.vert: 0:99999999999999999999(1): error: odd");
+    const std::string quoted(1'000'000, 'x');
+    for (const std::string form : {"0:4(10): error: ", "0(4) : error ", "ERROR: 0:4: ", "an error: "})
+        CHECK(first_compile_error(form + quoted, source).size() < 1100);
+    CHECK(first_link_error(quoted).size() == 1000);
     CHECK(first_link_error("Vertex info\n-----------\n0(3) : error C5041: no\n") == "0(3) : error C5041: no");
 }

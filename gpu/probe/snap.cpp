@@ -226,7 +226,7 @@ void measure_triangles(Rows& rows) {
     measure_triangle_snap(stage, image, rows[first].finding != "out", rows[first + 2].finding != "out", rows);
 }
 
-const ProbeRow& named(const Rows& rows, const std::string& name) {
+const ProbeRow& named(const Rows& rows, std::string_view name) {
     return *std::find_if(rows.begin(), rows.end(), [&](const ProbeRow& row) { return row.name == name; });
 }
 

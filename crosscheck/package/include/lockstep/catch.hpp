@@ -1,5 +1,5 @@
 #pragma once
-/// A matcher for Catch2 v2 (docs/unit_tests.md):
+/// A matcher for Catch2, version 2 or 3 (docs/unit_tests.md):
 ///
 ///     CHECK_THAT(gpu, MatchesReference(scene).frames(120));
 ///
@@ -7,8 +7,7 @@
 #include <ostream>
 #include <string>
 
-#include <catch2/catch.hpp>
-
+#include "lockstep/catch2.hpp"
 #include "lockstep/lockstep.hpp"
 #include "lockstep/skip.hpp"
 #include "lockstep/test_notes.hpp"
@@ -34,7 +33,7 @@ inline std::string this_test_again() {
 }
 
 /// Holds a GpuSide against the reference, from the scene's start (match_reference). The scene outlives the matcher.
-class MatchesReference : public Catch::MatcherBase<GpuSide> {
+class MatchesReference : public CatchMatcher<GpuSide> {
   public:
     explicit MatchesReference(const Scene& scene) : scene_(&scene) {}
     explicit MatchesReference(Scene&&) = delete;

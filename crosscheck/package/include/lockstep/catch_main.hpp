@@ -1,12 +1,15 @@
 #pragma once
-/// main() of a test program with Catch2 v2, skip(), and a reporter of one's own (junit_reporter.hpp); included in one
-/// source file, before any other Catch2 header.
-/// Exit status: 0 all passed, 1 a test failed, 77 none failed but some were skipped.
-#define CATCH_CONFIG_RUNNER
+/// main() of a test program with Catch2, version 2 or 3, skip(), and a reporter of one's own (junit_reporter.hpp);
+/// included in one source file, before any other Catch2 header. Exit status: 0 all passed, 1 a test failed, 77 none
+/// failed but some were skipped.
+#define CATCH_CONFIG_RUNNER // of version 2; what version 3 is built with is a library
 #ifndef CATCH_CONFIG_CONSOLE_WIDTH
 #define CATCH_CONFIG_CONSOLE_WIDTH 120 // Catch2 breaks what is longer, also a path in a command line
 #endif
-#include <catch2/catch.hpp>
+#include "lockstep/catch2.hpp"
+#if CATCH_VERSION_MAJOR >= 3
+#include <catch2/catch_session.hpp>
+#endif
 
 #include <cstdlib>
 #include <iostream>

@@ -1,64 +1,99 @@
 #pragma once
-/// A reporter for Catch2 v2, `--reporter lockstep-junit --out FILE`: JUnit as the one Catch2 has, one test case an
-/// entry, with pass, fail and skipped apart and renderer, profile and verdict as properties, of each test case and of
-/// all. <lockstep/catch_main.hpp> includes it.
+/// A reporter for Catch2, version 2 or 3, `--reporter lockstep-junit --out FILE`: JUnit as the one Catch2 has, one test
+/// case an entry, with pass, fail and skipped apart and renderer, profile and verdict as properties, of each test case
+/// and of all. <lockstep/catch_main.hpp> includes it.
 #include <map>
 #include <optional>
+#include <ostream>
 #include <set>
 #include <sstream>
 #include <string>
+#include <utility>
 #include <vector>
 
-#include <catch2/catch.hpp>
-
+#include "lockstep/catch2.hpp"
 #include "lockstep/test_notes.hpp"
+#if CATCH_VERSION_MAJOR >= 3
+#include <catch2/catch_timer.hpp>
+#include <catch2/internal/catch_xmlwriter.hpp>
+#include <catch2/reporters/catch_reporter_registrars.hpp>
+#include <catch2/reporters/catch_reporter_streaming_base.hpp>
+#endif
 
 namespace lockstep {
 
-class JUnitReporter : public Catch::StreamingReporterBase<JUnitReporter> {
+/// What a reporter of either version derives from, under one set of names.
+#if CATCH_VERSION_MAJOR >= 3
+class CatchReporter : public Catch::StreamingReporterBase {
   public:
-    explicit JUnitReporter(const Catch::ReporterConfig& config) : StreamingReporterBase(config) {
+    explicit CatchReporter(Catch::ReporterConfig&& config) : StreamingReporterBase(std::move(config)) {
+        m_preferences.shouldRedirectStdOut = true;
+    }
+    void assertionEnded(const Catch::AssertionStats& stats) override { note(stats); }
+
+  protected:
+    virtual void note(const Catch::AssertionStats& stats) = 0;
+    [[nodiscard]] std::ostream& out() { return m_stream; }
+    static std::string name_of(const Catch::TestCaseStats& stats) { return stats.testInfo->name; }
+};
+#else
+class CatchReporter : public Catch::StreamingReporterBase<CatchReporter> {
+  public:
+    explicit CatchReporter(const Catch::ReporterConfig& config) : StreamingReporterBase(config) {
         m_reporterPrefs.shouldRedirectStdOut = true;
     }
+    void assertionStarting(const Catch::AssertionInfo& /*info*/) override {}
+    bool assertionEnded(const Catch::AssertionStats& stats) override {
+        note(stats);
+        return true;
+    }
+
+  protected:
+    virtual void note(const Catch::AssertionStats& stats) = 0;
+    [[nodiscard]] std::ostream& out() { return stream; }
+    static std::string name_of(const Catch::TestCaseStats& stats) { return stats.testInfo.name; }
+};
+#endif
+
+class JUnitReporter : public CatchReporter {
+  public:
+    using CatchReporter::CatchReporter;
     static std::string getDescription() { return "JUnit with skipped tests, renderer and profile"; }
 
-    void assertionStarting(const Catch::AssertionInfo& /*info*/) override {}
-
     void testCaseStarting(const Catch::TestCaseInfo& info) override {
-        StreamingReporterBase::testCaseStarting(info);
+        CatchReporter::testCaseStarting(info);
         test_notes() = {};
         problem_.reset();
         timer_.start();
     }
 
     /// The first that failed is told, the rest are counted.
-    bool assertionEnded(const Catch::AssertionStats& stats) override {
+    void note(const Catch::AssertionStats& stats) override {
         const Catch::AssertionResult& result = stats.assertionResult;
         if (!result.isOk() && !problem_)
             problem_ = Problem{result.getResultType() == Catch::ResultWas::ThrewException ||
                                    result.getResultType() == Catch::ResultWas::FatalErrorCondition,
                                result.hasExpression() ? result.getExpression() : std::string(result.getMessage()),
                                failure_text(stats)};
-        return true;
     }
 
     void testCaseEnded(const Catch::TestCaseStats& stats) override {
-        cases_.push_back({stats.testInfo.name, stats.stdOut, timer_.getElapsedSeconds(),
+        cases_.push_back({name_of(stats), stats.stdOut, timer_.getElapsedSeconds(),
                           stats.totals.assertions.allOk() ? std::optional<Problem>() : problem_, test_notes()});
-        StreamingReporterBase::testCaseEnded(stats);
+        CatchReporter::testCaseEnded(stats);
     }
 
     void testRunEnded(const Catch::TestRunStats& stats) override {
-        Catch::XmlWriter xml(stream);
+        Catch::XmlWriter xml(out());
         const auto suites = xml.scopedElement("testsuites");
         const auto suite = xml.scopedElement("testsuite");
-        const std::string program = stats.runInfo.name;
+        const std::string program(stats.runInfo.name);
         xml.writeAttribute("name", program);
         write_totals(xml);
         write_properties(xml, all_properties());
         for (const Case& test : cases_)
             write_case(xml, program, test);
-        StreamingReporterBase::testRunEnded(stats);
+        CatchReporter::testRunEnded(stats);
     }
 
   private:

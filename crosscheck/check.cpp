@@ -6,6 +6,7 @@
 
 #include <fmt/format.h>
 
+#include "crosscheck/side_state.hpp"
 #include "gpu/gpu_side.hpp"
 #include "reference/model/error.hpp"
 #include "reference/model/layered_cdt.hpp"
@@ -34,12 +35,6 @@ struct State {
     CollisionImage cdt;
 };
 
-void read(GpuSide& gpu, State& state) {
-    gpu.read(state.particles);
-    if (gpu.has_cdt())
-        gpu.read(state.cdt);
-}
-
 Comparison compare(const Particles& reference, const CollisionImage& reference_cdt, const State& gpu, bool has_cdt) {
     Comparison result = lockstep::compare(reference, gpu.particles);
     if (has_cdt)
@@ -49,12 +44,15 @@ Comparison compare(const Particles& reference, const CollisionImage& reference_c
 
 /// What the GPU has now, against what it had. Particles are only read back where they differ: a copy of 4 million
 /// would be the peak of the whole run.
-Comparison compare_again(const State& first, GpuSide& gpu) {
+Comparison compare_again(const State& first, const GpuSide& gpu, const Scene& scene) {
     State again;
-    gpu.read(again.cdt);
-    Comparison result = lockstep::compare(first.cdt, again.cdt);
+    Comparison result;
+    if (gpu.has_cdt()) {
+        read_side(gpu, scene, again.cdt);
+        result = lockstep::compare(first.cdt, again.cdt);
+    }
     if (!gpu.holds(first.particles)) {
-        gpu.read(again.particles);
+        read_side(gpu, scene, again.particles);
         result.add(lockstep::compare(first.particles, again.particles));
     }
     return result;
@@ -153,6 +151,8 @@ Verdict verdict_on(const CheckReport& report) {
 } // namespace
 
 CheckReport check(const Scene& scene, const Profile& profile, GpuSide& gpu, const CheckOptions& options) {
+    if (const std::string problem = size_problem(scene.start, scene.start.size()); !problem.empty())
+        throw Error(fmt::format("{}: its start has {}", scene.name, problem));
     CheckReport report;
     report.particles = scene.start.size();
     ReferenceSimulation reference(scene, profile);
@@ -160,9 +160,10 @@ CheckReport check(const Scene& scene, const Profile& profile, GpuSide& gpu, cons
     State now = before;
     State earlier = before;
     // Legal runs are known of the listing's pass alone: what differs with an octree or remedies is told, not judged.
+    const bool has_cdt = gpu.has_cdt();
     const bool judged =
         options.mode == CheckMode::resync && scene.switches.search == Search::cdt && !has_remedies(scene.switches);
-    RunJudge judge(scene, profile, options.known.value_or(measured_operations(profile)), gpu.has_cdt());
+    RunJudge judge(scene, profile, options.known.value_or(measured_operations(profile)), has_cdt);
     gpu.upload(before.particles, before.cdt);
 
     for (int frame = 0; frame < options.frames && !(options.stop != nullptr && *options.stop); ++frame) {
@@ -177,12 +178,12 @@ CheckReport check(const Scene& scene, const Profile& profile, GpuSide& gpu, cons
         }
         {
             const Stopwatch watch(times.readback);
-            read(gpu, now);
+            read_side(gpu, scene, now.particles, now.cdt);
         }
         if (repeat) {
             gpu.find_canary(now.particles, now.cdt, frame);
             gpu.repeat_step(params);
-            const Comparison repeated = compare_again(now, gpu);
+            const Comparison repeated = compare_again(now, gpu, scene);
             if (!repeated.agree()) {
                 note_difference(report, frame, repeated);
                 report.verdict = Verdict::nondeterministic;
@@ -201,10 +202,10 @@ CheckReport check(const Scene& scene, const Profile& profile, GpuSide& gpu, cons
         Comparison comparison;
         {
             const Stopwatch watch(times.compare);
-            comparison = compare(reference.particles(), reference.cdt(), now, gpu.has_cdt());
-            if (!gpu.has_cdt() && comparison.agree() && options.mode == CheckMode::resync)
+            comparison = compare(reference.particles(), reference.cdt(), now, has_cdt);
+            if (!has_cdt && comparison.agree() && options.mode == CheckMode::resync)
                 now.cdt = reference.cdt();
-            else if (!gpu.has_cdt())
+            else if (!has_cdt)
                 reference.draw(before.particles, now.particles, params, now.cdt);
             if (!comparison.agree() || options.mode == CheckMode::free)
                 note_difference(report, frame, comparison);

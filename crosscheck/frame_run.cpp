@@ -4,6 +4,7 @@
 
 #include <fmt/format.h>
 
+#include "crosscheck/side_state.hpp"
 #include "reference/model/error.hpp"
 #include "reference/model/layered_cdt.hpp"
 #include "reference/obstacle_pass.hpp"
@@ -39,10 +40,8 @@ void FrameRun::step(int frame) {
     std::swap(cdt_before_, cdt_after_);
     params_ = frame_params(scene_, frame);
     gpu_.step(params_);
-    gpu_.read(after_);
-    if (gpu_.has_cdt())
-        gpu_.read(cdt_after_);
-    else
+    read_side(gpu_, scene_, after_, cdt_after_);
+    if (!gpu_.has_cdt())
         reference_.draw(before_, after_, params_, cdt_after_);
     frame_ = frame;
 }
@@ -62,9 +61,7 @@ void FrameRun::go_to(int frame) {
     if (frame - 2 > frame_) {
         params_ = frame_params(scene_, frame - 2);
         gpu_.step(params_);
-        gpu_.read(after_);
-        if (gpu_.has_cdt())
-            gpu_.read(cdt_after_);
+        read_side(gpu_, scene_, after_, cdt_after_);
         frame_ = frame - 2;
     }
     while (frame_ < frame)

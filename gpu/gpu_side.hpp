@@ -51,11 +51,11 @@ class GpuSide {
     virtual void lay_canary() {}
     virtual void find_canary(const Particles& /*particles*/, const CollisionImage& /*cdt*/, int /*frame*/) const {}
 
-    /// The last frame once more, from the same state.
-    virtual void repeat_step(const FrameParams& /*params*/) {}
+    /// The last frame once more, from the same state. A side that repeats() overrides this: here it throws Error.
+    virtual void repeat_step(const FrameParams& params);
 
-    /// Whether read() would give exactly these bits.
-    [[nodiscard]] virtual bool holds(const Particles& /*particles*/) const { return true; }
+    /// Whether read() would give exactly these bits; here it reads them. One that can tell without a copy overrides it.
+    [[nodiscard]] virtual bool holds(const Particles& particles) const;
 };
 
 } // namespace lockstep

@@ -1,13 +1,6 @@
 #include "crosscheck/trace/trace_info.hpp"
 
-#include "reference/model/layered_cdt.hpp"
-
 namespace lockstep {
-
-int cdt_height(const Scene& scene) {
-    check_remedies(scene.switches);
-    return scene.height * (has_remedies(scene.switches) ? cdt_planes(scene.switches).count() : 1);
-}
 
 Profile followed_profile(const TraceInfo& info) { return info.profile.value_or(Profile{}); }
 

@@ -26,9 +26,6 @@ struct TraceInfo {
     std::vector<std::string> warnings; ///< what was left out, and why
 };
 
-/// Height of a scene's CDT in texels, all planes of remedies stacked. Throws Error like check_remedies.
-int cdt_height(const Scene& scene);
-
 /// What the reference follows: the recorded profile, or strict.
 Profile followed_profile(const TraceInfo& info);
 

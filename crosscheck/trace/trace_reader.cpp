@@ -13,6 +13,7 @@
 #include "crosscheck/trace/trace_messages.hpp"
 #include "crosscheck/trace/trace_process.hpp"
 #include "reference/model/error.hpp"
+#include "reference/model/layered_cdt.hpp"
 
 namespace lockstep {
 namespace {

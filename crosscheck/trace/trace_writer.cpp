@@ -17,6 +17,7 @@
 #include "crosscheck/trace/root_offsets.hpp"
 #include "crosscheck/trace/seal.hpp"
 #include "reference/model/error.hpp"
+#include "reference/model/layered_cdt.hpp"
 
 namespace lockstep {
 namespace {

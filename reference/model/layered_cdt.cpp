@@ -45,11 +45,12 @@ void check_remedies(const Switches& switches) {
         throw Error("switch cdt_cameras: response = mutual needs 1; what two cameras see would count twice");
 }
 
-CollisionImage empty_cdt(const Scene& scene) {
+int cdt_height(const Scene& scene) {
     check_remedies(scene.switches);
-    const int planes = has_remedies(scene.switches) ? cdt_planes(scene.switches).count() : 1;
-    return {scene.width, scene.height * planes};
+    return scene.height * (has_remedies(scene.switches) ? cdt_planes(scene.switches).count() : 1);
 }
+
+CollisionImage empty_cdt(const Scene& scene) { return {scene.width, cdt_height(scene)}; }
 
 glm::vec3 projected_reach(const glm::mat4& proj_view, const FrameParams& params) {
     const glm::dmat4 m(proj_view);

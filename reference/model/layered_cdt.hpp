@@ -48,7 +48,11 @@ bool chooses_pass(std::string_view switch_name);
 /// stands against them, or two of them that do not go together.
 void check_remedies(const Switches& switches);
 
-/// Throws Error like check_remedies. With remedies, plane p lies in rows p * scene.height and up.
+/// Height of a scene's CDT in texels. Throws Error like check_remedies. With remedies, plane p lies in rows
+/// p * scene.height and up.
+int cdt_height(const Scene& scene);
+
+/// A CDT of that height, of cleared texels.
 CollisionImage empty_cdt(const Scene& scene);
 
 /// For search_window = projected: two points within the collision range of each other, the one at clip w, project to at

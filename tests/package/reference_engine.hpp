@@ -28,6 +28,9 @@ class ReferenceEngine : public GpuSide {
             fault_(frame_, particles_);
         ++frame_;
     }
+    /// Changes the state it has now.
+    void change(const std::function<void(Particles&)>& change) { change(particles_); }
+
     void read(Particles& particles) const override { particles = particles_; }
     void read(CollisionImage& cdt) const override { cdt = cdt_; }
 

@@ -15,10 +15,23 @@ namespace {
 
 /// -4.2e6 or so in every float; a position, speed or time of a real run never has exactly these bits.
 constexpr std::uint32_t canary = 0xca7ca7ca;
-constexpr glm::vec4 canary_texel{std::bit_cast<float>(canary)};
 
 bool is_canary(float value) { return std::bit_cast<std::uint32_t>(value) == canary; }
 bool any_canary(glm::vec3 v) { return is_canary(v.x) || is_canary(v.y) || is_canary(v.z); }
+
+/// The stored code of a texel that nobody writes. Every half and every byte may be part of a position; with this alpha,
+/// neither that of a cleared texel nor of a drawn one, they are none.
+glm::vec4 canary_texel(CdtFormat format) {
+    switch (format) {
+    case CdtFormat::rgba32f:
+        return glm::vec4(std::bit_cast<float>(canary));
+    case CdtFormat::rgba16f:
+        return glm::vec4(-12.96875F); // 0xca7c
+    case CdtFormat::rgba8:
+        break;
+    }
+    return {0xca, 0x7c, 0xa7, 0x5a};
+}
 
 } // namespace
 
@@ -114,8 +127,7 @@ void GpuSimulation::lay_canary() {
     const auto fill = [](auto& target) {
         CollisionImage image;
         target.read(image);
-        const bool floats = target.format() == CdtFormat::rgba32f;
-        std::fill(image.texels.begin(), image.texels.end(), floats ? canary_texel : glm::vec4(1.0F));
+        std::fill(image.texels.begin(), image.texels.end(), canary_texel(target.format()));
         target.upload(image);
     };
     if (layered_)
@@ -131,9 +143,10 @@ void GpuSimulation::find_canary(const Particles& particles, const CollisionImage
             throw Error(fmt::format("frame {}: the GPU did not write particle {}: its record still holds what was laid "
                                     "there before the draw",
                                     frame, i));
+    const glm::vec4 unwritten = canary_texel(switches_.cdt_format);
     for (int y = 0; y < cdt.height; ++y)
         for (int x = 0; x < cdt.width; ++x)
-            if (is_canary(cdt.at(x, y).x))
+            if (cdt.at(x, y) == unwritten)
                 throw Error(
                     fmt::format("frame {}: the GPU neither cleared nor drew texel ({}, {}) of the CDT", frame, x, y));
 }

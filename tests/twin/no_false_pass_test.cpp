@@ -70,8 +70,15 @@ TEST_CASE("no false pass: an image that is neither cleared nor drawn is an error
         return;
     gl::Enable(GL_SCISSOR_TEST);
     gl::Scissor(0, 0, 20, 20);
-    CHECK_THROWS_WITH(check_twins(crowded_scene(), 2),
-                      "frame 0: the GPU neither cleared nor drew texel (20, 0) of the CDT");
+    Scene scene = crowded_scene();
+    for (const CdtFormat format : {CdtFormat::rgba32f, CdtFormat::rgba16f, CdtFormat::rgba8})
+        for (const int layers : {1, 2}) {
+            scene.switches.cdt_format = format;
+            scene.switches.cdt_layers = layers;
+            INFO(switch_value(scene.switches, "cdt_format") << ", " << layers << " layers");
+            CHECK_THROWS_WITH(check_twins(scene, 2),
+                              "frame 0: the GPU neither cleared nor drew texel (20, 0) of the CDT");
+        }
 }
 
 TEST_CASE("no false pass: a record that was not written is an error that names the particle") {

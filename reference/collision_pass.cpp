@@ -4,11 +4,10 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
-#include <optional>
 #include <type_traits>
 
+#include "reference/collision/collision_twin.hpp"
 #include "reference/collision_code.hpp"
-#include "reference/particle_step.hpp"
 #include "reference/subnormals.hpp"
 #include "reference/window.hpp"
 #include "reference/with_arithmetic.hpp"
@@ -16,115 +15,32 @@
 namespace lockstep {
 namespace {
 
-struct Collision {
-    int x, y;       ///< the texel
-    glm::vec3 away; ///< own position minus the one stored there
-};
+template <class R> ParticleState as_floats(const ParticleTwinState<R>& v) {
+    return {floats(v.position), floats(v.direction), static_cast<float>(v.speed), static_cast<float>(v.collide_time)};
+}
 
-/// One particle's step, as the listing reads. `A`: the arithmetic (arithmetic.hpp).
-template <class A> class Step {
-  public:
-    Step(const CollisionImage& cdt, const FrameParams& params)
-        : cdt_(cdt), params_(params), constants_(params.constants), switches_(params.switches), code_(params),
-          particle_step_(params) {}
-
-    [[nodiscard]] ParticleState operator()(const ParticleState& before) const {
-        const ParticleState a = ParticleStep<A>::flushed(before);
-        const BaseTexelIndex base = base_texel(a.position);
-        if (a.collide_time < 0.0F && base.x >= 0)
-            if (const auto collision = nearest_collision(a.position, base))
-                return particle_step_.collide(a, collision->away);
-        return particle_step_.integrate(a);
-    }
-
-    /// Lines 2 to 4, in float: where clip space lies on the image, then the cast where it is defined.
-    [[nodiscard]] BaseTexelIndex base_texel(glm::vec3 position) const {
-        const glm::vec4 clip = A::transform(params_.collision_proj_view, position);
-        return base_texel(clip);
-    }
-
-    [[nodiscard]] BaseTexelIndex base_texel(glm::vec4 clip) const {
-        float x = clip.x;
-        float y = clip.y;
-        if (switches_.perspective_divide == PerspectiveDivide::on) {
-            x = A::divide(clip.x, clip.w);
-            y = A::divide(clip.y, clip.w);
-        }
-        x = (x + 1.0F) * 0.5F * static_cast<float>(params_.width);
-        y = (y + 1.0F) * 0.5F * static_cast<float>(params_.height);
-        const bool right = x < static_cast<float>(params_.width) && y < static_cast<float>(params_.height);
-        const bool left = switches_.base_texel == BaseTexel::floor ? x >= 0.0F && y >= 0.0F : x > -1.0F && y > -1.0F;
-        if (!left || !right)
-            return {};
-        return {static_cast<int>(x), static_cast<int>(y)};
-    }
-
-    /// Where a search from `position` ends, whatever the collide time.
-    [[nodiscard]] std::int32_t collision_texel(glm::vec3 position) const {
-        const glm::vec3 own = A::flush(position);
-        const BaseTexelIndex base = base_texel(own);
-        const auto collision = base.x >= 0 ? nearest_collision(own, base) : std::nullopt;
-        return collision ? static_cast<std::int32_t>(cdt_.index(collision->x, collision->y)) : no_texel;
-    }
-
-  private:
-    [[nodiscard]] bool holds_particle(glm::vec4 stored) const {
-        return switches_.empty_texel == EmptyTexel::phantom || stored.a != 0.0F;
-    }
-
-    /// Lines 5 to 19: the nearest stored position within the collision range.
-    [[nodiscard]] std::optional<Collision> nearest_collision(glm::vec3 position, BaseTexelIndex base) const {
-        glm::vec3 curr_pos = position;
-        if (switches_.self_position == SelfPosition::texel) {
-            const glm::vec4 self = cdt_.at(base.x, base.y);
-            if (!holds_particle(self))
-                return {};
-            curr_pos = A::flush(code_.decode(self));
-        }
-        float min_length = 100000.0F;
-        std::optional<Collision> nearest;
-        const int range = constants_.texel_collide_range;
-        for (int ty = -range; ty <= range; ++ty) {
-            for (int tx = -range; tx <= range; ++tx) {
-                if ((tx == 0 && ty == 0) || !cdt_.contains(base.x + tx, base.y + ty))
-                    continue;
-                const glm::vec4 stored = cdt_.at(base.x + tx, base.y + ty);
-                if (!holds_particle(stored))
-                    continue;
-                const glm::vec3 apart = A::flush(curr_pos - A::flush(code_.decode(stored)));
-                const float len = A::length(apart);
-                if (len == 0.0F && switches_.zero_distance == ZeroDistance::skip)
-                    continue;
-                if (constants_.collision_range > len && len < min_length) {
-                    min_length = len;
-                    nearest = Collision{base.x + tx, base.y + ty, apart};
-                }
-            }
-        }
-        return nearest;
-    }
-
-    const CollisionImage& cdt_;
-    const FrameParams& params_;
-    const Constants& constants_;
-    const Switches& switches_;
-    CollisionCode code_;
-    ParticleStep<A> particle_step_;
-};
-
-template <class A> void update(const Particles& before, const CollisionImage& cdt, const FrameParams& params,
+template <class A> void update(A fp, const Particles& before, const CollisionImage& cdt, const FrameParams& params,
                                bool flush, Particles& after) {
-    const Step<A> step(cdt, params);
     const auto count = static_cast<std::ptrdiff_t>(before.size());
 #pragma omp parallel
     {
         const FlushSubnormals guard(flush);
+        Values<A> values(fp);
+        const CollisionTwin step(values, cdt, params);
 #pragma omp for schedule(static)
         for (std::ptrdiff_t i = 0; i < count; ++i) {
             const auto p = static_cast<std::size_t>(i);
-            after.set(p, step(before[p]));
+            after.set(p, as_floats(step(before[p])));
         }
     }
+}
+
+/// Where clip space lies on the image (listing, lines 2 to 4).
+template <class A> BaseTexelIndex base_texel(A fp, glm::vec4 clip, const FrameParams& params) {
+    Values<A> values(fp);
+    const BaseTexelTwin twin(values, params);
+    const auto texel = twin.base_texel(twin.image_position({clip.x, clip.y, clip.z, clip.w}));
+    return texel ? BaseTexelIndex{texel->x, texel->y} : BaseTexelIndex{};
 }
 
 /// Switch arithmetic plain: the fixed function decides, in the driver's way.
@@ -142,8 +58,7 @@ template <class A> PointFragment rasterised_point(glm::vec4 clip, const FramePar
 /// Switch arithmetic exact: the pass itself puts the point on the centre of the texel it computes, its depth on a grid
 /// of 2^-24, so that no driver has anything left to round.
 PointFragment placed_point(glm::vec4 clip, const FrameParams& params) {
-    const CollisionImage none;
-    const BaseTexelIndex texel = Step<Portable>(none, params).base_texel(clip);
+    const BaseTexelIndex texel = base_texel(Portable(), clip, params);
     const float depth = (Portable::divide(clip.z, clip.w) + 1.0F) * 0.5F;
     if (texel.x < 0 || !(clip.w > 0.0F) || !(depth >= 0.0F) || !(depth <= 1.0F))
         return {};
@@ -165,7 +80,7 @@ void update_particles(const Particles& before, const CollisionImage& cdt, const 
     assert(&before != &after && cdt.width == params.width && cdt.height == params.height);
     after.resize(before.size());
     with_arithmetic(profile, params.switches,
-                    [&]<class A>(A) { update<A>(before, cdt, params, profile.flush_subnormals, after); });
+                    [&](auto fp) { update(fp, before, cdt, params, profile.flush_subnormals, after); });
 }
 
 void rasterise_particles(const Particles& before, const Particles& after, const FrameParams& params,
@@ -193,9 +108,9 @@ PointFragment point_fragment(glm::vec3 position, const FrameParams& params, cons
 
 BaseTexelIndex base_texel(glm::vec3 position, const FrameParams& params, const Profile& profile) {
     const FlushSubnormals guard(profile.flush_subnormals);
-    const CollisionImage none;
-    return with_arithmetic(profile, params.switches,
-                           [&]<class A>(A) { return Step<A>(none, params).base_texel(position); });
+    return with_arithmetic(profile, params.switches, [&](auto fp) {
+        return base_texel(fp, fp.transform(params.collision_proj_view, position), params);
+    });
 }
 
 std::vector<std::int32_t> collision_texels(std::span<const glm::vec3> positions, const CollisionImage& cdt,
@@ -203,14 +118,19 @@ std::vector<std::int32_t> collision_texels(std::span<const glm::vec3> positions,
     assert(cdt.width == params.width && cdt.height == params.height);
     std::vector<std::int32_t> texels(positions.size());
     const auto count = static_cast<std::ptrdiff_t>(positions.size());
-    with_arithmetic(profile, params.switches, [&]<class A>(A) {
-        const Step<A> step(cdt, params);
+    with_arithmetic(profile, params.switches, [&]<class A>(A fp) {
 #pragma omp parallel
         {
             const FlushSubnormals guard(profile.flush_subnormals);
+            Values<A> values(fp);
+            const CollisionTwin step(values, cdt, params);
 #pragma omp for schedule(static)
-            for (std::ptrdiff_t i = 0; i < count; ++i)
-                texels[static_cast<std::size_t>(i)] = step.collision_texel(positions[static_cast<std::size_t>(i)]);
+            for (std::ptrdiff_t i = 0; i < count; ++i) {
+                const auto p = static_cast<std::size_t>(i);
+                const auto collision = step.collision(positions[p]);
+                texels[p] =
+                    collision ? static_cast<std::int32_t>(cdt.index(collision->texel.x, collision->texel.y)) : no_texel;
+            }
         }
     });
     return texels;

@@ -5,7 +5,7 @@
 
 #include "reference/collision/collision_twin.hpp"
 #include "reference/collision_code.hpp"
-#include "reference/collision_pass.hpp"
+#include "reference/collision_pass_fast.hpp"
 #include "reference/model/layered_cdt.hpp"
 #include "reference/subnormals.hpp"
 #include "reference/with_arithmetic.hpp"
@@ -34,7 +34,7 @@ Particles twin_steps(const RandomScene& scene, const Profile& profile) {
 
 std::size_t check_equal(const RandomScene& scene, const Profile& profile) {
     Particles expected;
-    update_particles(scene.particles, scene.cdt, scene.params, profile, expected);
+    update_particles_fast(scene.particles, scene.cdt, scene.params, profile, expected);
     CHECK(same_bits(twin_steps(scene, profile), expected));
     std::size_t hits = 0;
     for (const float time : expected.collide_time)
@@ -44,7 +44,7 @@ std::size_t check_equal(const RandomScene& scene, const Profile& profile) {
 
 } // namespace
 
-TEST_CASE("collision twin: its values are the pass's bits for every combination of switches and every arithmetic") {
+TEST_CASE("collision twin: its values are the fast pass's bits for every combination of switches and every arithmetic") {
     RandomScene scene = random_scene(31, 300, 21, 15);
     scene.params.cdt_box = {glm::vec3(-1.5F), glm::vec3(1.5F)};
     std::vector<Switches> combinations{preset("corrected"), preset("exact")};

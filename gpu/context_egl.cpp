@@ -134,12 +134,15 @@ class EglBackend final : public ContextBackend {
     EGLContext context_ = EGL_NO_CONTEXT;
 };
 
+/// libEGL passes over a vendor's library that does not load, and does not say so.
+std::string broken_vendors() { return SharedLibrary::broken({"libEGL_mesa.so.0", "libEGL_nvidia.so.0"}); }
+
 } // namespace
 
 std::unique_ptr<ContextBackend> make_egl_surfaceless_context() {
     const Egl egl;
     if (egl.GetPlatformDisplayEXT == nullptr || !egl.client_offers("EGL_MESA_platform_surfaceless"))
-        throw Error("libEGL lacks EGL_MESA_platform_surfaceless");
+        throw Error("libEGL lacks EGL_MESA_platform_surfaceless" + broken_vendors());
     return std::make_unique<EglBackend>(
         egl, egl.GetPlatformDisplayEXT(EGL_PLATFORM_SURFACELESS_MESA, EGL_DEFAULT_DISPLAY, nullptr));
 }
@@ -147,10 +150,10 @@ std::unique_ptr<ContextBackend> make_egl_surfaceless_context() {
 std::unique_ptr<ContextBackend> make_egl_device_context(int device) {
     const Egl egl;
     if (egl.GetPlatformDisplayEXT == nullptr || !egl.client_offers("EGL_EXT_platform_device"))
-        throw Error("libEGL lacks EGL_EXT_platform_device");
+        throw Error("libEGL lacks EGL_EXT_platform_device" + broken_vendors());
     const std::vector<EGLDeviceEXT> devices = egl.devices();
     if (devices.empty())
-        throw Error("EGL lists no device");
+        throw Error("EGL lists no device" + broken_vendors());
     const auto index = static_cast<std::size_t>(device);
     if (index >= devices.size())
         throw Error(fmt::format("there is no device {}; EGL lists 0 to {}", device, devices.size() - 1));

@@ -15,21 +15,20 @@ namespace lockstep {
 class SharedLibrary {
   public:
     /// Opens the file the environment variable `chooser` names, so that a user can take another build; without it the
-    /// first of `names` there is. Throws Error with the loader's reason.
+    /// first of `names` there is. Throws Error with the loader's reason for each.
     SharedLibrary(const char* chooser, std::initializer_list<const char*> names) {
         const char* chosen = std::getenv(chooser);
         const bool choose = chosen != nullptr && *chosen != '\0';
-        std::string reason;
+        std::string reasons;
         for (const char* name : choose ? std::vector{chosen} : std::vector(names)) {
             handle_ = dlopen(name, RTLD_NOW | RTLD_LOCAL);
             if (handle_ != nullptr) {
                 name_ = name;
                 return;
             }
-            if (const char* error = dlerror(); reason.empty() && error != nullptr)
-                reason = error;
+            reasons += fmt::format("{}{}", reasons.empty() ? "" : ", ", why_not(name));
         }
-        throw Error(fmt::format("{} ({} can name another library)", reason, chooser));
+        throw Error(fmt::format("{} ({} can name another library)", reasons, chooser));
     }
 
     /// Throws Error if the library lacks `name`.
@@ -39,7 +38,27 @@ class SharedLibrary {
             throw Error(fmt::format("{} lacks {}", name_, name));
     }
 
+    /// " (NAME: why it does not load)" for each of `names` that is on the machine and does not; empty if there is none.
+    static std::string broken(std::initializer_list<const char*> names) {
+        std::string reasons;
+        for (const char* name : names) {
+            if (dlopen(name, RTLD_NOW | RTLD_LOCAL) != nullptr)
+                continue;
+            const std::string reason = why_not(name);
+            if (!reason.starts_with(fmt::format("{}: cannot open shared object file", name)))
+                reasons += fmt::format(" ({})", reason);
+        }
+        return reasons;
+    }
+
   private:
+    /// Why the loader has just not opened `name`, which it names first, but for a library that `name` needs.
+    static std::string why_not(const std::string& name) {
+        const char* error = dlerror();
+        const std::string reason = error != nullptr ? error : "cannot be opened";
+        return reason.starts_with(name) ? reason : fmt::format("{}: {}", name, reason);
+    }
+
     void* handle_ = nullptr;
     std::string name_;
 };

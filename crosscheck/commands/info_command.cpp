@@ -9,13 +9,15 @@
 namespace lockstep {
 namespace {
 
+std::string reason(const ContextProbe& probe) {
+    const std::string prefix = fmt::format("no GL context: {}: ", context_request_text(probe.request));
+    return probe.error.substr(probe.error.starts_with(prefix) ? prefix.size() : 0);
+}
+
 std::string text(const ContextProbe& probe) {
     const std::string name = context_request_text(probe.request);
-    if (!probe.error.empty()) {
-        const std::string prefix = fmt::format("no GL context: {}: ", name);
-        const bool prefixed = probe.error.starts_with(prefix);
-        return fmt::format("{:<14}none: {}\n", name, probe.error.substr(prefixed ? prefix.size() : 0));
-    }
+    if (!probe.error.empty())
+        return fmt::format("{:<14}none: {}\n", name, reason(probe));
     const ContextInfo& i = probe.info;
     const auto yes_no = [](bool value) { return value ? "yes" : "no"; };
     std::string out = fmt::format("{:<14}{}\n", name, i.renderer);
@@ -39,12 +41,15 @@ std::string text(const ContextProbe& probe) {
 
 int run() {
     int found = 0;
+    std::string reasons;
     for (const ContextProbe& probe : available_contexts()) {
         fmt::print("{}\n", text(probe));
         found += probe.error.empty() ? 1 : 0;
+        reasons +=
+            fmt::format("{}{}: {}", reasons.empty() ? "" : "; ", context_request_text(probe.request), reason(probe));
     }
     if (found == 0)
-        throw Error("no GL context: neither OSMesa nor EGL gives one");
+        throw Error(fmt::format("no GL context: {}", reasons));
     return status_agree;
 }
 

@@ -7,6 +7,7 @@
 #include "gpu/check.hpp"
 #include "gpu/gl.hpp"
 #include "gpu/object.hpp"
+#include "gpu/shared_library.hpp"
 #include "tests/gpu/any_context.hpp"
 
 using namespace lockstep;
@@ -186,6 +187,29 @@ TEST_CASE("context: auto passes over a library that does not work") {
     CHECK_THROWS_WITH(Context(parse_context_request("osmesa")),
                       "no GL context: osmesa: libm.so.6 lacks OSMesaCreateContextAttribs");
     CHECK_THAT(Context().describe().backend, Catch::StartsWith("egl"));
+}
+
+TEST_CASE("context: a library that does not load for want of another says which") {
+    const Environment osmesa("LOCKSTEP_OSMESA_LIBRARY", LOCKSTEP_UNLOADABLE_OSMESA);
+    CHECK_THROWS_WITH(Context(parse_context_request("osmesa")),
+                      Catch::Contains(std::string(LOCKSTEP_UNLOADABLE_OSMESA) + ": ") &&
+                          Catch::Contains("undefined symbol: of_another_release"));
+}
+
+TEST_CASE("context: every library that was tried is told with what the loader said") {
+    const auto open = [] {
+        SharedLibrary("LOCKSTEP_NO_LIBRARY", {"libnone.so.1", "libnone.so", LOCKSTEP_UNLOADABLE_OSMESA});
+    };
+    CHECK_THROWS_WITH(open(), Catch::StartsWith("libnone.so.1: cannot open shared object file") &&
+                                  Catch::Contains(", libnone.so: cannot open shared object file") &&
+                                  Catch::Contains("undefined symbol: of_another_release") &&
+                                  Catch::EndsWith(" (LOCKSTEP_NO_LIBRARY can name another library)"));
+}
+
+TEST_CASE("context: a library that is there and does not load is told, one that is not there is passed over") {
+    CHECK(SharedLibrary::broken({"libnone.so", "libm.so.6"}).empty());
+    CHECK_THAT(SharedLibrary::broken({"libnone.so", LOCKSTEP_UNLOADABLE_OSMESA}),
+               Catch::StartsWith(" (" LOCKSTEP_UNLOADABLE_OSMESA ": undefined symbol: of_another_release"));
 }
 
 TEST_CASE("context: a driver that crashes is an error of its probe") {

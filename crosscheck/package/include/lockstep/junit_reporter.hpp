@@ -14,6 +14,7 @@
 #include "lockstep/catch2.hpp"
 #include "lockstep/test_notes.hpp"
 #if CATCH_VERSION_MAJOR >= 3
+#include <catch2/catch_test_case_info.hpp>
 #include <catch2/catch_timer.hpp>
 #include <catch2/internal/catch_xmlwriter.hpp>
 #include <catch2/reporters/catch_reporter_registrars.hpp>

@@ -1,0 +1,30 @@
+#!/usr/bin/env bash
+# A folder made by scripts/portable_folder.sh: its program runs from anywhere with the machine's own C++ runtime and zlib,
+# and with those brought along where the machine's are too old.
+# Usage: portable_folder_test.sh SOURCE BUILD
+set -euo pipefail
+work=$(mktemp -d)
+trap 'rm -rf "$work"' EXIT
+
+fail() { printf 'portable_folder_test: %s\n' "$1" >&2; cat "$work/out.txt" >&2; exit 1; }
+"$1/scripts/portable_folder.sh" "$work/made" "$2" >"$work/out.txt" 2>&1 || fail "status $?"
+mkdir "$work/a folder"
+mv "$work/made" "$work/a folder/moved"
+folder="$work/a folder/moved"
+ln -s "$folder/bin/lockstep" "$work/lockstep"
+cd /
+"$work/lockstep" hash "$folder/share/lockstep/scenes/lattice.json" --particles 100 --frames 2 >"$work/out.txt" 2>&1 || fail "status $?"
+LD_TRACE_LOADED_OBJECTS=1 "$folder/libexec/lockstep" >"$work/out.txt"
+grep -F "$folder" "$work/out.txt" | grep -q 'libassimp' || fail "it has another assimp than its own"
+for library in libstdc++ libgcc_s libz; do
+    ls "$folder/lib/runtime/" | grep -qF "$library.so" || fail "$library is not brought along"
+    ! grep -F "$library.so" "$work/out.txt" | grep -qF "$folder" || fail "$library is its own, not the machine's"
+done
+
+# A program that starts with the libraries brought along alone.
+cat >"$folder/libexec/lockstep" <<'END'
+#!/bin/sh
+case ${LD_LIBRARY_PATH:-} in */lib/runtime*) echo "brought along: $*" ;; *) exit 127 ;; esac
+END
+"$work/lockstep" check 'a b' >"$work/out.txt" 2>&1 || fail "status $? with an old runtime"
+grep -qx 'brought along: check a b' "$work/out.txt" || fail "with an old runtime it says something else"

@@ -194,7 +194,7 @@ class ParticleDiagnosis {
 
     /// The other neighbour that a direction leads away from.
     [[nodiscard]] std::optional<NeighbourTrace> neighbour_of(glm::vec3 direction) const {
-        const LegalArithmetic<Strict> arithmetic{KnownOperations{}};
+        const LegalArithmetic arithmetic(Strict{}, KnownOperations{});
         for (const NeighbourTrace& neighbour : trace_.neighbours)
             if (neighbour.compared && &neighbour != &nearest() &&
                 lockstep::contains(arithmetic.normalize(arithmetic.read(neighbour.apart)), direction))

@@ -277,10 +277,10 @@ std::string list_of(const std::vector<Contender>& contenders, std::optional<std:
 template <class A> class TableBuilder {
   public:
     /// `run`: null where the particle is alone.
-    TableBuilder(const JudgedFrame& frame, std::size_t particle, StepCapture capture, FrameRun* run)
-        : run_(run), frame_(frame), params_(frame_.params), constants_(params_.constants), switches_(params_.switches),
-          particle_(particle), arithmetic_(frame_.known), before_(frame_.before[particle]),
-          strict_(trace_step(before_, frame_.cdt, params_, named_profile("strict"))),
+    TableBuilder(A fp, const JudgedFrame& frame, std::size_t particle, StepCapture capture, FrameRun* run)
+        : fp_(fp), run_(run), frame_(frame), params_(frame_.params), constants_(params_.constants),
+          switches_(params_.switches), particle_(particle), arithmetic_(fp, frame_.known),
+          before_(frame_.before[particle]), strict_(trace_step(before_, frame_.cdt, params_, named_profile("strict"))),
           reference_(trace_step(before_, frame_.cdt, params_, frame_.profile)), gpu_(std::move(capture)),
           seen_(seen_texels(gpu_)), state_(gpu_.vertex_state.value_or(frame_.gpu[particle])) {
         const ParticleState captured = frame_.gpu[particle];
@@ -630,7 +630,7 @@ template <class A> class TableBuilder {
         rows_.numbers<glm::vec4>("point's clip", strict_.raster_clip, reference_.raster_clip, clip, legal_clip.data());
 
         const glm::vec4 follows =
-            point_position(clip.value_or(A::transform(params_.collision_proj_view, drawn_at)), params_);
+            point_position(clip.value_or(fp_.transform(params_.collision_proj_view, drawn_at)), params_);
         if (!gpu_.drawn_alone)
             gpu_.position = follows;
         const bool gpu_drawn = in_clip_volume(gpu_.position);
@@ -721,6 +721,7 @@ template <class A> class TableBuilder {
     static Interval point(float value) { return value != value ? Interval::anything() : Interval(value); }
     [[nodiscard]] CollisionCode code() const { return CollisionCode(params_); }
 
+    A fp_;
     FrameRun* run_;
     JudgedFrame frame_;
     const FrameParams& params_;
@@ -763,8 +764,8 @@ const StepRow* StepTable::first_divergent() const {
 }
 
 StepTable step_table(FrameRun& run, std::size_t particle) {
-    StepTable table = with_arithmetic(run.profile(), run.scene().switches, [&]<class A>(A) {
-        return TableBuilder<A>(run.judged(), particle, run.capture(particle), &run)();
+    StepTable table = with_arithmetic(run.profile(), run.scene().switches, [&](auto fp) {
+        return TableBuilder(fp, run.judged(), particle, run.capture(particle), &run)();
     });
     table.frame = run.frame();
     return table;
@@ -772,7 +773,7 @@ StepTable step_table(FrameRun& run, std::size_t particle) {
 
 StepTable step_table(const JudgedFrame& frame, std::size_t particle, const StepCapture& capture) {
     return with_arithmetic(frame.profile, frame.params.switches,
-                           [&]<class A>(A) { return TableBuilder<A>(frame, particle, capture, nullptr)(); });
+                           [&](auto fp) { return TableBuilder(fp, frame, particle, capture, nullptr)(); });
 }
 
 TexelTable texel_table(FrameRun& run, std::size_t texel) {

@@ -9,9 +9,9 @@
 
 namespace lockstep {
 
-/// The operations GLSL leaves open, as policy types: a pass is written once, as the listing reads, and takes one of
-/// these as `A`. What is measured of drivers stands in the spec, last section; every result is rounded where it is
-/// written, as the build's -ffp-contract=off guarantees.
+/// The operations GLSL leaves open, as values: a pass is written once, as the listing reads, and is handed one of
+/// these, `A fp`, whose operations may read what was measured of a driver. What is measured of drivers stands in the
+/// spec, last section; every result is rounded where it is written, as the build's -ffp-contract=off guarantees.
 
 /// Sums from left to right, every operation rounded: the reference on its own terms.
 struct Strict {
@@ -49,16 +49,20 @@ struct FusedChain : Strict {
 };
 
 /// NVIDIA with its own tables: a / b is a times the driver's 1 / b, the square root the driver's 1 / x of its
-/// inversesqrt, and normalize multiplies by inversesqrt. `tables` is set by with_arithmetic before a pass runs.
-struct DriverRoots : FusedChain {
-    static inline const RootTables* tables = nullptr;
+/// inversesqrt, and normalize multiplies by inversesqrt. Refers to the tables.
+class DriverRoots : public FusedChain {
+  public:
+    explicit DriverRoots(const RootTables& tables) : tables_(&tables) {}
 
-    static float reciprocal(float a) { return tables->reciprocal_of(a); }
-    static float divide(float a, float b) { return a * reciprocal(b); }
-    static float inverse_sqrt(float a) { return tables->inverse_sqrt_of(a); }
-    static float sqrt(float a) { return reciprocal(inverse_sqrt(a)); }
-    static float length(glm::vec3 v) { return sqrt(dot(v, v)); }
-    static glm::vec3 normalize(glm::vec3 v) { return scale(v, inverse_sqrt(dot(v, v))); }
+    [[nodiscard]] float reciprocal(float a) const { return tables_->reciprocal_of(a); }
+    [[nodiscard]] float divide(float a, float b) const { return a * reciprocal(b); }
+    [[nodiscard]] float inverse_sqrt(float a) const { return tables_->inverse_sqrt_of(a); }
+    [[nodiscard]] float sqrt(float a) const { return reciprocal(inverse_sqrt(a)); }
+    [[nodiscard]] float length(glm::vec3 v) const { return sqrt(dot(v, v)); }
+    [[nodiscard]] glm::vec3 normalize(glm::vec3 v) const { return scale(v, inverse_sqrt(dot(v, v))); }
+
+  private:
+    const RootTables* tables_;
 };
 
 } // namespace lockstep

@@ -22,9 +22,9 @@ struct Billboard {
 };
 
 /// The square of half side `radius` round `centre` (view space), parallel to the image.
-template <class A> Billboard expand_billboard(glm::vec3 centre, float radius, const glm::mat4& projection) {
-    return {A::transform(projection, {centre.x - radius, centre.y - radius, centre.z}),
-            A::transform(projection, {centre.x + radius, centre.y + radius, centre.z})};
+template <class A> Billboard expand_billboard(A fp, glm::vec3 centre, float radius, const glm::mat4& projection) {
+    return {fp.transform(projection, {centre.x - radius, centre.y - radius, centre.z}),
+            fp.transform(projection, {centre.x + radius, centre.y + radius, centre.z})};
 }
 
 /// Whether any of it can be seen: in front of the camera, between near and far plane, not beside the image. False for
@@ -59,9 +59,9 @@ struct BillboardWindow {
     glm::vec2 half{0.0F};
 };
 
-template <class A> BillboardWindow billboard_window(const Billboard& b, int width, int height) {
-    const glm::vec2 low = window_place<A>(glm::vec2(b.low), b.low.w, width, height);
-    const glm::vec2 high = window_place<A>(glm::vec2(b.high), b.low.w, width, height);
+template <class A> BillboardWindow billboard_window(A fp, const Billboard& b, int width, int height) {
+    const glm::vec2 low = window_place(fp, glm::vec2(b.low), b.low.w, width, height);
+    const glm::vec2 high = window_place(fp, glm::vec2(b.high), b.low.w, width, height);
     return {low, high, (low + high) * 0.5F, (high - low) * 0.5F};
 }
 

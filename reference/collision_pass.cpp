@@ -44,7 +44,8 @@ template <class A> BaseTexelIndex base_texel(A fp, glm::vec4 clip, const FramePa
 }
 
 /// Switch arithmetic plain: the fixed function decides, in the driver's way.
-template <class A> PointFragment rasterised_point(glm::vec4 clip, const FrameParams& params, const RasterRules& rules) {
+template <class A>
+PointFragment rasterised_point(A fp, glm::vec4 clip, const FrameParams& params, const RasterRules& rules) {
     if (!in_clip_volume(clip))
         return {};
     const WindowPosition window = window_position(clip, params.width, params.height, rules);
@@ -52,7 +53,7 @@ template <class A> PointFragment rasterised_point(glm::vec4 clip, const FramePar
     const int y = point_pixel(snap_point(window.y, rules), rules);
     if (x < 0 || y < 0 || x >= params.width || y >= params.height)
         return {};
-    return {x, y, rules.depth_by_driver_reciprocal ? (clip.z * A::reciprocal(clip.w)) * 0.5F + 0.5F : window.z};
+    return {x, y, rules.depth_by_driver_reciprocal ? (clip.z * fp.reciprocal(clip.w)) * 0.5F + 0.5F : window.z};
 }
 
 /// Switch arithmetic exact: the pass itself puts the point on the centre of the texel it computes, its depth on a grid
@@ -65,12 +66,13 @@ PointFragment placed_point(glm::vec4 clip, const FrameParams& params) {
     return {texel.x, texel.y, std::floor(depth * 0x1p24F) * 0x1p-24F};
 }
 
-template <class A> PointFragment fragment(glm::vec3 position, const FrameParams& params, const RasterRules& rules) {
-    const glm::vec4 clip = A::transform(params.collision_proj_view, position);
+template <class A>
+PointFragment fragment(A fp, glm::vec3 position, const FrameParams& params, const RasterRules& rules) {
+    const glm::vec4 clip = fp.transform(params.collision_proj_view, position);
     if constexpr (std::is_same_v<A, Portable>)
         return placed_point(clip, params);
     else
-        return rasterised_point<A>(clip, params, rules);
+        return rasterised_point(fp, clip, params, rules);
 }
 
 } // namespace
@@ -88,10 +90,10 @@ void rasterise_particles(const Particles& before, const Particles& after, const 
     const auto& positions =
         params.switches.raster_position == RasterPosition::updated ? after.position : before.position;
     const CollisionCode code(params);
-    with_arithmetic(profile, params.switches, [&]<class A>(A) {
+    with_arithmetic(profile, params.switches, [&](auto fp) {
         const FlushSubnormals guard(profile.flush_subnormals);
         for (std::size_t i = 0; i < positions.size(); ++i) {
-            const PointFragment point = fragment<A>(positions[i], params, profile.raster);
+            const PointFragment point = fragment(fp, positions[i], params, profile.raster);
             if (point.x < 0 || !(point.depth < depth.at(point.x, point.y)))
                 continue;
             depth.at(point.x, point.y) = point.depth;
@@ -103,7 +105,7 @@ void rasterise_particles(const Particles& before, const Particles& after, const 
 PointFragment point_fragment(glm::vec3 position, const FrameParams& params, const Profile& profile) {
     const FlushSubnormals guard(profile.flush_subnormals);
     return with_arithmetic(profile, params.switches,
-                           [&]<class A>(A) { return fragment<A>(position, params, profile.raster); });
+                           [&](auto fp) { return fragment(fp, position, params, profile.raster); });
 }
 
 BaseTexelIndex base_texel(glm::vec3 position, const FrameParams& params, const Profile& profile) {

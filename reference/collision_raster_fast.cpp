@@ -36,7 +36,7 @@ std::size_t particle_of(DrawingKey key) { return key & 0xffffffffU; }
 
 /// Texel index and depth of a block's points, -1 for those that are not drawn: point_fragment() without branches.
 template <class A, ViewportRounding viewport, SnapRounding snap>
-void point_fragments(const Columns& position, std::size_t count, const FrameParams& params, RasterRules rules,
+void point_fragments(A fp, const Columns& position, std::size_t count, const FrameParams& params, RasterRules rules,
                      std::int32_t* texel, float* depth) {
     rules.viewport = viewport; // known to the compiler
     rules.point_snap = snap;
@@ -45,7 +45,7 @@ void point_fragments(const Columns& position, std::size_t count, const FramePara
     const int height = params.height;
     LOCKSTEP_VECTOR_LOOP
     for (std::size_t i = 0; i < count; ++i) {
-        const glm::vec4 clip = A::transform(proj_view, position.at(i));
+        const glm::vec4 clip = fp.transform(proj_view, position.at(i));
         const bool inside = in_clip_volume(clip);
         const WindowPosition window = window_position(clip, width, height, rules);
         const int x = point_pixel(snap_point(inside ? window.x : 0.0F, rules), rules);
@@ -60,7 +60,7 @@ void point_fragments(const Columns& position, std::size_t count, const FramePara
 void placed_fragments(const Columns& position, std::size_t count, const FrameParams& params, std::int32_t* texel,
                       float* depth) {
     const glm::mat4 proj_view = params.collision_proj_view;
-    const TexelLookup<Portable> lookup(params);
+    const TexelLookup lookup(Portable(), params);
     const int width = params.width;
     LOCKSTEP_VECTOR_LOOP
     for (std::size_t i = 0; i < count; ++i) {
@@ -75,8 +75,9 @@ void placed_fragments(const Columns& position, std::size_t count, const FramePar
 
 /// Draws particles first .. last - 1 into `keys`.
 template <class A, ViewportRounding viewport, SnapRounding snap>
-LOCKSTEP_VECTOR_CLONES void draw_slice(const std::vector<glm::vec3>& positions, std::size_t first, std::size_t last,
-                                       const FrameParams& params, const RasterRules& rules, DrawingKey* keys) {
+LOCKSTEP_VECTOR_CLONES void draw_slice(A fp, const std::vector<glm::vec3>& positions, std::size_t first,
+                                       std::size_t last, const FrameParams& params, const RasterRules& rules,
+                                       DrawingKey* keys) {
     std::array<std::int32_t, block_size> texel;
     std::array<float, block_size> depth;
     Columns position;
@@ -86,7 +87,7 @@ LOCKSTEP_VECTOR_CLONES void draw_slice(const std::vector<glm::vec3>& positions, 
         if constexpr (std::is_same_v<A, Portable>)
             placed_fragments(position, count, params, texel.data(), depth.data());
         else
-            point_fragments<A, viewport, snap>(position, count, params, rules, texel.data(), depth.data());
+            point_fragments<A, viewport, snap>(fp, position, count, params, rules, texel.data(), depth.data());
         for (std::size_t i = 0; i < count; ++i)
             if (texel[i] >= 0)
                 keys[texel[i]] = std::min(keys[texel[i]], drawing_key(depth[i], first + i));
@@ -116,7 +117,7 @@ template <class A> auto draw_slice_for(const RasterRules& rules) {
 /// there are. Keys are 8 bytes a texel and slice, hence not more than a few.
 constexpr int most_slices = 8;
 
-template <class A> void rasterise(const std::vector<glm::vec3>& positions, const std::vector<glm::vec3>& stored,
+template <class A> void rasterise(A fp, const std::vector<glm::vec3>& positions, const std::vector<glm::vec3>& stored,
                                   const FrameParams& params, const Profile& profile, CollisionImage& cdt,
                                   DepthImage& depth) {
     const auto draw = draw_slice_for<A>(profile.raster);
@@ -131,7 +132,7 @@ template <class A> void rasterise(const std::vector<glm::vec3>& positions, const
 #pragma omp for schedule(static, 1)
         for (int slice = 0; slice < slices; ++slice) {
             std::fill_n(&keys[texels * slice], texels, undrawn);
-            draw(positions, start(slice), start(slice + 1), params, profile.raster, &keys[texels * slice]);
+            draw(fp, positions, start(slice), start(slice + 1), params, profile.raster, &keys[texels * slice]);
         }
 #pragma omp for schedule(static)
         for (std::ptrdiff_t t = 0; t < static_cast<std::ptrdiff_t>(texels); ++t) {
@@ -155,9 +156,9 @@ void rasterise_particles_fast(const Particles& before, const Particles& after, c
         return rasterise_particles(before, after, params, profile, cdt, depth);
     const auto& positions =
         params.switches.raster_position == RasterPosition::updated ? after.position : before.position;
-    with_arithmetic(profile, params.switches, [&]<class A>(A) {
+    with_arithmetic(profile, params.switches, [&]<class A>(A fp) {
         if constexpr (!std::is_same_v<A, DriverRoots>)
-            rasterise<A>(positions, after.position, params, profile, cdt, depth);
+            rasterise(fp, positions, after.position, params, profile, cdt, depth);
     });
 }
 

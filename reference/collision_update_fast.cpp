@@ -39,9 +39,9 @@ template <int radius> struct Neighbourhood {
 
 /// The largest square whose root lies within the collision range and below the listing's first best distance;
 /// negative where there is none. Rounded roots never decrease, so halving finds it, in the order of the bits.
-template <class A> float largest_square(float range) {
+template <class A> float largest_square(A fp, float range) {
     const auto within = [&](float square) {
-        const float length = A::sqrt(square);
+        const float length = fp.sqrt(square);
         return range > length && length < 100000.0F;
     };
     if (!within(0.0F))
@@ -62,25 +62,26 @@ struct Update {
 };
 
 /// The index of the base texel for every particle of the block that searches, -1 for the others.
-template <class A> void search_texels(const Update& u, const Columns& position, std::size_t first, std::size_t count,
-                                      std::int32_t* texel) {
+template <class A> void search_texels(A fp, const Update& u, const Columns& position, std::size_t first,
+                                      std::size_t count, std::int32_t* texel) {
     const glm::mat4 proj_view = u.params.collision_proj_view;
-    const TexelLookup<A> lookup(u.params);
+    const TexelLookup lookup(fp, u.params);
     const auto stride = static_cast<std::int32_t>(u.stored.stride);
     const auto origin = static_cast<std::int32_t>(u.stored.origin);
     const float* collide_time = &u.before.collide_time[first];
     LOCKSTEP_VECTOR_LOOP
     for (std::size_t i = 0; i < count; ++i) {
-        const auto base = lookup(A::transform(proj_view, position.at(i)));
-        const bool searches = base.inside & (A::flush(collide_time[i]) < 0.0F);
+        const auto base = lookup(fp.transform(proj_view, position.at(i)));
+        const bool searches = base.inside & (fp.flush(collide_time[i]) < 0.0F);
         texel[i] = searches ? origin + base.y * stride + base.x : -1;
     }
 }
 
 /// Lines 26 to 30 for every particle of the block.
-template <class A> void integrate(const Update& u, const Columns& position, std::size_t first, std::size_t count) {
+template <class A>
+void integrate(A fp, const Update& u, const Columns& position, std::size_t first, std::size_t count) {
     const float tick = u.params.constants.tick;
-    const glm::vec3 pull = A::scale(u.params.constants.gravity, tick);
+    const glm::vec3 pull = fp.scale(u.params.constants.gravity, tick);
     const float* speed = &u.before.speed[first];
     const float* collide_time = &u.before.collide_time[first];
     float* new_speed = &u.after.speed[first];
@@ -89,13 +90,13 @@ template <class A> void integrate(const Update& u, const Columns& position, std:
     direction.load(&u.before.direction[first], count);
     LOCKSTEP_VECTOR_LOOP
     for (std::size_t i = 0; i < count; ++i) {
-        const glm::vec3 temp = A::flush(A::scale(A::flush(direction.at(i)), A::flush(speed[i])) + pull);
-        const glm::vec3 along = A::normalize(temp);
-        const float fast = A::length(temp);
+        const glm::vec3 temp = fp.flush(fp.scale(fp.flush(direction.at(i)), fp.flush(speed[i])) + pull);
+        const glm::vec3 along = fp.normalize(temp);
+        const float fast = fp.length(temp);
         new_direction.set(i, along);
-        new_position.set(i, A::flush(A::flush(position.at(i)) + A::scale(A::scale(along, fast), tick)));
+        new_position.set(i, fp.flush(fp.flush(position.at(i)) + fp.scale(fp.scale(along, fast), tick)));
         new_speed[i] = fast;
-        new_collide_time[i] = A::flush(A::flush(collide_time[i]) - tick);
+        new_collide_time[i] = fp.flush(fp.flush(collide_time[i]) - tick);
     }
     new_direction.store(count, &u.after.direction[first]);
     new_position.store(count, &u.after.position[first]);
@@ -103,8 +104,8 @@ template <class A> void integrate(const Update& u, const Columns& position, std:
 
 /// Squared distances from `self` to the neighbourhood that starts at texel `corner`; infinite or NaN where a texel does
 /// not count.
-template <class A, int radius>
-void square_distances(const StoredPositions& stored, glm::vec3 self, std::ptrdiff_t corner, float* squared) {
+template <int radius, class A>
+void square_distances(A fp, const StoredPositions& stored, glm::vec3 self, std::ptrdiff_t corner, float* squared) {
     using N = Neighbourhood<radius>;
     for (int row = 0; row < N::rows; ++row) {
         const float* x = stored.x.data() + corner + row * stored.stride;
@@ -113,8 +114,8 @@ void square_distances(const StoredPositions& stored, glm::vec3 self, std::ptrdif
         const float* aside = N::aside.data() + row * N::lanes;
         LOCKSTEP_VECTOR_LOOP
         for (int lane = 0; lane < N::lanes; ++lane) {
-            const glm::vec3 apart = A::flush(self - A::flush(glm::vec3{x[lane], y[lane], z[lane]}));
-            squared[row * N::lanes + lane] = A::dot(apart, apart) + aside[lane];
+            const glm::vec3 apart = fp.flush(self - fp.flush(glm::vec3{x[lane], y[lane], z[lane]}));
+            squared[row * N::lanes + lane] = fp.dot(apart, apart) + aside[lane];
         }
     }
 }
@@ -137,14 +138,14 @@ template <class N, class T> T least_of(const T* values, T most) {
 }
 
 /// The first of the squares whose root rounds to the root of the least: equal distances, of which the first wins.
-template <class A, class N> int first_nearest(const float* squared, float least) {
+template <class N, class A> int first_nearest(A fp, const float* squared, float least) {
     const float close = least * (1.0F + 0x1p-21F); // squares of one root lie within 2^-22 of each other
     alignas(32) std::array<std::int32_t, N::size> index;
     LOCKSTEP_VECTOR_LOOP
     for (int i = 0; i < N::size; ++i)
         index[i] = squared[i] <= close ? i : N::size;
     int first = least_of<N, std::int32_t>(index.data(), N::size);
-    while (squared[first] != least && !(squared[first] <= close && A::sqrt(squared[first]) == A::sqrt(least)))
+    while (squared[first] != least && !(squared[first] <= close && fp.sqrt(squared[first]) == fp.sqrt(least)))
         ++first;
     return first;
 }
@@ -162,8 +163,8 @@ struct Hits {
 };
 
 /// Lines 5 to 19 for every particle of the block that searches. `within`: the largest square that is a hit.
-template <class A, int radius> void search(const Update& u, float within, const Columns& position, std::size_t count,
-                                           const std::int32_t* texel, Hits& hits) {
+template <int radius, class A> void search(A fp, const Update& u, float within, const Columns& position,
+                                           std::size_t count, const std::int32_t* texel, Hits& hits) {
     using N = Neighbourhood<radius>;
     const StoredPositions& stored = u.stored;
     const bool from_texel = u.params.switches.self_position == SelfPosition::texel;
@@ -172,9 +173,9 @@ template <class A, int radius> void search(const Update& u, float within, const 
     for (std::size_t i = 0; i < count; ++i) {
         if (texel[i] < 0)
             continue;
-        const glm::vec3 self = A::flush(from_texel ? stored.at(texel[i]) : position.at(i));
+        const glm::vec3 self = fp.flush(from_texel ? stored.at(texel[i]) : position.at(i));
         const std::ptrdiff_t corner = texel[i] - radius * (stored.stride + 1);
-        square_distances<A, radius>(stored, self, corner, squared.data());
+        square_distances<radius>(fp, stored, self, corner, squared.data());
         float least = least_of<N>(squared.data(), infinity);
         if (least == 0.0F && skip_zero) {
             std::replace(squared.begin(), squared.end(), 0.0F, infinity);
@@ -182,27 +183,27 @@ template <class A, int radius> void search(const Update& u, float within, const 
         }
         if (!(least <= within))
             continue;
-        const int nearest = first_nearest<A, N>(squared.data(), least);
+        const int nearest = first_nearest<N>(fp, squared.data(), least);
         const std::ptrdiff_t index = corner + nearest / N::lanes * stored.stride + nearest % N::lanes;
-        hits.add(i, A::flush(self - A::flush(stored.at(index))));
+        hits.add(i, fp.flush(self - fp.flush(stored.at(index))));
     }
 }
 
 /// Lines 21 to 24 for every hit of the block.
-template <class A> void collide(const Update& u, const Columns& position, std::size_t first, const Hits& hits) {
+template <class A> void collide(A fp, const Update& u, const Columns& position, std::size_t first, const Hits& hits) {
     const Constants& constants = u.params.constants;
     const Switches& switches = u.params.switches;
     Columns direction;
     LOCKSTEP_VECTOR_LOOP
     for (std::size_t i = 0; i < hits.count; ++i)
-        direction.set(i, A::normalize(hits.away.at(i)));
+        direction.set(i, fp.normalize(hits.away.at(i)));
     for (std::size_t i = 0; i < hits.count; ++i) {
         const std::size_t p = first + hits.particle[i];
-        const float speed = A::flush(A::flush(u.before.speed[p]) * switches.speed_factor);
-        glm::vec3 step = A::scale(direction.at(i), speed);
+        const float speed = fp.flush(fp.flush(u.before.speed[p]) * switches.speed_factor);
+        glm::vec3 step = fp.scale(direction.at(i), speed);
         if (switches.collision_step == CollisionStep::tick)
-            step = A::scale(step, constants.tick);
-        u.after.position[p] = A::flush(A::flush(position.at(hits.particle[i])) + step);
+            step = fp.scale(step, constants.tick);
+        u.after.position[p] = fp.flush(fp.flush(position.at(hits.particle[i])) + step);
         u.after.direction[p] = direction.at(i);
         u.after.speed[p] = speed;
         u.after.collide_time[p] = constants.collision_time;
@@ -210,30 +211,30 @@ template <class A> void collide(const Update& u, const Columns& position, std::s
 }
 
 template <class A, int radius>
-LOCKSTEP_VECTOR_CLONES void update_block(const Update& u, float within, std::size_t first, std::size_t count) {
+LOCKSTEP_VECTOR_CLONES void update_block(A fp, const Update& u, float within, std::size_t first, std::size_t count) {
     std::array<std::int32_t, block_size> texel;
     Columns position;
     Hits hits;
     position.load(&u.before.position[first], count);
-    search_texels<A>(u, position, first, count, texel.data());
-    integrate<A>(u, position, first, count);
-    search<A, radius>(u, within, position, count, texel.data(), hits);
-    collide<A>(u, position, first, hits);
+    search_texels(fp, u, position, first, count, texel.data());
+    integrate(fp, u, position, first, count);
+    search<radius>(fp, u, within, position, count, texel.data(), hits);
+    collide(fp, u, position, first, hits);
 }
 
-template <class A> void update(const Update& u, bool flush) {
-    constexpr std::array<void (*)(const Update&, float, std::size_t, std::size_t), widest_radius> blocks{
+template <class A> void update(A fp, const Update& u, bool flush) {
+    constexpr std::array<void (*)(A, const Update&, float, std::size_t, std::size_t), widest_radius> blocks{
         update_block<A, 1>, update_block<A, 2>, update_block<A, 3>, update_block<A, 4>};
     const auto block = blocks[u.params.constants.texel_collide_range - 1];
     const auto count = static_cast<std::ptrdiff_t>(u.before.size());
 #pragma omp parallel
     {
         const FlushSubnormals guard(flush);
-        const float within = largest_square<A>(u.params.constants.collision_range);
+        const float within = largest_square(fp, u.params.constants.collision_range);
 #pragma omp for schedule(dynamic, 16)
         for (std::ptrdiff_t first = 0; first < count; first += block_size) {
             const auto start = static_cast<std::size_t>(first);
-            block(u, within, start, std::min(block_size, u.before.size() - start));
+            block(fp, u, within, start, std::min(block_size, u.before.size() - start));
         }
     }
 }
@@ -248,9 +249,9 @@ void update_particles_fast(const Particles& before, const CollisionImage& cdt, c
     assert(&before != &after && cdt.width == params.width && cdt.height == params.height);
     after.resize(before.size());
     const StoredPositions stored = stored_positions(cdt, params, radius, 3);
-    with_arithmetic(profile, params.switches, [&]<class A>(A) {
+    with_arithmetic(profile, params.switches, [&]<class A>(A fp) {
         if constexpr (!std::is_same_v<A, DriverRoots>)
-            update<A>({before, stored, params, after}, profile.flush_subnormals);
+            update(fp, {before, stored, params, after}, profile.flush_subnormals);
     });
 }
 

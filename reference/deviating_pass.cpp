@@ -64,8 +64,8 @@ const CollisionImage& read_cdt(const FrameInputs& inputs, const Deviations& devi
 
 template <class A> class DeviatingStep {
   public:
-    DeviatingStep(const FrameInputs& inputs, const Deviations& deviations, StepTrace* trace)
-        : inputs_(inputs), params_(*inputs.params), constants_(params_.constants), switches_(params_.switches),
+    DeviatingStep(A fp, const FrameInputs& inputs, const Deviations& deviations, StepTrace* trace)
+        : fp_(fp), inputs_(inputs), params_(*inputs.params), constants_(params_.constants), switches_(params_.switches),
           deviations_(deviations), trace_(trace), code_(params_), cdt_(read_cdt(inputs, deviations)),
           tick_(constants_.tick) {
         if (has(half_cdt))
@@ -79,8 +79,8 @@ template <class A> class DeviatingStep {
     }
 
     ParticleState operator()(const ParticleState& before) {
-        const ParticleState a{A::flush(before.position), A::flush(before.direction), A::flush(before.speed),
-                              A::flush(before.collide_time)};
+        const ParticleState a{fp_.flush(before.position), fp_.flush(before.direction), fp_.flush(before.speed),
+                              fp_.flush(before.collide_time)};
         const glm::vec4 clip = transform(a.position);
         const BaseTexelIndex base = base_texel(clip);
         const bool searches = may_search(a.collide_time) && base.x >= 0;
@@ -106,7 +106,7 @@ template <class A> class DeviatingStep {
         if (has(transposed_matrix))
             m = glm::transpose(m);
         if (!has(products_fused))
-            return A::transform(m, v);
+            return fp_.transform(m, v);
         const auto row = [&](int r) { return std::fma(m[2][r], v.z, std::fma(m[1][r], v.y, m[0][r] * v.x)) + m[3][r]; };
         return {row(0), row(1), row(2), row(3)};
     }
@@ -114,7 +114,7 @@ template <class A> class DeviatingStep {
     [[nodiscard]] BaseTexelIndex base_texel(glm::vec4 clip) const {
         glm::vec2 p{clip.x, clip.y};
         if (switches_.perspective_divide == PerspectiveDivide::on && !has(no_perspective_divide))
-            p = {A::divide(clip.x, clip.w), A::divide(clip.y, clip.w)};
+            p = {fp_.divide(clip.x, clip.w), fp_.divide(clip.y, clip.w)};
         if (trace_ != nullptr)
             trace_->ndc = p;
         const float half = has(divide_by_half) ? 2.0F : has(not_halved) ? 1.0F : 0.5F;
@@ -182,7 +182,7 @@ template <class A> class DeviatingStep {
 
     [[nodiscard]] glm::vec3 decode(glm::vec4 stored) const {
         const glm::vec3 position = code_.decode(stored);
-        return A::flush(coarse_code_ ? coarse_code_->decode(coarse_code_->encode(position)) : position);
+        return fp_.flush(coarse_code_ ? coarse_code_->decode(coarse_code_->encode(position)) : position);
     }
 
     [[nodiscard]] float distance(glm::vec3 apart) const {
@@ -190,7 +190,7 @@ template <class A> class DeviatingStep {
             apart.z = 0.0F;
         if (has(manhattan_distance))
             return (std::abs(apart.x) + std::abs(apart.y)) + std::abs(apart.z);
-        return has(squared_distance) ? A::dot(apart, apart) : A::length(apart);
+        return has(squared_distance) ? fp_.dot(apart, apart) : fp_.length(apart);
     }
 
     [[nodiscard]] bool in_range(float distance) const {
@@ -268,7 +268,7 @@ template <class A> class DeviatingStep {
                 if (!fetched && has(outside_fetched_as_origin))
                     fetched = holds = true;
                 if (fetched && holds) {
-                    const glm::vec3 apart = A::flush(own - decode(stored));
+                    const glm::vec3 apart = fp_.flush(own - decode(stored));
                     const float len = distance(apart);
                     seen.holds_particle = true;
                     seen.compared = len != 0.0F || zero_is_hit;
@@ -301,14 +301,14 @@ template <class A> class DeviatingStep {
             factor = 1.0F - factor;
         if (has(speed_factor_doubled))
             factor *= 2.0F;
-        v.speed = has(speed_kept_at_hit) ? a.speed : A::flush(a.speed * factor);
+        v.speed = has(speed_kept_at_hit) ? a.speed : fp_.flush(a.speed * factor);
         if (has(speed_factor_squared))
-            v.speed = A::flush(v.speed * factor);
+            v.speed = fp_.flush(v.speed * factor);
         v.direction = has(direction_kept_at_hit)             ? a.direction
                       : has(direction_not_normalised_at_hit) ? away
-                                                             : A::normalize(away);
+                                                             : fp_.normalize(away);
         v.collide_time = has(collide_time_not_set)          ? a.collide_time
-                         : has(collide_time_counted_at_hit) ? A::flush(constants_.collision_time - tick_)
+                         : has(collide_time_counted_at_hit) ? fp_.flush(constants_.collision_time - tick_)
                                                             : constants_.collision_time;
         const bool by_tick = switches_.collision_step == CollisionStep::tick ? !has(tick_missing_in_collision_step)
                                                                              : has(tick_added_to_collision_step);
@@ -317,14 +317,14 @@ template <class A> class DeviatingStep {
         if (has(position_kept_at_hit))
             v.position = a.position;
         else if (by_tick)
-            v.position = multiply_add(A::scale(direction, speed), tick_, a.position);
+            v.position = multiply_add(fp_.scale(direction, speed), tick_, a.position);
         else
             v.position = multiply_add(direction, speed, a.position);
         return v;
     }
 
     [[nodiscard]] ParticleState integrate(const ParticleState& a) const {
-        glm::vec3 gravity = A::scale(constants_.gravity, has(gravity_without_tick) ? 1.0F : tick_);
+        glm::vec3 gravity = fp_.scale(constants_.gravity, has(gravity_without_tick) ? 1.0F : tick_);
         if (has(gravity_missing))
             gravity = glm::vec3(0.0F);
         if (has(gravity_doubled))
@@ -337,13 +337,13 @@ template <class A> class DeviatingStep {
         ParticleState v;
         v.direction = has(direction_not_updated)      ? a.direction
                       : has(direction_not_normalised) ? temp
-                                                      : A::normalize(temp);
-        v.speed = has(speed_not_updated) ? a.speed : has(squared_speed) ? A::dot(temp, temp) : A::length(temp);
+                                                      : fp_.normalize(temp);
+        v.speed = has(speed_not_updated) ? a.speed : has(squared_speed) ? fp_.dot(temp, temp) : fp_.length(temp);
         const float ticks = has(collide_time_counted_twice) ? tick_ * 2.0F
                             : has(collide_time_counted_up)  ? -tick_
                                                             : tick_;
-        v.collide_time = has(collide_time_not_counted) ? a.collide_time : A::flush(a.collide_time - ticks);
-        glm::vec3 step = has(moves_before_gravity) ? A::scale(a.direction, a.speed) : A::scale(v.direction, v.speed);
+        v.collide_time = has(collide_time_not_counted) ? a.collide_time : fp_.flush(a.collide_time - ticks);
+        glm::vec3 step = has(moves_before_gravity) ? fp_.scale(a.direction, a.speed) : fp_.scale(v.direction, v.speed);
         if (has(move_reversed))
             step = -step;
         v.position = has(position_not_updated)
@@ -356,9 +356,10 @@ template <class A> class DeviatingStep {
     [[nodiscard]] glm::vec3 multiply_add(glm::vec3 v, float s, glm::vec3 offset) const {
         if (has(products_fused))
             return {std::fma(v.x, s, offset.x), std::fma(v.y, s, offset.y), std::fma(v.z, s, offset.z)};
-        return A::flush(offset + A::scale(v, s));
+        return fp_.flush(offset + fp_.scale(v, s));
     }
 
+    A fp_;
     const FrameInputs& inputs_;
     const FrameParams& params_;
     const Constants& constants_;
@@ -374,8 +375,9 @@ template <class A> class DeviatingStep {
 /// The point drawn for `position`.
 template <class A> class DeviatingPoint {
   public:
-    DeviatingPoint(const FrameInputs& inputs, const Deviations& deviations, const RasterRules& rules)
-        : params_(*inputs.params), deviations_(deviations), rules_(rules), step_(inputs, deviations, nullptr) {
+    DeviatingPoint(A fp, const FrameInputs& inputs, const Deviations& deviations, const RasterRules& rules)
+        : fp_(fp), params_(*inputs.params), deviations_(deviations), rules_(rules),
+          step_(fp, inputs, deviations, nullptr) {
         if (has(point_viewport_swapped))
             std::swap(viewport_width_, viewport_height_);
         if (has(point_on_upper_pixel))
@@ -404,7 +406,7 @@ template <class A> class DeviatingPoint {
 
     [[nodiscard]] PointFragment placed(glm::vec4 clip) const {
         const BaseTexelIndex texel = step_.base_texel(clip);
-        const float depth = (A::divide(clip.z, clip.w) + 1.0F) * 0.5F;
+        const float depth = (fp_.divide(clip.z, clip.w) + 1.0F) * 0.5F;
         if (texel.x < 0 || !(clip.w > 0.0F) || !(depth >= 0.0F) || !(depth <= 1.0F))
             return {};
         return {texel.x, texel.y, std::floor(depth * 0x1p24F) * 0x1p-24F};
@@ -418,9 +420,10 @@ template <class A> class DeviatingPoint {
         const int y = point_pixel(snap_point(window.y, rules_), rules_);
         if (x < 0 || y < 0 || x >= params_.width || y >= params_.height)
             return {};
-        return {x, y, rules_.depth_by_driver_reciprocal ? clip.z * A::reciprocal(clip.w) * 0.5F + 0.5F : window.z};
+        return {x, y, rules_.depth_by_driver_reciprocal ? clip.z * fp_.reciprocal(clip.w) * 0.5F + 0.5F : window.z};
     }
 
+    A fp_;
     const FrameParams& params_;
     const Deviations& deviations_;
     RasterRules rules_;
@@ -495,7 +498,7 @@ ParticleState deviating_step(const FrameInputs& inputs, std::size_t i, const Pro
     const bool earlier = deviations.has(buffers_not_swapped) && inputs.earlier != nullptr;
     const ParticleState before = (earlier ? *inputs.earlier : *inputs.before)[i];
     return with_deviating_arithmetic(profile, inputs.params->switches, deviations,
-                                     [&]<class A>(A) { return DeviatingStep<A>(inputs, deviations, trace)(before); });
+                                     [&](auto fp) { return DeviatingStep(fp, inputs, deviations, trace)(before); });
 }
 
 void deviating_draw(const FrameInputs& inputs, const Particles& after, const Profile& profile,
@@ -522,8 +525,8 @@ void deviating_draw(const FrameInputs& inputs, const Particles& after, const Pro
                                            : deviations.has(stores_position_before) ? inputs.before->position
                                                                                     : after.position;
     const DepthTest test(deviations);
-    with_deviating_arithmetic(profile, inputs.params->switches, deviations, [&]<class A>(A) {
-        const DeviatingPoint<A> fragment(inputs, deviations, profile.raster);
+    with_deviating_arithmetic(profile, inputs.params->switches, deviations, [&](auto fp) {
+        const DeviatingPoint fragment(fp, inputs, deviations, profile.raster);
         for (std::size_t i = 0; i < positions.size(); ++i) {
             const PointFragment point = fragment(positions[i]);
             if (!cdt.contains(point.x, point.y) || !test.passes(point.depth, depth.at(point.x, point.y)))

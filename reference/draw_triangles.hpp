@@ -20,7 +20,7 @@ namespace lockstep {
 /// fragment shader of triangle i, which is called with x, y, its TriangleInterpolation<A>::Weights and the window depth
 /// of every pixel covered. What is covered, the driver's rasteriser decides (triangle_raster.hpp), or, where A is
 /// Portable, the fragment shader itself.
-template <class A, class Shader> void draw_triangles(std::span<const glm::vec4> clip,
+template <class A, class Shader> void draw_triangles(A fp, std::span<const glm::vec4> clip,
                                                      std::span<const std::uint32_t> indices, int width, int height,
                                                      const Profile& profile, const Shader& shader) {
     const auto corners = [&](std::size_t i) {
@@ -29,10 +29,10 @@ template <class A, class Shader> void draw_triangles(std::span<const glm::vec4> 
     if constexpr (std::is_same_v<A, Portable>) {
         std::vector<PixelRect> boxes(indices.size() / 3);
         for (std::size_t i = 0; i < boxes.size(); ++i)
-            boxes[i] = triangle_box<A>(corners(i), width, height);
+            boxes[i] = triangle_box(fp, corners(i), width, height);
         const auto rows = [&](std::size_t i) { return std::pair{boxes[i].y0, boxes[i].y1 - 1}; };
         const auto draw = [&](std::size_t i, const PixelRect& area) {
-            const TriangleInterpolation<A> interpolation(corners(i), width, height);
+            const TriangleInterpolation interpolation(fp, corners(i), width, height);
             const auto shade = shader(i);
             for (int y = std::max(boxes[i].y0, area.y0); y < std::min(boxes[i].y1, area.y1); ++y)
                 for (int x = boxes[i].x0; x < boxes[i].x1; ++x)
@@ -45,7 +45,7 @@ template <class A, class Shader> void draw_triangles(std::span<const glm::vec4> 
         const auto rows = [&](std::size_t i) { return rows_touched(triangles[i], profile.raster); };
         const auto draw = [&](std::size_t i, const PixelRect& area) {
             const std::size_t triangle = triangles[i].primitive;
-            const TriangleInterpolation<A> interpolation(corners(triangle), width, height);
+            const TriangleInterpolation interpolation(fp, corners(triangle), width, height);
             const auto shade = shader(triangle);
             for_each_pixel(triangles[i], profile.raster, area, [&](int x, int y) {
                 const auto weights = interpolation.weights(x, y);

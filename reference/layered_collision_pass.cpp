@@ -23,11 +23,11 @@ namespace {
 /// One particle's step. `A`: the arithmetic (arithmetic.hpp).
 template <class A> class LayeredStep {
   public:
-    LayeredStep(const CollisionImage& cdt, const FrameParams& params)
-        : params_(params), search_(cdt, params), answer_(params) {}
+    LayeredStep(A fp, const CollisionImage& cdt, const FrameParams& params)
+        : fp_(fp), params_(params), search_(fp, cdt, params), answer_(fp, params) {}
 
     [[nodiscard]] ParticleState operator()(const ParticleState& before) const {
-        const ParticleState a = ParticleStep<A>::flushed(before);
+        const ParticleState a = answer_.flushed(before);
         if (a.collide_time < 0.0F) {
             if (params_.switches.response == Response::mutual) {
                 if (const auto velocity = velocity_after_contacts(a))
@@ -43,7 +43,7 @@ template <class A> class LayeredStep {
     /// The velocity after all contacts at once; none where there is no contact. Positions and velocities are taken as
     /// stored, the own ones too, so that both of a pair compute with the same numbers.
     [[nodiscard]] std::optional<glm::vec3> velocity_after_contacts(const ParticleState& a) const {
-        const glm::vec3 velocity = A::scale(a.direction, a.speed);
+        const glm::vec3 velocity = fp_.scale(a.direction, a.speed);
         const glm::vec3 self = search_.as_stored(a.position);
         const glm::vec3 self_velocity = search_.as_stored(velocity);
         glm::vec3 change(0.0F);
@@ -52,8 +52,8 @@ template <class A> class LayeredStep {
         std::optional<glm::vec3> wall;
         search_.for_each_stored(a.position, [&](StoredAt at, glm::vec3 stored) {
             const bool obstacle = at.layer < 0;
-            const glm::vec3 apart = A::flush(self - stored);
-            const float length = A::length(apart);
+            const glm::vec3 apart = fp_.flush(self - stored);
+            const float length = fp_.length(apart);
             seen = seen || (!obstacle && stored == self);
             if (stored == self || length == 0.0F || !(params_.constants.collision_range > length))
                 return;
@@ -65,16 +65,16 @@ template <class A> class LayeredStep {
                 return;
             }
             const glm::vec4 other = search_.velocity(at);
-            const glm::vec3 relative = A::flush(self_velocity - A::flush(glm::vec3(other)));
-            if (other.a == 0.0F || !(A::dot(relative, apart) < 0.0F))
+            const glm::vec3 relative = fp_.flush(self_velocity - fp_.flush(glm::vec3(other)));
+            if (other.a == 0.0F || !(fp_.dot(relative, apart) < 0.0F))
                 return;
-            change = A::flush(change + bounce(relative, apart, 0.5F));
+            change = fp_.flush(change + bounce(relative, apart, 0.5F));
             hit = true;
         });
         hit = hit && seen;
-        glm::vec3 after = hit ? A::flush(velocity + change) : velocity;
-        if (wall && A::dot(after, *wall) < 0.0F) {
-            after = A::flush(after + bounce(after, *wall, 1.0F));
+        glm::vec3 after = hit ? fp_.flush(velocity + change) : velocity;
+        if (wall && fp_.dot(after, *wall) < 0.0F) {
+            after = fp_.flush(after + bounce(after, *wall, 1.0F));
             hit = true;
         }
         return hit ? std::optional(after) : std::nullopt;
@@ -83,29 +83,31 @@ template <class A> class LayeredStep {
     /// What a contact adds to the velocity: -share * (1 + restitution) * the component of `relative` along `apart`.
     [[nodiscard]] glm::vec3 bounce(glm::vec3 relative, glm::vec3 apart, float share) const {
         const float restitution = params_.switches.speed_factor;
-        const float part = A::divide(A::dot(relative, apart), A::dot(apart, apart));
-        const float weight = A::flush(-share * A::flush(1.0F + A::flush(restitution)));
-        return A::scale(apart, A::flush(part * weight));
+        const float part = fp_.divide(fp_.dot(relative, apart), fp_.dot(apart, apart));
+        const float weight = fp_.flush(-share * fp_.flush(1.0F + fp_.flush(restitution)));
+        return fp_.scale(apart, fp_.flush(part * weight));
     }
 
     [[nodiscard]] ParticleState rebound(const ParticleState& a, glm::vec3 velocity) const {
         ParticleState v;
-        v.speed = A::length(velocity);
-        v.direction = v.speed == 0.0F ? a.direction : A::normalize(velocity);
+        v.speed = fp_.length(velocity);
+        v.direction = v.speed == 0.0F ? a.direction : fp_.normalize(velocity);
         v.collide_time = params_.constants.collision_time;
         const bool tick = params_.switches.collision_step == CollisionStep::tick;
-        v.position = A::flush(a.position + (tick ? A::scale(velocity, params_.constants.tick) : velocity));
+        v.position = fp_.flush(a.position + (tick ? fp_.scale(velocity, params_.constants.tick) : velocity));
         return v;
     }
 
+    A fp_;
     const FrameParams& params_;
     LayeredSearch<A> search_;
     ParticleStep<A> answer_;
 };
 
 /// Where each particle is drawn, its depth a multiple of 2^-24.
-template <class A> std::vector<PointFragment> place(std::span<const glm::vec3> positions, const glm::mat4& proj_view,
-                                                    const FrameParams& params, const Profile& profile) {
+template <class A> std::vector<PointFragment> place(A fp, std::span<const glm::vec3> positions,
+                                                    const glm::mat4& proj_view, const FrameParams& params,
+                                                    const Profile& profile) {
     std::vector<PointFragment> placed(positions.size());
     const auto count = static_cast<std::ptrdiff_t>(positions.size());
 #pragma omp parallel
@@ -113,9 +115,9 @@ template <class A> std::vector<PointFragment> place(std::span<const glm::vec3> p
         const FlushSubnormals guard(profile.flush_subnormals);
 #pragma omp for schedule(static)
         for (std::ptrdiff_t i = 0; i < count; ++i) {
-            const glm::vec4 clip = A::transform(proj_view, positions[static_cast<std::size_t>(i)]);
-            const ImagePosition<A> at(clip, params);
-            const float depth = (A::divide(clip.z, clip.w) + 1.0F) * 0.5F;
+            const glm::vec4 clip = fp.transform(proj_view, positions[static_cast<std::size_t>(i)]);
+            const ImagePosition at(fp, clip, params);
+            const float depth = (fp.divide(clip.z, clip.w) + 1.0F) * 0.5F;
             if (at.inside && clip.w > 0.0F && depth >= 0.0F && depth <= 1.0F)
                 placed[static_cast<std::size_t>(i)] = {static_cast<int>(at.x), static_cast<int>(at.y),
                                                        std::floor(depth * 0x1p24F) * 0x1p-24F};
@@ -172,8 +174,8 @@ void update_particles_layered(const Particles& before, const CollisionImage& cdt
     assert(cdt.height == params.height * cdt_planes(params.switches).count());
     after.resize(before.size());
     const auto count = static_cast<std::ptrdiff_t>(before.size());
-    with_arithmetic(profile, params.switches, [&]<class A>(A) {
-        const LayeredStep<A> step(cdt, params);
+    with_arithmetic(profile, params.switches, [&](auto fp) {
+        const LayeredStep step(fp, cdt, params);
 #pragma omp parallel
         {
             const FlushSubnormals guard(profile.flush_subnormals);
@@ -196,7 +198,8 @@ void draw_layered_cdt(const Particles& particles, const Mesh& obstacles, const F
         DepthImage depth(params.width, params.height, 1.0F);
         obstacle_pass(obstacles, seen_by(params, camera), profile, walls, depth);
         std::copy(walls.texels.begin(), walls.texels.end(), plane(cdt, planes.obstacles(camera), params));
-        with_arithmetic(profile, params.switches, [&]<class A>(A) {
+        with_arithmetic(profile, params.switches, [&](auto fp) {
+            const ParticleStep step(fp, params);
             const FlushSubnormals guard(profile.flush_subnormals);
             const std::size_t texels = walls.texels.size() * static_cast<std::size_t>(planes.layers);
             const std::int32_t* owner = plane(owners.owner, planes.position(camera, 0), params);
@@ -205,10 +208,10 @@ void draw_layered_cdt(const Particles& particles, const Mesh& obstacles, const F
             for (std::size_t t = 0; t < texels; ++t) {
                 if (owner[t] < 0)
                     continue;
-                const ParticleState p = ParticleStep<A>::flushed(particles[static_cast<std::size_t>(owner[t])]);
+                const ParticleState p = step.flushed(particles[static_cast<std::size_t>(owner[t])]);
                 position[t] = code.encode(p.position);
                 if (velocity != nullptr)
-                    velocity[t] = {glm::vec3(code.encode(A::scale(p.direction, p.speed))),
+                    velocity[t] = {glm::vec3(code.encode(fp.scale(p.direction, p.speed))),
                                    p.collide_time < 0.0F ? 1.0F : 0.0F};
             }
         });
@@ -219,8 +222,8 @@ LayeredOwners draw_layered_owners(const Particles& particles, const FrameParams&
     const CdtPlanes planes = cdt_planes(params.switches);
     LayeredOwners owners{Image<std::int32_t>(params.width, params.height * planes.positions(), empty_owner), {}};
     for (int camera = 0; camera < planes.cameras; ++camera)
-        with_arithmetic(profile, params.switches, [&]<class A>(A) {
-            const auto placed = place<A>(particles.position, collision_proj_view(params, camera), params, profile);
+        with_arithmetic(profile, params.switches, [&](auto fp) {
+            const auto placed = place(fp, particles.position, collision_proj_view(params, camera), params, profile);
             for (const PointFragment& point : placed)
                 owners.drawn.push_back(point.x < 0 ? no_texel : point.y * params.width + point.x);
             const auto layers = layer_owners(placed, params);

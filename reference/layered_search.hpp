@@ -27,11 +27,11 @@ template <class A> struct ImagePosition {
     float x, y;
     bool inside;
 
-    ImagePosition(glm::vec4 clip, const FrameParams& params) {
+    ImagePosition(A fp, glm::vec4 clip, const FrameParams& params) {
         const auto width = static_cast<float>(params.width);
         const auto height = static_cast<float>(params.height);
-        x = (A::divide(clip.x, clip.w) + 1.0F) * 0.5F * width;
-        y = (A::divide(clip.y, clip.w) + 1.0F) * 0.5F * height;
+        x = (fp.divide(clip.x, clip.w) + 1.0F) * 0.5F * width;
+        y = (fp.divide(clip.y, clip.w) + 1.0F) * 0.5F * height;
         inside = x >= 0.0F && y >= 0.0F && x < width && y < height;
     }
 };
@@ -57,21 +57,21 @@ struct StoredAt {
 /// The search through the planes of a CDT (layered_collision_pass.hpp).
 template <class A> class LayeredSearch {
   public:
-    LayeredSearch(const CollisionImage& cdt, const FrameParams& params)
-        : cdt_(cdt), params_(params), planes_(cdt_planes(params.switches)), code_(params) {
+    LayeredSearch(A fp, const CollisionImage& cdt, const FrameParams& params)
+        : fp_(fp), cdt_(cdt), params_(params), planes_(cdt_planes(params.switches)), code_(params) {
         for (int camera = 0; camera < planes_.cameras; ++camera)
             reach_[static_cast<std::size_t>(camera)] = projected_reach(collision_proj_view(params, camera), params);
     }
 
     [[nodiscard]] Window window(glm::vec3 position, int camera) const {
-        const glm::vec4 clip = A::transform(collision_proj_view(params_, camera), position);
-        const ImagePosition<A> at(clip, params_);
+        const glm::vec4 clip = fp_.transform(collision_proj_view(params_, camera), position);
+        const ImagePosition at(fp_, clip, params_);
         if (!at.inside)
             return {};
         const glm::vec3 reach = reach_[static_cast<std::size_t>(camera)];
-        const float before = A::flush(clip.w - A::flush(reach.z));
-        return {span(at.x, A::divide(reach.x, before), params_.width),
-                span(at.y, A::divide(reach.y, before), params_.height)};
+        const float before = fp_.flush(clip.w - fp_.flush(reach.z));
+        return {span(at.x, fp_.divide(reach.x, before), params_.width),
+                span(at.y, fp_.divide(reach.y, before), params_.height)};
     }
 
     /// Calls look(StoredAt, stored position) for everything in the windows of a particle, in the pass's order. A
@@ -80,12 +80,12 @@ template <class A> class LayeredSearch {
         for (int camera = 0; camera < planes_.cameras; ++camera) {
             const auto [columns, rows] = window(position, camera);
             const float behind =
-                A::flush(depth(position, camera) + A::flush(reach_[static_cast<std::size_t>(camera)].z));
+                fp_.flush(depth(position, camera) + fp_.flush(reach_[static_cast<std::size_t>(camera)].z));
             for (int y = rows.low; y <= rows.high; ++y)
                 for (int x = columns.low; x <= columns.high; ++x)
                     for (int layer = -1; layer < planes_.layers; ++layer) {
                         const glm::vec4 code = texel(planes_.position(camera, layer), x, y);
-                        const glm::vec3 stored = A::flush(code_.decode(code));
+                        const glm::vec3 stored = fp_.flush(code_.decode(code));
                         if (code.a != 0.0F && !(depth(stored, camera) > behind))
                             look(StoredAt{camera, layer, x, y}, stored);
                         else if (layer >= 0)
@@ -103,8 +103,8 @@ template <class A> class LayeredSearch {
         float least = 100000.0F;
         std::optional<Nearest> found;
         for_each_stored(position, [&](StoredAt at, glm::vec3 stored) {
-            const glm::vec3 apart = A::flush(position - stored);
-            const float length = A::length(apart);
+            const glm::vec3 apart = fp_.flush(position - stored);
+            const float length = fp_.length(apart);
             if (stored == self || length == 0.0F || !(params_.constants.collision_range > length) || !(length < least))
                 return;
             least = length;
@@ -114,7 +114,7 @@ template <class A> class LayeredSearch {
     }
 
     /// What comes back of a position or a velocity that has been stored.
-    [[nodiscard]] glm::vec3 as_stored(glm::vec3 v) const { return A::flush(code_.decode(code_.encode(v))); }
+    [[nodiscard]] glm::vec3 as_stored(glm::vec3 v) const { return fp_.flush(code_.decode(code_.encode(v))); }
 
     [[nodiscard]] glm::vec4 velocity(StoredAt at) const {
         return texel(planes_.velocity(at.camera, at.layer), at.x, at.y);
@@ -127,7 +127,7 @@ template <class A> class LayeredSearch {
   private:
     /// Clip w.
     [[nodiscard]] float depth(glm::vec3 position, int camera) const {
-        return A::transform(collision_proj_view(params_, camera), position).w;
+        return fp_.transform(collision_proj_view(params_, camera), position).w;
     }
 
     [[nodiscard]] Span span(float at, float reach, int size) const {
@@ -137,7 +137,7 @@ template <class A> class LayeredSearch {
         const float r = reach + window_margin;
         if (params_.switches.search_window == SearchWindow::projected && reach >= 0.0F &&
             r < static_cast<float>(range)) {
-            s.low = std::max(s.low, static_cast<int>(std::floor(A::flush(at - r))));
+            s.low = std::max(s.low, static_cast<int>(std::floor(fp_.flush(at - r))));
             s.high = std::min(s.high, static_cast<int>(std::floor(at + r)));
         }
         return {std::max(s.low, 0), std::min(s.high, size - 1)};
@@ -145,6 +145,7 @@ template <class A> class LayeredSearch {
 
     [[nodiscard]] glm::vec4 texel(int plane, int x, int y) const { return cdt_.at(x, plane * params_.height + y); }
 
+    A fp_;
     const CollisionImage& cdt_;
     const FrameParams& params_;
     CdtPlanes planes_;

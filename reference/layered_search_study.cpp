@@ -27,8 +27,8 @@ struct Inputs {
 /// The questions of search_counting.hpp. `A`: the arithmetic (arithmetic.hpp).
 template <class A> class LayeredQuestions {
   public:
-    explicit LayeredQuestions(const Inputs& in)
-        : in_(in), planes_(cdt_planes(in.params.switches)), code_(in.params), search_(in.cdt, in.params),
+    LayeredQuestions(A fp, const Inputs& in)
+        : fp_(fp), in_(in), planes_(cdt_planes(in.params.switches)), code_(in.params), search_(fp, in.cdt, in.params),
           drawn_now_(draw_layered_owners(in.particles, in.params, in.profile).drawn), hit_(in.particles.size()) {
         const auto count = static_cast<std::ptrdiff_t>(hit_.size());
 #pragma omp parallel
@@ -37,7 +37,7 @@ template <class A> class LayeredQuestions {
 #pragma omp for schedule(dynamic, 1024)
             for (std::ptrdiff_t i = 0; i < count; ++i)
                 hit_[static_cast<std::size_t>(i)] =
-                    search_.nearest(A::flush(in.particles.position[static_cast<std::size_t>(i)]));
+                    search_.nearest(fp_.flush(in.particles.position[static_cast<std::size_t>(i)]));
         }
     }
 
@@ -102,7 +102,7 @@ template <class A> class LayeredQuestions {
 
     /// Whether what is stored there is another position than particle j's.
     [[nodiscard]] bool left(StoredAt at, std::size_t j) const {
-        return in_.cdt.texels[search_.index(at)] != code_.encode(A::flush(in_.particles.position[j]));
+        return in_.cdt.texels[search_.index(at)] != code_.encode(fp_.flush(in_.particles.position[j]));
     }
 
     [[nodiscard]] std::optional<Miss> miss(std::size_t i, std::size_t j, int camera) const {
@@ -112,7 +112,7 @@ template <class A> class LayeredQuestions {
         const std::optional<StoredAt> at = stored_at(j, camera);
         if ((!at && drawn(j, camera) != no_texel) || (mutual && !stored_at(i, camera)))
             return Miss::occluded;
-        const glm::vec3 position = A::flush(in_.particles.position[i]);
+        const glm::vec3 position = fp_.flush(in_.particles.position[i]);
         const auto [columns, rows] = search_.window(position, camera);
         const auto in_window = [&, &columns = columns, &rows = rows](std::int32_t texel) {
             return texel != no_texel && columns.contains(texel % in_.params.width) &&
@@ -121,8 +121,8 @@ template <class A> class LayeredQuestions {
         if (!at || !in_window(drawn(j, camera)))
             return in_window(drawn_now(j, camera)) ? Miss::stale : Miss::outside_window;
         const glm::vec3 self = search_.as_stored(position);
-        const glm::vec3 stored = A::flush(code_.decode(in_.cdt.texels[search_.index(*at)]));
-        const float distance = A::length(A::flush((mutual ? self : position) - stored));
+        const glm::vec3 stored = fp_.flush(code_.decode(in_.cdt.texels[search_.index(*at)]));
+        const float distance = fp_.length(fp_.flush((mutual ? self : position) - stored));
         const bool skipped = stored == self || distance == 0.0F;
         if (skipped || !(distance < in_.params.constants.collision_range)) {
             if (left(*at, j))
@@ -134,6 +134,7 @@ template <class A> class LayeredQuestions {
         return {};
     }
 
+    A fp_;
     const Inputs& in_;
     CdtPlanes planes_;
     CollisionCode code_;
@@ -147,8 +148,8 @@ template <class A> class LayeredQuestions {
 SearchStudy study_layered_search(const Particles& particles, const CollisionImage& cdt, const LayeredOwners& owners,
                                  const Truth& truth, const FrameParams& params, const Profile& profile) {
     const Inputs in{particles, cdt, owners, truth, params, profile};
-    SearchStudy result = with_arithmetic(profile, params.switches, [&]<class A>(A) {
-        return count_search(LayeredQuestions<A>(in), particles.size(), truth, params, profile);
+    SearchStudy result = with_arithmetic(profile, params.switches, [&](auto fp) {
+        return count_search(LayeredQuestions(fp, in), particles.size(), truth, params, profile);
     });
     std::vector<bool> owns(particles.size());
     for (const std::int32_t owner : owners.owner.texels)

@@ -20,7 +20,7 @@ using Interval3 = std::array<Interval, 3>;
 /// that `A` (arithmetic.hpp) computes. A function's result is a set of floats unless it says otherwise.
 template <class A> class LegalArithmetic {
   public:
-    explicit LegalArithmetic(const KnownOperations& known) : known_(known) {
+    LegalArithmetic(A fp, const KnownOperations& known) : fp_(fp), known_(known) {
         if constexpr (own_rules)
             known_ = {true, true, true, true, true, true, true};
     }
@@ -28,7 +28,7 @@ template <class A> class LegalArithmetic {
     [[nodiscard]] const KnownOperations& known() const { return known_; }
 
     /// A value as it is read: attributes, uniforms, texels.
-    [[nodiscard]] Interval read(float value) const { return flushed(point(A::flush(value))); }
+    [[nodiscard]] Interval read(float value) const { return flushed(point(fp_.flush(value))); }
     [[nodiscard]] Interval3 read(glm::vec3 v) const { return {read(v.x), read(v.y), read(v.z)}; }
 
     [[nodiscard]] Interval sum(Interval a, Interval b) const {
@@ -36,7 +36,7 @@ template <class A> class LegalArithmetic {
             return Interval::anything();
         if (!known_.sums)
             return loose_sum({a, b});
-        const auto add = [](double x, double y) { return A::flush(static_cast<float>(x) + static_cast<float>(y)); };
+        const auto add = [this](double x, double y) { return fp_.flush(static_cast<float>(x) + static_cast<float>(y)); };
         return flushed(ends(add(a.low, b.low), add(a.high, b.high)));
     }
     [[nodiscard]] Interval difference(Interval a, Interval b) const { return sum(a, interval::negate(b)); }
@@ -47,8 +47,8 @@ template <class A> class LegalArithmetic {
             return Interval::anything();
         if (!known_.sums)
             return flushed(interval::widen(interval::multiply(a, b), loose));
-        const auto multiply = [](double x, double y) {
-            return A::flush(A::flush(static_cast<float>(x)) * A::flush(static_cast<float>(y)));
+        const auto multiply = [this](double x, double y) {
+            return fp_.flush(fp_.flush(static_cast<float>(x)) * fp_.flush(static_cast<float>(y)));
         };
         if (a.is_point() && b.is_point())
             return flushed(point(multiply(a.low, b.low)));
@@ -73,7 +73,7 @@ template <class A> class LegalArithmetic {
             return Interval::anything();
         const bool by_zero = b.is_point() && b.low == 0.0;
         if (a.is_point() && b.is_point() && (known_.divide || by_zero))
-            return flushed(point(A::divide(a.as_float(), b.as_float())));
+            return flushed(point(fp_.divide(a.as_float(), b.as_float())));
         constexpr double largest_divisor = 0x1p126;
         if (!known_.divide && !(b.high <= largest_divisor && b.low >= -largest_divisor))
             return Interval::anything();
@@ -83,11 +83,11 @@ template <class A> class LegalArithmetic {
 
     [[nodiscard]] Interval square_root(Interval v) const {
         if (v.any || (v.is_point() && (known_.square_root || v.low == 0.0)))
-            return v.any ? v : point(A::sqrt(v.as_float()));
+            return v.any ? v : point(fp_.sqrt(v.as_float()));
         if (!(v.low >= 0.0))
             return Interval::anything();
         if (known_.square_root)
-            return ends(A::sqrt(static_cast<float>(v.low)), A::sqrt(static_cast<float>(v.high)));
+            return ends(fp_.sqrt(static_cast<float>(v.low)), fp_.sqrt(static_cast<float>(v.high)));
         const auto by_inverse = [](double x) {
             const Interval inverse = interval::widen(interval::divide(1.0F, interval::square_root({x, x})), 2.0);
             return interval::to_floats(interval::widen(interval::divide(1.0F, inverse), 2.5));
@@ -98,14 +98,14 @@ template <class A> class LegalArithmetic {
 
     [[nodiscard]] Interval squared_length(const Interval3& v) const {
         if (known_.dot && are_points(v))
-            return point(A::dot(as_floats(v), as_floats(v)));
+            return point(fp_.dot(as_floats(v), as_floats(v)));
         return interval::to_floats(
             loose_sum({loose_square(v[0]), loose_square(v[1]), loose_square(v[2])}, Sign::not_negative));
     }
 
     [[nodiscard]] Interval length(const Interval3& v) const {
         if (known_.dot && known_.square_root && are_points(v))
-            return point(A::length(as_floats(v)));
+            return point(fp_.length(as_floats(v)));
         return square_root(squared_length(v));
     }
 
@@ -114,14 +114,14 @@ template <class A> class LegalArithmetic {
     [[nodiscard]] Interval3 normalize(const Interval3& v) const {
         if constexpr (own_rules)
             if (are_points(v)) {
-                const glm::vec3 n = A::normalize(as_floats(v));
+                const glm::vec3 n = fp_.normalize(as_floats(v));
                 return {Interval(n.x), Interval(n.y), Interval(n.z)};
             }
         const Interval squared = squared_length(v);
         if (squared.contains_zero())
             return {Interval::anything(), Interval::anything(), Interval::anything()};
         if (known_.normalize && are_points(v)) {
-            const glm::vec3 n = A::normalize(as_floats(v));
+            const glm::vec3 n = fp_.normalize(as_floats(v));
             return {point(n.x), point(n.y), point(n.z)};
         }
         const Interval inverse = interval::to_floats(
@@ -190,6 +190,7 @@ template <class A> class LegalArithmetic {
         return result;
     }
 
+    A fp_;
     KnownOperations known_;
 };
 

@@ -58,10 +58,10 @@ bool any_of(const Interval3& v) { return v[0].any || v[1].any || v[2].any; }
 /// The listing over sets of floats: as collision_pass.cpp reads, with every branch taken that may be.
 template <class A> class LegalStep {
   public:
-    LegalStep(const CollisionImage& cdt, const FrameParams& params, const KnownOperations& known,
+    LegalStep(A fp, const CollisionImage& cdt, const FrameParams& params, const KnownOperations& known,
               const ParticleState* observed)
         : cdt_(cdt), params_(params), constants_(params.constants), switches_(params.switches), code_(params),
-          arithmetic_(known), observed_(observed) {}
+          arithmetic_(fp, known), observed_(observed) {}
 
     std::vector<LegalOutcome> operator()(const ParticleState& before) {
         position_ = arithmetic_.read(before.position);
@@ -355,7 +355,7 @@ std::vector<LegalOutcome> legal_outcomes(const ParticleState& before, const Coll
                                          const KnownOperations& known, const ParticleState* observed) {
     const FlushSubnormals guard(known.subnormals && profile.flush_subnormals);
     return with_arithmetic(profile, params.switches,
-                           [&]<class A>(A) { return LegalStep<A>(cdt, params, known, observed)(before); });
+                           [&](auto fp) { return LegalStep(fp, cdt, params, known, observed)(before); });
 }
 
 } // namespace lockstep

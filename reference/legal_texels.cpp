@@ -93,9 +93,9 @@ InVolume in_clip_volume(const std::array<Interval, 4>& clip) {
 /// Collects the candidates of every wanted texel, in drawing order.
 template <class A> class Candidates {
   public:
-    Candidates(const FrameParams& params, const Profile& profile, const KnownOperations& known,
+    Candidates(A fp, const FrameParams& params, const Profile& profile, const KnownOperations& known,
                std::span<const std::size_t> texels)
-        : params_(params), profile_(profile), code_(params), arithmetic_(known),
+        : fp_(fp), params_(params), profile_(profile), code_(params), arithmetic_(fp, known),
           wanted_(params.width, params.height, texels), candidates_(texels.size()) {}
 
     void add_point(Kind kind, std::size_t index, glm::vec3 drawn_at, glm::vec3 stored) {
@@ -140,7 +140,7 @@ template <class A> class Candidates {
     void add_triangles(const Mesh& obstacles) {
         std::vector<glm::vec4> clip(obstacles.positions.size());
         std::transform(obstacles.positions.begin(), obstacles.positions.end(), clip.begin(),
-                       [&](glm::vec3 p) { return A::transform(params_.collision_proj_view, p); });
+                       [&](glm::vec3 p) { return fp_.transform(params_.collision_proj_view, p); });
         for (const RasterTriangle& triangle :
              assemble_triangles(clip, obstacles.indices, params_.width, params_.height, profile_.raster))
             add_triangle(obstacles, clip, triangle);
@@ -180,10 +180,10 @@ template <class A> class Candidates {
         const std::array<glm::vec4, 3> corners{clip[index[0]], clip[index[1]], clip[index[2]]};
         const std::array<glm::vec3, 3> positions{obstacles.positions[index[0]], obstacles.positions[index[1]],
                                                  obstacles.positions[index[2]]};
-        const TriangleInterpolation<A> interpolation(corners, params_.width, params_.height);
+        const TriangleInterpolation interpolation(fp_, corners, params_.width, params_.height);
         const auto weights = interpolation.weights(x, y);
         TexelOwner owner{.kind = Kind::obstacle, .index = triangle.primitive};
-        const glm::vec3 position = interpolation.mix(positions, weights);
+        const glm::vec3 position = interpolation.mix(fp_, positions, weights);
         owner.code = code_.encode(position);
         owner.reference_depth = interpolation.depth(weights);
         owner.depth = owner.reference_depth;
@@ -209,6 +209,7 @@ template <class A> class Candidates {
         return least_w > 0.0 ? 0.5 * (z + w) / least_w + 3.0 * 0x1p-23 : 1.0;
     }
 
+    A fp_;
     const FrameParams& params_;
     const Profile& profile_;
     CollisionCode code_;
@@ -292,8 +293,8 @@ std::vector<LegalTexel> legal_texels(const Mesh& obstacles, const Particles& bef
     const FlushSubnormals guard(known.subnormals && profile.flush_subnormals);
     const auto& positions =
         params.switches.raster_position == RasterPosition::updated ? after.position : before.position;
-    std::vector<std::vector<TexelOwner>> candidates = with_arithmetic(profile, params.switches, [&]<class A>(A) {
-        Candidates<A> all(params, profile, known, texels);
+    std::vector<std::vector<TexelOwner>> candidates = with_arithmetic(profile, params.switches, [&](auto fp) {
+        Candidates all(fp, params, profile, known, texels);
         if (params.switches.obstacles_in_cdt == ObstaclesInCdt::triangles)
             all.add_triangles(obstacles);
         if (params.switches.obstacles_in_cdt == ObstaclesInCdt::vertices)

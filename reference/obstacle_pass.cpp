@@ -18,37 +18,38 @@
 namespace lockstep {
 namespace {
 
-template <class A> std::vector<glm::vec4> project(const Mesh& obstacles, const glm::mat4& proj_view) {
+template <class A> std::vector<glm::vec4> project(A fp, const Mesh& obstacles, const glm::mat4& proj_view) {
     std::vector<glm::vec4> clip(obstacles.positions.size());
     std::transform(obstacles.positions.begin(), obstacles.positions.end(), clip.begin(),
-                   [&](glm::vec3 position) { return A::transform(proj_view, position); });
+                   [&](glm::vec3 position) { return fp.transform(proj_view, position); });
     return clip;
 }
 
-template <class A> std::array<glm::vec3, 3> corners(const Mesh& obstacles, std::size_t triangle) {
+template <class A> std::array<glm::vec3, 3> corners(A fp, const Mesh& obstacles, std::size_t triangle) {
     const std::uint32_t* index = &obstacles.indices[triangle * 3];
-    const auto corner = [&](std::size_t i) { return A::flush(obstacles.positions[index[i]]); };
+    const auto corner = [&](std::size_t i) { return fp.flush(obstacles.positions[index[i]]); };
     return {corner(0), corner(1), corner(2)};
 }
 
-template <class A> void draw_obstacle_triangles(const Mesh& obstacles, const FrameParams& params,
+template <class A> void draw_obstacle_triangles(A fp, const Mesh& obstacles, const FrameParams& params,
                                                 const Profile& profile, CollisionImage& cdt, DepthImage& depth) {
     const FlushSubnormals guard(profile.flush_subnormals);
-    const std::vector<glm::vec4> clip = project<A>(obstacles, params.collision_proj_view);
+    const std::vector<glm::vec4> clip = project(fp, obstacles, params.collision_proj_view);
     const CollisionCode code(params);
     const auto shader = [&](std::size_t triangle) {
-        return [&, positions = corners<A>(obstacles, triangle)](int x, int y, const auto& weights, float window_depth) {
-            if (!(window_depth < depth.at(x, y)))
-                return;
-            depth.at(x, y) = window_depth;
-            cdt.at(x, y) = code.encode(TriangleInterpolation<A>::mix(positions, weights));
-        };
+        return
+            [&, positions = corners(fp, obstacles, triangle)](int x, int y, const auto& weights, float window_depth) {
+                if (!(window_depth < depth.at(x, y)))
+                    return;
+                depth.at(x, y) = window_depth;
+                cdt.at(x, y) = code.encode(TriangleInterpolation<A>::mix(fp, positions, weights));
+            };
     };
-    draw_triangles<A>(clip, obstacles.indices, params.width, params.height, profile, shader);
+    draw_triangles(fp, clip, obstacles.indices, params.width, params.height, profile, shader);
 }
 
-template <class A> void draw_obstacle_vertices(const Mesh& obstacles, const FrameParams& params, const Profile& profile,
-                                               CollisionImage& cdt, DepthImage& depth) {
+template <class A> void draw_obstacle_vertices(A fp, const Mesh& obstacles, const FrameParams& params,
+                                               const Profile& profile, CollisionImage& cdt, DepthImage& depth) {
     const FlushSubnormals guard(profile.flush_subnormals);
     const CollisionCode code(params);
     for (const glm::vec3 position : obstacles.positions) {
@@ -56,7 +57,7 @@ template <class A> void draw_obstacle_vertices(const Mesh& obstacles, const Fram
         if (point.x < 0 || !(point.depth < depth.at(point.x, point.y)))
             continue;
         depth.at(point.x, point.y) = point.depth;
-        cdt.at(point.x, point.y) = code.encode(A::flush(position));
+        cdt.at(point.x, point.y) = code.encode(fp.flush(position));
     }
 }
 
@@ -71,19 +72,19 @@ void obstacle_pass(const Mesh& obstacles, const FrameParams& params, const Profi
         return;
     case ObstaclesInCdt::vertices:
         return with_arithmetic(profile, params.switches,
-                               [&]<class A>(A) { draw_obstacle_vertices<A>(obstacles, params, profile, cdt, depth); });
+                               [&](auto fp) { draw_obstacle_vertices(fp, obstacles, params, profile, cdt, depth); });
     case ObstaclesInCdt::triangles:
         return with_arithmetic(profile, params.switches,
-                               [&]<class A>(A) { draw_obstacle_triangles<A>(obstacles, params, profile, cdt, depth); });
+                               [&](auto fp) { draw_obstacle_triangles(fp, obstacles, params, profile, cdt, depth); });
     }
 }
 
 double obstacle_edge_distance(const Mesh& obstacles, const FrameParams& params, const Profile& profile, int x, int y) {
     const FlushSubnormals guard(profile.flush_subnormals);
-    return with_arithmetic(profile, params.switches, [&]<class A>(A) {
+    return with_arithmetic(profile, params.switches, [&](auto fp) {
         double nearest = HUGE_VAL;
         for (const RasterTriangle& triangle :
-             assemble_triangles(project<A>(obstacles, params.collision_proj_view), obstacles.indices, params.width,
+             assemble_triangles(project(fp, obstacles, params.collision_proj_view), obstacles.indices, params.width,
                                 params.height, profile.raster))
             nearest = std::min(nearest, side_distance(triangle, x, y, profile.raster));
         return nearest;

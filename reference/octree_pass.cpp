@@ -49,20 +49,20 @@ struct Collision {
 };
 
 /// The nearest entry of its leaf within the collision range of particle `self`, which is at `position`.
-template <class A> std::optional<Collision> nearest_collision(std::int32_t self, glm::vec3 position,
+template <class A> std::optional<Collision> nearest_collision(A fp, std::int32_t self, glm::vec3 position,
                                                               const Leaves& leaves, const FrameParams& params) {
     const std::int32_t found = octree_leaf(position, params.constants.octree_size);
     if (found == no_leaf)
         return {};
     const auto leaf = static_cast<std::size_t>(found);
-    const glm::vec3 own = A::flush(position);
+    const glm::vec3 own = fp.flush(position);
     float min_length = 100000.0F;
     std::optional<Collision> nearest;
     for (std::size_t e = leaves.first[leaf]; e < leaves.first[leaf + 1]; ++e) {
         if (leaves.entry[e] == self)
             continue;
-        const glm::vec3 apart = A::flush(own - A::flush(leaves.position[e]));
-        const float len = A::length(apart);
+        const glm::vec3 apart = fp.flush(own - fp.flush(leaves.position[e]));
+        const float len = fp.length(apart);
         if (len == 0.0F && params.switches.zero_distance == ZeroDistance::skip)
             continue;
         if (params.constants.collision_range > len && len < min_length) {
@@ -113,13 +113,13 @@ void octree_pass(const Particles& before, const Mesh& obstacles, const FramePara
     assert(&before != &after);
     after.resize(before.size());
     const Leaves leaves = fill_leaves(before.position, obstacles, params);
-    with_arithmetic(profile, params.switches, [&]<class A>(A) {
-        const ParticleStep<A> step(params);
+    with_arithmetic(profile, params.switches, [&](auto fp) {
+        const ParticleStep step(fp, params);
         for_each_particle(before.size(), profile, [&](std::size_t i) {
-            const ParticleState a = ParticleStep<A>::flushed(before[i]);
+            const ParticleState a = step.flushed(before[i]);
             std::optional<Collision> collision;
             if (a.collide_time < 0.0F)
-                collision = nearest_collision<A>(static_cast<std::int32_t>(i), before.position[i], leaves, params);
+                collision = nearest_collision(fp, static_cast<std::int32_t>(i), before.position[i], leaves, params);
             after.set(i, collision ? step.collide(a, collision->away) : step.integrate(a));
         });
     });
@@ -129,9 +129,9 @@ std::vector<std::int32_t> octree_partners(std::span<const glm::vec3> positions, 
                                           const FrameParams& params, const Profile& profile) {
     const Leaves leaves = fill_leaves(positions, obstacles, params);
     std::vector<std::int32_t> partners(positions.size());
-    with_arithmetic(profile, params.switches, [&]<class A>(A) {
+    with_arithmetic(profile, params.switches, [&](auto fp) {
         for_each_particle(positions.size(), profile, [&](std::size_t i) {
-            const auto collision = nearest_collision<A>(static_cast<std::int32_t>(i), positions[i], leaves, params);
+            const auto collision = nearest_collision(fp, static_cast<std::int32_t>(i), positions[i], leaves, params);
             partners[i] = collision ? collision->entry : -1;
         });
     });

@@ -15,9 +15,9 @@ namespace lockstep {
 /// then decide by themselves what is covered. Twin of shaders/pixel_box.glsl and shaders/whole_triangle.glsl.
 
 /// Where clip space lies on the image, pixels. Not snapped.
-template <class A> glm::vec2 window_place(glm::vec2 clip, float w, int width, int height) {
-    return {(A::divide(clip.x, w) + 1.0F) * 0.5F * static_cast<float>(width),
-            (A::divide(clip.y, w) + 1.0F) * 0.5F * static_cast<float>(height)};
+template <class A> glm::vec2 window_place(A fp, glm::vec2 clip, float w, int width, int height) {
+    return {(fp.divide(clip.x, w) + 1.0F) * 0.5F * static_cast<float>(width),
+            (fp.divide(clip.y, w) + 1.0F) * 0.5F * static_cast<float>(height)};
 }
 
 /// The pixels of an image of width x height whose centres lie in the window rectangle low..high or less than 1/16 pixel
@@ -31,7 +31,7 @@ inline PixelRect pixel_box(glm::vec2 low, glm::vec2 high, int width, int height)
 }
 
 /// The pixels a triangle may cover: all, if a part of it lies behind the camera; none, if a corner is not finite.
-template <class A> PixelRect triangle_box(const std::array<glm::vec4, 3>& clip, int width, int height) {
+template <class A> PixelRect triangle_box(A fp, const std::array<glm::vec4, 3>& clip, int width, int height) {
     const auto finite = [](glm::vec4 v) {
         return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z) && std::isfinite(v.w);
     };
@@ -42,7 +42,7 @@ template <class A> PixelRect triangle_box(const std::array<glm::vec4, 3>& clip, 
         return {};
     if (least_w <= 0.0F)
         return {0, 0, width, height};
-    const auto place = [&](std::size_t i) { return window_place<A>(glm::vec2(clip[i]), clip[i].w, width, height); };
+    const auto place = [&](std::size_t i) { return window_place(fp, glm::vec2(clip[i]), clip[i].w, width, height); };
     const glm::vec2 a = place(0), b = place(1), c = place(2);
     return pixel_box(glm::min(glm::min(a, b), c), glm::max(glm::max(a, b), c), width, height);
 }

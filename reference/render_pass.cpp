@@ -21,13 +21,13 @@ namespace {
 /// `A`: the arithmetic (arithmetic.hpp).
 template <class A> class RenderPass {
   public:
-    RenderPass(const FrameParams& params, const Profile& profile)
-        : params_(params), profile_(profile), width_(params.render_width), height_(params.render_height),
-          color_(width_, height_), depth_(width_, height_, 1.0F) {}
+    RenderPass(A fp, const FrameParams& params, const Profile& profile)
+        : fp_(fp), shading_(fp), params_(params), profile_(profile), width_(params.render_width),
+          height_(params.render_height), color_(width_, height_), depth_(width_, height_, 1.0F) {}
 
     void draw_background() {
         for (int y = 0; y < height_; ++y) {
-            const Rgba8 color = Shading<A>::quantise(Shading<A>::background(y, height_));
+            const Rgba8 color = Shading<A>::quantise(shading_.background(y, height_));
             std::fill_n(&color_.at(0, y), width_, color);
         }
     }
@@ -37,15 +37,15 @@ template <class A> class RenderPass {
         std::vector<glm::vec4> clip(obstacles.positions.size());
         for (std::size_t i = 0; i < view.size(); ++i) {
             view[i] = to_view(obstacles.positions[i]);
-            clip[i] = A::transform(params_.render_projection, view[i]);
+            clip[i] = fp_.transform(params_.render_projection, view[i]);
         }
         const auto shader = [&](std::size_t triangle) {
             const std::uint32_t* index = &obstacles.indices[triangle * 3];
             const Rgba8 color =
-                Shading<A>::quantise(Shading<A>::obstacle({view[index[0]], view[index[1]], view[index[2]]}));
+                Shading<A>::quantise(shading_.obstacle({view[index[0]], view[index[1]], view[index[2]]}));
             return [this, color](int x, int y, const auto&, float depth) { keep_nearer(x, y, depth, color); };
         };
-        draw_triangles<A>(clip, obstacles.indices, width_, height_, profile_, shader);
+        draw_triangles(fp_, clip, obstacles.indices, width_, height_, profile_, shader);
     }
 
     void draw_particles(const Particles& particles) {
@@ -64,10 +64,10 @@ template <class A> class RenderPass {
 
     ColorImage take_image() { return std::move(color_); }
 
-    [[nodiscard]] glm::vec3 to_view(glm::vec3 position) const { return A::transform(params_.render_view, position); }
+    [[nodiscard]] glm::vec3 to_view(glm::vec3 position) const { return fp_.transform(params_.render_view, position); }
 
     [[nodiscard]] Billboard billboard(glm::vec3 view_centre) const {
-        return expand_billboard<A>(view_centre, params_.constants.billboard_radius, params_.render_projection);
+        return expand_billboard(fp_, view_centre, params_.constants.billboard_radius, params_.render_projection);
     }
 
   private:
@@ -81,7 +81,7 @@ template <class A> class RenderPass {
         const Billboard square = billboard(view_centre);
         if (!is_visible(square))
             return {};
-        const BillboardWindow window = billboard_window<A>(square, width_, height_);
+        const BillboardWindow window = billboard_window(fp_, square, width_, height_);
         if constexpr (std::is_same_v<A, Portable>)
             return {view_centre, window, pixel_box(window.low, window.high, width_, height_)};
         else
@@ -90,19 +90,19 @@ template <class A> class RenderPass {
 
     /// The sphere of the billboard's radius where the square's pixel looks at it, seen without perspective.
     void draw_sphere_pixel(const Sprite& sprite, int x, int y, float speed, float collide_time) {
-        const float dx = A::divide((static_cast<float>(x) + 0.5F) - sprite.window.centre.x, sprite.window.half.x);
-        const float dy = A::divide((static_cast<float>(y) + 0.5F) - sprite.window.centre.y, sprite.window.half.y);
+        const float dx = fp_.divide((static_cast<float>(x) + 0.5F) - sprite.window.centre.x, sprite.window.half.x);
+        const float dy = fp_.divide((static_cast<float>(y) + 0.5F) - sprite.window.centre.y, sprite.window.half.y);
         const float squared = dx * dx + dy * dy;
         if (!(squared <= 1.0F))
             return;
-        const glm::vec3 normal(dx, dy, A::sqrt(1.0F - squared));
+        const glm::vec3 normal(dx, dy, fp_.sqrt(1.0F - squared));
         const float z = sprite.centre.z + normal.z * params_.constants.billboard_radius;
-        const glm::vec4 clip = A::transform(params_.render_projection, {sprite.centre.x, sprite.centre.y, z});
-        const float depth = clamp_to(A::divide(clip.z, clip.w) * 0.5F + 0.5F, 1.0F);
+        const glm::vec4 clip = fp_.transform(params_.render_projection, {sprite.centre.x, sprite.centre.y, z});
+        const float depth = clamp_to(fp_.divide(clip.z, clip.w) * 0.5F + 0.5F, 1.0F);
         if (depth < depth_.at(x, y))
-            keep_nearer(x, y, depth,
-                        Shading<A>::quantise(
-                            Shading<A>::particle(normal, speed, collide_time, params_.constants.collision_time)));
+            keep_nearer(
+                x, y, depth,
+                Shading<A>::quantise(shading_.particle(normal, speed, collide_time, params_.constants.collision_time)));
     }
 
     void keep_nearer(int x, int y, float depth, Rgba8 color) {
@@ -112,6 +112,8 @@ template <class A> class RenderPass {
         color_.at(x, y) = color;
     }
 
+    A fp_;
+    Shading<A> shading_;
     const FrameParams& params_;
     const Profile& profile_;
     int width_, height_;
@@ -124,8 +126,8 @@ template <class A> class RenderPass {
 ColorImage render_pass(const Particles& particles, const Mesh& obstacles, const FrameParams& params,
                        const Profile& profile) {
     const FlushSubnormals guard(profile.flush_subnormals);
-    return with_arithmetic(profile, params.switches, [&]<class A>(A) {
-        RenderPass<A> pass(params, profile);
+    return with_arithmetic(profile, params.switches, [&](auto fp) {
+        RenderPass pass(fp, params, profile);
         pass.draw_background();
         pass.draw_obstacles(obstacles);
         pass.draw_particles(particles);
@@ -135,8 +137,8 @@ ColorImage render_pass(const Particles& particles, const Mesh& obstacles, const 
 
 Billboard particle_billboard(glm::vec3 position, const FrameParams& params, const Profile& profile) {
     const FlushSubnormals guard(profile.flush_subnormals);
-    return with_arithmetic(profile, params.switches, [&]<class A>(A) {
-        const RenderPass<A> pass(params, profile);
+    return with_arithmetic(profile, params.switches, [&](auto fp) {
+        const RenderPass pass(fp, params, profile);
         return pass.billboard(pass.to_view(position));
     });
 }

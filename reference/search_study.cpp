@@ -42,8 +42,9 @@ struct Inputs {
 /// The questions of search_counting.hpp, to a CDT of one plane. `A`: the arithmetic (arithmetic.hpp).
 template <class A> class CdtQuestions {
   public:
-    explicit CdtQuestions(const Inputs& in)
-        : in_(in), code_(in.params), hit_(collision_texels(in.particles.position, in.cdt, in.params, in.profile)),
+    CdtQuestions(A fp, const Inputs& in)
+        : fp_(fp), in_(in), code_(in.params),
+          hit_(collision_texels(in.particles.position, in.cdt, in.params, in.profile)),
           drawn_now_(drawn_texels(in.particles.position, in.params, in.profile)), base_(in.particles.size()) {
         const auto count = static_cast<std::ptrdiff_t>(base_.size());
 #pragma omp parallel for schedule(static)
@@ -81,7 +82,7 @@ template <class A> class CdtQuestions {
             return owner(drawn) == obstacle_owner ? Miss::hidden : Miss::occluded;
         if (!in_window(i, drawn))
             return in_window(i, drawn_now_[j]) ? Miss::stale : Miss::outside_window;
-        const float distance = A::length(from(own_position(i), drawn));
+        const float distance = fp_.length(from(own_position(i), drawn));
         const bool skipped = distance == 0.0F && in_.params.switches.zero_distance == ZeroDistance::skip;
         if (skipped || !(distance < in_.params.constants.collision_range)) {
             if (left(drawn, j))
@@ -121,15 +122,15 @@ template <class A> class CdtQuestions {
     [[nodiscard]] std::int32_t owner(std::int32_t texel) const { return in_.owners.owner.texels[index(texel)]; }
     [[nodiscard]] std::int32_t base(std::size_t i) const { return base_[i].y * in_.params.width + base_[i].x; }
     [[nodiscard]] glm::vec3 stored(std::int32_t texel) const {
-        return A::flush(code_.decode(in_.cdt.texels[index(texel)]));
+        return fp_.flush(code_.decode(in_.cdt.texels[index(texel)]));
     }
     [[nodiscard]] glm::vec3 from(glm::vec3 position, std::int32_t texel) const {
-        return A::flush(position - stored(texel));
+        return fp_.flush(position - stored(texel));
     }
 
     /// Where particle i's search measures from.
     [[nodiscard]] glm::vec3 own_position(std::size_t i) const {
-        return in_.params.switches.self_position == SelfPosition::vertex ? A::flush(in_.particles.position[i])
+        return in_.params.switches.self_position == SelfPosition::vertex ? fp_.flush(in_.particles.position[i])
                                                                          : stored(base(i));
     }
 
@@ -158,6 +159,7 @@ template <class A> class CdtQuestions {
         return in_.cdt.texels[index(texel)] != code_.encode(in_.particles.position[j]);
     }
 
+    A fp_;
     const Inputs& in_;
     CollisionCode code_;
     std::vector<std::int32_t> hit_;       ///< where each would end if it searched
@@ -219,8 +221,8 @@ SearchStudy study_search(const Particles& particles, const CollisionImage& cdt, 
     assert(owners.drawn.size() == particles.size() && truth.nearest.particle.size() == particles.size());
     assert(cdt.width == params.width && cdt.height == params.height);
     const Inputs in{particles, cdt, owners, truth, params, profile};
-    SearchStudy result = with_arithmetic(profile, params.switches, [&]<class A>(A) {
-        return count_search(CdtQuestions<A>(in), particles.size(), truth, params, profile);
+    SearchStudy result = with_arithmetic(profile, params.switches, [&](auto fp) {
+        return count_search(CdtQuestions(fp, in), particles.size(), truth, params, profile);
     });
     SearchCounts& n = result.counts;
     n.owners = static_cast<std::size_t>(std::count_if(owners.owner.texels.begin(), owners.owner.texels.end(),

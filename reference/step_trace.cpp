@@ -14,7 +14,7 @@ namespace {
 constexpr glm::vec4 nowhere{0.0F, 0.0F, 2.0F, 1.0F};
 
 glm::vec4 texel_centre(glm::vec4 clip, const FrameParams& params) {
-    const auto texel = TexelLookup<Portable>(params)(clip);
+    const auto texel = TexelLookup(Portable(), params)(clip);
     const float depth = (Portable::divide(clip.z, clip.w) + 1.0F) * 0.5F;
     if (!texel.inside || !(clip.w > 0.0F) || !(depth >= 0.0F) || !(depth <= 1.0F))
         return nowhere;
@@ -61,7 +61,7 @@ StepTrace trace_step(const ParticleState& before, const CollisionImage& cdt, con
         params.switches.raster_position == RasterPosition::updated ? trace.after.position : before.position;
     const FlushSubnormals guard(profile.flush_subnormals);
     trace.raster_clip = with_arithmetic(profile, params.switches,
-                                        [&]<class A>(A) { return A::transform(params.collision_proj_view, drawn); });
+                                        [&](auto fp) { return fp.transform(params.collision_proj_view, drawn); });
     trace.point_position = point_position(trace.raster_clip, params);
     trace.window = point_window(trace.point_position, params, profile.raster);
     trace.fragment = point_fragment(drawn, params, profile);

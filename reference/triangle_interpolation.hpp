@@ -41,8 +41,8 @@ template <class A> class TriangleInterpolation {
         float depth = 0.0F;
     };
 
-    TriangleInterpolation(const std::array<glm::vec4, 3>& clip, int width, int height)
-        : clip_(clip), width_(width), height_(height) {
+    TriangleInterpolation(A fp, const std::array<glm::vec4, 3>& clip, int width, int height)
+        : fp_(fp), clip_(clip), width_(width), height_(height) {
         for (std::size_t i = 0; i < 3; ++i) {
             x_[i] = clip[i].x * static_cast<float>(width);
             y_[i] = clip[i].y * static_cast<float>(height);
@@ -56,23 +56,23 @@ template <class A> class TriangleInterpolation {
         const auto centre_y = static_cast<float>(2 * y + 1 - height_);
         std::array<float, 3> rx{}, ry{};
         for (std::size_t i = 0; i < 3; ++i) {
-            rx[i] = A::flush(x_[i] - centre_x * clip_[i].w);
-            ry[i] = A::flush(y_[i] - centre_y * clip_[i].w);
+            rx[i] = fp_.flush(x_[i] - centre_x * clip_[i].w);
+            ry[i] = fp_.flush(y_[i] - centre_y * clip_[i].w);
         }
         const auto edge = [&](std::size_t from, std::size_t to) {
-            return A::flush(A::flush(rx[from] * ry[to]) - A::flush(rx[to] * ry[from]));
+            return fp_.flush(fp_.flush(rx[from] * ry[to]) - fp_.flush(rx[to] * ry[from]));
         };
         const float first = edge(1, 2);
         const float second = edge(2, 0);
         const float third = edge(0, 1);
-        return {first, second, third, A::flush((first + second) + third)};
+        return {first, second, third, fp_.flush((first + second) + third)};
     }
 
-    [[nodiscard]] static Weights weights(const Edges& edges) {
+    [[nodiscard]] Weights weights(const Edges& edges) const {
         if (!(edges.sum < 0.0F) && !(edges.sum > 0.0F))
             return {};
-        const float second_share = clamp_to(A::divide(edges.second, edges.sum), 1.0F);
-        return {second_share, clamp_to(A::divide(edges.third, edges.sum), 1.0F - second_share)};
+        const float second_share = clamp_to(fp_.divide(edges.second, edges.sum), 1.0F);
+        return {second_share, clamp_to(fp_.divide(edges.third, edges.sum), 1.0F - second_share)};
     }
 
     [[nodiscard]] Weights weights(int x, int y) const { return weights(edges(x, y)); }
@@ -93,28 +93,31 @@ template <class A> class TriangleInterpolation {
             return {};
         const Weights w = weights(e);
         const float window_depth = depth_unclamped(w);
-        if (!(mix(clip_[0].w, clip_[1].w, clip_[2].w, w) > 0.0F) || !(window_depth >= 0.0F && window_depth <= 1.0F))
+        if (!(mix(fp_, clip_[0].w, clip_[1].w, clip_[2].w, w) > 0.0F) ||
+            !(window_depth >= 0.0F && window_depth <= 1.0F))
             return {};
         return Fragment{w, window_depth};
     }
 
-    [[nodiscard]] static glm::vec3 mix(const std::array<glm::vec3, 3>& p, const Weights& w) {
-        return {mix(p[0].x, p[1].x, p[2].x, w), mix(p[0].y, p[1].y, p[2].y, w), mix(p[0].z, p[1].z, p[2].z, w)};
+    [[nodiscard]] static glm::vec3 mix(A fp, const std::array<glm::vec3, 3>& p, const Weights& w) {
+        return {mix(fp, p[0].x, p[1].x, p[2].x, w), mix(fp, p[0].y, p[1].y, p[2].y, w),
+                mix(fp, p[0].z, p[1].z, p[2].z, w)};
     }
 
   private:
     [[nodiscard]] float depth_unclamped(const Weights& w) const {
-        const float clip_z = mix(clip_[0].z, clip_[1].z, clip_[2].z, w);
-        const float clip_w = mix(clip_[0].w, clip_[1].w, clip_[2].w, w);
-        return A::divide(clip_z, clip_w) * 0.5F + 0.5F;
+        const float clip_z = mix(fp_, clip_[0].z, clip_[1].z, clip_[2].z, w);
+        const float clip_w = mix(fp_, clip_[0].w, clip_[1].w, clip_[2].w, w);
+        return fp_.divide(clip_z, clip_w) * 0.5F + 0.5F;
     }
 
-    static float mix(float first, float second, float third, const Weights& w) {
-        const float towards_second = A::flush(w.second * A::flush(second - first));
-        const float towards_third = A::flush(w.third * A::flush(third - first));
-        return A::flush(A::flush(first + towards_second) + towards_third);
+    static float mix(A fp, float first, float second, float third, const Weights& w) {
+        const float towards_second = fp.flush(w.second * fp.flush(second - first));
+        const float towards_third = fp.flush(w.third * fp.flush(third - first));
+        return fp.flush(fp.flush(first + towards_second) + towards_third);
     }
 
+    A fp_;
     std::array<glm::vec4, 3> clip_;
     std::array<float, 3> x_{}, y_{};
     int width_, height_;

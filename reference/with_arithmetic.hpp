@@ -6,14 +6,13 @@
 
 namespace lockstep {
 
-/// Calls `pass` with the policy type that a profile and the `arithmetic` switch name.
+/// Calls `pass` with the arithmetic that a profile and the `arithmetic` switch name. It may refer to the profile's own
+/// tables, and be copied to any number of threads.
 template <class Pass> decltype(auto) with_arithmetic(const Profile& profile, const Switches& switches, Pass&& pass) {
     if (switches.arithmetic == ArithmeticSwitch::exact)
         return pass(Portable{});
-    if (profile.roots != nullptr) {
-        DriverRoots::tables = profile.roots.get();
-        return pass(DriverRoots{});
-    }
+    if (profile.roots != nullptr)
+        return pass(DriverRoots(*profile.roots));
     switch (profile.dot) {
     case DotOrder::right_to_left:
         return pass(RightToLeft{});

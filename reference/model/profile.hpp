@@ -61,7 +61,7 @@ struct Profile {
     RasterRules raster;
     OperationErrors errors;
     /// The driver's own 1/x and inversesqrt, where division, square root and normalize were measured to be made of them
-    /// (policy DriverRoots); null: the reference rounds them correctly.
+    /// (arithmetic DriverRoots); null: the reference rounds them correctly.
     std::shared_ptr<const RootTables> roots;
     /// Rows of the probe that found what the reference cannot follow. It then does what comes closest.
     std::vector<std::string> not_followed;

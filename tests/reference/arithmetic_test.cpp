@@ -81,3 +81,16 @@ TEST_CASE("arithmetic: a profile names its policy") {
     CHECK(name(DotOrder::right_to_left) == 1);
     CHECK(name(DotOrder::fused_chain) == 2);
 }
+
+TEST_CASE("arithmetic: a driver's tables belong to the value, not to the program") {
+    const auto of_one = [](float reciprocal) {
+        Profile profile;
+        profile.roots = std::make_shared<const RootTables>(RootTables{{reciprocal}, {1.0F}});
+        return profile;
+    };
+    const Profile a = of_one(1.0F), b = of_one(0.75F);
+    const auto reciprocal = [](auto fp) { return fp.divide(1.0F, 1.0F); };
+    CHECK(with_arithmetic(a, Switches{}, [&](auto fp) {
+              return with_arithmetic(b, Switches{}, reciprocal) + reciprocal(fp);
+          }) == 1.75F);
+}

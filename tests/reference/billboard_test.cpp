@@ -22,7 +22,7 @@ glm::mat4 right_angle_projection() {
 }
 
 Billboard square(glm::vec3 centre, float radius) {
-    return expand_billboard<Strict>(centre, radius, right_angle_projection());
+    return expand_billboard(Strict(), centre, radius, right_angle_projection());
 }
 
 bool same(PixelRect a, PixelRect b) { return a.x0 == b.x0 && a.y0 == b.y0 && a.x1 == b.x1 && a.y1 == b.y1; }
@@ -38,7 +38,7 @@ TEST_CASE("billboard: a particle becomes a square parallel to the image", "[bill
 
 TEST_CASE("billboard: its window rectangle has the projected centre and half sides", "[billboard]") {
     // 0.25 to 0.75 of the way from the middle to the border of an image of 16 x 8.
-    const BillboardWindow window = billboard_window<Strict>(square({1.0F, 1.0F, -2.0F}, 0.5F), 16, 8);
+    const BillboardWindow window = billboard_window(Strict(), square({1.0F, 1.0F, -2.0F}, 0.5F), 16, 8);
     CHECK(window.centre == glm::vec2(12.0F, 6.0F));
     CHECK(window.half == glm::vec2(2.0F, 1.0F));
 }

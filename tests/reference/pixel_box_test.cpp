@@ -14,13 +14,13 @@ bool same(PixelRect a, PixelRect b) { return a.x0 == b.x0 && a.y0 == b.y0 && a.x
 bool is_empty(PixelRect box) { return box.x0 >= box.x1 || box.y0 >= box.y1; }
 
 /// Image of 8 x 8: a quarter of clip space is one pixel.
-PixelRect box(glm::vec4 a, glm::vec4 b, glm::vec4 c) { return triangle_box<Portable>({a, b, c}, 8, 8); }
+PixelRect box(glm::vec4 a, glm::vec4 b, glm::vec4 c) { return triangle_box(Portable(), {a, b, c}, 8, 8); }
 
 } // namespace
 
 TEST_CASE("pixel box: clip space fills the image", "[pixel_box]") {
-    CHECK(window_place<Portable>({-1, 0}, 1, 16, 8) == glm::vec2(0, 4));
-    CHECK(window_place<Portable>({2, -1}, 2, 16, 8) == glm::vec2(16, 2));
+    CHECK(window_place(Portable(), {-1, 0}, 1, 16, 8) == glm::vec2(0, 4));
+    CHECK(window_place(Portable(), {2, -1}, 2, 16, 8) == glm::vec2(16, 2));
 }
 
 TEST_CASE("pixel box: pixels whose centres lie inside or just beside", "[pixel_box]") {

@@ -34,25 +34,26 @@ glm::dvec3 exact_weights(const std::array<glm::vec4, 3>& clip, int x, int y, int
 TEST_CASE("triangle interpolation: shares of a triangle parallel to the image", "[triangle_interpolation]") {
     // 4 x 4 pixels, right angle at the lower left corner of the image, legs as long as the image: pixel (1, 0) has its
     // centre at 1.5 / 4 of the first leg and 0.5 / 4 of the second.
-    const Interpolation interpolation({glm::vec4(-1, -1, 0, 1), glm::vec4(1, -1, 0.5F, 1), glm::vec4(-1, 1, 1, 1)}, 4,
-                                      4);
+    const Interpolation interpolation(
+        Strict(), {glm::vec4(-1, -1, 0, 1), glm::vec4(1, -1, 0.5F, 1), glm::vec4(-1, 1, 1, 1)}, 4, 4);
     const auto weights = interpolation.weights(1, 0);
     CHECK(weights.second == 0.375F);
     CHECK(weights.third == 0.125F);
     CHECK(interpolation.depth(weights) == 0.5F + 0.5F * (0.375F * 0.5F + 0.125F));
-    CHECK(Interpolation::mix({glm::vec3(0), glm::vec3(8, 0, 0), glm::vec3(0, 8, 1)}, weights) ==
+    CHECK(Interpolation::mix(Strict(), {glm::vec3(0), glm::vec3(8, 0, 0), glm::vec3(0, 8, 1)}, weights) ==
           glm::vec3(3.0F, 1.0F, 0.125F));
 }
 
 TEST_CASE("triangle interpolation: shares are perspective-correct", "[triangle_interpolation]") {
     // From w = 1 at the left border to w = 3 at the right: in the middle of the image 3 / 4 of the near end is seen.
-    const Interpolation interpolation({glm::vec4(-1, -1, 0, 1), glm::vec4(3, -3, 0, 3), glm::vec4(-1, 1, 0, 1)}, 1, 1);
+    const Interpolation interpolation(Strict(),
+                                      {glm::vec4(-1, -1, 0, 1), glm::vec4(3, -3, 0, 3), glm::vec4(-1, 1, 0, 1)}, 1, 1);
     CHECK(interpolation.weights(0, 0).second == 0.25F);
 }
 
 TEST_CASE("triangle interpolation: a centre beyond the triangle gets shares inside it", "[triangle_interpolation]") {
-    const Interpolation interpolation({glm::vec4(0, 0, 0, 1), glm::vec4(0.1F, 0, 0, 1), glm::vec4(0, 0.1F, 0, 1)}, 8,
-                                      8);
+    const Interpolation interpolation(
+        Strict(), {glm::vec4(0, 0, 0, 1), glm::vec4(0.1F, 0, 0, 1), glm::vec4(0, 0.1F, 0, 1)}, 8, 8);
     for (int y = 0; y < 8; ++y)
         for (int x = 0; x < 8; ++x) {
             const auto weights = interpolation.weights(x, y);
@@ -63,14 +64,16 @@ TEST_CASE("triangle interpolation: a centre beyond the triangle gets shares insi
 }
 
 TEST_CASE("triangle interpolation: a triangle seen edge-on answers its first corner", "[triangle_interpolation]") {
-    const Interpolation interpolation({glm::vec4(0, 0, 0, 1), glm::vec4(1, 1, 0, 1), glm::vec4(-1, -1, 0, 1)}, 8, 8);
+    const Interpolation interpolation(Strict(), {glm::vec4(0, 0, 0, 1), glm::vec4(1, 1, 0, 1), glm::vec4(-1, -1, 0, 1)},
+                                      8, 8);
     const auto weights = interpolation.weights(3, 3);
     CHECK(weights.second == 0.0F);
     CHECK(weights.third == 0.0F);
 }
 
 TEST_CASE("triangle interpolation: depth stays in 0..1", "[triangle_interpolation]") {
-    const Interpolation interpolation({glm::vec4(-1, -1, 5, 1), glm::vec4(1, -1, 5, 1), glm::vec4(-1, 1, -5, 1)}, 4, 4);
+    const Interpolation interpolation(Strict(),
+                                      {glm::vec4(-1, -1, 5, 1), glm::vec4(1, -1, 5, 1), glm::vec4(-1, 1, -5, 1)}, 4, 4);
     CHECK(interpolation.depth({0.0F, 0.0F}) == 1.0F);
     CHECK(interpolation.depth({0.0F, 1.0F}) == 0.0F);
 }
@@ -95,7 +98,7 @@ TEST_CASE("triangle interpolation: accurate where triangles are as small as pixe
         const glm::dvec3 exact = exact_weights(clip, x, y, size, size);
         if (exact.x < 0.0 || exact.y < 0.0 || exact.z < 0.0)
             continue;
-        const auto weights = Interpolation(clip, size, size).weights(x, y);
+        const auto weights = Interpolation(Strict(), clip, size, size).weights(x, y);
         // The error of a share times the length of a side, in pixels: where the answer lies on the image.
         const double longest = std::sqrt(2.0) * 0.008 * 0.5 * size;
         worst = std::max(
@@ -111,9 +114,9 @@ TEST_CASE("triangle interpolation: the exact preset's own coverage has its sides
         for (int y = 0; y < 4; ++y)
             for (int x = 0; x < 4; ++x) {
                 INFO(x << ' ' << y);
-                CHECK(Exact(clip, 4, 4).fragment(x, y).has_value() == (x + y <= 2));
+                CHECK(Exact(Portable(), clip, 4, 4).fragment(x, y).has_value() == (x + y <= 2));
             }
-    const auto corner = Exact({a, b, c}, 4, 4).fragment(2, 0);
+    const auto corner = Exact(Portable(), {a, b, c}, 4, 4).fragment(2, 0);
     REQUIRE(corner);
     CHECK(corner->weights.second == 1.0F);
     CHECK(corner->weights.third == 0.0F);
@@ -126,8 +129,8 @@ TEST_CASE("triangle interpolation: a shared side has one edge function but for i
     const auto corner = [&] { return glm::vec4(place(random), place(random), place(random), place(random)); };
     for (int round = 0; round < 1000; ++round) {
         const glm::vec4 a = corner(), b = corner();
-        const auto here = Exact({a, b, corner()}, 100, 70).edges(30, 20);
-        const auto there = Exact({corner(), b, a}, 100, 70).edges(30, 20);
+        const auto here = Exact(Portable(), {a, b, corner()}, 100, 70).edges(30, 20);
+        const auto there = Exact(Portable(), {corner(), b, a}, 100, 70).edges(30, 20);
         CHECK(here.third == -there.first);
     }
 }
@@ -135,7 +138,8 @@ TEST_CASE("triangle interpolation: a shared side has one edge function but for i
 TEST_CASE("triangle interpolation: nothing is covered behind the camera or beyond near and far plane",
           "[triangle_interpolation]") {
     const auto covered = [](float z, float w) {
-        return Exact({glm::vec4(-w, -w, z, w), glm::vec4(3 * w, -w, z, w), glm::vec4(-w, 3 * w, z, w)}, 1, 1)
+        return Exact(Portable(), {glm::vec4(-w, -w, z, w), glm::vec4(3 * w, -w, z, w), glm::vec4(-w, 3 * w, z, w)}, 1,
+                     1)
             .fragment(0, 0)
             .has_value();
     };
@@ -152,7 +156,7 @@ TEST_CASE("triangle interpolation: the part before the camera of a triangle that
           "[triangle_interpolation]") {
     // The floor y = -1 from w = 4, as wide as the image there, to behind the camera: seen from y / w = -1 / 4
     // downwards.
-    const Exact floor({glm::vec4(-4, -1, 0, 4), glm::vec4(4, -1, 0, 4), glm::vec4(0, -1, 0, -4)}, 16, 16);
+    const Exact floor(Portable(), {glm::vec4(-4, -1, 0, 4), glm::vec4(4, -1, 0, 4), glm::vec4(0, -1, 0, -4)}, 16, 16);
     for (int y = 0; y < 16; ++y)
         for (int x = 0; x < 16; ++x) {
             INFO(x << ' ' << y);
@@ -162,12 +166,14 @@ TEST_CASE("triangle interpolation: the part before the camera of a triangle that
 
 TEST_CASE("triangle interpolation: nothing is covered without area or where areas overflow",
           "[triangle_interpolation]") {
-    CHECK_FALSE(Exact({glm::vec4(0, 0, 0, 1), glm::vec4(1, 1, 0, 1), glm::vec4(-1, -1, 0, 1)}, 8, 8).fragment(4, 4));
-    CHECK_FALSE(Exact({glm::vec4(0), glm::vec4(0), glm::vec4(0)}, 8, 8).fragment(4, 4));
+    CHECK_FALSE(Exact(Portable(), {glm::vec4(0, 0, 0, 1), glm::vec4(1, 1, 0, 1), glm::vec4(-1, -1, 0, 1)}, 8, 8)
+                    .fragment(4, 4));
+    CHECK_FALSE(Exact(Portable(), {glm::vec4(0), glm::vec4(0), glm::vec4(0)}, 8, 8).fragment(4, 4));
     const float huge = 1e30F;
-    CHECK_FALSE(
-        Exact({glm::vec4(-huge, -huge, 0, huge), glm::vec4(huge, -huge, 0, huge), glm::vec4(0, huge, 0, huge)}, 8, 8)
-            .fragment(4, 4));
+    CHECK_FALSE(Exact(Portable(),
+                      {glm::vec4(-huge, -huge, 0, huge), glm::vec4(huge, -huge, 0, huge), glm::vec4(0, huge, 0, huge)},
+                      8, 8)
+                    .fragment(4, 4));
 }
 
 TEST_CASE("triangle interpolation: in exact arithmetic it does not matter whether subnormals are flushed",
@@ -186,7 +192,7 @@ TEST_CASE("triangle interpolation: in exact arithmetic it does not matter whethe
             corner.x = Portable::flush(corner.x);
         const auto fragment = [&](bool flush) {
             const FlushSubnormals guard(flush);
-            return Exact(clip, 1, 1).fragment(0, 0);
+            return Exact(Portable(), clip, 1, 1).fragment(0, 0);
         };
         const auto flushed = fragment(true);
         const auto kept = fragment(false);

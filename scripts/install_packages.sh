@@ -11,6 +11,7 @@ packages=(
     libassimp-dev libmeshoptimizer-dev            # meshes: reading, decimation
     libhdf5-dev libaec-dev                        # traces: H5MD
     libdeflate-dev nettle-dev                     # reading them fast, their seal
+    libseccomp-dev                                # the fence around the process that reads one
     python3-numpy python3-h5py                    # the example that writes one
     libgl-dev libegl-dev                          # GL headers; the libraries are opened at run time
     libosmesa6 libegl1 libgl1-mesa-dri            # contexts without a GPU

@@ -19,33 +19,23 @@ namespace {
 
 constexpr std::string_view first_line = "lockstep trace 1\n";
 
-using File = std::unique_ptr<std::FILE, int (*)(std::FILE*)>;
-
-File open(const std::filesystem::path& path, const char* mode) {
-    std::error_code failed;
-    if (std::filesystem::is_directory(path, failed))
-        throw Error(fmt::format("{}: a folder, not a trace", path.string()));
-    File file(std::fopen(path.c_str(), mode), std::fclose);
-    if (!file)
-        throw Error(fmt::format("{}: cannot be opened: {}", path.string(), std::strerror(errno)));
-    return file;
-}
-
-/// Reads the rest of the file.
-Seal seal_of_rest(std::FILE* file, const std::filesystem::path& path) {
-    std::vector<std::uint8_t> block(std::size_t{1} << 20U);
+/// Of what comes after the user block. `read(offset, into)` gives the number of bytes it read.
+template <class Read> Seal seal_of(const Read& read) {
+    std::vector<std::byte> block(std::size_t{1} << 20U);
     sha256_ctx context;
     sha256_init(&context);
     std::uint64_t bytes = seal_size;
-    while (const std::size_t read = std::fread(block.data(), 1, block.size(), file)) {
-        sha256_update(&context, read, block.data());
-        bytes += read;
+    while (const std::size_t count = read(bytes, std::span(block))) {
+        sha256_update(&context, count, reinterpret_cast<const std::uint8_t*>(block.data()));
+        bytes += count;
     }
-    if (std::ferror(file) != 0)
-        throw Error(fmt::format("{}: cannot be read: {}", path.string(), std::strerror(errno)));
     std::array<std::uint8_t, SHA256_DIGEST_SIZE> digest{};
     sha256_digest(&context, digest.size(), digest.data());
     return {bytes, fmt::format("{:02x}", fmt::join(digest, ""))};
+}
+
+Seal seal_of(const OpenedFile& file) {
+    return seal_of([&](std::uint64_t offset, std::span<std::byte> into) { return file.read(offset, into); });
 }
 
 /// Takes `word` and the value after it off the front of `text`, to the end of the line.
@@ -90,31 +80,27 @@ Seal parse_seal(std::string_view text, const std::string& name) {
 }
 
 void seal_file(const std::filesystem::path& path) {
-    const File file = open(path, "r+b");
-    std::fseek(file.get(), seal_size, SEEK_SET);
-    const std::string text = seal_text(seal_of_rest(file.get(), path));
-    std::rewind(file.get());
-    if (std::fwrite(text.data(), 1, text.size(), file.get()) != text.size() || std::fflush(file.get()) != 0)
+    const std::string text = seal_text(seal_of(OpenedFile(path, "trace")));
+    const std::unique_ptr<std::FILE, int (*)(std::FILE*)> file(std::fopen(path.c_str(), "r+b"), std::fclose);
+    if (!file || std::fwrite(text.data(), 1, text.size(), file.get()) != text.size() || std::fflush(file.get()) != 0)
         throw Error(fmt::format("{}: cannot be written: {}", path.string(), std::strerror(errno)));
 }
 
-void check_seal(const std::filesystem::path& path) {
-    const File file = open(path, "rb");
+void check_seal(const OpenedFile& file) {
+    const std::string path = file.path().string();
     std::string text(seal_size, '\0');
-    text.resize(std::fread(text.data(), 1, text.size(), file.get()));
+    text.resize(file.read(0, std::as_writable_bytes(std::span(text))));
     if (text.empty())
-        throw Error(fmt::format("{}: empty; a trace begins with its seal", path.string()));
-    const Seal told = parse_seal(text, path.string());
-    std::error_code failed;
-    const std::uint64_t size = std::filesystem::file_size(path, failed);
-    if (!failed && size < told.bytes)
-        throw Error(fmt::format("{}: cut off: {} of its {} bytes are here", path.string(), size, told.bytes));
-    if (!failed && size > told.bytes)
-        throw Error(fmt::format("{}: damaged: {} bytes, but {} were sealed", path.string(), size, told.bytes));
-    const Seal found = seal_of_rest(file.get(), path);
+        throw Error(fmt::format("{}: empty; a trace begins with its seal", path));
+    const Seal told = parse_seal(text, path);
+    if (file.size() < told.bytes)
+        throw Error(fmt::format("{}: cut off: {} of its {} bytes are here", path, file.size(), told.bytes));
+    if (file.size() > told.bytes)
+        throw Error(fmt::format("{}: damaged: {} bytes, but {} were sealed", path, file.size(), told.bytes));
+    const Seal found = seal_of(file);
     if (found.bytes != told.bytes || found.sha256 != told.sha256)
-        throw Error(fmt::format("{}: damaged: its SHA-256 is {}..., sealed was {}...", path.string(),
-                                found.sha256.substr(0, 12), told.sha256.substr(0, 12)));
+        throw Error(fmt::format("{}: damaged: its SHA-256 is {}..., sealed was {}...", path, found.sha256.substr(0, 12),
+                                told.sha256.substr(0, 12)));
 }
 
 } // namespace lockstep

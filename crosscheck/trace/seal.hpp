@@ -6,6 +6,8 @@
 #include <string>
 #include <string_view>
 
+#include "crosscheck/opened_file.hpp"
+
 namespace lockstep {
 
 /// The seal of a trace: the first 512 bytes of the file, which HDF5 calls the user block and leaves alone. It is text,
@@ -33,6 +35,6 @@ Seal parse_seal(std::string_view first_bytes, const std::string& name);
 void seal_file(const std::filesystem::path& file);
 
 /// Throws Error naming the path if the file is cut off, longer than it was, damaged, or not sealed.
-void check_seal(const std::filesystem::path& file);
+void check_seal(const OpenedFile& file);
 
 } // namespace lockstep

@@ -104,10 +104,17 @@ std::vector<Value> read_all(hid_t set, hid_t memory_type, std::size_t count, con
 
 } // namespace
 
-TraceFile::TraceFile(const std::filesystem::path& path) {
+TraceFile::TraceFile(const OpenedFile& file) {
     hdf5::silence();
     H5PLset_loading_state(0);
-    file_ = Id(H5Fopen(path.c_str(), H5F_ACC_RDONLY, H5P_DEFAULT), H5Fclose, "HDF5");
+    file_ = Id(H5Fopen(file.path().c_str(), H5F_ACC_RDONLY, H5P_DEFAULT), H5Fclose, "HDF5");
+    void* descriptor = nullptr;
+    expect(H5Fget_vfd_handle(file_.get(), H5P_DEFAULT, &descriptor), "HDF5");
+    if (descriptor == nullptr || !file.is(*static_cast<int*>(descriptor)))
+        throw Error("another file took its name while it was read");
+}
+
+void TraceFile::look_at_contents() {
     find_head();
     find_cdt(find_particles());
 }

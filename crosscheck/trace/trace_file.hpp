@@ -2,10 +2,10 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
-#include <filesystem>
 #include <string>
 #include <vector>
 
+#include "crosscheck/opened_file.hpp"
 #include "crosscheck/trace/chunk.hpp"
 #include "crosscheck/trace/hdf5.hpp"
 #include "crosscheck/trace/layout.hpp"
@@ -17,8 +17,11 @@ namespace lockstep {
 /// right`.
 class TraceFile {
   public:
-    /// Opens the file and looks at the shape and type of everything in it, but at no values.
-    explicit TraceFile(const std::filesystem::path& path);
+    /// libhdf5 opens files by name: throws too where the name is another file's by now.
+    explicit TraceFile(const OpenedFile& file);
+
+    /// The shape and type of everything in it, but no values. Comes before all that follows.
+    void look_at_contents();
 
     [[nodiscard]] std::size_t rows() const { return rows_; } ///< states: the start, and one a whole frame
     [[nodiscard]] std::size_t particles() const { return particles_; }

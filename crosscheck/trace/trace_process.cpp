@@ -23,6 +23,7 @@
 #include <unistd.h>
 
 #include "crosscheck/trace/root_offsets.hpp"
+#include "crosscheck/trace/syscall_fence.hpp"
 #include "crosscheck/trace/trace_file.hpp"
 #include "crosscheck/trace/trace_messages.hpp"
 #include "reference/model/error.hpp"
@@ -72,43 +73,60 @@ void default_signals() {
     sigprocmask(SIG_SETMASK, &none, nullptr);
 }
 
-/// What is left to a process that reads one file. `memory`: bytes of address space.
-void fence(std::size_t memory) {
+/// Descriptors of the reading process; nothing else that the asking process has open is open there.
+constexpr int requests_from = 3, answers_to = 4, the_file = 5;
+
+void keep_descriptors(int requests, int answers) {
+    const int above = std::max({requests, answers, the_file}) + 1; // not to overwrite one with the other
+    const int kept_requests = fcntl(requests, F_DUPFD, above);
+    const int kept_answers = fcntl(answers, F_DUPFD, above);
+    const int null = open("/dev/null", O_RDWR);
+    for (const int standard : {STDIN_FILENO, STDOUT_FILENO, STDERR_FILENO})
+        dup2(null, standard);
+    dup2(kept_requests, requests_from);
+    dup2(kept_answers, answers_to);
+    close_range(the_file, ~0U, 0);
+}
+
+/// What is left to a process that reads one file. `memory`: bytes of address space. Gives why the kernel puts up no
+/// fence of its own, or an empty text.
+std::string fence(std::size_t memory) {
     default_signals();
     prctl(PR_SET_NO_NEW_PRIVS, 1, 0, 0, 0);
-    const int null = open("/dev/null", O_RDWR);
-    dup2(null, STDIN_FILENO);
-    dup2(null, STDOUT_FILENO);
-    dup2(null, STDERR_FILENO);
     limit_for_good(RLIMIT_CORE, 0);
     limit_for_good(RLIMIT_FSIZE, 0);
     limit_for_good(RLIMIT_NPROC, 0);
-    limit_for_good(RLIMIT_NOFILE, static_cast<rlim_t>(null) + 1); // the lowest free one is the file's
-    close(null);
+    limit_for_good(RLIMIT_NOFILE, the_file + 1);
     limit(RLIMIT_AS, memory);
     limit_time();
+    return put_up_fence(Fence::opening, answers_to);
 }
 
 /// The reading process's work.
 class Reader {
   public:
-    Reader(const std::filesystem::path& path, int requests, int answers)
-        : file_(path), requests_(requests), answers_(answers) {}
+    explicit Reader(const OpenedFile& file) : file_(file) {}
 
     /// `memory`: what opening the file may take.
-    void run(std::size_t memory) {
+    void run(std::size_t memory, std::string unfenced) {
+        if (unfenced.empty())
+            unfenced = put_up_fence(Fence::reading, answers_to);
+        file_.look_at_contents();
+        warnings_ = file_.warnings();
+        if (!unfenced.empty())
+            warnings_.push_back(fmt::format("the kernel puts up no seccomp filter ({}): the process that reads the "
+                                            "trace is held by its limits alone",
+                                            unfenced));
         limit(RLIMIT_AS, memory + 2 * (file_.particle_bytes() + file_.cdt_bytes()));
         send_contents();
         Request request;
-        while (recv(requests_, &request, sizeof request, MSG_WAITALL) == sizeof request) {
+        while (recv(requests_from, &request, sizeof request, MSG_WAITALL) == sizeof request) {
             limit_time();
             serve(request);
         }
     }
 
-    static void send_error(int answers, const std::string& text) {
-        send(answers, {MessageKind::error, 0, text.size()}, text.data());
-    }
+    static void send_error(const std::string& text) { send({MessageKind::error, 0, text.size()}, text.data()); }
 
   private:
     /// One state, read before it is asked for.
@@ -117,10 +135,10 @@ class Reader {
         std::vector<std::byte> bytes;
     };
 
-    static void write_all(int to, const void* bytes, std::size_t count) {
+    static void write_all(const void* bytes, std::size_t count) {
         const char* at = static_cast<const char*>(bytes);
         while (count > 0) {
-            const ssize_t written = write(to, at, count);
+            const ssize_t written = write(answers_to, at, count);
             if (written < 0 && errno == EINTR)
                 continue;
             if (written <= 0)
@@ -130,13 +148,13 @@ class Reader {
         }
     }
 
-    static void send(int to, const MessageHead& head, const void* bytes) {
-        write_all(to, &head, sizeof head);
-        write_all(to, bytes, head.bytes);
+    static void send(const MessageHead& head, const void* bytes) {
+        write_all(&head, sizeof head);
+        write_all(bytes, head.bytes);
     }
 
-    template <class Value> void send(MessageKind kind, const std::vector<Value>& values) const {
-        send(answers_, {kind, 0, values.size() * sizeof(Value)}, values.data());
+    template <class Value> static void send(MessageKind kind, const std::vector<Value>& values) {
+        send({kind, 0, values.size() * sizeof(Value)}, values.data());
     }
 
     void send_contents() {
@@ -157,13 +175,13 @@ class Reader {
                             {"settings", file_.text(layout::settings)},
                             {"probe", file_.text(layout::probe)},
                             {"program", file_.program()},
-                            {"warnings", file_.warnings()}};
+                            {"warnings", warnings_}};
         if (file_.has_cdt()) {
             json["cdt_height"] = file_.cdt_extents()[0];
             json["cdt_width"] = file_.cdt_extents()[1];
         }
         const std::string text = json.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace);
-        send(answers_, {MessageKind::contents, 0, text.size()}, text.data());
+        send({MessageKind::contents, 0, text.size()}, text.data());
         if (!triangles.empty()) {
             send(MessageKind::positions, positions);
             send(MessageKind::triangles, triangles);
@@ -196,7 +214,7 @@ class Reader {
             throw Error(fmt::format("row {} was asked for, there are {}", request.index, file_.rows()));
         prepare(request.kind, request.index);
         const std::vector<std::byte>& bytes = (cdt ? cdt_ : particles_).bytes;
-        send(answers_, {request.kind, request.index, bytes.size()}, bytes.data());
+        send({request.kind, request.index, bytes.size()}, bytes.data());
         const std::size_t row = request.index + (cdt ? 2U : 1U);
         if (cdt != file_.has_cdt() && request.index != 0)
             return; // the CDT of this row is asked for next
@@ -208,29 +226,30 @@ class Reader {
     }
 
     TraceFile file_;
-    int requests_;
-    int answers_;
+    std::vector<std::string> warnings_;
     Prepared particles_, cdt_;
 };
 
-[[noreturn]] void read_trace(const std::filesystem::path& path, int requests, int answers) {
+[[noreturn]] void read_trace(const OpenedFile& file, int requests, int answers) {
+    keep_descriptors(requests, answers);
     const std::size_t memory = address_space() + opening_memory;
-    fence(memory);
+    const std::string unfenced = fence(memory);
     try {
-        Reader(path, requests, answers).run(memory);
+        Reader(file).run(memory, unfenced);
     } catch (const std::bad_alloc&) {
-        Reader::send_error(answers, "needs more memory than a trace of its size may");
+        Reader::send_error("needs more memory than a trace of its size may");
     } catch (const std::exception& error) {
-        Reader::send_error(answers, error.what());
+        Reader::send_error(error.what());
     }
     _exit(0);
 }
 
 } // namespace
 
-TraceProcess start_trace_process(const std::filesystem::path& file) {
+TraceProcess start_trace_process(const OpenedFile& file) {
     const auto fail = [&] {
-        throw Error(fmt::format("{}: no process to read it can be started: {}", file.string(), std::strerror(errno)));
+        throw Error(
+            fmt::format("{}: no process to read it can be started: {}", file.path().string(), std::strerror(errno)));
     };
     std::array<int, 2> requests{}, answers{};
     if (socketpair(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC, 0, requests.data()) != 0)

@@ -1,6 +1,7 @@
 #include "crosscheck/trace/trace_reader.hpp"
 
 #include <cerrno>
+#include <csignal>
 #include <cstring>
 #include <string>
 
@@ -20,12 +21,35 @@ namespace {
 
 constexpr int patience = 120'000; // milliseconds without a byte
 
+/// What it means that the reading process ended of a signal; 0: of none.
+std::string end_text(int signal) {
+    switch (signal) {
+    case SIGSEGV:
+    case SIGBUS:
+    case SIGABRT:
+    case SIGFPE:
+    case SIGILL:
+    case SIGSYS:
+        return fmt::format("HDF5 broke on it ({}): the file is not what its seal says, or was made to do harm",
+                           strsignal(signal));
+    case SIGXCPU:
+        return "reading one state of it took over a minute of processor time";
+    case 0:
+        return "the process that reads it ended early: the file is not what its seal says, or was made to do harm";
+    case SIGKILL:
+        return "the process that reads it was killed from outside (Killed), as systems do where memory runs out; try "
+               "again";
+    default:
+        return fmt::format("the process that reads it was ended from outside ({}); try again", strsignal(signal));
+    }
+}
+
 } // namespace
 
 /// The process that reads, and what it says.
 class TraceReader::Process : public ByteSource {
   public:
-    explicit Process(const std::filesystem::path& file) : file_(file.string()), process_(start_trace_process(file)) {}
+    explicit Process(const OpenedFile& file) : file_(file.path().string()), process_(start_trace_process(file)) {}
     ~Process() override { end_trace_process(process_, std::chrono::milliseconds(0)); }
 
     void ask(MessageKind kind, int index) {
@@ -57,19 +81,21 @@ class TraceReader::Process : public ByteSource {
 
   private:
     [[noreturn]] void broke() {
-        const int signal = end_trace_process(process_, std::chrono::seconds(2));
-        throw Error(fmt::format("{}: HDF5 broke on it{}: the file is not what its seal says, or was made to do harm",
-                                file_, signal == 0 ? "" : fmt::format(" ({})", strsignal(signal))));
+        if (process_.pid >= 0)
+            signal_ = end_trace_process(process_, std::chrono::seconds(2));
+        throw Error(fmt::format("{}: {}", file_, end_text(signal_)));
     }
 
     std::string file_;
     TraceProcess process_;
+    int signal_ = 0; ///< that it ended of
 };
 
-TraceReader::TraceReader(const std::filesystem::path& file) {
-    check_seal(file);
-    process_ = std::make_unique<Process>(file);
+TraceReader::TraceReader(const std::filesystem::path& file) : file_(file, "trace") {
+    check_seal(file_);
+    process_ = std::make_unique<Process>(file_);
     info_ = read_contents(*process_, process_->file());
+    file_.expect_unchanged();
 }
 
 TraceReader::~TraceReader() = default;
@@ -78,6 +104,7 @@ void TraceReader::read(int frame, Particles& particles) {
     particles.resize(info_.scene.start.size());
     process_->ask(MessageKind::particles, frame + 1);
     read_particles(*process_, process_->file(), static_cast<std::uint32_t>(frame + 1), particles);
+    file_.expect_unchanged();
 }
 
 void TraceReader::read(int frame, CollisionImage& cdt) {
@@ -86,6 +113,7 @@ void TraceReader::read(int frame, CollisionImage& cdt) {
     cdt.texels.resize(static_cast<std::size_t>(cdt.width) * static_cast<std::size_t>(cdt.height));
     process_->ask(MessageKind::cdt, frame);
     read_cdt(*process_, process_->file(), static_cast<std::uint32_t>(frame), cdt);
+    file_.expect_unchanged();
 }
 
 } // namespace lockstep

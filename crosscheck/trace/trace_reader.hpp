@@ -2,14 +2,16 @@
 #include <filesystem>
 #include <memory>
 
+#include "crosscheck/opened_file.hpp"
 #include "crosscheck/trace/trace_info.hpp"
 #include "reference/model/image.hpp"
 #include "reference/model/particles.hpp"
 
 namespace lockstep {
 
-/// A trace, open for reading. The seal is checked first (seal.hpp), then a process of its own reads the file
-/// (trace_process.hpp), one frame ahead of what is asked for. Every function throws Error naming the file.
+/// A trace, open for reading. The seal is checked first (seal.hpp), then a process of its own reads the same file
+/// (trace_process.hpp), one frame ahead of what is asked for. Every function throws Error naming the file, also where
+/// somebody writes it meanwhile.
 class TraceReader {
   public:
     explicit TraceReader(const std::filesystem::path& file);
@@ -26,6 +28,7 @@ class TraceReader {
   private:
     class Process;
 
+    OpenedFile file_;
     std::unique_ptr<Process> process_;
     TraceInfo info_;
 };

@@ -1,9 +1,12 @@
 #include <catch2/catch.hpp>
 
+#include <atomic>
+#include <chrono>
 #include <csignal>
 #include <fstream>
 #include <random>
 #include <string>
+#include <thread>
 #include <vector>
 
 #include <unistd.h>
@@ -176,6 +179,66 @@ TEST_CASE("damaged traces: a reading process that dies is an error, whatever it 
     CHECK_THAT(test::error_of([&] { trace.read(1, particles); }), Contains("HDF5 broke on it"));
 }
 
+TEST_CASE("damaged traces: a reading process that somebody kills is not the file's fault") {
+    const test::TemporaryFolder folder;
+    const auto file = folder.path() / "run.h5";
+    test::record(file, test::small_info(true), frames);
+    for (const auto& [signal, told] :
+         {std::pair{SIGKILL, "the process that reads it was killed from outside (Killed)"},
+          std::pair{SIGTERM, "the process that reads it was ended from outside (Terminated); try again"},
+          std::pair{SIGXCPU, "reading one state of it took over a minute of processor time"}}) {
+        TraceReader trace(file);
+        REQUIRE(kill(reading_process(), signal) == 0);
+        Particles particles;
+        CHECK_THAT(test::error_of([&] {
+                       trace.read(0, particles);
+                       trace.read(2, particles);
+                   }),
+                   Catch::StartsWith(file.string() + ": " + told));
+    }
+}
+
+TEST_CASE("damaged traces: no verdict on bytes that no seal was held against, whoever swaps files meanwhile") {
+    const test::TemporaryFolder folder;
+    const auto file = folder.path() / "run.h5", sealed = folder.path() / "sealed", other = folder.path() / "other";
+    test::record(sealed, test::small_info(false), frames);
+    TraceInfo info = test::small_info(false);
+    info.renderer = "another renderer";
+    test::record(other, info, frames);
+    test::write_bytes(other, seal_text({}) + test::bytes_of(other).substr(seal_size));
+    std::filesystem::create_hard_link(sealed, file);
+    std::atomic<bool> over = false;
+    std::thread swapping([&] {
+        for (int i = 0; !over; ++i) {
+            const auto next = folder.path() / "next";
+            std::filesystem::create_hard_link(i % 2 == 0 ? other : sealed, next);
+            std::filesystem::rename(next, file);
+            std::this_thread::sleep_for(std::chrono::microseconds(300));
+        }
+    });
+    int read = 0, refused = 0;
+    for (int i = 0; i < 150; ++i) {
+        std::string renderer = "a renderer";
+        const std::string refusal = test::error_of([&] { renderer = TraceReader(file).info().renderer; });
+        CHECK(renderer == "a renderer");
+        (refusal.empty() ? read : refused) += 1;
+    }
+    over = true;
+    swapping.join();
+    CHECK(read > 0);
+    CHECK(refused > 0);
+}
+
+TEST_CASE("damaged traces: a file that is written while it is read is refused") {
+    const test::TemporaryFolder folder;
+    const auto file = folder.path() / "run.h5";
+    test::record(file, test::small_info(false), frames);
+    TraceReader trace(file);
+    std::ofstream(file, std::ios::app) << "more";
+    Particles particles;
+    CHECK_THAT(test::error_of([&] { trace.read(0, particles); }), Contains("run.h5: was written while it was read"));
+}
+
 TEST_CASE("damaged traces: the reading process can write nothing, open nothing more, and take so much memory") {
     const test::TemporaryFolder folder;
     const auto file = folder.path() / "run.h5";
@@ -188,6 +251,13 @@ TEST_CASE("damaged traces: the reading process can write nothing, open nothing m
     CHECK_THAT(limits, Catch::Matches("(.|\n)*Max open files +\\d{1,2} +\\d{1,2} (.|\n)*"));
     CHECK_THAT(limits, Catch::Matches("(.|\n)*Max address space +\\d+ (.|\n)*"));
     CHECK_THAT(limits, Catch::Matches("(.|\n)*Max cpu time +\\d+ (.|\n)*"));
+    CHECK_THAT(test::bytes_of("/proc/" + std::to_string(reading_process()) + "/status"), Contains("Seccomp:\t2\n"));
+    CHECK(trace.info().warnings.empty());
+    std::vector<std::string> open_ones;
+    for (const auto& entry : std::filesystem::directory_iterator("/proc/" + std::to_string(reading_process()) + "/fd"))
+        open_ones.push_back(std::filesystem::read_symlink(entry));
+    CHECK(open_ones.size() == 6); // standard ones, requests, answers, the file
+    CHECK(std::count(open_ones.begin(), open_ones.end(), file.string()) == 1);
 }
 
 TEST_CASE("damaged traces: no reading process stays behind") {

@@ -15,7 +15,7 @@ struct Sealed {
     std::filesystem::path file = folder.write("run.h5", std::string(seal_size, '\0') + "some thousand bytes");
     Sealed() { seal_file(file); }
     [[nodiscard]] std::string refusal() const {
-        return error_of([&] { check_seal(file); });
+        return error_of([&] { check_seal(OpenedFile(file, "trace")); });
     }
     [[nodiscard]] std::string refusal_of(const std::string& bytes) const {
         test::write_bytes(file, bytes);
@@ -51,8 +51,9 @@ TEST_CASE("seal: a file of another kind is refused by its first line") {
     CHECK_THAT(sealed.refusal_of("{}"), Contains("not a trace: its first line is not \"lockstep trace 1\""));
     CHECK_THAT(sealed.refusal_of(""), Contains("empty"));
     CHECK_THAT(sealed.refusal_of("\x89HDF\r\n\x1a\n and so on"), Contains("not a trace"));
-    CHECK_THAT(error_of([&] { check_seal(sealed.folder.path()); }), Contains("a folder, not a trace"));
-    CHECK_THAT(error_of([&] { check_seal(sealed.folder.path() / "none.h5"); }),
+    CHECK_THAT(error_of([&] { check_seal(OpenedFile(sealed.folder.path(), "trace")); }),
+               Contains("a folder, not a trace"));
+    CHECK_THAT(error_of([&] { check_seal(OpenedFile(sealed.folder.path() / "none.h5", "trace")); }),
                Contains("none.h5: cannot be opened: No such file"));
 }
 

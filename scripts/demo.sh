@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# Installs what lockstep needs (Debian 12), builds it, and checks the bunny scene with 50,000 particles.
+# Installs what lockstep needs (Debian 12 or newer), builds it, and checks the bunny scene with 50,000 particles.
 set -euo pipefail
 cd "$(dirname "$0")/.."
 scripts/install_packages.sh

@@ -2,7 +2,8 @@
 # Runs the shipped shaders on the Mesa drivers of Debian 12, 13 and sid: every scene in three presets, and the mutants.
 # Writes data/results/drivers/DRIVER.json and a table. Runs that this commit has done are not done again.
 # Usage: scripts/driver_matrix.sh ROOTS [OPTION...]
-#   ROOTS              folder for the releases' roots (1.5 GB each, scripts/mesa_root.sh), the program and what has been run
+#   ROOTS              folder for the releases' roots (1.5 GB each, scripts/mesa_root.sh)
+#   --work DIR         for the program and what has been run; otherwise ROOTS
 #   --only A,B         drivers: SUITE-KIND, e.g. trixie-osmesa, or SUITE. SUITE is bookworm, trixie, sid, or here for this
 #                      machine's Mesa; KIND is osmesa, egl (both llvmpipe), softpipe, zink (on lavapipe)
 #   --scene A,B        scenes, by name; --preset A,B the same of paper, corrected, exact
@@ -18,8 +19,8 @@ fail() { echo "driver_matrix: $*" >&2; exit 2; }
 drivers=({bookworm,trixie}-{osmesa,egl,softpipe,zink} sid-{egl,softpipe,zink})
 here=(here-{osmesa,egl,softpipe,zink})
 presets=(paper corrected exact)
-only='' scenes='' particles='' frames='' mutants='' results=data/results/drivers build=build/release
-[ $# -gt 0 ] && [[ $1 != --* ]] || { sed -n '4,15p' "$0" | cut -c3- >&2; exit 2; }
+only='' work='' scenes='' particles='' frames='' mutants='' results=data/results/drivers build=build/release
+[ $# -gt 0 ] && [[ $1 != --* ]] || { sed -n '/^# Usage/,/^# Exit/p' "$0" | cut -c3- >&2; exit 2; }
 roots=$1
 shift
 while [ $# -gt 0 ]; do
@@ -27,13 +28,14 @@ while [ $# -gt 0 ]; do
     [ $# -ge 2 ] || fail "$1 needs a value, or is not an option"
     case $1 in
     --only) only=$2 ;;
+    --work) work=$2 ;;
     --scene) scenes=${2//,/ } ;;
     --preset) IFS=, read -ra presets <<<"$2" ;;
     --particles) particles=$2 ;;
     --frames) frames=$2 ;;
     --results) results=$2 ;;
     --build) build=$2 ;;
-    *) fail "$1 is not an option; --only, --scene, --preset, --particles, --frames, --mutants, --results, --build are" ;;
+    *) fail "$1 is not an option; --only, --work, --scene, --preset, --particles, --frames, --mutants, --results, --build are" ;;
     esac
     shift 2
 done
@@ -57,10 +59,10 @@ for scene in $scenes; do
 done
 case "${chosen[*]}" in *bookworm* | *trixie* | *sid*) [ "$(id -u)" = 0 ] || fail "the releases' roots need root; --only here does not" ;; esac
 
-mkdir -p "$roots"
-roots=$(cd "$roots" && pwd)
+mkdir -p "$roots" "${work:=$roots}"
+roots=$(cd "$roots" && pwd) work=$(cd "$work" && pwd)
 commit=$(git describe --always --dirty --abbrev=7 2>/dev/null || echo unknown)
-program=$roots/program-$commit runs=$roots/runs-$commit
+program=$work/program-$commit runs=$work/runs-$commit
 if [[ $commit == *-dirty || $commit == unknown ]]; then rm -rf "$program" "$runs"; fi
 if [ ! -x "$program/bin/lockstep" ]; then scripts/portable_folder.sh "$program" "$build"; fi
 if [ -n "$mutants" ]; then cmake --build "$build" --target lockstep_mutants >/dev/null; fi

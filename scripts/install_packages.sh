@@ -1,5 +1,6 @@
 #!/usr/bin/env bash
-# Installs the Debian 12 packages that building, testing and running lockstep needs. Does nothing where all are there.
+# Installs the packages of Debian 12 or newer that building, testing and running lockstep needs. Does nothing where all
+# are there. OSMesa left Debian after release 13; EGL gives the contexts there.
 # Usage: scripts/install_packages.sh
 set -euo pipefail
 
@@ -14,7 +15,7 @@ packages=(
     libseccomp-dev                                # the fence around the process that reads one
     python3-numpy python3-h5py                    # the example that writes one
     libgl-dev libegl-dev                          # GL headers; the libraries are opened at run time
-    libosmesa6 libegl1 libgl1-mesa-dri            # contexts without a GPU
+    libegl1 libgl1-mesa-dri                       # contexts without a GPU
     catch2 libnanoflann-dev                       # tests and their oracle for neighbours
     libbenchmark-dev                              # benchmarks
     gnuplot-nox                                   # charts of lockstep study
@@ -26,10 +27,16 @@ command -v npm >/dev/null || packages+=(npm)
 packages+=(chromium)                              # the report page is built by npm and tested in Chromium
 packages+=(python3-h5py)                          # states that the page saved become a trace
 
+is_installed() { [ "$(dpkg-query -W -f='${db:Status-Status}' "$1" 2>/dev/null)" = installed ]; }
+is_known() { apt-cache show "$1" >/dev/null 2>&1; }
+no_osmesa() { echo "install_packages: this release has no libosmesa6; contexts come from EGL alone"; }
+
 missing=()
-for package in "${packages[@]}"; do
-    [ "$(dpkg-query -W -f='${db:Status-Status}' "$package" 2>/dev/null)" = installed ] || missing+=("$package")
-done
+for package in "${packages[@]}"; do is_installed "$package" || missing+=("$package"); done
+if ! is_installed libosmesa6; then
+    if [ ${#missing[@]} = 0 ] && is_known libegl1 && ! is_known libosmesa6; then no_osmesa && exit 0; fi
+    missing+=(libosmesa6)
+fi
 [ ${#missing[@]} -gt 0 ] || exit 0
 
 as_root=()
@@ -37,6 +44,11 @@ if [ "$(id -u)" != 0 ]; then
     command -v sudo >/dev/null || { echo "install_packages: run as root, or install sudo; missing: ${missing[*]}" >&2; exit 2; }
     as_root=(sudo)
 fi
-echo "installing ${missing[*]}"
 "${as_root[@]}" apt-get update -qq
+if [[ " ${missing[*]} " == *" libosmesa6 "* ]] && ! is_known libosmesa6; then
+    no_osmesa
+    unset 'missing[-1]'
+    [ ${#missing[@]} -gt 0 ] || exit 0
+fi
+echo "installing ${missing[*]}"
 "${as_root[@]}" env DEBIAN_FRONTEND=noninteractive apt-get install -y -qq --no-install-recommends "${missing[@]}" >/dev/null

@@ -32,7 +32,6 @@ make_root() {
     mirror=$(apt-get indextargets --format '$(REPO_URI) $(COMPONENT) $(LABEL)' 'Created-By: Packages' | awk '$2 == "main" && $3 == "Debian" { print $1; exit }')
     [ -n "$mirror" ] || fail "apt knows no Debian mirror here"
     rm -rf --one-file-system "$root"
-    mkdir -p "$(dirname "$root")"
     debootstrap --variant=minbase --include=ca-certificates "$suite" "$root" "$mirror" >"$root.log" 2>&1 \
         || { tail -n 5 "$root.log" >&2; fail "debootstrap cannot make a Debian $suite of $mirror"; }
     # How apt reaches the mirror from here: proxies, certificates, names.
@@ -49,5 +48,11 @@ make_root() {
     touch "$root/made"
 }
 
-[ -e "$root/made" ] || make_root
+if [ ! -e "$root/made" ]; then # by one at a time
+    mkdir -p "$(dirname "$root")"
+    exec 9>"$root.lock"
+    flock 9
+    [ -e "$root/made" ] || make_root
+    exec 9>&-
+fi
 [ $# = 0 ] || inside "$@"

@@ -13,6 +13,7 @@ namespace lockstep::test {
 /// Collects the neighbours of one particle from nanoflann.
 template <class Real> struct NeighbourhoodResult {
     using DistanceType = Real;
+    using IndexType = std::uint32_t;
     Real limit;
     std::int32_t self;
     Neighbourhood found{};
@@ -31,6 +32,7 @@ template <class Real> struct NeighbourhoodResult {
         }
         return true;
     }
+    void sort() {}
 };
 
 template <class Real> struct PointCloud {
@@ -53,7 +55,7 @@ template <class Real> Neighbourhoods nanoflann_neighbourhoods(std::span<const gl
     for (std::size_t i = 0; i < positions.size(); ++i) {
         const glm::vec<3, Real> query(positions[i]);
         NeighbourhoodResult<Real> neighbourhood{Real{range} * Real{range}, static_cast<std::int32_t>(i)};
-        tree.findNeighbors(neighbourhood, &query.x, nanoflann::SearchParams());
+        tree.findNeighbors(neighbourhood, &query.x, {});
         result.particle[i] = neighbourhood.found;
     }
     return result;

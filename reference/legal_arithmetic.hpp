@@ -36,7 +36,9 @@ template <class A> class LegalArithmetic {
             return Interval::anything();
         if (!known_.sums)
             return loose_sum({a, b});
-        const auto add = [this](double x, double y) { return fp_.flush(static_cast<float>(x) + static_cast<float>(y)); };
+        const auto add = [this](double x, double y) {
+            return fp_.flush(static_cast<float>(x) + static_cast<float>(y));
+        };
         return flushed(ends(add(a.low, b.low), add(a.high, b.high)));
     }
     [[nodiscard]] Interval difference(Interval a, Interval b) const { return sum(a, interval::negate(b)); }

@@ -339,6 +339,8 @@ std::string_view undefined_name(Undefined reason) {
         return "NaN or overflow";
     case Undefined::unbounded:
         return "division by a w that may be 0";
+    case Undefined::undecided:
+        return "more ways than are followed";
     }
     return "";
 }

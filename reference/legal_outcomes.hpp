@@ -10,6 +10,7 @@
 #include "reference/model/particles.hpp"
 #include "reference/model/profile.hpp"
 #include "reference/model/scene.hpp"
+#include "reference/undefined.hpp"
 
 namespace lockstep {
 
@@ -29,15 +30,6 @@ struct Tie {
     TieKind kind = TieKind::base_texel;
     double margin = 0.0;
 };
-
-/// What GL leaves open on the way to an outcome.
-enum class Undefined {
-    none,
-    zero_direction, ///< normalize of a vector whose length may be 0
-    not_a_number,   ///< NaN or an overflow among the operands of a decision
-    unbounded,      ///< a division by something that may be 0 decides which texel is searched
-};
-std::string_view undefined_name(Undefined reason);
 
 /// One way a particle's step may legally go, and what its fields may then be. Fields are sets of floats; a state is
 /// legal when all of its fields lie in the same outcome.

@@ -1,0 +1,101 @@
+#include "reference/collision/collision_worlds.hpp"
+
+#include <array>
+
+#include "reference/collision/collision_twin.hpp"
+#include "reference/plain_arithmetic.hpp"
+#include "reference/readings/worlds.hpp"
+#include "reference/subnormals.hpp"
+
+namespace lockstep {
+namespace {
+
+template <class Vector> Interval3 sets(const Vector& v) { return {v.x.legal(), v.y.legal(), v.z.legal()}; }
+
+bool same(const Interval& a, const Interval& b) { return a.low == b.low && a.high == b.high && a.any == b.any; }
+bool same(const Interval3& a, const Interval3& b) { return same(a[0], b[0]) && same(a[1], b[1]) && same(a[2], b[2]); }
+
+LegalOutcome open_outcome() {
+    LegalOutcome v;
+    v.position = v.direction = {Interval::anything(), Interval::anything(), Interval::anything()};
+    v.speed = v.collide_time = Interval::anything();
+    return v;
+}
+
+template <class State> LegalOutcome as_outcome(const State& state) {
+    LegalOutcome v;
+    v.position = sets(state.position);
+    v.direction = sets(state.direction);
+    v.speed = state.speed.legal();
+    v.collide_time = state.collide_time.legal();
+    if (state.hit) {
+        v.hit = true;
+        v.base = {state.hit->base.x, state.hit->base.y};
+        v.neighbour = {state.hit->texel.x, state.hit->texel.y};
+    }
+    return v;
+}
+
+TieKind tie_kind(const Site& site) {
+    if (&site == &site::searches)
+        return TieKind::search;
+    if (&site == &site::in_range)
+        return TieKind::collision_range;
+    return &site == &site::nearest ? TieKind::nearest : TieKind::base_texel;
+}
+
+/// One tie for all decisions of a kind.
+std::vector<Tie> ties(std::span<const Fork> forks) {
+    std::vector<Tie> found;
+    for (const Fork& fork : forks)
+        for (const OpenDecision& decision : fork.decisions) {
+            if (decision.site == nullptr)
+                continue;
+            const TieKind kind = tie_kind(*decision.site);
+            if (!found.empty() && found.back().kind == kind)
+                found.back().margin = std::min(found.back().margin, decision.margin);
+            else
+                found.push_back({kind, decision.margin});
+        }
+    return found;
+}
+
+/// One that is there already keeps the shorter way.
+void add(std::vector<LegalOutcome>& outcomes, LegalOutcome outcome) {
+    for (LegalOutcome& known : outcomes) {
+        if (known.hit != outcome.hit || known.undefined != outcome.undefined ||
+            !same(known.direction, outcome.direction) || !same(known.position, outcome.position))
+            continue;
+        if (outcome.ties.size() < known.ties.size())
+            known = outcome;
+        return;
+    }
+    outcomes.push_back(std::move(outcome));
+}
+
+} // namespace
+
+std::vector<LegalOutcome> collision_worlds(const ParticleState& before, const CollisionImage& cdt,
+                                           const FrameParams& params, const Profile& profile,
+                                           const KnownOperations& known, const ParticleState* observed) {
+    const FlushSubnormals guard(known.subnormals && profile.flush_subnormals);
+    std::vector<LegalOutcome> outcomes;
+    with_plain_arithmetic(profile, params.switches, [&]<class A>(A fp) {
+        Worlds<A> worlds(fp, known);
+        if (observed != nullptr) {
+            worlds.tell(site::direction.output, {&observed->direction.x, 3});
+            worlds.tell(site::speed.output, {&observed->speed, 1});
+        }
+        const CollisionTwin twin(worlds, cdt, params);
+        worlds.run([&] { return twin(before); },
+                   [&](const auto* state, std::span<const Fork> forks, Undefined undefined) {
+                       LegalOutcome outcome = state != nullptr ? as_outcome(*state) : open_outcome();
+                       outcome.undefined = undefined;
+                       outcome.ties = ties(forks);
+                       add(outcomes, std::move(outcome));
+                   });
+    });
+    return outcomes;
+}
+
+} // namespace lockstep

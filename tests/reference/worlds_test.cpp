@@ -1,0 +1,178 @@
+#include <catch2/catch.hpp>
+
+#include <chrono>
+#include <cmath>
+#include <set>
+#include <string>
+
+#include "reference/readings/worlds.hpp"
+
+#include "reference/arithmetic.hpp"
+#include "reference/collision/collision_worlds.hpp"
+#include "tests/reference/collision_scenes.hpp"
+
+using namespace lockstep;
+using namespace lockstep::test;
+
+namespace {
+
+constexpr Site x{"x"}, y{"y"}, length_of{"length"}, below{"below"}, above{"above"}, cast{"cast"}, nearest{"nearest"};
+
+using Reading = Worlds<Strict>;
+struct State {
+    Reading::Real a, b;
+    auto fields() const { return std::tie(a, b); }
+};
+
+struct Ended {
+    bool open = false;
+    Interval a, b;
+    std::vector<std::string> ties;
+    Undefined undefined = Undefined::none;
+};
+
+template <class Twin> std::vector<Ended> run(Reading& reading, const Twin& twin) {
+    std::vector<Ended> all;
+    reading.run(twin, [&](const State* state, std::span<const Fork> forks, Undefined undefined) {
+        Ended one;
+        one.open = state == nullptr;
+        one.undefined = undefined;
+        if (state != nullptr)
+            one.a = state->a.legal(), one.b = state->b.legal();
+        for (const Fork& fork : forks)
+            for (const OpenDecision& decision : fork.decisions)
+                if (decision.site != nullptr)
+                    one.ties.emplace_back(decision.site->label);
+        all.push_back(one);
+    });
+    return all;
+}
+
+/// A length that GLSL leaves open by a few ULP around 1.
+Reading::Real open_one(Reading& r) { return r.length(length_of, r.read(x, glm::vec3(0.6F, 0.8F, 0.0F))); }
+
+} // namespace
+
+TEST_CASE("worlds: an answer holds for every copy of what was asked, and is taken back for the other way") {
+    Reading r(Strict(), {});
+    const auto ends = run(r, [&] {
+        const Reading::Real length = open_one(r), copy = length;
+        const bool smaller = r.decide(below, length < 1.0F);
+        return State{copy, r.real(smaller ? 1 : 0)};
+    });
+    REQUIRE(ends.size() == 2);
+    CHECK(ends[0].a.high == std::nextafter(1.0F, 0.0F));
+    CHECK(ends[0].b.low == 1.0);
+    CHECK(ends[1].a.low == 1.0);
+    CHECK(ends[1].a.high > 1.0);
+    CHECK(ends[1].b.low == 0.0);
+    CHECK(ends[1].ties == std::vector<std::string>{"below"});
+}
+
+TEST_CASE("worlds: any of several, and not, are asked as all are") {
+    Reading r(Strict(), {});
+    const auto count = [&](const auto& condition) {
+        return run(r,
+                   [&] {
+                       const Reading::Real length = open_one(r);
+                       const bool yes = r.decide(below, condition(length));
+                       return State{length, r.real(yes ? 1 : 0)};
+                   })
+            .size();
+    };
+    CHECK(count([](auto l) { return l < 1.0F || l > 2.0F; }) == 2);
+    CHECK(count([](auto l) { return l < 2.0F || l > 1.0F; }) == 1);
+    CHECK(count([](auto l) { return !(l < 1.0F || l > 2.0F); }) == 2);
+    CHECK(count([](auto l) { return !(l < 2.0F); }) == 1);
+    CHECK(count([](auto l) { return l > 2.0F && l != 1.0F; }) == 1);
+    CHECK(count([](auto l) { return l < 2.0F && l != 1.0F; }) == 2);
+}
+
+TEST_CASE("worlds: a cast forks over the integers in reach, and over nothing where the value is open") {
+    Reading r(Strict(), {});
+    const auto ends = run(r, [&] {
+        const Reading::Real length = open_one(r);
+        return State{length, r.real(r.to_int(cast, length * 3.0F))};
+    });
+    REQUIRE(ends.size() == 2);
+    CHECK(ends[0].b.low == 2.0);
+    CHECK(ends[1].b.low == 3.0);
+    const auto open = run(r, [&] {
+        const Reading::Real quotient = r.divide(y, 1.0F, open_one(r) - 1.0F);
+        return State{quotient, r.real(r.to_int(cast, quotient))};
+    });
+    REQUIRE(open.size() == 1);
+    CHECK(open[0].open);
+    CHECK(open[0].undefined == Undefined::unbounded);
+}
+
+TEST_CASE("worlds: more ways than are followed are undecided, never legal") {
+    Reading r(Strict(), {});
+    const auto ends = run(r, [&] {
+        Reading::Real sum = 0.0F;
+        for (int i = 0; i < 12; ++i) {
+            const Reading::Real length = open_one(r);
+            if (r.decide(below, length < 1.0F))
+                sum = sum + r.uniform(x, std::ldexp(1.0F, i));
+        }
+        return State{sum, 0.0F};
+    });
+    REQUIRE(ends.size() == Reading::most_runs + 1);
+    CHECK(ends.back().open);
+    CHECK(ends.back().undefined == Undefined::undecided);
+}
+
+TEST_CASE("worlds: a decision between the offers of a choice") {
+    Reading r(Strict(), {});
+    const auto ends = run(r, [&] {
+        auto best = least<int>(r, nearest, 10.0F);
+        for (int i = 0; i < 3; ++i) {
+            const Reading::Real length = open_one(r);
+            if (i == 1 && r.decide(above, length > 1.0F))
+                continue;
+            best.offer(below, length < 5.0F, length, i);
+        }
+        return State{r.real(best.take().value_or(-1)), 0.0F};
+    });
+    std::multiset<double> chosen;
+    for (const Ended& end : ends)
+        chosen.insert(end.a.low);
+    // Without the second: the first or the last. With it, it is 1 at most: so it is the first, it, or the last.
+    CHECK(chosen == std::multiset<double>{0.0, 0.0, 1.0, 2.0, 2.0});
+}
+
+TEST_CASE("worlds: 24 equally near neighbours are 24 outcomes, in a millisecond") {
+    FrameParams params;
+    params.width = params.height = 64;
+    params.constants.collision_range = 0.5F;
+    params.constants.texel_collide_range = 2;
+    params.collision_proj_view[3][3] = 3.0F;
+    CollisionImage cdt(64, 64);
+    const ParticleState before{{0.1F, -0.2F, 0.0F}, {0.6F, 0.8F, 0.0F}, 0.75F, -0.25F};
+    const BaseTexelIndex base = base_texel(before.position, params, {});
+    // Directions of one length: the permutations and signs of (2, 3, 6) / 7.
+    int stored = 0;
+    for (int row = -2; row <= 2; ++row)
+        for (int column = -2; column <= 2; ++column) {
+            if (row == 0 && column == 0)
+                continue;
+            glm::vec3 away(stored & 1 ? -2.0F : 2.0F, stored & 2 ? -3.0F : 3.0F, stored & 4 ? -6.0F : 6.0F);
+            for (int turn = 0; turn < stored / 8; ++turn)
+                away = {away.y, away.z, away.x};
+            cdt.at(base.x + column, base.y + row) = {before.position + away / 28.0F, 1.0F};
+            ++stored;
+        }
+    REQUIRE(stored == 24);
+    std::vector<LegalOutcome> outcomes;
+    double fastest = 1.0;
+    for (int repeat = 0; repeat < 20; ++repeat) {
+        const auto start = std::chrono::steady_clock::now();
+        outcomes = collision_worlds(before, cdt, params, named_profile("strict"), {}, nullptr);
+        fastest = std::min(fastest, std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count());
+    }
+    CHECK(outcomes.size() == 24);
+    for (const LegalOutcome& outcome : outcomes)
+        CHECK(outcome.hit);
+    WARN("24 equally near: " << fastest * 1e6 << " us");
+    CHECK(fastest < 1e-3);
+}

@@ -9,15 +9,37 @@
 #include "lockstep/catch2.hpp"
 #if CATCH_VERSION_MAJOR >= 3
 #include <catch2/catch_session.hpp>
+#include <catch2/reporters/catch_reporter_event_listener.hpp>
+#include <catch2/reporters/catch_reporter_registrars.hpp>
 #endif
 
 #include <cstdlib>
 #include <iostream>
 #include <string>
+#include <utility>
 
 #include "lockstep/junit_reporter.hpp"
 #include "lockstep/skip.hpp"
 #include "lockstep/test_notes.hpp"
+
+#if CATCH_VERSION_MAJOR >= 3
+namespace lockstep {
+
+/// Tells a repeat line that Catch2 is about to break, as it can be pasted.
+class RepeatListener : public Catch::EventListenerBase {
+  public:
+    using Catch::EventListenerBase::EventListenerBase;
+    void assertionEnded(const Catch::AssertionStats& stats) override {
+        const Catch::AssertionResult& result = stats.assertionResult;
+        if (!result.isOk() && !test_notes().repeat.empty() &&
+            result.getExpandedExpression().find("is to match the reference") != std::string::npos)
+            std::cout << '\n' << std::exchange(test_notes().repeat, {}) << std::endl;
+    }
+};
+
+} // namespace lockstep
+CATCH_REGISTER_LISTENER(lockstep::RepeatListener)
+#endif
 
 namespace {
 int skipped_tests = 0;

@@ -1,6 +1,7 @@
 #include "gpu/program.hpp"
 
 #include <algorithm>
+#include <iterator>
 #include <set>
 
 #include <fmt/format.h>
@@ -175,6 +176,37 @@ void check_capture_type(GLuint program, GLuint index, const Capture& capture, st
                                 declared_type(type, size), declared_type(capture.type, capture.size)));
 }
 
+/// Points are drawn, one a particle, and one is captured of each: a geometry stage takes points and makes points.
+void check_geometry_stage(GLuint program, std::span<const ShaderSource> stages) {
+    const auto stage = std::find_if(stages.begin(), stages.end(),
+                                    [](const ShaderSource& source) { return source.stage == Stage::geometry; });
+    if (stage == stages.end())
+        return;
+    const auto name = [](GLint primitive) {
+        switch (static_cast<GLenum>(primitive)) {
+        case GL_LINES:
+            return "lines";
+        case GL_LINES_ADJACENCY:
+            return "lines_adjacency";
+        case GL_TRIANGLES_ADJACENCY:
+            return "triangles_adjacency";
+        case GL_LINE_STRIP:
+            return "line_strip";
+        case GL_TRIANGLE_STRIP:
+            return "triangle_strip";
+        default:
+            return "triangles";
+        }
+    };
+    for (const auto& [what, direction] : {std::pair{GL_GEOMETRY_INPUT_TYPE, "in"}, {GL_GEOMETRY_OUTPUT_TYPE, "out"}}) {
+        GLint primitive = GL_POINTS;
+        gl::GetProgramiv(program, what, &primitive);
+        if (primitive != GL_POINTS)
+            throw Error(fmt::format("shader {}: layout({}) {}; is to be layout(points) {}, a point a particle",
+                                    stage->files.front(), name(primitive), direction, direction));
+    }
+}
+
 /// Words of `text` that start with `prefix`.
 std::set<std::string> words_with(std::string_view prefix, std::string_view text) {
     std::set<std::string> found;
@@ -216,6 +248,8 @@ Program::Program(std::string name, std::span<const ShaderSource> stages, std::sp
             gl::AttachShader(id_, shader.id());
         if (!link(id_, captured))
             throw Error(fmt::format("{}: {}", name_, link_failure(id_, stages, captured)));
+        if (!captured.empty())
+            check_geometry_stage(id_, stages);
         for (std::size_t i = 0; i < captured.size(); ++i)
             check_capture_type(id_, static_cast<GLuint>(i), captured[i], stages);
         for (const Shader& shader : shaders)
@@ -267,24 +301,33 @@ GLint Program::Interface::location(std::string_view variable, GLenum type) const
     return known.location;
 }
 
-void Program::Interface::check() const {
-    for (const auto& [name, variable] : active) {
-        const std::string& active_name = name; // Clang 14 captures no structured binding
-        if (asked_for.contains(name) || variable.declared.is_initialised || name.starts_with("gl_"))
+std::string Program::Interface::meant_by(std::string_view name, GLenum type) const {
+    std::string nearest;
+    std::size_t fewest = std::max<std::size_t>(2, name.size() / 3) + 1; // a slip, not another name
+    for (const auto& [known, known_type] : asked_for) {
+        const std::size_t distance = edits(known, name) + (known_type == type ? 0 : 1); // a slip in the type as well
+        if (distance >= fewest)
             continue;
-        const auto nearest = std::min_element(asked_for.begin(), asked_for.end(), [&](const auto& a, const auto& b) {
-            return edits(a.first, active_name) < edits(b.first, active_name);
-        });
-        throw Error(fmt::format("shader {}: nothing is given for {} {}{}", variable.declared.place, kind, name,
-                                nearest == asked_for.end() ? std::string()
-                                                           : fmt::format("; did you mean {} {}?",
-                                                                         type_name(nearest->second), nearest->first)));
+        fewest = distance;
+        nearest = fmt::format("; did you mean {} {}?", type_name(known_type), known);
     }
+    return nearest;
+}
+
+std::vector<std::string> Program::Interface::unknown() const {
+    std::vector<std::string> told;
+    for (const auto& [name, variable] : active)
+        if (!asked_for.contains(name) && !variable.declared.is_initialised && !name.starts_with("gl_"))
+            told.push_back(fmt::format("{}: nothing is given for {} {}{}", variable.declared.place, kind, name,
+                                       meant_by(name, variable.type)));
+    return told;
 }
 
 void Program::check_interface() const {
-    uniforms_.check();
-    attributes_.check();
+    std::vector<std::string> unknown = uniforms_.unknown();
+    std::ranges::move(attributes_.unknown(), std::back_inserter(unknown));
+    if (!unknown.empty())
+        throw Error(fmt::format("shader {}", fmt::join(unknown, "; ")));
 }
 
 GLint Program::use_uniform(std::string_view uniform, GLenum type) const {

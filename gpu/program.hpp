@@ -76,7 +76,9 @@ class Program {
         mutable std::map<std::string, GLenum, std::less<>> asked_for;
 
         [[nodiscard]] GLint location(std::string_view variable, GLenum type) const;
-        void check() const;
+        /// "; did you mean float u_Tick?", or nothing where no name is near.
+        [[nodiscard]] std::string meant_by(std::string_view unknown, GLenum type) const;
+        [[nodiscard]] std::vector<std::string> unknown() const; ///< what is wrong with each
     };
     [[nodiscard]] GLint use_uniform(std::string_view uniform, GLenum type) const;
 

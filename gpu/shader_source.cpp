@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cctype>
+#include <charconv>
 #include <fstream>
 #include <optional>
 #include <sstream>
@@ -9,6 +10,7 @@
 #include <fmt/format.h>
 
 #include "gpu/data_folder.hpp"
+#include "gpu/shader_words.hpp"
 #include "reference/model/error.hpp"
 
 namespace lockstep {
@@ -36,13 +38,43 @@ std::optional<std::string_view> directive(std::string_view line, std::string_vie
     return trimmed(line);
 }
 
+constexpr std::size_t longest_text = std::size_t{4} << 20U; // bytes, with everything that is included
+constexpr std::size_t most_files = 1000;                    // included ones, each as often as it is
+constexpr int oldest_version = 140;                         // that compiles in a core profile
+
+std::string too_long() { return fmt::format("more than {} MiB of shader text", longest_text >> 20U); }
+
+/// Without a byte order mark.
 std::string read_file(const fs::path& path) {
+    const auto fail = [&](const std::string& what) { throw Error(fmt::format("shader {}: {}", path.string(), what)); };
     std::ifstream stream(path, std::ios::binary);
-    std::ostringstream text;
-    text << stream.rdbuf();
-    if (!stream)
-        throw Error(fmt::format("shader {}: cannot be read", path.string()));
-    return text.str();
+    std::string text(longest_text + 1, '\0');
+    stream.read(text.data(), static_cast<std::streamsize>(text.size()));
+    if (!stream.is_open() || stream.bad())
+        fail("cannot be read");
+    text.resize(static_cast<std::size_t>(stream.gcount()));
+    if (text.size() > longest_text)
+        fail(too_long());
+    if (text.starts_with("\xff\xfe") || text.starts_with("\xfe\xff"))
+        fail("is UTF-16; a shader is UTF-8");
+    if (const std::size_t zero = text.find('\0'); zero != std::string::npos)
+        fail(fmt::format("holds a zero byte, at {}; a compiler would read no further", zero));
+    constexpr std::string_view mark = "\xef\xbb\xbf";
+    return text.starts_with(mark) ? text.substr(mark.size()) : text;
+}
+
+/// `argument`: of a #version line.
+void check_version(std::string_view argument, const std::string& where) {
+    int version = 0;
+    const auto [end, status] = std::from_chars(argument.data(), argument.data() + argument.size(), version);
+    if (status != std::errc{})
+        return; // the compiler's to tell
+    if (ShaderWords profile({end, static_cast<std::size_t>(argument.data() + argument.size() - end)});
+        (profile.next() && profile.token() == "es") || version == 100)
+        throw Error(fmt::format("{}GLSL ES {}; GLSL 330 or later is needed, that of desktop GL", where, version));
+    if (version < oldest_version)
+        throw Error(fmt::format("{}GLSL {}.{:02}, which a core profile does not have; GLSL 330 or later is needed",
+                                where, version / 100, version % 100));
 }
 
 fs::path find(const ShaderFolders& folders, const std::string& file, const std::string& where) {
@@ -72,6 +104,8 @@ class Assembly {
     void append(const fs::path& path, const std::string& text) {
         const std::size_t file = source_.files.size();
         source_.files.push_back(path.string());
+        if (file > most_files)
+            throw Error(fmt::format("shader {}: includes more than {} files", source_.files.front(), most_files));
         open_.push_back(path);
         std::istringstream lines(text);
         std::string line;
@@ -81,7 +115,8 @@ class Assembly {
                 continue;
             }
             append_line(line, {file, number});
-            if (directive(line, "version") && !has_version_) {
+            if (const auto version = directive(line, "version"); version && !has_version_) {
+                check_version(*version, fmt::format("shader {}:{}: ", path.string(), number));
                 has_version_ = true;
                 for (const auto& [name, value] : defines_)
                     append_line(fmt::format("#define {} {}", name, value), {file, number});
@@ -94,6 +129,8 @@ class Assembly {
         source_.text += line;
         source_.text += '\n';
         source_.origins.push_back(origin);
+        if (source_.text.size() > longest_text)
+            throw Error(fmt::format("shader {}: {}", source_.files.front(), too_long()));
     }
 
     void include(std::string_view argument, const std::string& where) {

@@ -122,12 +122,66 @@ TEST_CASE("program: what the shader uses and nobody gives is told with the name 
     };
     give("u_Tack", "a_Sped");
     CHECK_THROWS_WITH(program.check_interface(),
-                      "shader " + file + ":4: nothing is given for uniform u_Tick; did you mean float u_Tack?");
+                      "shader " + file + ":4: nothing is given for uniform u_Tick; did you mean float u_Tack?; " +
+                          file + ":3: nothing is given for attribute a_Speed; did you mean float a_Sped?");
     give("u_Tick", "a_Sped");
     CHECK_THROWS_WITH(program.check_interface(),
                       "shader " + file + ":3: nothing is given for attribute a_Speed; did you mean float a_Sped?");
     give("u_Tick", "a_Speed");
     CHECK_NOTHROW(program.check_interface());
+}
+
+TEST_CASE("program: all that nobody gives is told at once, and what is not near in name and type is not meant") {
+    const auto context = open_context();
+    if (!context)
+        return;
+    const TemporaryFolder folder;
+    const std::string file =
+        folder
+            .write("step.vert", "#version 330 core\nin vec3 a_Position;\nuniform mat4 u_Turn;\n"
+                                "uniform sampler2DRect u_Map;\nuniform bvec2 u_Tic;\nuniform float u_Tik;\n"
+                                "void main() { gl_Position = u_Turn * vec4(a_Position, u_Tik + (u_Tic.x ? 1.0 : 0.0)) "
+                                "+ texelFetch(u_Map, ivec2(0)); }\n")
+            .string();
+    folder.write("step.frag", fragment);
+    const Program program = build(folder, {Stage::vertex, Stage::fragment});
+    program.set("u_Tick", 0.5F);
+    program.set("u_Gravity", glm::vec3(0.0F));
+    CHECK(program.attribute("a_Position", GL_FLOAT_VEC3) >= 0);
+    CHECK_THROWS_WITH(program.check_interface(),
+                      "shader " + file + ":4: nothing is given for uniform u_Map; " + file +
+                          ":5: nothing is given for uniform u_Tic; did you mean float u_Tick?; " + file +
+                          ":6: nothing is given for uniform u_Tik; did you mean float u_Tick?; " + file +
+                          ":3: nothing is given for uniform u_Turn");
+    CHECK_THROWS_WITH(program.set("u_Map", 1),
+                      "shader " + file + ":4: uniform u_Map is sampler2DRect, but is to be int");
+}
+
+TEST_CASE("program: a geometry stage that makes triangles is told as that") {
+    const auto context = open_context();
+    if (!context)
+        return;
+    const TemporaryFolder folder;
+    folder.write("step.vert",
+                 "#version 330 core\nin vec3 a_Position;\nvoid main() { gl_Position = vec4(a_Position, 1.0); }\n");
+    folder.write("step.frag", fragment);
+    const auto geometry = [&](const std::string& in, const std::string& out) {
+        return folder
+            .write("step.geom", "#version 330 core\nlayout(" + in + ") in;\nlayout(" + out +
+                                    ", max_vertices = 3) out;\nout vec3 out_Position;\nout float out_Speed;\n"
+                                    "void main() { out_Position = gl_in[0].gl_Position.xyz; out_Speed = 1.0; "
+                                    "gl_Position = vec4(0.0); EmitVertex(); }\n")
+            .string();
+    };
+    const std::vector<Stage> stages{Stage::vertex, Stage::geometry, Stage::fragment};
+    std::string file = geometry("points", "triangle_strip");
+    CHECK(message(folder, stages, captures) ==
+          "shader " + file + ": layout(triangle_strip) out; is to be layout(points) out, a point a particle");
+    file = geometry("triangles", "points");
+    CHECK(message(folder, stages, captures) ==
+          "shader " + file + ": layout(triangles) in; is to be layout(points) in, a point a particle");
+    geometry("points", "points");
+    CHECK(message(folder, stages, captures) == "built");
 }
 
 TEST_CASE("program: a uniform with an initialiser may be the shader's own; one in an array may not be forgotten") {

@@ -95,6 +95,57 @@ TEST_CASE("shader source: what is wrong with a file is told with file and line")
                       "shader " + where + "/y.glsl:2: " + where + "/x.glsl includes itself");
 }
 
+TEST_CASE("shader source: includes that grow without end are refused, soon") {
+    const TemporaryFolder folder;
+    const std::string file = folder.write("a.vert", "#version 330\n#include \"0.glsl\"\n").string();
+    for (int i = 0; i < 30; ++i)
+        folder.write(fmt::format("{}.glsl", i), fmt::format("#include \"{0}.glsl\"\n#include \"{0}.glsl\"\n", i + 1));
+    folder.write("30.glsl", "int x;\n");
+    CHECK_THROWS_WITH(load_stage({folder.path()}, "a", Stage::vertex),
+                      "shader " + file + ": includes more than 1000 files");
+    folder.write(
+        "0.glsl",
+        "#include \"1.glsl\"\n#include \"1.glsl\"\n#include \"1.glsl\"\n#include \"1.glsl\"\n#include \"1.glsl\"\n");
+    folder.write("1.glsl", "// " + std::string(1'000'000, 'x') + "\n");
+    CHECK_THROWS_WITH(load_stage({folder.path()}, "a", Stage::vertex),
+                      "shader " + file + ": more than 4 MiB of shader text");
+    folder.write("0.glsl", std::string(5'000'000, ' '));
+    CHECK_THROWS_WITH(load_stage({folder.path()}, "a", Stage::vertex),
+                      "shader " + (folder.path() / "0.glsl").string() + ": more than 4 MiB of shader text");
+}
+
+TEST_CASE("shader source: a byte order mark is skipped; another encoding and a zero byte are told") {
+    const TemporaryFolder folder;
+    const std::string file = folder.write("a.vert", "\xef\xbb\xbf#version 330\n").string();
+    CHECK(load_stage({folder.path()}, "a", Stage::vertex).text == "#version 330\n");
+    folder.write("a.vert", std::string("\xff\xfe#\0v\0", 6));
+    CHECK_THROWS_WITH(load_stage({folder.path()}, "a", Stage::vertex),
+                      "shader " + file + ": is UTF-16; a shader is UTF-8");
+    folder.write("a.vert", std::string("#version 330\n\0void main() {}\n", 29));
+    CHECK_THROWS_WITH(load_stage({folder.path()}, "a", Stage::vertex),
+                      "shader " + file + ": holds a zero byte, at 13; a compiler would read no further");
+}
+
+TEST_CASE("shader source: GLSL of other kinds and of older days is told as that") {
+    const TemporaryFolder folder;
+    const auto told = [&](const std::string& version) {
+        const std::string file = folder.write("a.vert", "\n#version " + version + "\nvoid main() {}\n").string();
+        try {
+            load_stage({folder.path()}, "a", Stage::vertex);
+        } catch (const Error& error) {
+            const std::string text = error.what();
+            CHECK_THAT(text, Catch::StartsWith("shader " + file + ":2: "));
+            return text.substr(("shader " + file + ":2: ").size());
+        }
+        return std::string();
+    };
+    CHECK(told("300 es") == "GLSL ES 300; GLSL 330 or later is needed, that of desktop GL");
+    CHECK(told("100") == "GLSL ES 100; GLSL 330 or later is needed, that of desktop GL");
+    CHECK(told("120") == "GLSL 1.20, which a core profile does not have; GLSL 330 or later is needed");
+    for (const char* right : {"140", "150 core", "330", "450 core // es", "words"})
+        CHECK(told(right).empty());
+}
+
 TEST_CASE("shader folders: the user's first, then LOCKSTEP_DATA or the source tree") {
     const TemporaryFolder user;
     CHECK(shader_folders(user.path()).front() == user.path());

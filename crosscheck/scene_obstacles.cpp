@@ -2,6 +2,8 @@
 
 #include <cstdint>
 
+#include <fmt/format.h>
+
 #include "crosscheck/surface.hpp"
 #include "reference/model/error.hpp"
 
@@ -10,7 +12,16 @@ namespace {
 
 constexpr std::int64_t most_segments = 512;
 
-Surface read_surface(const JsonValue& json, Placement& placement, const std::optional<std::filesystem::path>& folder) {
+/// `before`: triangles of the obstacles before this one.
+void expect_room(const JsonValue& json, std::size_t before, std::size_t triangles) {
+    if (before + triangles > most_triangles)
+        json.fail(
+            fmt::format("{} triangles up to here; a scene has at most {} (lockstep-decimate makes smaller meshes)",
+                        before + triangles, most_triangles));
+}
+
+Surface read_surface(const JsonValue& json, Placement& placement, const std::optional<std::filesystem::path>& folder,
+                     std::size_t before) {
     const auto real = [&](std::string_view key) { return static_cast<double>(json.at(key).number(number::positive)); };
     const auto segments = [&](int otherwise) {
         const auto value = json.find("segments");
@@ -24,11 +35,15 @@ Surface read_surface(const JsonValue& json, Placement& placement, const std::opt
             file.fail("no mesh file is read here; give its triangles beside the scene");
         const auto path = (*folder / file.text()).lexically_normal();
         placement.height = real("height");
-        try {
-            return load_surface(path);
-        } catch (const Error& error) {
-            file.fail(error.what());
-        }
+        const Surface surface = [&] {
+            try {
+                return load_surface(path);
+            } catch (const Error& error) {
+                file.fail(error.what());
+            }
+        }();
+        expect_room(json, before, surface.indices.size() / 3);
+        return surface;
     }
     case 1: {
         json.check_keys({"shape", "size", "position", "rotate_y"});
@@ -46,23 +61,33 @@ Surface read_surface(const JsonValue& json, Placement& placement, const std::opt
             static_cast<void>(side.number(number::positive));
         return box_surface(sides);
     }
-    case 3:
+    case 3: {
         json.check_keys({"shape", "radius", "segments", "position", "rotate_y"});
-        return sphere_surface(real("radius"), segments(16));
-    default:
+        const int n = segments(16);
+        expect_room(json, before, static_cast<std::size_t>(8 * n * n));
+        return sphere_surface(real("radius"), n);
+    }
+    default: {
         json.check_keys({"shape", "radius", "tube_radius", "segments", "position", "rotate_y"});
-        return torus_surface(real("radius"), real("tube_radius"), segments(48));
+        const int n = segments(48);
+        expect_room(json, before, static_cast<std::size_t>(n * n));
+        return torus_surface(real("radius"), real("tube_radius"), n);
+    }
     }
 }
 
 void read_obstacle(const JsonValue& json, const std::optional<std::filesystem::path>& folder, Mesh& mesh) {
     Placement placement;
-    const Surface surface = read_surface(json, placement, folder);
+    const Surface surface = read_surface(json, placement, folder, mesh.triangle_count());
     if (const auto position = json.find("position"))
         placement.position = position->vector();
     if (const auto angle = json.find("rotate_y"))
         placement.rotate_y = angle->number();
-    place(surface, placement, mesh);
+    try {
+        place(surface, placement, mesh);
+    } catch (const Error& error) {
+        json.fail(error.what());
+    }
 }
 
 } // namespace

@@ -4,10 +4,13 @@
 #include <limits>
 #include <numbers>
 
+#include <fmt/format.h>
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
 #include <glm/trigonometric.hpp>
 #include <glm/vec2.hpp>
+
+#include "reference/model/error.hpp"
 
 namespace lockstep {
 
@@ -81,6 +84,9 @@ void place(const Surface& surface, const Placement& placement, Mesh& mesh) {
         high = glm::max(high, p);
     }
     const glm::dvec3 centre = 0.5 * (low + high);
+    if (placement.height > 0.0 && !(high.y > low.y))
+        throw Error(fmt::format("flat: all its vertices are at y = {}, so it cannot be scaled to a height of {}", low.y,
+                                placement.height));
     const double scale = placement.height > 0.0 ? placement.height / (high.y - low.y) : 1.0;
     const double c = std::cos(glm::radians(placement.rotate_y));
     const double s = std::sin(glm::radians(placement.rotate_y));
@@ -88,7 +94,10 @@ void place(const Surface& surface, const Placement& placement, Mesh& mesh) {
     const auto first = static_cast<std::uint32_t>(mesh.positions.size());
     for (const glm::dvec3& p : surface.positions) {
         const glm::dvec3 v = (p - centre) * scale;
-        mesh.positions.emplace_back(glm::dvec3(c * v.x + s * v.z, v.y, c * v.z - s * v.x) + placement.position);
+        const glm::vec3 placed(glm::dvec3(c * v.x + s * v.z, v.y, c * v.z - s * v.x) + placement.position);
+        if (!std::isfinite(placed.x) || !std::isfinite(placed.y) || !std::isfinite(placed.z))
+            throw Error("reaches beyond what a float holds; smaller, or nearer to the origin, is right");
+        mesh.positions.push_back(placed);
     }
     for (const std::uint32_t i : surface.indices)
         mesh.indices.push_back(first + i);

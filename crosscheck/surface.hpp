@@ -28,7 +28,8 @@ Surface sphere_surface(double radius, int segments);
 Surface torus_surface(double radius, double tube_radius, int segments);
 
 /// The triangles of an OBJ or PLY file, in the file's order, equal vertices merged. Throws Error if the file is
-/// missing, is of another kind, has no faces, or holds a coordinate that is not a finite number.
+/// missing, is of another kind, cut off, has no faces, one of over 1,024 corners, or a coordinate that is not a finite
+/// number. Other files that it names are not read.
 Surface load_surface(const std::filesystem::path& file);
 
 /// Where a surface stands.
@@ -38,7 +39,7 @@ struct Placement {
     glm::dvec3 position{0.0}; ///< where the centre of the (unrotated) bounding box comes to lie
 };
 
-/// Adds the placed surface to `mesh`.
+/// Adds the placed surface to `mesh`. Throws Error where a flat one is to have a height, or a float cannot hold it.
 void place(const Surface& surface, const Placement& placement, Mesh& mesh);
 
 } // namespace lockstep

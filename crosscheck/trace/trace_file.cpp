@@ -7,6 +7,7 @@
 #include <fmt/ranges.h>
 
 #include "crosscheck/scene_file.hpp"
+#include "crosscheck/scene_obstacles.hpp"
 #include "reference/model/error.hpp"
 
 namespace lockstep {
@@ -19,7 +20,7 @@ using hdf5::Id;
 constexpr hsize_t most_rows = 100'000'001;
 constexpr hsize_t widest_cdt = 16384;            // texels
 constexpr hsize_t highest_cdt = 36 * widest_cdt; // all planes of layered_cdt.hpp
-constexpr hsize_t most_corners = 1U << 26U;      // of obstacles
+constexpr hsize_t most_corners = 3 * most_triangles;
 constexpr std::size_t longest_text = 16U << 20U; // bytes
 constexpr hsize_t densest = 1100;                // deflate makes no more of a byte
 constexpr const char* particle_fields = "position, direction, speed and collide_time";
@@ -307,7 +308,8 @@ std::vector<float> TraceFile::obstacle_positions() const {
     const Id type(H5Dget_type(set.get()), H5Tclose, path);
     const Extents extents = extents_of(set.get(), path);
     if (!is_float32(type.get()) || extents.size() != 2 || extents[1] != 3 || extents[0] > most_corners)
-        fail(path, fmt::format("is {}; right is float32 [corners][3]", shape(type_name(type.get()), extents)));
+        fail(path, fmt::format("is {}; right is float32 [corners][3], at most {}",
+                               shape(type_name(type.get()), extents), most_corners));
     expect_stored(set.get(), extents, sizeof(float), path);
     return read_all<float>(set.get(), H5T_NATIVE_FLOAT, extents[0] * 3, path);
 }
@@ -319,8 +321,10 @@ std::vector<std::uint32_t> TraceFile::obstacle_triangles() const {
     const Id set = open_dataset(path);
     const Id type(H5Dget_type(set.get()), H5Tclose, path);
     const Extents extents = extents_of(set.get(), path);
-    if (!is_integer(type.get(), 4, H5T_SGN_NONE) || extents.size() != 2 || extents[1] != 3 || extents[0] > most_corners)
-        fail(path, fmt::format("is {}; right is uint32 [triangles][3]", shape(type_name(type.get()), extents)));
+    if (!is_integer(type.get(), 4, H5T_SGN_NONE) || extents.size() != 2 || extents[1] != 3 ||
+        extents[0] > most_triangles)
+        fail(path, fmt::format("is {}; right is uint32 [triangles][3], at most {}",
+                               shape(type_name(type.get()), extents), most_triangles));
     expect_stored(set.get(), extents, sizeof(std::uint32_t), path);
     return read_all<std::uint32_t>(set.get(), H5T_NATIVE_UINT32, extents[0] * 3, path);
 }

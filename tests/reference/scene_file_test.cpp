@@ -270,6 +270,19 @@ TEST_CASE("scene_file: an obstacle that is wrong is told with path and what is a
     CHECK(error_of(R"("obstacles": [{)" + members + "}]") == "x.json: /obstacles/0" + expected);
 }
 
+TEST_CASE("scene_file: a few numbers cannot ask for any number of triangles") {
+    const std::string large = R"({"shape": "sphere", "radius": 1, "segments": 512})";
+    CHECK(error_of(R"("obstacles": [)" + large + ", " + large +
+                   R"(, {"shape": "torus", "radius": 1, "tube_radius": 0.1}])") ==
+          "x.json: /obstacles/2: 4196608 triangles up to here; a scene has at most 4194304 (lockstep-decimate makes "
+          "smaller meshes)");
+    std::string many = large;
+    for (int i = 0; i < 200; ++i)
+        many += ", " + large;
+    CHECK_THAT(error_of(R"("obstacles": [)" + many + "]"),
+               Catch::StartsWith("x.json: /obstacles/2: 6291456 triangles"));
+}
+
 TEST_CASE("scene_file: an option that is wrong is told with what is allowed") {
     SceneOptions options;
     options.particles = 0;

@@ -1,7 +1,11 @@
 #include <catch2/catch.hpp>
 
 #include <cmath>
+#include <string>
 
+#include <sys/stat.h>
+
+#include <fmt/format.h>
 #include <glm/geometric.hpp>
 
 #include "crosscheck/surface.hpp"
@@ -124,4 +128,53 @@ TEST_CASE("surface: a mesh that cannot be an obstacle is told with the reason") 
     CHECK_THROWS_WITH(load_surface(folder.write("nothing.ply", ply + "0\n")),
                       file("nothing.ply") + ": face 0 has no vertices");
     CHECK_THROWS_WITH(load_surface(folder.write("short.ply", ply)), Catch::StartsWith(file("short.ply") + ": "));
+}
+
+TEST_CASE("surface: a PLY that is cut off is refused wherever it was cut") {
+    const TemporaryFolder folder;
+    std::string ply = "ply\nformat ascii 1.0\nelement vertex 4\nproperty float x\nproperty float y\nproperty float z\n"
+                      "element face 2900\nproperty list uchar int vertex_indices\nend_header\n"
+                      "0 0 0\n1 0 0\n1 1 0\n0 1 0\n";
+    for (int face = 0; face < 900; ++face)
+        ply += face % 2 == 0 ? "3 0 1 2\n" : "4 0 1 2 3\n";
+    CHECK_THROWS_WITH(load_surface(folder.write("cut.ply", ply)),
+                      (folder.path() / "cut.ply").string() +
+                          ": cut off: 904 of the 2904 lines that its header promises are here");
+    std::string binary = "ply\nformat binary_little_endian 1.0\nelement vertex 3\nproperty float x\nproperty float y\n"
+                         "property float z\nelement face 40\nproperty list uchar int vertex_indices\nend_header\n";
+    binary += std::string(36, '\0');
+    const std::string face("\3\0\0\0\0\1\0\0\0\2\0\0\0", 13);
+    const std::size_t header = binary.size();
+    for (int i = 0; i < 40; ++i)
+        binary += face;
+    CHECK(load_surface(folder.write("whole.ply", binary)).indices.size() == 120);
+    for (std::size_t kept = header - 20; kept < binary.size(); kept += 7)
+        CHECK_THROWS_AS(load_surface(folder.write("cut.ply", binary.substr(0, kept))), Error);
+}
+
+TEST_CASE("surface: a polygon with hundreds of thousands of corners is refused at once") {
+    const TemporaryFolder folder;
+    std::string obj, face = "f";
+    for (int i = 1; i <= 200'000; ++i) {
+        obj += fmt::format("v {} {} 0\n", std::cos(i), std::sin(i));
+        face += fmt::format(" {}", i);
+    }
+    const auto file = folder.write("round.obj", obj + face + "\n");
+    CHECK_THROWS_WITH(load_surface(file), file.string() + ": face 0 has 200000 corners; right is at most 1024");
+}
+
+TEST_CASE("surface: materials that a mesh names are not looked for, even where a pipe is there that nobody writes") {
+    const TemporaryFolder folder;
+    REQUIRE(mkfifo((folder.path() / "pipe.mtl").c_str(), 0600) == 0);
+    CHECK(load_surface(folder.write("a.obj", "mtllib pipe.mtl\nusemtl a\n" + std::string(two_triangles)))
+              .indices.size() == 6);
+}
+
+TEST_CASE("surface: a flat one cannot be scaled to a height, and none may reach beyond what a float holds") {
+    Mesh mesh;
+    CHECK_THROWS_WITH(place(plane_surface(1.0, 1.0), {.height = 2.0}, mesh),
+                      "flat: all its vertices are at y = 0, so it cannot be scaled to a height of 2");
+    CHECK_THROWS_WITH(place(box_surface({1e38, 1.0, 1.0}), {.height = 1e30}, mesh),
+                      Catch::StartsWith("reaches beyond what a float holds"));
+    CHECK_NOTHROW(place(plane_surface(1.0, 1.0), {}, mesh));
 }

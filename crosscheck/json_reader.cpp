@@ -11,6 +11,7 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include "crosscheck/plain_text.hpp"
 #include "reference/model/error.hpp"
 
 namespace lockstep {
@@ -209,6 +210,8 @@ std::string JsonValue::text() const {
         fail_not("a text");
     return value_->get<std::string>();
 }
+
+std::string JsonValue::label() const { return plain_line(text()); }
 
 std::size_t JsonValue::choice(std::span<const std::string_view> allowed) const {
     const std::string given = value_->is_string()           ? value_->get<std::string>()

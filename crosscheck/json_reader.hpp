@@ -51,6 +51,8 @@ class JsonValue {
     [[nodiscard]] glm::vec3 vector() const;
     [[nodiscard]] bool is_null() const { return value_->is_null(); }
     [[nodiscard]] std::string text() const;
+    /// A text that is only shown: what plain_line (plain_text.hpp) makes of it.
+    [[nodiscard]] std::string label() const;
     /// The index of a text, or of a whole number, among `allowed`.
     [[nodiscard]] std::size_t choice(std::span<const std::string_view> allowed) const;
     [[nodiscard]] std::size_t choice(std::initializer_list<std::string_view> allowed) const {

@@ -12,6 +12,7 @@
 #include <fmt/ranges.h>
 
 #include "crosscheck/commands/commands.hpp"
+#include "crosscheck/plain_text.hpp"
 #include "crosscheck/waiting_threads.hpp"
 #include "reference/model/error.hpp"
 
@@ -62,7 +63,7 @@ int main(int argc, char** argv) {
     app.name("lockstep");
     app.require_subcommand(1);
     app.failure_message([](const CLI::App* root, const CLI::Error& error) {
-        return fmt::format("lockstep: {} (lockstep --help tells more)\n", usage_error(*root, error));
+        return fmt::format("lockstep: {} (lockstep --help tells more)\n", plain_line(usage_error(*root, error)));
     });
     int status = status_could_not_run;
     add_check_command(app, status);
@@ -91,7 +92,7 @@ int main(int argc, char** argv) {
         std::fputs("lockstep: not enough memory; fewer particles (--particles) or a smaller image need less\n", stderr);
         return status_could_not_run;
     } catch (const std::exception& error) {
-        std::fprintf(stderr, "lockstep: %s\n", error.what());
+        std::fprintf(stderr, "lockstep: %s\n", plain_line(error.what()).c_str());
         return status_could_not_run;
     }
     return status;

@@ -59,7 +59,7 @@ void read_raster(const JsonValue& json, RasterRules& rules) {
 
 Profile base(const JsonValue& json) {
     Profile profile;
-    profile.name = json.at("name").text();
+    profile.name = json.at("name").label();
     for (const char* known : {"strict", "llvmpipe", "nvidia"})
         if (profile.name == known)
             return named_profile(known);
@@ -99,7 +99,7 @@ Profile read_profile(const JsonValue& json) {
     if (const auto rows = json.find("not_followed")) {
         profile.not_followed.clear();
         for (const JsonValue& row : rows->items())
-            profile.not_followed.push_back(row.text());
+            profile.not_followed.push_back(row.label());
     }
     return profile;
 }

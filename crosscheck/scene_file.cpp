@@ -6,6 +6,7 @@
 #include <glm/geometric.hpp>
 
 #include "crosscheck/json_reader.hpp"
+#include "crosscheck/plain_text.hpp"
 #include "crosscheck/run_text.hpp"
 #include "crosscheck/scene_obstacles.hpp"
 #include "crosscheck/scene_settings.hpp"
@@ -70,7 +71,7 @@ Scene load_scene(const std::filesystem::path& file, const SceneOptions& options)
     const JsonValue json(document, file.string());
     json.check_keys(scene_keys);
     Scene scene;
-    scene.name = file.stem().string();
+    scene.name = plain_line(file.stem().string());
     scene.origin = scene_arguments(file, options);
     read_settings(json, options.preset, options.set, scene);
 

@@ -10,6 +10,7 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include "crosscheck/asked_memory.hpp"
 #include "crosscheck/json_text.hpp"
 #include "crosscheck/profile_json.hpp"
 #include "crosscheck/scene_settings.hpp"
@@ -139,11 +140,11 @@ CapturedVertex read_vertex(const JsonValue& value) {
         if (parts.size() != 4)
             item.fail("not [name, type, 1 for floats, words]");
         const std::vector<std::uint32_t> words = read_words(parts[3], 0);
-        const std::string type = parts[1].text();
+        const std::string type = parts[1].label();
         const bool vector = !type.empty() && type.back() >= '2' && type.back() <= '4';
         if (words.size() < (vector ? static_cast<std::size_t>(type.back() - '0') : 1))
             parts[3].fail(fmt::format("fewer values than {} has", type));
-        vertex.outputs.push_back({parts[0].text(), type, parts[2].integer(0, 1) == 1, words});
+        vertex.outputs.push_back({parts[0].label(), type, parts[2].integer(0, 1) == 1, words});
     }
     return vertex;
 }
@@ -269,9 +270,9 @@ Capsule read_capsule(const JsonValue& value) {
     read_settings(settings, {}, {}, capsule.scene);
     if (capsule.scene.switches.search != Search::cdt || has_remedies(capsule.scene.switches))
         settings.fail("a capsule is of the listing's own search");
-    capsule.scene.name = value.at("scene").text();
-    capsule.renderer = value.at("renderer").text();
-    capsule.settings = value.at("switches").text();
+    capsule.scene.name = value.at("scene").label();
+    capsule.renderer = value.at("renderer").label();
+    capsule.settings = value.at("switches").label();
     capsule.frame = static_cast<int>(value.at("frame").integer(0, 1'000'000'000));
     capsule.particle = static_cast<std::size_t>(value.at("particle").integer(0, INT32_MAX));
     capsule.profile = read_profile(value.at("profile"));
@@ -283,6 +284,9 @@ Capsule read_capsule(const JsonValue& value) {
     capsule.known = read_known(value.at("known"));
     capsule.before = read_state(value.at("before"));
     capsule.gpu = read_state(value.at("gpu"));
+    const auto texels =
+        static_cast<std::uint64_t>(capsule.scene.width) * static_cast<std::uint64_t>(capsule.scene.height);
+    expect_affordable({texels, 1}, 0, "capsule");
     capsule.cdt = CollisionImage(capsule.scene.width, capsule.scene.height);
     read_texels(value.at("cdt"), capsule.cdt);
     capsule.capture = read_capture(value.at("capture"), capsule.scene);

@@ -13,6 +13,7 @@
 #include "crosscheck/commands/run_options.hpp"
 #include "crosscheck/frame_run.hpp"
 #include "crosscheck/places.hpp"
+#include "crosscheck/plain_text.hpp"
 #include "crosscheck/profiles.hpp"
 #include "crosscheck/trace/trace_side.hpp"
 #include "gpu/context.hpp"
@@ -70,7 +71,8 @@ int cut(const Options& options, const CLI::App& verb) {
 
 int show(const Options& options) {
     const Capsule capsule = load_capsule(options.capsule);
-    fmt::print("{}", capsule_text(capsule, options.hexadecimal ? NumberFormat::hexadecimal : NumberFormat::decimal));
+    fmt::print("{}", plain_text(capsule_text(capsule,
+                                             options.hexadecimal ? NumberFormat::hexadecimal : NumberFormat::decimal)));
     return status_of(capsule);
 }
 

@@ -25,6 +25,7 @@
 #include "crosscheck/page/report_page.hpp"
 #include "crosscheck/page/study_results.hpp"
 #include "crosscheck/page/template.hpp"
+#include "crosscheck/plain_text.hpp"
 #include "crosscheck/profiles.hpp"
 #include "crosscheck/progress.hpp"
 #include "crosscheck/report.hpp"
@@ -165,7 +166,7 @@ SecondLook look_again(const Options& options, const Checked& checked, const std:
 RunDescription description(const Options& options, const Checked& checked, const CheckReport& report) {
     const bool free = options.mode == CheckMode::free;
     const int repeat_frames = report.first_frame ? *report.first_frame + 1 : report.frames;
-    return {fmt::format("{} ({})", checked.scene.name, checked.file),
+    return {fmt::format("{} ({})", checked.scene.name, plain_line(checked.file)),
             checked.context,
             describe(checked.profile),
             checked.settings,
@@ -211,7 +212,7 @@ int check_and_tell(const Options& options, OutputFiles& files, const Checked& ch
     if (!options.quiet) {
         if (interrupted)
             fmt::print("interrupted after {} of {} frames\n", report.frames, options.run.frames);
-        fmt::print("{}", report_text(report, run));
+        fmt::print("{}", plain_text(report_text(report, run)));
         std::fflush(stdout);
     }
     if (!options.json.empty())

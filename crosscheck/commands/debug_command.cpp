@@ -11,6 +11,7 @@
 #include "crosscheck/commands/option_values.hpp"
 #include "crosscheck/commands/run_options.hpp"
 #include "crosscheck/debug_session.hpp"
+#include "crosscheck/plain_text.hpp"
 #include "crosscheck/profiles.hpp"
 #include "gpu/context.hpp"
 #include "reference/model/error.hpp"
@@ -40,12 +41,12 @@ void obey_input(DebugSession& session) {
             return;
         }
         try {
-            fmt::print("{}", session.obey(line));
+            fmt::print("{}", plain_text(session.obey(line)));
             std::fflush(stdout);
         } catch (const Error& error) {
             if (!terminal)
                 throw Error(fmt::format("line {}: {}", number, error.what()));
-            fmt::print("{}\n", error.what());
+            fmt::print("{}\n", plain_line(error.what()));
         }
     }
 }

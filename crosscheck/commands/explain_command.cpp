@@ -13,6 +13,7 @@
 #include "crosscheck/explain_text.hpp"
 #include "crosscheck/frame_run.hpp"
 #include "crosscheck/places.hpp"
+#include "crosscheck/plain_text.hpp"
 #include "crosscheck/profiles.hpp"
 #include "crosscheck/trace/trace_side.hpp"
 #include "gpu/context.hpp"
@@ -40,9 +41,10 @@ void tell(const Options& options, FrameRun& frames, const std::string& file, con
     const std::size_t item = item_of(options, scene);
     frames.go_to(options.frame);
     const NumberFormat format = options.hexadecimal ? NumberFormat::hexadecimal : NumberFormat::decimal;
-    fmt::print("scene     {} ({})\nswitches  {}\nGL        {}\nprofile   {}\n\n", scene.name, file, settings, renderer,
-               describe(frames.profile()));
-    fmt::print("{}", options.texel ? explain_texel(frames, item, format) : explain_particle(frames, item, format));
+    fmt::print("scene     {} ({})\nswitches  {}\nGL        {}\nprofile   {}\n\n", scene.name, plain_line(file),
+               settings, plain_line(renderer), describe(frames.profile()));
+    fmt::print(
+        "{}", plain_text(options.texel ? explain_texel(frames, item, format) : explain_particle(frames, item, format)));
 }
 
 void explain_scene(const Options& options) {

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include "crosscheck/commands/commands.hpp"
+#include "crosscheck/plain_text.hpp"
 #include "gpu/context.hpp"
 #include "reference/model/error.hpp"
 
@@ -43,7 +44,7 @@ int run() {
     int found = 0;
     std::string reasons;
     for (const ContextProbe& probe : available_contexts()) {
-        fmt::print("{}\n", text(probe));
+        fmt::print("{}\n", plain_text(text(probe)));
         found += probe.error.empty() ? 1 : 0;
         reasons +=
             fmt::format("{}{}: {}", reasons.empty() ? "" : "; ", context_request_text(probe.request), reason(probe));

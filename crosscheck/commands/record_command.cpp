@@ -9,6 +9,7 @@
 #include "crosscheck/commands/option_values.hpp"
 #include "crosscheck/commands/run_options.hpp"
 #include "crosscheck/compare.hpp"
+#include "crosscheck/plain_text.hpp"
 #include "crosscheck/profiles.hpp"
 #include "crosscheck/progress.hpp"
 #include "crosscheck/trace/trace_writer.hpp"
@@ -79,9 +80,9 @@ int run(const Options& options) {
         progress.show(frame + 1);
     }
     writer.commit();
-    fmt::print("{}: {} particles, {} frames{}, {} bytes; {}\n", options.output.string(),
+    fmt::print("{}: {} particles, {} frames{}, {} bytes; {}\n", plain_line(options.output.string()),
                grouped(info.scene.start.size()), options.run.frames, options.cdt ? " with the CDT" : "",
-               grouped(std::filesystem::file_size(options.output)), info.renderer);
+               grouped(std::filesystem::file_size(options.output)), plain_line(info.renderer));
     return status_agree;
 }
 

@@ -16,6 +16,7 @@
 #include "crosscheck/gnuplot.hpp"
 #include "crosscheck/json_text.hpp"
 #include "crosscheck/output_files.hpp"
+#include "crosscheck/plain_text.hpp"
 #include "crosscheck/png.hpp"
 #include "crosscheck/profiles.hpp"
 #include "crosscheck/progress.hpp"
@@ -178,9 +179,9 @@ void study_scene(const Options& options) {
     if (chart)
         files.write(options.chart, *chart);
     files.commit();
-    fmt::print("scene     {} ({}): {} particles, range {}\nswitches  {}\n\n{}", scene.name, options.run.scene.string(),
-               scene.start.size(), scene.constants.collision_range, settings_text(options.run, scene),
-               study_text(frames));
+    fmt::print("scene     {} ({}): {} particles, range {}\nswitches  {}\n\n{}", scene.name,
+               plain_line(options.run.scene.string()), scene.start.size(), scene.constants.collision_range,
+               settings_text(options.run, scene), study_text(frames));
     if (!options.images.empty())
         fmt::print("\npictures  {}: {}\n", options.images.string(), picture_legend());
     if (!options.chart.empty() && !chart)

@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include "crosscheck/commands/commands.hpp"
+#include "crosscheck/plain_text.hpp"
 #include "crosscheck/profiles.hpp"
 #include "crosscheck/trace/trace_reader.hpp"
 #include "crosscheck/verdict_text.hpp"
@@ -21,7 +22,7 @@ int run(const std::filesystem::path& file) {
         if (info.has_cdt)
             trace.read(frame, cdt);
     }
-    const auto line = [](const char* key, const std::string& text) { fmt::print("{:<10}{}\n", key, text); };
+    const auto line = [](const char* key, const std::string& text) { fmt::print("{:<10}{}\n", key, plain_line(text)); };
     line("trace", fmt::format("{}: {} bytes, sealed, every value read", file.string(),
                               grouped(std::filesystem::file_size(file))));
     line("program", info.program.empty() ? "untold" : info.program);

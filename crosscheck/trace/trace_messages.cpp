@@ -8,7 +8,9 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
+#include "crosscheck/asked_memory.hpp"
 #include "crosscheck/json_reader.hpp"
+#include "crosscheck/plain_text.hpp"
 #include "crosscheck/profile_json.hpp"
 #include "crosscheck/scene_file.hpp"
 #include "crosscheck/scene_obstacles.hpp"
@@ -21,8 +23,8 @@
 namespace lockstep {
 namespace {
 
-constexpr std::uint64_t longest_text = std::uint64_t{64} << 20U; // bytes
-constexpr std::uint64_t largest_mesh = std::uint64_t{1} << 30U;  // bytes
+constexpr std::uint64_t longest_text = std::uint64_t{64} << 20U;               // bytes
+constexpr std::uint64_t largest_mesh = 3 * most_triangles * sizeof(glm::vec3); // bytes
 constexpr std::int64_t most_frames = 100'000'000;
 
 /// Reads the messages of one trace in the order they have to come.
@@ -37,7 +39,7 @@ class Messages {
         MessageHead head;
         source_.read(&head, sizeof head);
         if (head.kind == MessageKind::error)
-            fail(text(head.bytes));
+            fail(plain_line(text(head.bytes)));
         if (head.kind != kind || head.index != index)
             fail("its reading process broke: it answers what nobody asked");
         return head.bytes;
@@ -80,7 +82,7 @@ Scene read_scene(const JsonValue& contents, const std::string& file) {
     Scene scene;
     read_settings(json, {}, {}, scene);
     check_remedies(scene.switches);
-    scene.name = contents.at("name").text();
+    scene.name = contents.at("name").label();
     if (scene.name.empty())
         scene.name = "trace";
     if (const auto obstacles = json.find("obstacles"); obstacles && !contents.at("has_obstacles").integer(0, 1))
@@ -120,7 +122,7 @@ void check_cdt_size(const JsonValue& contents, const Scene& scene) {
 
 } // namespace
 
-TraceInfo read_contents(ByteSource& source, const std::string& file) {
+TraceInfo read_contents(ByteSource& source, const std::string& file, std::uint64_t file_bytes) {
     Messages messages(source, file);
     const std::string text = messages.text(messages.expect(MessageKind::contents));
     const nlohmann::json document = parse_json(text, file);
@@ -129,14 +131,17 @@ TraceInfo read_contents(ByteSource& source, const std::string& file) {
     info.file = file;
     info.frames = static_cast<int>(contents.at("rows").integer(2, most_frames + 1) - 1);
     const auto particles = static_cast<std::size_t>(contents.at("particles").integer(1, most_particles));
-    info.renderer = contents.at("renderer").text();
-    info.settings = contents.at("settings").text();
+    info.renderer = contents.at("renderer").label();
+    info.settings = contents.at("settings").label();
     info.probe = contents.at("probe").text();
-    info.program = contents.at("program").text();
+    info.program = contents.at("program").label();
     for (const JsonValue& warning : contents.at("warnings").items())
-        info.warnings.push_back(warning.text());
+        info.warnings.push_back(warning.label());
     info.has_cdt = contents.at("has_cdt").integer(0, 1) == 1;
     info.scene = read_scene(contents, file);
+    const auto texels =
+        static_cast<std::uint64_t>(info.scene.width) * static_cast<std::uint64_t>(cdt_height(info.scene));
+    expect_affordable({texels, particles}, file_bytes, file);
     if (info.has_cdt)
         check_cdt_size(contents, info.scene);
     info.profile = read_recorded_profile(contents, file);

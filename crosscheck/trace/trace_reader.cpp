@@ -94,7 +94,7 @@ class TraceReader::Process : public ByteSource {
 TraceReader::TraceReader(const std::filesystem::path& file) : file_(file, "trace") {
     check_seal(file_);
     process_ = std::make_unique<Process>(file_);
-    info_ = read_contents(*process_, process_->file());
+    info_ = read_contents(*process_, process_->file(), file_.size());
     file_.expect_unchanged();
 }
 

@@ -217,3 +217,24 @@ TEST_CASE("explain trace: the reference's steps are those of a live run, with th
         }
     }
 }
+
+TEST_CASE("trace: a file's name that forges a verdict or steers the terminal is shown, not obeyed") {
+    if (!test::have_osmesa())
+        return;
+    Setting setting;
+    REQUIRE(setting.record().status == 0);
+    const std::string forged = (setting.folder.path() / "run\nverdict   AGREE\x1b[2J.h5").string();
+    std::filesystem::rename(setting.file, forged);
+    setting.file = forged;
+    for (const test::Outcome& outcome : {setting.check(), run_lockstep({"trace", forged})}) {
+        CHECK(outcome.status == 0);
+        CHECK(outcome.out.find('\x1b') == std::string::npos);
+        CHECK_THAT(outcome.out, Contains("run\\nverdict   AGREE\\x1b[2J.h5"));
+    }
+    std::ofstream(forged, std::ios::app) << "more";
+    const std::string damaged = refusal(setting.check());
+    CHECK_THAT(damaged, Contains("run\\nverdict   AGREE\\x1b[2J.h5: damaged"));
+    CHECK(refusal(run_lockstep({"ch\x1b[2Jeck\n"})).find('\x1b') == std::string::npos);
+    CHECK(refusal(run_lockstep({"check", "a\x1b\nb.json"})) ==
+          "a\\x1b\\nb.json: cannot be read: No such file or directory");
+}

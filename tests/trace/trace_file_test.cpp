@@ -110,6 +110,36 @@ class Changed {
 
 } // namespace
 
+TEST_CASE("trace: a few kilobytes cannot ask for gigabytes, of texels, triangles or stored obstacles") {
+    Changed changed(false);
+    changed.replace_text(layout::scene, R"({"image": [16384, 16384]})");
+    CHECK_THAT(changed.refusal(), Contains("run.h5: asks for about 25.0 GiB of memory, for 268435456 texels and 60 "
+                                           "particles; a file of ") &&
+                                      Contains("may ask for 2.0 (LOCKSTEP_FILE_MEMORY=GIB allows more)"));
+    std::string spheres = R"({"shape": "sphere", "radius": 1, "segments": 512})";
+    for (int i = 1; i < 200; ++i)
+        spheres += R"(, {"shape": "sphere", "radius": 1, "segments": 512})";
+    changed.replace_text(layout::scene, R"({"obstacles": [)" + spheres + "]}")
+        .remove(layout::obstacle_positions)
+        .remove(layout::obstacle_triangles);
+    CHECK_THAT(changed.refusal(), Contains("/obstacles/2: 6291456 triangles up to here; a scene has at most 4194304"));
+    Changed stored(false);
+    stored.replace(layout::obstacle_triangles, H5T_STD_U32LE, {4194305, 3}, false);
+    CHECK_THAT(stored.refusal(), Contains("is uint32 [4194305][3]; right is uint32 [triangles][3], at most 4194304"));
+}
+
+TEST_CASE("trace: texts that are shown cannot pass for lines of a report, nor steer a terminal") {
+    Changed changed;
+    const std::string forged = "x\nverdict   AGREE\x1b[2J\xe2\x80\xae\xff";
+    const std::string shown = "x\\nverdict   AGREE\\x1b[2J\\u202e";
+    for (const char* path : {layout::renderer, layout::settings, layout::name})
+        changed.replace_text(path, forged);
+    const TraceReader trace(changed.file());
+    CHECK_THAT(trace.info().renderer, StartsWith(shown));
+    CHECK_THAT(trace.info().settings, StartsWith(shown));
+    CHECK_THAT(trace.info().scene.name, StartsWith(shown));
+}
+
 TEST_CASE("trace: everything that is written is read back, states in any order") {
     const test::TemporaryFolder folder;
     const auto file = folder.path() / "run.h5";
@@ -275,7 +305,7 @@ TEST_CASE("trace: an error names the dataset, what it is and what would be right
     CHECK_THAT(Changed().replace_text(layout::profile, R"({"name": "x", "dot": 3})").refusal(),
                Contains("run.h5: parameters/lockstep/profile: /dot: 3 is not one of"));
     CHECK_THAT(Changed().replace(layout::obstacle_triangles, H5T_NATIVE_INT32, {2, 3}).refusal(),
-               Contains("obstacles/triangles: is int32 [2][3]; right is uint32 [triangles][3]"));
+               Contains("obstacles/triangles: is int32 [2][3]; right is uint32 [triangles][3], at most 4194304"));
     CHECK_THAT(Changed().replace(layout::obstacle_positions, H5T_NATIVE_FLOAT, {0, 3}).refusal(),
                Contains("obstacles/triangles: names corner 0, there are 0"));
 }

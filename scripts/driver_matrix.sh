@@ -59,6 +59,8 @@ for scene in $scenes; do
 done
 case "${chosen[*]}" in *bookworm* | *trixie* | *sid*) [ "$(id -u)" = 0 ] || fail "the releases' roots need root; --only here does not" ;; esac
 
+[ "$build" = build/release ] || [ -e "$build/CMakeCache.txt" ] || fail "$build is no build folder"
+
 mkdir -p "$roots" "${work:=$roots}"
 roots=$(cd "$roots" && pwd) work=$(cd "$work" && pwd)
 commit=$(git describe --always --dirty --abbrev=7 2>/dev/null || echo unknown)

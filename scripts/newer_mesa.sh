@@ -5,6 +5,7 @@
 set -euo pipefail
 cd "$(dirname "$0")/.."
 build=${1:-build/ci}
+[ -e "$build/CMakeCache.txt" ] || { echo "newer_mesa: $build is no build folder" >&2; exit 2; }
 cache=${LOCKSTEP_CACHE:-/var/cache/lockstep}
 cannot() {
     if [ "${CI:-}" = true ]; then echo "newer_mesa: $*" >&2; exit 2; fi

@@ -39,6 +39,17 @@ void unshuffle(const std::byte* shuffled, std::size_t values, std::size_t wanted
             into[sizeof(float) * i + part] = shuffled[part * values + i];
 }
 
+/// A chunk as it lies in the file; `into` has its size, which HDF5 asks for since 2.0.
+bool read_stored(hid_t set, const Extents& offset, std::uint32_t& skipped_filters, std::vector<std::byte>& into) {
+#if H5_VERSION_GE(2, 0, 0)
+    std::size_t size = into.size();
+    return H5Dread_chunk2(set, H5P_DEFAULT, offset.data(), &skipped_filters, into.data(), &size) >= 0 &&
+           size == into.size();
+#else
+    return H5Dread_chunk(set, H5P_DEFAULT, offset.data(), &skipped_filters, into.data()) >= 0;
+#endif
+}
+
 } // namespace
 
 ChunkReader::ChunkReader() : decompressor_(libdeflate_alloc_decompressor()) {}
@@ -82,7 +93,7 @@ bool ChunkReader::read_chunk(hid_t set, const Extents& offset, std::size_t chunk
     if (H5Dget_chunk_storage_size(set, offset.data(), &stored) < 0 || stored > chunk_bytes + (chunk_bytes >> 8U) + 1024)
         return false;
     stored_.resize(stored);
-    if (H5Dread_chunk(set, H5P_DEFAULT, offset.data(), &skipped_filters, stored_.data()) < 0 || skipped_filters != 0)
+    if (!read_stored(set, offset, skipped_filters, stored_) || skipped_filters != 0)
         return false;
     if (has_checksum && stored < checksum_bytes)
         return false;

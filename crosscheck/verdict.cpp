@@ -1,6 +1,8 @@
 #include "crosscheck/verdict.hpp"
 
 #include <algorithm>
+#include <map>
+#include <set>
 #include <unordered_map>
 
 #include "crosscheck/compare.hpp"
@@ -88,6 +90,82 @@ ItemVerdict judge_texel(std::size_t texel, const LegalTexel& legal, glm::vec4 gp
     return verdict;
 }
 
+/// A point that may land on several texels of the image.
+struct Wanderer {
+    std::vector<std::size_t> reach;   ///< the texels
+    std::vector<std::size_t> differs; ///< of those judged, where it may have been drawn
+};
+
+std::map<std::size_t, Wanderer> wanderers(const std::vector<LegalTexel>& legal, const CollisionImage& cdt) {
+    std::map<std::size_t, Wanderer> found;
+    for (std::size_t i = 0; i < legal.size(); ++i)
+        for (const TexelOwner& owner : legal[i].owners) {
+            const PixelRect& reach = owner.reach;
+            const bool on_image = reach.x0 >= 0 && reach.y0 >= 0 && reach.x1 <= cdt.width && reach.y1 <= cdt.height;
+            const bool several = reach.x1 - reach.x0 > 1 || reach.y1 - reach.y0 > 1;
+            if (owner.kind != TexelOwner::Kind::particle || owner.may_be_clipped || !on_image || !several)
+                continue;
+            Wanderer& wanderer = found[owner.index];
+            wanderer.differs.push_back(i);
+            if (wanderer.reach.empty())
+                for (int y = reach.y0; y < reach.y1; ++y)
+                    for (int x = reach.x0; x < reach.x1; ++x)
+                        wanderer.reach.push_back(cdt.index(x, y));
+        }
+    return found;
+}
+
+/// Whether a point is on one of the texels that it may land on, or may be hidden there; and on no second one.
+bool is_conserved(std::size_t particle, const Wanderer& wanderer, const std::map<std::size_t, LegalTexel>& legal,
+                  const CollisionImage& gpu) {
+    int drawn = 0;
+    bool may_be_hidden = false;
+    bool may_be_another = false;
+    for (const std::size_t texel : wanderer.reach) {
+        const LegalTexel& of_texel = legal.at(texel);
+        const auto is_point = [&](const TexelOwner& owner) {
+            return owner.kind == TexelOwner::Kind::particle && owner.index == particle;
+        };
+        const auto own = std::find_if(of_texel.owners.begin(), of_texel.owners.end(), is_point);
+        const TexelOwner* owner = of_texel.owner_of(gpu.texels[texel]);
+        if (own == of_texel.owners.end() || owner == nullptr) {
+            may_be_hidden = true;
+        } else if (own->stores(gpu.texels[texel])) {
+            ++drawn;
+            may_be_another = may_be_another ||
+                             std::any_of(of_texel.owners.begin(), of_texel.owners.end(), [&](const TexelOwner& other) {
+                                 return !is_point(other) && other.stores(own->code);
+                             });
+        } else if (owner->kind != TexelOwner::Kind::nothing && owner->depth.low <= own->depth.high) {
+            may_be_hidden = true;
+        }
+    }
+    return drawn == 1 || (drawn == 0 && may_be_hidden) || (drawn > 1 && may_be_another);
+}
+
+/// Each texel by itself may be legal where a point was dropped at the edge of a pixel, or drawn on both sides.
+void convict_lost_points(const JudgedFrame& frame, const std::vector<LegalTexel>& legal,
+                         std::vector<ItemVerdict>& verdicts) {
+    const std::map<std::size_t, Wanderer> points = wanderers(legal, frame.gpu_cdt);
+    std::set<std::size_t> wanted;
+    for (const auto& [particle, wanderer] : points)
+        wanted.insert(wanderer.reach.begin(), wanderer.reach.end());
+    if (wanted.empty())
+        return;
+    const std::vector<std::size_t> texels(wanted.begin(), wanted.end());
+    const auto around =
+        legal_texels(frame.obstacles, frame.before, frame.gpu, frame.params, frame.profile, frame.known, texels);
+    std::map<std::size_t, LegalTexel> by_texel;
+    for (std::size_t i = 0; i < texels.size(); ++i)
+        by_texel.emplace(texels[i], around[i]);
+    for (const auto& [particle, wanderer] : points)
+        if (!is_conserved(particle, wanderer, by_texel, frame.gpu_cdt))
+            for (const std::size_t i : wanderer.differs) {
+                verdicts[i].kind = DifferenceClass::divergent;
+                verdicts[i].tie = std::nullopt;
+            }
+}
+
 std::vector<ItemVerdict> judge_texels(const JudgedFrame& frame, const std::vector<ItemVerdict>& particles) {
     const std::vector<std::size_t> differing = differing_texels(frame.reference_cdt, frame.gpu_cdt);
     std::vector<ItemVerdict> verdicts;
@@ -110,8 +188,11 @@ std::vector<ItemVerdict> judge_texels(const JudgedFrame& frame, const std::vecto
     }
     const auto legal =
         legal_texels(frame.obstacles, frame.before, frame.gpu, frame.params, frame.profile, frame.known, unexplained);
+    std::vector<ItemVerdict> judged;
     for (std::size_t i = 0; i < unexplained.size(); ++i)
-        verdicts.push_back(judge_texel(unexplained[i], legal[i], frame.gpu_cdt.texels[unexplained[i]]));
+        judged.push_back(judge_texel(unexplained[i], legal[i], frame.gpu_cdt.texels[unexplained[i]]));
+    convict_lost_points(frame, legal, judged);
+    verdicts.insert(verdicts.end(), judged.begin(), judged.end());
     std::sort(verdicts.begin(), verdicts.end(),
               [](const ItemVerdict& a, const ItemVerdict& b) { return a.index < b.index; });
     return verdicts;

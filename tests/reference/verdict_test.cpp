@@ -253,3 +253,33 @@ TEST_CASE("verdict: a summary counts classes, set sizes and ties, and its text a
     CHECK(json["ties"]["nearest"]["closest"]["particle"] == 9);
     CHECK(json["first"].is_null());
 }
+
+TEST_CASE("verdict: a point at a pixel's edge is on one of its two texels, neither dropped nor drawn twice") {
+    Frame frame("corrected", "strict");
+    frame.known = {};
+    const int width = frame.scene.params.width;
+    frame.scene.params.collision_proj_view = glm::mat4(1.0F);
+    frame.scene.params.switches.raster_position = RasterPosition::updated;
+    for (glm::vec3& p : frame.gpu.position)
+        p = glm::vec3(5.0F); // outside
+    frame.gpu.position[7] = {20.0F * 2.0F / static_cast<float>(width) - 1.0F, 0.01F, 0.5F};
+    frame.reference = frame.gpu;
+    frame.reference_cdt = frame.drawn(frame.gpu);
+    const auto drawn = std::find_if(frame.reference_cdt.texels.begin(), frame.reference_cdt.texels.end(),
+                                    [](glm::vec4 t) { return t.a != 0.0F; });
+    REQUIRE(drawn != frame.reference_cdt.texels.end());
+    const auto at = static_cast<std::size_t>(drawn - frame.reference_cdt.texels.begin());
+    const std::size_t beside = at % static_cast<std::size_t>(width) == 19 ? at + 1 : at - 1;
+    const auto worst = [&](bool here, bool there) {
+        frame.gpu_cdt = frame.reference_cdt;
+        frame.gpu_cdt.texels[at] = here ? *drawn : glm::vec4(0.0F);
+        frame.gpu_cdt.texels[beside] = there ? *drawn : glm::vec4(0.0F);
+        DifferenceClass kind = DifferenceClass::rounding;
+        for (const ItemVerdict& verdict : judge(frame.judged()).texels)
+            kind = std::max(kind, verdict.kind);
+        return kind;
+    };
+    CHECK(worst(false, true) == DifferenceClass::tie);
+    CHECK(worst(false, false) == DifferenceClass::divergent);
+    CHECK(worst(true, true) == DifferenceClass::divergent);
+}

@@ -7,7 +7,8 @@
 
 namespace lockstep {
 
-/// What the reference has to do to follow a measured driver. Its name is `llvmpipe` or `nvidia` when it computes as
+/// What the reference has to do to follow a measured driver: the rows with `precise`, and what those without it found
+/// beside (OtherOrders). Its name is `llvmpipe` or `nvidia` when it computes as
 /// that one was measured to, whatever the driver calls itself, and `generic` otherwise. Errors are those measured.
 /// Throws Error if a row of the probe is missing.
 Profile profile_from(const ProbeResult& result);
@@ -21,8 +22,8 @@ Profile measured_profile(const Context& context, const std::filesystem::path& sh
 /// The same of what a probe of the current context found; measures the driver's tables where it has some.
 Profile measured_profile(const ProbeResult& result, const std::filesystem::path& shaders = {});
 
-/// `profile`, for passes of `shaders`: where their collision pass has no geometry stage, and the driver places such
-/// points otherwise, that stands in not_followed.
+/// `profile`, for passes of `shaders`: where their collision pass has no geometry stage, points are placed as the rows
+/// without one say.
 Profile with_shaders(Profile profile, const ProbeResult& result, const std::filesystem::path& shaders);
 
 /// One line: "llvmpipe: dot x + (y + z), division and roots rounded, subnormals flushed, 8 sub-pixel bits, ..."

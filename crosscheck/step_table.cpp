@@ -279,7 +279,7 @@ template <class A> class TableBuilder {
     /// `run`: null where the particle is alone.
     TableBuilder(A fp, const JudgedFrame& frame, std::size_t particle, StepCapture capture, FrameRun* run)
         : fp_(fp), run_(run), frame_(frame), params_(frame_.params), constants_(params_.constants),
-          switches_(params_.switches), particle_(particle), arithmetic_(fp, frame_.known),
+          switches_(params_.switches), particle_(particle), arithmetic_(fp, frame_.known, frame_.profile.other_orders),
           before_(frame_.before[particle]), strict_(trace_step(before_, frame_.cdt, params_, named_profile("strict"))),
           reference_(trace_step(before_, frame_.cdt, params_, frame_.profile)), gpu_(std::move(capture)),
           seen_(seen_texels(gpu_)), state_(gpu_.vertex_state.value_or(frame_.gpu[particle])) {
@@ -377,7 +377,12 @@ template <class A> class TableBuilder {
         glm::vec3 own = before_.position;
         if (switches_.self_position == SelfPosition::texel && frame_.cdt.contains(base_.x, base_.y))
             own = code().decode(frame_.cdt.at(base_.x, base_.y));
-        const Interval3 legal = arithmetic_.read(own);
+        Interval3 legal = arithmetic_.read(own);
+        if (switches_.cdt_format == CdtFormat::rgba8 && switches_.self_position == SelfPosition::texel &&
+            !arithmetic_.known().sums && frame_.cdt.contains(base_.x, base_.y)) {
+            const auto [low, scaled] = decoded_terms(arithmetic_, frame_.cdt.at(base_.x, base_.y), params_);
+            legal = arithmetic_.sum(low, scaled);
+        }
         gpu_own_ = searching(gpu_.vertex.vec3("trace_own_position"));
         rows_.numbers<glm::vec3>("own position", strict_.own_position, reference_.own_position, gpu_own_, legal.data());
     }
@@ -459,11 +464,16 @@ template <class A> class TableBuilder {
         const glm::vec4 stored =
             frame_.cdt.contains(seen.texel.x, seen.texel.y) ? frame_.cdt.at(seen.texel.x, seen.texel.y) : glm::vec4(0);
         Interval3 legal = arithmetic_.read(code().decode(stored));
-        if (switches_.cdt_format == CdtFormat::rgba8 && !arithmetic_.known().sums)
-            for (Interval& component : legal)
-                component = interval::widen(component, 2.0);
         const glm::vec3 own = gpu_own_.value_or(reference_.own_position.value_or(before_.position));
-        const Interval3 apart = arithmetic_.difference(arithmetic_.read(own), arithmetic_.read(seen.position));
+        Interval3 apart = arithmetic_.difference(arithmetic_.read(own), arithmetic_.read(seen.position));
+        if (switches_.cdt_format == CdtFormat::rgba8 && !arithmetic_.known().sums) {
+            const auto [low, scaled] = decoded_terms(arithmetic_, stored, params_);
+            legal = arithmetic_.sum(low, scaled);
+            for (std::size_t c = 0; c < 3; ++c)
+                apart[c] = interval::hull(
+                    apart[c],
+                    arithmetic_.difference_of_sums({arithmetic_.read(own[static_cast<int>(c)])}, {low[c], scaled[c]}));
+        }
         const bool holds = in_reference != nullptr && in_reference->holds_particle;
         const bool right =
             holds ? same_bits(in_reference->position, seen.position) && same_bits(in_reference->apart, seen.apart)

@@ -38,7 +38,8 @@ inline bool is_visible(const Billboard& b) {
 inline PixelRect covered_pixels(const Billboard& b, int width, int height, const RasterRules& rules) {
     const float w = b.low.w;
     const auto clamped = [&](float x, float y) {
-        return window_position({std::clamp(x, -w, w), std::clamp(y, -w, w), b.low.z, w}, width, height, rules);
+        return window_position({std::clamp(x, -w, w), std::clamp(y, -w, w), b.low.z, w}, width, height,
+                               rules.vertex_viewport);
     };
     const WindowPosition low = clamped(b.low.x, b.low.y);
     const WindowPosition high = clamped(b.high.x, b.high.y);

@@ -152,12 +152,13 @@ template <class A> void rasterise(A fp, const std::vector<glm::vec3>& positions,
 void rasterise_particles_fast(const Particles& before, const Particles& after, const FrameParams& params,
                               const Profile& profile, CollisionImage& cdt, DepthImage& depth) {
     const RasterRules& rules = profile.raster;
-    if (profile.roots != nullptr || rules.depth_by_driver_reciprocal || rules.viewport == ViewportRounding::scaled)
+    if (profile.roots != nullptr || !has_fast_orders(profile) || rules.depth_by_driver_reciprocal ||
+        rules.viewport == ViewportRounding::scaled)
         return rasterise_particles(before, after, params, profile, cdt, depth);
     const auto& positions =
         params.switches.raster_position == RasterPosition::updated ? after.position : before.position;
     with_arithmetic(profile, params.switches, [&]<class A>(A fp) {
-        if constexpr (!std::is_same_v<A, DriverRoots>)
+        if constexpr (!std::is_same_v<A, DriverRoots> && !std::is_same_v<A, OwnOrders>)
             rasterise(fp, positions, after.position, params, profile, cdt, depth);
     });
 }

@@ -244,13 +244,14 @@ template <class A> void update(A fp, const Update& u, bool flush) {
 void update_particles_fast(const Particles& before, const CollisionImage& cdt, const FrameParams& params,
                            const Profile& profile, Particles& after) {
     const int radius = params.constants.texel_collide_range;
-    if (radius < 1 || radius > widest_radius || profile.roots != nullptr) // the driver's roots may not be monotonic
+    if (radius < 1 || radius > widest_radius || profile.roots != nullptr ||
+        !has_fast_orders(profile)) // the driver's roots may not be monotonic
         return update_particles(before, cdt, params, profile, after);
     assert(&before != &after && cdt.width == params.width && cdt.height == params.height);
     after.resize(before.size());
     const StoredPositions stored = stored_positions(cdt, params, radius, 3);
     with_arithmetic(profile, params.switches, [&]<class A>(A fp) {
-        if constexpr (!std::is_same_v<A, DriverRoots>)
+        if constexpr (!std::is_same_v<A, DriverRoots> && !std::is_same_v<A, OwnOrders>)
             update(fp, {before, stored, params, after}, profile.flush_subnormals);
     });
 }

@@ -37,10 +37,15 @@ struct PortableRightToLeft : Portable {
 template <class Pass> decltype(auto) with_deviating_arithmetic(const Profile& profile, Switches switches,
                                                                const Deviations& deviations, Pass&& pass) {
     Profile deviating;
+    const bool other_order =
+        deviations.has(sums_left_to_right) || deviations.has(sums_right_to_left) || deviations.has(sums_fused);
     deviating.dot = profile.dot;
     // The driver's tables come with its own order of sums.
-    if (!deviations.has(sums_left_to_right) && !deviations.has(sums_right_to_left) && !deviations.has(sums_fused))
+    if (!other_order) {
+        deviating.length_dot = profile.length_dot;
+        deviating.normalize_dot = profile.normalize_dot;
         deviating.roots = profile.roots;
+    }
     if (deviations.has(sums_left_to_right))
         deviating.dot = DotOrder::left_to_right;
     if (deviations.has(sums_right_to_left))

@@ -1,26 +1,73 @@
 #include "reference/known_operations.hpp"
 
 #include <algorithm>
+#include <array>
+#include <initializer_list>
 #include <string>
+#include <string_view>
 
 namespace lockstep {
+namespace {
+
+/// Whether every row whose name starts with one of these is followed.
+bool followed(const Profile& profile, std::initializer_list<std::string_view> names) {
+    return std::none_of(profile.not_followed.begin(), profile.not_followed.end(), [&](const std::string& row) {
+        return std::any_of(names.begin(), names.end(), [&](std::string_view name) { return row.starts_with(name); });
+    });
+}
+
+/// Rows about what no pass leaves to the driver: their findings are told, and decide nothing.
+constexpr std::array told_only{std::string_view("transform feedback order")};
+
+constexpr std::array sums{std::string_view("mat4*vec4"), std::string_view("x*x+y*y+z*z"),
+                          std::string_view("a*b+c"),     std::string_view("x*a+x*b"),
+                          std::string_view("cross"),     std::string_view("fragment a*b+c")};
+constexpr std::array others{std::string_view("dot(vec3)"),  std::string_view("length"),
+                            std::string_view("normalize"),  std::string_view("subnormal"),
+                            std::string_view("compute:"),   std::string_view("points:"),
+                            std::string_view("triangles:"), std::string_view("equal depth")};
+
+bool all_names_known(const Profile& profile) {
+    return std::all_of(profile.not_followed.begin(), profile.not_followed.end(), [](const std::string& row) {
+        const auto starts = [&](std::string_view name) { return row.starts_with(name); };
+        return std::any_of(sums.begin(), sums.end(), starts) || std::any_of(others.begin(), others.end(), starts) ||
+               std::any_of(told_only.begin(), told_only.end(), starts);
+    });
+}
+
+KnownRaster measured_raster(const Profile& profile) {
+    KnownRaster known;
+    known.point_window = followed(profile, {"points: viewport"});
+    known.point_grid = followed(profile, {"points: sub-pixel bits", "points: snap"});
+    known.point_edges = followed(profile, {"points: edge"});
+    known.point_depth = followed(profile, {"points: depth"}) &&
+                        (!profile.raster.depth_by_driver_reciprocal || profile.roots != nullptr);
+    known.triangle_window = followed(profile, {"triangles: viewport"});
+    known.triangle_grid = followed(profile, {"triangles: sub-pixel bits", "triangles: snap"});
+    known.triangle_sides = followed(
+        profile, {"triangles: left side", "triangles: right side", "triangles: lower side", "triangles: upper side"});
+    known.equal_depth = followed(profile, {"equal depth"});
+    known.gl_grid = known.point_grid && known.triangle_grid;
+    return known;
+}
+
+} // namespace
 
 KnownOperations measured_operations(const Profile& profile) {
+    if (!all_names_known(profile))
+        return {.sums = false};
     const OperationErrors& errors = profile.errors;
-    KnownOperations known;
-    // What the reference cannot follow may be anything; only the errors of single operations are then to be trusted.
-    const bool followed = profile.not_followed.empty();
-    const bool arithmetic_followed =
-        std::all_of(profile.not_followed.begin(), profile.not_followed.end(),
-                    [](const std::string& row) { return row.starts_with("points:") || row.starts_with("triangles:"); });
     // With the driver's own tables, the reference has the driver's quotients and roots.
     const bool tables = profile.roots != nullptr;
+    KnownOperations known;
+    known.sums = std::all_of(sums.begin(), sums.end(), [&](std::string_view row) { return followed(profile, {row}); });
     known.divide = tables || (errors.divide == 0 && errors.reciprocal == 0);
-    known.square_root = tables || (errors.sqrt == 0 && errors.length == 0);
-    known.dot = arithmetic_followed;
-    known.normalize = tables || errors.normalize == 0;
-    known.subnormals = arithmetic_followed;
-    known.points = followed && known.divide;
+    known.square_root = (tables || (errors.sqrt == 0 && errors.length == 0)) && followed(profile, {"length"});
+    known.dot = followed(profile, {"dot(vec3)"});
+    known.normalize = (tables || errors.normalize == 0) && followed(profile, {"normalize"});
+    known.subnormals = followed(profile, {"subnormal"});
+    known.raster = measured_raster(profile);
+    known.points = known.raster.points() && known.raster.triangles();
     return known;
 }
 

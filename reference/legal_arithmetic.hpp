@@ -2,12 +2,15 @@
 #include <array>
 #include <initializer_list>
 #include <type_traits>
+#include <vector>
 
 #include <glm/mat4x4.hpp>
 #include <glm/vec3.hpp>
 
+#include "reference/arithmetic.hpp"
 #include "reference/interval.hpp"
 #include "reference/known_operations.hpp"
+#include "reference/model/scene.hpp"
 #include "reference/portable.hpp"
 
 namespace lockstep {
@@ -17,12 +20,14 @@ using Interval3 = std::array<Interval, 3>;
 /// What each operation of the listing may legally give, from GLSL 4.50.7, 4.7.1: division 2.5 ULP, inversesqrt 2 ULP,
 /// sqrt as 1 / inversesqrt, length and normalize as the Vulkan environment derives them, sums in any order and fused or
 /// not unless `precise`; subnormals flushed or not. Where an operation is known, its result is the point
-/// that `A` (arithmetic.hpp) computes. A function's result is a set of floats unless it says otherwise.
+/// that `A` (arithmetic.hpp) computes; where the driver sums in another order without `precise`, it is what both orders
+/// give and what lies between. A function's result is a set of floats unless it says otherwise.
 template <class A> class LegalArithmetic {
   public:
-    LegalArithmetic(A fp, const KnownOperations& known) : fp_(fp), known_(known) {
+    LegalArithmetic(A fp, const KnownOperations& known, const OtherOrders& other_orders = {})
+        : fp_(fp), known_(known), other_orders_(other_orders) {
         if constexpr (own_rules)
-            known_ = {true, true, true, true, true, true, true};
+            known_ = KnownOperations::all();
     }
 
     [[nodiscard]] const KnownOperations& known() const { return known_; }
@@ -41,7 +46,25 @@ template <class A> class LegalArithmetic {
         };
         return flushed(ends(add(a.low, b.low), add(a.high, b.high)));
     }
-    [[nodiscard]] Interval difference(Interval a, Interval b) const { return sum(a, interval::negate(b)); }
+    /// Of two floats no order can give another result.
+    [[nodiscard]] Interval difference(Interval a, Interval b) const {
+        if (a.any || b.any)
+            return Interval::anything();
+        if (!known_.sums && !(a.is_point() && b.is_point()))
+            return loose_sum({a, interval::negate(b)});
+        const auto subtract = [this](double x, double y) {
+            return fp_.flush(static_cast<float>(x) - static_cast<float>(y));
+        };
+        return flushed(ends(subtract(a.low, b.high), subtract(a.high, b.low)));
+    }
+    /// Of two that may be sums, of these terms each.
+    [[nodiscard]] Interval difference_of_sums(std::initializer_list<Interval> a,
+                                              std::initializer_list<Interval> b) const {
+        std::vector<Interval> terms(a);
+        for (const Interval& term : b)
+            terms.push_back(interval::negate(term));
+        return loose_sum(terms);
+    }
 
     /// Unless `precise`, the real product, rounded or not: what a fused operation adds to.
     [[nodiscard]] Interval product(Interval a, Interval b) const {
@@ -98,16 +121,25 @@ template <class A> class LegalArithmetic {
         return {low, by_inverse(v.high).high};
     }
 
+    /// Of two vectors of floats, where dot is known.
+    [[nodiscard]] Interval dot(glm::vec3 a, glm::vec3 b) const {
+        Interval set = point(fp_.dot(a, b));
+        for (const DotOrder order : other_orders_.dot)
+            set = own_rules ? set : interval::hull(set, point(dot_in(order, a, b)));
+        return set;
+    }
+
     [[nodiscard]] Interval squared_length(const Interval3& v) const {
         if (known_.dot && are_points(v))
-            return point(fp_.dot(as_floats(v), as_floats(v)));
+            return dot(as_floats(v), as_floats(v));
         return interval::to_floats(
             loose_sum({loose_square(v[0]), loose_square(v[1]), loose_square(v[2])}, Sign::not_negative));
     }
 
     [[nodiscard]] Interval length(const Interval3& v) const {
         if (known_.dot && known_.square_root && are_points(v))
-            return point(fp_.length(as_floats(v)));
+            return with_others(point(fp_.length(as_floats(v))), other_orders_.length, v,
+                               [this](float sum) { return fp_.length_of(sum); });
         return square_root(squared_length(v));
     }
 
@@ -124,7 +156,11 @@ template <class A> class LegalArithmetic {
             return {Interval::anything(), Interval::anything(), Interval::anything()};
         if (known_.normalize && are_points(v)) {
             const glm::vec3 n = fp_.normalize(as_floats(v));
-            return {point(n.x), point(n.y), point(n.z)};
+            const auto component = [&](int c) {
+                return with_others(point(n[c]), other_orders_.normalize, v,
+                                   [this, c, v](float sum) { return fp_.direction_of(as_floats(v), sum)[c]; });
+            };
+            return {component(0), component(1), component(2)};
         }
         const Interval inverse = interval::to_floats(
             interval::widen(interval::divide(1.0F, interval::square_root(squared)), inverse_square_root));
@@ -172,8 +208,18 @@ template <class A> class LegalArithmetic {
         return flushed(interval::widen(interval::square(v), loose));
     }
 
+    /// The hull of what the operation gives in the driver's own order and in others of its sum of squares.
+    template <class Finish> [[nodiscard]] Interval with_others(Interval own, const std::vector<DotOrder>& others,
+                                                               const Interval3& v, const Finish& finish) const {
+        if constexpr (!own_rules)
+            for (const DotOrder order : others)
+                own = interval::hull(own, point(finish(dot_in(order, as_floats(v), as_floats(v)))));
+        return own;
+    }
+
     /// A sum in any order: each of the additions may err by an ULP of the sum of magnitudes.
-    [[nodiscard]] Interval loose_sum(std::initializer_list<Interval> terms, Sign sign = Sign::any) const {
+    template <class Terms = std::initializer_list<Interval>>
+    [[nodiscard]] Interval loose_sum(const Terms& terms, Sign sign = Sign::any) const {
         Interval total(0.0F);
         double magnitude = 0.0;
         for (const Interval& term : terms) {
@@ -194,6 +240,20 @@ template <class A> class LegalArithmetic {
 
     A fp_;
     KnownOperations known_;
+    OtherOrders other_orders_;
 };
+
+/// The terms whose sum a texel of an rgba8 CDT decodes to, in sets: the box's low corner, and the code times the step.
+template <class A> std::array<Interval3, 2> decoded_terms(const LegalArithmetic<A>& arithmetic, glm::vec4 stored,
+                                                          const FrameParams& params) {
+    const glm::vec3 step = (params.cdt_box.max - params.cdt_box.min) / 255.0F;
+    std::array<Interval3, 2> terms;
+    for (int c = 0; c < 3; ++c) {
+        const auto k = static_cast<std::size_t>(c);
+        terms[0][k] = arithmetic.read(params.cdt_box.min[c]);
+        terms[1][k] = arithmetic.product(arithmetic.read(stored[c]), arithmetic.read(step[c]));
+    }
+    return terms;
+}
 
 } // namespace lockstep

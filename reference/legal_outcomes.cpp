@@ -59,9 +59,9 @@ bool any_of(const Interval3& v) { return v[0].any || v[1].any || v[2].any; }
 template <class A> class LegalStep {
   public:
     LegalStep(A fp, const CollisionImage& cdt, const FrameParams& params, const KnownOperations& known,
-              const ParticleState* observed)
+              const OtherOrders& other_orders, const ParticleState* observed)
         : cdt_(cdt), params_(params), constants_(params.constants), switches_(params.switches), code_(params),
-          arithmetic_(fp, known), observed_(observed) {}
+          arithmetic_(fp, known, other_orders), observed_(observed) {}
 
     std::vector<LegalOutcome> operator()(const ParticleState& before) {
         position_ = arithmetic_.read(before.position);
@@ -121,17 +121,30 @@ template <class A> class LegalStep {
         return switches_.empty_texel == EmptyTexel::phantom || stored.a != 0.0F;
     }
 
-    [[nodiscard]] Interval3 decode(glm::vec4 stored) const {
-        Interval3 position = arithmetic_.read(code_.decode(stored));
-        if (switches_.cdt_format == CdtFormat::rgba8 && !arithmetic_.known().sums)
-            for (Interval& component : position)
-                component = interval::widen(component, 2.0);
-        return position;
+    /// A stored position as the terms it is the sum of: one, or low + code * step.
+    struct Decoded {
+        Interval3 low, scaled;
+        bool is_sum = false;
+    };
+    [[nodiscard]] Decoded decode(glm::vec4 stored) const {
+        if (switches_.cdt_format != CdtFormat::rgba8 || arithmetic_.known().sums)
+            return {arithmetic_.read(code_.decode(stored)), {}, false};
+        const auto [low, scaled] = decoded_terms(arithmetic_, stored, params_);
+        return {low, scaled, true};
+    }
+
+    [[nodiscard]] Interval3 apart(const Decoded& own, const Decoded& other) const {
+        Interval3 v;
+        for (std::size_t c = 0; c < 3; ++c)
+            v[c] = !own.is_sum && !other.is_sum
+                       ? arithmetic_.difference(own.low[c], other.low[c])
+                       : arithmetic_.difference_of_sums({own.low[c], own.scaled[c]}, {other.low[c], other.scaled[c]});
+        return v;
     }
 
     /// Lines 5 to 19.
     void search_round(BaseTexelIndex base) {
-        Interval3 own = position_;
+        Decoded own{position_, {}, false};
         if (switches_.self_position == SelfPosition::texel) {
             const glm::vec4 self = cdt_.at(base.x, base.y);
             if (!holds_particle(self))
@@ -150,8 +163,8 @@ template <class A> class LegalStep {
                 const glm::vec4 stored = cdt_.at(texel.x, texel.y);
                 if (!holds_particle(stored))
                     continue;
-                const Interval3 apart = arithmetic_.difference(own, decode(stored));
-                const Interval distance = arithmetic_.length(apart);
+                const Interval3 away = apart(own, decode(stored));
+                const Interval distance = arithmetic_.length(away);
                 if (distance.any) {
                     add(open(Undefined::not_a_number));
                     continue;
@@ -166,7 +179,7 @@ template <class A> class LegalStep {
                 }
                 if (!sure)
                     border = std::min(border, std::abs(range.low - middle(distance)));
-                neighbours.push_back({texel, apart, distance, sure});
+                neighbours.push_back({texel, away, distance, sure});
             }
         }
         choose(base, neighbours, border);
@@ -356,8 +369,9 @@ std::vector<LegalOutcome> legal_outcomes(const ParticleState& before, const Coll
                                          const FrameParams& params, const Profile& profile,
                                          const KnownOperations& known, const ParticleState* observed) {
     const FlushSubnormals guard(known.subnormals && profile.flush_subnormals);
-    return with_arithmetic(profile, params.switches,
-                           [&](auto fp) { return LegalStep(fp, cdt, params, known, observed)(before); });
+    return with_arithmetic(profile, params.switches, [&](auto fp) {
+        return LegalStep(fp, cdt, params, known, profile.other_orders, observed)(before);
+    });
 }
 
 } // namespace lockstep

@@ -46,28 +46,46 @@ class Wanted {
 struct PixelRange {
     int first = 0, last = -1;
     double edge_margin = 0.0; ///< 1/256 pixel
+
+    [[nodiscard]] bool one_answer() const { return first == last; }
 };
 
-/// A point's square of side 1 covers the centres inside; which of two on its border is open.
-PixelRange pixels_of(Interval window, double snap) {
-    const double low = window.low - snap;
-    const double high = window.high + snap;
-    const double centre = middle(window);
-    return {static_cast<int>(std::ceil(low)) - 1, static_cast<int>(std::floor(high)),
-            std::abs(centre - std::round(centre)) * 256.0};
+/// "Accurate to about 1 part in 10^5" (GL 4.5, 2.3.4.1), each operation of fixed function by itself.
+constexpr double gl_accuracy = 1e-5;
+/// How far a grid that is not known may move a point or a corner: a step of the coarsest that GL allows, or half a
+/// pixel on a driver that was measured to be on none of these.
+double step_of(const KnownRaster& known) { return known.gl_grid ? 1.0 / 16.0 : 0.5; }
+
+Interval accurate(Interval v) {
+    return v.any ? v
+                 : interval::outward(v.low - gl_accuracy * std::abs(v.low), v.high + gl_accuracy * std::abs(v.high));
 }
 
-/// ULP of a coordinate over w: a reciprocal of 2.5, a product, and what they make of each other's last place.
-constexpr double divide_by_w = 4.0;
-constexpr double viewport_operation = 1.0;
-
+/// Perspective divide and viewport transform where nothing is known of them.
 Interval window_coordinate(Interval clip, Interval w, double scale, double offset) {
-    const Interval ndc = interval::widen(interval::divide(clip, w), divide_by_w);
-    const Interval scaled = interval::widen(interval::multiply(ndc, {scale, scale}), viewport_operation);
-    const Interval moved = interval::add(scaled, {offset, offset});
-    const double magnitude = std::max({std::abs(scaled.low), std::abs(scaled.high), std::abs(offset)});
-    const double error = viewport_operation * interval::ulp(magnitude);
-    return moved.any ? moved : interval::outward(moved.low - error, moved.high + error);
+    const Interval ndc = accurate(interval::divide(clip, w));
+    const Interval scaled = accurate(interval::multiply(ndc, {scale, scale}));
+    return accurate(interval::add(scaled, {offset, offset}));
+}
+
+/// A point's square of side 1 covers the centres inside; which of two on its border is open, unless it is known.
+PixelRange pixels_of(Interval window, const KnownRaster& known, const RasterRules& rules) {
+    const double centre = middle(window);
+    const double margin = std::abs(centre - std::round(centre)) * 256.0;
+    if (!known.point_grid) {
+        const double low = window.low - step_of(known);
+        const double high = window.high + step_of(known);
+        return {static_cast<int>(std::ceil(low)) - 1, static_cast<int>(std::floor(high)), margin};
+    }
+    RasterRules lower = rules, upper = rules;
+    if (!known.point_edges) {
+        lower.point_edge_to_lower = true;
+        upper.point_edge_to_lower = false;
+    }
+    const auto place = [&](double x, const RasterRules& edge) {
+        return point_pixel(snap_point(static_cast<float>(x), rules), edge);
+    };
+    return {place(window.low, lower), place(window.high, upper), margin};
 }
 
 enum class InVolume { no, maybe, yes };
@@ -95,7 +113,7 @@ template <class A> class Candidates {
   public:
     Candidates(A fp, const FrameParams& params, const Profile& profile, const KnownOperations& known,
                std::span<const std::size_t> texels)
-        : fp_(fp), params_(params), profile_(profile), code_(params), arithmetic_(fp, known),
+        : fp_(fp), params_(params), profile_(profile), code_(params), arithmetic_(fp, known, profile.other_orders),
           wanted_(params.width, params.height, texels), candidates_(texels.size()) {}
 
     void add_point(Kind kind, std::size_t index, glm::vec3 drawn_at, glm::vec3 stored) {
@@ -105,7 +123,7 @@ template <class A> class Candidates {
             return;
         TexelOwner owner{.kind = kind, .index = index, .code = code_.encode(stored)};
         owner.reference_depth = reference.depth;
-        if (arithmetic_.known().points) {
+        if (known().points || known().raster.points()) {
             owner.is_reference = true;
             owner.depth = reference.depth;
             if (drawn)
@@ -116,23 +134,37 @@ template <class A> class Candidates {
         const InVolume inside = in_clip_volume(clip);
         if (inside == InVolume::no || clip[3].contains_zero())
             return;
-        const double snap = std::ldexp(1.0, -profile_.raster.subpixel_bits);
+        const bool clip_known = clip[0].is_point() && clip[1].is_point() && clip[2].is_point() && clip[3].is_point();
+        const bool window_known = known().raster.point_window && clip_known;
+        WindowPosition window;
+        if (clip_known)
+            window = window_position({clip[0].as_float(), clip[1].as_float(), clip[2].as_float(), clip[3].as_float()},
+                                     params_.width, params_.height, profile_.raster);
         const double half_width = params_.width * 0.5;
         const double half_height = params_.height * 0.5;
-        const PixelRange columns = pixels_of(window_coordinate(clip[0], clip[3], half_width, half_width), snap);
-        const PixelRange rows = pixels_of(window_coordinate(clip[1], clip[3], half_height, half_height), snap);
-        owner.depth = window_coordinate(clip[2], clip[3], 0.5, 0.5);
-        if (clip[2].is_point() && clip[3].is_point())
+        const auto along = [&](const Interval& coordinate, float followed, double half) {
+            const Interval place =
+                window_known ? Interval(followed) : window_coordinate(coordinate, clip[3], half, half);
+            return pixels_of(place, known().raster, profile_.raster);
+        };
+        const PixelRange columns = along(clip[0], window.x, half_width);
+        const PixelRange rows = along(clip[1], window.y, half_height);
+        owner.depth = known().raster.point_depth && drawn ? Interval(reference.depth)
+                                                          : window_coordinate(clip[2], clip[3], 0.5, 0.5);
+        if (clip[2].is_point() && clip[3].is_point() && known().raster.equal_depth)
             owner.clip_zw = glm::vec2(clip[2].as_float(), clip[3].as_float());
-        owner.sure = inside == InVolume::yes && columns.first == columns.last && rows.first == rows.last;
+        owner.sure = inside == InVolume::yes && columns.one_answer() && rows.one_answer();
+        owner.may_be_clipped = inside != InVolume::yes;
+        owner.reach = {columns.first, rows.first, columns.last + 1, rows.last + 1};
         owner.edge_margin = HUGE_VAL;
-        if (columns.first != columns.last)
+        if (!columns.one_answer())
             owner.edge_margin = columns.edge_margin;
-        if (rows.first != rows.last)
+        if (!rows.one_answer())
             owner.edge_margin = std::min(owner.edge_margin, rows.edge_margin);
         for (int y = rows.first; y <= rows.last; ++y)
             for (int x = columns.first; x <= columns.last; ++x) {
                 owner.is_reference = x == reference.x && y == reference.y;
+                owner.moved = drawn ? glm::ivec2(x - reference.x, y - reference.y) : glm::ivec2(0);
                 add(owner, x, y);
             }
     }
@@ -157,10 +189,11 @@ template <class A> class Candidates {
     void add_triangle(const Mesh& obstacles, const std::vector<glm::vec4>& clip, const RasterTriangle& triangle) {
         const auto& c = triangle.corners;
         const int bits = profile_.raster.subpixel_bits;
-        const int x0 = std::min({c[0].x, c[1].x, c[2].x}) >> bits;
-        const int y0 = std::min({c[0].y, c[1].y, c[2].y}) >> bits;
-        const int x1 = (std::max({c[0].x, c[1].x, c[2].x}) >> bits) + 1;
-        const int y1 = (std::max({c[0].y, c[1].y, c[2].y}) >> bits) + 1;
+        const int beside = static_cast<int>(std::ceil(std::ldexp(side_tolerance(), -bits)));
+        const int x0 = (std::min({c[0].x, c[1].x, c[2].x}) >> bits) - beside;
+        const int y0 = (std::min({c[0].y, c[1].y, c[2].y}) >> bits) - beside;
+        const int x1 = (std::max({c[0].x, c[1].x, c[2].x}) >> bits) + 1 + beside;
+        const int y1 = (std::max({c[0].y, c[1].y, c[2].y}) >> bits) + 1 + beside;
         for (int y = std::max(y0, 0); y <= std::min(y1, params_.height - 1); ++y)
             for (int x = std::max(x0, 0); x <= std::min(x1, params_.width - 1); ++x)
                 if (wanted_.slot(x, y) >= 0)
@@ -171,10 +204,10 @@ template <class A> class Candidates {
                    int y) {
         bool covered = false;
         for_each_pixel(triangle, profile_.raster, {x, y, x + 1, y + 1}, [&](int, int) { covered = true; });
-        const bool exact = arithmetic_.known().points;
+        const bool exact = known().points || known().raster.triangles();
         const double margin = exact ? HUGE_VAL : side_distance(triangle, x, y, profile_.raster);
-        constexpr double snap = 1.0;
-        if (!covered && margin > snap)
+        const double tolerance = side_tolerance();
+        if (!covered && margin > tolerance)
             return;
         const std::uint32_t* index = &obstacles.indices[std::size_t{triangle.primitive} * 3];
         const std::array<glm::vec4, 3> corners{clip[index[0]], clip[index[1]], clip[index[2]]};
@@ -196,10 +229,25 @@ template <class A> class Candidates {
             owner.depth = {owner.reference_depth - error, owner.reference_depth + error};
         }
         owner.is_reference = covered;
-        owner.sure = covered && margin > snap;
-        owner.edge_margin = margin;
+        owner.sure = covered && margin > tolerance;
+        owner.edge_margin = exact ? margin : std::ldexp(margin, 8 - profile_.raster.subpixel_bits);
         add(owner, x, y);
     }
+
+    /// How far, in steps of the profile's grid, a side may lie from where the reference puts it: each corner by what
+    /// its window coordinate may err and by a step of the grid, along both axes.
+    [[nodiscard]] double side_tolerance() const {
+        const KnownRaster& raster = known().raster;
+        if (known().points || raster.triangles() || (raster.triangle_window && raster.triangle_grid))
+            return 0.0;
+        const double size = std::max(params_.width, params_.height);
+        // Three operations on at most half the image, half of it, and all of it.
+        const double window = raster.triangle_window ? 0.0 : gl_accuracy * (0.5 + 0.5 + 1.0) * size;
+        const double step = raster.triangle_grid ? std::ldexp(1.0, -profile_.raster.subpixel_bits) : step_of(raster);
+        return std::ldexp((window + step) * std::sqrt(2.0), profile_.raster.subpixel_bits);
+    }
+
+    [[nodiscard]] const KnownOperations& known() const { return arithmetic_.known(); }
 
     /// z and w interpolate like positions; their quotient is halved and moved, 2.5 ULP and two roundings.
     static double depth_bound(const std::array<glm::vec4, 3>& c) {
@@ -218,8 +266,9 @@ template <class A> class Candidates {
     std::vector<std::vector<TexelOwner>> candidates_;
 };
 
-/// What a depth test LESS may leave of the candidates, in drawing order: an equally deep earlier one stays.
-LegalTexel settle(std::vector<TexelOwner>& candidates) {
+/// What a depth test LESS may leave of the candidates, in drawing order: an equally deep earlier one stays, if that is
+/// known.
+LegalTexel settle(std::vector<TexelOwner>& candidates, bool first_stays) {
     TexelOwner* reference = nullptr;
     for (TexelOwner& candidate : candidates) {
         const bool wins =
@@ -238,8 +287,8 @@ LegalTexel settle(std::vector<TexelOwner>& candidates) {
                 return false;
             if (other.clip_zw && other.clip_zw == candidate.clip_zw)
                 return &other < &candidate;
-            return &other < &candidate ? other.depth.high <= candidate.depth.low
-                                       : other.depth.high < candidate.depth.low;
+            return first_stays && &other < &candidate ? other.depth.high <= candidate.depth.low
+                                                      : other.depth.high < candidate.depth.low;
         });
         if (!hidden)
             texel.owners.push_back(candidate);
@@ -307,7 +356,7 @@ std::vector<LegalTexel> legal_texels(const Mesh& obstacles, const Particles& bef
     std::vector<LegalTexel> legal;
     legal.reserve(candidates.size());
     for (std::vector<TexelOwner>& of_texel : candidates)
-        legal.push_back(settle(of_texel));
+        legal.push_back(settle(of_texel, known.points || known.raster.equal_depth));
     return legal;
 }
 

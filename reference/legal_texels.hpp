@@ -11,6 +11,7 @@
 #include "reference/model/particles.hpp"
 #include "reference/model/profile.hpp"
 #include "reference/model/scene.hpp"
+#include "reference/window.hpp"
 
 namespace lockstep {
 
@@ -30,6 +31,10 @@ struct TexelOwner {
     std::optional<glm::vec2> clip_zw = std::nullopt;
     Interval depth{1.0F, 1.0F}; ///< window depth
 
+    glm::ivec2 moved{0};         ///< of a point: pixels from where the reference draws it
+    PixelRect reach = {};        ///< of a point: the pixels it may land on, the image's and those beside it
+    bool may_be_clipped = false; ///< of a point: it may lie outside the clip volume
+
     [[nodiscard]] bool stores(glm::vec4 texel) const;
 };
 
@@ -45,10 +50,9 @@ struct LegalTexel {
 
 /// For each of `texels` (indices into the CDT), who may own it after `after` was drawn over the obstacles: points whose
 /// window position may fall there, triangles whose sides pass the texel's centre, depths that rounding can swap.
-/// Where points are known, exactly what the reference draws.
-///
-/// The window position errs by a shader's division and the viewport's two operations, then by one step of the sub-pixel
-/// grid; that is tighter than GL's own 1 part in 10^5 (4.5, 2.3.4.1).
+/// Each rule that is known (KnownRaster) is the reference's. Of the others: a window coordinate is what operations give
+/// that are accurate to 1 part in 10^5 (GL 4.5, 2.3.4.1); a grid that is not known moves it by up to one step, which is
+/// at most 1/16 pixel (SUBPIXEL_BITS, table 23.53); what lies on a pixel's edge may belong to either side.
 std::vector<LegalTexel> legal_texels(const Mesh& obstacles, const Particles& before, const Particles& after,
                                      const FrameParams& params, const Profile& profile, const KnownOperations& known,
                                      std::span<const std::size_t> texels);

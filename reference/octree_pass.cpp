@@ -77,7 +77,8 @@ template <class Work> void for_each_particle(std::size_t count, const Profile& p
     const auto n = static_cast<std::ptrdiff_t>(count);
 #pragma omp parallel
     {
-        const FlushSubnormals guard(profile.compute_flush_subnormals);
+        const FlushSubnormals guard(profile.compute_flush_subnormals,
+                                    profile.compute_flush_results.value_or(profile.compute_flush_subnormals));
 #pragma omp for schedule(dynamic, 256)
         for (std::ptrdiff_t i = 0; i < n; ++i)
             work(static_cast<std::size_t>(i));

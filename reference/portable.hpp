@@ -39,10 +39,13 @@ struct Portable {
         return add(add(multiply(a.x, b.x), multiply(a.y, b.y)), multiply(a.z, b.z));
     }
     /// 2 ULP for lengths from 2^-48, under which squares are lost as tiny, to 2^63.
-    static float length(glm::vec3 v) { return sqrt(dot(v, v)); }
+    static float length(glm::vec3 v) { return length_of(dot(v, v)); }
     /// 4 ULP a component, for the same lengths. All NaN where the length is 0, infinite or NaN.
-    static glm::vec3 normalize(glm::vec3 v) {
-        const float squared = dot(v, v);
+    static glm::vec3 normalize(glm::vec3 v) { return direction_of(v, dot(v, v)); }
+
+    /// length and normalize of a vector whose dot product with itself is known.
+    static float length_of(float squared) { return sqrt(squared); }
+    static glm::vec3 direction_of(glm::vec3 v, float squared) {
         const float s = inverse_sqrt(squared);
         if (!(squared > 0.0F) || std::isinf(squared))
             return glm::vec3(std::numeric_limits<float>::quiet_NaN());

@@ -10,9 +10,12 @@ namespace lockstep {
 /// driver measured does; plain C++ keeps them. Each thread of a parallel loop needs its own.
 class FlushSubnormals {
   public:
-    explicit FlushSubnormals(bool flush) : saved_(read()) {
-        if (flush)
-            write(saved_ | flush_bits);
+    explicit FlushSubnormals(bool flush) : FlushSubnormals(flush, flush) {}
+    /// Where the processor cannot tell the two apart (aarch64), both are as `operands` says.
+    FlushSubnormals(bool operands, bool results) : saved_(read()) {
+        const std::uint64_t bits = (operands ? operand_bits : 0U) | (results ? result_bits : 0U);
+        if (bits != 0)
+            write(saved_ | bits);
     }
     ~FlushSubnormals() { write(saved_); }
     FlushSubnormals(const FlushSubnormals&) = delete;
@@ -20,11 +23,13 @@ class FlushSubnormals {
 
   private:
 #if defined(__SSE2__)
-    static constexpr std::uint64_t flush_bits = 0x8040; // MXCSR: flush to zero, denormals are zero
+    static constexpr std::uint64_t operand_bits = 0x40;  // MXCSR: denormals are zero
+    static constexpr std::uint64_t result_bits = 0x8000; // MXCSR: flush to zero
     static std::uint64_t read() { return _mm_getcsr(); }
     static void write(std::uint64_t value) { _mm_setcsr(static_cast<unsigned>(value)); }
 #elif defined(__aarch64__)
-    static constexpr std::uint64_t flush_bits = std::uint64_t{1} << 24U; // FPCR.FZ
+    static constexpr std::uint64_t operand_bits = std::uint64_t{1} << 24U; // FPCR.FZ
+    static constexpr std::uint64_t result_bits = 0;
     static std::uint64_t read() {
         std::uint64_t value;
         asm volatile("mrs %0, fpcr" : "=r"(value));

@@ -74,7 +74,7 @@ struct Viewport {
     /// Nothing where the perspective divide overflows.
     [[nodiscard]] std::optional<glm::ivec2> snap(glm::vec4 clip) const {
         constexpr float limit = 0x1p20F;
-        const WindowPosition window = window_position(clip, width, height, rules);
+        const WindowPosition window = window_position(clip, width, height, rules.vertex_viewport);
         if (!(std::abs(window.x) < limit) || !(std::abs(window.y) < limit))
             return {};
         return glm::ivec2(snap_vertex(window.x, rules), snap_vertex(window.y, rules));

@@ -26,18 +26,23 @@ struct WindowPosition {
 };
 
 /// Perspective divide and viewport transform for a viewport of width x height at the origin.
-inline WindowPosition window_position(glm::vec4 clip, int width, int height, const RasterRules& rules) {
+inline WindowPosition window_position(glm::vec4 clip, int width, int height, ViewportRounding rounding) {
     const float half_width = static_cast<float>(width) * 0.5F;
     const float half_height = static_cast<float>(height) * 0.5F;
     const float inverse_w = 1.0F / clip.w;
     const auto to_window = [&](float coordinate, float scale, float offset) {
-        if (rules.viewport == ViewportRounding::scaled)
+        if (rounding == ViewportRounding::scaled)
             return (coordinate * scale) * inverse_w + offset;
         const float ndc = coordinate * inverse_w;
-        return rules.viewport == ViewportRounding::fused ? std::fma(ndc, scale, offset) : ndc * scale + offset;
+        return rounding == ViewportRounding::fused ? std::fma(ndc, scale, offset) : ndc * scale + offset;
     };
     return {to_window(clip.x, half_width, half_width), to_window(clip.y, half_height, half_height),
             to_window(clip.z, 0.5F, 0.5F), inverse_w};
+}
+
+/// The same for a point.
+inline WindowPosition window_position(glm::vec4 clip, int width, int height, const RasterRules& rules) {
+    return window_position(clip, width, height, rules.viewport);
 }
 
 /// Sub-pixel position of a coordinate. Needs |window| < 2^20.

@@ -6,11 +6,19 @@
 
 namespace lockstep {
 
+/// Whether dot, length and normalize sum in one order, one of those that have an arithmetic of their own.
+inline bool has_fast_orders(const Profile& profile) {
+    return profile.one_order() && profile.dot <= DotOrder::fused_chain &&
+           (profile.roots == nullptr || profile.dot == DotOrder::fused_chain);
+}
+
 /// Calls `pass` with the arithmetic that a profile and the `arithmetic` switch name. It may refer to the profile's own
 /// tables, and be copied to any number of threads.
 template <class Pass> decltype(auto) with_arithmetic(const Profile& profile, const Switches& switches, Pass&& pass) {
     if (switches.arithmetic == ArithmeticSwitch::exact)
         return pass(Portable{});
+    if (!has_fast_orders(profile))
+        return pass(OwnOrders(profile.dot, profile.length_order(), profile.normalize_order(), profile.roots.get()));
     if (profile.roots != nullptr)
         return pass(DriverRoots(*profile.roots));
     switch (profile.dot) {
@@ -18,7 +26,7 @@ template <class Pass> decltype(auto) with_arithmetic(const Profile& profile, con
         return pass(RightToLeft{});
     case DotOrder::fused_chain:
         return pass(FusedChain{});
-    case DotOrder::left_to_right:
+    default:
         break;
     }
     return pass(Strict{});

@@ -157,11 +157,17 @@ void measure_directions(const DriverArithmetic& gl, const std::string& qualifier
     const Floats squared = gl.dot(v, v);
     const Floats inverse = gl.inverse_sqrt(squared);
     const Floats length = gl.length(v);
-    rows.push_back(judge("length" + qualifier, length,
-                         {{"sqrt(dot), rounded", each(squared, square_root)},
-                          {"sqrt(dot)", gl.sqrt(squared)},
-                          {"1/y, y inversesqrt(dot)", gl.reciprocal(inverse)},
-                          {"dot*y", each(squared, inverse, product)}}));
+    // "dot" is the driver's own; a length may sum otherwise.
+    const Predictions sums = predict(dot_sequences(), v, v);
+    Predictions lengths_of{{"sqrt(dot), rounded", each(squared, square_root)},
+                           {"sqrt(dot)", gl.sqrt(squared)},
+                           {"1/y, y inversesqrt(dot)", gl.reciprocal(inverse)},
+                           {"dot*y", each(squared, inverse, product)}};
+    for (const auto& sum : sums)
+        lengths_of.push_back({"sqrt(" + sum.name + "), rounded", each(sum.values, square_root)});
+    for (const auto& sum : sums)
+        lengths_of.push_back({"1/y, y inversesqrt(" + sum.name + ")", gl.reciprocal(gl.inverse_sqrt(sum.values))});
+    rows.push_back(judge("length" + qualifier, length, lengths_of));
 
     Predictions directions{
         {"v*(1/sqrt(dot)), rounded", each(v, each(squared, reciprocal_of_root), product)},
@@ -174,8 +180,11 @@ void measure_directions(const DriverArithmetic& gl, const std::string& qualifier
     for (const float l : length)
         lengths.insert(lengths.end(), {l, l, l});
     directions.push_back({"v/length", gl.divide(flat(v), lengths)});
-    for (const auto& sum : predict(dot_sequences().first(5), v, v))
+    for (const auto& sum : sums)
         directions.push_back({"v*inversesqrt(" + sum.name + ")", each(v, gl.inverse_sqrt(sum.values), product)});
+    for (const auto& sum : sums)
+        directions.push_back(
+            {"v*(1/sqrt(" + sum.name + ")), rounded", each(v, each(sum.values, reciprocal_of_root), product)});
     rows.push_back(judge("normalize" + qualifier, gl.normalize(v), directions));
 }
 

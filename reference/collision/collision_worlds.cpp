@@ -81,7 +81,7 @@ std::vector<LegalOutcome> collision_worlds(const ParticleState& before, const Co
     const FlushSubnormals guard(known.subnormals && profile.flush_subnormals);
     std::vector<LegalOutcome> outcomes;
     with_plain_arithmetic(profile, params.switches, [&]<class A>(A fp) {
-        Worlds<A> worlds(fp, known);
+        Worlds<A> worlds(fp, known, profile.other_orders);
         if (observed != nullptr) {
             worlds.tell(site::direction.output, {&observed->direction.x, 3});
             worlds.tell(site::speed.output, {&observed->speed, 1});

@@ -1,16 +1,26 @@
 #include "reference/model/profile.hpp"
 
+#include <array>
+
 #include <fmt/format.h>
 
 #include "reference/model/error.hpp"
 
 namespace lockstep {
 
+std::span<const std::string_view> dot_order_names() {
+    static constexpr std::array<std::string_view, 11> names{
+        "(x+y)+z",         "x+(y+z)",    "fma(z,fma(y,x))", "(x+z)+y",    "fma(x,fma(y,z))", "fma(z,fma(x,y))",
+        "fma(x,fma(z,y))", "fma(z,x+y)", "fma(x,y+z)",      "fma(y,x)+z", "x+fma(y,z)"};
+    return names;
+}
+
 bool computes_alike(const Profile& a, const Profile& b) {
     const auto same = [&](std::int64_t OperationErrors::*error) {
         return (a.errors.*error == 0) == (b.errors.*error == 0);
     };
-    return a.dot == b.dot && a.flush_subnormals == b.flush_subnormals && a.raster == b.raster &&
+    return a.dot == b.dot && a.length_order() == b.length_order() && a.normalize_order() == b.normalize_order() &&
+           a.other_orders == b.other_orders && a.flush_subnormals == b.flush_subnormals && a.raster == b.raster &&
            a.not_followed == b.not_followed && same(&OperationErrors::divide) && same(&OperationErrors::reciprocal) &&
            same(&OperationErrors::sqrt) && same(&OperationErrors::inverse_sqrt) && same(&OperationErrors::length) &&
            same(&OperationErrors::normalize);
@@ -30,7 +40,7 @@ Profile named_profile(std::string_view name) {
         profile.dot = DotOrder::fused_chain;
         profile.errors = {2, 1, 3, 2, 3, 4};
         profile.raster.point_snap = SnapRounding::half_to_even;
-        profile.raster.viewport = ViewportRounding::scaled;
+        profile.raster.viewport = profile.raster.vertex_viewport = ViewportRounding::scaled;
         profile.raster.depth_by_driver_reciprocal = true;
         profile.not_followed = {"points: viewport", "triangles: viewport"};
         return profile;

@@ -109,9 +109,10 @@ template <class A> class Worlds {
     using Vec4 = lockstep::Vec4<Real>;
     using IVec2 = lockstep::Vec2<int>;
 
-    Worlds(A arithmetic, const KnownOperations& known)
-        : fp_(arithmetic), arithmetic_(arithmetic, known),
-          free_order_(arithmetic, {.sums = false, .subnormals = arithmetic_.known().subnormals}) {}
+    Worlds(A arithmetic, const KnownOperations& known, const OtherOrders& other_orders = {})
+        : fp_(arithmetic), arithmetic_(arithmetic, known, other_orders),
+          free_order_(arithmetic, {.sums = false, .subnormals = arithmetic_.known().subnormals}),
+          one_order_(other_orders == OtherOrders()) {}
     Worlds(const Worlds&) = delete;
     Worlds& operator=(const Worlds&) = delete;
 
@@ -221,11 +222,13 @@ template <class A> class Worlds {
             {a, b}, [&](const auto& fp) { return fp.divide(a.set(), b.set()); }, Undefined::unbounded);
     }
     Real dot(Place, const Vec3& a, const Vec3& b) {
-        if (known().dot && are_floats(a) && are_floats(b))
+        if (known().dot && one_order_ && are_floats(a) && are_floats(b))
             if (const float dot = fp_.dot(points(a), points(b)); is_a_number(dot))
                 return Real(this, dot);
         return make({a.x, a.y, a.z, b.x, b.y, b.z}, [&](const auto&) {
             const Interval3 x = sets(a), y = sets(b);
+            if (known().dot && are_floats(a) && are_floats(b))
+                return arithmetic_.dot(points(a), points(b));
             Interval sum = free_order_.product(x[0], y[0]);
             for (std::size_t c = 1; c < 3; ++c)
                 sum = free_order_.sum(sum, free_order_.product(x[c], y[c]));
@@ -233,7 +236,7 @@ template <class A> class Worlds {
         });
     }
     Real length(Place, const Vec3& v) {
-        if (known().dot && known().square_root && are_floats(v))
+        if (known().dot && known().square_root && one_order_ && are_floats(v))
             if (const float length = fp_.length(points(v)); is_a_number(length))
                 return Real(this, length);
         return make({v.x, v.y, v.z}, [&](const auto& fp) { return fp.length(sets(v)); });
@@ -573,6 +576,7 @@ template <class A> class Worlds {
 
     A fp_;
     LegalArithmetic<A> arithmetic_, free_order_; ///< as known, and with + - * in any order
+    bool one_order_;                             ///< no others of sums in dot, length and normalize
     std::vector<Told> told_;
     std::vector<Value> values_; ///< of this run, and of the one before up to where they part
     std::vector<int> log_;      ///< answers, likewise

@@ -93,6 +93,10 @@ void read_constants(const JsonValue& json, Constants& constants) {
 }
 
 void apply_setting(const std::string& setting, Scene& scene) {
+    constexpr std::size_t longest = 200; // far more than a name and three numbers
+    if (setting.size() > longest)
+        throw Error(fmt::format("--set {}...: {} characters; a setting has at most {}", setting.substr(0, 20),
+                                setting.size(), longest));
     const std::size_t equals = setting.find('=');
     if (equals == std::string::npos)
         throw Error(fmt::format("--set {}: a setting is name=value", setting));

@@ -279,7 +279,7 @@ template <class A> class Worlds {
         void offer(Place place, const Condition& condition, Real key, const Payload& payload) {
             const int number = offered_++;
             Answer answer = ask(condition);
-            answer.combine<true>(ask(key < Real(first_)));
+            answer.template combine<true>(ask(key < Real(first_)));
             // Where the choice is made already, what was chosen is wanted, whatever decisions since say of it.
             if (answer.yes || run_.next_answer_ < run_.log_.size())
                 rivals_.push_back({number, key.set(), answer, payload});

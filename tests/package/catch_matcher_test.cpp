@@ -4,6 +4,8 @@
 #include <cmath>
 #include <sstream>
 
+#include <catch2/catch.hpp>
+
 #include "tests/package/reference_engine.hpp"
 #include "tests/package/shell.hpp"
 

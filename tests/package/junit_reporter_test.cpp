@@ -2,6 +2,8 @@
 
 #include <stdexcept>
 
+#include <catch2/catch.hpp>
+
 #include "tests/package/reference_engine.hpp"
 #include "tests/package/shell.hpp"
 

@@ -4,13 +4,17 @@
 #include <cctype>
 #include <charconv>
 #include <fstream>
+#include <map>
+#include <memory>
 #include <optional>
+#include <set>
 #include <sstream>
 
 #include <fmt/format.h>
 
 #include "gpu/data_folder.hpp"
 #include "gpu/shader_words.hpp"
+#include "gpu/shaders_read_once.hpp"
 #include "reference/model/error.hpp"
 
 namespace lockstep {
@@ -77,11 +81,47 @@ void check_version(std::string_view argument, const std::string& where) {
                                 where, version / 100, version % 100));
 }
 
-fs::path find(const ShaderFolders& folders, const std::string& file, const std::string& where) {
+/// What ShadersReadOnce has seen.
+struct Seen {
+    std::set<fs::path> folders;
+    std::map<fs::path, std::optional<std::string>> files; ///< no text: no file
+};
+std::unique_ptr<Seen> seen;
+
+/// Nothing if there is no such file.
+std::optional<std::string> text_of(const fs::path& path) {
+    if (seen)
+        if (const auto known = seen->files.find(path); known != seen->files.end())
+            return known->second;
+    std::error_code error;
+    std::optional<std::string> text;
+    if (fs::is_regular_file(path, error))
+        text = read_file(path);
+    if (seen)
+        seen->files.emplace(path, text);
+    return text;
+}
+
+bool is_folder(const fs::path& path) {
+    std::error_code error;
+    if (seen && seen->folders.contains(path))
+        return true;
+    const bool folder = fs::is_directory(path, error);
+    if (seen && folder)
+        seen->folders.insert(path);
+    return folder;
+}
+
+struct File {
+    fs::path path;
+    std::string text;
+};
+
+File find(const ShaderFolders& folders, const std::string& file, const std::string& where) {
     std::string tried;
     for (const fs::path& folder : folders) {
-        if (fs::is_regular_file(folder / file))
-            return folder / file;
+        if (auto text = text_of(folder / file))
+            return {folder / file, std::move(*text)};
         tried += fmt::format("{}{}", tried.empty() ? "" : " or ", folder.string());
     }
     throw Error(fmt::format("{}no shader file {} in {}", where, file, tried));
@@ -137,10 +177,10 @@ class Assembly {
         const std::size_t end = argument.find('"', 1);
         if (!argument.starts_with('"') || end == std::string_view::npos || end == 1)
             throw Error(fmt::format("{}#include needs a file name in double quotes", where));
-        const fs::path path = find(folders_, std::string(argument.substr(1, end - 1)), where);
+        const auto [path, text] = find(folders_, std::string(argument.substr(1, end - 1)), where);
         if (std::find(open_.begin(), open_.end(), path) != open_.end())
             throw Error(fmt::format("{}{} includes itself", where, path.string()));
-        append(path, read_file(path));
+        append(path, text);
     }
 
     const ShaderFolders& folders_;
@@ -175,11 +215,13 @@ std::string_view extension(Stage stage) {
     return ".comp";
 }
 
+ShadersReadOnce::ShadersReadOnce() { seen = std::make_unique<Seen>(); }
+ShadersReadOnce::~ShadersReadOnce() { seen.reset(); }
+
 ShaderFolders shader_folders(const fs::path& user) {
     ShaderFolders folders;
     if (!user.empty()) {
-        std::error_code error;
-        if (!fs::is_directory(user, error))
+        if (!is_folder(user))
             throw Error(fmt::format("shader folder {} does not exist", user.string()));
         folders.push_back(user);
     }
@@ -202,16 +244,15 @@ ShaderDefines switch_defines(const Switches& switches) {
 
 ShaderSource load_stage(const ShaderFolders& folders, std::string_view name, Stage stage,
                         const ShaderDefines& defines) {
-    const fs::path path = find(folders, fmt::format("{}{}", name, extension(stage)), "");
-    return Assembly(folders, defines).assemble(path, read_file(path), stage);
+    const auto [path, text] = find(folders, fmt::format("{}{}", name, extension(stage)), "");
+    return Assembly(folders, defines).assemble(path, text, stage);
 }
 
 std::vector<ShaderSource> load_stages(const ShaderFolders& folders, std::string_view name,
                                       std::span<const Stage> stages, const ShaderDefines& defines) {
     std::vector<ShaderSource> sources;
     for (const Stage stage : stages) {
-        const fs::path path = find(folders, fmt::format("{}{}", name, extension(stage)), "");
-        const std::string text = read_file(path);
+        const auto [path, text] = find(folders, fmt::format("{}{}", name, extension(stage)), "");
         if (!blank(text))
             sources.push_back(Assembly(folders, defines).assemble(path, text, stage));
     }

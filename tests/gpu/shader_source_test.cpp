@@ -7,6 +7,7 @@
 
 #include "gpu/shader_log.hpp"
 #include "gpu/shader_source.hpp"
+#include "gpu/shaders_read_once.hpp"
 #include "reference/model/error.hpp"
 #include "tests/temporary_folder.hpp"
 
@@ -197,4 +198,34 @@ TEST_CASE("shader log: the first error is found in every compiler's form") {
         CHECK(first_compile_error(form + quoted, source).size() < 1100);
     CHECK(first_link_error(quoted).size() == 1000);
     CHECK(first_link_error("Vertex info\n-----------\n0(3) : error C5041: no\n") == "0(3) : error C5041: no");
+}
+
+TEST_CASE("shader_source: a run reads each file once") {
+    const test::TemporaryFolder user, built_in;
+    built_in.write("a.vert", "#version 330\n#include \"b.glsl\"\n");
+    built_in.write("b.glsl", "int first;\n");
+    const ShaderFolders folders{user.path(), built_in.path()};
+    const auto text = [&] { return load_stage(folders, "a", Stage::vertex).text; };
+    const std::string before = text();
+    {
+        const ShadersReadOnce once;
+        CHECK(text() == before);
+        SECTION("saved meanwhile") { built_in.write("b.glsl", "int second;\n"); }
+        SECTION("gone meanwhile") { std::filesystem::remove(built_in.path() / "b.glsl"); }
+        SECTION("new meanwhile") { user.write("b.glsl", "int second;\n"); }
+        CHECK(text() == before);
+    }
+    built_in.write("b.glsl", "int third;\n");
+    CHECK(text() != before);
+}
+
+TEST_CASE("shader_source: a run finds its folder once") {
+    const ShadersReadOnce once;
+    std::filesystem::path path;
+    {
+        const test::TemporaryFolder user;
+        path = user.path();
+        CHECK(shader_folders(path).front() == path);
+    }
+    CHECK(shader_folders(path).front() == path);
 }

@@ -8,10 +8,12 @@
 #include <numeric>
 #include <optional>
 
+#include <fmt/format.h>
 #include <glm/geometric.hpp>
 
 #include "reference/collision_code.hpp"
 #include "reference/collision_pass.hpp"
+#include "reference/model/error.hpp"
 #include "reference/search_counting.hpp"
 #include "reference/subnormals.hpp"
 #include "reference/with_arithmetic.hpp"
@@ -213,7 +215,16 @@ double SearchCounts::mean_depth() const {
 }
 
 Truth find_truth(std::span<const glm::vec3> positions, float range) {
-    return {find_neighbourhoods(positions, range), list_neighbours(positions, range)};
+    Truth truth{find_neighbourhoods(positions, range), {}};
+    std::size_t listed = 0;
+    for (const Neighbourhood& neighbourhood : truth.nearest.particle)
+        listed += neighbourhood.count;
+    if (listed > most_listed_neighbours)
+        throw Error(fmt::format("{} particles have {} neighbours within {}; at most {} are listed: a smaller "
+                                "collision_range or fewer particles have fewer",
+                                positions.size(), listed, range, most_listed_neighbours));
+    truth.lists = list_neighbours(positions, range);
+    return truth;
 }
 
 SearchStudy study_search(const Particles& particles, const CollisionImage& cdt, const Owners& owners,

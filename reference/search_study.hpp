@@ -100,6 +100,9 @@ struct Truth {
     Neighbourhoods nearest;
     NeighbourLists lists;
 };
+
+/// Throws Error where there are more neighbours to list, counted at both ends.
+inline constexpr std::size_t most_listed_neighbours = 100'000'000;
 Truth find_truth(std::span<const glm::vec3> positions, float range);
 
 /// Studies the search of `particles` (their state before the step) in `cdt`, which `owners` were drawn into.

@@ -83,6 +83,14 @@ Capsule cut_capsule(const JudgedFrame& frame, const CapsuleSource& source) {
     capsule.before = frame.before[source.particle];
     capsule.gpu = frame.gpu[source.particle];
     capsule.cdt = looked_at(frame, source.particle);
+    // Of each texel at least [x,y,"code"], said before anything is judged.
+    constexpr std::size_t of_a_texel = 44;
+    const auto texels = static_cast<std::size_t>(std::count_if(capsule.cdt.texels.begin(), capsule.cdt.texels.end(),
+                                                               [](glm::vec4 code) { return code != glm::vec4(0.0F); }));
+    if (texels * of_a_texel > largest_capsule)
+        throw Error(fmt::format("{}: a capsule holds at most {} drawn texels, and it looks at {}; a trace holds the "
+                                "whole run",
+                                name_of(capsule), largest_capsule / of_a_texel, texels));
     capsule.capture = source.capture;
 
     const LonelyFrame alone(capsule);

@@ -39,7 +39,11 @@ struct CapsuleSource {
     StepCapture capture;
 };
 
-/// Throws Error where the verdict of the capsule alone would be another than the run's.
+/// Largest file that a capsule makes, bytes.
+inline constexpr std::size_t largest_capsule = 100'000;
+
+/// Throws Error where its file would be larger, as far as its texels show, and where the verdict of the capsule alone
+/// would be another than the run's.
 Capsule cut_capsule(const JudgedFrame& frame, const CapsuleSource& source);
 
 /// What `lockstep capsule show` prints: where it is from, the step table, the verdict with all legal outcomes.

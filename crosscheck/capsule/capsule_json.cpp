@@ -228,9 +228,17 @@ json roots_json(const Capsule& capsule) {
     return {{"reciprocal", lookups_json(reciprocal)}, {"inverse_sqrt", lookups_json(inverse_sqrt)}};
 }
 
+/// As a JSON file gives it back: what is no UTF-8, in a file's name, is replaced.
+std::string as_utf8(const std::string& text) {
+    return json::parse(json(text).dump(-1, ' ', false, json::error_handler_t::replace)).get<std::string>();
+}
+
 } // namespace
 
-std::string capsule_file(const Capsule& capsule) {
+std::string capsule_file(const Capsule& cut) {
+    Capsule capsule = cut;
+    for (std::string* text : {&capsule.scene.name, &capsule.renderer, &capsule.settings})
+        *text = as_utf8(*text);
     const json document{{"lockstep_capsule", version},
                         {"scene", capsule.scene.name},
                         {"settings", settings_json(capsule.scene)},

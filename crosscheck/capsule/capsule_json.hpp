@@ -9,9 +9,6 @@
 
 namespace lockstep {
 
-/// Largest file that a capsule makes, bytes.
-inline constexpr std::size_t largest_capsule = 100'000;
-
 /// A capsule as a file (docs/traces.md has the keys). Floats are eight hexadecimal digits, their bits. Reading it back
 /// gives the same text and verdict. Throws Error if it would be larger than largest_capsule.
 std::string capsule_file(const Capsule& capsule);

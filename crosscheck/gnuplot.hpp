@@ -1,15 +1,15 @@
 #pragma once
-#include <optional>
 #include <string>
 #include <string_view>
 
 namespace lockstep {
 
-/// What gnuplot writes to its standard output for a script; nothing where gnuplot is not installed. Throws Error if it
-/// fails.
-std::optional<std::string> run_gnuplot(const std::string& script);
+bool have_gnuplot();
 
-inline constexpr std::string_view no_gnuplot = "no chart: gnuplot is not installed (Debian package gnuplot-nox)";
+inline constexpr std::string_view no_gnuplot = "gnuplot is not installed (Debian package gnuplot-nox)";
+
+/// What gnuplot writes to its standard output for a script. Throws Error if it fails, or is not installed.
+std::string run_gnuplot(const std::string& script);
 
 /// A text as gnuplot reads it back.
 std::string gnuplot_quoted(std::string_view text);

@@ -87,7 +87,7 @@ std::string_view picture_legend() {
            "blue outside_window, cyan stale, white coincident, pink rounded, olive cooling_down";
 }
 
-std::optional<std::string> chart_svg(std::span<const StudyFrame> frames, std::string_view title) {
+std::string chart_svg(std::span<const StudyFrame> frames, std::string_view title) {
     return run_gnuplot(chart_script(frames, title));
 }
 

@@ -1,5 +1,4 @@
 #pragma once
-#include <optional>
 #include <span>
 #include <string>
 #include <string_view>
@@ -18,8 +17,7 @@ Rgba8 miss_color(Miss miss);
 /// What the colours mean, one line.
 std::string_view picture_legend();
 
-/// Recall and misses by cause over the frames as an SVG file, drawn by gnuplot; nothing where gnuplot is not
-/// installed. Throws Error if it fails.
-std::optional<std::string> chart_svg(std::span<const StudyFrame> frames, std::string_view title);
+/// Recall and misses by cause over the frames as an SVG file, drawn by gnuplot. Throws Error if it fails.
+std::string chart_svg(std::span<const StudyFrame> frames, std::string_view title);
 
 } // namespace lockstep

@@ -1,0 +1,18 @@
+#pragma once
+
+namespace lockstep {
+
+/// Threads that may be asked for.
+inline constexpr int most_threads = 1024;
+
+/// First thing in main: lets OpenMP's threads sleep while they wait. By default they spin, on the cores that a software
+/// driver's own threads need, which costs `check` more than the reference itself. OpenMP reads OMP_WAIT_POLICY before
+/// main, so the program starts itself once more with it set; a policy that the user set stays.
+void let_waiting_threads_sleep(char** argv);
+
+/// Starts the reference's threads, before a GL driver takes its own: `wanted` of them, 0 for what OpenMP would take.
+/// Where so many cannot be started (limits on processes or memory, OMP_STACKSIZE), half of them, and so on; OpenMP
+/// itself would end the program. Results are the same for any number. Only the first call tries.
+void start_threads(int wanted);
+
+} // namespace lockstep

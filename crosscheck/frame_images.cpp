@@ -1,6 +1,7 @@
 #include "crosscheck/frame_images.hpp"
 
-#include <utility>
+#include <cstddef>
+#include <iterator>
 
 #include "crosscheck/pictures.hpp"
 #include "crosscheck/png.hpp"
@@ -39,16 +40,17 @@ void FrameImages::write(OutputFiles& files, const std::filesystem::path& directo
     const ColorImage reference_frame = render_pass(reference_, scene.obstacles, params, profile);
     const ColorImage gpu_frame = render_on_gpu(gpu_, scene, params, shaders);
     const Box box = code_box(reference_cdt_);
-    const std::pair<const char*, ColorImage> pictures[]{
-        {"cdt_reference.png", picture(reference_cdt_, box)},
-        {"cdt_gpu.png", picture(gpu_cdt_, box)},
-        {"cdt_difference.png", difference_picture(reference_cdt_, gpu_cdt_)},
-        {"frame_reference.png", reference_frame},
-        {"frame_gpu.png", gpu_frame},
-        {"frame_difference.png", difference_picture(reference_frame, gpu_frame)},
+    const ColorImage pictures[]{
+        picture(reference_cdt_, box),
+        picture(gpu_cdt_, box),
+        difference_picture(reference_cdt_, gpu_cdt_),
+        reference_frame,
+        gpu_frame,
+        difference_picture(reference_frame, gpu_frame),
     };
-    for (const auto& [name, image] : pictures)
-        files.write(directory / name, png(image));
+    static_assert(std::size(pictures) == names.size());
+    for (std::size_t i = 0; i < names.size(); ++i)
+        files.write(directory / names[i], png(pictures[i]));
 }
 
 } // namespace lockstep

@@ -1,5 +1,7 @@
 #pragma once
+#include <array>
 #include <filesystem>
+#include <string_view>
 
 #include "crosscheck/check.hpp"
 #include "crosscheck/output_files.hpp"
@@ -13,10 +15,15 @@ ColorImage render_on_gpu(const Particles& particles, const Scene& scene, const F
 /// Pictures of one frame of a check: the first that differs, or else the last.
 class FrameImages {
   public:
+    /// Of the files that `write` leaves.
+    static constexpr std::array<std::string_view, 6> names{"cdt_reference.png",  "cdt_gpu.png",
+                                                           "cdt_difference.png", "frame_reference.png",
+                                                           "frame_gpu.png",      "frame_difference.png"};
+
     void keep(const ComparedFrame& frame);
 
-    /// Writes DIR/cdt_{reference,gpu,difference}.png and DIR/frame_{reference,gpu,difference}.png, the last three as
-    /// each side renders its own particles. Needs the current context.
+    /// Both CDTs and their difference, and the same of the frame as each side renders its own particles. Needs the
+    /// current context.
     void write(OutputFiles& files, const std::filesystem::path& directory, const Scene& scene, const Profile& profile,
                const std::filesystem::path& shaders) const;
 

@@ -89,4 +89,14 @@ Scene load_scene(const std::filesystem::path& file, const SceneOptions& options)
     return scene;
 }
 
+std::vector<std::filesystem::path> scene_files(const std::filesystem::path& file) {
+    std::vector<std::filesystem::path> files{file};
+    const nlohmann::json document = read_json(file);
+    if (const auto obstacles = JsonValue(document, file.string()).find("obstacles"))
+        for (const JsonValue& obstacle : obstacles->items())
+            if (const auto mesh = obstacle.find("file"))
+                files.push_back(file.parent_path() / mesh->text());
+    return files;
+}
+
 } // namespace lockstep

@@ -24,4 +24,7 @@ inline constexpr std::size_t most_particles = 100'000'000;
 /// relative to the scene file. Throws Error: `FILE: /json/pointer: what is wrong and what is allowed`.
 Scene load_scene(const std::filesystem::path& file, const SceneOptions& options = {});
 
+/// The files that load_scene reads: the scene's own, and its meshes.
+std::vector<std::filesystem::path> scene_files(const std::filesystem::path& file);
+
 } // namespace lockstep

@@ -30,7 +30,7 @@ bool is_study(const json& study) {
 } // namespace
 
 json study_results(const std::filesystem::path& folder) {
-    const std::filesystem::path file = folder / "study.json";
+    const std::filesystem::path file = folder / study_results_name;
     std::error_code none;
     if (!std::filesystem::exists(file, none))
         return nullptr;

@@ -1,5 +1,10 @@
 #include "crosscheck/trace/hdf5.hpp"
 
+#include <algorithm>
+#include <cstdlib>
+#include <cstring>
+#include <string_view>
+
 #include <fmt/format.h>
 
 #include "reference/model/error.hpp"
@@ -19,6 +24,11 @@ std::string reason() {
         },
         &text);
     H5Eclear2(H5E_DEFAULT);
+    // What the system said stands in the middle of a text about HDF5's insides.
+    constexpr std::string_view before = "errno = ";
+    if (const std::size_t at = text.find(before); at != std::string::npos)
+        return std::strerror(std::atoi(text.c_str() + at + before.size()));
+    std::replace(text.begin(), text.end(), '\n', ' ');
     return text.empty() ? "HDF5 gives no reason" : text;
 }
 
@@ -39,6 +49,9 @@ void expect(herr_t status, const std::string& what) {
         throw Error(fmt::format("{}: {}", what, reason()));
 }
 
-void silence() { H5Eset_auto2(H5E_DEFAULT, nullptr, nullptr); }
+void quieten() {
+    H5dont_atexit();
+    H5Eset_auto2(H5E_DEFAULT, nullptr, nullptr);
+}
 
 } // namespace lockstep::hdf5

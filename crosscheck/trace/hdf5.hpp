@@ -36,7 +36,8 @@ using Extents = std::vector<hsize_t>;
 /// Throws Error like Id where the library says that something failed.
 void expect(herr_t status, const std::string& what);
 
-/// Keeps the library from printing its own error stack.
-void silence();
+/// Before the library is used: it is not to print its own error stack, nor to write to its files once more when the
+/// program ends, which crashes where a full disk kept one from being closed.
+void quieten();
 
 } // namespace lockstep::hdf5

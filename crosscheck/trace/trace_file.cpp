@@ -106,7 +106,7 @@ std::vector<Value> read_all(hid_t set, hid_t memory_type, std::size_t count, con
 } // namespace
 
 TraceFile::TraceFile(const OpenedFile& file) {
-    hdf5::silence();
+    hdf5::quieten();
     H5PLset_loading_state(0);
     file_ = Id(H5Fopen(file.path().c_str(), H5F_ACC_RDONLY, H5P_DEFAULT), H5Fclose, "HDF5");
     void* descriptor = nullptr;

@@ -7,9 +7,7 @@
 #include <utility>
 
 #include <fmt/format.h>
-#include <unistd.h>
 
-#include "crosscheck/atomic_file.hpp"
 #include "crosscheck/profile_json.hpp"
 #include "crosscheck/scene_settings.hpp"
 #include "crosscheck/trace/hdf5.hpp"
@@ -46,6 +44,7 @@ class TraceWriter::File {
         hsize_t count = 0;
     };
 
+    [[nodiscard]] Id dataset_creation() const;
     [[nodiscard]] Id make_group(const std::string& path) const;
     void write_text(const std::string& path, const std::string& text) const;
     void write_attribute(hid_t object, const char* name, const std::string& text) const;
@@ -71,7 +70,7 @@ class TraceWriter::File {
 
 TraceWriter::File::File(const std::filesystem::path& temporary, std::string name, const TraceInfo& info, int deflate)
     : name_(std::move(name)), deflate_(deflate), tick_(info.scene.constants.tick) {
-    hdf5::silence();
+    hdf5::quieten();
     const Id creation(H5Pcreate(H5P_FILE_CREATE), H5Pclose, name_);
     expect(H5Pset_userblock(creation.get(), seal_size), name_);
     links_ = Id(H5Pcreate(H5P_LINK_CREATE), H5Pclose, name_);
@@ -141,6 +140,13 @@ void TraceWriter::File::write_run(const TraceInfo& info) const {
     }
 }
 
+/// The same run is the same file, whenever it is written.
+Id TraceWriter::File::dataset_creation() const {
+    Id creation(H5Pcreate(H5P_DATASET_CREATE), H5Pclose, name_);
+    expect(H5Pset_obj_track_times(creation.get(), 0), name_);
+    return creation;
+}
+
 Id TraceWriter::File::make_group(const std::string& path) const {
     return {H5Gcreate2(file_.get(), path.c_str(), links_.get(), H5P_DEFAULT, H5P_DEFAULT), H5Gclose, name_};
 }
@@ -150,7 +156,8 @@ void TraceWriter::File::write_text(const std::string& path, const std::string& t
     expect(H5Tset_size(type.get(), std::max<std::size_t>(text.size(), 1)), name_);
     expect(H5Tset_cset(type.get(), H5T_CSET_UTF8), name_);
     const Id space(H5Screate(H5S_SCALAR), H5Sclose, name_);
-    const Id set(H5Dcreate2(file_.get(), path.c_str(), type.get(), space.get(), links_.get(), H5P_DEFAULT, H5P_DEFAULT),
+    const Id set(H5Dcreate2(file_.get(), path.c_str(), type.get(), space.get(), links_.get(), dataset_creation().get(),
+                            H5P_DEFAULT),
                  H5Dclose, name_);
     expect(H5Dwrite(set.get(), type.get(), H5S_ALL, H5S_ALL, H5P_DEFAULT, text.c_str()), name_);
 }
@@ -174,7 +181,7 @@ void TraceWriter::File::write_attribute(hid_t object, const char* name, hid_t ty
 template <class Value> void TraceWriter::File::write_array(const std::string& path, hid_t type, const Extents& extents,
                                                            const std::vector<Value>& values) const {
     const Id space(H5Screate_simple(static_cast<int>(extents.size()), extents.data(), nullptr), H5Sclose, name_);
-    const Id creation(H5Pcreate(H5P_DATASET_CREATE), H5Pclose, name_);
+    const Id creation = dataset_creation();
     Extents chunk = extents;
     chunk[0] = std::min<hsize_t>(chunk[0], largest_chunk / 16);
     expect(H5Pset_chunk(creation.get(), static_cast<int>(chunk.size()), chunk.data()), name_);
@@ -202,7 +209,7 @@ TraceWriter::File::Rows TraceWriter::File::make_rows(const std::string& path, hi
         chunk[1] = std::max<hsize_t>(1, chunk[1] * largest_chunk / bytes);
 
     const Id space(H5Screate_simple(static_cast<int>(start.size()), start.data(), most.data()), H5Sclose, name_);
-    const Id creation(H5Pcreate(H5P_DATASET_CREATE), H5Pclose, name_);
+    const Id creation = dataset_creation();
     expect(H5Pset_chunk(creation.get(), static_cast<int>(chunk.size()), chunk.data()), name_);
     expect(H5Pset_shuffle(creation.get()), name_);
     expect(H5Pset_deflate(creation.get(), static_cast<unsigned>(deflate_)), name_);
@@ -255,21 +262,12 @@ void TraceWriter::File::add(const Particles& particles, const CollisionImage* cd
 
 void TraceWriter::File::finish() { expect(H5Fflush(file_.get(), H5F_SCOPE_LOCAL), name_); }
 
-TraceWriter::Temporary::~Temporary() {
-    std::error_code ignored;
-    if (!path.empty())
-        std::filesystem::remove(path, ignored);
-}
-
-TraceWriter::TraceWriter(std::filesystem::path path, const TraceInfo& info, int deflate) : path_(std::move(path)) {
-    const AtomicFile proof(path_);
-    if (const auto status = std::filesystem::symlink_status(path_);
-        std::filesystem::exists(status) && !std::filesystem::is_regular_file(status))
-        throw Error(fmt::format("{}: cannot be written: a trace is a regular file", path_.string()));
-    temporary_.path = path_;
-    temporary_.path += fmt::format(".{}.part", getpid());
-    file_ =
-        std::make_unique<File>(temporary_.path, fmt::format("{}: cannot be written", path_.string()), info, deflate);
+TraceWriter::TraceWriter(std::filesystem::path path, const TraceInfo& info, int deflate) : target_(std::move(path)) {
+    if (target_.in_place())
+        throw Error(fmt::format("{}: cannot be written: a trace is a regular file", target_.path().string()));
+    temporary_ = target_.make();
+    file_ = std::make_unique<File>(temporary_, fmt::format("{}: cannot be written", target_.path().string()), info,
+                                   deflate);
 }
 
 TraceWriter::~TraceWriter() = default;
@@ -279,12 +277,8 @@ void TraceWriter::add(const Particles& particles, const CollisionImage* cdt) { f
 void TraceWriter::commit() {
     file_->finish();
     file_.reset();
-    seal_file(temporary_.path);
-    std::error_code failed;
-    std::filesystem::rename(temporary_.path, path_, failed);
-    if (failed)
-        throw Error(fmt::format("{}: cannot be written: {}", path_.string(), failed.message()));
-    temporary_.path.clear();
+    seal_file(temporary_);
+    target_.commit();
 }
 
 } // namespace lockstep

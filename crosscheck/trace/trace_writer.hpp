@@ -2,6 +2,7 @@
 #include <filesystem>
 #include <memory>
 
+#include "crosscheck/atomic_file.hpp"
 #include "crosscheck/trace/trace_info.hpp"
 #include "reference/model/image.hpp"
 #include "reference/model/particles.hpp"
@@ -28,14 +29,8 @@ class TraceWriter {
   private:
     class File;
 
-    /// The name beside the final one; what lies there goes away with it.
-    struct Temporary {
-        std::filesystem::path path;
-        ~Temporary();
-    };
-
-    std::filesystem::path path_;
-    Temporary temporary_;
+    AtomicFile target_;
+    std::filesystem::path temporary_;
     std::unique_ptr<File> file_;
 };
 

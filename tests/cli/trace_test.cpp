@@ -1,7 +1,10 @@
 #include <catch2/catch.hpp>
 
+#include <chrono>
 #include <fstream>
+#include <iterator>
 #include <string>
+#include <thread>
 #include <vector>
 
 #include "tests/cli/cli_checks.hpp"
@@ -135,8 +138,8 @@ TEST_CASE("record: what cannot be written is told before the run, and nothing is
     if (!test::have_osmesa())
         return;
     const Setting setting;
-    CHECK_THAT(refusal(run_lockstep({"record", setting.scene, "--gl", "osmesa", "-o", "/dev/full"})),
-               Contains("/dev/full: cannot be written: a trace is a regular file"));
+    CHECK_THAT(refusal(run_lockstep({"record", setting.scene, "--gl", "osmesa", "-o", "/dev/null"})),
+               Contains("/dev/null: cannot be written: a trace is a regular file"));
     CHECK_THAT(refusal(run_lockstep({"record", setting.scene, "--gl", "osmesa", "-o", setting.folder.path()})),
                Contains("it names a folder"));
     CHECK_THAT(refusal(run_lockstep({"record", setting.scene})), Contains("output is required"));
@@ -237,4 +240,31 @@ TEST_CASE("trace: a file's name that forges a verdict or steers the terminal is 
     CHECK(refusal(run_lockstep({"ch\x1b[2Jeck\n"})).find('\x1b') == std::string::npos);
     CHECK(refusal(run_lockstep({"check", "a\x1b\nb.json"})) ==
           "a\\x1b\\nb.json: cannot be read: No such file or directory");
+TEST_CASE("record: on a full disk one line tells so, at whatever byte, and nothing is left") {
+    if (!test::have_osmesa())
+        return;
+    const Setting setting;
+    for (const std::size_t bytes : {100U, 3'000U, 30'000U, 60'000U, 90'000U}) {
+        CAPTURE(bytes);
+        test::Surroundings disk;
+        disk.largest_file = bytes;
+        disk.environment = {{"MESA_SHADER_CACHE_DISABLE", "true"}};
+        CHECK(refusal(run_lockstep({"record", setting.scene, "--gl", "osmesa", "-o", setting.file, "--frames", "8"},
+                                   disk)) == setting.file + ": cannot be written: File too large");
+        CHECK(test::names_in(setting.folder.path()) == std::vector<std::string>{"scene.json"});
+    }
+}
+
+TEST_CASE("record: the same run is the same file, byte by byte, for any number of threads and at any time") {
+    if (!test::have_osmesa())
+        return;
+    const Setting setting;
+    const auto recorded = [&](const char* threads) {
+        CHECK(setting.record({"--cdt", "--threads", threads}).status == 0);
+        std::ifstream stream(setting.file, std::ios::binary);
+        return std::string(std::istreambuf_iterator<char>(stream), {});
+    };
+    const std::string one = recorded("1");
+    std::this_thread::sleep_for(std::chrono::milliseconds(1100)); // HDF5 would keep the second
+    CHECK((one == recorded("7")));
 }

@@ -80,7 +80,7 @@ class Changed {
         });
     }
     Changed& with_file(const std::function<void(hid_t)>& change) {
-        hdf5::silence();
+        hdf5::quieten();
         const hid_t file = H5Fopen(file_.c_str(), H5F_ACC_RDWR, H5P_DEFAULT);
         REQUIRE(file >= 0);
         change(file);

@@ -34,4 +34,8 @@ std::string shell_word(std::string_view word) {
     return text + "'";
 }
 
+std::string shell_path(const std::filesystem::path& path) {
+    return shell_word(path.native().starts_with('-') ? "./" + path.string() : path.string());
+}
+
 } // namespace lockstep

@@ -1,9 +1,9 @@
 #include <algorithm>
-#include <cerrno>
 #include <cstdio>
-#include <cstring>
 #include <exception>
+#include <filesystem>
 #include <new>
+#include <sstream>
 #include <string>
 #include <vector>
 
@@ -12,8 +12,12 @@
 #include <fmt/ranges.h>
 
 #include "crosscheck/commands/commands.hpp"
+#include "crosscheck/commands/option_values.hpp"
 #include "crosscheck/plain_text.hpp"
-#include "crosscheck/waiting_threads.hpp"
+#include "crosscheck/signals.hpp"
+#include "crosscheck/standard_output.hpp"
+#include "crosscheck/threads.hpp"
+#include "gpu/shaders_read_once.hpp"
 #include "reference/model/error.hpp"
 
 namespace {
@@ -47,17 +51,8 @@ std::string usage_error(const CLI::App& app, const CLI::Error& error) {
     return text;
 }
 
-/// A full disk behind standard output is found out only here.
-void flush_standard_output() {
-    if (std::fflush(stdout) != 0 || std::ferror(stdout) != 0)
-        throw lockstep::Error(fmt::format("standard output: cannot be written: {}", std::strerror(errno)));
-}
-
-} // namespace
-
-int main(int argc, char** argv) {
+int run(int argc, char** argv) {
     using namespace lockstep;
-    let_waiting_threads_sleep(argv);
     CLI::App app("lockstep: runs an image-based particle system as plain C++ and as GLSL on OpenGL, and compares every "
                  "bit of every frame");
     app.name("lockstep");
@@ -65,6 +60,7 @@ int main(int argc, char** argv) {
     app.failure_message([](const CLI::App* root, const CLI::Error& error) {
         return fmt::format("lockstep: {} (lockstep --help tells more)\n", plain_line(usage_error(*root, error)));
     });
+    const ShadersReadOnce one_text_a_run;
     int status = status_could_not_run;
     add_check_command(app, status);
     add_explain_command(app, status);
@@ -81,19 +77,41 @@ int main(int argc, char** argv) {
     add_report_command(app, status);
     add_completion_command(app, status);
     add_manual_command(app, status);
+    refuse_empty_names(app);
     app.footer("lockstep VERB --help tells more of each.\n"
                "Example: lockstep check data/scenes/lattice.json --frames 100");
     try {
-        app.parse(argc, argv);
-        flush_standard_output();
-    } catch (const CLI::ParseError& error) {
-        return app.exit(error) == 0 ? 0 : status_could_not_run;
+        try {
+            app.parse(argc, argv);
+        } catch (const CLI::ParseError& error) {
+            std::ostringstream out, err;
+            status = app.exit(error, out, err) == 0 ? 0 : status_could_not_run;
+            fmt::print("{}", out.str());
+            fmt::print(stderr, "{}", err.str());
+        }
+        finish_standard_output();
     } catch (const std::bad_alloc&) {
         std::fputs("lockstep: not enough memory; fewer particles (--particles) or a smaller image need less\n", stderr);
+        return status_could_not_run;
+    } catch (const std::filesystem::filesystem_error& error) {
+        std::fprintf(stderr, "lockstep: %s: %s\n", plain_line(error.path1().string()).c_str(),
+                     error.code().message().c_str());
         return status_could_not_run;
     } catch (const std::exception& error) {
         std::fprintf(stderr, "lockstep: %s\n", plain_line(error.what()).c_str());
         return status_could_not_run;
     }
+    return status;
+}
+
+} // namespace
+
+int main(int argc, char** argv) {
+    using namespace lockstep;
+    let_waiting_threads_sleep(argv);
+    own_signals(status_could_not_run);
+    own_standard_output();
+    const int status = run(argc, argv);
+    leave_main();
     return status;
 }

@@ -16,6 +16,7 @@
 #include "crosscheck/statistics.hpp"
 #include "gpu/context.hpp"
 #include "gpu/simulation.hpp"
+#include "reference/model/error.hpp"
 #include "reference/model/layered_cdt.hpp"
 #include "reference/model/state_hash.hpp"
 
@@ -149,7 +150,11 @@ void add_bench_command(CLI::App& app, int& status) {
         ->check(integer(0, widest_neighbourhood))
         ->type_name("R,...");
     verb->footer("Example: lockstep bench data/scenes/lattice.json --counts 50000,200000 --radius 1");
-    verb->callback([options, &status] { status = run(*options); });
+    verb->callback([options, verb, &status] {
+        if (verb->count("--particles") > 0)
+            throw Error("bench: --particles does not go with it; --counts N,... names how many");
+        status = run(*options);
+    });
 }
 
 } // namespace lockstep

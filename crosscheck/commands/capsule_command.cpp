@@ -5,7 +5,6 @@
 
 #include <fmt/format.h>
 
-#include "crosscheck/atomic_file.hpp"
 #include "crosscheck/capsule/capsule_json.hpp"
 #include "crosscheck/commands/commands.hpp"
 #include "crosscheck/commands/judging_options.hpp"
@@ -15,6 +14,7 @@
 #include "crosscheck/places.hpp"
 #include "crosscheck/plain_text.hpp"
 #include "crosscheck/profiles.hpp"
+#include "crosscheck/threads.hpp"
 #include "crosscheck/trace/trace_side.hpp"
 #include "gpu/context.hpp"
 #include "reference/model/error.hpp"
@@ -51,6 +51,7 @@ Capsule cut_live(const Options& options) {
 }
 
 Capsule cut_recorded(const Options& options) {
+    start_threads(options.run.threads);
     TraceReader trace(options.trace);
     const TraceInfo& info = trace.info();
     if (options.frame >= info.frames)
@@ -62,10 +63,13 @@ Capsule cut_recorded(const Options& options) {
 
 int cut(const Options& options, const CLI::App& verb) {
     check_scene_or_trace(verb, options.run, options.trace);
-    AtomicFile file(options.output);
+    OutputFiles files;
+    protect_inputs(options.run, files);
+    files.protect(options.trace);
+    files.expect(options.output);
     const Capsule capsule = options.trace.empty() ? cut_live(options) : cut_recorded(options);
-    file.write(capsule_file(capsule));
-    file.commit();
+    files.write(options.output, capsule_file(capsule));
+    files.commit();
     return status_of(capsule);
 }
 

@@ -1,6 +1,5 @@
 #include <algorithm>
-#include <atomic>
-#include <csignal>
+#include <array>
 #include <cstdint>
 #include <cstdio>
 #include <memory>
@@ -9,7 +8,6 @@
 #include <vector>
 
 #include <fmt/format.h>
-#include <omp.h>
 
 #include "crosscheck/capsule/capsule_json.hpp"
 #include "crosscheck/check.hpp"
@@ -31,6 +29,8 @@
 #include "crosscheck/report.hpp"
 #include "crosscheck/run_text.hpp"
 #include "crosscheck/shell_words.hpp"
+#include "crosscheck/signals.hpp"
+#include "crosscheck/threads.hpp"
 #include "crosscheck/trace/trace_side.hpp"
 #include "gpu/context.hpp"
 #include "gpu/simulation.hpp"
@@ -39,23 +39,6 @@
 
 namespace lockstep {
 namespace {
-
-std::atomic<bool> interrupted{false};
-static_assert(std::atomic<bool>::is_always_lock_free, "a signal handler sets it");
-
-/// While it lives, Ctrl-C sets `interrupted`; a second one ends the program at once.
-class InterruptHandler {
-  public:
-    InterruptHandler() {
-        std::signal(SIGINT, [](int) {
-            interrupted = true;
-            std::signal(SIGINT, SIG_DFL);
-        });
-    }
-    ~InterruptHandler() { std::signal(SIGINT, SIG_DFL); }
-    InterruptHandler(const InterruptHandler&) = delete;
-    InterruptHandler& operator=(const InterruptHandler&) = delete;
-};
 
 struct Options {
     RunOptions run;
@@ -69,9 +52,9 @@ struct Options {
 };
 
 std::string repeat_line(const Options& options, int frames) {
-    std::string line = options.trace.empty() ? command_line("check", options.run, frames)
-                                             : fmt::format("lockstep check --trace {} --frames {}",
-                                                           shell_word(options.trace.string()), frames);
+    std::string line = options.trace.empty()
+                           ? command_line("check", options.run, frames)
+                           : fmt::format("lockstep check --trace {} --frames {}", shell_path(options.trace), frames);
     if (options.mode == CheckMode::free)
         line += " --mode free";
     line += legal_option_text(options.legal);
@@ -82,21 +65,26 @@ std::string repeat_line(const Options& options, int frames) {
 
 std::string explain_line(const Options& options, const Place& place, int width) {
     const std::string at = place_arguments(place, width);
-    return (options.trace.empty()
-                ? command_line("explain", options.run, at)
-                : fmt::format("lockstep explain --trace {} {}", shell_word(options.trace.string()), at)) +
+    return (options.trace.empty() ? command_line("explain", options.run, at)
+                                  : fmt::format("lockstep explain --trace {} {}", shell_path(options.trace), at)) +
            legal_option_text(options.legal);
 }
 
+constexpr std::array<std::string_view, 2> report_files{"report.html", "capsule.json"};
+
 void expect_files(const Options& options, OutputFiles& files) {
+    protect_inputs(options.run, files);
+    files.protect(options.trace);
+    if (!options.images.empty())
+        files.expect_folder(options.images, FrameImages::names);
+    if (!options.report.empty()) {
+        files.protect(options.report / study_results_name);
+        files.expect_folder(options.report, report_files);
+    }
     if (!options.json.empty())
         files.expect(options.json);
     if (!options.hashes.empty())
         files.expect(options.hashes);
-    if (!options.images.empty())
-        files.expect_folder(options.images);
-    if (!options.report.empty())
-        files.expect_folder(options.report);
 }
 
 std::vector<PageCommand> page_commands(const Options& options, const RunDescription& run, const CheckReport& report) {
@@ -225,12 +213,11 @@ int check_and_tell(const Options& options, OutputFiles& files, const Checked& ch
         const SecondLook look = look_again(options, checked, collector->frames().items());
         std::vector<PageCommand> commands = page_commands(options, run, report);
         if (!look.capsule.empty()) {
-            files.write(options.report / "capsule.json", look.capsule);
-            commands.push_back(
-                {"The first divergent particle's step, from the file beside this page; needs no GL",
-                 fmt::format("lockstep capsule show {}", shell_word((options.report / "capsule.json").string()))});
+            files.write(options.report / report_files[1], look.capsule);
+            commands.push_back({"The first divergent particle's step, from the file beside this page; needs no GL",
+                                fmt::format("lockstep capsule show {}", shell_path(options.report / report_files[1]))});
         }
-        files.write(options.report / "report.html",
+        files.write(options.report / report_files[0],
                     report_page(page, *collector, report, run, commands, look.items, study));
     }
     files.commit();
@@ -256,8 +243,7 @@ int run_scene(const Options& options) {
 }
 
 int run_trace(Options options) {
-    if (options.run.threads > 0)
-        omp_set_num_threads(options.run.threads);
+    start_threads(options.run.threads);
     OutputFiles files;
     expect_files(options, files);
     TraceReader trace(options.trace);

@@ -4,7 +4,6 @@
 #include <string>
 
 #include <fmt/format.h>
-#include <omp.h>
 
 #include "crosscheck/commands/commands.hpp"
 #include "crosscheck/commands/judging_options.hpp"
@@ -15,6 +14,7 @@
 #include "crosscheck/places.hpp"
 #include "crosscheck/plain_text.hpp"
 #include "crosscheck/profiles.hpp"
+#include "crosscheck/threads.hpp"
 #include "crosscheck/trace/trace_side.hpp"
 #include "gpu/context.hpp"
 #include "reference/model/error.hpp"
@@ -57,8 +57,7 @@ void explain_scene(const Options& options) {
 }
 
 void explain_trace(const Options& options) {
-    if (options.run.threads > 0)
-        omp_set_num_threads(options.run.threads);
+    start_threads(options.run.threads);
     TraceReader trace(options.trace);
     const TraceInfo& info = trace.info();
     item_of(options, info.scene);

@@ -1,6 +1,8 @@
 #pragma once
 #include <cstdint>
+#include <span>
 #include <string>
+#include <string_view>
 #include <utility>
 #include <vector>
 
@@ -12,6 +14,16 @@ namespace lockstep {
 
 /// Accepts the integers from min to max; anything else is told with both.
 CLI::Validator integer(std::int64_t min, std::int64_t max);
+
+/// A time that ends: seconds above 0.
+CLI::Validator seconds();
+
+/// Every option of every verb that takes a file or a folder refuses the empty name.
+void refuse_empty_names(CLI::App& app);
+
+/// For a verb of several modes: throws Error if an option was given that is not among `allowed`, which `mode` has.
+/// "study: --csv does not go with --catalogue".
+void check_options(const CLI::App& verb, std::string_view mode, std::span<const std::string_view> allowed);
 
 /// An option whose value is one of a few names; anything else is told with all of them.
 template <class Value> CLI::Option* add_choice(CLI::App& verb, const std::string& name, Value& value,

@@ -58,6 +58,9 @@ TraceInfo info_of(const Options& options, Scene scene, const Context& context) {
 
 int run(const Options& options) {
     Scene scene = load(options.run);
+    OutputFiles files;
+    protect_inputs(options.run, files);
+    files.expect(options.output);
     const Context context(parse_context_request(options.run.gl));
     GpuSimulation gpu(scene, options.run.shaders);
     const TraceInfo info = info_of(options, std::move(scene), context);

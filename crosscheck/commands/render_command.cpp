@@ -1,4 +1,7 @@
 #include <memory>
+#include <string_view>
+
+#include <fmt/format.h>
 
 #include "crosscheck/commands/commands.hpp"
 #include "crosscheck/commands/option_values.hpp"
@@ -10,6 +13,7 @@
 #include "crosscheck/progress.hpp"
 #include "gpu/context.hpp"
 #include "gpu/simulation.hpp"
+#include "reference/model/error.hpp"
 #include "reference/render_pass.hpp"
 #include "reference/simulation.hpp"
 
@@ -53,6 +57,7 @@ ColorImage render_gpu(const Scene& scene, const Options& options) {
 int run(const Options& options) {
     const Scene scene = load(options.run);
     OutputFiles files;
+    protect_inputs(options.run, files);
     files.expect(options.output);
     files.write(options.output,
                 png(options.side == Side::cpu ? render_cpu(scene, options) : render_gpu(scene, options)));
@@ -76,7 +81,13 @@ void add_render_command(CLI::App& app, int& status) {
     verb->add_option("--profile", options->profile, "strict, llvmpipe or nvidia: the reference's order of sums")
         ->type_name("strict|llvmpipe|nvidia");
     verb->footer("Example: lockstep render data/scenes/lattice.json --frame 120 -o lattice.png --side cpu");
-    verb->callback([options, &status] { status = run(*options); });
+    verb->callback([options, verb, &status] {
+        const bool cpu = options->side == Side::cpu;
+        for (const char* name : {"--gl", "--shaders", "--profile"})
+            if (verb->count(name) > 0 && cpu != (name == std::string_view("--profile")))
+                throw Error(fmt::format("render: {} goes with --side {}", name, cpu ? "gpu" : "cpu"));
+        status = run(*options);
+    });
 }
 
 } // namespace lockstep

@@ -1,12 +1,12 @@
 #include "crosscheck/commands/run_options.hpp"
 
 #include <fmt/format.h>
-#include <omp.h>
 
 #include "crosscheck/commands/option_values.hpp"
 #include "crosscheck/run_text.hpp"
 #include "crosscheck/scene_file.hpp"
 #include "crosscheck/shell_words.hpp"
+#include "crosscheck/threads.hpp"
 #include "reference/model/error.hpp"
 
 namespace lockstep {
@@ -25,7 +25,7 @@ void add_scene_options(CLI::App& verb, RunOptions& options) {
 
 void add_threads_option(CLI::App& verb, RunOptions& options) {
     verb.add_option("--threads", options.threads, "threads of the reference, 0: one a core")
-        ->check(integer(0, 1024))
+        ->check(integer(0, most_threads))
         ->type_name("N");
 }
 
@@ -54,9 +54,16 @@ void check_scene_or_trace(const CLI::App& verb, const RunOptions& options, const
 }
 
 Scene load(const RunOptions& options) {
-    if (options.threads > 0)
-        omp_set_num_threads(options.threads);
+    start_threads(options.threads);
     return load_scene(options.scene, {options.particles, options.preset, options.set});
+}
+
+void protect_inputs(const RunOptions& options, OutputFiles& files) {
+    std::error_code error;
+    if (std::filesystem::is_regular_file(options.scene, error)) // a pipe cannot be read twice
+        for (const std::filesystem::path& file : scene_files(options.scene))
+            files.protect(file);
+    files.protect(options.shaders);
 }
 
 std::string command_line(const std::string& verb, const RunOptions& options, int frames) {
@@ -65,7 +72,7 @@ std::string command_line(const std::string& verb, const RunOptions& options, int
 
 std::string command_line(const std::string& verb, const RunOptions& options, const std::string& place) {
     std::string line =
-        fmt::format("lockstep {} {}{}{}", verb, shell_word(options.scene.string()), place.empty() ? "" : " ", place);
+        fmt::format("lockstep {} {}{}{}", verb, shell_path(options.scene), place.empty() ? "" : " ", place);
     if (options.particles)
         line += fmt::format(" --particles {}", *options.particles);
     if (options.preset)
@@ -77,7 +84,7 @@ std::string command_line(const std::string& verb, const RunOptions& options, con
     if (options.gl != "auto")
         line += fmt::format(" --gl {}", options.gl);
     if (!options.shaders.empty())
-        line += fmt::format(" --shaders {}", shell_word(options.shaders.string()));
+        line += fmt::format(" --shaders {}", shell_path(options.shaders));
     return line;
 }
 

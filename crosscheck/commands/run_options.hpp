@@ -7,6 +7,7 @@
 
 #include <CLI/CLI.hpp>
 
+#include "crosscheck/output_files.hpp"
 #include "reference/model/scene.hpp"
 
 namespace lockstep {
@@ -37,6 +38,9 @@ void check_scene_or_trace(const CLI::App& verb, const RunOptions& options, const
 
 /// Loads the scene and sets the thread count.
 Scene load(const RunOptions& options);
+
+/// What a run of these options reads is no output of it.
+void protect_inputs(const RunOptions& options, OutputFiles& files);
 
 /// The options as they would be typed again in a shell, with another frame count.
 std::string command_line(const std::string& verb, const RunOptions& options, int frames);

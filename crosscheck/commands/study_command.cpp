@@ -1,7 +1,9 @@
 #include <filesystem>
 #include <memory>
 #include <optional>
-#include <system_error>
+#include <string>
+#include <string_view>
+#include <vector>
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
@@ -26,7 +28,9 @@
 #include "crosscheck/study.hpp"
 #include "crosscheck/study_pictures.hpp"
 #include "crosscheck/study_report.hpp"
+#include "crosscheck/threads.hpp"
 #include "gpu/context.hpp"
+#include "gpu/data_folder.hpp"
 #include "gpu/simulation.hpp"
 #include "reference/model/error.hpp"
 #include "reference/model/profile.hpp"
@@ -36,20 +40,12 @@ namespace {
 
 enum class Side { cpu, gpu };
 
-/// Those of the installation the program is in, or of the source tree one stands in.
-std::filesystem::path shipped_scenes() {
-    std::error_code error;
-    const auto program = std::filesystem::read_symlink("/proc/self/exe", error);
-    const auto installed = program.parent_path().parent_path() / "share" / "lockstep" / "scenes";
-    return !error && std::filesystem::is_directory(installed, error) ? installed : "data/scenes";
-}
-
 struct Options {
     RunOptions run;
     int every = 1;
     std::string profile = "strict";
     std::filesystem::path csv, json, images, chart;
-    std::filesystem::path scenes = shipped_scenes();
+    std::filesystem::path scenes; ///< empty: those that come with lockstep
     bool recall_table = false;
     bool catalogue = false;
     bool cameras = false;
@@ -136,6 +132,8 @@ void study_scene(const Options& options) {
     const Scene scene = load(options.run);
     if (scene.switches.search == Search::octree)
         throw Error("study: search = octree leaves no CDT to study; --thesis has the octree's recall");
+    if (!options.chart.empty() && !have_gnuplot())
+        throw Error(fmt::format("study: --chart: {}", no_gnuplot));
     std::optional<Context> context;
     if (options.side == Side::gpu)
         context.emplace(parse_context_request(options.run.gl));
@@ -143,11 +141,12 @@ void study_scene(const Options& options) {
     if (options.cameras)
         return print_cameras(options, scene, profile);
     OutputFiles files;
+    protect_inputs(options.run, files);
+    if (!options.images.empty())
+        files.expect_folder(options.images);
     for (const auto& file : {options.csv, options.json, options.chart})
         if (!file.empty())
             files.expect(file);
-    if (!options.images.empty())
-        files.expect_folder(options.images);
 
     StudyOptions study_options;
     study_options.frames = options.run.frames;
@@ -175,24 +174,71 @@ void study_scene(const Options& options) {
         json["repeat"] = command_line("study", options.run, options.run.frames);
         files.write(options.json, json_text(json));
     }
-    const auto chart = options.chart.empty() ? std::nullopt : chart_svg(frames, scene.name);
-    if (chart)
-        files.write(options.chart, *chart);
+    if (!options.chart.empty())
+        files.write(options.chart, chart_svg(frames, scene.name));
     files.commit();
     fmt::print("scene     {} ({}): {} particles, range {}\nswitches  {}\n\n{}", scene.name,
                plain_line(options.run.scene.string()), scene.start.size(), scene.constants.collision_range,
                settings_text(options.run, scene), study_text(frames));
     if (!options.images.empty())
         fmt::print("\npictures  {}: {}\n", options.images.string(), picture_legend());
-    if (!options.chart.empty() && !chart)
-        fmt::print("\n{}\n", no_gnuplot);
 }
 
-int run(const Options& options) {
+/// What a study is of, the words for it, and the options that it takes.
+struct Mode {
+    std::string text;
+    std::vector<std::string_view> options;
+};
+
+Mode mode_of(const Options& options) {
+    if (options.recall_table)
+        return {"--recall-table", {"--recall-table", "--scenes", "--threads"}};
+    if (options.catalogue)
+        return {"--catalogue", {"--catalogue", "--scenes", "--threads", "--images"}};
+    if (options.remedies && options.gl_asked)
+        return {"--remedies --gl",
+                {"--remedies", "--scenes", "--threads", "--particles", "--json", "--gl", "--shaders"}};
+    if (options.remedies)
+        return {"--remedies without --gl",
+                {"--remedies", "--scenes", "--threads", "--particles", "--json", "--profile"}};
+    if (options.thesis && !options.thesis_study.from.empty())
+        return {"--thesis --from", {"--thesis", "--from", "--json", "--csv", "--chart"}};
+    if (options.thesis)
+        return {"--thesis",
+                {"--thesis", "--scenes", "--threads", "--frames", "--json", "--csv", "--chart", "--set", "--preset",
+                 "--gl", "--shaders", "--counts", "--seconds"}};
+    Mode mode{"SCENE", {"scene", "--particles", "--preset", "--set", "--threads", "--frames", "--every", "--side"}};
+    const auto add = [&](std::initializer_list<std::string_view> more) {
+        mode.options.insert(mode.options.end(), more);
+    };
+    if (options.cameras) {
+        mode.text = "--cameras";
+        add({"--cameras"});
+    } else {
+        add({"--csv", "--json", "--images", "--chart"});
+    }
+    if (options.side == Side::gpu) {
+        mode.text += " --side gpu";
+        add({"--gl", "--shaders"});
+    } else {
+        mode.text += " --side cpu";
+        add({"--profile"});
+    }
+    return mode;
+}
+
+int run(Options options, const CLI::App& verb) {
+    if (options.thesis && options.run.particles)
+        throw Error("study: --thesis has several counts; --counts N,... names them");
     if (options.recall_table || options.catalogue || options.remedies || options.thesis) {
         if (!options.run.scene.empty())
             throw Error("study: --recall-table, --catalogue, --remedies and --thesis have scenes of their own; leave "
                         "SCENE out");
+        const Mode mode = mode_of(options);
+        check_options(verb, mode.text, mode.options);
+        start_threads(options.run.threads);
+        if (options.scenes.empty())
+            options.scenes = shipped_scene("lattice").parent_path();
         if (options.thesis) {
             ThesisStudy study = options.thesis_study;
             study.run = options.run;
@@ -212,6 +258,8 @@ int run(const Options& options) {
         throw Error("study: a SCENE, --recall-table, --catalogue, --remedies or --thesis is needed");
     if (options.run.frames < 2)
         throw Error("study: --frames 1 is the frame with the empty CDT; 2 or more have something to study");
+    const Mode mode = mode_of(options);
+    check_options(verb, mode.text, mode.options);
     study_scene(options);
     return status_agree;
 }
@@ -256,7 +304,7 @@ void add_study_command(CLI::App& app, int& status) {
         ->type_name("N,...");
     verb->add_option("--seconds", options->thesis_study.seconds,
                      "--thesis: a measurement ends with the frame in which this is over")
-        ->check(CLI::PositiveNumber)
+        ->check(seconds())
         ->type_name("S");
     verb->add_option("--from", options->thesis_study.from,
                      "--thesis: tell and draw what an earlier --json wrote, on a machine without that GL")
@@ -271,7 +319,7 @@ void add_study_command(CLI::App& app, int& status) {
                  "          lockstep study --thesis --gl egl-device:0 --json thesis.json --chart thesis.svg");
     verb->callback([options, verb, &status] {
         options->gl_asked = verb->count("--gl") > 0;
-        status = run(*options);
+        status = run(*options, *verb);
     });
 }
 

@@ -4,7 +4,6 @@
 #include <cstdio>
 
 #include <fmt/format.h>
-#include <omp.h>
 
 #include "crosscheck/gnuplot.hpp"
 #include "crosscheck/json_text.hpp"
@@ -17,8 +16,6 @@ namespace lockstep {
 namespace {
 
 ThesisRun measure(const ThesisStudy& study) {
-    if (study.run.threads > 0)
-        omp_set_num_threads(study.run.threads);
     const Context context(parse_context_request(study.run.gl));
     ThesisOptions options;
     options.scenes = study.scenes;
@@ -44,9 +41,11 @@ ThesisRun measure(const ThesisStudy& study) {
 } // namespace
 
 void run_thesis_study(const ThesisStudy& study) {
-    if (study.run.particles)
-        throw Error("study: --thesis has several counts; --counts N,... names them");
+    if (!study.chart.empty() && !have_gnuplot())
+        throw Error(fmt::format("study: --chart: {}", no_gnuplot));
     OutputFiles files;
+    protect_inputs(study.run, files);
+    files.protect(study.from);
     for (const auto& file : {study.csv, study.json, study.chart})
         if (!file.empty())
             files.expect(file);
@@ -56,12 +55,8 @@ void run_thesis_study(const ThesisStudy& study) {
         files.write(study.csv, thesis_csv(run));
     if (!study.json.empty())
         files.write(study.json, json_text(thesis_json(run)));
-    if (!study.chart.empty()) {
-        if (const auto svg = run_gnuplot(thesis_chart(run)))
-            files.write(study.chart, *svg);
-        else
-            fmt::print("\n{}\n", no_gnuplot);
-    }
+    if (!study.chart.empty())
+        files.write(study.chart, run_gnuplot(thesis_chart(run)));
     files.commit();
 }
 

@@ -1,6 +1,8 @@
 #include <catch2/catch.hpp>
 
 #include <cstdlib>
+#include <fstream>
+#include <iterator>
 
 #include <fmt/format.h>
 
@@ -72,6 +74,48 @@ TEST_CASE("arguments: a number that is none, or out of range, is told with the r
     });
 }
 
+TEST_CASE("arguments: a file without a name is refused, wherever one can be given") {
+    const std::string no_file = "'' names no file" + help, no_folder = "'' names no folder" + help;
+    check_all({
+        {{"check", scene, "--json", ""}, "--json: " + no_file},
+        {{"check", scene, "--hashes", ""}, "--hashes: " + no_file},
+        {{"check", scene, "--images", ""}, "--images: " + no_folder},
+        {{"check", scene, "--report", ""}, "--report: " + no_folder},
+        {{"check", scene, "--shaders", ""}, "--shaders: " + no_folder},
+        {{"check", "--trace", ""}, "--trace: " + no_file},
+        {{"check", ""}, "scene: " + no_file},
+        {{"record", scene, "-o", ""}, "--output: " + no_file},
+        {{"study", scene, "--csv", ""}, "--csv: " + no_file},
+        {{"capsule", "show", ""}, "capsule: " + no_file},
+    });
+}
+
+TEST_CASE("arguments: an option that the side or the verb would ignore is refused") {
+    check_all({
+        {{"render", scene, "-o", "x.png", "--gl", "osmesa"}, "render: --gl goes with --side gpu"},
+        {{"render", scene, "-o", "x.png", "--shaders", "."}, "render: --shaders goes with --side gpu"},
+        {{"render", scene, "-o", "x.png", "--side", "gpu", "--profile", "bogus"},
+         "render: --profile goes with --side cpu"},
+        {{"bench", scene, "--particles", "3"}, "bench: --particles does not go with it; --counts N,... names how many"},
+    });
+}
+
+TEST_CASE("arguments: threads that cannot be started are no verdict; the reference runs on fewer") {
+    const auto run = [](const char* name, const char* value) {
+        test::Surroundings surroundings;
+        surroundings.environment = {{name, value}};
+        return run_lockstep({"hash", scene, "--frames", "2", "--particles", "3000"}, surroundings);
+    };
+    const test::Outcome right = run("OMP_NUM_THREADS", "1");
+    for (const auto& [name, value] :
+         {std::pair{"OMP_STACKSIZE", "4000000000000"}, std::pair{"OMP_NUM_THREADS", "100000"}}) {
+        CAPTURE(name);
+        const test::Outcome outcome = run(name, value);
+        CHECK(outcome.status == 0);
+        CHECK(outcome.out == right.out);
+    }
+}
+
 TEST_CASE("arguments: an unknown choice is told with the choices") {
     check_all({
         {{"check", scene, "--mode", "fre"}, "--mode: 'fre' is not one of resync, free" + help},
@@ -97,6 +141,21 @@ TEST_CASE("arguments: a setting that cannot be is told with what can") {
     CHECK_THAT(refusal(run_lockstep({"check", scene, "--set", "base_texle=floor"})),
                Catch::StartsWith("--set base_texle=floor: nothing is named base_texle; the switches are ") &&
                    Catch::Contains(", base_texel, ") && Catch::Contains("; the constants are tick, "));
+}
+
+TEST_CASE("arguments: the command that repeats a run names a file that begins with a dash so that it is none") {
+    if (!test::have_osmesa())
+        return;
+    const test::TemporaryFolder folder;
+    folder.write("-a b.json", test::small_scene);
+    test::Surroundings there;
+    there.folder = folder.path();
+    const auto outcome =
+        run_lockstep({"check", "--gl", "osmesa", "--frames", "2", "--json", "r.json", "--", "-a b.json"}, there);
+    CHECK(outcome.status == 0);
+    std::ifstream stream(folder.path() / "r.json");
+    const std::string report(std::istreambuf_iterator<char>(stream), {});
+    CHECK_THAT(report, Catch::Contains("lockstep check './-a b.json' --frames 2"));
 }
 
 TEST_CASE("arguments: help ends with 0, and every verb has its own") {

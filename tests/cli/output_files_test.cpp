@@ -1,5 +1,6 @@
 #include <catch2/catch.hpp>
 
+#include <csignal>
 #include <filesystem>
 #include <fstream>
 #include <iterator>
@@ -152,4 +153,125 @@ TEST_CASE("output_files: through a symbolic link, the file behind it is written"
     CHECK(fs::is_symlink(setting.path("link")));
     CHECK_THAT(text_of(picture), Catch::StartsWith("\x89PNG"));
     CHECK(setting.left() == Names{"link", "picture.png"});
+}
+
+TEST_CASE("output_files: where one of them fails, what was there before is there again") {
+    if (!test::have_osmesa())
+        return;
+    const Setting setting;
+    const std::string report = setting.output.write("report.json", "from before").string();
+    CHECK(test::refusal(setting.check({"--frames", "3", "--json", report, "--hashes", "/dev/full"})) ==
+          "/dev/full: cannot be written: No space left on device");
+    CHECK(test::refusal(setting.check({"--json", report, "--hashes", setting.path("no/hashes")})) ==
+          setting.path("no/hashes") + ": cannot be written: No such file or directory");
+    const std::string page = setting.output.write("report.html", "from before").string();
+    CHECK(test::refusal(setting.check({"--json", page, "--report", setting.output.path()})) ==
+          page + ": cannot be written: two outputs have this name");
+    CHECK(text_of(report) == "from before");
+    CHECK(text_of(page) == "from before");
+    CHECK(setting.left() == Names{"report.html", "report.json"});
+}
+
+TEST_CASE("output_files: an output that is an input is refused, by whatever name") {
+    const Setting setting;
+    const std::string before = text_of(setting.scene);
+    fs::create_symlink(setting.scene, setting.path("soft"));
+    fs::create_hard_link(setting.scene, setting.path("hard"));
+    const std::string other_way = (setting.output.path() / ".." / setting.input.path().filename() / "scene.json");
+    const std::string reads = ", which the run reads";
+    CHECK(test::refusal(setting.check({"--json", setting.scene})) ==
+          setting.scene + ": cannot be written: the run reads it");
+    for (const std::string& name : {setting.path("soft"), setting.path("hard"), other_way}) {
+        CHECK_THAT(test::refusal(setting.check({"--hashes", name})), Catch::EndsWith(reads));
+        CHECK_THAT(test::refusal(run_lockstep({"render", setting.scene, "-o", name})), Catch::EndsWith(reads));
+        CHECK_THAT(test::refusal(run_lockstep({"study", setting.scene, "--csv", name})), Catch::EndsWith(reads));
+        CHECK_THAT(test::refusal(run_lockstep({"record", setting.scene, "-o", name})), Catch::EndsWith(reads));
+        CHECK_THAT(test::refusal(
+                       run_lockstep({"capsule", "cut", setting.scene, "--frame", "1", "--particle", "1", "-o", name})),
+                   Catch::EndsWith(reads));
+    }
+    const std::string shader = setting.input.write("collision_pass.vert", "void main() {}").string();
+    CHECK_THAT(test::refusal(setting.check({"--shaders", setting.input.path(), "--json", shader})),
+               Catch::EndsWith("the run reads it"));
+    CHECK(text_of(setting.scene) == before);
+}
+
+TEST_CASE("output_files: two outputs that are one file through a link are refused") {
+    const Setting setting;
+    fs::create_symlink("not there yet", setting.path("soft"));
+    fs::create_directory_symlink(setting.output.path(), setting.input.path() / "way");
+    setting.output.write("a", "from before");
+    fs::create_hard_link(setting.path("a"), setting.path("hard"));
+    const auto refused = [&](const std::string& first, const std::string& second) {
+        CHECK(test::refusal(setting.check({"--json", first, "--hashes", second})) ==
+              second + ": cannot be written: it is " + first + ", another output");
+    };
+    refused(setting.path("not there yet"), setting.path("soft"));
+    refused(setting.path("a"), setting.path("hard"));
+    refused(setting.path("new"), setting.input.path() / "way" / "new");
+    CHECK(setting.left() == Names{"a", "hard", "soft"});
+}
+
+TEST_CASE("output_files: a file that was there keeps its mode") {
+    const Setting setting;
+    const std::string picture = setting.output.write("picture.png", "from before").string();
+    fs::permissions(picture, fs::perms::owner_read | fs::perms::owner_write | fs::perms::group_read);
+    CHECK(run_lockstep({"render", setting.scene, "-o", picture}).status == 0);
+    CHECK(fs::status(picture).permissions() ==
+          (fs::perms::owner_read | fs::perms::owner_write | fs::perms::group_read));
+}
+
+TEST_CASE("output_files: a report goes beside whatever is there") {
+    if (!test::have_osmesa())
+        return;
+    const Setting setting;
+    fs::create_directory(setting.path("lockstep"));
+    CHECK(setting.check({"--frames", "2", "--images", setting.output.path()}).status == 0);
+}
+
+TEST_CASE("output_files: a name as long as a folder takes") {
+    const Setting setting;
+    CHECK(run_lockstep({"render", setting.scene, "-o", setting.path(std::string(255, 'n'))}).status == 0);
+    CHECK(setting.left() == Names{std::string(255, 'n')});
+}
+
+TEST_CASE("output_files: to standard output, after the report; by another name of it, refused") {
+    if (!test::have_osmesa())
+        return;
+    const Setting setting;
+    const std::string out = setting.output.write("out", "").string();
+    test::Surroundings to_file;
+    to_file.standard_output = out;
+    CHECK(setting.check({"--frames", "2", "--hashes", "/dev/stdout"}, to_file).status == 0);
+    CHECK_THAT(text_of(out), Catch::StartsWith("scene ") && Catch::Matches("(.|\n)*verdict   AGREE.*\n(\\d .*\n){2}"));
+    CHECK_THAT(setting.check({"--frames", "2", "--hashes", out}, to_file).err,
+               Catch::Contains("cannot be written: standard output goes there"));
+    CHECK_THAT(test::refusal(setting.check({"--json", "-"})), Catch::Contains("/dev/stdout is standard output"));
+    CHECK(setting.left() == Names{"out"});
+}
+
+TEST_CASE("output_files: they are there where nobody reads the report, or it cannot be written") {
+    if (!test::have_osmesa())
+        return;
+    const Setting setting;
+    const std::string report = setting.path("report.json");
+    test::Surroundings surroundings;
+    SECTION("a pipe that nobody reads") {
+        surroundings.nobody_reads = true;
+        CHECK(setting.check({"--frames", "2", "--json", report}, surroundings).status == 0);
+        CHECK(setting.check({"--frames", "2"}, surroundings).signal == SIGPIPE);
+    }
+    SECTION("a full disk") {
+        surroundings.standard_output = "/dev/full";
+        const test::Outcome outcome = setting.check({"--frames", "2", "--json", report}, surroundings);
+        CHECK(outcome.status == 2);
+        CHECK(outcome.err == "lockstep: standard output: cannot be written: No space left on device\n");
+    }
+    SECTION("closed: no other file takes its place") {
+        surroundings.standard_output = "";
+        CHECK(setting.check({"--frames", "2", "--json", report}, surroundings).status == 2);
+        CHECK(setting.check({"--frames", "2", "--json", report, "--quiet"}, surroundings).status == 0);
+    }
+    CHECK_THAT(text_of(report), Catch::StartsWith("{\n") && Catch::EndsWith("}\n"));
+    CHECK(setting.left() == Names{"report.json"});
 }

@@ -2,14 +2,17 @@
 
 #include <array>
 #include <cerrno>
+#include <chrono>
 #include <csignal>
 #include <cstdlib>
 #include <cstring>
 #include <stdexcept>
+#include <thread>
 
 #include <fcntl.h>
 #include <poll.h>
 #include <pty.h>
+#include <sys/ioctl.h>
 #include <sys/resource.h>
 #include <sys/wait.h>
 #include <unistd.h>
@@ -35,6 +38,8 @@ void enter(const Surroundings& surroundings) {
         const rlimit limit{*surroundings.largest_file, *surroundings.largest_file};
         setrlimit(RLIMIT_FSIZE, &limit);
     }
+    if (!surroundings.folder.empty() && chdir(surroundings.folder.c_str()) != 0)
+        _exit(127);
     if (surroundings.memory) {
         const rlimit limit{*surroundings.memory, *surroundings.memory};
         setrlimit(RLIMIT_AS, &limit);
@@ -49,7 +54,16 @@ void enter(const Surroundings& surroundings) {
         close(in[1]);
         dup2(in[0], STDIN_FILENO);
     }
-    if (surroundings.standard_output)
+    if (surroundings.nobody_reads) {
+        int out[2];
+        if (pipe(out) != 0)
+            _exit(127);
+        close(out[0]);
+        dup2(out[1], STDOUT_FILENO);
+    }
+    if (surroundings.standard_output && surroundings.standard_output->empty())
+        close(STDOUT_FILENO);
+    else if (surroundings.standard_output)
         dup2(open(surroundings.standard_output->c_str(), O_WRONLY), STDOUT_FILENO);
 }
 
@@ -105,6 +119,22 @@ Outcome run_lockstep(const std::vector<std::string>& arguments, const Surroundin
     return outcome;
 }
 
+Outcome run_lockstep_until(const std::function<bool()>& ready, int signal, const std::vector<std::string>& arguments) {
+    const pid_t child = fork();
+    if (child < 0)
+        throw std::runtime_error("fork failed");
+    if (child == 0) {
+        dup2(open("/dev/null", O_WRONLY), STDOUT_FILENO);
+        become_lockstep(arguments);
+    }
+    while (!ready() && waitpid(child, nullptr, WNOHANG) == 0)
+        std::this_thread::sleep_for(std::chrono::milliseconds(2));
+    kill(child, signal);
+    Outcome outcome;
+    wait_for(child, outcome);
+    return outcome;
+}
+
 std::string why_no_terminal() {
     int master = -1;
     int terminal = -1;
@@ -116,9 +146,10 @@ std::string why_no_terminal() {
 }
 
 Outcome run_lockstep_on_terminal(const std::vector<std::string>& arguments, const std::string& trigger,
-                                 const std::string& typed) {
+                                 const std::string& typed, unsigned short columns) {
     int terminal = -1;
-    const pid_t child = forkpty(&terminal, nullptr, nullptr, nullptr);
+    const winsize size{24, columns, 0, 0};
+    const pid_t child = forkpty(&terminal, nullptr, nullptr, &size);
     if (child < 0)
         throw std::runtime_error("forkpty failed");
     if (child == 0)

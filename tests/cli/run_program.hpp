@@ -1,5 +1,6 @@
 #pragma once
 #include <cstddef>
+#include <functional>
 #include <optional>
 #include <string>
 #include <utility>
@@ -18,19 +19,24 @@ struct Outcome {
 struct Surroundings {
     std::vector<std::pair<std::string, std::string>> environment = {}; ///< set on top of the test's own
     std::optional<std::size_t> largest_file = {}; ///< bytes; a longer file fails as on a full disk (EFBIG for ENOSPC)
-    std::optional<std::string> standard_output = {}; ///< a file instead of a pipe
+    std::optional<std::string> standard_output = {}; ///< a file instead of a pipe; empty: closed
+    bool nobody_reads = false;                       ///< standard output is a pipe whose other end is closed
     std::optional<std::size_t> memory = {};          ///< bytes of address space
+    std::string folder = {};                         ///< to run in; empty: the test's
     std::optional<std::string> standard_input = {};  ///< through a pipe; at most what one holds, 64 KiB
 };
 
 /// Runs lockstep with `arguments`, standard output and error as pipes, and waits for its end.
 Outcome run_lockstep(const std::vector<std::string>& arguments, const Surroundings& surroundings = {});
 
+/// Sends `signal` to it as soon as `ready`.
+Outcome run_lockstep_until(const std::function<bool()>& ready, int signal, const std::vector<std::string>& arguments);
+
 /// Empty if run_lockstep_on_terminal can be called; else what is missing.
 std::string why_no_terminal();
 
-/// Runs lockstep on a terminal of its own and types `typed` (may be empty) once `trigger` was shown.
+/// Runs lockstep on a terminal of its own, `columns` wide, and types `typed` (may be empty) once `trigger` was shown.
 Outcome run_lockstep_on_terminal(const std::vector<std::string>& arguments, const std::string& trigger,
-                                 const std::string& typed);
+                                 const std::string& typed, unsigned short columns = 80);
 
 } // namespace lockstep::test

@@ -36,15 +36,28 @@ TEST_CASE("study: a table, and every output") {
           std::vector<std::string>{"misses_00001.png", "misses_00003.png"});
 }
 
-TEST_CASE("study: a chart, or one line that says what is missing") {
+TEST_CASE("study: a chart, or one line that says what is missing, before the run") {
     const test::TemporaryFolder output;
     const std::string chart = (output.path() / "a.svg").string();
     test::Surroundings without;
     without.environment = {{"PATH", output.path().string()}};
-    const auto outcome = run_lockstep({"study", scene(), "--frames", "3", "--chart", chart}, without);
-    CHECK(outcome.status == 0);
-    CHECK_THAT(outcome.out, Catch::EndsWith("no chart: gnuplot is not installed (Debian package gnuplot-nox)\n"));
+    const std::string missing = "study: --chart: gnuplot is not installed (Debian package gnuplot-nox)";
+    CHECK(refusal(run_lockstep({"study", scene(), "--frames", "100000000", "--chart", chart}, without)) == missing);
+    CHECK(refusal(run_lockstep({"study", "--thesis", "--chart", chart}, without)) == missing);
     CHECK(test::names_in(output.path()).empty());
+}
+
+TEST_CASE("study: gnuplot is given the chart by a pipe, whatever the temporary folder is called") {
+    const test::TemporaryFolder programs, output;
+    const auto gnuplot = programs.write("gnuplot", "#!/bin/sh\ncat\n");
+    std::filesystem::permissions(gnuplot, std::filesystem::perms::owner_all);
+    const std::string folder = output.path() / "it's; touch broken; '";
+    std::filesystem::create_directory(folder);
+    test::Surroundings surroundings;
+    surroundings.environment = {{"PATH", programs.path().string() + ":/usr/bin:/bin"}, {"TMPDIR", folder}};
+    CHECK(run_lockstep({"study", scene(), "--frames", "3000", "--chart", folder + "/a.svg"}, surroundings).status == 0);
+    CHECK(test::names_in(folder) == std::vector<std::string>{"a.svg"});
+    CHECK(std::filesystem::file_size(folder + "/a.svg") > 65536);
 }
 
 TEST_CASE("study: what cannot be studied is refused in one line") {
@@ -57,6 +70,45 @@ TEST_CASE("study: what cannot be studied is refused in one line") {
     CHECK(refusal(run_lockstep({"study", scene(), "--set", "search=octree"})) ==
           "study: search = octree leaves no CDT to study; --thesis has the octree's recall");
     CHECK_THAT(refusal(run_lockstep({"study", scene(), "--csv", "/nowhere/a.csv"})), Catch::StartsWith("/nowhere"));
+}
+
+TEST_CASE("study: an option that its mode would ignore is refused") {
+    const auto refused = [](std::vector<std::string> arguments, const std::string& message) {
+        arguments.insert(arguments.begin(), "study");
+        CHECK(refusal(run_lockstep(arguments)) == "study: " + message);
+    };
+    refused({scene(), "--cameras", "--csv", "a"}, "--csv does not go with --cameras --side cpu");
+    refused({scene(), "--cameras", "--json", "a"}, "--json does not go with --cameras --side cpu");
+    refused({"--catalogue", "--csv", "a"}, "--csv does not go with --catalogue");
+    refused({"--remedies", "--csv", "a"}, "--csv does not go with --remedies without --gl");
+    refused({"--recall-table", "--json", "a"}, "--json does not go with --recall-table");
+    refused({"--recall-table", "--catalogue"}, "--catalogue does not go with --recall-table");
+    refused({scene(), "--seconds", "3"}, "--seconds does not go with SCENE --side cpu");
+    refused({scene(), "--counts", "3"}, "--counts does not go with SCENE --side cpu");
+    refused({scene(), "--from", "a"}, "--from does not go with SCENE --side cpu");
+    refused({scene(), "--gl", "osmesa"}, "--gl does not go with SCENE --side cpu");
+    refused({scene(), "--side", "gpu", "--profile", "nvidia"}, "--profile does not go with SCENE --side gpu");
+    refused({"--thesis", "--from", "a", "--counts", "3"}, "--counts does not go with --thesis --from");
+    CHECK_THAT(refusal(run_lockstep({"study", "--thesis", "--seconds", "nan"})),
+               Catch::Contains("'nan' is not a number of seconds above 0"));
+}
+
+TEST_CASE("study: the catalogue's scenes are those of LOCKSTEP_DATA, too") {
+    const test::TemporaryFolder data;
+    test::Surroundings surroundings;
+    surroundings.environment = {{"LOCKSTEP_DATA", data.path()}};
+    CHECK_THAT(refusal(run_lockstep({"study", "--catalogue"}, surroundings)), Catch::Contains(data.path().string()));
+}
+
+TEST_CASE("study: particles that all lie in one place are refused before their neighbours are listed") {
+    const test::TemporaryFolder folder;
+    const std::string heap = folder.write("heap.json", R"({"constants": {"collision_range": 0.1}, "image": [64, 48],
+        "emitters": [{"count": 20000, "min": [0, 0, 0], "max": [0, 0, 0], "speed": 0}]})");
+    test::Surroundings small;
+    small.memory = std::size_t{1} << 30U;
+    CHECK(refusal(run_lockstep({"study", heap, "--frames", "2"}, small)) ==
+          "20000 particles have 399980000 neighbours within 0.1; at most 100000000 are listed: a smaller "
+          "collision_range or fewer particles have fewer");
 }
 
 TEST_CASE("study: a scene of the catalogue that is not there is named") {
@@ -85,7 +137,7 @@ TEST_CASE("study: the thesis's tables, measured, and told again from what was wr
 
     const auto without = run_lockstep(
         {"study", "--thesis", "--scenes", scenes.path().string(), "--counts", "100", "--frames", "1", "--gl", "osmesa"},
-        {{{"GALLIUM_DRIVER", "softpipe"}}, {}, {}, {}});
+        {{{"GALLIUM_DRIVER", "softpipe"}}});
     CHECK(without.status == 0);
     CHECK_THAT(without.out, Catch::StartsWith("no octree: it needs compute shaders, GL 4.3; this context is 3.3"));
 }
@@ -94,12 +146,12 @@ TEST_CASE("study: the GL side, and the collision cameras") {
     if (!test::have_osmesa())
         return;
     const auto table = [&](std::vector<std::string> more) {
-        more.insert(more.begin(), {"study", scene(), "--frames", "4", "--gl", "osmesa"});
+        more.insert(more.begin(), {"study", scene(), "--frames", "4"});
         const auto outcome = run_lockstep(more);
         CHECK(outcome.status == 0);
         return outcome.out;
     };
-    CHECK(table({"--side", "gpu"}) == table({"--profile", "llvmpipe"}));
+    CHECK(table({"--side", "gpu", "--gl", "osmesa"}) == table({"--profile", "llvmpipe"}));
     const std::string cameras = table({"--cameras"});
     CHECK_THAT(cameras, Catch::StartsWith("| collision camera |") &&
                             Catch::Contains("\n| fixed behind | 0.00 | stands |") && Catch::Contains("\nHoles: "));

@@ -1,5 +1,6 @@
 #include <catch2/catch.hpp>
 
+#include <array>
 #include <string>
 
 #include "tests/cli/cli_checks.hpp"
@@ -33,6 +34,30 @@ TEST_CASE("terminal: a bar on a terminal, wiped at the end; none in a pipe, none
     const test::Outcome piped = run_lockstep(check);
     CHECK(piped.err.empty());
     CHECK_THAT(piped.out, !Catch::Contains(bar) && !Catch::Contains("\x1b"));
+}
+
+TEST_CASE("terminal: the bar keeps to one line, however narrow") {
+    if (!test::have_osmesa() || !test::have_terminal())
+        return;
+    const test::TemporaryFolder folder;
+    for (const unsigned short columns : std::array<unsigned short, 4>{120, 30, 12, 2}) {
+        CAPTURE(columns);
+        const std::string shown =
+            run_lockstep_on_terminal(
+                {"check", folder.write("scene.json", test::small_scene).string(), "--frames", "20", "--gl", "osmesa"},
+                "", "", columns)
+                .out;
+        const std::string wipe = "\r\x1b[K";
+        std::size_t bars = 0;
+        for (std::size_t at = shown.find(wipe); at != std::string::npos; ++bars) {
+            at += wipe.size();
+            const std::size_t next = shown.find(wipe, at);
+            if (next != std::string::npos)
+                CHECK(next - at < columns);
+            at = next;
+        }
+        CHECK(bars > 1);
+    }
 }
 
 TEST_CASE("terminal: Ctrl-C ends with the verdict on the frames done so far") {

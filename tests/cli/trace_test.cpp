@@ -240,6 +240,8 @@ TEST_CASE("trace: a file's name that forges a verdict or steers the terminal is 
     CHECK(refusal(run_lockstep({"ch\x1b[2Jeck\n"})).find('\x1b') == std::string::npos);
     CHECK(refusal(run_lockstep({"check", "a\x1b\nb.json"})) ==
           "a\\x1b\\nb.json: cannot be read: No such file or directory");
+}
+
 TEST_CASE("record: on a full disk one line tells so, at whatever byte, and nothing is left") {
     if (!test::have_osmesa())
         return;

@@ -9,6 +9,7 @@
 #include "crosscheck/compare.hpp"
 #include "reference/collision_pass.hpp"
 #include "reference/model/same_bits.hpp"
+#include "reference/model/ulp.hpp"
 #include "reference/obstacle_pass.hpp"
 
 namespace lockstep {
@@ -88,52 +89,63 @@ std::vector<Cause> pairs(const std::vector<Cause>& alone) {
     return causes;
 }
 
-/// How far a field may be off where a driver's operations are, relative to the largest component: a step chains two
-/// of them at most, a length and a division by it, and a few roundings.
-float allowed_error(const Profile& profile) {
-    const OperationErrors& e = profile.errors;
-    const std::int64_t worst = std::max({e.divide, e.reciprocal, e.sqrt, e.inverse_sqrt, e.length, e.normalize});
-    return worst == 0 ? 0.0F : static_cast<float>(std::min<std::int64_t>(2 * worst + 4, 64)) * 0x1p-23F;
+/// By how many ULP a driver's length and normalize may be off the reference's: as measured, and no more than GLSL
+/// allows, 6 and 4.5 times 2^-23 of the value (4.7.1, as the Vulkan environment derives them), an ULP being at least
+/// 2^-24 of it.
+struct AllowedUlps {
+    std::int64_t speed = 0, direction = 0;
+
+    explicit AllowedUlps(const Profile& profile) {
+        if (profile.roots != nullptr) // the reference has the driver's own bits
+            return;
+        speed = std::min<std::int64_t>(profile.errors.length, 12);
+        direction = std::min<std::int64_t>(profile.errors.normalize, 9);
+    }
+};
+
+/// The same bits but for the sign of zero, which depends on how a mistake was written down; or so near.
+bool near(float a, float b, std::int64_t ulps) {
+    return same_bits(a, b) || (a == 0.0F && b == 0.0F) || ulp_distance(a, b) <= ulps;
 }
 
-/// The same bits but for the sign of zero, which depends on how a mistake was written down.
-bool same_values(glm::vec3 a, glm::vec3 b) {
-    for (int c = 0; c < 3; ++c)
-        if (!same_bits(a[c], b[c]) && !(a[c] == 0.0F && b[c] == 0.0F))
-            return false;
-    return true;
-}
-
-bool near(glm::vec3 a, glm::vec3 b, float error) {
-    if (same_values(a, b))
+/// A position is moved by direction * speed, times the tick or not. The two are off by their ULP, at most 2^-23 of them
+/// each; two products and the sum round once more on either side.
+bool near_position(const ParticleState& a, const ParticleState& b, int c, float tick, AllowedUlps allowed) {
+    if (same_bits(a.position[c], b.position[c]) || (a.position[c] == 0.0F && b.position[c] == 0.0F))
         return true;
-    const float largest = std::max({std::abs(b.x), std::abs(b.y), std::abs(b.z)});
-    for (int c = 0; c < 3; ++c)
-        if (!(std::abs(a[c] - b[c]) <= error * largest))
-            return false;
-    return true;
+    if (allowed.speed == 0 && allowed.direction == 0)
+        return false;
+    const double step = std::abs(double{b.direction[c]} * double{b.speed}) * std::max(1.0, std::abs(double{tick}));
+    const double off = step * static_cast<double>(allowed.speed + allowed.direction + 2) * 0x1p-23;
+    const double largest = std::max(std::abs(double{a.position[c]}), std::abs(double{b.position[c]}));
+    return std::abs(double{a.position[c]} - double{b.position[c]}) <= off + largest * 0x1p-23;
 }
 
-bool alike(const ParticleState& a, const ParticleState& b, float error) {
-    return same_bits(a.collide_time, b.collide_time) && near(glm::vec3(a.speed), glm::vec3(b.speed), error) &&
-           near(a.direction, b.direction, error) && near(a.position, b.position, error);
+bool alike(const ParticleState& a, const ParticleState& b, float tick, AllowedUlps allowed) {
+    if (!same_bits(a.collide_time, b.collide_time) || !near(a.speed, b.speed, allowed.speed))
+        return false;
+    for (int c = 0; c < 3; ++c)
+        if (!near(a.direction[c], b.direction[c], allowed.direction) || !near_position(a, b, c, tick, allowed))
+            return false;
+    return true;
 }
 
 /// Counts, for each cause, the particles it explains and contradicts.
 void count_particles(std::vector<Cause>& causes, const JudgedFrame& frame, const FrameInputs& inputs,
                      const std::vector<std::size_t>& divergent, const std::vector<std::size_t>& agreeing) {
     const auto n = static_cast<std::ptrdiff_t>(causes.size());
-    const float error = allowed_error(frame.profile);
+    const AllowedUlps allowed(frame.profile);
+    const float tick = frame.params.constants.tick;
     const bool worth_threads = causes.size() * (divergent.size() + agreeing.size()) > 100'000;
 #pragma omp parallel for schedule(dynamic) if (worth_threads)
     for (std::ptrdiff_t c = 0; c < n; ++c) {
         Cause& cause = causes[static_cast<std::size_t>(c)];
         const Deviations deviations = together(cause);
         const auto explains = [&](std::size_t i) {
-            return alike(deviating_step(inputs, i, frame.profile, deviations), frame.gpu[i], error);
+            return alike(deviating_step(inputs, i, frame.profile, deviations), frame.gpu[i], tick, allowed);
         };
         // What is near without any deviation says nothing about one.
-        const auto telling = [&](std::size_t i) { return !alike(frame.reference[i], frame.gpu[i], error); };
+        const auto telling = [&](std::size_t i) { return !alike(frame.reference[i], frame.gpu[i], tick, allowed); };
         const auto explained = static_cast<std::uint64_t>(std::count_if(
             divergent.begin(), divergent.end(), [&](std::size_t i) { return telling(i) && explains(i); }));
         cause.explained += explained;
@@ -216,14 +228,15 @@ void contradict_by_drawing(std::vector<Cause>& causes, std::size_t divergent, co
 /// What is drawn in a wrong place because the step computes it wrongly would show in the particles, too.
 void contradict_by_steps(std::vector<Cause>& causes, std::size_t divergent, const JudgedFrame& frame,
                          const FrameInputs& inputs, const std::vector<std::size_t>& agreeing) {
-    const float error = allowed_error(frame.profile);
+    const AllowedUlps allowed(frame.profile);
+    const float tick = frame.params.constants.tick;
     for (Cause& cause : causes) {
         if (cause.explained < divergent || std::none_of(cause.deviations.begin(), cause.deviations.end(), changes_step))
             continue;
         const Deviations deviations = together(cause);
         cause.contradicted +=
             static_cast<std::uint64_t>(std::count_if(agreeing.begin(), agreeing.end(), [&](std::size_t i) {
-                return !alike(deviating_step(inputs, i, frame.profile, deviations), frame.gpu[i], error);
+                return !alike(deviating_step(inputs, i, frame.profile, deviations), frame.gpu[i], tick, allowed);
             }));
     }
 }
@@ -332,7 +345,8 @@ void CauseFinder::try_on_particles(const JudgedFrame& frame, const FrameVerdicts
         const Deviations best = together(best_of(particles_.causes, 1).front());
         std::vector<std::size_t> rest;
         for (const std::size_t i : sample(wrong, trial_items))
-            if (!alike(deviating_step(inputs, i, frame.profile, best), frame.gpu[i], allowed_error(frame.profile)))
+            if (!alike(deviating_step(inputs, i, frame.profile, best), frame.gpu[i], frame.params.constants.tick,
+                       AllowedUlps(frame.profile)))
                 rest.push_back(i);
         const auto keep_best = [&](std::size_t items, std::size_t kept) {
             std::vector<std::size_t> telling = sample(rest, items);

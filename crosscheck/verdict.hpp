@@ -55,8 +55,8 @@ struct FrameVerdicts {
 
 /// Judges every particle and texel that is not bit-equal. A particle is legal when all of its fields lie in one outcome
 /// of legal_outcomes. A texel is legal when it holds what one of its legal owners stores, taking particles where the
-/// GPU's own state has them, each point on one texel; one that only differs because particles that do were drawn there has the worst of their
-/// classes.
+/// GPU's own state has them, each point on one texel; one that only differs because particles that do were drawn there
+/// has the worst of their classes.
 FrameVerdicts judge(const JudgedFrame& frame);
 
 /// The verdict on one particle, whether it differs or not.

@@ -57,6 +57,8 @@ PlyHeader read_ply_header(std::istream& stream, const std::filesystem::path& fil
 std::size_t promised_faces(const std::string& ply, const std::filesystem::path& file) {
     std::istringstream stream(ply);
     const PlyHeader header = read_ply_header(stream, file);
+    if (header.elements > ply.size())
+        fail(file, fmt::format("cut off: its header promises {} elements, in {} bytes", header.elements, ply.size()));
     std::size_t lines = 0;
     for (std::string line; header.ascii && lines < header.elements && std::getline(stream, line);)
         lines += line.find_first_not_of(" \t\r") == std::string::npos ? 0 : 1;

@@ -148,6 +148,10 @@ TEST_CASE("surface: a PLY that is cut off is refused wherever it was cut") {
     for (int i = 0; i < 40; ++i)
         binary += face;
     CHECK(load_surface(folder.write("whole.ply", binary)).indices.size() == 120);
+    std::string many = binary;
+    many.replace(many.find("vertex 3"), 8, "vertex 4000000000");
+    CHECK_THROWS_WITH(load_surface(folder.write("many.ply", many)),
+                      Catch::Contains("many.ply: cut off: its header promises 4000000040 elements, in "));
     for (std::size_t kept = header - 20; kept < binary.size(); kept += 7)
         CHECK_THROWS_AS(load_surface(folder.write("cut.ply", binary.substr(0, kept))), Error);
 }

@@ -3,8 +3,12 @@
 #include <cmath>
 #include <limits>
 
+#include "reference/arithmetic.hpp"
+#include "reference/collision_code.hpp"
 #include "reference/collision_pass.hpp"
 #include "reference/legal_outcomes.hpp"
+#include "reference/model/same_bits.hpp"
+#include "reference/step_trace.hpp"
 #include "tests/reference/collision_scenes.hpp"
 
 using namespace lockstep;
@@ -92,4 +96,46 @@ TEST_CASE("legal outcomes: GLSL's rules allow every driver's arithmetic, and lit
         CHECK(accepted_far == 0);
     }
     CHECK(largest <= 2);
+}
+
+TEST_CASE("legal outcomes: any order allows a position that is decoded fused, and no more than a difference can be") {
+    RandomScene scene = random_scene(9, 2000, 41, 33);
+    scene.params.switches = preset("corrected");
+    scene.params.switches.cdt_format = CdtFormat::rgba8;
+    scene.params.cdt_box = {glm::vec3(-1.5F), glm::vec3(1.5F)};
+    for (glm::vec4& t : scene.cdt.texels)
+        t = t.a != 0.0F ? CollisionCode(scene.params).encode(glm::vec3(t)) : t;
+    const Profile profile = named_profile("strict");
+    KnownOperations known = measured_operations(profile);
+    known.sums = false;
+    const Constants& constants = scene.params.constants;
+    const glm::vec3 step = (scene.params.cdt_box.max - scene.params.cdt_box.min) / 255.0F;
+    int hits = 0, others = 0;
+    for (std::size_t i = 0; i < scene.particles.size(); ++i) {
+        const ParticleState before = scene.particles[i];
+        const StepTrace trace = trace_step(before, scene.cdt, scene.params, profile);
+        if (!trace.nearest)
+            continue;
+        const glm::vec4 code = trace.neighbours[*trace.nearest].stored;
+        ParticleState fused = trace.after;
+        glm::vec3 away;
+        for (int c = 0; c < 3; ++c)
+            away[c] = before.position[c] - std::fma(code[c], step[c], scene.params.cdt_box.min[c]);
+        fused.direction = Strict::normalize(away);
+        glm::vec3 move = Strict::scale(fused.direction, fused.speed);
+        if (scene.params.switches.collision_step == CollisionStep::tick)
+            move = Strict::scale(move, constants.tick);
+        fused.position = before.position + move;
+        ++hits;
+        others += same_bits(fused, trace.after) ? 0 : 1;
+        CHECK(admits(outcomes_for(scene, i, profile, known, fused), fused));
+        fused.collide_time = std::nextafter(fused.collide_time, 9.0F);
+        CHECK_FALSE(admits(outcomes_for(scene, i, profile, known, fused), fused));
+    }
+    CHECK(hits > 20);
+    CHECK(others > 5);
+    // A collide time is one difference: no order gives it another bit.
+    ParticleState later = trace_step(scene.particles[0], scene.cdt, scene.params, profile).after;
+    later.collide_time = std::nextafter(later.collide_time, 9.0F);
+    CHECK_FALSE(admits(outcomes_for(scene, 0, profile, known, later), later));
 }

@@ -58,12 +58,15 @@ Comparison compare_again(const State& first, const GpuSide& gpu, const Scene& sc
     return result;
 }
 
-std::uint64_t count_hits(const Particles& particles, float collision_time) {
-    const auto n = static_cast<std::ptrdiff_t>(particles.size());
+/// Those that searched and found something: a time that runs down can come to the same value.
+std::uint64_t count_hits(const Particles& before, const Particles& after, float collision_time) {
+    const auto n = static_cast<std::ptrdiff_t>(after.size());
+    const float* const time_before = before.collide_time.data();
+    const float* const time_after = after.collide_time.data();
     std::uint64_t hits = 0;
 #pragma omp parallel for simd reduction(+ : hits) schedule(static)
     for (std::ptrdiff_t i = 0; i < n; ++i)
-        hits += particles.collide_time[static_cast<std::size_t>(i)] == collision_time ? 1U : 0U;
+        hits += time_before[i] < 0.0F && time_after[i] == collision_time ? 1U : 0U;
     return hits;
 }
 
@@ -138,6 +141,20 @@ class RunJudge {
     CauseFinder causes_;
 };
 
+/// What agreed without having been put to the test.
+std::vector<std::string> untried(const CheckReport& report, const Scene& scene) {
+    std::vector<std::string> all;
+    if (report.hits == 0)
+        all.emplace_back("nothing collided");
+    if (report.drawn_texels == 0 && scene.switches.search == Search::cdt)
+        all.emplace_back("nothing was drawn into the CDT");
+    const FieldCount& position = report.total[Field::position];
+    if (position.nan > 0 && 2 * position.nan >= position.compared)
+        all.emplace_back(fmt::format("{} of {} coordinates are NaN, of which any equals any other", position.nan,
+                                     position.compared));
+    return all;
+}
+
 Verdict verdict_on(const CheckReport& report) {
     if (report.total.agree())
         return Verdict::agree;
@@ -155,6 +172,7 @@ CheckReport check(const Scene& scene, const Profile& profile, GpuSide& gpu, cons
         throw Error(fmt::format("{}: its start has {}", scene.name, problem));
     CheckReport report;
     report.particles = scene.start.size();
+    report.frames_asked = options.frames;
     ReferenceSimulation reference(scene, profile);
     State before{scene.start, empty_cdt(scene)};
     State now = before;
@@ -210,7 +228,7 @@ CheckReport check(const Scene& scene, const Profile& profile, GpuSide& gpu, cons
             if (!comparison.agree() || options.mode == CheckMode::free)
                 note_difference(report, frame, comparison);
             report.total.add(comparison);
-            report.hits += count_hits(reference.particles(), scene.constants.collision_time);
+            report.hits += count_hits(before.particles, reference.particles(), scene.constants.collision_time);
             report.drawn_texels += count_drawn(reference.cdt());
         }
         std::optional<FrameVerdicts> verdicts;
@@ -234,6 +252,8 @@ CheckReport check(const Scene& scene, const Profile& profile, GpuSide& gpu, cons
     if (judged)
         report.verdicts = judge.summary();
     report.verdict = verdict_on(report);
+    if (report.verdict != Verdict::divergent && report.verdict != Verdict::differ)
+        report.untried = untried(report, scene);
     report.reference_hash = state_hash(reference.particles(), reference.cdt());
     report.gpu_hash = state_hash(before.particles, before.cdt);
     return report;

@@ -30,11 +30,6 @@ enum class Verdict {
     nondeterministic, ///< the GPU gave two answers to one frame
 };
 
-/// Agree and legal pass, undefined where it is allowed.
-[[nodiscard]] constexpr bool passes(Verdict verdict, bool allow_undefined) {
-    return verdict == Verdict::agree || verdict == Verdict::legal || (verdict == Verdict::undefined && allow_undefined);
-}
-
 /// A difference and the frame it belongs to.
 struct FrameDifference {
     int frame = 0;
@@ -60,7 +55,8 @@ struct FrameTimes {
 
 struct CheckReport {
     Verdict verdict = Verdict::agree;
-    int frames = 0; ///< frames compared
+    int frames = 0;       ///< frames compared
+    int frames_asked = 0; ///< more than `frames`: the run was stopped
     std::size_t particles = 0;
     Comparison total;
     std::optional<int> first_frame;     ///< the first frame with a difference, or that did not repeat itself
@@ -72,7 +68,24 @@ struct CheckReport {
     std::uint64_t reference_hash = 0;
     std::uint64_t gpu_hash = 0;    ///< state_hash of particles and CDT after the last frame
     std::vector<FrameTimes> times; ///< one a frame
+    /// What such a run was to try and did not, as words after "but": "nothing collided".
+    std::vector<std::string> untried;
+
+    /// The run was stopped before its end; a verdict on the frames before that.
+    [[nodiscard]] bool partial() const { return frames < frames_asked && verdict != Verdict::nondeterministic; }
 };
+
+/// What passes besides agree and legal, and what does not although they do.
+struct PassRules {
+    bool allow_undefined = false;
+    bool require_hits = false; ///< a run in which nothing collided fails
+};
+
+[[nodiscard]] inline bool passes(const CheckReport& report, const PassRules& rules = {}) {
+    const bool fits = report.verdict == Verdict::agree || report.verdict == Verdict::legal ||
+                      (report.verdict == Verdict::undefined && rules.allow_undefined);
+    return fits && !report.partial() && !(rules.require_hits && report.hits == 0);
+}
 
 /// Both sides after one frame, and what their comparison said.
 struct ComparedFrame {

@@ -59,27 +59,33 @@ std::string of_class(const CheckReport& r, DifferenceClass kind) {
                        grouped(r.verdicts->texels[k]), r.frames);
 }
 
-std::string verdict_line(const CheckReport& r) {
+/// After the verdict's words.
+std::string verdict_counts(const CheckReport& r) {
     switch (r.verdict) {
     case Verdict::agree:
-        return fmt::format("AGREE: every bit of {} particles{} in {} frames", grouped(r.particles),
+        return fmt::format(": every bit of {} particles{} in {} frames", grouped(r.particles),
                            r.total[Field::texel].compared > 0 ? " and of the CDT" : "", r.frames);
     case Verdict::legal:
-        return fmt::format("LEGAL: {} particle states and {} texels differ in {} frames, as GL allows",
+        return fmt::format(": {} particle states and {} texels differ in {} frames, as GL allows",
                            grouped(r.total.differing_particles), grouped(r.total.differing_texels), r.frames);
     case Verdict::undefined:
-        return fmt::format("UNDEFINED {}, which rest on what GL leaves open", of_class(r, DifferenceClass::undefined));
+        return fmt::format(" {}, which rest on what GL leaves open", of_class(r, DifferenceClass::undefined));
     case Verdict::divergent:
-        return fmt::format("DIVERGENT {}, which no legal run explains", of_class(r, DifferenceClass::divergent));
+        return fmt::format(" {}, which no legal run explains", of_class(r, DifferenceClass::divergent));
     case Verdict::differ:
-        return fmt::format("DIFFER from frame {} on: {} particle states and {} texels in {} frames", *r.first_frame,
+        return fmt::format(" from frame {} on: {} particle states and {} texels in {} frames", *r.first_frame,
                            grouped(r.total.differing_particles), grouped(r.total.differing_texels), r.frames);
     case Verdict::nondeterministic:
-        return fmt::format("NONDETERMINISTIC: the GPU gave two answers to frame {}: {} particles and {} texels differ "
-                           "between two runs of it",
+        return fmt::format(": the GPU gave two answers to frame {}: {} particles and {} texels differ between two runs "
+                           "of it",
                            *r.first_frame, grouped(r.total.differing_particles), grouped(r.total.differing_texels));
     }
     return "";
+}
+
+std::string verdict_line(const CheckReport& r) {
+    const bool judged = r.verdicts || r.verdict == Verdict::nondeterministic;
+    return verdict_words(r) + verdict_counts(r) + (judged ? "" : "; compared, not judged");
 }
 
 } // namespace
@@ -100,6 +106,20 @@ std::string_view verdict_name(Verdict verdict) {
         return "NONDETERMINISTIC";
     }
     return "";
+}
+
+std::string pass_options_text(const PassRules& rules) {
+    return fmt::format("{}{}", rules.allow_undefined ? " --allow-undefined" : "",
+                       rules.require_hits ? " --require-hits" : "");
+}
+
+std::string verdict_words(const CheckReport& r) {
+    std::string words(verdict_name(r.verdict));
+    if (r.partial())
+        words += fmt::format(" (partial: stopped after {} of {} frames)", r.frames, r.frames_asked);
+    for (std::size_t i = 0; i < r.untried.size(); ++i)
+        words += fmt::format("{}{}", i == 0 ? ", but " : ", and ", r.untried[i]);
+    return words;
 }
 
 std::string report_text(const CheckReport& r, const RunDescription& run) {
@@ -182,6 +202,10 @@ nlohmann::json report_json(const CheckReport& r, const RunDescription& run) {
     for (const FrameCount& c : r.counts)
         counts.push_back({c.frame, c.particles, c.texels, c.worst_ulp});
     return {{"verdict", verdict_name(r.verdict)},
+            {"verdict_line", verdict_line(r)},
+            {"partial", r.partial()},
+            {"judged", r.verdicts.has_value()},
+            {"untried", r.untried},
             {"scene", run.scene},
             {"mode", run.mode},
             {"switches", run.settings},
@@ -189,6 +213,7 @@ nlohmann::json report_json(const CheckReport& r, const RunDescription& run) {
             {"profile", run.profile},
             {"particles", r.particles},
             {"frames", r.frames},
+            {"frames_asked", r.frames_asked},
             {"first_frame", r.first_frame ? json(*r.first_frame) : json()},
             {"differing_particles", r.total.differing_particles},
             {"differing_texels", r.total.differing_texels},

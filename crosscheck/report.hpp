@@ -24,6 +24,13 @@ struct RunDescription {
 /// "AGREE", "LEGAL", ...
 std::string_view verdict_name(Verdict verdict);
 
+/// The options that set these rules as they are typed, each after a space.
+std::string pass_options_text(const PassRules& rules);
+
+/// The verdict with what stands against taking it for more: "AGREE (partial: stopped after 3 of 60 frames), but nothing
+/// collided".
+std::string verdict_words(const CheckReport& report);
+
 /// The report as a person reads it, verdict last but one, at most 60 lines. See docs/report_lines.md.
 std::string report_text(const CheckReport& report, const RunDescription& run);
 

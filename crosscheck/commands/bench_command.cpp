@@ -8,9 +8,11 @@
 
 #include "crosscheck/check.hpp"
 #include "crosscheck/commands/commands.hpp"
+#include "crosscheck/commands/judging_options.hpp"
 #include "crosscheck/commands/option_values.hpp"
 #include "crosscheck/commands/run_options.hpp"
 #include "crosscheck/profiles.hpp"
+#include "crosscheck/report.hpp"
 #include "crosscheck/scene_constants.hpp"
 #include "crosscheck/scene_file.hpp"
 #include "crosscheck/statistics.hpp"
@@ -28,6 +30,8 @@ struct Options {
     std::vector<std::size_t> counts{50000, 100000, 150000, 200000};
     std::vector<int> radii{1, 4};
     int warm_up = 3;
+    Legal legal = Legal::measured;
+    PassRules rules;
 };
 
 double now() { return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count(); }
@@ -65,6 +69,7 @@ Timing time_run(const Scene& scene, const Profile& profile, const Options& optio
     CheckOptions check_options;
     check_options.frames = options.run.frames;
     check_options.repeated_frames = 0;
+    check_options.known = known_operations(options.legal, profile);
     check_options.on_frame = [&](int) {
         checked.push_back(now() - last);
         last = now();
@@ -107,9 +112,9 @@ int run(const Options& options) {
             const Timing t = time_run(load(run), profile, options);
             fmt::print("{:>6} {:>9} {:>9.3f} {:>9.3f} {:>9.3f} {:>9.3f} {:>7.2f}x {:>7.2f}x  {} {}\n", radius, count,
                        t.gl * 1e3, t.timer * 1e3, t.reference * 1e3, t.check * 1e3, t.gl / t.reference, t.check / t.gl,
-                       hash_text(t.report.gpu_hash), t.report.verdict == Verdict::agree ? "AGREE" : "DIFFER");
+                       hash_text(t.report.gpu_hash), verdict_words(t.report));
             std::fflush(stdout);
-            if (t.report.verdict != Verdict::agree)
+            if (!passes(t.report, options.rules))
                 status = status_differ;
             gl.push_back(t.gl);
             reference.push_back(t.reference);
@@ -149,7 +154,10 @@ void add_bench_command(CLI::App& app, int& status) {
         ->allow_extra_args(false)
         ->check(integer(0, widest_neighbourhood))
         ->type_name("R,...");
-    verb->footer("Example: lockstep bench data/scenes/lattice.json --counts 50000,200000 --radius 1");
+    add_legal_option(*verb, options->legal);
+    add_pass_options(*verb, options->rules);
+    verb->footer("Exit status: as lockstep check's, 1 where a row does not pass.\n"
+                 "Example: lockstep bench data/scenes/lattice.json --counts 50000,200000 --radius 1");
     verb->callback([options, verb, &status] {
         if (verb->count("--particles") > 0)
             throw Error("bench: --particles does not go with it; --counts N,... names how many");

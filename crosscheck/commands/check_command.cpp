@@ -47,7 +47,7 @@ struct Options {
     CheckMode mode = CheckMode::resync;
     std::filesystem::path json, images, hashes, report;
     Legal legal = Legal::measured;
-    bool allow_undefined = false;
+    PassRules rules;
     bool quiet = false;
 };
 
@@ -58,9 +58,7 @@ std::string repeat_line(const Options& options, int frames) {
     if (options.mode == CheckMode::free)
         line += " --mode free";
     line += legal_option_text(options.legal);
-    if (options.allow_undefined)
-        line += " --allow-undefined";
-    return line;
+    return line + pass_options_text(options.rules);
 }
 
 std::string explain_line(const Options& options, const Place& place, int width) {
@@ -111,26 +109,32 @@ struct Checked {
     std::vector<std::string> notes;
 };
 
-/// The first divergent particle's step, for a file; empty where there is none, or it cannot be cut out.
-std::string first_capsule(const Checked& checked, FrameRun& frames, const std::vector<PageItem>& items) {
+/// The first divergent particle's step, for a file.
+struct FirstCapsule {
+    std::string file;    ///< empty where there is none
+    std::string missing; ///< why it could not be made; empty: it could, or nothing is divergent
+};
+
+FirstCapsule first_capsule(const Checked& checked, FrameRun& frames, const std::vector<PageItem>& items) {
     const auto first = std::find_if(items.begin(), items.end(), [](const PageItem& item) {
         return !item.texel && item.kind == static_cast<std::uint8_t>(DifferenceClass::divergent);
     });
     if (first == items.end())
-        return "";
+        return {};
     frames.go_to(first->frame);
     try {
-        return capsule_file(cut_capsule(frames.judged(), {checked.scene, checked.context, checked.settings,
-                                                          first->frame, first->index, frames.capture(first->index)}));
-    } catch (const Error&) {
-        return "";
+        return {capsule_file(cut_capsule(frames.judged(), {checked.scene, checked.context, checked.settings,
+                                                           first->frame, first->index, frames.capture(first->index)})),
+                ""};
+    } catch (const Error& error) {
+        return {"", fmt::format("no capsule of the first divergent particle: {}", error.what())};
     }
 }
 
 /// What a second run of the GPU, or of what was recorded of it, tells of the items that the page lists.
 struct SecondLook {
     std::vector<ExplainedItem> items;
-    std::string capsule; ///< may be empty
+    FirstCapsule capsule;
 };
 
 SecondLook look_again(const Options& options, const Checked& checked, const std::vector<PageItem>& items) {
@@ -189,22 +193,31 @@ int check_and_tell(const Options& options, OutputFiles& files, const Checked& ch
             if (collector)
                 collector->add(frame);
         };
-    const CheckReport report = [&] {
+    int frames_done = 0;
+    const auto run_both = [&] {
         const InterruptHandler handler;
         Progress progress("check", options.run.frames, !options.quiet);
-        check_options.on_frame = [&](int done) { progress.show(done); };
+        check_options.on_frame = [&](int done) { progress.show(frames_done = done); };
         return check(checked.scene, checked.profile, checked.gpu, check_options);
-    }();
+    };
+    std::optional<CheckReport> compared;
+    try {
+        compared = run_both();
+    } catch (const Error& error) {
+        if (!interrupted || frames_done > 0)
+            throw;
+        fmt::print(stderr, "lockstep: interrupted: {}\n", error.what());
+        return status_interrupted;
+    }
+    const CheckReport& report = *compared;
 
-    const RunDescription run = description(options, checked, report);
+    RunDescription run = description(options, checked, report);
     if (!options.quiet) {
-        if (interrupted)
+        if (report.partial())
             fmt::print("interrupted after {} of {} frames\n", report.frames, options.run.frames);
         fmt::print("{}", plain_text(report_text(report, run)));
         std::fflush(stdout);
     }
-    if (!options.json.empty())
-        files.write(options.json, json_text(report_json(report, run)));
     if (!options.hashes.empty())
         files.write(options.hashes, hashes.text());
     if (!options.images.empty())
@@ -212,16 +225,24 @@ int check_and_tell(const Options& options, OutputFiles& files, const Checked& ch
     if (collector) {
         const SecondLook look = look_again(options, checked, collector->frames().items());
         std::vector<PageCommand> commands = page_commands(options, run, report);
-        if (!look.capsule.empty()) {
-            files.write(options.report / report_files[1], look.capsule);
+        if (!look.capsule.missing.empty()) {
+            fmt::print(stderr, "lockstep: {}\n", look.capsule.missing);
+            run.notes.push_back(look.capsule.missing);
+        }
+        if (!look.capsule.file.empty()) {
+            files.write(options.report / report_files[1], look.capsule.file);
             commands.push_back({"The first divergent particle's step, from the file beside this page; needs no GL",
                                 fmt::format("lockstep capsule show {}", shell_path(options.report / report_files[1]))});
         }
         files.write(options.report / report_files[0],
                     report_page(page, *collector, report, run, commands, look.items, study));
     }
+    if (!options.json.empty())
+        files.write(options.json, json_text(report_json(report, run)));
     files.commit();
-    return passes(report.verdict, options.allow_undefined) ? status_agree : status_differ;
+    if (report.partial())
+        return status_interrupted;
+    return passes(report, options.rules) ? status_agree : status_differ;
 }
 
 int run_scene(const Options& options) {
@@ -275,7 +296,7 @@ void add_report_command(CLI::App& app, int& status) {
         ->type_name("N");
     add_threads_option(*verb, options->run);
     add_legal_option(*verb, options->legal);
-    verb->add_flag("--allow-undefined", options->allow_undefined, "do not fail on what rests on what GL leaves open");
+    add_pass_options(*verb, options->rules);
     verb->add_flag("--quiet", options->quiet, "the page alone, and the exit status");
     verb->footer("Exit status: as lockstep check --trace FILE --report DIR, which does the same.\n"
                  "Example: lockstep report run.h5 -o pages");
@@ -297,7 +318,7 @@ void add_check_command(CLI::App& app, int& status) {
     add_choice<CheckMode>(*verb, "--mode", options->mode, {{"resync", CheckMode::resync}, {"free", CheckMode::free}},
                           "resync: each frame's step alone; free: both run on by themselves");
     add_legal_option(*verb, options->legal);
-    verb->add_flag("--allow-undefined", options->allow_undefined, "do not fail on what rests on what GL leaves open");
+    add_pass_options(*verb, options->rules);
     verb->add_option("--json", options->json, "write the report as JSON")->type_name("FILE");
     verb->add_option("--hashes", options->hashes, "write both sides' state hash of every frame")->type_name("FILE");
     verb->add_option("--images", options->images,
@@ -307,9 +328,11 @@ void add_check_command(CLI::App& app, int& status) {
                      "write report.html, a page that opens in any browser; with what study.json there says")
         ->type_name("DIR");
     verb->add_flag("--quiet", options->quiet, "no report, only the exit status");
-    verb->footer("Exit status: 0 every bit agrees, or what differs is legal (rounding, ties); 1 divergent, undefined "
-                 "without --allow-undefined, or any difference in free mode; 2 could not run.\n"
-                 "Example: lockstep check data/scenes/lattice.json --frames 100 --preset paper");
+    verb->footer(
+        "Exit status: 0 every bit agrees, or what differs is legal (rounding, ties); 1 divergent, undefined "
+        "without --allow-undefined, any difference in free mode, or no hit with --require-hits; 2 could not run; "
+        "130 ended by Ctrl-C, with a verdict on the frames before.\n"
+        "Example: lockstep check data/scenes/lattice.json --frames 100 --preset paper");
     verb->callback([options, verb, &status] {
         check_scene_or_trace(*verb, options->run, options->trace);
         options->frames_given = verb->get_option("--frames")->count() > 0;

@@ -7,6 +7,7 @@ namespace lockstep {
 inline constexpr int status_agree = 0;
 inline constexpr int status_differ = 1;
 inline constexpr int status_could_not_run = 2;
+inline constexpr int status_interrupted = 130; ///< Ctrl-C, as a shell reports it
 
 /// Each adds one verb; its callback leaves the exit status in `status`, or throws Error.
 void add_check_command(CLI::App& app, int& status);

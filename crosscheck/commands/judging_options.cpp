@@ -11,4 +11,9 @@ void add_legal_option(CLI::App& verb, Legal& legal) {
                       "these for shaders without `precise`");
 }
 
+void add_pass_options(CLI::App& verb, PassRules& rules) {
+    verb.add_flag("--allow-undefined", rules.allow_undefined, "do not fail on what rests on what GL leaves open");
+    verb.add_flag("--require-hits", rules.require_hits, "fail where nothing collided, so that little was tried");
+}
+
 } // namespace lockstep

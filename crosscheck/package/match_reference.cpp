@@ -38,7 +38,7 @@ class CommandLines {
         const int frames = report.first_frame ? *report.first_frame + 1 : report.frames;
         return fmt::format("lockstep check {} --frames {}{}{}{}{}", scene_.origin, frames, *side_.arguments,
                            options_.mode == CheckMode::free ? " --mode free" : "", legal_option_text(options_.legal),
-                           options_.allow_undefined ? " --allow-undefined" : "");
+                           pass_options_text({options_.allow_undefined, options_.require_hits}));
     }
 
     [[nodiscard]] std::string explain(const CheckReport& report) const {
@@ -92,7 +92,7 @@ MatchResult match_reference(GpuSide& gpu, const Scene& scene, const MatchOptions
                        scene.width,
                        commands.repeat(report),
                        commands.explain(report)};
-    const bool passed = passes(report.verdict, options.allow_undefined);
+    const bool passed = passes(report, {options.allow_undefined, options.require_hits});
     return {std::move(report), std::move(run), passed};
 }
 

@@ -146,14 +146,16 @@ std::string why_no_terminal() {
 }
 
 Outcome run_lockstep_on_terminal(const std::vector<std::string>& arguments, const std::string& trigger,
-                                 const std::string& typed, unsigned short columns) {
+                                 const std::string& typed, unsigned short columns, const Surroundings& surroundings) {
     int terminal = -1;
     const winsize size{24, columns, 0, 0};
     const pid_t child = forkpty(&terminal, nullptr, nullptr, &size);
     if (child < 0)
         throw std::runtime_error("forkpty failed");
-    if (child == 0)
+    if (child == 0) {
+        enter(surroundings);
         become_lockstep(arguments);
+    }
     Outcome outcome;
     bool waiting = !typed.empty();
     while (read_some(terminal, outcome.out))

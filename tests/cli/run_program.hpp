@@ -37,6 +37,7 @@ std::string why_no_terminal();
 
 /// Runs lockstep on a terminal of its own, `columns` wide, and types `typed` (may be empty) once `trigger` was shown.
 Outcome run_lockstep_on_terminal(const std::vector<std::string>& arguments, const std::string& trigger,
-                                 const std::string& typed, unsigned short columns = 80);
+                                 const std::string& typed, unsigned short columns = 80,
+                                 const Surroundings& surroundings = {});
 
 } // namespace lockstep::test

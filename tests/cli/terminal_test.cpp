@@ -1,7 +1,11 @@
 #include <catch2/catch.hpp>
 
 #include <array>
+#include <fstream>
+#include <iterator>
 #include <string>
+
+#include <nlohmann/json.hpp>
 
 #include "tests/cli/cli_checks.hpp"
 #include "tests/planted_shader.hpp"
@@ -60,29 +64,42 @@ TEST_CASE("terminal: the bar keeps to one line, however narrow") {
     }
 }
 
-TEST_CASE("terminal: Ctrl-C ends with the verdict on the frames done so far") {
+TEST_CASE("terminal: Ctrl-C ends with a verdict on the frames done so far, marked as partial, and status 130") {
     if (!test::have_osmesa() || !test::have_terminal())
         return;
     const test::TemporaryFolder folder;
     const test::TemporaryFolder shaders;
-    const std::vector<std::string> check{"check",     folder.write("scene.json", test::small_scene).string(),
-                                         "--frames",  "100000000",
-                                         "--gl",      "osmesa",
-                                         "--shaders", shaders.path(),
-                                         "--json",    folder.path() / "report.json"};
+    std::vector<std::string> check{"check",    folder.write("scene.json", test::small_scene).string(),
+                                   "--frames", "100000000",
+                                   "--gl",     "osmesa",
+                                   "--json",   folder.path() / "report.json"};
+    const auto report = [&] { return nlohmann::json::parse(std::ifstream(folder.path() / "report.json")); };
     SECTION("agreed so far") {
         const test::Outcome outcome = run_lockstep_on_terminal(check, bar, ctrl_c);
-        CHECK(outcome.status == 0);
-        CHECK_THAT(
-            outcome.out,
-            Catch::Matches(
-                "(.|\r|\n)*interrupted after \\d+ of 100000000 frames\r\n(.|\r|\n)*AGREE: every bit of (.|\r|\n)*"));
+        CHECK(outcome.status == 130);
+        CHECK_THAT(outcome.out,
+                   Catch::Matches("(.|\r|\n)*AGREE \\(partial: stopped after \\d+ of 100000000 frames\\)(, but "
+                                  "nothing collided)?: every bit of (.|\r|\n)*"));
+        CHECK(report()["partial"] == true);
+        CHECK(report()["frames_asked"] == 100000000);
     }
     SECTION("differed so far") {
         test::plant(shaders, "collision_pass.vert", "ls_flush(a_CollideTime) - u_Tick;", "ls_flush(a_CollideTime);");
+        check.insert(check.end(), {"--shaders", shaders.path()});
         const test::Outcome outcome = run_lockstep_on_terminal(check, bar, ctrl_c);
-        CHECK(outcome.status == 1);
-        CHECK_THAT(outcome.out, Catch::Contains("interrupted after ") && Catch::Contains("DIVERGENT from frame 0 on"));
+        CHECK(outcome.status == 130);
+        CHECK_THAT(outcome.out,
+                   Catch::Contains("DIVERGENT (partial: stopped after ") && Catch::Contains("frames) from frame 0 on"));
+        CHECK(report()["partial"] == true);
+    }
+    SECTION("into a pipe or a file") {
+        const std::string output = folder.write("output.txt", "");
+        const test::Outcome outcome = run_lockstep_on_terminal(check, bar, ctrl_c, 80, {.standard_output = output});
+        CHECK(outcome.status == 130);
+        std::ifstream stream(output);
+        const std::string text{std::istreambuf_iterator<char>(stream), {}};
+        CHECK_THAT(text, Catch::Contains("verdict   AGREE (partial: stopped after "));
+        std::filesystem::remove(output);
     }
     CHECK(test::names_in(folder.path()) == std::vector<std::string>{"report.json", "scene.json"});
 }

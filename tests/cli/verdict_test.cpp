@@ -184,3 +184,71 @@ TEST_CASE("verdict: both sides render, and bench tells a verdict a row") {
     CHECK_THAT(bench.out,
                Catch::Matches("(.|\n)*  1 +100 .* [0-9a-f]{16} AGREE\n +1 +200 .* [0-9a-f]{16} AGREE\n(.|\n)*"));
 }
+
+TEST_CASE("verdict: a run in which nothing collided says so, and fails where hits are required") {
+    if (!test::have_osmesa())
+        return;
+    const Setting setting;
+    test::Outcome outcome = setting.check({"--frames", "3", "--particles", "1"});
+    CHECK(outcome.status == 0);
+    CHECK_THAT(outcome.out, Catch::Contains("verdict   AGREE, but nothing collided: every bit of 1 particles"));
+    CHECK(json_of(setting.report)["untried"] == nlohmann::json{"nothing collided"});
+    outcome = setting.check({"--frames", "3", "--particles", "1", "--require-hits"});
+    CHECK(outcome.status == 1);
+    outcome = setting.check({"--frames", "6", "--require-hits"});
+    CHECK(outcome.status == 0);
+    CHECK(json_of(setting.report)["untried"].empty());
+}
+
+TEST_CASE("verdict: a run that draws nothing says so") {
+    if (!test::have_osmesa())
+        return;
+    const test::TemporaryFolder folder;
+    const std::string scene = folder.write("scene.json", R"({
+      "image": [64, 48], "render": [40, 30],
+      "emitters": [{ "count": 30, "min": [900, 900, 900], "max": [901, 901, 901] }]
+    })");
+    const test::Outcome outcome = run_lockstep({"check", scene, "--gl", "osmesa", "--frames", "3"});
+    CHECK_THAT(outcome.out, Catch::Contains("AGREE, but nothing collided, and nothing was drawn into the CDT: every"));
+}
+
+TEST_CASE("verdict: what is compared and not judged says so, also where it agrees") {
+    if (!test::have_osmesa())
+        return;
+    const Setting setting;
+    for (const char* unjudged : {"search=octree", "cdt_layers=2"}) {
+        INFO(unjudged);
+        const test::Outcome outcome = setting.check({"--frames", "6", "--set", unjudged});
+        CHECK(outcome.status == 0);
+        CHECK_THAT(outcome.out, Catch::Contains("verdict   AGREE: ") && Catch::Contains("; compared, not judged\n"));
+        CHECK(json_of(setting.report)["judged"] == false);
+    }
+    CHECK(setting.check({"--frames", "6"}).out.find("not judged") == std::string::npos);
+}
+
+TEST_CASE("verdict: bench has check's words and status") {
+    if (!test::have_osmesa())
+        return;
+    const Setting setting;
+    const auto bench = [&](std::vector<std::string> options) {
+        std::vector<std::string> arguments{"bench", setting.scene, "--gl", "osmesa", "--frames", "3", "--radius", "1"};
+        arguments.insert(arguments.end(), options.begin(), options.end());
+        return run_lockstep(arguments);
+    };
+    test::Outcome outcome = bench({"--counts", "1"});
+    CHECK(outcome.status == 0);
+    CHECK_THAT(outcome.out, Catch::Contains(" AGREE, but nothing collided\n"));
+    outcome = bench({"--counts", "300", "--set", "search=octree"});
+    CHECK_THAT(outcome.out, Catch::Contains(" AGREE\n"));
+    test::plant(setting.shaders, "collision_pass.vert", "ls_flush(a_CollideTime) - u_Tick;",
+                "ls_flush(a_CollideTime);");
+    outcome = bench({"--counts", "300", "--shaders", setting.shaders.path()});
+    CHECK(outcome.status == 1);
+    CHECK_THAT(outcome.out, Catch::Contains(" DIVERGENT\n"));
+    const test::TemporaryFolder slip;
+    test::plant(slip, "collision_pass.vert", "v_Speed = ls_length(temp);",
+                "v_Speed = uintBitsToFloat(floatBitsToUint(ls_length(temp)) + 1u);");
+    outcome = bench({"--counts", "300", "--shaders", slip.path(), "--legal", "any_order"});
+    CHECK(outcome.status == 0);
+    CHECK_THAT(outcome.out, Catch::Contains(" LEGAL\n"));
+}

@@ -48,7 +48,8 @@ TEST_CASE("match_reference: an engine that computes the same passes") {
     CHECK(result.passed());
     CHECK(result.report().frames == 8);
     CHECK_THAT(result.text(), Contains("scene     x_streams (") && Contains("GL        an engine of its own\n") &&
-                                  Contains("profile   strict: ") && Contains("verdict   AGREE: every bit"));
+                                  Contains("profile   strict: ") &&
+                                  Contains("verdict   AGREE, but nothing collided: every bit"));
 }
 
 TEST_CASE("match_reference: one bit in one frame is found, with the line that repeats it") {
@@ -74,6 +75,13 @@ TEST_CASE("match_reference: mode and rules are the caller's") {
     const MatchResult legal = match_reference(legal_engine, scene, {.frames = 8, .legal = Legal::any_order});
     CHECK(legal.report().verdict == Verdict::legal);
     CHECK(legal.passed());
+}
+
+TEST_CASE("match_reference: where nothing collides, requiring hits fails") {
+    const Scene scene = streams();
+    ReferenceEngine engine(scene), again(scene);
+    CHECK(match_reference(engine, scene, {.frames = 4}).passed());
+    CHECK_FALSE(match_reference(again, scene, {.frames = 4, .require_hits = true}).passed());
 }
 
 TEST_CASE("match_reference: what would prove nothing is an error") {

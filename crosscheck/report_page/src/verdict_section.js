@@ -24,7 +24,7 @@ function facts(head) {
     ["Renderer", report.context],
     ["Profile", report.profile],
     ["Switches", report.switches],
-    ["Run", `${counted(report.particles, "particle")}, ${counted(report.frames, "frame")}, ${report.mode}`],
+    ["Run", `${counted(report.particles, "particle")}, ${report.partial ? `${report.frames} of ${counted(report.frames_asked, "frame")}` : counted(report.frames, "frame")}, ${report.mode}`],
     ["Compared", `${counted(compared, "float")}; ${counted(report.hits, "hit")}, ${counted(report.drawn_texels, "texel")} drawn`],
     ["State hash", hash],
   ];
@@ -38,17 +38,30 @@ function differences(head) {
   return `${counted(report.differing_particles, "particle state")} and ${counted(report.differing_texels, "texel")} differ in ${counted(report.frames, "frame")}, the first in frame ${report.first_frame}.`;
 }
 
+// What the verdict does not say: it is not to be read without.
+function limits(head) {
+  const { report } = head;
+  const told = [];
+  if (report.partial) told.push(`Partial: the run was stopped after ${report.frames} of ${counted(report.frames_asked, "frame")}.`);
+  for (const what of report.untried) told.push(`But ${what}.`);
+  if (!report.judged && report.verdict !== "NONDETERMINISTIC") told.push("Compared, not judged.");
+  return told;
+}
+
 export function verdictSection(head) {
   const verdict = VERDICTS[head.report.verdict];
+  const limited = limits(head);
+  const tone = limited.length > 0 && verdict.tone === "good" ? "warn" : verdict.tone;
   return section(
     "verdict",
     "Verdict",
     h(
       "div",
-      { class: `verdict ${verdict.tone}` },
-      h("p", { class: "word" }, h("span", { class: "mark", "aria-hidden": "true" }, verdict.mark), head.report.verdict),
+      { class: `verdict ${tone}` },
+      h("p", { class: "word" }, h("span", { class: "mark", "aria-hidden": "true" }, verdict.mark), head.report.verdict, head.report.partial ? " (partial)" : ""),
       h("div", {}, h("p", { class: "says" }, verdict.says), h("p", { class: "muted" }, differences(head))),
     ),
+    limited.map((text) => h("p", { class: "warning note" }, text)),
     facts(head),
     (head.report.notes ?? []).map((note) => h("p", { class: "warning note" }, note)),
   );

@@ -66,6 +66,10 @@ class MatchesReference : public CatchMatcher<GpuSide> {
         options_.allow_undefined = true;
         return *this;
     }
+    MatchesReference& require_hits() {
+        options_.require_hits = true;
+        return *this;
+    }
 
     /// CHECK_THAT hands the side over as const, and it has to run: it is not to be a constant.
     bool match(const GpuSide& gpu) const override {
@@ -75,7 +79,7 @@ class MatchesReference : public CatchMatcher<GpuSide> {
         text_ = result.text(expansion_width);
         test_notes().properties = {{"renderer", result.run().context},
                                    {"profile", result.run().profile},
-                                   {"verdict", std::string(verdict_name(result.report().verdict))}};
+                                   {"verdict", verdict_words(result.report())}};
         test_notes().repeat = broken_repeat(text_);
         return result.passed();
     }

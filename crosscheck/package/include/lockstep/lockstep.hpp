@@ -98,6 +98,7 @@ struct MatchOptions {
     CheckMode mode = CheckMode::resync;
     Legal legal = Legal::measured;
     bool allow_undefined = false; ///< pass what rests on what GL leaves open
+    bool require_hits = false;    ///< fail a run in which nothing collided
     /// The command that repeats it where `lockstep check` cannot, for an engine or a scene made in code; empty: this
     /// program's own command line.
     std::string repeat = {};

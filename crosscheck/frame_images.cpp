@@ -3,9 +3,12 @@
 #include <cstddef>
 #include <iterator>
 
+#include <fmt/format.h>
+
 #include "crosscheck/pictures.hpp"
 #include "crosscheck/png.hpp"
 #include "gpu/render_pass.hpp"
+#include "reference/model/error.hpp"
 #include "reference/render_pass.hpp"
 
 namespace lockstep {
@@ -19,6 +22,23 @@ ColorImage render_on_gpu(const Particles& particles, const Scene& scene, const F
     ColorImage image;
     pass.read(image);
     return image;
+}
+
+RenderComparison compare_rendered(const Particles& particles, const Scene& scene, int frame, const Profile& profile,
+                                  const std::filesystem::path& shaders) {
+    const FrameParams params = frame_params(scene, frame);
+    const ColorImage gpu = render_on_gpu(particles, scene, params, shaders);
+    const ColorImage reference = render_pass(particles, scene.obstacles, params, profile);
+    if (gpu.texels.size() != reference.texels.size())
+        throw Error(fmt::format("rendered frame: {} pixels on the GPU, {} in the reference", gpu.texels.size(),
+                                reference.texels.size()));
+    const ColorImage without = render_pass({}, scene.obstacles, params, profile);
+    RenderComparison compared{frame, gpu.texels.size(), 0, 0};
+    for (std::size_t i = 0; i < gpu.texels.size(); ++i) {
+        compared.differing += gpu.texels[i] == reference.texels[i] ? 0U : 1U;
+        compared.of_particles += without.texels[i] == reference.texels[i] ? 0U : 1U;
+    }
+    return compared;
 }
 
 void FrameImages::keep(const ComparedFrame& frame) {

@@ -5,12 +5,17 @@
 
 #include "crosscheck/check.hpp"
 #include "crosscheck/output_files.hpp"
+#include "crosscheck/report.hpp"
 
 namespace lockstep {
 
 /// The rendered frame of a state, by the render pass of the current context.
 ColorImage render_on_gpu(const Particles& particles, const Scene& scene, const FrameParams& params,
                          const std::filesystem::path& shaders);
+
+/// One state, rendered by the GPU and by the reference. Needs the current context.
+RenderComparison compare_rendered(const Particles& particles, const Scene& scene, int frame, const Profile& profile,
+                                  const std::filesystem::path& shaders);
 
 /// Pictures of one frame of a check: the first that differs, or else the last.
 class FrameImages {

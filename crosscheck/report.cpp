@@ -108,6 +108,20 @@ std::string_view verdict_name(Verdict verdict) {
     return "";
 }
 
+std::string shaders_line(const RunDescription& run) {
+    return run.shaders ? shaders_text(*run.shaders) : run.shaders_untold;
+}
+
+std::string render_line(const RunDescription& run) {
+    if (!run.rendered)
+        return "the rendered frame was not compared" + run.render_hint;
+    const RenderComparison& r = *run.rendered;
+    const std::string pixels = fmt::format("{} pixels of frame {}, {} of which show particles", grouped(r.pixels),
+                                           r.frame, grouped(r.of_particles));
+    return r.differing == 0 ? fmt::format("AGREE: every one of {}", pixels)
+                            : fmt::format("DIFFER: {} of {}; compared, not judged", grouped(r.differing), pixels);
+}
+
 std::string pass_options_text(const PassRules& rules) {
     return fmt::format("{}{}", rules.allow_undefined ? " --allow-undefined" : "",
                        rules.require_hits ? " --require-hits" : "");
@@ -128,6 +142,7 @@ std::string report_text(const CheckReport& r, const RunDescription& run) {
     line("scene", fmt::format("{}: {} particles, {} frames, {}", run.scene, grouped(r.particles), r.frames, run.mode));
     line("switches", run.settings);
     line("GL", run.context);
+    line("shaders", shaders_line(run));
     line("profile", run.profile);
     std::uint64_t nan = 0;
     for (const FieldCount& field : r.total.fields)
@@ -144,6 +159,7 @@ std::string report_text(const CheckReport& r, const RunDescription& run) {
         line("hash", r.reference_hash == r.gpu_hash
                          ? fmt::format("{} on both sides after the last frame", hash_text(r.gpu_hash))
                          : fmt::format("reference {}, GPU {}", hash_text(r.reference_hash), hash_text(r.gpu_hash)));
+    line("render", render_line(run));
     for (const std::string& note : run.notes)
         line("note", note);
     line("verdict", verdict_line(r));
@@ -175,6 +191,30 @@ std::string report_text(const CheckReport& r, const RunDescription& run) {
     out += fmt::format("\nrepeat    {}\n", run.repeat);
     return out;
 }
+
+namespace {
+
+nlohmann::json shaders_json(const RunDescription& run) {
+    nlohmann::json files = nlohmann::json::array();
+    if (run.shaders)
+        for (const UsedShader& used : run.shaders->files)
+            files.push_back(
+                {{"file", used.file},
+                 {"foreign", used.foreign.empty() ? nlohmann::json() : nlohmann::json(used.foreign.string())},
+                 {"same_as_shipped", used.foreign.empty() || used.same_as_shipped},
+                 {"left_out", used.leaves_out}});
+    return {{"text", shaders_line(run)}, {"files", files}};
+}
+
+nlohmann::json render_json(const RunDescription& run) {
+    nlohmann::json json{{"text", render_line(run)}, {"compared", run.rendered.has_value()}};
+    if (run.rendered)
+        json.update(
+            {{"frame", run.rendered->frame}, {"pixels", run.rendered->pixels}, {"differing", run.rendered->differing}});
+    return json;
+}
+
+} // namespace
 
 nlohmann::json report_json(const CheckReport& r, const RunDescription& run) {
     using nlohmann::json;
@@ -210,6 +250,8 @@ nlohmann::json report_json(const CheckReport& r, const RunDescription& run) {
             {"mode", run.mode},
             {"switches", run.settings},
             {"context", run.context},
+            {"shaders", shaders_json(run)},
+            {"render", render_json(run)},
             {"profile", run.profile},
             {"particles", r.particles},
             {"frames", r.frames},

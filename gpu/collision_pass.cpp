@@ -14,8 +14,11 @@ namespace {
 
 Program link(const Switches& switches, const std::filesystem::path& shaders) {
     const std::array stages{Stage::vertex, Stage::geometry, Stage::fragment};
-    return {"collision_pass", load_stages(shader_folders(shaders), "collision_pass", stages, switch_defines(switches)),
-            particle_captures()};
+    const std::vector<ShaderSource> sources =
+        load_stages(shader_folders(shaders), "collision_pass", stages, switch_defines(switches));
+    Program program("collision_pass", sources, particle_captures());
+    check_nothing_lost(sources, particle_captures());
+    return program;
 }
 
 } // namespace

@@ -2,6 +2,7 @@
 #include <optional>
 #include <string>
 
+#include "gpu/shader_use.hpp"
 #include "reference/model/image.hpp"
 #include "reference/model/particles.hpp"
 #include "reference/model/profile.hpp"
@@ -15,6 +16,7 @@ struct SideDescription {
     Profile profile;                           ///< its driver's arithmetic, which the reference follows
     /// The options with which `lockstep check` runs it again ("--shaders mine"); not set: the program cannot.
     std::optional<std::string> arguments;
+    std::optional<ShaderUse> shaders; ///< whose shaders it runs; not set: not lockstep's and not told
 };
 
 /// Whatever computes the frames that a check holds against the reference: GpuSimulation runs them on GL, a trace gives

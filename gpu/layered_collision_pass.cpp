@@ -16,9 +16,11 @@ namespace {
 
 Program link_step(const Switches& switches, const std::filesystem::path& shaders) {
     const std::array stages{Stage::vertex};
-    return {"layered_collision_pass",
-            load_stages(shader_folders(shaders), "layered_collision_pass", stages, switch_defines(switches)),
-            particle_captures()};
+    const std::vector<ShaderSource> sources =
+        load_stages(shader_folders(shaders), "layered_collision_pass", stages, switch_defines(switches));
+    Program program("layered_collision_pass", sources, particle_captures());
+    check_nothing_lost(sources, particle_captures());
+    return program;
 }
 
 Program link_draw(const Switches& switches, const std::filesystem::path& shaders) {
@@ -74,7 +76,9 @@ void LayeredCollisionPass::run(const FrameParams& params, const MeshBuffer& obst
         draw_.set("u_ClientHeight", params.height);
         set_collision_code(draw_, params);
         draw_.set_unit("u_KeyBefore", 0, GL_INT_SAMPLER_2D);
+        draw_.set("u_Layer", 0);
         const GlVertexArray vertices = particle_vertex_array(to, draw_);
+        draw_.check_interface();
         gl::BindVertexArray(vertices.id());
         for (int layer = 0; layer < planes_.layers; ++layer)
             draw_layer(camera, layer, to, target);
@@ -92,11 +96,13 @@ void LayeredCollisionPass::step(const FrameParams& params, bool obstacles, const
     step_.set("u_WindowMargin", window_margin);
     step_.set("u_Obstacles", obstacles ? 1 : 0);
     step_.set_unit("u_CDTexture", 0, GL_SAMPLER_2D_ARRAY);
-    step_.set_unit("u_Velocities", 1, GL_SAMPLER_2D_ARRAY);
     cdt.bind_positions(0);
-    if (planes_.velocities)
+    if (planes_.velocities) {
+        step_.set_unit("u_Velocities", 1, GL_SAMPLER_2D_ARRAY);
         cdt.bind_velocities(1);
+    }
     const GlVertexArray vertices = particle_vertex_array(from, step_);
+    step_.check_interface();
     gl::BindVertexArray(vertices.id());
     to.bind_capture();
     gl::Enable(GL_RASTERIZER_DISCARD);

@@ -168,6 +168,9 @@ std::size_t edits(std::string_view a, std::string_view b) {
 
 void check_capture_type(GLuint program, GLuint index, const Capture& capture, std::span<const ShaderSource> stages) {
     const auto [name, type, size] = linked_capture(program, index);
+    if (name != capture.name)
+        throw Error(fmt::format("shader {}: a layout(xfb_...) of its own has {} captured in the place of {}",
+                                last_vertex_stage_file(stages), name, capture.name));
     const ShaderSource* last = last_vertex_stage(stages);
     const std::span from(last, last == nullptr ? 0 : 1);
     if (type != capture.type || size != capture.size)
@@ -216,7 +219,100 @@ std::set<std::string> words_with(std::string_view prefix, std::string_view text)
     return found;
 }
 
+/// Every block of the kind ("uniform", "buffer") that a stage declares: its name, and where.
+std::vector<std::pair<std::string, std::string>> blocks(std::string_view kind, std::span<const ShaderSource> stages) {
+    std::vector<std::pair<std::string, std::string>> found;
+    for (const ShaderSource& stage : stages) {
+        std::string before, last;
+        for (ShaderWords words(stage.text); words.next();) {
+            if (words.token() == "{" && before == kind) {
+                const ShaderSource::Origin& origin = stage.origins[words.line() - 1];
+                found.emplace_back(last, fmt::format("{}:{}", stage.files[origin.file], origin.line));
+            }
+            before = std::exchange(last, std::string(words.token()));
+        }
+    }
+    return found;
+}
+
+/// No pass binds a uniform block, and only a compute stage has storage buffers.
+void check_blocks(GLuint program, std::span<const ShaderSource> stages) {
+    GLint uniform_blocks = 0;
+    gl::GetProgramiv(program, GL_ACTIVE_UNIFORM_BLOCKS, &uniform_blocks);
+    if (uniform_blocks > 0) {
+        const auto declared = blocks("uniform", stages);
+        throw Error(fmt::format("shader {}: nothing is given for uniform block {}; uniforms are set one by one",
+                                declared.empty() ? stages.front().files.front() : declared.front().second,
+                                declared.empty() ? std::string() : declared.front().first));
+    }
+    if (gl::GetProgramInterfaceiv == nullptr || stages.front().stage == Stage::compute)
+        return;
+    for (const auto& [name, place] : blocks("buffer", stages))
+        if (gl::GetProgramResourceIndex(program, GL_SHADER_STORAGE_BLOCK, name.c_str()) != GL_INVALID_INDEX)
+            throw Error(fmt::format("shader {}: nothing is given for storage buffer {}", place, name));
+}
+
+/// What a fragment stage reads has to be written: by name, where no location stands beside it.
+void check_fragment_inputs(std::span<const ShaderSource> stages) {
+    const ShaderSource* last = last_vertex_stage(stages);
+    if (last == nullptr)
+        return;
+    const std::set<std::string> written = words_with("", last->text);
+    for (const ShaderSource& stage : stages) {
+        if (stage.stage != Stage::fragment)
+            continue;
+        std::map<std::string, int> uses;
+        for (ShaderWords words(stage.text); words.next();)
+            ++uses[std::string(words.token())];
+        std::string first, second, third; // the words before
+        bool located = false;
+        for (ShaderWords words(stage.text); words.next();) {
+            if (words.token() == ";" && first == "in" && !located && uses[third] > 1 && !written.contains(third)) {
+                const ShaderSource::Origin& origin = stage.origins[words.line() - 1];
+                throw Error(fmt::format("shader {}:{}: input {} is written by no stage before it ({})",
+                                        stage.files[origin.file], origin.line, third, last->files.front()));
+            }
+            located = words.token() != ";" && (located || words.token() == "location");
+            first = std::exchange(second, std::exchange(third, std::string(words.token())));
+        }
+    }
+}
+
+/// A fragment stage writes what its target holds: output 0.
+void check_fragment_output(GLuint program, std::span<const ShaderSource> stages) {
+    for (const ShaderSource& stage : stages) {
+        if (stage.stage != Stage::fragment)
+            continue;
+        for (const std::string& word : words_with("", stage.text))
+            if (!word.starts_with("gl_") && gl::GetFragDataLocation(program, word.c_str()) == 0)
+                return;
+        throw Error(
+            fmt::format("shader {}: no output at location 0 is written; that is what is drawn", stage.files.front()));
+    }
+}
+
 } // namespace
+
+void check_nothing_lost(std::span<const ShaderSource> stages, std::span<const Capture> captured) {
+    const ShaderSource* last = last_vertex_stage(stages);
+    if (last == nullptr)
+        return;
+    std::set<std::string> lost = words_with("out_", last->text);
+    for (const Capture& capture : captured)
+        lost.erase(capture.name);
+    for (const ShaderSource& stage : stages)
+        if (stage.stage == Stage::fragment)
+            for (const std::string& read : words_with("out_", stage.text))
+                lost.erase(read);
+    if (lost.empty())
+        return;
+    for (const Capture& output : outputs_with("out_", stages))
+        if (lost.contains(output.name))
+            throw Error(fmt::format("shader {}: output {} is captured by nobody and compared with nothing; what is "
+                                    "compared is {}",
+                                    find_declaration({last, 1}, "out", output.name).place, output.name,
+                                    joined_names(captured)));
+}
 
 std::vector<Capture> outputs_with(std::string_view prefix, std::span<const ShaderSource> stages) {
     const ShaderSource* last = last_vertex_stage(stages);
@@ -252,6 +348,9 @@ Program::Program(std::string name, std::span<const ShaderSource> stages, std::sp
             check_geometry_stage(id_, stages);
         for (std::size_t i = 0; i < captured.size(); ++i)
             check_capture_type(id_, static_cast<GLuint>(i), captured[i], stages);
+        check_blocks(id_, stages);
+        check_fragment_inputs(stages);
+        check_fragment_output(id_, stages);
         for (const Shader& shader : shaders)
             gl::DetachShader(id_, shader.id());
         for_each_active(id_, GL_ACTIVE_UNIFORMS, GL_ACTIVE_UNIFORM_MAX_LENGTH, gl::GetActiveUniform,

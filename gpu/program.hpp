@@ -27,12 +27,17 @@ struct Capture {
 /// says of each such word in the stage's text. Throws Error where a stage does not compile.
 std::vector<Capture> outputs_with(std::string_view prefix, std::span<const ShaderSource> stages);
 
+/// Throws Error for an output of the last vertex-processing stage named like a captured one (out_*) that is neither
+/// among `captured` nor read by the fragment stage: whoever wrote it takes it for compared.
+void check_nothing_lost(std::span<const ShaderSource> stages, std::span<const Capture> captured);
+
 /// A linked program. Whatever is wrong with a shader is an Error of one line: `shader FILE:LINE: ...` where a stage
 /// does not compile or declares something as another type, `NAME: ...` for the rest.
 class Program {
   public:
     /// Links `stages`; `captured` outputs of the last vertex-processing stage go interleaved, in this order, into the
-    /// buffer bound to transform feedback. Throws Error also for a captured output that is missing or of another type.
+    /// buffer bound to transform feedback. Throws Error also for a captured output that is missing or of another type,
+    /// for a block that nobody binds, and for a fragment stage that writes no output 0.
     Program(std::string name, std::span<const ShaderSource> stages, std::span<const Capture> captured = {});
     Program(Program&& other) noexcept;
     Program& operator=(Program&& other) noexcept;

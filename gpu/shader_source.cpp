@@ -253,6 +253,8 @@ std::vector<ShaderSource> load_stages(const ShaderFolders& folders, std::string_
     std::vector<ShaderSource> sources;
     for (const Stage stage : stages) {
         const auto [path, text] = find(folders, fmt::format("{}{}", name, extension(stage)), "");
+        if (blank(text) && stage != Stage::geometry)
+            throw Error(fmt::format("shader {}: is empty; only a geometry stage can be left out", path.string()));
         if (!blank(text))
             sources.push_back(Assembly(folders, defines).assemble(path, text, stage));
     }

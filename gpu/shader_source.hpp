@@ -51,8 +51,8 @@ struct ShaderSource {
 ShaderSource load_stage(const ShaderFolders& folders, std::string_view name, Stage stage,
                         const ShaderDefines& defines = {});
 
-/// The stages of one program. A file that holds nothing but white space leaves its stage out, so a user's folder can
-/// do without a built-in one.
+/// The stages of one program. A geometry stage's file that holds nothing but white space leaves the stage out, so a
+/// user's folder can do without a built-in one. Throws Error where another stage's file does.
 std::vector<ShaderSource> load_stages(const ShaderFolders& folders, std::string_view name,
                                       std::span<const Stage> stages, const ShaderDefines& defines = {});
 

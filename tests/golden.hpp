@@ -56,4 +56,16 @@ inline std::vector<Golden> golden_hashes() {
     return all;
 }
 
+/// Empty where every mesh has been fetched; else what is not held here, and how it would be.
+inline std::string scenes_without_mesh() {
+    std::set<std::string> missing;
+    for (const Golden& golden : golden_hashes())
+        if (golden.preset == "exact" && golden.profile == "strict" && !golden.load())
+            missing.insert(golden.scene);
+    std::string text;
+    for (const std::string& scene : missing)
+        text += (text.empty() ? "golden hashes of " : ", ") + scene;
+    return text.empty() ? text : text + ": no mesh; scripts/fetch_meshes.sh fetches it";
+}
+
 } // namespace lockstep::test

@@ -94,7 +94,8 @@ std::size_t peak_bytes() {
 }
 
 int run(const Options& options) {
-    static_cast<void>(load(options.run)); // says what is wrong with the scene before the table begins
+    static_cast<void>(
+        shaders_to_run(options.run, load(options.run))); // says what is wrong with the scene before the table begins
     const Context context(parse_context_request(options.run.gl));
     const Profile profile = measured_profile(context, options.run.shaders);
     fmt::print("{}\n{} frames each, median ms a frame; profile {}\n\n", summary(context.describe()), options.run.frames,

@@ -44,6 +44,7 @@ Capsule cut_from(FrameRun& run, const Options& options, const std::string& rende
 
 Capsule cut_live(const Options& options) {
     const Scene scene = load(options.run);
+    static_cast<void>(shaders_to_run(options.run, scene));
     const Context context(parse_context_request(options.run.gl));
     const Profile profile = measured_profile(context, options.run.shaders);
     FrameRun run(scene, profile, known_operations(options.legal, profile), options.run.shaders);

@@ -29,6 +29,7 @@
 #include "crosscheck/report.hpp"
 #include "crosscheck/run_text.hpp"
 #include "crosscheck/shell_words.hpp"
+#include "crosscheck/side_state.hpp"
 #include "crosscheck/signals.hpp"
 #include "crosscheck/threads.hpp"
 #include "crosscheck/trace/trace_side.hpp"
@@ -48,6 +49,7 @@ struct Options {
     std::filesystem::path json, images, hashes, report;
     Legal legal = Legal::measured;
     PassRules rules;
+    bool render = false;
     bool quiet = false;
 };
 
@@ -58,7 +60,7 @@ std::string repeat_line(const Options& options, int frames) {
     if (options.mode == CheckMode::free)
         line += " --mode free";
     line += legal_option_text(options.legal);
-    return line + pass_options_text(options.rules);
+    return line + pass_options_text(options.rules) + (options.render ? " --render" : "");
 }
 
 std::string explain_line(const Options& options, const Place& place, int width) {
@@ -107,6 +109,7 @@ struct Checked {
     std::string context;  ///< renderer, version
     std::string settings; ///< preset and changed switches
     std::vector<std::string> notes;
+    std::optional<ShaderUse> shaders; ///< not set: recorded elsewhere
 };
 
 /// The first divergent particle's step, for a file.
@@ -168,7 +171,20 @@ RunDescription description(const Options& options, const Checked& checked, const
             report.verdicts && report.verdicts->first
                 ? explain_line(options, report.verdicts->first->place, checked.scene.width)
                 : std::string(),
-            checked.notes};
+            checked.notes,
+            checked.shaders,
+            "not in the recording",
+            {},
+            checked.shaders ? " (--render compares it)" : ": no picture is in a recording"};
+}
+
+/// The last frame, where pictures are asked for.
+std::optional<RenderComparison> rendered(const Options& options, const Checked& checked, const CheckReport& report) {
+    if (!checked.shaders || (!options.render && options.images.empty()))
+        return {};
+    Particles last;
+    read_side(checked.gpu, checked.scene, last);
+    return compare_rendered(last, checked.scene, report.frames - 1, checked.profile, options.run.shaders);
 }
 
 int check_and_tell(const Options& options, OutputFiles& files, const Checked& checked) {
@@ -209,9 +225,14 @@ int check_and_tell(const Options& options, OutputFiles& files, const Checked& ch
         fmt::print(stderr, "lockstep: interrupted: {}\n", error.what());
         return status_interrupted;
     }
-    const CheckReport& report = *compared;
+    CheckReport& report = *compared;
 
     RunDescription run = description(options, checked, report);
+    run.rendered = rendered(options, checked, report);
+    if (run.rendered && run.rendered->differing > 0)
+        report.untried.emplace_back("the rendered frame differs");
+    if (run.rendered && run.rendered->of_particles == 0)
+        report.untried.emplace_back("the rendered frame shows no particle");
     if (!options.quiet) {
         if (report.partial())
             fmt::print("interrupted after {} of {} frames\n", report.frames, options.run.frames);
@@ -242,11 +263,13 @@ int check_and_tell(const Options& options, OutputFiles& files, const Checked& ch
     files.commit();
     if (report.partial())
         return status_interrupted;
-    return passes(report, options.rules) ? status_agree : status_differ;
+    const bool render_passes = !options.render || run.rendered->differing == 0;
+    return passes(report, options.rules) && render_passes ? status_agree : status_differ;
 }
 
 int run_scene(const Options& options) {
     const Scene scene = load(options.run);
+    ShaderUse shaders = shaders_to_run(options.run, scene, options.render || !options.images.empty());
     OutputFiles files;
     expect_files(options, files);
     const Context context(parse_context_request(options.run.gl));
@@ -260,7 +283,8 @@ int run_scene(const Options& options) {
                            options.run.scene.string(),
                            summary(context.describe()),
                            settings_text(options.run, scene),
-                           {}});
+                           {},
+                           std::move(shaders)});
 }
 
 int run_trace(Options options) {
@@ -274,11 +298,20 @@ int run_trace(Options options) {
     if (options.run.frames > info.frames)
         throw Error(fmt::format("--frames {}: {} holds {} frames", options.run.frames, info.file, info.frames));
     const Profile profile = followed_profile(info);
+    std::vector<std::string> notes = notes_on(info);
+    if (options.run.frames < info.frames)
+        notes.push_back(fmt::format("{} of the {} frames recorded were compared", options.run.frames, info.frames));
     TraceSide recorded(trace);
     return check_and_tell(options, files,
-                          {info.scene, profile, recorded, known_operations(info, options.legal), info.file,
+                          {info.scene,
+                           profile,
+                           recorded,
+                           known_operations(info, options.legal),
+                           info.file,
                            fmt::format("recorded: {}", info.renderer.empty() ? "untold" : info.renderer),
-                           info.settings.empty() ? "untold" : info.settings, notes_on(info)});
+                           info.settings.empty() ? "untold" : info.settings,
+                           std::move(notes),
+                           {}});
 }
 
 } // namespace
@@ -327,6 +360,7 @@ void add_check_command(CLI::App& app, int& status) {
     verb->add_option("--report", options->report,
                      "write report.html, a page that opens in any browser; with what study.json there says")
         ->type_name("DIR");
+    verb->add_flag("--render", options->render, "compare the rendered frame, too, the last one; fail where it differs");
     verb->add_flag("--quiet", options->quiet, "no report, only the exit status");
     verb->footer(
         "Exit status: 0 every bit agrees, or what differs is legal (rounding, ties); 1 divergent, undefined "

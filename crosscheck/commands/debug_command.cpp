@@ -57,7 +57,7 @@ int run(const Options& options) {
         changed.set.insert(changed.set.end(), changes.begin(), changes.end());
         return load(changed);
     };
-    load_with({});
+    static_cast<void>(shaders_to_run(options.run, load_with({})));
     const Context context(parse_context_request(options.run.gl));
     const Profile profile = measured_profile(context, options.run.shaders);
     DebugSession session({.load = load_with,

@@ -49,6 +49,7 @@ void tell(const Options& options, FrameRun& frames, const std::string& file, con
 
 void explain_scene(const Options& options) {
     const Scene scene = load(options.run);
+    static_cast<void>(shaders_to_run(options.run, scene));
     item_of(options, scene);
     const Context context(parse_context_request(options.run.gl));
     const Profile profile = measured_profile(context, options.run.shaders);

@@ -60,6 +60,7 @@ TraceInfo info_of(const Options& options, Scene scene, const Context& context) {
 
 int run(const Options& options) {
     Scene scene = load(options.run);
+    static_cast<void>(shaders_to_run(options.run, scene));
     OutputFiles files;
     protect_inputs(options.run, files);
     files.expect(options.output);

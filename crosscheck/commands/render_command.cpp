@@ -42,6 +42,7 @@ ColorImage render_cpu(const Scene& scene, const Options& options) {
 }
 
 ColorImage render_gpu(const Scene& scene, const Options& options) {
+    static_cast<void>(shaders_to_run(options.run, scene, true));
     const Context context(parse_context_request(options.run.gl));
     GpuSimulation gpu(scene, options.run.shaders);
     Progress progress("render", options.frame + 1, true);

@@ -32,6 +32,7 @@ void add_threads_option(CLI::App& verb, RunOptions& options) {
 void add_gl_options(CLI::App& verb, RunOptions& options) {
     verb.add_option("--gl", options.gl, "which GL to open")->type_name("auto|osmesa|egl|egl-device:N");
     verb.add_option("--shaders", options.shaders, "take shader files from here first")->type_name("DIR");
+    verb.add_flag("--allow-unused", options.allow_unused, "let shaders that do not run here lie beside those that do");
 }
 
 void add_trace_option(CLI::App& verb, std::filesystem::path& trace) {
@@ -47,7 +48,8 @@ void check_scene_or_trace(const CLI::App& verb, const RunOptions& options, const
         return;
     if (!options.scene.empty())
         throw Error(fmt::format("{}: a scene does not go with --trace, which brings its own", verb.get_name()));
-    for (const char* name : {"--particles", "--preset", "--set", "--gl", "--shaders", "--images"})
+    for (const char* name :
+         {"--particles", "--preset", "--set", "--gl", "--shaders", "--allow-unused", "--images", "--render"})
         if (const CLI::Option* option = verb.get_option_no_throw(name); option != nullptr && option->count() > 0)
             throw Error(
                 fmt::format("{}: {} goes with a scene that is run here, not with --trace", verb.get_name(), name));
@@ -64,6 +66,12 @@ void protect_inputs(const RunOptions& options, OutputFiles& files) {
         for (const std::filesystem::path& file : scene_files(options.scene))
             files.protect(file);
     files.protect(options.shaders);
+}
+
+ShaderUse shaders_to_run(const RunOptions& options, const Scene& scene, bool rendered) {
+    ShaderUse use = shader_use(scene, options.shaders, rendered);
+    check_shader_use(use, options.shaders, options.allow_unused);
+    return use;
 }
 
 std::string command_line(const std::string& verb, const RunOptions& options, int frames) {
@@ -85,6 +93,8 @@ std::string command_line(const std::string& verb, const RunOptions& options, con
         line += fmt::format(" --gl {}", options.gl);
     if (!options.shaders.empty())
         line += fmt::format(" --shaders {}", shell_path(options.shaders));
+    if (options.allow_unused)
+        line += " --allow-unused";
     return line;
 }
 

@@ -8,6 +8,7 @@
 #include <CLI/CLI.hpp>
 
 #include "crosscheck/output_files.hpp"
+#include "gpu/shader_use.hpp"
 #include "reference/model/scene.hpp"
 
 namespace lockstep {
@@ -25,6 +26,7 @@ struct RunOptions {
     int threads = 0; ///< 0: one a core
     std::string gl = "auto";
     std::filesystem::path shaders; ///< looked into first; empty: only the shipped shaders
+    bool allow_unused = false;     ///< shaders may lie there that do not run
 };
 
 void add_scene_options(CLI::App& verb, RunOptions& options);
@@ -41,6 +43,9 @@ Scene load(const RunOptions& options);
 
 /// What a run of these options reads is no output of it.
 void protect_inputs(const RunOptions& options, OutputFiles& files);
+
+/// Whose shaders will run. Throws Error like check_shader_use. `rendered`: the rendered frame is drawn, too.
+ShaderUse shaders_to_run(const RunOptions& options, const Scene& scene, bool rendered = false);
 
 /// The options as they would be typed again in a shell, with another frame count.
 std::string command_line(const std::string& verb, const RunOptions& options, int frames);

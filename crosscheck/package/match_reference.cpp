@@ -91,7 +91,9 @@ MatchResult match_reference(GpuSide& gpu, const Scene& scene, const MatchOptions
                        options.mode == CheckMode::free ? "free" : "resync",
                        scene.width,
                        commands.repeat(report),
-                       commands.explain(report)};
+                       commands.explain(report),
+                       {},
+                       side.shaders};
     const bool passed = passes(report, {options.allow_undefined, options.require_hits});
     return {std::move(report), std::move(run), passed};
 }

@@ -6,10 +6,12 @@
 
 namespace lockstep {
 
-UserShaders::UserShaders(const Gl& gl, const Scene& scene, const std::filesystem::path& folder)
-    : gl_(gl), folder_(folder) {
+UserShaders::UserShaders(const Gl& gl, const Scene& scene, const std::filesystem::path& folder, UnusedShaders unused)
+    : gl_(gl), folder_(folder), unused_(unused) {
     if (!gl)
         throw Error(gl.missing());
+    use_ = shader_use(scene, folder);
+    check_shader_use(use_, folder, unused == UnusedShaders::allowed);
     simulation_ = std::make_unique<GpuSimulation>(scene, folder);
 }
 
@@ -22,7 +24,9 @@ SideDescription UserShaders::describe() const {
     if (!folder_.empty())
         arguments +=
             fmt::format(" --shaders {}", shell_word(std::filesystem::absolute(folder_).lexically_normal().string()));
-    return {gl_.name(), gl_.profile(folder_), arguments};
+    if (unused_ == UnusedShaders::allowed)
+        arguments += " --allow-unused";
+    return {gl_.name(), gl_.profile(folder_), arguments, use_};
 }
 
 void UserShaders::upload(const Particles& particles, const CollisionImage& cdt) { simulation_->upload(particles, cdt); }

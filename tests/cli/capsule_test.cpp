@@ -24,7 +24,7 @@ struct Setting {
     std::string file = (folder.path() / "capsule.json").string();
 
     [[nodiscard]] std::vector<std::string> live(const char* verb) const {
-        return {verb, scene, "--gl", "osmesa", "--shaders", shaders.path()};
+        return test::joined({verb, scene, "--gl", "osmesa"}, test::shader_options(shaders));
     }
     [[nodiscard]] test::Outcome cut(std::vector<std::string> from, const std::string& frame,
                                     const std::string& particle) const {
@@ -33,7 +33,7 @@ struct Setting {
         return run_lockstep(arguments);
     }
     [[nodiscard]] test::Outcome cut_live(const std::string& frame, const std::string& particle) const {
-        return cut({scene, "--gl", "osmesa", "--shaders", shaders.path()}, frame, particle);
+        return cut(test::joined({scene, "--gl", "osmesa"}, test::shader_options(shaders)), frame, particle);
     }
     [[nodiscard]] test::Outcome show() const { return run_lockstep({"capsule", "show", file}); }
 };

@@ -22,6 +22,19 @@ inline const std::string small_scene = R"({
   "obstacles": [{ "shape": "plane", "size": [1, 1], "position": [0, -0.6, 0] }]
 })";
 
+/// --shaders with this folder, unless it is empty, which the program refuses.
+inline std::vector<std::string> shader_options(const TemporaryFolder& shaders) {
+    if (std::filesystem::is_empty(shaders.path()))
+        return {};
+    return {"--shaders", shaders.path()};
+}
+
+/// `words` and, after them, `more`.
+inline std::vector<std::string> joined(std::vector<std::string> words, const std::vector<std::string>& more) {
+    words.insert(words.end(), more.begin(), more.end());
+    return words;
+}
+
 /// The small scene in a folder of its own, and one for shaders, to run a verb on.
 class SceneSetting {
   public:
@@ -31,9 +44,7 @@ class SceneSetting {
 
     /// The verb on the scene with these shaders, on OSMesa.
     [[nodiscard]] std::vector<std::string> command(const std::vector<std::string>& options = {}) const {
-        std::vector<std::string> arguments{verb_, scene, "--gl", "osmesa", "--shaders", shaders.path()};
-        arguments.insert(arguments.end(), options.begin(), options.end());
-        return arguments;
+        return joined(joined({verb_, scene, "--gl", "osmesa"}, shader_options(shaders)), options);
     }
 
   private:

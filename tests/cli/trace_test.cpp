@@ -24,11 +24,10 @@ struct Setting {
     std::string scene = folder.write("scene.json", test::small_scene).string();
     std::string file = (folder.path() / "run.h5").string();
 
-    [[nodiscard]] test::Outcome record(std::vector<std::string> options = {}) const {
-        std::vector<std::string> arguments{"record", scene,      "--gl", "osmesa",    "-o",
-                                           file,     "--frames", "6",    "--shaders", shaders.path()};
-        arguments.insert(arguments.end(), options.begin(), options.end());
-        return run_lockstep(arguments);
+    [[nodiscard]] test::Outcome record(const std::vector<std::string>& options = {}) const {
+        return run_lockstep(test::joined(test::joined({"record", scene, "--gl", "osmesa", "-o", file, "--frames", "6"},
+                                                      test::shader_options(shaders)),
+                                         options));
     }
     [[nodiscard]] test::Outcome check(std::vector<std::string> options = {}) const {
         std::vector<std::string> arguments{"check", "--trace", file};
@@ -36,7 +35,8 @@ struct Setting {
         return run_lockstep(arguments);
     }
     [[nodiscard]] test::Outcome check_live() const {
-        return run_lockstep({"check", scene, "--gl", "osmesa", "--shaders", shaders.path(), "--frames", "6"});
+        return run_lockstep(
+            test::joined({"check", scene, "--gl", "osmesa", "--frames", "6"}, test::shader_options(shaders)));
     }
 };
 

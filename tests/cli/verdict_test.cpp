@@ -43,11 +43,10 @@ struct Setting {
     std::string scene = folder.write("scene.json", test::small_scene).string();
     std::filesystem::path report = folder.path() / "report.json";
 
-    [[nodiscard]] test::Outcome check(std::vector<std::string> options) const {
-        std::vector<std::string> arguments{"check",  scene,  "--gl",      "osmesa",
-                                           "--json", report, "--shaders", shaders.path()};
-        arguments.insert(arguments.end(), options.begin(), options.end());
-        return run_lockstep(arguments);
+    [[nodiscard]] test::Outcome check(const std::vector<std::string>& options) const {
+        return run_lockstep(test::joined(
+            test::joined({"check", scene, "--gl", "osmesa", "--json", report}, test::shader_options(shaders)),
+            options));
     }
 };
 

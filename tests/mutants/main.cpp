@@ -12,6 +12,7 @@
 #include "crosscheck/atomic_file.hpp"
 #include "crosscheck/profiles.hpp"
 #include "gpu/context.hpp"
+#include "reference/model/error.hpp"
 #include "tests/mutants/score.hpp"
 
 using namespace lockstep;
@@ -27,9 +28,13 @@ int run(const std::vector<std::string>& only, const std::string& gl, const std::
     Score score;
     score.renderer = summary(context.describe());
     score.commit = commit;
+    const std::vector<Mutant> catalogue = whole_catalogue();
+    for (const std::string& name : only)
+        if (std::none_of(catalogue.begin(), catalogue.end(), [&](const Mutant& m) { return m.name == name; }))
+            throw Error(fmt::format("no mutant is named {}", name));
     std::vector<TrialScene> scenes = trial_scenes(measured_profile(context));
     score.unmutated = run_mutant({}, scenes);
-    for (const Mutant& mutant : whole_catalogue()) {
+    for (const Mutant& mutant : catalogue) {
         if (!only.empty() && std::find(only.begin(), only.end(), mutant.name) == only.end())
             continue;
         score.outcomes.push_back(run_mutant(mutant, scenes));

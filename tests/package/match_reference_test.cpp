@@ -122,18 +122,34 @@ TEST_CASE("gl: LOCKSTEP_GL is asked for where the caller asks for none") {
     CHECK(Gl("egl-device:98").asked() == "egl-device:98");
 }
 
-TEST_CASE("user shaders: a folder with nothing in it is lockstep's own, which agree") {
+TEST_CASE("user shaders: a folder of which nothing runs is refused; without one lockstep's own run, and agree") {
     const Gl gl("osmesa");
     if (!gl)
         return test::skip(gl.missing());
     const test::TemporaryFolder folder;
     const Scene scene = streams();
-    UserShaders gpu(gl, scene, folder.path());
+    CHECK_THROWS_WITH(UserShaders(gl, scene, folder.path()), Contains("nothing in it would run in this scene"));
+    UserShaders gpu(gl, scene, "");
     const MatchResult result = match_reference(gpu, scene, {.frames = 40});
     INFO(result.text());
     CHECK(result.passed());
     CHECK(result.report().hits > 0);
-    CHECK_THAT(result.text(), Contains("GL        " + gl.name()));
+    CHECK_THAT(result.text(), Contains("GL        " + gl.name()) && Contains("shaders   shipped: collision_pass.vert"));
+}
+
+TEST_CASE("user shaders: what runs beside what does not, where that is allowed") {
+    const Gl gl("osmesa");
+    if (!gl)
+        return test::skip(gl.missing());
+    const test::TemporaryFolder folder;
+    test::plant(folder, "collision_pass.vert", "// Lines 21 to 24.", "// Mine.");
+    test::plant(folder, "octree_pass.comp", "writeonly buffer After", "writeonly buffer  After");
+    const Scene scene = streams();
+    CHECK_THROWS_WITH(UserShaders(gl, scene, folder.path()), Contains("octree_pass.comp would not run"));
+    UserShaders gpu(gl, scene, folder.path(), UnusedShaders::allowed);
+    const MatchResult result = match_reference(gpu, scene, {.frames = 2});
+    CHECK_THAT(result.text(), Contains("shaders   foreign: " + (folder.path() / "collision_pass.vert").string()) &&
+                                  Contains("; not run: octree_pass.comp\n"));
 }
 
 TEST_CASE("user shaders: a planted bug is found, and the last line of the report finds it again") {

@@ -5,6 +5,7 @@
 #include "gpu/simulation.hpp"
 #include "reference/model/state_hash.hpp"
 #include "tests/golden.hpp"
+#include "tests/skip.hpp"
 #include "tests/twin/llvmpipe.hpp"
 
 using namespace lockstep;
@@ -13,6 +14,8 @@ TEST_CASE("golden hash twin: the shaders come to it by themselves") {
     const auto context = test::open_llvmpipe("osmesa");
     if (!context)
         return;
+    if (const std::string missing = test::scenes_without_mesh(); !missing.empty())
+        test::skip(missing, "LOCKSTEP_REQUIRE_MESHES");
     for (const test::Golden& golden : test::golden_hashes()) {
         const std::optional<Scene> scene = golden.profile == "llvmpipe" ? golden.load() : std::nullopt;
         if (!scene)

@@ -145,3 +145,109 @@ TEST_CASE("no false pass: a run that compared nothing is an error") {
     CHECK_THROWS_WITH(check(scene, named_profile("llvmpipe"), gpu, options),
                       "crowded: nothing was compared: 0 frames of 10 particles");
 }
+
+namespace {
+
+/// What a check of these shaders is refused with.
+std::string refusal(const test::TemporaryFolder& shaders, const Switches& switches = {}) {
+    Scene scene = crowded_scene(100);
+    scene.switches = switches;
+    try {
+        check_twins(scene, 2, shaders.path());
+    } catch (const Error& error) {
+        return error.what();
+    }
+    return "no error";
+}
+
+} // namespace
+
+TEST_CASE("no false pass: a block that nobody binds is an error with its name") {
+    const auto context = test::open_context("osmesa");
+    if (!context)
+        return;
+    const test::TemporaryFolder shaders;
+    const std::string file = (shaders.path() / "collision_pass.vert").string();
+    SECTION("uniform block, whose member has a name that is set") {
+        test::plant(shaders, "collision_pass.vert", "uniform float u_Tick;", "uniform Step { float u_Tick; };");
+        CHECK(refusal(shaders) ==
+              "shader " + file + ":23: nothing is given for uniform block Step; uniforms are set one by one");
+    }
+    SECTION("storage buffer") {
+        test::plant(shaders, "collision_pass.vert", "#version 330 core", "#version 430 core");
+        test::plant(shaders, "collision_pass.vert", "uniform float u_Tick;", "buffer Step { float u_Tick; };");
+        CHECK(refusal(shaders) == "shader " + file + ":23: nothing is given for storage buffer Step");
+    }
+}
+
+TEST_CASE("no false pass: a fragment stage's input that no stage writes is an error with its name") {
+    const auto context = test::open_context("osmesa");
+    if (!context)
+        return;
+    const test::TemporaryFolder shaders;
+    test::plant(shaders, "collision_pass.frag", "flat in vec3 out_Position;",
+                "flat in vec3 v_Place;\n#define out_Position v_Place");
+    CHECK_THAT(refusal(shaders), Catch::StartsWith("shader " + (shaders.path() / "collision_pass.frag").string() +
+                                                   ":7: input v_Place is written by no stage before it ("));
+}
+
+TEST_CASE("no false pass: a fragment stage that writes no output 0 is an error") {
+    const auto context = test::open_context("osmesa");
+    if (!context)
+        return;
+    const test::TemporaryFolder shaders;
+    const std::string file = (shaders.path() / "collision_pass.frag").string();
+    SECTION("nothing is written") {
+        test::plant(shaders, "collision_pass.frag", "void main() { o_Texel = encode_position(out_Position); }",
+                    "void main() {}");
+        CHECK(refusal(shaders) == "shader " + file + ": no output at location 0 is written; that is what is drawn");
+    }
+    SECTION("another is") {
+        test::plant(shaders, "collision_pass.frag", "out vec4 o_Texel;", "layout(location = 1) out vec4 o_Texel;");
+        CHECK(refusal(shaders) == "shader " + file + ": no output at location 0 is written; that is what is drawn");
+    }
+    SECTION("there is no fragment stage") {
+        shaders.write("collision_pass.frag", " \n");
+        CHECK(refusal(shaders) == "shader " + file + ": is empty; only a geometry stage can be left out");
+    }
+}
+
+TEST_CASE("no false pass: an output named like a captured one that nobody captures is an error") {
+    const auto context = test::open_context("osmesa");
+    if (!context)
+        return;
+    const test::TemporaryFolder shaders;
+    test::plant(shaders, "collision_pass.geom", "out float out_Speed;", "out float out_Speed; out float out_Mass;");
+    test::plant(shaders, "collision_pass.geom", "    EmitVertex();\n",
+                "    out_Mass = v_Speed[0];\n    EmitVertex();\n");
+    CHECK_THAT(refusal(shaders), Catch::Contains("collision_pass.geom:") &&
+                                     Catch::Contains("output out_Mass is captured by nobody and compared with nothing; "
+                                                     "what is compared is out_Position, out_Speed, out_Dir"));
+    test::plant(shaders, "collision_pass.frag", "void main() { o_Texel = encode_position(out_Position); }",
+                "flat in float out_Mass;\nvoid main() { o_Texel = encode_position(out_Position + 0.0 * out_Mass); }");
+    CHECK_THAT(refusal(shaders), !Catch::Contains("captured by nobody"));
+}
+
+TEST_CASE("no false pass: the layered passes, too, are refused uniforms and attributes that nobody sets") {
+    const auto context = test::open_context("osmesa");
+    if (!context)
+        return;
+    const test::TemporaryFolder shaders;
+    Switches layered;
+    layered.cdt_layers = 2;
+    SECTION("uniform") {
+        test::plant(shaders, "layered_collision_pass.vert", "uniform float u_Tick;",
+                    "uniform float u_Tik;\n#define u_Tick u_Tik");
+        CHECK_THAT(refusal(shaders, layered), Catch::Contains("nothing is given for uniform u_Tik"));
+    }
+    SECTION("sampler") {
+        test::plant(shaders, "layered_cdt.vert", "uniform isampler2D u_KeyBefore;",
+                    "uniform isampler2D u_KeyBefor;\n#define u_KeyBefore u_KeyBefor\n");
+        CHECK_THAT(refusal(shaders, layered), Catch::Contains("nothing is given for uniform u_KeyBefor"));
+    }
+    SECTION("attribute") {
+        test::plant(shaders, "layered_collision_pass.vert", "in float a_Speed;",
+                    "in float a_Sped;\n#define a_Speed a_Sped");
+        CHECK_THAT(refusal(shaders, layered), Catch::Contains("nothing is given for attribute a_Sped"));
+    }
+}

@@ -22,6 +22,8 @@ function facts(head) {
       : `reference ${report.hash.reference}, GPU ${report.hash.gpu}`;
   const rows = [
     ["Renderer", report.context],
+    ["Shaders", report.shaders.text],
+    ["Rendered frame", report.render.text],
     ["Profile", report.profile],
     ["Switches", report.switches],
     ["Run", `${counted(report.particles, "particle")}, ${report.partial ? `${report.frames} of ${counted(report.frames_asked, "frame")}` : counted(report.frames, "frame")}, ${report.mode}`],

@@ -77,9 +77,11 @@ class MatchesReference : public CatchMatcher<GpuSide> {
         options.repeat = this_test_again();
         const MatchResult result = match_reference(const_cast<GpuSide&>(gpu), *scene_, options);
         text_ = result.text(expansion_width);
-        test_notes().properties = {{"renderer", result.run().context},
-                                   {"profile", result.run().profile},
-                                   {"verdict", verdict_words(result.report())}};
+        test_notes().properties = {
+            {"renderer", result.run().context},
+            {"profile", result.run().profile},
+            {"shaders", result.run().shaders ? shaders_text(*result.run().shaders) : result.run().shaders_untold},
+            {"verdict", verdict_words(result.report())}};
         test_notes().repeat = broken_repeat(text_);
         return result.passed();
     }

@@ -66,13 +66,18 @@ class Gl {
 
 class GpuSimulation;
 
+/// Whether shaders that do not run in the scene may lie in a folder beside those that do.
+enum class UnusedShaders { refused, allowed };
+
 /// The passes on GL, with shaders of one's own.
 class UserShaders : public GpuSide {
   public:
     /// `folder`: any of the stages collision_pass.vert, .geom, .frag and of the other passes, and files they include;
     /// lockstep's own for the rest (docs/own_shader.md). Throws Error for what the compiler says, with
-    /// file and line, for names that do not fit, and where `gl` is missing. `gl` outlives this.
-    UserShaders(const Gl& gl, const Scene& scene, const std::filesystem::path& folder);
+    /// file and line, for names that do not fit, for a folder of which nothing runs, and where `gl` is missing. `gl`
+    /// outlives this.
+    UserShaders(const Gl& gl, const Scene& scene, const std::filesystem::path& folder,
+                UnusedShaders unused = UnusedShaders::refused);
     ~UserShaders() override;
 
     [[nodiscard]] SideDescription describe() const override;
@@ -89,6 +94,8 @@ class UserShaders : public GpuSide {
   private:
     const Gl& gl_;
     std::filesystem::path folder_;
+    UnusedShaders unused_;
+    ShaderUse use_;
     std::unique_ptr<GpuSimulation> simulation_;
 };
 

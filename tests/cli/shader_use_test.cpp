@@ -1,0 +1,120 @@
+#include <catch2/catch.hpp>
+
+#include <filesystem>
+#include <fstream>
+#include <string>
+#include <vector>
+
+#include <nlohmann/json.hpp>
+
+#include "tests/cli/cli_checks.hpp"
+#include "tests/planted_shader.hpp"
+
+using namespace lockstep;
+using Catch::Contains;
+using test::refusal;
+using test::run_lockstep;
+
+namespace {
+
+const std::string possible = " would not run in this scene with these switches; what can is collision_pass.vert, "
+                             "collision_pass.geom, collision_pass.frag, obstacle_pass.vert, obstacle_pass.geom, "
+                             "obstacle_pass.frag, and files they include";
+
+/// A shader that is not the shipped one, and computes the same.
+void write_own(const test::TemporaryFolder& folder, const std::string& file) {
+    std::ifstream stream("shaders/" + file);
+    const std::string text{std::istreambuf_iterator<char>(stream), {}};
+    folder.write(file, text + "// Mine.\n");
+}
+
+} // namespace
+
+TEST_CASE("shader use: a folder of which nothing would run is status 2 with the names that would") {
+    const test::SceneSetting setting("check");
+    const std::vector<std::string> check{"check", setting.scene, "--frames",  "2",
+                                         "--gl",  "osmesa",      "--shaders", setting.shaders.path()};
+    const std::string folder = "shader folder " + setting.shaders.path().string() + ": ";
+    SECTION("empty, or without shaders") {
+        CHECK_THAT(refusal(run_lockstep(check)),
+                   Catch::StartsWith(folder + "nothing in it would run in this scene with these switches; what can is "
+                                              "collision_pass.vert, "));
+        setting.shaders.write("notes.txt", "none yet");
+        CHECK_THAT(refusal(run_lockstep(check)), Contains("nothing in it would run"));
+    }
+    for (const char* misspelt : {"collision.vs", "colision_pass.vert", "collision_pass.comp", "Collision_Pass.vert",
+                                 "collision_pass.vert.txt", "collision_pass.VERT", "arithmetics.glsl"})
+        SECTION(misspelt) {
+            setting.shaders.write(misspelt, "#version 330 core\nvoid main() {}\n");
+            CHECK(refusal(run_lockstep(check)) == folder + misspelt + possible);
+            write_own(setting.shaders, "collision_pass.frag");
+            CHECK(refusal(run_lockstep(check)) ==
+                  folder + misspelt + possible + "; --allow-unused lets others lie there");
+        }
+    for (const char* other : {"octree_pass.comp", "obstacle_vertices.vert", "layered_cdt.frag", "render_pass.frag"})
+        SECTION(other) {
+            write_own(setting.shaders, other);
+            for (const char* verb : {"check", "explain", "bench", "record", "debug"}) {
+                INFO(verb);
+                std::vector<std::string> arguments{verb,     setting.scene, "--gl",
+                                                   "osmesa", "--shaders",   setting.shaders.path()};
+                if (verb == std::string("explain"))
+                    arguments = test::joined(arguments, {"--frame", "1", "--particle", "1"});
+                if (verb == std::string("record"))
+                    arguments = test::joined(arguments, {"-o", setting.folder.path() / "run.h5"});
+                CHECK(refusal(run_lockstep(arguments)) == folder + other + possible);
+            }
+        }
+}
+
+TEST_CASE("shader use: the report has whose stages ran, file by file") {
+    if (!test::have_osmesa())
+        return;
+    const test::SceneSetting setting("check");
+    const std::string json = setting.folder.path() / "report.json";
+    const auto shaders_line = [&](const std::vector<std::string>& options) {
+        const test::Outcome outcome = run_lockstep(test::joined(setting.command(options), {"--frames", "2"}));
+        INFO(outcome.err);
+        CHECK(outcome.status == 0);
+        const std::size_t place = outcome.out.find("\nshaders   ");
+        REQUIRE(place != std::string::npos);
+        return outcome.out.substr(place + 11, outcome.out.find('\n', place + 1) - place - 11);
+    };
+    CHECK(shaders_line({}) == "shipped: collision_pass.vert, collision_pass.geom, collision_pass.frag, "
+                              "obstacle_pass.vert, obstacle_pass.geom, obstacle_pass.frag");
+    const std::string own = setting.shaders.path().string();
+    write_own(setting.shaders, "collision_pass.frag");
+    write_own(setting.shaders, "clip_volume.glsl");
+    std::filesystem::copy_file("shaders/collision_pass.vert", own + "/collision_pass.vert");
+    std::filesystem::copy_file("shaders/octree_pass.comp", own + "/octree_pass.comp");
+    CHECK(shaders_line({"--json", json}) ==
+          "foreign: " + own + "/collision_pass.vert (as shipped), " + own + "/clip_volume.glsl, " + own +
+              "/collision_pass.frag; shipped: collision_pass.geom, obstacle_pass.vert, obstacle_pass.geom, "
+              "obstacle_pass.frag");
+    std::ifstream stream(json);
+    const nlohmann::json files = nlohmann::json::parse(stream)["shaders"]["files"];
+    CHECK(files[0]["file"] == "collision_pass.vert");
+    CHECK(files[0]["same_as_shipped"] == true);
+    write_own(setting.shaders, "obstacle_vertices.vert");
+    CHECK_THAT(shaders_line({"--allow-unused"}), Catch::EndsWith("; not run: obstacle_vertices.vert"));
+}
+
+TEST_CASE("shader use: the rendered frame is compared where that is asked for, and the report says where not") {
+    if (!test::have_osmesa())
+        return;
+    const test::SceneSetting setting("check");
+    CHECK_THAT(run_lockstep(setting.command({"--frames", "2"})).out,
+               Contains("\nrender    the rendered frame was not compared (--render compares it)\n"));
+    test::Outcome outcome = run_lockstep(setting.command({"--frames", "4", "--render"}));
+    CHECK(outcome.status == 0);
+    CHECK_THAT(outcome.out,
+               Contains("\nrender    AGREE: every one of 1,200 pixels of frame 3, 1 of which show particles\n"));
+    CHECK_THAT(run_lockstep(setting.command({"--frames", "2", "--render"})).out,
+               Contains("verdict   AGREE, but the rendered frame shows no particle: "));
+    test::plant(setting.shaders, "render_pass.frag", "void main() {", "void main() { if (true) discard;");
+    outcome = run_lockstep(setting.command({"--frames", "4", "--render"}));
+    CHECK(outcome.status == 1);
+    CHECK_THAT(outcome.out, Contains("\nrender    DIFFER: 1 of 1,200 pixels of frame 3, 1 of which show particles; "
+                                     "compared, not judged\n") &&
+                                Contains("verdict   AGREE, but the rendered frame differs: "));
+}

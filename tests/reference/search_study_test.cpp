@@ -11,6 +11,7 @@
 #include <glm/gtc/matrix_transform.hpp>
 #include <nlohmann/json.hpp>
 
+#include "crosscheck/gnuplot.hpp"
 #include "crosscheck/recall_table.hpp"
 #include "crosscheck/scene_file.hpp"
 #include "crosscheck/study.hpp"
@@ -21,6 +22,7 @@
 #include "reference/obstacle_pass.hpp"
 #include "reference/simulation.hpp"
 #include "tests/reference/collision_scenes.hpp"
+#include "tests/skip.hpp"
 
 using namespace lockstep;
 using namespace lockstep::test;
@@ -382,12 +384,11 @@ TEST_CASE("study: a picture shows the miss, whatever lies on it") {
 
 TEST_CASE("study: a chart is an SVG file, where gnuplot is installed") {
     const auto frames = study_run(small_scene("x_streams", 500, {"collision_range=0.04"}), {}, {});
-    if (const auto svg = chart_svg(frames, "it's a \"scene\"")) {
-        CHECK(svg->find("<svg") != std::string::npos);
-        CHECK(svg->find("missed: occluded") != std::string::npos);
-    } else {
-        WARN("gnuplot is not installed");
-    }
+    if (!have_gnuplot())
+        return test::skip(std::string(no_gnuplot));
+    const std::string svg = chart_svg(frames, "it's a \"scene\"");
+    CHECK(svg.find("<svg") != std::string::npos);
+    CHECK(svg.find("missed: occluded") != std::string::npos);
 }
 
 TEST_CASE("study: recall of the cube agrees with the other model") {

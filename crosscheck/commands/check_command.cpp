@@ -239,10 +239,6 @@ int check_and_tell(const Options& options, OutputFiles& files, const Checked& ch
         fmt::print("{}", plain_text(report_text(report, run)));
         std::fflush(stdout);
     }
-    if (!options.hashes.empty())
-        files.write(options.hashes, hashes.text());
-    if (!options.images.empty())
-        images.write(files, options.images, checked.scene, checked.profile, options.run.shaders);
     if (collector) {
         const SecondLook look = look_again(options, checked, collector->frames().items());
         std::vector<PageCommand> commands = page_commands(options, run, report);
@@ -260,6 +256,10 @@ int check_and_tell(const Options& options, OutputFiles& files, const Checked& ch
     }
     if (!options.json.empty())
         files.write(options.json, json_text(report_json(report, run)));
+    if (!options.hashes.empty())
+        files.write(options.hashes, hashes.text());
+    if (!options.images.empty())
+        images.write(files, options.images, checked.scene, checked.profile, options.run.shaders);
     files.commit();
     if (report.partial())
         return status_interrupted;
@@ -269,9 +269,9 @@ int check_and_tell(const Options& options, OutputFiles& files, const Checked& ch
 
 int run_scene(const Options& options) {
     const Scene scene = load(options.run);
-    ShaderUse shaders = shaders_to_run(options.run, scene, options.render || !options.images.empty());
     OutputFiles files;
     expect_files(options, files);
+    ShaderUse shaders = shaders_to_run(options.run, scene, options.render || !options.images.empty());
     const Context context(parse_context_request(options.run.gl));
     const Profile profile = measured_profile(context, options.run.shaders);
     GpuSimulation gpu(scene, options.run.shaders);

@@ -60,10 +60,10 @@ TraceInfo info_of(const Options& options, Scene scene, const Context& context) {
 
 int run(const Options& options) {
     Scene scene = load(options.run);
-    static_cast<void>(shaders_to_run(options.run, scene));
     OutputFiles files;
     protect_inputs(options.run, files);
     files.expect(options.output);
+    static_cast<void>(shaders_to_run(options.run, scene));
     const Context context(parse_context_request(options.run.gl));
     GpuSimulation gpu(scene, options.run.shaders);
     const TraceInfo info = info_of(options, std::move(scene), context);

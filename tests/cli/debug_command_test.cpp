@@ -136,8 +136,8 @@ TEST_CASE("debug_command: set runs the same frame with another switch, on both s
                                        "frame 3: particles: none differ; texels: none differ\n"
                                        "frame 3: particles: none differ; texels: none differ\n"));
     const test::Outcome explained =
-        run_lockstep({"explain", setting.scene, "--gl", "osmesa", "--shaders", setting.shaders.path(), "--frame", "3",
-                      "--particle", "3", "--set", "arithmetic=exact", "--set", "collision_range=0.2"});
+        run_lockstep({"explain", setting.scene, "--gl", "osmesa", "--frame", "3", "--particle", "3", "--set",
+                      "arithmetic=exact", "--set", "collision_range=0.2"});
     const std::string table = explained.out.substr(explained.out.find("particle 3 in frame 3"));
     CHECK_THAT(told, Catch::EndsWith(table));
 }

@@ -1,10 +1,14 @@
 #pragma once
+#include <cstddef>
+#include <span>
+#include <vector>
+
 #include "reference/deviation.hpp"
 #include "reference/model/image.hpp"
 #include "reference/model/particles.hpp"
 #include "reference/model/profile.hpp"
 #include "reference/model/scene.hpp"
-#include "reference/step_trace.hpp"
+#include "reference/readings/mistake.hpp"
 
 namespace lockstep {
 
@@ -21,9 +25,16 @@ struct FrameInputs {
 };
 
 /// Particle `i` after the vertex stage of collision_pass.hpp with the deviations made; without any, its very bits.
-/// `trace`: filled in if not null.
 ParticleState deviating_step(const FrameInputs& inputs, std::size_t i, const Profile& profile,
-                             const Deviations& deviations, StepTrace* trace = nullptr);
+                             const Deviations& deviations);
+
+/// The same with mistakes that need no name.
+ParticleState mistaken_step(const FrameInputs& inputs, std::size_t i, const Profile& profile,
+                            std::span<const Mistake> mistakes);
+
+/// What the steps of these particles come by, each site once: mistakes_at() says what can be done wrong there.
+std::vector<SeenSite> step_sites(const FrameInputs& inputs, std::span<const std::size_t> particles,
+                                 const Profile& profile);
 
 /// Draws `after` with the deviations made, on top of the obstacles' `cdt` and `depth`; without any, what
 /// rasterise_particles draws. `obstacles_cdt` and depth: the CDT with nothing but the obstacles.

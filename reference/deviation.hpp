@@ -1,5 +1,6 @@
 #pragma once
-#include <bitset>
+#include <algorithm>
+#include <array>
 #include <cstddef>
 #include <span>
 #include <string_view>
@@ -145,19 +146,25 @@ struct DeviationInfo {
 std::span<const DeviationInfo> deviation_table();
 std::string_view deviation_name(Deviation deviation);
 
-/// Several at once.
+/// A few at once.
 class Deviations {
   public:
+    static constexpr std::size_t most = 4;
+
     Deviations() = default;
     Deviations(Deviation one) { add(one); }
     Deviations& add(Deviation one) {
-        set_.set(static_cast<std::size_t>(one));
+        if (!has(one))
+            made_.at(count_++) = one;
         return *this;
     }
-    [[nodiscard]] bool has(Deviation one) const { return set_[static_cast<std::size_t>(one)]; }
+    [[nodiscard]] bool has(Deviation one) const { return std::find(begin(), end(), one) != end(); }
+    [[nodiscard]] const Deviation* begin() const { return made_.data(); }
+    [[nodiscard]] const Deviation* end() const { return made_.data() + count_; }
 
   private:
-    std::bitset<deviation_count> set_;
+    std::array<Deviation, most> made_{};
+    std::size_t count_ = 0;
 };
 
 } // namespace lockstep

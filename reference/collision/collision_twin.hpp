@@ -18,7 +18,7 @@ template <class R> class BaseTexelTwin {
     BaseTexelTwin(R& reading, const FrameParams& params) : r(reading), params_(params) {}
 
     [[nodiscard]] Vec4 clip(const typename R::Vec3& position) const {
-        const auto m = r.uniform(site::proj_view, params_.collision_proj_view);
+        const auto& m = r.uniform(site::proj_view, params_.collision_proj_view);
         return r.note(site::clip, r.transform(site::clip, m, position));
     }
 

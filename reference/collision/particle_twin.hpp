@@ -32,6 +32,7 @@ template <class R> class ParticleTwin {
 
     /// Lines 21 to 24; `apart`: own position minus the one collided with.
     [[nodiscard]] State collide(const State& a, const Vec3& apart) const {
+        const Real tick = r.uniform(site::tick, constants_.tick);
         const Vec3 away = r.note(site::away, apart);
         State v;
         v.speed = r.note(site::speed_at_hit, a.speed * r.uniform(site::speed_factor, switches_.speed_factor));
@@ -39,7 +40,7 @@ template <class R> class ParticleTwin {
         v.collide_time = r.note(site::collide_time_at_hit, r.uniform(site::collision_time, constants_.collision_time));
         Vec3 step = r.note(site::moves_along, v.direction) * r.note(site::moves_by, v.speed);
         if (r.setting(site::step_by_tick, switches_.collision_step == CollisionStep::tick))
-            step = step * r.uniform(site::tick, constants_.tick);
+            step = step * tick;
         v.position = r.note(site::position_at_hit, a.position + step);
         return v;
     }

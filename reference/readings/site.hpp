@@ -29,10 +29,10 @@ struct Site {
 };
 
 /// A site and the line of the twin that comes by it.
-struct Place {
+struct At {
     const Site& site;
     std::source_location where;
-    Place(const Site& site_, std::source_location where_ = std::source_location::current()) // NOLINT: a site is a place
+    At(const Site& site_, std::source_location where_ = std::source_location::current()) // NOLINT: a site is a place
         : site(site_), where(where_) {}
 };
 

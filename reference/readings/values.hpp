@@ -46,39 +46,39 @@ template <class A> class Values {
     explicit Values(A arithmetic) : fp_(arithmetic) {}
 
     /// An attribute or a texel: read as the arithmetic reads.
-    Real read(Place, float x) const { return fp_.flush(x); }
-    Vec3 read(Place, glm::vec3 v) const { return vector(fp_.flush(v)); }
+    Real read(At, float x) const { return fp_.flush(x); }
+    Vec3 read(At, glm::vec3 v) const { return vector(fp_.flush(v)); }
     /// A uniform or a constant of the program: as it stands.
-    static Real uniform(Place, float x) { return x; }
-    static Vec3 uniform(Place, glm::vec3 v) { return vector(v); }
-    static int uniform(Place, int i) { return i; }
-    static IVec2 uniform(Place, glm::ivec2 v) { return {v.x, v.y}; }
-    static const glm::mat4& uniform(Place, const glm::mat4& m) { return m; }
+    static Real uniform(At, float x) { return x; }
+    static Vec3 uniform(At, glm::vec3 v) { return vector(v); }
+    static int uniform(At, int i) { return i; }
+    static IVec2 uniform(At, glm::ivec2 v) { return {v.x, v.y}; }
+    static const glm::mat4& uniform(At, const glm::mat4& m) { return m; }
     /// A choice of the scene, not of the data.
-    static bool setting(Place, bool on) { return on; }
+    static bool setting(At, bool on) { return on; }
 
     /// Every value with a name: what is told, judged or spoiled.
-    template <class T> static T note(Place, T value) { return value; }
+    template <class T> static T note(At, T value) { return value; }
     /// Every `if` on data.
-    static bool decide(Place, bool condition) { return condition; }
+    static bool decide(At, bool condition) { return condition; }
     /// A loop's bounds, both included.
-    static IntRange<int> range(Place, int first, int last) { return {first, last}; }
+    static IntRange<int> range(At, int first, int last) { return {first, last}; }
     /// A texel of the image, which the shader takes to be of this size; null outside.
     template <class Texel>
-    static const Texel* fetch(Place, const Image<Texel>& image, const IVec2& size, const IVec2& at) {
+    static const Texel* fetch(At, const Image<Texel>& image, const IVec2& size, const IVec2& at) {
         const bool inside = at.x >= 0 && at.y >= 0 && at.x < size.x && at.y < size.y;
         return inside ? &image.at(at.x, at.y) : nullptr;
     }
 
     static Real real(int i) { return static_cast<float>(i); }
     /// Towards zero. The value fits.
-    static int to_int(Place, Real x) { return static_cast<int>(static_cast<float>(x)); }
-    Real divide(Place, Real a, Real b) const { return fp_.divide(static_cast<float>(a), static_cast<float>(b)); }
-    Real dot(Place, const Vec3& a, const Vec3& b) const { return fp_.dot(floats(a), floats(b)); }
-    Real length(Place, const Vec3& v) const { return fp_.length(floats(v)); }
-    Vec3 normalize(Place, const Vec3& v) const { return vector(fp_.normalize(floats(v))); }
+    static int to_int(At, Real x) { return static_cast<int>(static_cast<float>(x)); }
+    Real divide(At, Real a, Real b) const { return fp_.divide(static_cast<float>(a), static_cast<float>(b)); }
+    Real dot(At, const Vec3& a, const Vec3& b) const { return fp_.dot(floats(a), floats(b)); }
+    Real length(At, const Vec3& v) const { return fp_.length(floats(v)); }
+    Vec3 normalize(At, const Vec3& v) const { return vector(fp_.normalize(floats(v))); }
     /// m * vec4(v, 1)
-    Vec4 transform(Place, const glm::mat4& m, const Vec3& v) const {
+    Vec4 transform(At, const glm::mat4& m, const Vec3& v) const {
         const glm::vec4 t = fp_.transform(m, floats(v));
         return {t.x, t.y, t.z, t.w};
     }
@@ -86,14 +86,19 @@ template <class A> class Values {
     /// The first of the least of what is offered on a condition; see least() below.
     template <class Payload> class Least {
       public:
-        Least(const Values&, Place, float first) : least_(first) {}
-        void offer(Place, bool condition, Real key, const Payload& payload) {
-            if (condition && key < least_) {
-                least_ = key;
-                found_ = payload;
-            }
-        }
+        Least(const Values&, At, float first) : least_(first) {}
+        void offer(At, bool condition, Real key, const Payload& payload) { offered(condition, key, payload); }
         [[nodiscard]] const std::optional<Payload>& take() const { return found_; }
+
+      protected:
+        /// Whether it is the best so far.
+        bool offered(bool condition, Real key, const Payload& payload) {
+            if (!(condition && key < least_))
+                return false;
+            least_ = key;
+            found_ = payload;
+            return true;
+        }
 
       private:
         Real least_;
@@ -107,7 +112,7 @@ template <class A> class Values {
 
 /// A choice among many: of what is offered where its condition holds, that with the least key below `first`, and of
 /// equals the first offered. One choice, however many are as good as equal.
-template <class Payload, class R> auto least(R& r, Place place, float first) {
+template <class Payload, class R> auto least(R& r, At place, float first) {
     return typename R::template Least<Payload>(r, place, first);
 }
 

@@ -143,21 +143,21 @@ template <class A> class Worlds {
 
     // The words of a twin.
 
-    Real read(Place, float x) {
+    Real read(At, float x) {
         const float read = fp_.flush(x);
         if (is_sure(read))
             return Real(this, read);
         return make({}, [&](const auto& fp) { return fp.read(x); });
     }
-    Vec3 read(Place p, glm::vec3 v) { return {read(p, v.x), read(p, v.y), read(p, v.z)}; }
-    Real uniform(Place, float x) { return Real(this, x); }
-    Vec3 uniform(Place p, glm::vec3 v) { return {uniform(p, v.x), uniform(p, v.y), uniform(p, v.z)}; }
-    static int uniform(Place, int i) { return i; }
-    static IVec2 uniform(Place, glm::ivec2 v) { return {v.x, v.y}; }
-    static const glm::mat4& uniform(Place, const glm::mat4& m) { return m; }
-    static bool setting(Place, bool on) { return on; }
+    Vec3 read(At p, glm::vec3 v) { return {read(p, v.x), read(p, v.y), read(p, v.z)}; }
+    Real uniform(At, float x) { return Real(this, x); }
+    Vec3 uniform(At p, glm::vec3 v) { return {uniform(p, v.x), uniform(p, v.y), uniform(p, v.z)}; }
+    static int uniform(At, int i) { return i; }
+    static IVec2 uniform(At, glm::ivec2 v) { return {v.x, v.y}; }
+    static const glm::mat4& uniform(At, const glm::mat4& m) { return m; }
+    static bool setting(At, bool on) { return on; }
 
-    template <class T> T note(Place place, const T& value) {
+    template <class T> T note(At place, const T& value) {
         if constexpr (std::is_same_v<T, Real> || std::is_same_v<T, Vec3>)
             if (!told_.empty() && place.site.output_id != 0)
                 for (const Told& told : told_)
@@ -165,8 +165,8 @@ template <class A> class Worlds {
                         return go_on_from(told.values, value);
         return value;
     }
-    static bool decide(Place, bool condition) { return condition; }
-    template <bool all, std::size_t n> bool decide(Place place, const Comparisons<Real, all, n>& condition) {
+    static bool decide(At, bool condition) { return condition; }
+    template <bool all, std::size_t n> bool decide(At place, const OpenComparisons<Real, all, n>& condition) {
         if (next_answer_ < log_.size())
             return log_[next_answer_++] != 0;
         const Answer answer = ask(condition);
@@ -182,17 +182,17 @@ template <class A> class Worlds {
         }
         return yes;
     }
-    bool decide(Place place, const Comparison<Real>& condition) {
-        return decide(place, Comparisons<Real, true, 1>{{condition}});
+    bool decide(At place, const OpenComparison<Real>& condition) {
+        return decide(place, OpenComparisons<Real, true, 1>{{condition}});
     }
-    static IntRange<int> range(Place, int first, int last) { return {first, last}; }
+    static IntRange<int> range(At, int first, int last) { return {first, last}; }
     template <class Texel>
-    static const Texel* fetch(Place place, const Image<Texel>& image, const IVec2& size, const IVec2& at) {
+    static const Texel* fetch(At place, const Image<Texel>& image, const IVec2& size, const IVec2& at) {
         return Values<A>::fetch(place, image, size, at);
     }
 
     static Real real(int i) { return static_cast<float>(i); }
-    int to_int(Place place, Real x) {
+    int to_int(At place, Real x) {
         if (next_answer_ < log_.size())
             return log_[next_answer_++];
         constexpr int most_ways = 4;
@@ -214,14 +214,14 @@ template <class A> class Worlds {
         return first;
     }
     // Where one float is known to come of floats, it needs no set.
-    Real divide(Place, Real a, Real b) {
+    Real divide(At, Real a, Real b) {
         if (known().divide && a.is_float() && b.is_float())
             if (const float quotient = fp_.divide(a.point_, b.point_); is_sure(quotient))
                 return Real(this, quotient);
         return make(
             {a, b}, [&](const auto& fp) { return fp.divide(a.set(), b.set()); }, Undefined::unbounded);
     }
-    Real dot(Place, const Vec3& a, const Vec3& b) {
+    Real dot(At, const Vec3& a, const Vec3& b) {
         if (known().dot && one_order_ && are_floats(a) && are_floats(b))
             if (const float dot = fp_.dot(points(a), points(b)); is_a_number(dot))
                 return Real(this, dot);
@@ -235,17 +235,17 @@ template <class A> class Worlds {
             return interval::to_floats(sum);
         });
     }
-    Real length(Place, const Vec3& v) {
+    Real length(At, const Vec3& v) {
         if (known().dot && known().square_root && one_order_ && are_floats(v))
             if (const float length = fp_.length(points(v)); is_a_number(length))
                 return Real(this, length);
         return make({v.x, v.y, v.z}, [&](const auto& fp) { return fp.length(sets(v)); });
     }
-    Vec3 normalize(Place, const Vec3& v) {
+    Vec3 normalize(At, const Vec3& v) {
         return make_all<Vec3>(
             v, [&](const auto& fp) { return fp.normalize(sets(v)); }, Undefined::zero_direction);
     }
-    Vec4 transform(Place, const glm::mat4& m, const Vec3& v) {
+    Vec4 transform(At, const glm::mat4& m, const Vec3& v) {
         if (known().sums && known().subnormals && are_floats(v)) {
             const glm::vec4 t = fp_.transform(m, points(v));
             if (is_a_number(t.x) && is_a_number(t.y) && is_a_number(t.z) && is_a_number(t.w))
@@ -273,10 +273,9 @@ template <class A> class Worlds {
     /// over an equally near later one.
     template <class Payload> class Least {
       public:
-        Least(Worlds& run, Place place, float first) : run_(run), place_(place), first_(first) {}
+        Least(Worlds& run, At place, float first) : run_(run), place_(place), first_(first) {}
 
-        template <class Condition>
-        void offer(Place place, const Condition& condition, Real key, const Payload& payload) {
+        template <class Condition> void offer(At place, const Condition& condition, Real key, const Payload& payload) {
             const int number = offered_++;
             Answer answer = ask(condition);
             answer.template combine<true>(ask(key < Real(first_)));
@@ -350,7 +349,7 @@ template <class A> class Worlds {
 
         static constexpr int of_none = -1, of_open = -2;
         Worlds& run_;
-        Place place_;
+        At place_;
         float first_;
         int offered_ = 0;
         std::vector<Rival> rivals_;
@@ -374,7 +373,7 @@ template <class A> class Worlds {
     /// What a decision asked.
     struct Question {
         bool all = true;
-        std::vector<Comparison<Real>> parts;
+        std::vector<OpenComparison<Real>> parts;
     };
     /// A fork of this run, and what there was of the run when it came to it.
     struct Node {
@@ -445,7 +444,7 @@ template <class A> class Worlds {
         }
     }
 
-    static Answer ask(const Comparison<Real>& c) {
+    static Answer ask(const OpenComparison<Real>& c) {
         using Op = CompareOp;
         if (c.op == Op::always || c.op == Op::never) {
             const bool yes = (c.op == Op::always) != c.negated;
@@ -469,7 +468,7 @@ template <class A> class Worlds {
             answer.margin = std::abs(middle(a) - middle(b));
         return answer;
     }
-    template <bool all, std::size_t n> static Answer ask(const Comparisons<Real, all, n>& condition) {
+    template <bool all, std::size_t n> static Answer ask(const OpenComparisons<Real, all, n>& condition) {
         Answer whole = ask(condition.part[0]);
         for (std::size_t i = 1; i < n; ++i)
             whole.template combine<all>(ask(condition.part[i]));
@@ -508,8 +507,8 @@ template <class A> class Worlds {
             return;
         // Of "not all", or "any", only what is left when every other part is settled is known.
         const bool each = question.all == answer;
-        const Comparison<Real>* only = nullptr;
-        for (const Comparison<Real>& part : question.parts) {
+        const OpenComparison<Real>* only = nullptr;
+        for (const OpenComparison<Real>& part : question.parts) {
             const Answer one = ask(part);
             if (one.yes != one.no)
                 continue;
@@ -522,7 +521,7 @@ template <class A> class Worlds {
         if (!each && only != nullptr)
             hold(*only, answer);
     }
-    void hold(const Comparison<Real>& c, bool answer) {
+    void hold(const OpenComparison<Real>& c, bool answer) {
         using Op = CompareOp;
         const bool holds = answer != c.negated;
         const bool strict = c.op == Op::less;

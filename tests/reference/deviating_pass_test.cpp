@@ -1,11 +1,16 @@
 #include <catch2/catch.hpp>
 
+#include <algorithm>
 #include <bit>
+#include <numeric>
 #include <set>
 #include <string>
+#include <vector>
 
+#include "reference/collision/collision_mistakes.hpp"
 #include "reference/collision_pass.hpp"
 #include "reference/deviating_pass.hpp"
+#include "reference/step_trace.hpp"
 #include "tests/reference/collision_scenes.hpp"
 
 using namespace lockstep;
@@ -90,4 +95,46 @@ TEST_CASE("deviations: names are unique and plain, each has a meaning") {
         CHECK_FALSE(info.meaning.empty());
     }
     CHECK(names.size() >= 30);
+}
+
+TEST_CASE("mistakes: every named one comes by itself from the sites of the step, and changes it alone") {
+    RandomScene scene = random_scene(7, 1500, 41, 33);
+    scene.params.switches.cdt_format = CdtFormat::rgba16f;
+    const Profile profile = named_profile("strict");
+    std::vector<std::size_t> all(scene.particles.size());
+    std::iota(all.begin(), all.end(), std::size_t{0});
+    const std::vector<SeenSite> sites = step_sites(inputs_of(scene), all, profile);
+    const std::vector<Mistake> mistakes = mistakes_at(sites);
+    int named = 0;
+    for (const DeviationInfo& info : deviation_table()) {
+        const auto mistake = step_mistake(info.deviation);
+        if (!mistake)
+            continue;
+        ++named;
+        INFO(info.name << ", " << mistake_text(*mistake, sites));
+        CHECK(std::any_of(mistakes.begin(), mistakes.end(), [&](const Mistake& m) {
+            Mistake same = m;
+            if (m.change == Change::inverted) // of a setting, to the value it does not have
+                same.change = mistake->change;
+            return same == *mistake;
+        }));
+        const Mistake one[] = {*mistake};
+        for (std::size_t i = 0; i < 50; ++i)
+            CHECK(same(mistaken_step(inputs_of(scene), i, profile, one).position,
+                       deviating_step(inputs_of(scene), i, profile, info.deviation).position));
+    }
+    CHECK(named == 76);
+    CHECK(mistakes.size() > 2000);
+
+    Particles after;
+    update_particles(scene.particles, scene.cdt, scene.params, profile, after);
+    std::size_t show = 0;
+    for (const Mistake& mistake : mistakes) {
+        const Mistake one[] = {mistake};
+        bool shows = false;
+        for (std::size_t i = 0; i < 40 && !shows; ++i)
+            shows = !same(mistaken_step(inputs_of(scene), i, profile, one).position, after.position[i]);
+        show += shows;
+    }
+    CHECK(show > mistakes.size() / 3);
 }

@@ -1,0 +1,111 @@
+#include "reference/collision/collision_mistakes.hpp"
+
+#include <algorithm>
+#include <array>
+
+#include "reference/collision/sites.hpp"
+
+namespace lockstep {
+namespace {
+
+/// A human name of a mistake.
+struct Row {
+    Deviation deviation;
+    const Site& site;
+    Change change;
+    int part = -1;
+    const Site* source = nullptr;
+};
+
+constexpr std::array table{
+    Row{Deviation::transposed_matrix, site::proj_view, Change::transposed},
+    Row{Deviation::no_perspective_divide, site::perspective_divide, Change::never},
+    Row{Deviation::divide_by_half, site::half, Change::reciprocal},
+    Row{Deviation::not_halved, site::half, Change::one},
+    Row{Deviation::truncate_instead_of_floor, site::base_by_floor, Change::never},
+    Row{Deviation::floor_instead_of_truncate, site::base_by_floor, Change::always},
+    Row{Deviation::half_texel_up, site::image_position, Change::half_more},
+    Row{Deviation::half_texel_down, site::image_position, Change::half_less},
+    Row{Deviation::size_minus_one, site::scale, Change::one_less},
+    Row{Deviation::width_and_height_swapped, site::client_size, Change::swapped},
+    Row{Deviation::x_and_y_swapped, site::image_position, Change::swapped},
+    Row{Deviation::x_flipped, site::texture_coordinate, Change::opposite, 0},
+    Row{Deviation::y_flipped, site::texture_coordinate, Change::opposite, 1},
+    Row{Deviation::collide_time_not_tested, site::searches, Change::always},
+    Row{Deviation::collide_time_zero_searches, site::searches, Change::or_equal, 0},
+    Row{Deviation::collide_time_test_reversed, site::searches, Change::reversed, 0},
+    Row{Deviation::own_position_from_texel, site::own_from_texel, Change::always},
+    Row{Deviation::own_position_from_vertex, site::own_from_texel, Change::never},
+    Row{Deviation::phantom_origin, site::phantom, Change::always},
+    Row{Deviation::empty_texels_skipped, site::phantom, Change::never},
+    Row{Deviation::own_texel_not_skipped, site::own_texel_skipped, Change::never},
+    Row{Deviation::own_row_skipped, site::own_texel_skipped, Change::dropped, 0},
+    Row{Deviation::own_column_skipped, site::own_texel_skipped, Change::dropped, 1},
+    Row{Deviation::own_row_and_column_skipped, site::own_texel_skipped, Change::and_is_or},
+    Row{Deviation::first_row_skipped, site::rows, Change::first_skipped},
+    Row{Deviation::first_column_skipped, site::columns, Change::first_skipped},
+    Row{Deviation::last_row_skipped, site::rows, Change::last_skipped},
+    Row{Deviation::last_column_skipped, site::columns, Change::last_skipped},
+    Row{Deviation::radius_one_less, site::texel_collide_range, Change::one_less},
+    Row{Deviation::radius_one_more, site::texel_collide_range, Change::one_more},
+    Row{Deviation::outside_fetched_as_edge, site::neighbour, Change::outside_is_edge},
+    Row{Deviation::outside_fetched_as_opposite_side, site::neighbour, Change::outside_is_other_side},
+    Row{Deviation::outside_fetched_as_origin, site::neighbour, Change::outside_is_zero},
+    Row{Deviation::zero_distance_hits, site::zero_distance_hits, Change::always},
+    Row{Deviation::zero_distance_skipped, site::zero_distance_hits, Change::never},
+    Row{Deviation::distance_without_z, site::distance, Change::without_z},
+    Row{Deviation::squared_distance, site::distance, Change::squared},
+    Row{Deviation::manhattan_distance, site::distance, Change::sum_of_magnitudes},
+    Row{Deviation::range_not_tested, site::in_range, Change::dropped, 0},
+    Row{Deviation::range_included, site::in_range, Change::or_equal, 0},
+    Row{Deviation::last_found_instead_of_nearest, site::nearest, Change::last_taken},
+    Row{Deviation::first_found_instead_of_nearest, site::nearest, Change::first_taken},
+    Row{Deviation::farthest_instead_of_nearest, site::nearest, Change::greatest_taken},
+    Row{Deviation::less_or_equal_for_less, site::nearest, Change::last_of_equals},
+    Row{Deviation::never_collides, site::searches, Change::never},
+    Row{Deviation::direction_towards_neighbour, site::away, Change::negated},
+    Row{Deviation::direction_not_normalised_at_hit, site::direction_at_hit, Change::not_done},
+    Row{Deviation::direction_kept_at_hit, site::direction_at_hit, Change::instead, -1, &site::direction_before},
+    Row{Deviation::speed_reduced_by_instead_of_to, site::speed_factor, Change::opposite},
+    Row{Deviation::speed_kept_at_hit, site::speed_at_hit, Change::instead, -1, &site::speed_before},
+    Row{Deviation::speed_factor_doubled, site::speed_factor, Change::doubled},
+    Row{Deviation::speed_factor_squared, site::speed_at_hit, Change::times, -1, &site::speed_factor},
+    Row{Deviation::tick_missing_in_collision_step, site::step_by_tick, Change::never},
+    Row{Deviation::tick_added_to_collision_step, site::step_by_tick, Change::always},
+    Row{Deviation::position_kept_at_hit, site::position_at_hit, Change::instead, -1, &site::position_before},
+    Row{Deviation::old_direction_moves_at_hit, site::moves_along, Change::instead, -1, &site::direction_before},
+    Row{Deviation::old_speed_moves_at_hit, site::moves_by, Change::instead, -1, &site::speed_before},
+    Row{Deviation::collide_time_not_set, site::collide_time_at_hit, Change::instead, -1, &site::collide_time_before},
+    Row{Deviation::collide_time_counted_at_hit, site::collide_time_at_hit, Change::minus, -1, &site::tick},
+    Row{Deviation::gravity_missing, site::fall, Change::zero},
+    Row{Deviation::gravity_doubled, site::fall, Change::doubled},
+    Row{Deviation::gravity_reversed, site::fall, Change::negated},
+    Row{Deviation::gravity_without_tick, site::fall, Change::instead, -1, &site::gravity},
+    Row{Deviation::tick_missing_in_move, site::move, Change::instead, -1, &site::step},
+    Row{Deviation::tick_doubled, site::tick, Change::doubled},
+    Row{Deviation::tick_halved, site::tick, Change::halved},
+    Row{Deviation::moves_before_gravity, site::step, Change::instead, -1, &site::velocity_before},
+    Row{Deviation::direction_not_updated, site::direction, Change::instead, -1, &site::direction_before},
+    Row{Deviation::direction_not_normalised, site::direction, Change::not_done},
+    Row{Deviation::speed_not_updated, site::speed, Change::instead, -1, &site::speed_before},
+    Row{Deviation::squared_speed, site::speed, Change::squared},
+    Row{Deviation::position_not_updated, site::position, Change::instead, -1, &site::position_before},
+    Row{Deviation::move_reversed, site::step, Change::negated},
+    Row{Deviation::collide_time_not_counted, site::collide_time, Change::instead, -1, &site::collide_time_before},
+    Row{Deviation::collide_time_counted_up, site::counted, Change::negated},
+    Row{Deviation::collide_time_counted_twice, site::counted, Change::doubled},
+};
+
+} // namespace
+
+std::optional<Mistake> step_mistake(Deviation deviation) {
+    const auto* row = std::find_if(table.begin(), table.end(), [&](const Row& r) { return r.deviation == deviation; });
+    if (row == table.end())
+        return {};
+    return Mistake{.site = row->site.id,
+                   .change = row->change,
+                   .part = row->part,
+                   .source = row->source != nullptr ? row->source->id : 0};
+}
+
+} // namespace lockstep

@@ -1,0 +1,422 @@
+#pragma once
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <optional>
+#include <span>
+#include <tuple>
+#include <type_traits>
+#include <vector>
+
+#include <glm/matrix.hpp>
+
+#include "reference/readings/condition.hpp"
+#include "reference/readings/mistake.hpp"
+#include "reference/readings/values.hpp"
+
+namespace lockstep {
+
+/// An arithmetic whose a * b + c rounds once.
+template <class A> struct FusedProducts : A {
+    explicit FusedProducts(const A& arithmetic) : A(arithmetic) {}
+    static glm::vec4 transform(const glm::mat4& m, glm::vec3 v) {
+        const auto row = [&](int r) { return std::fma(m[2][r], v.z, std::fma(m[1][r], v.y, m[0][r] * v.x)) + m[3][r]; };
+        return {row(0), row(1), row(2), row(3)};
+    }
+};
+template <class A> constexpr bool fuses = false;
+template <class A> constexpr bool fuses<FusedProducts<A>> = true;
+
+/// Computes as Values does, but for the mistakes made. One site may have several.
+template <class A> class Mistaken {
+  public:
+    class Real : public Compared<Real> {
+      public:
+        Real() = default;
+        Real(float x) : value_(x) {} // NOLINT: a float is one
+        explicit operator float() const { return value_; }
+        friend Real operator+(const Real& a, const Real& b) { return a.plus(b, 1.0F); }
+        friend Real operator-(const Real& a, const Real& b) { return a.plus(b, -1.0F); }
+        friend Real operator*(const Real& a, const Real& b) {
+            Real product = static_cast<float>(NumberOf<A>(a.value_) * NumberOf<A>(b.value_));
+            if constexpr (fuses<A>)
+                product.factors_ = {a.value_, b.value_}, product.is_product_ = true;
+            return product;
+        }
+
+      private:
+        [[nodiscard]] Real plus(const Real& b, float sign) const {
+            if constexpr (fuses<A>) {
+                if (is_product_)
+                    return std::fma(factors_.a, factors_.b, sign * b.value_);
+                if (b.is_product_)
+                    return std::fma(sign * b.factors_.a, b.factors_.b, value_);
+            }
+            return A::flush(sign > 0.0F ? value_ + b.value_ : value_ - b.value_);
+        }
+        struct Factors {
+            float a = 0.0F, b = 0.0F;
+        };
+        template <int> struct None {};
+        float value_ = 0.0F;
+        [[no_unique_address]] std::conditional_t<fuses<A>, Factors, None<0>> factors_;
+        [[no_unique_address]] std::conditional_t<fuses<A>, bool, None<1>> is_product_{};
+    };
+    class Int {
+      public:
+        Int() = default;
+        Int(int i) : value_(i) {}               // NOLINT: an int is one
+        operator int() const { return value_; } // NOLINT: and is one again
+        friend Int operator+(Int a, Int b) { return a.value_ + b.value_; }
+        friend Int operator-(Int a) { return -a.value_; }
+        friend OpenComparison<Real> operator==(Int a, int b) {
+            return Real(static_cast<float>(a.value_)) == Real(static_cast<float>(b));
+        }
+
+      private:
+        int value_ = 0;
+    };
+    using Vec2 = lockstep::Vec2<Real>;
+    using Vec3 = lockstep::Vec3<Real>;
+    using Vec4 = lockstep::Vec4<Real>;
+    using IVec2 = lockstep::Vec2<Int>;
+
+    Mistaken(A arithmetic, std::span<const Mistake> made) : fp_(arithmetic) {
+        for (const Mistake& mistake : made)
+            if (count_ < made_.size()) {
+                made_[count_++].mistake = mistake;
+                touched_ |= bit(mistake.site) | bit(mistake.source);
+            }
+    }
+
+    /// From here on, writes down what sites it comes by, each kind of site once.
+    void look_at_sites() { looks_ = true; }
+    [[nodiscard]] std::span<const SeenSite> sites() const { return sites_; }
+
+    // The words of a twin.
+
+    Real read(At p, float x) { return note(p, Real(fp_.flush(x))); }
+    Vec3 read(At p, glm::vec3 v) { return note(p, vector(fp_.flush(v))); }
+    Real uniform(At p, float x) { return note(p, Real(x)); }
+    Vec3 uniform(At p, glm::vec3 v) { return note(p, vector(v)); }
+    Int uniform(At p, int i) { return note(p, Int(i)); }
+    IVec2 uniform(At p, glm::ivec2 v) { return note(p, IVec2{v.x, v.y}); }
+    glm::mat4 uniform(At p, const glm::mat4& m) {
+        see(p, Kind::matrix);
+        return change_at(p) == Change::transposed ? glm::transpose(m) : m;
+    }
+    bool setting(At p, bool on) { return known(p, on, Kind::setting); }
+
+    template <class T> T note(At p, T value) {
+        constexpr bool whole = std::is_same_v<T, Int> || std::is_same_v<T, IVec2>;
+        see(p, whole ? Kind::whole_value : Kind::value, static_cast<int>(parts(value).size()));
+        if (is_untouched(p))
+            return value;
+        for (Made& made : std::span(made_.data(), count_)) {
+            if (p.site.id == made.mistake.source)
+                keep(made, value);
+            if (p.site.id == made.mistake.site)
+                spoil(made, value);
+        }
+        return value;
+    }
+    bool decide(At p, bool condition) { return known(p, condition, Kind::condition); }
+    bool decide(At p, const OpenComparison<Real>& condition) {
+        return holds(p, OpenComparisons<Real, true, 1>{{condition}});
+    }
+    template <bool all, std::size_t n> bool decide(At p, const OpenComparisons<Real, all, n>& condition) {
+        return holds(p, condition);
+    }
+    IntRange<Int> range(At p, int first, int last) {
+        see(p, Kind::loop);
+        const Change change = change_at(p);
+        if (change == Change::backwards)
+            return {last, first, -1};
+        return {first + (change == Change::first_skipped ? 1 : 0), last - (change == Change::last_skipped ? 1 : 0)};
+    }
+    /// Outside the image, where only a wrong size leads, drivers answer 0.
+    template <class Texel> const Texel* fetch(At p, const Image<Texel>& image, const IVec2& size, const IVec2& at) {
+        see(p, Kind::fetch);
+        int x = at.x, y = at.y;
+        if (!(x >= 0 && y >= 0 && x < size.x && y < size.y)) {
+            switch (change_at(p)) {
+            case Change::outside_is_edge:
+                x = std::clamp(x, 0, image.width - 1);
+                y = std::clamp(y, 0, image.height - 1);
+                break;
+            case Change::outside_is_other_side:
+                x = ((x % image.width) + image.width) % image.width;
+                y = ((y % image.height) + image.height) % image.height;
+                break;
+            case Change::outside_is_zero:
+                return &zero_but_alpha;
+            default:
+                return nullptr;
+            }
+        }
+        return image.contains(x, y) ? &image.at(x, y) : &zero;
+    }
+
+    static Real real(Int i) { return static_cast<float>(static_cast<int>(i)); }
+    static Int to_int(At, Real x) { return static_cast<int>(static_cast<float>(x)); }
+    Real divide(At p, Real a, Real b) {
+        see(p, Kind::optional_operation);
+        return change_at(p) == Change::not_done ? a : Real(fp_.divide(static_cast<float>(a), static_cast<float>(b)));
+    }
+    Real dot(At, const Vec3& a, const Vec3& b) const { return fp_.dot(floats(a), floats(b)); }
+    Real length(At p, const Vec3& v) {
+        see(p, Kind::length);
+        glm::vec3 f = floats(v);
+        switch (change_at(p)) {
+        case Change::squared:
+            return fp_.dot(f, f);
+        case Change::sum_of_magnitudes:
+            return (std::abs(f.x) + std::abs(f.y)) + std::abs(f.z);
+        case Change::without_x:
+            f.x = 0.0F;
+            break;
+        case Change::without_y:
+            f.y = 0.0F;
+            break;
+        case Change::without_z:
+            f.z = 0.0F;
+            break;
+        default:
+            break;
+        }
+        return fp_.length(f);
+    }
+    Vec3 normalize(At p, const Vec3& v) {
+        see(p, Kind::optional_operation);
+        return change_at(p) == Change::not_done ? v : vector(fp_.normalize(floats(v)));
+    }
+    Vec4 transform(At, const glm::mat4& m, const Vec3& v) const {
+        const glm::vec4 t = fp_.transform(m, floats(v));
+        return {t.x, t.y, t.z, t.w};
+    }
+
+    template <class Payload> class Least {
+      public:
+        Least(Mistaken& reading, At place, float first)
+            : reading_(reading), place_(place), change_(reading.change_at(place)), least_(first) {
+            reading.see(place, Kind::choice);
+        }
+        template <class Condition>
+        void offer(At place, const Condition& condition, const Real& key, const Payload& payload) {
+            if (!reading_.decide(place, condition) || !better(static_cast<float>(key)))
+                return;
+            least_ = static_cast<float>(key);
+            found_ = payload;
+        }
+        [[nodiscard]] const std::optional<Payload>& take() const { return found_; }
+
+      private:
+        [[nodiscard]] bool better(float key) const {
+            switch (change_) {
+            case Change::last_taken:
+                return true;
+            case Change::first_taken:
+                return !found_;
+            case Change::greatest_taken:
+                return !found_ || key > least_;
+            case Change::last_of_equals:
+                return key <= least_;
+            default:
+                return key < least_;
+            }
+        }
+        Mistaken& reading_;
+        At place_;
+        Change change_;
+        float least_;
+        std::optional<Payload> found_;
+    };
+
+  private:
+    using Kind = SeenSite::Kind;
+
+    struct Made {
+        Mistake mistake;
+        std::array<float, 4> kept{}; ///< the source's value, in this run
+        std::size_t kept_size = 0;
+    };
+
+    static Vec3 vector(glm::vec3 v) { return {v.x, v.y, v.z}; }
+
+    void see(At p, Kind kind, int size = 1) {
+        if (!looks_)
+            return;
+        const SeenSite seen{&p.site, kind, size};
+        if (std::find(sites_.begin(), sites_.end(), seen) == sites_.end())
+            sites_.push_back(seen);
+    }
+    /// Most sites have nothing made of them: a bit of their name says so at once.
+    static std::uint64_t bit(std::uint32_t site) { return std::uint64_t{1} << (site % 64); }
+    [[nodiscard]] bool is_untouched(At p) const { return (touched_ & bit(p.site.id)) == 0; }
+
+    /// The operation's change; a value's are made by note().
+    [[nodiscard]] Change change_at(At p) const {
+        if (is_untouched(p))
+            return Change::none;
+        for (const Made& made : std::span(made_.data(), count_))
+            if (made.mistake.site == p.site.id && made.mistake.change > Change::spoiled)
+                return made.mistake.change;
+        return Change::none;
+    }
+
+    template <class T> static auto parts(T& value) {
+        if constexpr (requires { value.fields(); })
+            return std::apply([](auto&... field) { return std::array{&field...}; }, value.fields());
+        else
+            return std::array<T*, 1>{&value};
+    }
+    template <class T> static void keep(Made& made, T& value) {
+        made.kept_size = 0;
+        for (const auto* part : parts(value))
+            made.kept[made.kept_size++] = as_float(*part);
+    }
+    static float as_float(const Real& x) { return static_cast<float>(x); }
+    static float as_float(Int i) { return static_cast<float>(static_cast<int>(i)); }
+    static void set(Real& to, float x) { to = x; }
+    static void set(Int& to, float x) { to = static_cast<int>(x); }
+
+    template <class T> void spoil(const Made& made, T& value) const {
+        const auto all = parts(value);
+        const Mistake& mistake = made.mistake;
+        if (mistake.change > Change::spoiled)
+            return; // of the operation at this site
+        if (mistake.change == Change::spoiled) {
+            std::array<float, 4> v{};
+            for (std::size_t i = 0; i < all.size(); ++i)
+                v[i] = as_float(*all[i]);
+            mistake.spoil(std::span(v.data(), all.size()), mistake.context);
+            for (std::size_t i = 0; i < all.size(); ++i)
+                set(*all[i], v[i]);
+        } else if (mistake.change == Change::swapped) {
+            if constexpr (all.size() > 1)
+                std::swap(*all[0], *all[1]);
+        } else if (mistake.change == Change::x_everywhere) {
+            for (auto* part : all)
+                *part = *all[0];
+        } else if (mistake.source == 0 || made.kept_size > 0) {
+            for (std::size_t i = 0; i < all.size(); ++i)
+                if (mistake.part < 0 || mistake.part == static_cast<int>(i))
+                    set(*all[i], changed(mistake.change, as_float(*all[i]), made.kept[made.kept_size > 1 ? i : 0]));
+        }
+    }
+    static float changed(Change change, float x, float other) {
+        switch (change) {
+        case Change::zero:
+            return 0.0F;
+        case Change::one:
+            return 1.0F;
+        case Change::negated:
+            return -x;
+        case Change::doubled:
+            return x * 2.0F;
+        case Change::halved:
+            return x * 0.5F;
+        case Change::reciprocal:
+            return 1.0F / x;
+        case Change::opposite:
+            return 1.0F - x;
+        case Change::one_more:
+            return x + 1.0F;
+        case Change::one_less:
+            return x - 1.0F;
+        case Change::half_more:
+            return x + 0.5F;
+        case Change::half_less:
+            return x - 0.5F;
+        case Change::instead:
+            return other;
+        case Change::plus:
+            return A::flush(x + other);
+        case Change::minus:
+            return A::flush(x - other);
+        case Change::times:
+            return static_cast<float>(NumberOf<A>(x) * NumberOf<A>(other));
+        default:
+            return x;
+        }
+    }
+
+    bool known(At p, bool condition, Kind kind) {
+        see(p, kind);
+        return whole(change_at(p), condition);
+    }
+    static bool whole(Change change, bool condition) {
+        switch (change) {
+        case Change::inverted:
+            return !condition;
+        case Change::always:
+            return true;
+        case Change::never:
+            return false;
+        default:
+            return condition;
+        }
+    }
+    template <bool all, std::size_t n> bool holds(At p, const OpenComparisons<Real, all, n>& condition) {
+        see(p, Kind::condition, static_cast<int>(n));
+        bool at_site = false, is_all = all;
+        if (is_untouched(p))
+            return holds(condition);
+        for (const Made& made : std::span(made_.data(), count_))
+            if (made.mistake.site == p.site.id) {
+                at_site = true;
+                is_all = is_all != (made.mistake.change == Change::and_is_or);
+            }
+        bool answer = is_all;
+        for (std::size_t i = 0; i < n; ++i) {
+            const bool part = at_site ? part_holds(p, condition.part[i], static_cast<int>(i), all)
+                                      : holds(condition.part[i], Change::none);
+            answer = is_all ? answer && part : answer || part;
+        }
+        return at_site ? whole(change_of(p, -1), answer) : answer;
+    }
+    template <bool all, std::size_t n> static bool holds(const OpenComparisons<Real, all, n>& condition) {
+        bool answer = all;
+        for (const OpenComparison<Real>& part : condition)
+            answer = all ? answer && holds(part, Change::none) : answer || holds(part, Change::none);
+        return answer;
+    }
+    [[nodiscard]] Change change_of(At p, int part) const {
+        for (const Made& made : std::span(made_.data(), count_))
+            if (made.mistake.site == p.site.id && made.mistake.part == part)
+                return made.mistake.change;
+        return Change::none;
+    }
+    bool part_holds(At p, const OpenComparison<Real>& c, int part, bool all) const {
+        const Change change = change_of(p, part);
+        return change == Change::dropped ? all : holds(c, change);
+    }
+    static bool holds(const OpenComparison<Real>& c, Change change) {
+        const auto a = static_cast<float>(c.a), b = static_cast<float>(c.b);
+        const bool reversed = change == Change::reversed;
+        switch (c.op) {
+        case CompareOp::less:
+            return (reversed ? a > b : change == Change::or_equal ? a <= b : a < b) != c.negated;
+        case CompareOp::less_equal:
+            return (reversed ? a >= b : change == Change::or_equal ? a < b : a <= b) != c.negated;
+        case CompareOp::equal:
+            return (a == b) != (c.negated != reversed);
+        case CompareOp::always:
+        case CompareOp::never:
+            break;
+        }
+        return (c.op == CompareOp::always) != c.negated;
+    }
+
+    static constexpr glm::vec4 zero{0.0F}, zero_but_alpha{0.0F, 0.0F, 0.0F, 1.0F};
+
+    A fp_;
+    std::array<Made, 4> made_;
+    std::size_t count_ = 0;
+    std::uint64_t touched_ = 0;
+    bool looks_ = false;
+    std::vector<SeenSite> sites_;
+};
+
+} // namespace lockstep

@@ -4,9 +4,8 @@
 #include <cmath>
 #include <cstddef>
 #include <limits>
-#include <optional>
 
-#include "reference/particle_step.hpp"
+#include "reference/octree/octree_twin.hpp"
 #include "reference/subnormals.hpp"
 #include "reference/with_arithmetic.hpp"
 
@@ -43,34 +42,14 @@ Leaves fill_leaves(std::span<const glm::vec3> particles, const Mesh& obstacles, 
     return leaves;
 }
 
-struct Collision {
-    std::int32_t entry;
-    glm::vec3 away; ///< own position minus the entry's
-};
-
-/// The nearest entry of its leaf within the collision range of particle `self`, which is at `position`.
-template <class A> std::optional<Collision> nearest_collision(A fp, std::int32_t self, glm::vec3 position,
-                                                              const Leaves& leaves, const FrameParams& params) {
+/// The leaf that a position lies in.
+LeafEntries leaf_of(glm::vec3 position, const Leaves& leaves, const FrameParams& params) {
     const std::int32_t found = octree_leaf(position, params.constants.octree_size);
     if (found == no_leaf)
         return {};
     const auto leaf = static_cast<std::size_t>(found);
-    const glm::vec3 own = fp.flush(position);
-    float min_length = 100000.0F;
-    std::optional<Collision> nearest;
-    for (std::size_t e = leaves.first[leaf]; e < leaves.first[leaf + 1]; ++e) {
-        if (leaves.entry[e] == self)
-            continue;
-        const glm::vec3 apart = fp.flush(own - fp.flush(leaves.position[e]));
-        const float len = fp.length(apart);
-        if (len == 0.0F && params.switches.zero_distance == ZeroDistance::skip)
-            continue;
-        if (params.constants.collision_range > len && len < min_length) {
-            min_length = len;
-            nearest = Collision{leaves.entry[e], apart};
-        }
-    }
-    return nearest;
+    const std::size_t first = leaves.first[leaf], count = leaves.first[leaf + 1] - first;
+    return {{leaves.entry.data() + first, count}, {leaves.position.data() + first, count}};
 }
 
 template <class Work> void for_each_particle(std::size_t count, const Profile& profile, const Work& work) {
@@ -114,14 +93,13 @@ void octree_pass(const Particles& before, const Mesh& obstacles, const FramePara
     assert(&before != &after);
     after.resize(before.size());
     const Leaves leaves = fill_leaves(before.position, obstacles, params);
-    with_arithmetic(profile, params.switches, [&](auto fp) {
-        const ParticleStep step(fp, params);
+    with_arithmetic(profile, params.switches, [&]<class A>(A fp) {
         for_each_particle(before.size(), profile, [&](std::size_t i) {
-            const ParticleState a = step.flushed(before[i]);
-            std::optional<Collision> collision;
-            if (a.collide_time < 0.0F)
-                collision = nearest_collision(fp, static_cast<std::int32_t>(i), before.position[i], leaves, params);
-            after.set(i, collision ? step.collide(a, collision->away) : step.integrate(a));
+            Values<A> values(fp);
+            const OctreeTwin step(values, params);
+            const auto v = step(static_cast<std::int32_t>(i), before[i], leaf_of(before.position[i], leaves, params));
+            after.set(i, {floats(v.position), floats(v.direction), static_cast<float>(v.speed),
+                          static_cast<float>(v.collide_time)});
         });
     });
 }
@@ -130,10 +108,14 @@ std::vector<std::int32_t> octree_partners(std::span<const glm::vec3> positions, 
                                           const FrameParams& params, const Profile& profile) {
     const Leaves leaves = fill_leaves(positions, obstacles, params);
     std::vector<std::int32_t> partners(positions.size());
-    with_arithmetic(profile, params.switches, [&](auto fp) {
+    with_arithmetic(profile, params.switches, [&]<class A>(A fp) {
         for_each_particle(positions.size(), profile, [&](std::size_t i) {
-            const auto collision = nearest_collision(fp, static_cast<std::int32_t>(i), positions[i], leaves, params);
-            partners[i] = collision ? collision->entry : -1;
+            Values<A> values(fp);
+            const OctreeTwin step(values, params);
+            const auto own = values.read(site::position_before, positions[i]);
+            const auto hit =
+                step.nearest_collision(static_cast<std::int32_t>(i), own, leaf_of(positions[i], leaves, params));
+            partners[i] = hit ? hit->entry : -1;
         });
     });
     return partners;

@@ -7,12 +7,15 @@
 #include "reference/layered_collision_pass.hpp"
 #include "reference/obstacle_pass.hpp"
 #include "reference/octree_pass.hpp"
+#include "reference/readings/exact_floats.hpp"
 
 namespace lockstep {
 
 ReferenceSimulation::ReferenceSimulation(const Scene& scene, Profile profile)
     : obstacles_(scene.obstacles), profile_(std::move(profile)), after_(scene.start), cdt_before_(empty_cdt(scene)),
-      cdt_after_(empty_cdt(scene)), depth_(scene.width, scene.height, 1.0F) {}
+      cdt_after_(empty_cdt(scene)), depth_(scene.width, scene.height, 1.0F) {
+    require_two_roundings();
+}
 
 void ReferenceSimulation::step_from(const Particles& before, const CollisionImage& cdt, const FrameParams& params) {
     if (has_remedies(params.switches)) {

@@ -1,0 +1,57 @@
+#pragma once
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <limits>
+#include <span>
+#include <vector>
+
+#include "reference/interval.hpp"
+
+namespace lockstep {
+
+/// What a sum may give whose terms are added one after another in an order that nothing fixes, as atomics and blending
+/// add them. `arithmetic` (LegalArithmetic) says what one addition gives.
+///
+/// Up to ten terms: exactly the ends of all orders. Rounding is monotone, so the least sum of a set of terms is the
+/// least over its last term of what the others' least gives with it. Beyond: the bound (n - 1) u / (1 - (n - 1) u)
+/// times the sum of magnitudes (Higham, Accuracy and Stability of Numerical Algorithms, section 4.2), and what may be
+/// flushed.
+template <class Arithmetic> Interval any_order_sum(const Arithmetic& arithmetic, std::span<const Interval> terms) {
+    constexpr std::size_t most_exact = 10;
+    if (terms.empty())
+        return {0.0F};
+    if (std::any_of(terms.begin(), terms.end(), [](const Interval& t) { return t.any || std::isnan(t.low); }))
+        return Interval::anything();
+    const std::size_t n = terms.size();
+    if (n <= most_exact) {
+        std::vector<Interval> sums(std::size_t{1} << n);
+        for (std::size_t set = 1; set < sums.size(); ++set) {
+            bool first = true;
+            for (std::size_t last = 0; last < n; ++last) {
+                const std::size_t bit = std::size_t{1} << last;
+                if ((set & bit) == 0)
+                    continue;
+                const Interval sum = set == bit ? terms[last] : arithmetic.sum(sums[set - bit], terms[last]);
+                sums[set] = first ? sum : interval::hull(sums[set], sum);
+                first = false;
+            }
+        }
+        return sums.back();
+    }
+    Interval total(0.0F);
+    double magnitude = 0.0;
+    for (const Interval& term : terms) {
+        total = interval::add(total, term);
+        magnitude = interval::above(magnitude + std::max(std::abs(term.low), std::abs(term.high)));
+    }
+    const double u = arithmetic.known().sums ? 0x1p-24 : 0x1p-23;
+    const double additions = static_cast<double>(n - 1);
+    if (total.any || additions * u >= 0.5 || magnitude * 2.0 > double{std::numeric_limits<float>::max()})
+        return Interval::anything();
+    const double flushed = additions * double{std::numeric_limits<float>::min()};
+    const double error = interval::above(additions * u / (1.0 - additions * u) * magnitude) + flushed;
+    return interval::to_floats(interval::outward(total.low - error, total.high + error));
+}
+
+} // namespace lockstep

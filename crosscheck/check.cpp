@@ -8,6 +8,7 @@
 
 #include "crosscheck/side_state.hpp"
 #include "gpu/gpu_side.hpp"
+#include "reference/model/collision_state.hpp"
 #include "reference/model/error.hpp"
 #include "reference/model/layered_cdt.hpp"
 #include "reference/model/state_hash.hpp"
@@ -81,7 +82,9 @@ std::uint64_t count_drawn(const CollisionImage& cdt) {
 
 void note_difference(CheckReport& report, int frame, const Comparison& comparison) {
     const std::int64_t worst = comparison.worst.empty() ? 0 : comparison.worst.front().ulp;
-    report.counts.push_back({frame, comparison.differing_particles, comparison.differing_texels, worst});
+    FrameCount& counts = report.counts.emplace_back(FrameCount{frame, {}, worst});
+    for (std::uint8_t r = 0; r < report.schema.resources.size(); ++r)
+        counts.items.push_back(comparison.differing(r));
     if (comparison.agree() || report.first_frame)
         return;
     report.first_frame = frame;
@@ -148,7 +151,7 @@ std::vector<std::string> untried(const CheckReport& report, const Scene& scene) 
         all.emplace_back("nothing collided");
     if (report.drawn_texels == 0 && scene.switches.search == Search::cdt)
         all.emplace_back("nothing was drawn into the CDT");
-    const FieldCount& position = report.total[Field::position];
+    const FieldCount position = report.total[collision::position];
     if (position.nan > 0 && 2 * position.nan >= position.compared)
         all.emplace_back(fmt::format("{} of {} coordinates are NaN, of which any equals any other", position.nan,
                                      position.compared));
@@ -171,6 +174,7 @@ CheckReport check(const Scene& scene, const Profile& profile, GpuSide& gpu, cons
     if (const std::string problem = size_problem(scene.start, scene.start.size()); !problem.empty())
         throw Error(fmt::format("{}: its start has {}", scene.name, problem));
     CheckReport report;
+    report.schema = collision_schema();
     report.particles = scene.start.size();
     report.frames_asked = options.frames;
     ReferenceSimulation reference(scene, profile);

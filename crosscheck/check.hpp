@@ -39,8 +39,7 @@ struct FrameDifference {
 /// How much differed in one frame; kept for every frame with a difference, and in free mode for every frame.
 struct FrameCount {
     int frame = 0;
-    std::uint64_t particles = 0;
-    std::uint64_t texels = 0;
+    std::vector<std::uint64_t> items; ///< of each buffer and image, in the schema's order
     std::int64_t worst_ulp = 0;
 };
 
@@ -54,6 +53,7 @@ struct FrameTimes {
 };
 
 struct CheckReport {
+    Schema schema; ///< what was compared
     Verdict verdict = Verdict::agree;
     int frames = 0;       ///< frames compared
     int frames_asked = 0; ///< more than `frames`: the run was stopped

@@ -2,9 +2,8 @@
 
 #include <algorithm>
 #include <cassert>
+#include <cstring>
 #include <tuple>
-
-#include "reference/model/same_bits.hpp"
 
 namespace lockstep {
 namespace {
@@ -22,54 +21,71 @@ void keep_worst(std::vector<Difference>& worst, const Difference& difference) {
         worst.pop_back();
 }
 
-/// One element's components, `count` floats each side.
-bool compare_element(const float* reference, const float* gpu, int count, Field field, std::size_t index,
-                     Comparison& into) {
-    FieldCount& counts = into[field];
+/// One item's components in one field.
+bool compare_item(const View& reference, const View& gpu, std::uint8_t field, std::size_t item, Comparison& into) {
+    FieldCount& counts = into.resources[reference.resource].fields[field];
     bool differs = false;
-    for (int c = 0; c < count; ++c) {
-        if (gpu[c] != gpu[c])
+    for (int c = 0; c < reference.fields()[field].components; ++c) {
+        const Value expected = reference.value(field, item, c);
+        const Value got = gpu.value(field, item, c);
+        if (got.is_nan())
             ++counts.nan;
-        if (same_bits(reference[c], gpu[c]))
+        if (same_bits(expected, got))
             continue;
         differs = true;
         ++counts.differing;
-        keep_worst(into.worst, {field, index, c, reference[c], gpu[c], ulp_distance(reference[c], gpu[c])});
+        keep_worst(into.worst, {{reference.resource, field}, item, c, expected, got, distance(expected, got)});
     }
     return differs;
 }
 
-/// Most blocks are equal to the last bit and hold no NaN: one pass over the words settles those.
-bool block_is_clean(const float* reference, const float* gpu, std::size_t floats) {
+/// Whether words are equal to the last bit and none is NaN, were they floats.
+bool clean(const std::byte* reference, const std::byte* gpu, std::size_t words) {
     std::uint32_t unequal = 0;
     std::uint32_t nan = 0;
-    for (std::size_t i = 0; i < floats; ++i) {
-        const auto a = std::bit_cast<std::uint32_t>(reference[i]);
-        const auto b = std::bit_cast<std::uint32_t>(gpu[i]);
+    for (std::size_t i = 0; i < words; ++i) {
+        std::uint32_t a = 0;
+        std::uint32_t b = 0;
+        std::memcpy(&a, reference + i * sizeof a, sizeof a);
+        std::memcpy(&b, gpu + i * sizeof b, sizeof b);
         unequal |= a ^ b;
         nan |= static_cast<std::uint32_t>((b & 0x7fffffffU) > 0x7f800000U);
     }
     return unequal == 0 && nan == 0;
 }
 
+/// Most blocks are equal to the last bit and hold no NaN: one pass over the words settles those.
+bool clean(const View& reference, const View& gpu, std::size_t first, std::size_t items) {
+    for (std::size_t f = 0; f < gpu.columns.size(); ++f) {
+        const auto words = static_cast<std::size_t>(gpu.fields()[f].components);
+        const std::size_t from = first * words * sizeof(std::uint32_t);
+        if (!clean(reference.columns[f] + from, gpu.columns[f] + from, items * words))
+            return false;
+    }
+    return true;
+}
+
 constexpr std::size_t block = 1024;
 
-/// Calls `element(i, into)` for the elements of every block that is not clean in all of its arrays.
-template <class Clean, class Element>
-Comparison compare_blocks(std::size_t count, const Clean& clean, const Element& element) {
+/// Calls `item(i, into)` for the first `count` items, block by block, but for blocks that are clean.
+template <class Item>
+Comparison compare_blocks(const View& reference, const View& gpu, std::size_t count, const Item& item) {
+    Comparison none;
+    none.resources.resize(reference.resource + std::size_t{1});
+    none.resources.back().fields.resize(reference.fields().size());
     const auto blocks = static_cast<std::ptrdiff_t>((count + block - 1) / block);
-    Comparison total;
+    Comparison total = none;
 #pragma omp parallel
     {
-        Comparison mine;
+        Comparison mine = none;
 #pragma omp for schedule(static) nowait
         for (std::ptrdiff_t b = 0; b < blocks; ++b) {
             const std::size_t first = static_cast<std::size_t>(b) * block;
             const std::size_t last = std::min(first + block, count);
-            if (clean(first, last - first))
+            if (clean(reference, gpu, first, last - first))
                 continue;
             for (std::size_t i = first; i < last; ++i)
-                element(i, mine);
+                item(i, mine);
         }
 #pragma omp critical
         total.add(mine);
@@ -79,77 +95,89 @@ Comparison compare_blocks(std::size_t count, const Clean& clean, const Element& 
 
 } // namespace
 
+bool Comparison::agree() const {
+    return std::all_of(resources.begin(), resources.end(), [](const ResourceCount& r) { return r.differing == 0; });
+}
+
 std::uint64_t Comparison::compared() const {
     std::uint64_t sum = 0;
-    for (const FieldCount& field : fields)
-        sum += field.compared;
+    for (std::size_t r = 0; r < resources.size(); ++r)
+        sum += compared(static_cast<std::uint8_t>(r));
     return sum;
 }
 
+std::uint64_t Comparison::compared(std::uint8_t resource) const {
+    std::uint64_t sum = 0;
+    if (resource < resources.size())
+        for (const FieldCount& field : resources[resource].fields)
+            sum += field.compared;
+    return sum;
+}
+
+std::uint64_t Comparison::differing(std::uint8_t resource) const {
+    return resource < resources.size() ? resources[resource].differing : 0;
+}
+
+FieldCount Comparison::operator[](FieldId field) const {
+    const bool compared = field.resource < resources.size() && field.field < resources[field.resource].fields.size();
+    return compared ? resources[field.resource].fields[field.field] : FieldCount{};
+}
+
 void Comparison::add(const Comparison& other) {
-    for (std::size_t f = 0; f < fields.size(); ++f) {
-        fields[f].compared += other.fields[f].compared;
-        fields[f].differing += other.fields[f].differing;
-        fields[f].nan += other.fields[f].nan;
+    resources.resize(std::max(resources.size(), other.resources.size()));
+    for (std::size_t r = 0; r < other.resources.size(); ++r) {
+        ResourceCount& sum = resources[r];
+        const ResourceCount& more = other.resources[r];
+        sum.differing += more.differing;
+        if (more.extent.count() > 0)
+            sum.extent = more.extent;
+        sum.fields.resize(std::max(sum.fields.size(), more.fields.size()));
+        for (std::size_t f = 0; f < more.fields.size(); ++f) {
+            sum.fields[f].compared += more.fields[f].compared;
+            sum.fields[f].differing += more.fields[f].differing;
+            sum.fields[f].nan += more.fields[f].nan;
+        }
     }
-    differing_particles += other.differing_particles;
-    differing_texels += other.differing_texels;
     for (const Difference& difference : other.worst)
         keep_worst(worst, difference);
 }
 
-Comparison compare(const Particles& reference, const Particles& gpu) {
-    assert(reference.size() == gpu.size());
-    const std::size_t count = gpu.size();
-    const auto clean = [&](std::size_t first, std::size_t n) {
-        return block_is_clean(&reference.position[first].x, &gpu.position[first].x, 3 * n) &&
-               block_is_clean(&reference.direction[first].x, &gpu.direction[first].x, 3 * n) &&
-               block_is_clean(&reference.speed[first], &gpu.speed[first], n) &&
-               block_is_clean(&reference.collide_time[first], &gpu.collide_time[first], n);
-    };
-    Comparison result = compare_blocks(count, clean, [&](std::size_t i, Comparison& into) {
-        const bool position =
-            compare_element(&reference.position[i].x, &gpu.position[i].x, 3, Field::position, i, into);
-        const bool direction =
-            compare_element(&reference.direction[i].x, &gpu.direction[i].x, 3, Field::direction, i, into);
-        const bool speed = compare_element(&reference.speed[i], &gpu.speed[i], 1, Field::speed, i, into);
-        const bool time =
-            compare_element(&reference.collide_time[i], &gpu.collide_time[i], 1, Field::collide_time, i, into);
-        into.differing_particles += position || direction || speed || time;
+Comparison compare(const View& reference, const View& gpu) {
+    assert(reference.schema == gpu.schema && reference.resource == gpu.resource);
+    assert(reference.about().dimensions == 1 || reference.extent == gpu.extent);
+    const std::size_t both = std::min(reference.count(), gpu.count());
+    const auto fields = static_cast<std::uint8_t>(reference.fields().size());
+    Comparison result = compare_blocks(reference, gpu, both, [&](std::size_t i, Comparison& into) {
+        bool differs = false;
+        for (std::uint8_t f = 0; f < fields; ++f)
+            differs = compare_item(reference, gpu, f, i, into) || differs;
+        into.resources.back().differing += differs ? 1U : 0U;
     });
-    result[Field::position].compared = 3 * count;
-    result[Field::direction].compared = 3 * count;
-    result[Field::speed].compared = count;
-    result[Field::collide_time].compared = count;
+    ResourceCount& counts = result.resources.back();
+    counts.extent = reference.extent;
+    counts.differing += std::max(reference.count(), gpu.count()) - both;
+    for (std::uint8_t f = 0; f < fields; ++f)
+        counts.fields[f].compared =
+            static_cast<std::uint64_t>(both) * static_cast<std::uint64_t>(reference.fields()[f].components);
     return result;
 }
 
-Comparison compare(const CollisionImage& reference, const CollisionImage& gpu) {
-    assert(reference.width == gpu.width && reference.height == gpu.height);
-    const std::size_t count = gpu.texels.size();
-    const auto clean = [&](std::size_t first, std::size_t n) {
-        return block_is_clean(&reference.texels[first].x, &gpu.texels[first].x, 4 * n);
-    };
-    Comparison result = compare_blocks(count, clean, [&](std::size_t i, Comparison& into) {
-        into.differing_texels += compare_element(&reference.texels[i].x, &gpu.texels[i].x, 4, Field::texel, i, into);
-    });
-    result[Field::texel].compared = 4 * count;
-    return result;
-}
-
-std::vector<std::size_t> differing_particles(const Particles& reference, const Particles& gpu) {
+std::vector<std::size_t> differing_items(const View& reference, const View& gpu) {
     std::vector<std::size_t> differing;
-    for (std::size_t i = 0; i < gpu.size(); ++i)
-        if (!same_bits(reference[i], gpu[i]))
-            differing.push_back(i);
-    return differing;
-}
-
-std::vector<std::size_t> differing_texels(const CollisionImage& reference, const CollisionImage& gpu) {
-    std::vector<std::size_t> differing;
-    for (std::size_t i = 0; i < gpu.texels.size(); ++i)
-        if (!same_bits(reference.texels[i], gpu.texels[i]))
-            differing.push_back(i);
+    const std::size_t both = std::min(reference.count(), gpu.count());
+    for (std::size_t first = 0; first < both; first += block) {
+        const std::size_t last = std::min(first + block, both);
+        if (clean(reference, gpu, first, last - first))
+            continue;
+        for (std::size_t i = first; i < last; ++i) {
+            bool same = true;
+            for (std::size_t f = 0; f < reference.fields().size() && same; ++f)
+                for (int c = 0; c < reference.fields()[f].components && same; ++c)
+                    same = same_bits(reference.value(f, i, c), gpu.value(f, i, c));
+            if (!same)
+                differing.push_back(i);
+        }
+    }
     return differing;
 }
 

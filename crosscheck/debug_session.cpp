@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <array>
 #include <charconv>
-#include <cmath>
 #include <utility>
 
 #include <fmt/format.h>
@@ -11,6 +10,7 @@
 
 #include "crosscheck/places.hpp"
 #include "crosscheck/verdict_text.hpp"
+#include "reference/model/collision_state.hpp"
 #include "reference/model/error.hpp"
 
 namespace lockstep {
@@ -35,12 +35,6 @@ int number(std::string_view command, const std::string& text, int least, int mos
     if (status != std::errc{} || rest != end || value < least || value > most)
         throw Error(fmt::format("{}: '{}' is not an integer from {} to {}", command, text, least, most));
     return value;
-}
-
-bool has_nan(glm::vec3 v) { return std::isnan(v.x) || std::isnan(v.y) || std::isnan(v.z); }
-bool has_nan(const Particles& particles, std::size_t i) {
-    return has_nan(particles.position[i]) || has_nan(particles.direction[i]) || std::isnan(particles.speed[i]) ||
-           std::isnan(particles.collide_time[i]);
 }
 
 } // namespace
@@ -240,9 +234,11 @@ std::vector<DebugSession::Item> DebugSession::of_class(DifferenceClass least) {
 
 std::vector<DebugSession::Item> DebugSession::with_nan() const {
     const JudgedFrame frame = run_->judged();
+    const View gpu = view(frame.gpu);
+    const View reference = view(frame.reference);
     std::vector<Item> items;
-    for (std::size_t i = 0; i < frame.gpu.size(); ++i)
-        if (has_nan(frame.gpu, i) || has_nan(frame.reference, i))
+    for (std::size_t i = 0; i < gpu.count(); ++i)
+        if (has_nan(gpu, i) || has_nan(reference, i))
             items.push_back({false, i});
     return items;
 }

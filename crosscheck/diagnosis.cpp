@@ -10,6 +10,7 @@
 #include "reference/collision_code.hpp"
 #include "reference/collision_pass.hpp"
 #include "reference/legal_texels.hpp"
+#include "reference/model/collision_state.hpp"
 #include "reference/model/same_bits.hpp"
 #include "reference/step_trace.hpp"
 
@@ -36,12 +37,12 @@ std::string ulp_text(std::int64_t ulp) {
     return ulp == INT64_MAX ? "NaN on one side" : fmt::format("{} ULP from what is legal", ulp);
 }
 
-Difference difference(Field field, std::size_t index, int component, float reference, float gpu) {
+Difference difference(FieldId field, std::size_t index, int component, float reference, float gpu) {
     return {field, index, component, reference, gpu, ulp_distance(reference, gpu)};
 }
 
 /// The component of a vector that differs first.
-Difference vector_difference(Field field, std::size_t index, glm::vec3 reference, glm::vec3 gpu) {
+Difference vector_difference(FieldId field, std::size_t index, glm::vec3 reference, glm::vec3 gpu) {
     int component = 0;
     while (component < 2 && same_bits(reference[component], gpu[component]))
         ++component;
@@ -86,7 +87,8 @@ class ParticleDiagnosis {
     WrongStep wrong_decision() {
         const Constants& constants = frame_.params.constants;
         WrongStep wrong;
-        wrong.difference = difference(Field::collide_time, particle_, 0, reference_.collide_time, gpu_.collide_time);
+        wrong.difference =
+            difference(collision::collide_time, particle_, 0, reference_.collide_time, gpu_.collide_time);
         const bool gpu_hit = same_bits(gpu_.collide_time, constants.collision_time);
         const bool may_hit = std::any_of(outcomes_.begin(), outcomes_.end(), [](const auto& o) { return o.hit; });
         if (gpu_hit && !may_hit) {
@@ -125,13 +127,13 @@ class ParticleDiagnosis {
             hit() ? fmt::format("speed {:a} * factor {:a}", trace_.before.speed, frame_.params.switches.speed_factor)
                   : fmt::format("length of velocity {}", hex(trace_.velocity));
         wrong.margin = ulp_text(distance_to(outcomes_.front().speed, gpu_.speed));
-        wrong.difference = difference(Field::speed, particle_, 0, reference_.speed, gpu_.speed);
+        wrong.difference = difference(collision::speed, particle_, 0, reference_.speed, gpu_.speed);
         return wrong;
     }
 
     [[nodiscard]] WrongStep wrong_direction() const {
         WrongStep wrong;
-        wrong.difference = vector_difference(Field::direction, particle_, reference_.direction, gpu_.direction);
+        wrong.difference = vector_difference(collision::direction, particle_, reference_.direction, gpu_.direction);
         std::int64_t margin = 0;
         for (int c = 0; c < 3; ++c)
             margin = std::max(margin,
@@ -170,7 +172,7 @@ class ParticleDiagnosis {
             margin = std::min(margin, worst);
         }
         wrong.margin = ulp_text(margin);
-        wrong.difference = vector_difference(Field::position, particle_, reference_.position, gpu_.position);
+        wrong.difference = vector_difference(collision::position, particle_, reference_.position, gpu_.position);
         return wrong;
     }
 
@@ -243,7 +245,7 @@ WrongStep wrong_step_of_texel(const JudgedFrame& frame, std::size_t texel) {
     int component = 0;
     while (component < 3 && same_bits(owner.code[component], gpu[component]))
         ++component;
-    wrong.difference = difference(Field::texel, texel, component, owner.code[component], gpu[component]);
+    wrong.difference = difference(collision::texel, texel, component, owner.code[component], gpu[component]);
     wrong.operation = owner_text(owner, frame);
     if (gpu.a == 0.0F) {
         wrong.step = "texel";

@@ -7,7 +7,9 @@
 
 #include "crosscheck/diagnosis.hpp"
 #include "crosscheck/neighbourhood.hpp"
+#include "crosscheck/value_text.hpp"
 #include "crosscheck/verdict_text.hpp"
+#include "reference/model/collision_state.hpp"
 #include "reference/model/same_bits.hpp"
 
 namespace lockstep {
@@ -70,13 +72,10 @@ std::string class_text(const ItemVerdict* verdict) {
 }
 
 std::string wrong_text(const WrongStep& wrong) {
-    const Difference& d = wrong.difference;
-    const bool scalar = d.field == Field::speed || d.field == Field::collide_time;
     std::string text = fmt::format("  step {}: reference: {}\n", wrong.step, wrong.operation);
     if (!wrong.gpu.empty())
         text += fmt::format("  GPU: {}\n", wrong.gpu);
-    return text + fmt::format("  {}{}: reference {:a}, GPU {:a}{}{}\n", field_names[static_cast<std::size_t>(d.field)],
-                              scalar ? std::string() : fmt::format(".{}", "xyzw"[d.component]), d.reference, d.gpu,
+    return text + fmt::format("  {}{}{}\n", difference_text(collision_schema(), wrong.difference),
                               wrong.margin.empty() ? "" : "; ", wrong.margin);
 }
 

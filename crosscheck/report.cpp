@@ -2,39 +2,77 @@
 
 #include <algorithm>
 #include <bit>
-#include <cmath>
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
+#include "crosscheck/value_text.hpp"
 #include "crosscheck/verdict_text.hpp"
 #include "reference/model/state_hash.hpp"
 
 namespace lockstep {
 namespace {
 
-std::string ulp_text(std::int64_t ulp) {
-    if (ulp == INT64_MAX)
-        return "NaN on one side";
-    return ulp == 0 ? "sign of zero" : grouped(static_cast<std::uint64_t>(ulp)) + " ULP";
+/// "frame 3 particle 17 position.x"; "frame 3 texel (31, 282).w".
+std::string place(const CheckReport& r, const FrameDifference& d) {
+    const FieldId id = d.difference.field;
+    const Resource& resource = r.schema.resources[id.resource];
+    const std::string component = component_name(r.schema[id], d.difference.component);
+    const std::size_t index = d.difference.index;
+    if (resource.dimensions == 1)
+        return fmt::format("frame {} {} {} {}", d.frame, resource.item, index, component);
+    const auto [width, height, depth] = r.total.resources[id.resource].extent;
+    const std::string layer = resource.dimensions == 3 ? fmt::format(", {}", index / (width * height)) : "";
+    return fmt::format("frame {} {} ({}, {}{}){}", d.frame, resource.item, index % width, index / width % height, layer,
+                       component.substr(r.schema[id].name.size()));
 }
 
-std::string value_text(float value) { return fmt::format("{:.9g} ({:a})", value, value); }
-
-std::string place(const FrameDifference& d, int width) {
-    const char component = "xyzw"[d.difference.component];
-    const auto index = static_cast<std::int64_t>(d.difference.index);
-    switch (d.difference.field) {
-    case Field::texel:
-        return fmt::format("frame {} texel ({}, {}).{}", d.frame, index % width, index / width, component);
-    case Field::speed:
-    case Field::collide_time:
-        return fmt::format("frame {} particle {} {}", d.frame, index,
-                           field_names[static_cast<std::size_t>(d.difference.field)]);
-    default:
-        return fmt::format("frame {} particle {} {}.{}", d.frame, index,
-                           field_names[static_cast<std::size_t>(d.difference.field)], component);
+/// "5 particle states and 7 texels": of each buffer and image as many as differ.
+std::string differing_text(const CheckReport& r, std::string_view state) {
+    std::string text;
+    for (std::uint8_t k = 0; k < r.schema.resources.size(); ++k) {
+        const Resource& resource = r.schema.resources[k];
+        text += fmt::format("{}{} {}{}s", k == 0 ? "" : " and ", grouped(r.total.differing(k)), resource.item,
+                            resource.dimensions == 1 ? state : "");
     }
+    return text;
+}
+
+/// "12 floats of particles, 4 of texels".
+std::string compared_text(const CheckReport& r) {
+    std::string text;
+    for (std::uint8_t k = 0; k < r.schema.resources.size(); ++k) {
+        const Resource& resource = r.schema.resources[k];
+        const bool floats = std::all_of(resource.fields.begin(), resource.fields.end(),
+                                        [](const Field& field) { return field.scalar == Scalar::float32; });
+        const std::string_view what = k > 0 ? "" : floats ? "floats " : "values ";
+        text += fmt::format("{}{} {}of {}s", k == 0 ? "" : ", ", grouped(r.total.compared(k)), what, resource.item);
+    }
+    return text;
+}
+
+/// " and of the CDT": what was compared beside the first buffer.
+std::string others_compared(const CheckReport& r) {
+    std::string text;
+    for (std::uint8_t k = 1; k < r.schema.resources.size(); ++k)
+        if (r.total.compared(k) > 0)
+            text += fmt::format(" and of {}", r.schema.resources[k].title);
+    return text;
+}
+
+std::uint64_t nan_count(const Comparison& comparison) {
+    std::uint64_t sum = 0;
+    for (const ResourceCount& resource : comparison.resources)
+        for (const FieldCount& field : resource.fields)
+            sum += field.nan;
+    return sum;
+}
+
+/// Calls `work(field, its counts)` for all fields of the schema.
+template <class Work> void for_each_field(const CheckReport& r, const Work& work) {
+    for (std::uint8_t k = 0; k < r.schema.resources.size(); ++k)
+        for (std::uint8_t f = 0; f < r.schema.resources[k].fields.size(); ++f)
+            work(r.schema[{k, f}], r.total[{k, f}]);
 }
 
 FrameTimes total_times(const CheckReport& r) {
@@ -63,22 +101,19 @@ std::string of_class(const CheckReport& r, DifferenceClass kind) {
 std::string verdict_counts(const CheckReport& r) {
     switch (r.verdict) {
     case Verdict::agree:
-        return fmt::format(": every bit of {} particles{} in {} frames", grouped(r.particles),
-                           r.total[Field::texel].compared > 0 ? " and of the CDT" : "", r.frames);
+        return fmt::format(": every bit of {} particles{} in {} frames", grouped(r.particles), others_compared(r),
+                           r.frames);
     case Verdict::legal:
-        return fmt::format(": {} particle states and {} texels differ in {} frames, as GL allows",
-                           grouped(r.total.differing_particles), grouped(r.total.differing_texels), r.frames);
+        return fmt::format(": {} differ in {} frames, as GL allows", differing_text(r, " state"), r.frames);
     case Verdict::undefined:
         return fmt::format(" {}, which rest on what GL leaves open", of_class(r, DifferenceClass::undefined));
     case Verdict::divergent:
         return fmt::format(" {}, which no legal run explains", of_class(r, DifferenceClass::divergent));
     case Verdict::differ:
-        return fmt::format(" from frame {} on: {} particle states and {} texels in {} frames", *r.first_frame,
-                           grouped(r.total.differing_particles), grouped(r.total.differing_texels), r.frames);
+        return fmt::format(" from frame {} on: {} in {} frames", *r.first_frame, differing_text(r, " state"), r.frames);
     case Verdict::nondeterministic:
-        return fmt::format(": the GPU gave two answers to frame {}: {} particles and {} texels differ between two runs "
-                           "of it",
-                           *r.first_frame, grouped(r.total.differing_particles), grouped(r.total.differing_texels));
+        return fmt::format(": the GPU gave two answers to frame {}: {} differ between two runs of it", *r.first_frame,
+                           differing_text(r, ""));
     }
     return "";
 }
@@ -86,6 +121,38 @@ std::string verdict_counts(const CheckReport& r) {
 std::string verdict_line(const CheckReport& r) {
     const bool judged = r.verdicts || r.verdict == Verdict::nondeterministic;
     return verdict_words(r) + verdict_counts(r) + (judged ? "" : "; compared, not judged");
+}
+
+std::string growth_text(const CheckReport& r) {
+    std::string text = "\n  growth: frame";
+    for (const Resource& resource : r.schema.resources)
+        text += fmt::format(", differing {}s", resource.item);
+    text += ", worst ULP\n";
+    for (std::size_t i = 0; i < r.counts.size(); ++i) {
+        if (!told(i, r.counts.size()))
+            continue;
+        text += fmt::format("  {:>8}", r.counts[i].frame);
+        for (const std::uint64_t items : r.counts[i].items)
+            text += fmt::format(" {:>12}", grouped(items));
+        text += fmt::format(" {:>16}\n", distance_text(r.counts[i].worst_ulp));
+    }
+    return text;
+}
+
+nlohmann::json counts_json(const CheckReport& r) {
+    nlohmann::json columns{"frame"};
+    for (const Resource& resource : r.schema.resources)
+        columns.push_back(resource.item + "s");
+    columns.push_back("worst_ulp");
+    nlohmann::json rows = nlohmann::json::array();
+    for (const FrameCount& count : r.counts) {
+        nlohmann::json row{count.frame};
+        for (const std::uint64_t items : count.items)
+            row.push_back(items);
+        row.push_back(count.worst_ulp);
+        rows.push_back(row);
+    }
+    return {{"columns", columns}, {"rows", rows}};
 }
 
 } // namespace
@@ -144,13 +211,8 @@ std::string report_text(const CheckReport& r, const RunDescription& run) {
     line("GL", run.context);
     line("shaders", shaders_line(run));
     line("profile", run.profile);
-    std::uint64_t nan = 0;
-    for (const FieldCount& field : r.total.fields)
-        nan += field.nan;
-    line("compared",
-         fmt::format("{} floats of particles, {} of texels; {} hits, {} texels drawn, {} NaN",
-                     grouped(r.total.compared() - r.total[Field::texel].compared),
-                     grouped(r.total[Field::texel].compared), grouped(r.hits), grouped(r.drawn_texels), grouped(nan)));
+    line("compared", fmt::format("{}; {} hits, {} texels drawn, {} NaN", compared_text(r), grouped(r.hits),
+                                 grouped(r.drawn_texels), grouped(nan_count(r.total))));
     const FrameTimes seconds = total_times(r);
     line("time", fmt::format("GL frames {:.2f} s, readback {:.2f} s, reference {:.2f} s, comparison {:.2f} s, "
                              "verdicts {:.2f} s",
@@ -171,22 +233,20 @@ std::string report_text(const CheckReport& r, const RunDescription& run) {
         line("", fmt::format("again: {}", run.explain));
 
     out += "\n  field         differing floats of compared\n";
-    for (std::size_t f = 0; f < field_names.size(); ++f)
-        if (r.total.fields[f].differing > 0)
-            out += fmt::format("  {:<13} {:>16} of {}\n", field_names[f], grouped(r.total.fields[f].differing),
-                               grouped(r.total.fields[f].compared));
+    for_each_field(r, [&](const Field& field, const FieldCount& counts) {
+        if (counts.differing > 0)
+            out +=
+                fmt::format("  {:<13} {:>16} of {}\n", field.name, grouped(counts.differing), grouped(counts.compared));
+    });
     out += fmt::format("\n  worst of frame {}\n", *r.first_frame);
     const std::string_view second = r.verdict == Verdict::nondeterministic ? "second run" : "GPU";
     const std::string_view first = r.verdict == Verdict::nondeterministic ? "first run" : "reference";
     for (const FrameDifference& d : r.worst)
-        out += fmt::format("  {}: {} {}, {} {}, {}\n", place(d, run.width), first, value_text(d.difference.reference),
-                           second, value_text(d.difference.gpu), ulp_text(d.difference.ulp));
+        out +=
+            fmt::format("  {}: {} {}, {} {}, {}\n", place(r, d), first, value_text(d.difference.reference), second,
+                        value_text(d.difference.gpu), distance_text(d.difference.ulp, d.difference.reference.scalar));
     if (run.mode == "free" && r.verdict == Verdict::differ) {
-        out += "\n  growth: frame, differing particles, differing texels, worst ULP\n";
-        for (std::size_t i = 0; i < r.counts.size(); ++i)
-            if (told(i, r.counts.size()))
-                out += fmt::format("  {:>8} {:>12} {:>12} {:>16}\n", r.counts[i].frame, grouped(r.counts[i].particles),
-                                   grouped(r.counts[i].texels), ulp_text(r.counts[i].worst_ulp));
+        out += growth_text(r);
     }
     out += fmt::format("\nrepeat    {}\n", run.repeat);
     return out;
@@ -218,63 +278,57 @@ nlohmann::json render_json(const RunDescription& run) {
 
 nlohmann::json report_json(const CheckReport& r, const RunDescription& run) {
     using nlohmann::json;
-    const auto number = [](float value) -> json {
-        return std::isfinite(value) ? json(value) : json(fmt::format("{}", value));
-    };
     const FrameTimes seconds = total_times(r);
     json fields = json::object();
-    for (std::size_t f = 0; f < field_names.size(); ++f)
-        fields[std::string(field_names[f])] = {{"compared", r.total.fields[f].compared},
-                                               {"differing", r.total.fields[f].differing},
-                                               {"nan", r.total.fields[f].nan}};
+    for_each_field(r, [&](const Field& field, const FieldCount& counts) {
+        fields[field.name] = {{"compared", counts.compared}, {"differing", counts.differing}, {"nan", counts.nan}};
+    });
     json worst = json::array();
     for (const FrameDifference& d : r.worst)
         worst.push_back({{"frame", d.frame},
-                         {"field", field_names[static_cast<std::size_t>(d.difference.field)]},
+                         {"field", r.schema[d.difference.field].name},
                          {"index", d.difference.index},
                          {"component", d.difference.component},
-                         {"reference", number(d.difference.reference)},
-                         {"reference_hex", fmt::format("{:a}", d.difference.reference)},
-                         {"gpu", number(d.difference.gpu)},
-                         {"gpu_hex", fmt::format("{:a}", d.difference.gpu)},
+                         {"reference", value_json(d.difference.reference)},
+                         {"reference_hex", exact_text(d.difference.reference)},
+                         {"gpu", value_json(d.difference.gpu)},
+                         {"gpu_hex", exact_text(d.difference.gpu)},
                          {"ulp", d.difference.ulp}});
-    json counts = json::array();
-    for (const FrameCount& c : r.counts)
-        counts.push_back({c.frame, c.particles, c.texels, c.worst_ulp});
-    return {{"verdict", verdict_name(r.verdict)},
-            {"verdict_line", verdict_line(r)},
-            {"partial", r.partial()},
-            {"judged", r.verdicts.has_value()},
-            {"untried", r.untried},
-            {"scene", run.scene},
-            {"mode", run.mode},
-            {"switches", run.settings},
-            {"context", run.context},
-            {"shaders", shaders_json(run)},
-            {"render", render_json(run)},
-            {"profile", run.profile},
-            {"particles", r.particles},
-            {"frames", r.frames},
-            {"frames_asked", r.frames_asked},
-            {"first_frame", r.first_frame ? json(*r.first_frame) : json()},
-            {"differing_particles", r.total.differing_particles},
-            {"differing_texels", r.total.differing_texels},
-            {"hits", r.hits},
-            {"drawn_texels", r.drawn_texels},
-            {"fields", fields},
-            {"worst", worst},
-            {"counts", {{"columns", {"frame", "particles", "texels", "worst_ulp"}}, {"rows", counts}}},
-            {"hash", {{"reference", hash_text(r.reference_hash)}, {"gpu", hash_text(r.gpu_hash)}}},
-            {"seconds",
-             {{"gpu", seconds.gpu},
-              {"readback", seconds.readback},
-              {"reference", seconds.reference},
-              {"compare", seconds.compare},
-              {"judge", seconds.judge}}},
-            {"verdicts", r.verdicts ? verdict_json(*r.verdicts, run.width) : json()},
-            {"repeat", run.repeat},
-            {"notes", run.notes},
-            {"explain", run.explain.empty() ? json() : json(run.explain)}};
+    json report{{"verdict", verdict_name(r.verdict)},
+                {"verdict_line", verdict_line(r)},
+                {"partial", r.partial()},
+                {"judged", r.verdicts.has_value()},
+                {"untried", r.untried},
+                {"scene", run.scene},
+                {"mode", run.mode},
+                {"switches", run.settings},
+                {"context", run.context},
+                {"shaders", shaders_json(run)},
+                {"render", render_json(run)},
+                {"profile", run.profile},
+                {"particles", r.particles},
+                {"frames", r.frames},
+                {"frames_asked", r.frames_asked},
+                {"first_frame", r.first_frame ? json(*r.first_frame) : json()},
+                {"hits", r.hits},
+                {"drawn_texels", r.drawn_texels},
+                {"fields", fields},
+                {"worst", worst},
+                {"counts", counts_json(r)},
+                {"hash", {{"reference", hash_text(r.reference_hash)}, {"gpu", hash_text(r.gpu_hash)}}},
+                {"seconds",
+                 {{"gpu", seconds.gpu},
+                  {"readback", seconds.readback},
+                  {"reference", seconds.reference},
+                  {"compare", seconds.compare},
+                  {"judge", seconds.judge}}},
+                {"verdicts", r.verdicts ? verdict_json(*r.verdicts, run.width) : json()},
+                {"repeat", run.repeat},
+                {"notes", run.notes},
+                {"explain", run.explain.empty() ? json() : json(run.explain)}};
+    for (std::uint8_t k = 0; k < r.schema.resources.size(); ++k)
+        report[fmt::format("differing_{}s", r.schema.resources[k].item)] = r.total.differing(k);
+    return report;
 }
 
 } // namespace lockstep

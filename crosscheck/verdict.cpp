@@ -8,6 +8,7 @@
 #include "crosscheck/compare.hpp"
 #include "reference/collision_pass.hpp"
 #include "reference/legal_texels.hpp"
+#include "reference/model/collision_state.hpp"
 #include "reference/model/same_bits.hpp"
 #include "reference/obstacle_pass.hpp"
 #include "reference/step_trace.hpp"
@@ -167,7 +168,7 @@ void convict_lost_points(const JudgedFrame& frame, const std::vector<LegalTexel>
 }
 
 std::vector<ItemVerdict> judge_texels(const JudgedFrame& frame, const std::vector<ItemVerdict>& particles) {
-    const std::vector<std::size_t> differing = differing_texels(frame.reference_cdt, frame.gpu_cdt);
+    const std::vector<std::size_t> differing = differing_items(frame.reference_cdt, frame.gpu_cdt);
     std::vector<ItemVerdict> verdicts;
     if (differing.empty())
         return verdicts;
@@ -232,7 +233,7 @@ ItemVerdict judge_particle(const JudgedFrame& frame, std::size_t particle) {
 }
 
 FrameVerdicts judge(const JudgedFrame& frame) {
-    const std::vector<std::size_t> differing = differing_particles(frame.reference, frame.gpu);
+    const std::vector<std::size_t> differing = differing_items(frame.reference, frame.gpu);
     FrameVerdicts verdicts;
     verdicts.particles.resize(differing.size());
     const auto count = static_cast<std::ptrdiff_t>(differing.size());

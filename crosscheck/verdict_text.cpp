@@ -7,6 +7,9 @@
 #include <fmt/ranges.h>
 #include <nlohmann/json.hpp>
 
+#include "crosscheck/value_text.hpp"
+#include "reference/model/collision_state.hpp"
+
 namespace lockstep {
 namespace {
 
@@ -55,8 +58,6 @@ std::string cause_text(const CauseFindings& found, std::string_view what) {
 
 std::string first_text(const FirstDivergence& first, int width) {
     const WrongStep& wrong = first.wrong;
-    const Difference& d = wrong.difference;
-    const bool scalar = d.field == Field::speed || d.field == Field::collide_time;
     std::string text =
         line("first", fmt::format("{}, {}, step {}", place_text(first.place, width),
                                   class_names[static_cast<std::size_t>(first.verdict.kind)], wrong.step));
@@ -65,8 +66,7 @@ std::string first_text(const FirstDivergence& first, int width) {
     text += line("", fmt::format("reference: {}", wrong.operation));
     if (!wrong.gpu.empty())
         text += line("", fmt::format("GPU: {}", wrong.gpu));
-    text += line("", fmt::format("{}{}: reference {:a}, GPU {:a}{}{}", field_names[static_cast<std::size_t>(d.field)],
-                                 scalar ? std::string() : fmt::format(".{}", "xyzw"[d.component]), d.reference, d.gpu,
+    text += line("", fmt::format("{}{}{}", difference_text(collision_schema(), wrong.difference),
                                  wrong.margin.empty() ? "" : "; ", wrong.margin));
     return text;
 }
@@ -150,10 +150,10 @@ nlohmann::json verdict_json(const VerdictSummary& s, int width) {
                  {"operation", wrong.operation},
                  {"gpu_did", wrong.gpu},
                  {"margin", wrong.margin},
-                 {"field", field_names[static_cast<std::size_t>(wrong.difference.field)]},
+                 {"field", collision_schema()[wrong.difference.field].name},
                  {"component", wrong.difference.component},
-                 {"reference_hex", fmt::format("{:a}", wrong.difference.reference)},
-                 {"gpu_hex", fmt::format("{:a}", wrong.difference.gpu)}};
+                 {"reference_hex", exact_text(wrong.difference.reference)},
+                 {"gpu_hex", exact_text(wrong.difference.gpu)}};
     }
     return {{"particles", counts_json(s.particles)},
             {"texels", counts_json(s.texels)},

@@ -16,8 +16,8 @@ Program link(const Switches& switches, const std::filesystem::path& shaders) {
     const std::array stages{Stage::vertex, Stage::geometry, Stage::fragment};
     const std::vector<ShaderSource> sources =
         load_stages(shader_folders(shaders), "collision_pass", stages, switch_defines(switches));
-    Program program("collision_pass", sources, particle_captures());
-    check_nothing_lost(sources, particle_captures());
+    Program program("collision_pass", sources, particle_records().captures());
+    check_nothing_lost(sources, particle_records().captures());
     return program;
 }
 
@@ -39,7 +39,7 @@ void CollisionPass::run(const FrameParams& params, const ParticleBuffer& from, P
     target.bind_target();
     gl::Enable(GL_DEPTH_TEST);
     gl::DepthFunc(GL_LESS);
-    const GlVertexArray vertices = particle_vertex_array(from, program_);
+    const GlVertexArray vertices = vertex_array(from, program_);
     program_.check_interface();
     gl::BindVertexArray(vertices.id());
     to.bind_capture();

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <bit>
+#include <cstring>
 #include <iterator>
 
 #include <fmt/format.h>
@@ -10,6 +11,7 @@
 #include "gpu/check.hpp"
 #include "gpu/collision_pass.hpp"
 #include "gpu/glsl_type.hpp"
+#include "reference/model/collision_state.hpp"
 #include "reference/model/error.hpp"
 
 namespace lockstep {
@@ -53,15 +55,18 @@ CapturedVertex take(CapturedVertex& from, std::string_view of) {
     return taken;
 }
 
-/// The particle's state as outputs PREFIXPosition, PREFIXDir, PREFIXSpeed and PREFIXCollideTime hold it.
+/// The particle's state as outputs PREFIXPosition and so on hold it.
 std::optional<ParticleState> state_of(const CapturedVertex& vertex, const std::string& name) {
-    const auto position = vertex.vec3(name + "Position");
-    const auto direction = vertex.vec3(name + "Dir");
-    const auto speed = vertex.real(name + "Speed");
-    const auto collide_time = vertex.real(name + "CollideTime");
-    if (!position || !direction || !speed || !collide_time)
-        return {};
-    return ParticleState{*position, *direction, *speed, *collide_time};
+    const RecordLayout& records = particle_records();
+    ParticleState state;
+    const WritableView into = view(state);
+    for (const RecordLayout::Member& member : records.members) {
+        const CapturedOutput* output = vertex.find(name + member.name, glsl_type(records.field(member)));
+        if (output == nullptr)
+            return {};
+        std::memcpy(into.columns[member.field], output->words.data(), output->words.size() * sizeof(std::uint32_t));
+    }
+    return state;
 }
 
 /// While it lives, nothing is drawn.
@@ -128,7 +133,7 @@ CollisionTrace::CollisionTrace(const Switches& switches, const std::filesystem::
     const auto vertex = std::find_if(stages.begin(), stages.end(),
                                      [](const ShaderSource& source) { return source.stage == Stage::vertex; });
     const bool geometry = has_stage(stages, Stage::geometry);
-    std::vector<Capture> ordinary(particle_captures().begin(), particle_captures().end());
+    std::vector<Capture> ordinary = particle_records().captures();
     ordinary.push_back({"gl_Position", GL_FLOAT_VEC4});
     if (geometry)
         append(ordinary, outputs_with(prefix, stages));
@@ -138,9 +143,9 @@ CollisionTrace::CollisionTrace(const Switches& switches, const std::filesystem::
     const std::span<const ShaderSource> alone(&*vertex, 1);
     std::vector<Capture> traced = outputs_with(prefix, alone);
     for (const std::string handed_on : {"v_", "out_"})
-        for (const char* field : {"Position", "Dir", "Speed", "CollideTime"})
-            for (const Capture& output : outputs_with(handed_on + field, alone))
-                if (output.name == handed_on + field)
+        for (const RecordLayout::Member& member : particle_records().members)
+            for (const Capture& output : outputs_with(handed_on + member.name, alone))
+                if (output.name == handed_on + member.name)
                     traced.push_back(output);
     vertex_stage_ = parts("trace build of collision_pass, vertex stage", alone, traced);
 }
@@ -177,7 +182,7 @@ std::vector<CapturedVertex> CollisionTrace::capture(const Part& part, const Fram
     for (const Capture& output : part.captured)
         words_each += static_cast<std::size_t>(components(output));
     set_collision_uniforms(part.program, params);
-    const GlVertexArray vertices = particle_vertex_array(from, part.program);
+    const GlVertexArray vertices = vertex_array(from, part.program);
     gl::BindVertexArray(vertices.id());
     const GlBuffer buffer;
     const GlQuery written;

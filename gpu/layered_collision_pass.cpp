@@ -18,8 +18,8 @@ Program link_step(const Switches& switches, const std::filesystem::path& shaders
     const std::array stages{Stage::vertex};
     const std::vector<ShaderSource> sources =
         load_stages(shader_folders(shaders), "layered_collision_pass", stages, switch_defines(switches));
-    Program program("layered_collision_pass", sources, particle_captures());
-    check_nothing_lost(sources, particle_captures());
+    Program program("layered_collision_pass", sources, particle_records().captures());
+    check_nothing_lost(sources, particle_records().captures());
     return program;
 }
 
@@ -77,7 +77,7 @@ void LayeredCollisionPass::run(const FrameParams& params, const MeshBuffer& obst
         set_collision_code(draw_, params);
         draw_.set_unit("u_KeyBefore", 0, GL_INT_SAMPLER_2D);
         draw_.set("u_Layer", 0);
-        const GlVertexArray vertices = particle_vertex_array(to, draw_);
+        const GlVertexArray vertices = vertex_array(to, draw_);
         draw_.check_interface();
         gl::BindVertexArray(vertices.id());
         for (int layer = 0; layer < planes_.layers; ++layer)
@@ -101,7 +101,7 @@ void LayeredCollisionPass::step(const FrameParams& params, bool obstacles, const
         step_.set_unit("u_Velocities", 1, GL_SAMPLER_2D_ARRAY);
         cdt.bind_velocities(1);
     }
-    const GlVertexArray vertices = particle_vertex_array(from, step_);
+    const GlVertexArray vertices = vertex_array(from, step_);
     step_.check_interface();
     gl::BindVertexArray(vertices.id());
     to.bind_capture();

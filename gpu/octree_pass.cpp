@@ -26,7 +26,7 @@ Program link(const Scene& scene, const std::filesystem::path& shaders) {
             "an earlier version");
     GLint64 largest = 0;
     gl::GetInteger64v(GL_MAX_SHADER_STORAGE_BLOCK_SIZE, &largest);
-    const auto needed = static_cast<GLint64>(scene.start.size() * sizeof(ParticleRecord));
+    const auto needed = static_cast<GLint64>(scene.start.size() * particle_records().bytes());
     if (needed > largest)
         throw Error(fmt::format("octree_pass: {} particles need a storage buffer of {} bytes; this context allows {}",
                                 scene.start.size(), needed, largest));

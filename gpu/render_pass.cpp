@@ -65,7 +65,7 @@ void RenderPass::run(const ParticleBuffer& particles, const MeshBuffer& obstacle
     set_uniforms(obstacles_, params);
     gl::DrawElements(GL_TRIANGLES, obstacles.index_count(), GL_UNSIGNED_INT, nullptr);
 
-    const GlVertexArray points = particle_vertex_array(particles, particles_);
+    const GlVertexArray points = vertex_array(particles, particles_);
     gl::BindVertexArray(points.id());
     set_uniforms(particles_, params);
     gl::DrawArrays(GL_POINTS, 0, static_cast<GLsizei>(particles.size()));

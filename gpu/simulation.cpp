@@ -7,6 +7,7 @@
 #include <fmt/format.h>
 
 #include "gpu/check.hpp"
+#include "reference/model/collision_state.hpp"
 #include "reference/model/error.hpp"
 #include "reference/model/layered_cdt.hpp"
 
@@ -15,9 +16,6 @@ namespace {
 
 /// -4.2e6 or so in every float; a position, speed or time of a real run never has exactly these bits.
 constexpr std::uint32_t canary = 0xca7ca7ca;
-
-bool is_canary(float value) { return std::bit_cast<std::uint32_t>(value) == canary; }
-bool any_canary(glm::vec3 v) { return is_canary(v.x) || is_canary(v.y) || is_canary(v.z); }
 
 /// The stored code of a texel that nobody writes. Every half and every byte may be part of a position; with this alpha,
 /// neither that of a cleared texel nor of a drawn one, they are none.
@@ -137,12 +135,10 @@ void GpuSimulation::lay_canary() {
 }
 
 void GpuSimulation::find_canary(const Particles& particles, const CollisionImage& cdt, int frame) const {
-    for (std::size_t i = 0; i < particles.size(); ++i)
-        if (any_canary(particles.position[i]) || any_canary(particles.direction[i]) || is_canary(particles.speed[i]) ||
-            is_canary(particles.collide_time[i]))
-            throw Error(fmt::format("frame {}: the GPU did not write particle {}: its record still holds what was laid "
-                                    "there before the draw",
-                                    frame, i));
+    if (const std::size_t i = find_word(view(particles), canary); i < particles.size())
+        throw Error(fmt::format("frame {}: the GPU did not write particle {}: its record still holds what was laid "
+                                "there before the draw",
+                                frame, i));
     const glm::vec4 unwritten = canary_texel(switches_.cdt_format);
     for (int y = 0; y < cdt.height; ++y)
         for (int x = 0; x < cdt.width; ++x)

@@ -17,6 +17,14 @@ import numpy as np
 
 SEAL = 512  # bytes, docs/traces.md
 
+# Of states saved before their first line told it: name, components and offset in a particle's record of words.
+FIELDS = [
+    {"name": "position", "components": 3, "offset": 0},
+    {"name": "speed", "components": 1, "offset": 3},
+    {"name": "direction", "components": 3, "offset": 4},
+    {"name": "collide_time", "components": 1, "offset": 7},
+]
+
 
 def read(stream, type, *shape):
     size = int(np.prod(shape)) * np.dtype(type).itemsize
@@ -31,8 +39,9 @@ def write(states, path, profile):
     if head.get("lockstep") != "states 1":
         raise ValueError("not states that a report page saved")
     n, frames, width, height = (head[key] for key in ("particles", "frames", "width", "height"))
-    rows = np.empty((frames + 1, n, 8), "<f4")
-    rows[0] = read(states, "<f4", n, 8)
+    record = head.get("record", {"words": 8, "fields": FIELDS})
+    rows = np.empty((frames + 1, n, record["words"]), "<f4")
+    rows[0] = read(states, "<f4", n, record["words"])
     corners = read(states, "<f4", head["corners"], 3)
     triangles = read(states, "<u4", head["triangles"], 3)
     with h5py.File(path, "w", userblock_size=SEAL) as file:
@@ -40,17 +49,15 @@ def write(states, path, profile):
         image = (frames, height, width, 4)
         cdt = file.create_dataset("observables/cdt/value", image, "<f4", chunks=(1, *image[1:]), **packed)
         for frame in range(frames):
-            rows[frame + 1] = read(states, "<f4", n, 8)
+            rows[frame + 1] = read(states, "<f4", n, record["words"])
             cdt[frame] = read(states, "<f4", *image[1:])
         if states.read(1):
             raise ValueError("more states than the first line says")
-        for field, values in {
-            "position": rows[..., 0:3],
-            "speed": rows[..., 3],
-            "direction": rows[..., 4:7],
-            "collide_time": rows[..., 7],
-        }.items():
-            file.create_dataset(f"particles/all/{field}/value", data=values, chunks=(1, *values.shape[1:]), **packed)
+        for field in record["fields"]:
+            first, count = field["offset"], field["components"]
+            values = rows[..., first] if count == 1 else rows[..., first : first + count]
+            path = f"particles/all/{field['name']}/value"
+            file.create_dataset(path, data=values, chunks=(1, *values.shape[1:]), **packed)
         file["parameters/lockstep/scene"] = json.dumps(head["settings"])
         file["parameters/lockstep/name"] = head["scene"]
         file["parameters/lockstep/settings"] = f"{head['run']}, in WebGL2"

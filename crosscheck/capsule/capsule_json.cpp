@@ -2,6 +2,7 @@
 
 #include <bit>
 #include <charconv>
+#include <cstring>
 #include <limits>
 #include <map>
 #include <memory>
@@ -14,6 +15,7 @@
 #include "crosscheck/json_text.hpp"
 #include "crosscheck/profile_json.hpp"
 #include "crosscheck/scene_settings.hpp"
+#include "reference/model/collision_state.hpp"
 #include "reference/model/error.hpp"
 #include "reference/model/layered_cdt.hpp"
 
@@ -74,17 +76,32 @@ template <int Count> glm::vec<Count, float> read_vector(const JsonValue& value) 
 
 float read_float(const JsonValue& value) { return read_vector<1>(value)[0]; }
 
+/// The words of each field.
 json state_json(const ParticleState& state) {
-    return {{"position", words_text(state.position)},
-            {"direction", words_text(state.direction)},
-            {"speed", word_text(state.speed)},
-            {"collide_time", word_text(state.collide_time)}};
+    const View item = view(state);
+    json fields = json::object();
+    for (std::size_t f = 0; f < item.fields().size(); ++f) {
+        std::vector<std::uint32_t> words;
+        for (int c = 0; c < item.fields()[f].components; ++c)
+            words.push_back(item.value(f, 0, c).bits);
+        fields[item.fields()[f].name] = words_text(words);
+    }
+    return fields;
 }
 
 ParticleState read_state(const JsonValue& value) {
-    value.check_keys({"position", "direction", "speed", "collide_time"});
-    return {read_vector<3>(value.at("position")), read_vector<3>(value.at("direction")), read_float(value.at("speed")),
-            read_float(value.at("collide_time"))};
+    ParticleState state;
+    const WritableView item = view(state);
+    std::vector<std::string_view> names;
+    for (const Field& field : item.fields())
+        names.push_back(field.name);
+    value.check_keys(names);
+    for (std::size_t f = 0; f < item.fields().size(); ++f) {
+        const Field& field = item.fields()[f];
+        const auto words = read_words(value.at(field.name), static_cast<std::size_t>(field.components));
+        std::memcpy(item.columns[f], words.data(), words.size() * sizeof words[0]);
+    }
+    return state;
 }
 
 json known_json(const KnownOperations& known) {

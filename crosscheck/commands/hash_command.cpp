@@ -6,6 +6,7 @@
 #include "crosscheck/commands/commands.hpp"
 #include "crosscheck/commands/option_values.hpp"
 #include "crosscheck/commands/run_options.hpp"
+#include "reference/model/collision_state.hpp"
 #include "reference/model/profile.hpp"
 #include "reference/model/state_hash.hpp"
 #include "reference/simulation.hpp"

@@ -8,13 +8,19 @@
 #include "crosscheck/explain_text.hpp"
 #include "crosscheck/neighbourhood.hpp"
 #include "crosscheck/step_table.hpp"
+#include "crosscheck/value_text.hpp"
+#include "reference/model/collision_state.hpp"
 
 namespace lockstep {
 namespace {
 
 using nlohmann::json;
 
-json number_json(float value) { return {{"value", fmt::format("{:.9g}", value)}, {"hex", fmt::format("{:a}", value)}}; }
+json number_json(Value value) {
+    const std::string number =
+        value.scalar == Scalar::float32 ? fmt::format("{:.9g}", value.real()) : std::to_string(value.integer());
+    return {{"value", number}, {"hex", exact_text(value)}};
+}
 
 json cell_json(const Cell& cell) {
     if (cell.empty())
@@ -47,7 +53,17 @@ json rows_json(const std::vector<StepRow>& rows) {
 
 json texel_json(glm::ivec2 texel) { return texel.x < 0 ? json() : json{texel.x, texel.y}; }
 
-json vector_json(glm::vec3 v) { return {number_json(v.x), number_json(v.y), number_json(v.z)}; }
+/// Of each field its name and the components' values.
+json state_json(const View& item) {
+    json fields = json::array();
+    for (std::size_t f = 0; f < item.fields().size(); ++f) {
+        json values = json::array();
+        for (int c = 0; c < item.fields()[f].components; ++c)
+            values.push_back(number_json(item.value(f, 0, c)));
+        fields.push_back({{"name", item.fields()[f].name}, {"values", values}});
+    }
+    return fields;
+}
 
 json neighbourhood_json(const FrameRun& run, const StepTable& table) {
     const auto round = neighbourhood(table, run.scene().constants.texel_collide_range);
@@ -69,13 +85,8 @@ json neighbourhood_json(const FrameRun& run, const StepTable& table) {
 
 json particle_json(FrameRun& run, std::size_t particle) {
     const StepTable table = step_table(run, particle);
-    const ParticleState& before = table.reference.before;
     return {{"particle", particle},
-            {"before",
-             {{"position", vector_json(before.position)},
-              {"direction", vector_json(before.direction)},
-              {"speed", number_json(before.speed)},
-              {"collide_time", number_json(before.collide_time)}}},
+            {"before", state_json(view(table.reference.before))},
             {"warning", table.warning},
             {"untraced", table.gpu.vertex.outputs.empty()},
             {"rows", rows_json(table.rows)},

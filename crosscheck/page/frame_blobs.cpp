@@ -1,7 +1,6 @@
 #include "crosscheck/page/frame_blobs.hpp"
 
 #include <algorithm>
-#include <array>
 #include <bit>
 #include <cmath>
 #include <iterator>
@@ -10,6 +9,7 @@
 #include <unordered_map>
 
 #include "reference/collision_code.hpp"
+#include "reference/model/collision_state.hpp"
 #include "reference/model/layered_cdt.hpp"
 #include "reference/model/same_bits.hpp"
 
@@ -39,12 +39,6 @@ void fill_classes(std::vector<std::uint8_t>& classes, const std::vector<std::siz
     if (verdicts != nullptr)
         for (const ItemVerdict& verdict : *verdicts)
             classes[verdict.index] = static_cast<std::uint8_t>(verdict.kind);
-}
-
-std::array<float, 8> fields(const Particles& particles, std::size_t i) {
-    const ParticleState s = particles[i];
-    return {s.position.x,  s.position.y,  s.position.z, s.direction.x,
-            s.direction.y, s.direction.z, s.speed,      s.collide_time};
 }
 
 std::uint32_t bits(float value) { return std::bit_cast<std::uint32_t>(value); }
@@ -96,9 +90,9 @@ FrameClasses classes_of(const ComparedFrame& frame) {
                          std::vector<std::uint8_t>(frame.reference_cdt.texels.size(), class_same)};
     if (frame.comparison.agree())
         return classes;
-    fill_classes(classes.particles, differing_particles(frame.reference, frame.gpu),
+    fill_classes(classes.particles, differing_items(frame.reference, frame.gpu),
                  frame.verdicts != nullptr ? &frame.verdicts->particles : nullptr);
-    fill_classes(classes.texels, differing_texels(frame.reference_cdt, frame.gpu_cdt),
+    fill_classes(classes.texels, differing_items(frame.reference_cdt, frame.gpu_cdt),
                  frame.verdicts != nullptr ? &frame.verdicts->texels : nullptr);
     return classes;
 }
@@ -182,10 +176,13 @@ Blob detail_blob(const ComparedFrame& frame, const FrameClasses& classes, const 
     blob.word(static_cast<std::uint32_t>(selection.particles.size()));
     add_items(blob, selection.particles);
     add_classes(blob, selection.particles, classes.particles);
-    const auto field_of = [](const Particles& particles) {
-        return [&particles](std::size_t i, std::size_t c) { return bits(fields(particles, i)[c]); };
+    const View reference = view(frame.reference);
+    const View gpu = view(frame.gpu);
+    const std::vector<Component> all = components(reference.about());
+    const auto component_of = [&all](const View& particles) {
+        return [&](std::size_t i, std::size_t c) { return particles.value(all[c].field, i, all[c].component).bits; };
     };
-    add_planes(blob, selection.particles, 8, field_of(frame.reference), field_of(frame.gpu));
+    add_planes(blob, selection.particles, all.size(), component_of(reference), component_of(gpu));
 
     add_items(blob, selection.texels);
     add_classes(blob, selection.texels, classes.texels);

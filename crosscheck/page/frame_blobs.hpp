@@ -54,7 +54,7 @@ Selection differing(const FrameClasses& classes, std::size_t most);
 /// Their values, bit for bit. As read by crosscheck/report_page/src/detail.js:
 ///   2 words             numbers of texels t and particles p
 ///   p words, p bytes    particles, classes
-///   8 x p words         the reference's position, direction, speed, collide time; then 8 x p words: these XOR the
+///   c x p words         the reference's c components, in the order of fields; then c x p words: these XOR the
 ///   GPU's t words, t bytes    texels, counted row by row from the bottom; classes t words, t words    owners: the
 ///   reference's; these XOR the GPU's 4 x t words         the reference's x, y, z, w, the first three XOR the owner's
 ///   position if it is listed above: most

@@ -4,6 +4,7 @@
 #include <bit>
 
 #include "crosscheck/pictures.hpp"
+#include "reference/model/collision_state.hpp"
 
 namespace lockstep {
 namespace {
@@ -94,7 +95,7 @@ void FrameKeeper::note_items(const ComparedFrame& frame, const FrameClasses& cla
                     items.push_back({frame.frame, texel, i, kinds[i]});
     };
     note(classes.particles, false);
-    if (frame.comparison[Field::texel].compared > 0)
+    if (frame.comparison.compared(collision::cdt) > 0)
         note(classes.texels, true);
 }
 

@@ -13,7 +13,9 @@
 #include <fmt/format.h>
 
 #include "crosscheck/scene_settings.hpp"
+#include "gpu/particle_buffer.hpp"
 #include "gpu/shader_source.hpp"
+#include "reference/model/collision_state.hpp"
 #include "reference/model/layered_cdt.hpp"
 #include "reference/model/state_hash.hpp"
 #include "reference/simulation.hpp"
@@ -47,10 +49,10 @@ void add_matrices(Blob& blob, const Scene& scene, int frames, glm::mat4 FramePar
 
 Blob arrays(const Scene& scene, int frames) {
     Blob blob;
-    add_words(blob, scene.start.position);
-    add_words(blob, scene.start.direction);
-    add_words(blob, scene.start.speed);
-    add_words(blob, scene.start.collide_time);
+    const View start = view(scene.start);
+    for (std::size_t f = 0; f < start.columns.size(); ++f)
+        add_words(blob, std::span(start.columns[f], start.count() * sizeof(std::uint32_t) *
+                                                        static_cast<std::size_t>(start.fields()[f].components)));
     add_words(blob, scene.obstacles.positions);
     add_words(blob, scene.obstacles.indices);
     add_matrices(blob, scene, frames, &FrameParams::collision_proj_view);
@@ -60,6 +62,22 @@ Blob arrays(const Scene& scene, int frames) {
 }
 
 json vector(glm::vec3 v) { return {v.x, v.y, v.z}; }
+
+/// Where each field stands in a particle's record of words, by what name shaders know it, and its number in the hash.
+json record_json(const RecordLayout& layout) {
+    json fields = json::array();
+    std::size_t offset = 0;
+    for (const RecordLayout::Member& member : layout.members) {
+        const Field& field = layout.field(member);
+        fields.push_back({{"name", field.name},
+                          {"shader", member.name},
+                          {"components", field.components},
+                          {"offset", offset},
+                          {"column", layout.schema->column({layout.resource, member.field})}});
+        offset += static_cast<std::size_t>(field.components);
+    }
+    return {{"words", offset}, {"fields", fields}};
+}
 
 /// `own`, but for the switches that make up presets.
 Switches with_preset(const Switches& own, std::string_view name) {
@@ -136,6 +154,7 @@ LiveScene live_scene(const Scene& scene, int frames, const Profile& profile) {
         runs.push_back(run(scene, "as checked", checked, profiles));
     json head{{"scene", scene.name},
               {"particles", scene.start.size()},
+              {"record", record_json(particle_records())},
               {"corners", scene.obstacles.positions.size()},
               {"triangles", scene.obstacles.triangle_count()},
               {"frames", frames},

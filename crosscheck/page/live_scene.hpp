@@ -24,7 +24,7 @@ struct LiveScene {
     nlohmann::json head;
 
     /// As read by crosscheck/report_page/src/live/live_scene.js, each as Blob::words:
-    ///   3 n, 3 n, n, n      of n particles: position, direction, speed, collide time
+    ///   c n each            of n particles the fields, in the order of the schema, of c components
     ///   3 c, 3 t            obstacles: c corners, t triangles
     ///   16 f, 16 f, 16 f    of f frames: u_ProjView, render view, render projection
     Blob arrays;

@@ -8,6 +8,7 @@
 #include "crosscheck/page/blob.hpp"
 #include "crosscheck/page/live_scene.hpp"
 #include "crosscheck/page/template.hpp"
+#include "crosscheck/schema_json.hpp"
 #include "reference/model/layered_cdt.hpp"
 
 namespace lockstep {
@@ -83,6 +84,7 @@ std::string report_page(std::string_view page_template, const PageCollector& run
         lines.push_back({{"what", command.what}, {"line", command.line}});
     json head{{"report", report_json(report, description)},
               {"text", report_text(report, description)},
+              {"schema", schema_json(report.schema)},
               {"width", cdt.width},
               {"height", cdt.height},
               {"plane_height", run.scene().height},

@@ -5,13 +5,15 @@
 
 #include <nlohmann/json.hpp>
 
+#include "reference/model/collision_state.hpp"
+
 namespace lockstep {
 
 DifferenceSeries::DifferenceSeries(const Scene& scene, Profile profile, CheckMode mode)
     : mode_(mode), other_(scene, std::move(profile)) {}
 
 DifferenceSeries::Amount DifferenceSeries::amount(const Comparison& comparison) {
-    return {comparison.differing_particles, comparison.differing_texels,
+    return {comparison.differing(collision::particles), comparison.differing(collision::cdt),
             comparison.worst.empty() ? 0 : comparison.worst.front().ulp};
 }
 

@@ -54,4 +54,14 @@ void quieten() {
     H5Eset_auto2(H5E_DEFAULT, nullptr, nullptr);
 }
 
+hid_t file_type(Scalar scalar) {
+    return scalar == Scalar::float32 ? H5T_IEEE_F32LE : scalar == Scalar::int32 ? H5T_STD_I32LE : H5T_STD_U32LE;
+}
+
+hid_t memory_type(Scalar scalar) {
+    return scalar == Scalar::float32 ? H5T_NATIVE_FLOAT
+           : scalar == Scalar::int32 ? H5T_NATIVE_INT32
+                                     : H5T_NATIVE_UINT32;
+}
+
 } // namespace lockstep::hdf5

@@ -5,6 +5,8 @@
 
 #include <hdf5.h>
 
+#include "reference/model/schema.hpp"
+
 namespace lockstep::hdf5 {
 
 /// An open HDF5 object; closed when it dies.
@@ -35,6 +37,10 @@ using Extents = std::vector<hsize_t>;
 
 /// Throws Error like Id where the library says that something failed.
 void expect(herr_t status, const std::string& what);
+
+/// What words of a state are in a file, and here.
+hid_t file_type(Scalar scalar);
+hid_t memory_type(Scalar scalar);
 
 /// Before the library is used: it is not to print its own error stack, nor to write to its files once more when the
 /// program ends, which crashes where a full disk kept one from being closed.

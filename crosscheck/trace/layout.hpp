@@ -1,22 +1,18 @@
 #pragma once
-#include <array>
+#include <string>
+#include <vector>
+
+#include "reference/model/schema.hpp"
 
 namespace lockstep {
 
 /// Where things stand in a trace (docs/traces.md), as H5MD 1.1 has it.
 namespace layout {
 
-struct Field {
-    const char* value; ///< path of its values
-    int components;
-};
-
-/// Particles: float32 [rows][particles], and [3] where there are three components. Row 0 is the start, row k the state
-/// after frame k - 1.
-inline constexpr std::array<Field, 4> fields{{{"particles/all/position/value", 3},
-                                              {"particles/all/direction/value", 3},
-                                              {"particles/all/speed/value", 1},
-                                              {"particles/all/collide_time/value", 1}}};
+/// The group of a field; its dataset `value` is [rows][items] of the field's type, and [components] where there are
+/// several. Row 0 is the start, row k the state after frame k - 1.
+std::string group(const Resource& buffer, const Field& field);
+std::string value(const Resource& buffer, const Field& field);
 
 /// Stored codes: float32 [frames][height][width][4], the bottom row first; row k is the CDT after frame k.
 inline constexpr const char* cdt = "observables/cdt/value";

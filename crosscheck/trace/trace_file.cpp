@@ -23,7 +23,6 @@ constexpr hsize_t highest_cdt = 36 * widest_cdt; // all planes of layered_cdt.hp
 constexpr hsize_t most_corners = 3 * most_triangles;
 constexpr std::size_t longest_text = 16U << 20U; // bytes
 constexpr hsize_t densest = 1100;                // deflate makes no more of a byte
-constexpr const char* particle_fields = "position, direction, speed and collide_time";
 
 [[noreturn]] void fail(const std::string& path, const std::string& what) {
     throw Error(fmt::format("{}: {}", path, what));
@@ -50,6 +49,28 @@ bool is_float32(hid_t type) {
 
 bool is_integer(hid_t type, std::size_t bytes, H5T_sign_t sign) {
     return H5Tget_class(type) == H5T_INTEGER && H5Tget_size(type) == bytes && H5Tget_sign(type) == sign;
+}
+
+constexpr const char* scalar_name(Scalar scalar) {
+    constexpr const char* names[] = {"float32", "int32", "uint32"};
+    return names[static_cast<std::size_t>(scalar)];
+}
+
+bool is_of(Scalar scalar, hid_t type) {
+    return scalar == Scalar::float32 ? is_float32(type)
+                                     : is_integer(type, 4, scalar == Scalar::int32 ? H5T_SGN_2 : H5T_SGN_NONE);
+}
+
+/// "position, direction, speed and collide_time".
+std::string field_list(const Resource& buffer) {
+    std::string list;
+    for (std::size_t f = 0; f < buffer.fields.size(); ++f)
+        list += fmt::format("{}{}",
+                            f == 0                          ? ""
+                            : f + 1 == buffer.fields.size() ? " and "
+                                                            : ", ",
+                            buffer.fields[f].name);
+    return list;
 }
 
 Extents extents_of(hid_t set, const std::string& path) {
@@ -105,7 +126,7 @@ std::vector<Value> read_all(hid_t set, hid_t memory_type, std::size_t count, con
 
 } // namespace
 
-TraceFile::TraceFile(const OpenedFile& file) {
+TraceFile::TraceFile(const OpenedFile& file, const Resource& buffer) : buffer_(&buffer) {
     hdf5::quieten();
     H5PLset_loading_state(0);
     file_ = Id(H5Fopen(file.path().c_str(), H5F_ACC_RDONLY, H5P_DEFAULT), H5Fclose, "HDF5");
@@ -144,17 +165,19 @@ void TraceFile::find_head() {
         warnings_.emplace_back("h5md: missing, so other programs will not know this for H5MD");
 }
 
-/// A dataset of float32 with rows whose last extents are `last`; `right` says what it is to be.
-TraceFile::Dataset TraceFile::floats(const std::string& path, const char* right, const Extents& last) const {
+/// A dataset of such values with rows whose last extents are `last`; `right` says what shape it is to be.
+TraceFile::Dataset TraceFile::values(const std::string& path, Scalar scalar, const std::string& right,
+                                     const Extents& last) const {
     if (!exists(path))
-        fail(path, fmt::format("missing; right is float32 {}", right));
-    Dataset dataset{open_dataset(path), {}, path, 0, {}};
+        fail(path, fmt::format("missing; right is {} {}", scalar_name(scalar), right));
+    Dataset dataset{open_dataset(path), {}, path, 0, {}, hdf5::memory_type(scalar)};
     dataset.type = Id(H5Dget_type(dataset.set.get()), H5Tclose, path);
     Extents extents = extents_of(dataset.set.get(), path);
     const bool shaped = extents.size() == 2 + last.size() &&
                         std::equal(last.begin(), last.end(), extents.end() - static_cast<std::ptrdiff_t>(last.size()));
-    if (!is_float32(dataset.type.get()) || !shaped)
-        fail(path, fmt::format("is {}; right is float32 {}", shape(type_name(dataset.type.get()), extents), right));
+    if (!is_of(scalar, dataset.type.get()) || !shaped)
+        fail(path, fmt::format("is {}; right is {} {}", shape(type_name(dataset.type.get()), extents),
+                               scalar_name(scalar), right));
     dataset.rows = extents.front();
     dataset.extents.assign(extents.begin() + 1, extents.end());
     if (dataset.rows > most_rows)
@@ -166,12 +189,17 @@ TraceFile::Dataset TraceFile::floats(const std::string& path, const char* right,
 std::size_t TraceFile::find_particles() {
     hsize_t fewest = most_rows, most = 0;
     const Dataset* shortest = nullptr;
-    for (std::size_t f = 0; f < fields_.size(); ++f) {
-        const layout::Field& field = layout::fields[f];
-        const bool vector = field.components == 3;
-        fields_[f] =
-            floats(field.value, vector ? "[rows][particles][3]" : "[rows][particles]", vector ? Extents{3} : Extents{});
-        const Dataset& dataset = fields_[f];
+    const std::size_t fields = buffer_->fields.size();
+    fields_.reserve(fields); // `shortest` points into it
+    for (std::size_t f = 0; f < fields; ++f) {
+        const Field& field = buffer_->fields[f];
+        const std::string right = fmt::format("[rows][{}s]", buffer_->item);
+        const std::string path = layout::value(*buffer_, field);
+        fields_.push_back(field.components == 1
+                              ? values(path, field.scalar, right, {})
+                              : values(path, field.scalar, fmt::format("{}[{}]", right, field.components),
+                                       {static_cast<hsize_t>(field.components)}));
+        const Dataset& dataset = fields_.back();
         const hsize_t count = dataset.extents[0];
         if (count < 1 || count > most_particles)
             fail(dataset.path, fmt::format("has {} particles; right is 1 to {}", count, most_particles));
@@ -193,7 +221,7 @@ std::size_t TraceFile::find_particles() {
     rows_ = fewest;
     if (most > fewest)
         warnings_.push_back(fmt::format("{}: has {} rows, another of {} has {}: read up to the last whole frame, {}",
-                                        shortest->path, fewest, particle_fields, most, fewest - 2));
+                                        shortest->path, fewest, field_list(*buffer_), most, fewest - 2));
     return most;
 }
 
@@ -204,7 +232,7 @@ void TraceFile::find_cdt(std::size_t rows_of_particles) {
     const Id probe = open_dataset(layout::cdt);
     const Extents found = extents_of(probe.get(), layout::cdt);
     const hsize_t width = found.size() == 4 ? found[2] : 0;
-    cdt_ = floats(layout::cdt, "[frames][height][width][4]", {width, 4});
+    cdt_ = values(layout::cdt, Scalar::float32, "[frames][height][width][4]", {width, 4});
     if (cdt_.extents[0] < 1 || width < 1 || cdt_.extents[0] > highest_cdt || width > widest_cdt)
         fail(cdt_.path,
              fmt::format("has {}x{} texels; right is the size of the scene's image", width, cdt_.extents[0]));
@@ -236,14 +264,14 @@ void TraceFile::read_row(const Dataset& dataset, std::size_t row, std::byte* int
            dataset.path);
     const Id memory_space(H5Screate_simple(static_cast<int>(block.size()), block.data(), nullptr), H5Sclose,
                           dataset.path);
-    expect(H5Dread(dataset.set.get(), H5T_NATIVE_FLOAT, memory_space.get(), file_space.get(), H5P_DEFAULT, into),
+    expect(H5Dread(dataset.set.get(), dataset.memory, memory_space.get(), file_space.get(), H5P_DEFAULT, into),
            fmt::format("{}: row {}", dataset.path, row));
 }
 
 void TraceFile::read_particles(std::size_t row, std::byte* into) {
     for (std::size_t f = 0; f < fields_.size(); ++f) {
         read_row(fields_[f], row, into);
-        into += particles_ * sizeof(float) * static_cast<std::size_t>(layout::fields[f].components);
+        into += particles_ * sizeof(float) * static_cast<std::size_t>(buffer_->fields[f].components);
     }
 }
 

@@ -1,5 +1,4 @@
 #pragma once
-#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <string>
@@ -17,8 +16,9 @@ namespace lockstep {
 /// right`.
 class TraceFile {
   public:
-    /// libhdf5 opens files by name: throws too where the name is another file's by now.
-    explicit TraceFile(const OpenedFile& file);
+    /// `buffer`: what its particles have; outlives this. libhdf5 opens files by name: throws too where the name is
+    /// another file's by now.
+    TraceFile(const OpenedFile& file, const Resource& buffer);
 
     /// The shape and type of everything in it, but no values. Comes before all that follows.
     void look_at_contents();
@@ -30,10 +30,10 @@ class TraceFile {
     [[nodiscard]] const std::vector<std::string>& warnings() const { return warnings_; }
 
     /// Bytes of one state.
-    [[nodiscard]] std::size_t particle_bytes() const { return particles_ * 32; }
+    [[nodiscard]] std::size_t particle_bytes() const { return particles_ * item_bytes(*buffer_); }
     [[nodiscard]] std::size_t cdt_bytes() const;
 
-    /// Position, direction, speed and collide time of all particles, one after the other.
+    /// All values of the buffer's first field, then of the second, and so on.
     void read_particles(std::size_t row, std::byte* into);
     void read_cdt(std::size_t frame, std::byte* into);
 
@@ -53,11 +53,13 @@ class TraceFile {
         std::string path;
         hsize_t rows = 0;
         hdf5::Extents extents; ///< of a row
+        hid_t memory = -1;     ///< what its values are read as
     };
 
     [[nodiscard]] bool exists(const std::string& path) const;
     [[nodiscard]] hdf5::Id open_dataset(const std::string& path) const;
-    [[nodiscard]] Dataset floats(const std::string& path, const char* right, const hdf5::Extents& last) const;
+    [[nodiscard]] Dataset values(const std::string& path, Scalar scalar, const std::string& right,
+                                 const hdf5::Extents& last) const;
     std::size_t find_particles();
     void find_cdt(std::size_t rows_of_particles);
     void find_head();
@@ -65,7 +67,8 @@ class TraceFile {
 
     hdf5::Id file_;
     ChunkReader chunks_;
-    std::array<Dataset, layout::fields.size()> fields_;
+    const Resource* buffer_; ///< that its particles are
+    std::vector<Dataset> fields_;
     Dataset cdt_;
     std::size_t rows_ = 0;
     std::size_t particles_ = 0;

@@ -17,6 +17,7 @@
 #include "crosscheck/scene_settings.hpp"
 #include "crosscheck/trace/layout.hpp"
 #include "crosscheck/trace/root_offsets.hpp"
+#include "reference/model/collision_state.hpp"
 #include "reference/model/error.hpp"
 #include "reference/model/layered_cdt.hpp"
 
@@ -64,6 +65,7 @@ class Messages {
     }
 
     template <class Value> void fill(std::vector<Value>& all) { source_.read(all.data(), all.size() * sizeof(Value)); }
+    void fill(std::byte* bytes, std::size_t count) { source_.read(bytes, count); }
 
   private:
     ByteSource& source_;
@@ -165,12 +167,12 @@ TraceInfo read_contents(ByteSource& source, const std::string& file, std::uint64
 
 void read_particles(ByteSource& source, const std::string& file, std::uint32_t row, Particles& particles) {
     Messages messages(source, file);
-    if (messages.expect(MessageKind::particles, row) != particles.size() * 32)
+    const WritableView state = view(particles);
+    if (messages.expect(MessageKind::particles, row) != particles.size() * item_bytes(state.about()))
         messages.fail("its reading process broke: another number of particles");
-    messages.fill(particles.position);
-    messages.fill(particles.direction);
-    messages.fill(particles.speed);
-    messages.fill(particles.collide_time);
+    for (std::size_t f = 0; f < state.columns.size(); ++f)
+        messages.fill(state.columns[f],
+                      state.count() * static_cast<std::size_t>(state.fields()[f].components) * sizeof(std::uint32_t));
 }
 
 void read_cdt(ByteSource& source, const std::string& file, std::uint32_t frame, CollisionImage& cdt) {

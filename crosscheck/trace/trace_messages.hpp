@@ -19,7 +19,7 @@ enum class MessageKind : std::uint32_t {
     triangles,     ///< their indices
     reciprocals,   ///< int8, root_offsets.hpp
     inverse_sqrts, ///< int8
-    particles,     ///< one row: position, direction, speed, collide time of all, one after the other
+    particles,     ///< one row: all values of the first field, then of the second, and so on
     cdt,           ///< one frame
 };
 

@@ -26,6 +26,7 @@
 #include "crosscheck/trace/syscall_fence.hpp"
 #include "crosscheck/trace/trace_file.hpp"
 #include "crosscheck/trace/trace_messages.hpp"
+#include "reference/model/collision_state.hpp"
 #include "reference/model/error.hpp"
 
 namespace lockstep {
@@ -105,7 +106,7 @@ std::string fence(std::size_t memory) {
 /// The reading process's work.
 class Reader {
   public:
-    explicit Reader(const OpenedFile& file) : file_(file) {}
+    explicit Reader(const OpenedFile& file) : file_(file, collision_schema().resources[collision::particles]) {}
 
     /// `memory`: what opening the file may take.
     void run(std::size_t memory, std::string unfenced) {

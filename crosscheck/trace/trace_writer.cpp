@@ -1,7 +1,6 @@
 #include "crosscheck/trace/trace_writer.hpp"
 
 #include <algorithm>
-#include <array>
 #include <cstring>
 #include <optional>
 #include <utility>
@@ -14,6 +13,7 @@
 #include "crosscheck/trace/layout.hpp"
 #include "crosscheck/trace/root_offsets.hpp"
 #include "crosscheck/trace/seal.hpp"
+#include "reference/model/collision_state.hpp"
 #include "reference/model/error.hpp"
 #include "reference/model/layered_cdt.hpp"
 
@@ -64,7 +64,7 @@ class TraceWriter::File {
     double tick_;
     Id links_; ///< makes the groups on the way to a new object
     Id file_;
-    std::array<Rows, layout::fields.size()> fields_;
+    std::vector<Rows> fields_;
     Rows step_, time_, cdt_, cdt_step_, cdt_time_;
 };
 
@@ -80,17 +80,22 @@ TraceWriter::File::File(const std::filesystem::path& temporary, std::string name
     write_run(info);
 
     const hsize_t particles = info.scene.start.size();
-    for (std::size_t f = 0; f < fields_.size(); ++f) {
-        const layout::Field& field = layout::fields[f];
-        const Extents extents = field.components == 1 ? Extents{particles} : Extents{particles, 3};
-        fields_[f] = make_rows(field.value, H5T_IEEE_F32LE, extents, 1);
+    const Resource& buffer = view(info.scene.start).about();
+    for (const Field& field : buffer.fields) {
+        Extents extents{particles};
+        if (field.components > 1)
+            extents.push_back(static_cast<hsize_t>(field.components));
+        fields_.push_back(make_rows(layout::value(buffer, field), hdf5::file_type(field.scalar), extents, 1));
     }
-    make_steps("particles/all/position", step_, time_);
-    for (const char* other : {"direction", "speed", "collide_time"})
-        for (const char* axis : {"step", "time"})
-            expect(H5Lcreate_hard(file_.get(), fmt::format("particles/all/position/{}", axis).c_str(), file_.get(),
-                                  fmt::format("particles/all/{}/{}", other, axis).c_str(), links_.get(), H5P_DEFAULT),
-                   name_);
+    const std::string first = layout::group(buffer, buffer.fields.front());
+    make_steps(first.c_str(), step_, time_);
+    for (const Field& field : buffer.fields)
+        if (&field != &buffer.fields.front())
+            for (const char* axis : {"step", "time"})
+                expect(H5Lcreate_hard(file_.get(), fmt::format("{}/{}", first, axis).c_str(), file_.get(),
+                                      fmt::format("{}/{}", layout::group(buffer, field), axis).c_str(), links_.get(),
+                                      H5P_DEFAULT),
+                       name_);
     if (info.has_cdt) {
         cdt_ = make_rows(layout::cdt, H5T_IEEE_F32LE,
                          {static_cast<hsize_t>(cdt_height(info.scene)), static_cast<hsize_t>(info.scene.width), 4}, 1);
@@ -241,10 +246,9 @@ void TraceWriter::File::make_steps(const char* element, Rows& step, Rows& time) 
 void TraceWriter::File::append_particles(const Particles& particles) {
     const std::int32_t step = static_cast<std::int32_t>(step_.count);
     const double time = step * tick_;
-    const std::array<const void*, layout::fields.size()> values{particles.position.data(), particles.direction.data(),
-                                                                particles.speed.data(), particles.collide_time.data()};
+    const View state = view(particles);
     for (std::size_t f = 0; f < fields_.size(); ++f)
-        append(fields_[f], H5T_NATIVE_FLOAT, values[f]);
+        append(fields_[f], hdf5::memory_type(state.fields()[f].scalar), state.columns[f]);
     append(step_, H5T_NATIVE_INT32, &step);
     append(time_, H5T_NATIVE_DOUBLE, &time);
 }

@@ -10,6 +10,7 @@
 
 #include "reference/collision_pass.hpp"
 #include "reference/collision_pass_fast.hpp"
+#include "reference/model/collision_state.hpp"
 #include "reference/model/emitters.hpp"
 #include "reference/model/state_hash.hpp"
 

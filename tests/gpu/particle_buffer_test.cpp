@@ -145,7 +145,8 @@ void main() {
     gl_Position = vec4(0.0, 0.0, 0.0, 1.0);
 }
 )");
-    const Program program("copy", {{load_stage({folder.path()}, "copy", Stage::vertex)}}, particle_captures());
+    const Program program("copy", {{load_stage({folder.path()}, "copy", Stage::vertex)}},
+                          particle_records().captures());
     Particles original = varied(1000);
     for (std::size_t i = 0; i < original.size(); ++i) {
         const auto f = static_cast<float>(i);
@@ -158,7 +159,7 @@ void main() {
     ParticleBuffer to(original.size());
     from.upload(original);
     to.fill(0);
-    const GlVertexArray attributes = particle_vertex_array(from, program);
+    const GlVertexArray attributes = vertex_array(from, program);
     program.use();
     gl::BindVertexArray(attributes.id());
     to.bind_capture();

@@ -341,7 +341,8 @@ TEST_CASE("program: every built-in shader links with every switch") {
         for (const Stage stage : {Stage::geometry, Stage::fragment})
             if (std::filesystem::exists(folders.back() / (name + std::string(extension(stage)))))
                 stages.push_back(stage);
-        const std::span<const Capture> captured = particle_captures();
+        const std::vector<Capture> captures = particle_records().captures();
+        const std::span<const Capture> captured(captures);
         for (const SwitchInfo& info : switch_table())
             for (const std::string_view value : info.values) {
                 Switches switches;

@@ -31,7 +31,7 @@ void end_and_plant() {
     state.real();
     if (frame_of_run(state.runs++) != state.fault.frame)
         return;
-    const auto offset = static_cast<GLintptr>(state.fault.particle * sizeof(ParticleRecord) +
+    const auto offset = static_cast<GLintptr>(state.fault.particle * particle_records().bytes() +
                                               static_cast<std::size_t>(state.fault.component) * sizeof(float));
     gl::GetBufferSubData(GL_TRANSFORM_FEEDBACK_BUFFER, offset, sizeof(float), &state.before);
     state.after = changed(state.before, state.fault.ulps);

@@ -8,7 +8,7 @@ namespace lockstep::test {
 struct Fault {
     int frame = 0;
     std::size_t particle = 0;
-    int component = 0; ///< of a ParticleRecord: position, speed, direction, collide time
+    int component = 0; ///< of a record: position, speed, direction, collide time
     int ulps = 0;      ///< to move it by; 0: its sign is flipped
 };
 

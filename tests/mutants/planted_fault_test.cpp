@@ -7,6 +7,7 @@
 #include "crosscheck/check.hpp"
 #include "crosscheck/scene_file.hpp"
 #include "gpu/simulation.hpp"
+#include "reference/model/collision_state.hpp"
 #include "reference/model/same_bits.hpp"
 #include "tests/mutants/planted_fault.hpp"
 #include "tests/twin/llvmpipe.hpp"
@@ -17,13 +18,13 @@ namespace {
 
 constexpr int frames = 12;
 
-/// Field and component of a float of a ParticleRecord.
-std::pair<Field, int> place_of(int component) {
+/// Field and component of a float of a record.
+std::pair<FieldId, int> place_of(int component) {
     if (component < 3)
-        return {Field::position, component};
+        return {collision::position, component};
     if (component == 3)
-        return {Field::speed, 0};
-    return component < 7 ? std::pair{Field::direction, component - 4} : std::pair{Field::collide_time, 0};
+        return {collision::speed, 0};
+    return component < 7 ? std::pair{collision::direction, component - 4} : std::pair{collision::collide_time, 0};
 }
 
 /// What a run takes beyond the frames themselves.
@@ -87,7 +88,7 @@ TEST_CASE("planted faults: one in 50,000 particles is located in at most 5 secon
     CHECK(report.verdicts->total(DifferenceClass::divergent) == 1);
     CHECK(report.verdicts->first->place.frame == 6);
     CHECK(report.verdicts->first->place.index == 43210);
-    CHECK(report.verdicts->first->wrong.difference.field == Field::direction);
+    CHECK(report.verdicts->first->wrong.difference.field == collision::direction);
     CAPTURE(seconds_to_answer(report));
     CHECK(seconds_to_answer(report) < 5.0);
 }

@@ -123,7 +123,7 @@ TEST_CASE("engine: without a CDT it is never asked for one, and its particles ar
     NoCdt engine(scene);
     const MatchResult result = match_reference(engine, scene, {.frames = 4});
     CHECK(result.passed());
-    CHECK(result.report().total[Field::texel].compared == 0);
+    CHECK(result.report().total[collision::texel].compared == 0);
     NoCdt wrong(scene, [](int frame, Particles& particles) { particles.speed[7] += frame == 2 ? 1.0F : 0.0F; });
     CHECK_FALSE(match_reference(wrong, scene, {.frames = 4}).passed());
 }

@@ -4,6 +4,7 @@
 #include <limits>
 
 #include "crosscheck/compare.hpp"
+#include "reference/model/collision_state.hpp"
 #include "reference/model/ulp.hpp"
 
 using namespace lockstep;
@@ -59,7 +60,7 @@ TEST_CASE("compare: one ULP in any component of any field is found and told") {
             const float before = *floats[component];
             *floats[component] = std::nextafter(before, inf);
             const Comparison c = compare(reference, gpu);
-            CHECK(c.differing_particles == 1);
+            CHECK(c.differing(collision::particles) == 1);
             REQUIRE(c.worst.size() == 1);
             CHECK(c.worst[0].index == index);
             CHECK(c.worst[0].reference == before);
@@ -72,20 +73,20 @@ TEST_CASE("compare: a swap of two particles, a lone NaN, -0 and the largest floa
     const Particles reference = particles(10);
     Particles gpu = particles(10);
     std::swap(gpu.position[3], gpu.position[4]);
-    CHECK(compare(reference, gpu).differing_particles == 2);
+    CHECK(compare(reference, gpu).differing(collision::particles) == 2);
     gpu = particles(10);
     gpu.speed[7] = quiet_nan;
     const Comparison lone = compare(reference, gpu);
-    CHECK(lone.differing_particles == 1);
-    CHECK(lone[Field::speed].nan == 1);
+    CHECK(lone.differing(collision::particles) == 1);
+    CHECK(lone[collision::speed].nan == 1);
     gpu = particles(10);
     gpu.direction[2].x = -0.0F;
-    CHECK(compare(reference, gpu).differing_particles == 1);
+    CHECK(compare(reference, gpu).differing(collision::particles) == 1);
     Particles large = particles(10);
     large.speed[0] = std::numeric_limits<float>::max();
     gpu = large;
     gpu.speed[0] = inf;
-    CHECK(compare(large, gpu).differing_particles == 1);
+    CHECK(compare(large, gpu).differing(collision::particles) == 1);
 }
 
 TEST_CASE("compare: equal NaNs agree whatever their payload, and are counted") {
@@ -95,7 +96,7 @@ TEST_CASE("compare: equal NaNs agree whatever their payload, and are counted") {
     gpu.speed[5] = -std::nanf("3");
     const Comparison c = compare(reference, gpu);
     CHECK(c.agree());
-    CHECK(c[Field::speed].nan == 1);
+    CHECK(c[collision::speed].nan == 1);
 }
 
 TEST_CASE("compare: the worst are kept, largest ULP first, whatever the thread count") {
@@ -104,7 +105,7 @@ TEST_CASE("compare: the worst are kept, largest ULP first, whatever the thread c
     for (std::size_t i = 0; i < gpu.size(); i += 100)
         gpu.speed[i] = reference.speed[i] + static_cast<float>(i % 7000 + 1);
     const Comparison c = compare(reference, gpu);
-    CHECK(c.differing_particles == 200);
+    CHECK(c.differing(collision::particles) == 200);
     REQUIRE(c.worst.size() == Comparison::worst_kept);
     for (std::size_t k = 1; k < c.worst.size(); ++k)
         CHECK(c.worst[k - 1].ulp >= c.worst[k].ulp);
@@ -115,7 +116,7 @@ TEST_CASE("compare: one texel component is found with its texel") {
     CollisionImage gpu = reference;
     gpu.at(12, 40).z = 0.0F;
     const Comparison c = compare(reference, gpu);
-    CHECK(c.differing_texels == 1);
+    CHECK(c.differing(collision::cdt) == 1);
     CHECK_FALSE(c.agree());
     REQUIRE(c.worst.size() == 1);
     CHECK(c.worst[0].index == reference.index(12, 40));

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 #include <omp.h>
 
+#include "reference/model/collision_state.hpp"
 #include "reference/model/state_hash.hpp"
 #include "reference/simulation.hpp"
 #include "tests/golden.hpp"

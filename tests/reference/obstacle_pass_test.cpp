@@ -12,6 +12,7 @@
 #include <glm/geometric.hpp>
 #include <glm/matrix.hpp>
 
+#include "reference/model/collision_state.hpp"
 #include "reference/model/state_hash.hpp"
 
 namespace lockstep {

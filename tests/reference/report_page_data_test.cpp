@@ -14,6 +14,7 @@
 #include "crosscheck/page/blob.hpp"
 #include "crosscheck/page/report_page.hpp"
 #include "gpu/gpu_side.hpp"
+#include "reference/model/collision_state.hpp"
 #include "reference/model/layered_cdt.hpp"
 #include "reference/simulation.hpp"
 #include "tests/reference/collision_scenes.hpp"
@@ -144,8 +145,8 @@ TEST_CASE("report page data: a resync run has the free run's numbers beside its 
     CHECK(a.at("classes").at("particles").at(2) == nlohmann::json{0, 0, 0, 5});
     for (const FrameCount& count : free->report.counts) {
         const auto f = static_cast<std::size_t>(count.frame);
-        CHECK(b.at("free").at("particles").at(f) == count.particles);
-        CHECK(b.at("free").at("texels").at(f) == count.texels);
+        CHECK(b.at("free").at("particles").at(f) == count.items[collision::particles]);
+        CHECK(b.at("free").at("texels").at(f) == count.items[collision::cdt]);
         CHECK(b.at("free").at("ulp").at(f) == count.worst_ulp);
     }
 }
@@ -158,9 +159,9 @@ TEST_CASE("report page data: a long run shares points, which keep the largest nu
     const int frames = 3 * static_cast<int>(DifferenceSeries::most_points);
     for (int frame = 0; frame < frames; ++frame) {
         Comparison comparison;
-        comparison.differing_particles = frame == 5001 ? 2 : 0;
+        comparison.resources = {{.differing = frame == 5001 ? 2U : 0U}};
         if (frame == 5001)
-            comparison.worst.push_back({Field::speed, 0, 0, 0.0F, 0.0F, std::numeric_limits<std::int64_t>::max()});
+            comparison.worst.push_back({collision::speed, 0, 0, 0.0F, 0.0F, std::numeric_limits<std::int64_t>::max()});
         series.add({frame, particles, cdt, particles, cdt, comparison}, particles, cdt, frame_params(scene, frame));
     }
     const nlohmann::json json = series.json();

@@ -11,6 +11,7 @@
 
 #include "reference/collision_code.hpp"
 #include "reference/collision_pass.hpp"
+#include "reference/model/collision_state.hpp"
 #include "reference/model/same_bits.hpp"
 #include "reference/obstacle_pass.hpp"
 #include "reference/triangle_interpolation.hpp"
@@ -56,7 +57,11 @@ float& component(ParticleState& s, int c) {
 }
 
 std::string field_of(int c) {
-    return std::string(field_names[static_cast<std::size_t>(c < 3 ? 0 : c < 6 ? 1 : c < 7 ? 2 : 3)]);
+    return collision_schema()[c < 3   ? collision::position
+                              : c < 6 ? collision::direction
+                              : c < 7 ? collision::speed
+                                      : collision::collide_time]
+        .name;
 }
 
 } // namespace
@@ -87,7 +92,7 @@ TEST_CASE("verdict: faults of one bit, anywhere in the state, are located exactl
         CHECK(first->place.index == particle);
         CHECK_FALSE(first->wrong.operation.empty());
         const Difference& shown = first->wrong.difference;
-        CHECK(field_names[static_cast<std::size_t>(shown.field)] == field_of(c));
+        CHECK(collision_schema()[shown.field].name == field_of(c));
         CHECK(same_bits(shown.reference, before));
         CHECK(same_bits(shown.gpu, component(state, c)));
     }

@@ -5,6 +5,7 @@
 
 #include "crosscheck/check.hpp"
 #include "crosscheck/trace/trace_side.hpp"
+#include "reference/model/collision_state.hpp"
 #include "reference/model/state_hash.hpp"
 #include "tests/temporary_folder.hpp"
 #include "tests/trace/small_trace.hpp"
@@ -41,8 +42,8 @@ TEST_CASE("check trace: what the reference computed agrees, with and without the
             CHECK(report.verdict == Verdict::agree);
             CHECK(report.frames == frames);
             CHECK(report.hits > 0);
-            CHECK(report.total[Field::position].compared == 60 * 3 * frames);
-            CHECK(report.total[Field::texel].compared == (has_cdt ? 24 * 20 * 4 * frames : 0));
+            CHECK(report.total[collision::position].compared == 60 * 3 * frames);
+            CHECK(report.total[collision::texel].compared == (has_cdt ? 24 * 20 * 4 * frames : 0));
             CHECK(report.gpu_hash == report.reference_hash);
         }
     }

@@ -15,6 +15,7 @@
 #include "crosscheck/check.hpp"
 #include "crosscheck/trace/seal.hpp"
 #include "crosscheck/trace/trace_side.hpp"
+#include "reference/model/collision_state.hpp"
 #include "reference/model/error.hpp"
 #include "reference/model/state_hash.hpp"
 #include "tests/temporary_folder.hpp"
@@ -47,7 +48,7 @@ Reading reading_of(const std::filesystem::path& file) {
         TraceReader trace(file);
         TraceSide recorded(trace);
         reading.warnings = trace.info().warnings.size();
-        reading.hashes.push_back(state_hash(trace.info().scene.start, {}));
+        reading.hashes.push_back(state_hash(trace.info().scene.start, CollisionImage()));
         CheckOptions options;
         options.frames = trace.info().frames;
         options.known = known_operations(trace.info());

@@ -7,6 +7,7 @@
 #include <catch2/catch.hpp>
 #include <fmt/format.h>
 
+#include "reference/model/collision_state.hpp"
 #include "reference/model/layered_cdt.hpp"
 #include "reference/model/switches.hpp"
 #include "tests/twin/llvmpipe.hpp"
@@ -24,10 +25,10 @@ constexpr std::array presets{"paper", "corrected", "exact"};
 CheckReport check_agree(const Scene& scene, int frames = 4) {
     CheckReport report = test::check_twins(scene, frames);
     CHECK(report.verdict == Verdict::agree);
-    CHECK(report.total.differing_particles == 0);
-    CHECK(report.total.differing_texels == 0);
+    CHECK(report.total.differing(collision::particles) == 0);
+    CHECK(report.total.differing(collision::cdt) == 0);
     CHECK(report.frames == frames);
-    CHECK(report.total[Field::position].compared == 3 * scene.start.size() * static_cast<std::size_t>(frames));
+    CHECK(report.total[collision::position].compared == 3 * scene.start.size() * static_cast<std::size_t>(frames));
     return report;
 }
 
@@ -201,7 +202,7 @@ TEST_CASE("collision pass twin: NaN, infinite, subnormal and huge states leave t
             set_switch(scene.switches, "cdt_format", format);
             INFO(base << ", " << format);
             const CheckReport report = check_agree(scene);
-            CHECK(report.total[Field::position].nan > 0);
+            CHECK(report.total[collision::position].nan > 0);
             CHECK(report.hits > 0);
         }
 }

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include "gpu/simulation.hpp"
+#include "reference/model/collision_state.hpp"
 #include "reference/model/state_hash.hpp"
 #include "tests/golden.hpp"
 #include "tests/skip.hpp"

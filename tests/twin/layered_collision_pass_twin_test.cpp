@@ -6,6 +6,7 @@
 #include <catch2/catch.hpp>
 #include <fmt/format.h>
 
+#include "reference/model/collision_state.hpp"
 #include "reference/model/layered_cdt.hpp"
 #include "tests/twin/llvmpipe.hpp"
 #include "tests/twin/random_scenes.hpp"
@@ -39,8 +40,8 @@ Scene with(Scene scene, const char* base, const Settings& settings) {
 CheckReport check_agree(const Scene& scene, int frames = 4, CheckMode mode = CheckMode::resync) {
     const CheckReport report = test::check_twins(scene, frames, {}, mode);
     CHECK(report.verdict == Verdict::agree);
-    CHECK(report.total.differing_particles == 0);
-    CHECK(report.total.differing_texels == 0);
+    CHECK(report.total.differing(collision::particles) == 0);
+    CHECK(report.total.differing(collision::cdt) == 0);
     return report;
 }
 
@@ -152,7 +153,7 @@ TEST_CASE("layered collision pass twin: odd states and places leave the same bit
             }
         const CheckReport report = check_agree(scene);
         CHECK(report.hits > 0);
-        CHECK(report.total[Field::position].nan > 0);
+        CHECK(report.total[collision::position].nan > 0);
     });
 }
 

@@ -9,6 +9,7 @@
 #include <fmt/format.h>
 #include <glm/common.hpp>
 
+#include "reference/model/collision_state.hpp"
 #include "tests/planted_shader.hpp"
 #include "tests/twin/llvmpipe.hpp"
 #include "tests/twin/random_scenes.hpp"
@@ -51,9 +52,9 @@ void on_sides(Scene& scene, std::size_t stride) {
 CheckReport check_agree(const Scene& scene, int frames = 4) {
     CheckReport report = test::check_twins(scene, frames);
     CHECK(report.verdict == Verdict::agree);
-    CHECK(report.total.differing_particles == 0);
+    CHECK(report.total.differing(collision::particles) == 0);
     CHECK(report.frames == frames);
-    CHECK(report.total[Field::position].compared == 3 * scene.start.size() * static_cast<std::size_t>(frames));
+    CHECK(report.total[collision::position].compared == 3 * scene.start.size() * static_cast<std::size_t>(frames));
     CHECK(report.drawn_texels == 0);
     return report;
 }
@@ -157,7 +158,7 @@ TEST_CASE("octree pass twin: NaN, infinite, subnormal and huge states leave the 
             }
         INFO(base);
         const CheckReport report = check_agree(scene);
-        CHECK(report.total[Field::position].nan > 0);
+        CHECK(report.total[collision::position].nan > 0);
         CHECK(report.hits > 0);
     }
 }

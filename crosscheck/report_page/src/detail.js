@@ -1,9 +1,11 @@
 // Exact values of a frame's texels and particles; layout: crosscheck/page/frame_blobs.hpp, detail_blob.
-import { blob, Reader } from "./data.js";
+import { blob, Reader, readHead } from "./data.js";
+import { componentNames } from "./schema.js";
 
-export const PARTICLE_FIELDS = [
-  "position.x", "position.y", "position.z", "direction.x", "direction.y", "direction.z", "speed", "collide time",
-];
+let names;
+
+// Components of the first buffer's items.
+export const particleFields = () => (names ??= componentNames(readHead().schema.resources[0]));
 export const NOBODY = -1;
 export const OBSTACLE = -2;
 
@@ -36,7 +38,7 @@ function decode(bytes) {
   const particleCount = reader.word();
   const particles = reader.words(particleCount);
   const particleClasses = reader.bytes(particleCount);
-  const particleValues = readValues(reader, particleCount, 8);
+  const particleValues = readValues(reader, particleCount, particleFields().length);
   const texels = reader.words(texelCount);
   const texelClasses = reader.bytes(texelCount);
   const owners = readValues(reader, texelCount, 1);

@@ -1,5 +1,5 @@
 // What both sides have in the texel under the pointer, and in the particle that owns it.
-import { NOBODY, OBSTACLE, PARTICLE_FIELDS, readDetail } from "./detail.js";
+import { NOBODY, OBSTACLE, particleFields, readDetail } from "./detail.js";
 import { commandLine, h } from "./dom.js";
 import { paint } from "./frames_section.js";
 import { itemAt } from "./items.js";
@@ -36,7 +36,7 @@ function valueTable(caption, rows) {
 function particleTable(index, particle) {
   return valueTable(
     [`Particle ${grouped(index)} after the frame `, classChip(particle.kind)],
-    PARTICLE_FIELDS.map((field, c) => valueRow(field, particle.values[c])),
+    particleFields().map((field, c) => valueRow(field, particle.values[c])),
   );
 }
 

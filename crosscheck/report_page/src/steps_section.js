@@ -4,6 +4,7 @@ import { commandLine, h, scrolling, section } from "./dom.js";
 import { classChip } from "./inspector.js";
 import { grouped } from "./numbers.js";
 import { SAME } from "./picture.js";
+import { fieldName } from "./schema.js";
 import { place, ROW_WORDS } from "./words.js";
 
 function cell(value) {
@@ -78,13 +79,13 @@ function neighbourhood(round) {
   );
 }
 
-const vector = (values) => `(${values.map((v) => v.value).join(", ")})`;
+const valueText = (values) => (values.length === 1 ? values[0].value : `(${values.map((v) => v.value).join(", ")})`);
 
 function particlePart(particle, profile) {
   const { before } = particle;
   return [
     particle.warning ? h("p", { class: "warning" }, particle.warning) : null,
-    h("p", {}, `Particle ${particle.particle} before: position ${vector(before.position)}, direction ${vector(before.direction)}, speed ${before.speed.value}, collide time ${before.collide_time.value}.`),
+    h("p", {}, `Particle ${particle.particle} before: ${before.map(({ name, values }) => `${fieldName(name)} ${valueText(values)}`).join(", ")}.`),
     particle.untraced ? h("p", { class: "muted" }, "The GPU's steps between were not traced, so there the reference's stand alone.") : null,
     h("div", { class: "beside" }, scrolling(`steps of particle ${particle.particle}`, rowsTable(`Particle ${particle.particle}, step by step`, particle.rows, profile)), neighbourhood(particle.neighbourhood)),
     h("details", {}, h("summary", {}, "Why this verdict: every legal outcome"), h("pre", { tabindex: "0" }, particle.why)),

@@ -27,6 +27,7 @@
 #include "gpu/context.hpp"
 #include "gpu/data_folder.hpp"
 #include "gpu/gpu_side.hpp"
+#include "reference/model/collision_state.hpp"
 #include "reference/model/error.hpp"
 
 namespace lockstep {

@@ -1,11 +1,3 @@
-const record = 32; // bytes of a particle
-const fields = [
-  ["a_Position", 3, 0],
-  ["a_Speed", 1, 12],
-  ["a_Dir", 3, 16],
-  ["a_CollideTime", 1, 28],
-];
-
 function attribute(gl, program, name, components, stride, offset, divisor) {
   const location = program.attribute(name);
   if (location < 0) return;
@@ -14,13 +6,16 @@ function attribute(gl, program, name, components, stride, offset, divisor) {
   gl.vertexAttribDivisor(location, divisor);
 }
 
-// Particles as a pass reads them. A pass that makes several vertices of a particle draws each as an instance.
-export function particleArray(gl, program, buffer) {
+const WORD = 4; // bytes
+
+// Particles, of which each is a `record`, as a pass reads them. A pass that makes several vertices of a particle draws
+// each as an instance.
+export function particleArray(gl, program, buffer, { words, fields }) {
   const array = gl.createVertexArray();
   gl.bindVertexArray(array);
   gl.bindBuffer(gl.ARRAY_BUFFER, buffer);
-  for (const [name, components, offset] of fields)
-    attribute(gl, program, name, components, record, offset, program.maxVertices > 1 ? 1 : 0);
+  for (const { shader, components, offset } of fields)
+    attribute(gl, program, `a_${shader}`, components, WORD * words, WORD * offset, program.maxVertices > 1 ? 1 : 0);
   gl.bindVertexArray(null);
   return array;
 }

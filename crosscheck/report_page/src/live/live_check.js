@@ -31,13 +31,13 @@ export class LiveCheck {
   step() {
     this.simulation.step();
     if (this.frames > this.scene.checked_frames) return;
-    const particles = hashText(particleHash(this.simulation.particles()));
-    this.hashes.push({ particles, cdt: hashText(cdtHash(this.simulation.cdt())) });
+    const particles = hashText(particleHash(this.simulation.particles(), this.scene.record));
+    this.hashes.push({ particles, cdt: hashText(cdtHash(this.simulation.cdt(), this.scene.record)) });
   }
 
   // Of the last frame's state, as `lockstep hash` prints it.
   stateHash() {
-    return hashText(stateHash(particleHash(this.simulation.particles()), cdtHash(this.simulation.cdt())));
+    return hashText(stateHash(particleHash(this.simulation.particles(), this.scene.record), cdtHash(this.simulation.cdt(), this.scene.record)));
   }
 
   draw() {

@@ -3,15 +3,12 @@ import { Reader } from "../data.js";
 
 const floats = (words) => new Float32Array(words.buffer);
 
-// Fields one after the other to records of 8 floats: position, speed, direction, collide time.
-function records(reader, count) {
-  const [position, direction, speed, collideTime] = [3, 3, 1, 1].map((n) => floats(reader.words(n * count)));
-  const all = new Float32Array(8 * count);
-  for (let i = 0; i < count; ++i) {
-    all.set(position.subarray(3 * i, 3 * i + 3), 8 * i);
-    all[8 * i + 3] = speed[i];
-    all.set(direction.subarray(3 * i, 3 * i + 3), 8 * i + 4);
-    all[8 * i + 7] = collideTime[i];
+// Fields one after the other, in the order of their columns, to records.
+function records(reader, { words, fields }, count) {
+  const all = new Float32Array(words * count);
+  for (const { components, offset } of [...fields].sort((a, b) => a.column - b.column)) {
+    const values = floats(reader.words(components * count));
+    for (let i = 0; i < count; ++i) all.set(values.subarray(components * i, components * (i + 1)), words * i + offset);
   }
   return all;
 }
@@ -21,7 +18,7 @@ export function liveScene(head, bytes) {
   const reader = new Reader(bytes);
   return {
     ...head,
-    start: records(reader, head.particles),
+    start: records(reader, head.record, head.particles),
     obstacles: { positions: floats(reader.words(3 * head.corners)), indices: reader.words(3 * head.triangles) },
     projView: floats(reader.words(16 * head.frames)),
     renderView: floats(reader.words(16 * head.frames)),

@@ -9,7 +9,7 @@ export class RenderPass {
     const program = (name) => new Program(gl, files, name, definitions);
     this.background = program("render_background");
     this.particles = program("render_pass");
-    this.arrays = new Map(buffers.map((buffer) => [buffer, particleArray(gl, this.particles, buffer)]));
+    this.arrays = new Map(buffers.map((buffer) => [buffer, particleArray(gl, this.particles, buffer, scene.record)]));
     if (scene.obstacles.indices.length > 0) {
       this.obstacles = program("render_obstacles");
       this.mesh = meshArray(gl, this.obstacles, scene.obstacles);
@@ -44,7 +44,7 @@ export class RenderPass {
     }
     gl.bindVertexArray(this.arrays.get(buffer));
     this.particles.use(uniforms);
-    gl.drawArraysInstanced(gl.TRIANGLE_STRIP, 0, this.particles.maxVertices, scene.start.length / 8);
+    gl.drawArraysInstanced(gl.TRIANGLE_STRIP, 0, this.particles.maxVertices, scene.particles);
     gl.bindVertexArray(null);
   }
 }

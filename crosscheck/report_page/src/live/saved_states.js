@@ -4,7 +4,7 @@ export async function savedStates(check, renderer, onFrame) {
   const { scene, run, simulation } = check;
   const { particles, checked_frames: frames, width, height } = scene;
   const { scene: name, corners, triangles, obstacles } = scene;
-  const size = { particles, frames, width, height, corners, triangles };
+  const size = { particles, frames, width, height, corners, triangles, record: scene.record };
   const head = { lockstep: "states 1", scene: name, run: run.name, settings: run.settings, renderer, ...size };
   const parts = [`${JSON.stringify(head)}\n`, scene.start, obstacles.positions, obstacles.indices];
   simulation.restart();

@@ -2,8 +2,6 @@ import { meshArray, particleArray } from "./attributes.js";
 import { matrix } from "./live_scene.js";
 import { Program } from "./program.js";
 
-const captured = ["out_Position", "out_Speed", "out_Dir", "out_CollideTime"];
-
 const divided = (a, b) => a.map((x, i) => Math.fround(Math.fround(x) / Math.fround(b[i])));
 
 export function context(canvas) {
@@ -71,7 +69,8 @@ class CollisionTexture {
 export class Simulation {
   constructor(gl, files, scene, run) {
     Object.assign(this, { gl, scene, run });
-    this.count = scene.start.length / 8;
+    this.count = scene.particles;
+    const captured = scene.record.fields.map(({ shader }) => `out_${shader}`);
     this.frame = 0;
     this.current = 0;
     this.collision = new Program(gl, files, "collision_pass", run.definitions, captured);
@@ -79,7 +78,7 @@ export class Simulation {
     this.obstacle = kind && scene.obstacles.indices.length > 0 ? new Program(gl, files, kind, run.definitions) : null;
     this.cdts = [0, 1].map(() => new CollisionTexture(gl, scene.width, scene.height, run.cdt_format));
     this.buffers = [0, 1].map(() => gl.createBuffer());
-    this.arrays = this.buffers.map((buffer) => particleArray(gl, this.collision, buffer));
+    this.arrays = this.buffers.map((buffer) => particleArray(gl, this.collision, buffer, scene.record));
     if (this.obstacle) this.mesh = meshArray(gl, this.obstacle, scene.obstacles);
     this.restart();
   }
@@ -155,10 +154,10 @@ export class Simulation {
     return this.buffers[this.current];
   }
 
-  // Records of 8 floats: position, speed, direction, collide time.
+  // Records (scene.record).
   particles() {
-    const { gl } = this;
-    const records = new Float32Array(8 * this.count);
+    const { gl, scene } = this;
+    const records = new Float32Array(scene.record.words * this.count);
     gl.bindBuffer(gl.ARRAY_BUFFER, this.buffer);
     gl.getBufferSubData(gl.ARRAY_BUFFER, 0, records);
     return records;

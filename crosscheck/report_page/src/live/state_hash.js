@@ -1,5 +1,4 @@
-// The state hash of reference/model/state_hash.hpp, as two 32-bit halves [high, low] a number; a particle is a record
-// of 8 floats: position, speed, direction, collide time.
+// The state hash of reference/model/state_hash.hpp, as two 32-bit halves [high, low] a number.
 
 const add = ([ah, al], [bh, bl]) => {
   const low = (al >>> 0) + (bl >>> 0);
@@ -75,20 +74,19 @@ function field(seed, words, stride, offset, components) {
 
 const words = (floats) => new Uint32Array(floats.buffer, floats.byteOffset, floats.length);
 
-export function particleHash(records) {
+// High half of the seed of the k-th column of a state, counted from 0, of which there are at most 15.
+const seed = (column) => ((column + 1) << 28) >>> 0;
+
+// Of records that each hold `fields` at their offsets.
+export function particleHash(records, { words: stride, fields }) {
   const all = words(records);
   if (all.length === 0) return [0, 0];
-  return [
-    field(0x10000000, all, 8, 0, 3),
-    field(0x20000000, all, 8, 4, 3),
-    field(0x30000000, all, 8, 3, 1),
-    field(0x40000000, all, 8, 7, 1),
-  ].reduce(add);
+  return fields.map(({ column, offset, components }) => field(seed(column), all, stride, offset, components)).reduce(add);
 }
 
-// Of the stored codes of a CDT.
-export function cdtHash(codes) {
-  return codes.length === 0 ? [0, 0] : field(0x50000000, words(codes), 4, 0, 4);
+// Of the stored codes of a CDT, whose column follows the particles' ones.
+export function cdtHash(codes, { fields }) {
+  return codes.length === 0 ? [0, 0] : field(seed(fields.length), words(codes), 4, 0, 4);
 }
 
 export const stateHash = (particles, cdt) => add(mixed(particles), cdt);

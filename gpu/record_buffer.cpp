@@ -1,0 +1,217 @@
+#include "gpu/record_buffer.hpp"
+
+#include <algorithm>
+#include <atomic>
+#include <cassert>
+#include <cstring>
+#include <span>
+
+#include <fmt/format.h>
+
+#include "gpu/check.hpp"
+#include "reference/model/error.hpp"
+
+namespace lockstep {
+namespace {
+
+/// Calls `work` with the buffer's memory. A driver may lose a mapped buffer's contents (GL_FALSE at unmapping); there
+/// is no telling what it holds then, hence the Error.
+template <class Byte, class Work> void with_mapped(const RecordBuffer& buffer, GLbitfield access, const Work& work) {
+    const std::size_t bytes = buffer.size() * buffer.layout().bytes();
+    const std::string& item = buffer.layout().about().item;
+    gl::BindBuffer(GL_COPY_READ_BUFFER, buffer.id());
+    void* memory = gl::MapBufferRange(GL_COPY_READ_BUFFER, 0, static_cast<GLsizeiptr>(bytes), access);
+    if (memory == nullptr) {
+        check_gl(fmt::format("{} buffer", item));
+        throw Error(fmt::format("{} buffer: GL cannot map it", item));
+    }
+    work(static_cast<Byte*>(memory));
+    if (gl::UnmapBuffer(GL_COPY_READ_BUFFER) == GL_FALSE)
+        throw Error(fmt::format("{} buffer: its contents were lost while mapped", item));
+}
+
+constexpr GLbitfield overwrite = GL_MAP_WRITE_BIT | GL_MAP_INVALIDATE_BUFFER_BIT;
+
+constexpr std::size_t word = sizeof(std::uint32_t);
+constexpr std::size_t most_bytes = 256 * 4 * word; ///< of a record: what a schema can have
+
+/// Copies `count` values of `Words` words, which lie `from_stride` and are to lie `to_stride` bytes apart.
+template <std::size_t Words> void copy_values(const std::byte* from, std::size_t from_stride, std::byte* to,
+                                              std::size_t to_stride, std::size_t count) {
+    for (std::size_t i = 0; i < count; ++i)
+        std::memcpy(to + i * to_stride, from + i * from_stride, Words * word);
+}
+
+void copy_values(std::size_t words, const std::byte* from, std::size_t from_stride, std::byte* to,
+                 std::size_t to_stride, std::size_t count) {
+    switch (words) {
+    case 1:
+        return copy_values<1>(from, from_stride, to, to_stride, count);
+    case 2:
+        return copy_values<2>(from, from_stride, to, to_stride, count);
+    case 3:
+        return copy_values<3>(from, from_stride, to, to_stride, count);
+    default:
+        return copy_values<4>(from, from_stride, to, to_stride, count);
+    }
+}
+
+/// Some records, on their way: GL's memory is touched in order, and once.
+class Block {
+  public:
+    explicit Block(const RecordLayout& layout)
+        : layout_(layout), bytes_(layout.bytes()), room_(std::max<std::size_t>(1, most_bytes * 2 / bytes_)),
+          records_(room_ * bytes_) {}
+
+    [[nodiscard]] std::size_t room() const { return room_; } ///< records
+    [[nodiscard]] std::byte* records() { return records_.data(); }
+
+    void gather(const View& state, std::size_t first, std::size_t count) {
+        for_each_member([&](std::uint8_t field, std::size_t words, std::size_t offset) {
+            copy_values(words, state.columns[field] + first * words * word, words * word, records() + offset, bytes_,
+                        count);
+        });
+    }
+
+    void scatter(const WritableView& state, std::size_t first, std::size_t count) {
+        for_each_member([&](std::uint8_t field, std::size_t words, std::size_t offset) {
+            copy_values(words, records() + offset, bytes_, state.columns[field] + first * words * word, words * word,
+                        count);
+        });
+    }
+
+  private:
+    template <class Work> void for_each_member(const Work& work) const {
+        std::size_t offset = 0;
+        for (const RecordLayout::Member& member : layout_.members) {
+            const auto words = static_cast<std::size_t>(layout_.field(member).components);
+            work(member.field, words, offset);
+            offset += words * word;
+        }
+    }
+
+    const RecordLayout& layout_;
+    std::size_t bytes_;
+    std::size_t room_;
+    std::vector<std::byte> records_;
+};
+
+/// Calls `work(block, first record, records)` until all `count` are through.
+template <class Work> void in_blocks(const RecordLayout& layout, std::size_t count, const Work& work) {
+#pragma omp parallel
+    {
+        Block block(layout);
+        const auto blocks = static_cast<std::ptrdiff_t>((count + block.room() - 1) / block.room());
+#pragma omp for schedule(static)
+        for (std::ptrdiff_t b = 0; b < blocks; ++b) {
+            const std::size_t first = static_cast<std::size_t>(b) * block.room();
+            work(block, first, std::min(block.room(), count - first));
+        }
+    }
+}
+
+} // namespace
+
+std::size_t RecordLayout::bytes() const {
+    std::size_t words = 0;
+    for (const Member& member : members)
+        words += static_cast<std::size_t>(field(member).components);
+    return words * word;
+}
+
+std::vector<Capture> RecordLayout::captures() const {
+    std::vector<Capture> captures;
+    for (const Member& member : members)
+        captures.push_back({"out_" + member.name, gl_type(field(member))});
+    return captures;
+}
+
+GLenum gl_type(const Field& field) {
+    constexpr GLenum types[3][4] = {
+        {GL_FLOAT, GL_FLOAT_VEC2, GL_FLOAT_VEC3, GL_FLOAT_VEC4},
+        {GL_INT, GL_INT_VEC2, GL_INT_VEC3, GL_INT_VEC4},
+        {GL_UNSIGNED_INT, GL_UNSIGNED_INT_VEC2, GL_UNSIGNED_INT_VEC3, GL_UNSIGNED_INT_VEC4}};
+    return types[static_cast<std::size_t>(field.scalar)][field.components - 1];
+}
+
+RecordBuffer::RecordBuffer(const RecordLayout& layout, std::size_t count) : layout_(&layout), count_(count) {
+    gl::BindBuffer(GL_COPY_READ_BUFFER, buffer_.id());
+    gl::BufferData(GL_COPY_READ_BUFFER, static_cast<GLsizeiptr>(count * layout.bytes()), nullptr, GL_DYNAMIC_COPY);
+    check_gl(fmt::format("buffer of {} {}s", count, layout.about().item));
+}
+
+void RecordBuffer::upload(const View& state) {
+    assert(state.count() == count_);
+    if (count_ == 0)
+        return;
+    with_mapped<std::byte>(*this, overwrite, [&](std::byte* records) {
+        in_blocks(*layout_, count_, [&](Block& block, std::size_t first, std::size_t count) {
+            block.gather(state, first, count);
+            std::memcpy(records + first * layout_->bytes(), block.records(), count * layout_->bytes());
+        });
+    });
+}
+
+void RecordBuffer::read(const WritableView& state) const {
+    assert(state.count() == count_);
+    if (count_ == 0)
+        return;
+    with_mapped<const std::byte>(*this, GL_MAP_READ_BIT, [&](const std::byte* records) {
+        in_blocks(*layout_, count_, [&](Block& block, std::size_t first, std::size_t count) {
+            std::memcpy(block.records(), records + first * layout_->bytes(), count * layout_->bytes());
+            block.scatter(state, first, count);
+        });
+    });
+}
+
+bool RecordBuffer::holds(const View& state) const {
+    assert(state.count() == count_);
+    std::atomic<bool> same = true;
+    if (count_ == 0)
+        return same;
+    with_mapped<const std::byte>(*this, GL_MAP_READ_BIT, [&](const std::byte* records) {
+        in_blocks(*layout_, count_, [&](Block& block, std::size_t first, std::size_t count) {
+            block.gather(state, first, count);
+            if (std::memcmp(records + first * layout_->bytes(), block.records(), count * layout_->bytes()) != 0)
+                same = false;
+        });
+    });
+    return same;
+}
+
+void RecordBuffer::fill(std::uint32_t pattern) {
+    if (count_ == 0)
+        return;
+    with_mapped<std::uint32_t>(
+        *this, overwrite, [&](std::uint32_t* words) { std::fill_n(words, count_ * layout_->bytes() / word, pattern); });
+}
+
+void RecordBuffer::bind_capture() const { gl::BindBufferBase(GL_TRANSFORM_FEEDBACK_BUFFER, 0, id()); }
+
+GlVertexArray vertex_array(const RecordBuffer& buffer, const Program& program) {
+    GlVertexArray array;
+    gl::BindVertexArray(array.id());
+    gl::BindBuffer(GL_ARRAY_BUFFER, buffer.id());
+    const RecordLayout& layout = buffer.layout();
+    const auto stride = static_cast<GLsizei>(layout.bytes());
+    std::size_t offset = 0;
+    for (const RecordLayout::Member& member : layout.members) {
+        const Field& field = layout.field(member);
+        const GLint found = program.attribute("a_" + member.name, gl_type(field));
+        const auto* const start = reinterpret_cast<const void*>(offset);
+        offset += static_cast<std::size_t>(field.components) * word;
+        if (found < 0)
+            continue;
+        const auto location = static_cast<GLuint>(found);
+        gl::EnableVertexAttribArray(location);
+        if (field.scalar == Scalar::float32)
+            gl::VertexAttribPointer(location, field.components, GL_FLOAT, GL_FALSE, stride, start);
+        else
+            gl::VertexAttribIPointer(location, field.components,
+                                     field.scalar == Scalar::int32 ? GL_INT : GL_UNSIGNED_INT, stride, start);
+    }
+    gl::BindVertexArray(0);
+    return array;
+}
+
+} // namespace lockstep

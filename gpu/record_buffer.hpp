@@ -1,0 +1,67 @@
+#pragma once
+#include <cstddef>
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "gpu/object.hpp"
+#include "gpu/program.hpp"
+#include "reference/model/schema.hpp"
+#include "reference/model/state_view.hpp"
+
+namespace lockstep {
+
+/// How a GL buffer holds fields of a buffer of a schema: a record an item, without gaps, one field after the other.
+struct RecordLayout {
+    struct Member {
+        std::uint8_t field = 0;
+        std::string name; ///< in shaders, after a_, v_ or out_: "Position"
+    };
+    const Schema* schema = nullptr;
+    std::uint8_t resource = 0;
+    std::vector<Member> members;
+
+    [[nodiscard]] const Resource& about() const { return schema->resources[resource]; }
+    [[nodiscard]] const Field& field(const Member& member) const { return about().fields[member.field]; }
+    [[nodiscard]] std::size_t bytes() const; ///< of a record
+
+    /// What a program that writes such records captures: out_ and the name, in the records' order.
+    [[nodiscard]] std::vector<Capture> captures() const;
+};
+
+/// GL_FLOAT_VEC3 of three floats.
+GLenum gl_type(const Field& field);
+
+/// `count` records in GL memory; record i at byte i * layout.bytes(). Contents are undefined at first.
+class RecordBuffer {
+  public:
+    /// `layout` outlives this. Throws Error if GL has not the memory.
+    RecordBuffer(const RecordLayout& layout, std::size_t count);
+
+    [[nodiscard]] std::size_t size() const { return count_; }
+    [[nodiscard]] GLuint id() const { return buffer_.id(); }
+    [[nodiscard]] const RecordLayout& layout() const { return *layout_; }
+
+    /// Bit for bit; `state` has size() items.
+    void upload(const View& state);
+    void read(const WritableView& state) const;
+
+    /// Whether it has exactly these bits, without a copy.
+    [[nodiscard]] bool holds(const View& state) const;
+
+    /// Every 32-bit word becomes `word`: what a pass did not write then shows.
+    void fill(std::uint32_t word);
+
+    /// Binds the buffer as what transform feedback writes to.
+    void bind_capture() const;
+
+  private:
+    GlBuffer buffer_;
+    const RecordLayout* layout_;
+    std::size_t count_;
+};
+
+/// Feeds a_Position and so on of `program` from `buffer`. Throws Error if one has a wrong type.
+GlVertexArray vertex_array(const RecordBuffer& buffer, const Program& program);
+
+} // namespace lockstep

@@ -54,14 +54,25 @@ bool clean(const std::byte* reference, const std::byte* gpu, std::size_t words) 
     return unequal == 0 && nan == 0;
 }
 
+bool clean(const View& reference, const View& gpu, std::size_t field, std::size_t first, std::size_t items) {
+    const auto words = static_cast<std::size_t>(gpu.fields()[field].components);
+    const std::size_t from = first * words * sizeof(std::uint32_t);
+    return clean(reference.columns[field] + from, gpu.columns[field] + from, items * words);
+}
+
 /// Most blocks are equal to the last bit and hold no NaN: one pass over the words settles those.
 bool clean(const View& reference, const View& gpu, std::size_t first, std::size_t items) {
-    for (std::size_t f = 0; f < gpu.columns.size(); ++f) {
-        const auto words = static_cast<std::size_t>(gpu.fields()[f].components);
-        const std::size_t from = first * words * sizeof(std::uint32_t);
-        if (!clean(reference.columns[f] + from, gpu.columns[f] + from, items * words))
+    for (std::size_t f = 0; f < gpu.columns.size(); ++f)
+        if (!clean(reference, gpu, f, first, items))
             return false;
-    }
+    return true;
+}
+
+bool same_item(const View& reference, const View& gpu, std::size_t item) {
+    for (std::size_t f = 0; f < reference.fields().size(); ++f)
+        for (int c = 0; c < reference.fields()[f].components; ++c)
+            if (!same_bits(reference.value(f, item, c), gpu.value(f, item, c)))
+                return false;
     return true;
 }
 
@@ -150,7 +161,8 @@ Comparison compare(const View& reference, const View& gpu) {
     Comparison result = compare_blocks(reference, gpu, both, [&](std::size_t i, Comparison& into) {
         bool differs = false;
         for (std::uint8_t f = 0; f < fields; ++f)
-            differs = compare_item(reference, gpu, f, i, into) || differs;
+            if (!clean(reference, gpu, f, i, 1))
+                differs = compare_item(reference, gpu, f, i, into) || differs;
         into.resources.back().differing += differs ? 1U : 0U;
     });
     ResourceCount& counts = result.resources.back();
@@ -169,14 +181,9 @@ std::vector<std::size_t> differing_items(const View& reference, const View& gpu)
         const std::size_t last = std::min(first + block, both);
         if (clean(reference, gpu, first, last - first))
             continue;
-        for (std::size_t i = first; i < last; ++i) {
-            bool same = true;
-            for (std::size_t f = 0; f < reference.fields().size() && same; ++f)
-                for (int c = 0; c < reference.fields()[f].components && same; ++c)
-                    same = same_bits(reference.value(f, i, c), gpu.value(f, i, c));
-            if (!same)
+        for (std::size_t i = first; i < last; ++i)
+            if (!clean(reference, gpu, i, 1) && !same_item(reference, gpu, i))
                 differing.push_back(i);
-        }
     }
     return differing;
 }

@@ -56,8 +56,8 @@ enum class SnapRounding { half_to_even, half_away, half_up, down };
 struct RasterRules {
     int subpixel_bits = 8;
     SnapRounding point_snap = SnapRounding::half_away;
-    SnapRounding vertex_snap = SnapRounding::half_to_even;         ///< corners of triangles
-    ViewportRounding viewport = ViewportRounding::separate;        ///< of points
+    SnapRounding vertex_snap = SnapRounding::half_to_even;  ///< corners of triangles
+    ViewportRounding viewport = ViewportRounding::separate; ///< of points
     bool depth_by_driver_reciprocal = false; ///< a point's depth takes 1 / w from the shader's own division
     bool point_edge_to_lower = true;         ///< a point on a pixel edge belongs to the lower pixel, in x and in y
     bool left_edge_in = true;  ///< a pixel centre on a left side of a triangle is inside (else: on a right one)

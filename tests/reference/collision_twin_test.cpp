@@ -44,7 +44,8 @@ std::size_t check_equal(const RandomScene& scene, const Profile& profile) {
 
 } // namespace
 
-TEST_CASE("collision twin: its values are the fast pass's bits for every combination of switches and every arithmetic") {
+TEST_CASE(
+    "collision twin: its values are the fast pass's bits for every combination of switches and every arithmetic") {
     RandomScene scene = random_scene(31, 300, 21, 15);
     scene.params.cdt_box = {glm::vec3(-1.5F), glm::vec3(1.5F)};
     std::vector<Switches> combinations{preset("corrected"), preset("exact")};

@@ -173,9 +173,21 @@ template <class A> class Candidates {
         std::vector<glm::vec4> clip(obstacles.positions.size());
         std::transform(obstacles.positions.begin(), obstacles.positions.end(), clip.begin(),
                        [&](glm::vec3 p) { return fp_.transform(params_.collision_proj_view, p); });
+        std::vector<bool> assembled(obstacles.indices.size() / 3, false);
         for (const RasterTriangle& triangle :
-             assemble_triangles(clip, obstacles.indices, params_.width, params_.height, profile_.raster))
-            add_triangle(obstacles, clip, triangle);
+             assemble_triangles(clip, obstacles.indices, params_.width, params_.height, profile_.raster)) {
+            assembled[triangle.primitive] = true;
+            add_triangle(obstacles, clip, triangle, profile_.raster);
+        }
+        if (side_tolerance(profile_.raster) == 0.0)
+            return;
+        // What the reference's grid makes a line of may be a triangle on the driver's.
+        RasterRules finer = profile_.raster;
+        finer.subpixel_bits = 12;
+        for (const RasterTriangle& triangle :
+             assemble_triangles(clip, obstacles.indices, params_.width, params_.height, finer))
+            if (!assembled[triangle.primitive])
+                add_triangle(obstacles, clip, triangle, finer);
     }
 
     std::vector<std::vector<TexelOwner>> take() { return std::move(candidates_); }
@@ -186,10 +198,11 @@ template <class A> class Candidates {
             candidates_[static_cast<std::size_t>(slot)].push_back(owner);
     }
 
-    void add_triangle(const Mesh& obstacles, const std::vector<glm::vec4>& clip, const RasterTriangle& triangle) {
+    void add_triangle(const Mesh& obstacles, const std::vector<glm::vec4>& clip, const RasterTriangle& triangle,
+                      const RasterRules& rules) {
         const auto& c = triangle.corners;
-        const int bits = profile_.raster.subpixel_bits;
-        const int beside = static_cast<int>(std::ceil(std::ldexp(side_tolerance(), -bits)));
+        const int bits = rules.subpixel_bits;
+        const int beside = static_cast<int>(std::ceil(std::ldexp(side_tolerance(rules), -bits)));
         const int x0 = (std::min({c[0].x, c[1].x, c[2].x}) >> bits) - beside;
         const int y0 = (std::min({c[0].y, c[1].y, c[2].y}) >> bits) - beside;
         const int x1 = (std::max({c[0].x, c[1].x, c[2].x}) >> bits) + 1 + beside;
@@ -197,16 +210,16 @@ template <class A> class Candidates {
         for (int y = std::max(y0, 0); y <= std::min(y1, params_.height - 1); ++y)
             for (int x = std::max(x0, 0); x <= std::min(x1, params_.width - 1); ++x)
                 if (wanted_.slot(x, y) >= 0)
-                    add_pixel(obstacles, clip, triangle, x, y);
+                    add_pixel(obstacles, clip, triangle, rules, x, y);
     }
 
-    void add_pixel(const Mesh& obstacles, const std::vector<glm::vec4>& clip, const RasterTriangle& triangle, int x,
-                   int y) {
+    void add_pixel(const Mesh& obstacles, const std::vector<glm::vec4>& clip, const RasterTriangle& triangle,
+                   const RasterRules& rules, int x, int y) {
         bool covered = false;
-        for_each_pixel(triangle, profile_.raster, {x, y, x + 1, y + 1}, [&](int, int) { covered = true; });
+        for_each_pixel(triangle, rules, {x, y, x + 1, y + 1}, [&](int, int) { covered = true; });
         const bool exact = known().points || known().raster.triangles();
-        const double margin = exact ? HUGE_VAL : side_distance(triangle, x, y, profile_.raster);
-        const double tolerance = side_tolerance();
+        const double margin = exact ? HUGE_VAL : side_distance(triangle, x, y, rules);
+        const double tolerance = side_tolerance(rules);
         if (!covered && margin > tolerance)
             return;
         const std::uint32_t* index = &obstacles.indices[std::size_t{triangle.primitive} * 3];
@@ -228,15 +241,15 @@ template <class A> class Candidates {
             const double error = depth_bound(corners);
             owner.depth = {owner.reference_depth - error, owner.reference_depth + error};
         }
-        owner.is_reference = covered;
+        owner.is_reference = covered && rules == profile_.raster;
         owner.sure = covered && margin > tolerance;
-        owner.edge_margin = exact ? margin : std::ldexp(margin, 8 - profile_.raster.subpixel_bits);
+        owner.edge_margin = exact ? margin : std::ldexp(margin, 8 - rules.subpixel_bits);
         add(owner, x, y);
     }
 
-    /// How far, in steps of the profile's grid, a side may lie from where the reference puts it: each corner by what
+    /// How far, in steps of the grid of `rules`, a side may lie from where the reference puts it: each corner by what
     /// its window coordinate may err and by a step of the grid, along both axes.
-    [[nodiscard]] double side_tolerance() const {
+    [[nodiscard]] double side_tolerance(const RasterRules& rules) const {
         const KnownRaster& raster = known().raster;
         if (known().points || raster.triangles() || (raster.triangle_window && raster.triangle_grid))
             return 0.0;
@@ -244,7 +257,7 @@ template <class A> class Candidates {
         // Three operations on at most half the image, half of it, and all of it.
         const double window = raster.triangle_window ? 0.0 : gl_accuracy * (0.5 + 0.5 + 1.0) * size;
         const double step = raster.triangle_grid ? std::ldexp(1.0, -profile_.raster.subpixel_bits) : step_of(raster);
-        return std::ldexp((window + step) * std::sqrt(2.0), profile_.raster.subpixel_bits);
+        return std::ldexp((window + step) * std::sqrt(2.0), rules.subpixel_bits);
     }
 
     [[nodiscard]] const KnownOperations& known() const { return arithmetic_.known(); }

@@ -209,3 +209,24 @@ TEST_CASE("drivers: on softpipe, whose raster rules are not followed, points may
     const RandomScene scene = random_scene(8, 300, 41, 33);
     CHECK(found_of_one_ulp(scene, profile) == 1.0);
 }
+
+TEST_CASE("driver profiles: a triangle that the reference's grid makes a line of may be drawn on a grid nobody knows") {
+    constexpr int size = 16;
+    const auto ndc = [](float pixel) { return pixel / (size / 2.0F) - 1.0F; };
+    Mesh sliver;
+    sliver.positions = {{ndc(2.0F), ndc(5.49F), 0.0F}, {ndc(14.0F), ndc(5.49F), 0.0F}, {ndc(8.0F), ndc(5.51F), 0.0F}};
+    sliver.indices = {0, 1, 2};
+    FrameParams params;
+    params.width = params.height = size;
+    params.switches.obstacles_in_cdt = ObstaclesInCdt::triangles;
+    Profile profile = named_profile("strict");
+    profile.raster.subpixel_bits = 4;
+    const std::size_t wanted[] = {5 * size + 8};
+    const auto may_be_drawn = [&](const KnownOperations& known) {
+        const LegalTexel texel = legal_texels(sliver, {}, {}, params, profile, known, wanted)[0];
+        return std::any_of(texel.owners.begin(), texel.owners.end(),
+                           [](const TexelOwner& owner) { return owner.kind == TexelOwner::Kind::obstacle; });
+    };
+    CHECK(may_be_drawn(KnownOperations{}));
+    CHECK_FALSE(may_be_drawn(KnownOperations::all()));
+}

@@ -119,10 +119,12 @@ for driver in "${chosen[@]}"; do
     done
     if [ -n "$mutants" ]; then
         score=$runs/$driver/mutants.json
-        libraries=/lockstep/lib
-        if [ "${driver%-*}" = here ]; then libraries=$program/lib; fi
-        [ -s "$score" ] || on "$driver" env LD_LIBRARY_PATH=$libraries "$build/tests/mutants/lockstep_mutants" \
-            --gl "$(context_of "$driver")" --commit "$commit" --json "$score" >"$runs/$driver/mutants.txt" 2>&1 || true
+        libraries=/lockstep/lib out=/runs/$driver/mutants.json
+        if [ "${driver%-*}" = here ]; then libraries=$program/lib out=$score; fi
+        # The catalogue is read from the source tree, which is at the same place in the root.
+        [ -s "$score" ] || on "$driver" sh -c 'cd "$1" && LD_LIBRARY_PATH=$2 && export LD_LIBRARY_PATH && shift 2 && exec "$@"' sh \
+            "$PWD" "$libraries" "$build/tests/mutants/lockstep_mutants" \
+            --gl "$(context_of "$driver")" --commit "$commit" --json "$out" >"$runs/$driver/mutants.txt" 2>&1 || true
     fi
     scripts/driver_results.py add "$results/$driver.json" --driver "$driver" --renderer "$(renderer_of "$driver")" \
         --commit "$commit" --runs "$runs" ${mutants:+--mutants "$runs/$driver/mutants"} --run "${done[@]}"

@@ -27,6 +27,14 @@ std::string text_or_nothing(const JsonValue& json, std::string_view key) {
     return value ? value->text() : std::string();
 }
 
+DotOrder read_order(const JsonValue& json) {
+    const auto names = dot_order_names();
+    const auto name = std::find(names.begin(), names.end(), json.text());
+    if (name == names.end())
+        json.fail("reference/model/profile.hpp has no such order");
+    return static_cast<DotOrder>(name - names.begin());
+}
+
 Mutant read_mutant(const JsonValue& json) {
     Mutant mutant;
     mutant.name = json.at("name").text();
@@ -35,19 +43,21 @@ Mutant read_mutant(const JsonValue& json) {
     if (const auto alike = json.find("alike"))
         for (const std::string& name : alike->keys())
             mutant.alike[name] = alike->at(name).text();
+    if (const auto sums = json.find("sums"))
+        mutant.sums = read_order(*sums);
     if (json.find("fault")) {
-        json.check_keys({"name", "fault", "cause", "alike", "equivalent"});
+        json.check_keys({"name", "fault", "cause", "alike", "equivalent", "sums"});
         mutant.fault = json.at("fault").text();
         if (!is_host_fault(mutant.fault))
             json.at("fault").fail("host_faults.cpp has no such fault");
     } else if (json.find("edits")) {
-        json.check_keys({"name", "edits", "cause", "alike", "equivalent"});
+        json.check_keys({"name", "edits", "cause", "alike", "equivalent", "sums"});
         for (const JsonValue& edit : json.at("edits").items()) {
             edit.check_keys({"file", "text", "replacement", "times"});
             mutant.edits.push_back(read_edit(edit));
         }
     } else {
-        json.check_keys({"name", "file", "text", "replacement", "times", "cause", "alike", "equivalent"});
+        json.check_keys({"name", "file", "text", "replacement", "times", "cause", "alike", "equivalent", "sums"});
         mutant.edits.push_back(read_edit(json));
     }
     const auto table = deviation_table();
@@ -102,6 +112,18 @@ std::vector<Mutant> whole_catalogue() {
     const std::vector<Mutant> host = read_catalogue("tests/mutants/host.json");
     mutants.insert(mutants.end(), host.begin(), host.end());
     return mutants;
+}
+
+std::vector<Mutant> on_driver(std::vector<Mutant> catalogue, const Profile& profile) {
+    const auto is_one_of = [](DotOrder order, DotOrder first, const std::vector<DotOrder>& others) {
+        return order == first || std::find(others.begin(), others.end(), order) != others.end();
+    };
+    for (Mutant& mutant : catalogue)
+        if (mutant.sums && is_one_of(*mutant.sums, profile.length_order(), profile.other_orders.length) &&
+            is_one_of(*mutant.sums, profile.normalize_order(), profile.other_orders.normalize))
+            mutant.equivalent = fmt::format("This driver's length and normalize are {} too, with `precise` or without.",
+                                            dot_order_names()[static_cast<std::size_t>(*mutant.sums)]);
+    return catalogue;
 }
 
 void plant(const Mutant& mutant, const TemporaryFolder& folder) {

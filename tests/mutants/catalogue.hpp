@@ -1,9 +1,11 @@
 #pragma once
 #include <filesystem>
 #include <map>
+#include <optional>
 #include <string>
 #include <vector>
 
+#include "reference/model/profile.hpp"
 #include "tests/temporary_folder.hpp"
 
 namespace lockstep::test {
@@ -24,7 +26,10 @@ struct Mutant {
     std::string cause; ///< its name in reference/deviation.hpp; empty: it has none
     /// What else does just the same in some scenes, and why.
     std::map<std::string, std::string> alike;
-    std::string equivalent; ///< why nothing can tell it from the original; empty: it is to be found
+    std::string equivalent; ///< why it is as right as the original; empty: it is to be found
+    /// The order in which it sums length and normalize, instead of the driver's own; nothing: it has nothing to do with
+    /// that.
+    std::optional<DotOrder> sums;
 
     /// Whether that is what it does.
     [[nodiscard]] bool is_called(const std::string& by) const { return by == cause || alike.contains(by); }
@@ -34,12 +39,16 @@ struct Mutant {
 };
 
 /// Reads a catalogue: a JSON array of objects with `name`, then `file`, `text`, `replacement` and `times` (default 1),
-/// or an array `edits` of such, or `fault`; `cause`, `alike` (an object) and `equivalent` as above. Throws Error naming
-/// the value that is wrong: an unknown fault or cause, a name that stands twice.
+/// or an array `edits` of such, or `fault`; `cause`, `alike` (an object), `equivalent` and `sums` ("(x+y)+z") as above.
+/// Throws Error naming the value that is wrong: an unknown fault, cause or order, a name that stands twice.
 std::vector<Mutant> read_catalogue(const std::filesystem::path& file);
 
 /// All of tests/mutants/: shaders.json and host.json.
 std::vector<Mutant> whole_catalogue();
+
+/// The catalogue on a driver of `profile`: a mutant that sums as the driver itself does, with `precise` or without, is
+/// as right there.
+std::vector<Mutant> on_driver(std::vector<Mutant> catalogue, const Profile& profile);
 
 /// Writes the edited shaders into `folder`. Throws Error if a text does not stand there as often as it should: a mutant
 /// that changes nothing proves nothing.

@@ -28,11 +28,12 @@ int run(const std::vector<std::string>& only, const std::string& gl, const std::
     Score score;
     score.renderer = summary(context.describe());
     score.commit = commit;
-    const std::vector<Mutant> catalogue = whole_catalogue();
+    const Profile profile = measured_profile(context);
+    const std::vector<Mutant> catalogue = on_driver(whole_catalogue(), profile);
     for (const std::string& name : only)
         if (std::none_of(catalogue.begin(), catalogue.end(), [&](const Mutant& m) { return m.name == name; }))
             throw Error(fmt::format("no mutant is named {}", name));
-    std::vector<TrialScene> scenes = trial_scenes(measured_profile(context));
+    std::vector<TrialScene> scenes = trial_scenes(profile);
     score.unmutated = run_mutant({}, scenes);
     for (const Mutant& mutant : catalogue) {
         if (!only.empty() && std::find(only.begin(), only.end(), mutant.name) == only.end())

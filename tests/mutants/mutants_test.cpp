@@ -66,6 +66,33 @@ TEST_CASE("mutants: a few of the catalogue are found and named, and the shipped 
     CHECK(run == few.size());
 }
 
+TEST_CASE("mutants: one that sums as the driver does by itself changes nothing there, and is to be found elsewhere") {
+    const auto is_equivalent = [](const std::string& name, DotOrder order) {
+        Profile profile;
+        profile.dot = order;
+        for (const Mutant& mutant : on_driver(whole_catalogue(), profile))
+            if (mutant.name == name)
+                return !mutant.equivalent.empty();
+        FAIL("no mutant is named " << name);
+        return false;
+    };
+    CHECK(is_equivalent("sums_left_to_right", DotOrder::left_to_right));
+    CHECK_FALSE(is_equivalent("sums_left_to_right", DotOrder::right_to_left));
+    CHECK(is_equivalent("sums_right_to_left", DotOrder::right_to_left));
+    CHECK_FALSE(is_equivalent("sums_right_to_left", DotOrder::left_to_right));
+    CHECK_FALSE(is_equivalent("sums_middle_last", DotOrder::left_to_right));
+    Profile profile;
+    profile.normalize_dot = DotOrder::right_to_left; // and length from the left
+    const auto equivalents = [&] {
+        const std::vector<Mutant> mutants = on_driver(whole_catalogue(), profile);
+        return std::count_if(mutants.begin(), mutants.end(),
+                             [](const Mutant& m) { return m.sums && !m.equivalent.empty(); });
+    };
+    CHECK(equivalents() == 0);
+    profile.other_orders = {.dot = {}, .length = {DotOrder::right_to_left}, .normalize = {DotOrder::left_to_right}};
+    CHECK(equivalents() == 2);
+}
+
 TEST_CASE("mutants: a catalogue that is wrong is an error that says where") {
     const TemporaryFolder folder;
     const auto read = [&](const char* text) { return read_catalogue(folder.write("mutants.json", text)); };
@@ -74,6 +101,8 @@ TEST_CASE("mutants: a catalogue that is wrong is an error that says where") {
                       file + ": /0/fault: host_faults.cpp has no such fault");
     CHECK_THROWS_WITH(read(R"([{ "name": "a", "fault": "tick_doubled", "cause": "none_such" }])"),
                       file + ": /0/cause: reference/deviation.hpp has no such deviation");
+    CHECK_THROWS_WITH(read(R"([{ "name": "a", "fault": "tick_doubled", "sums": "x+y" }])"),
+                      file + ": /0/sums: reference/model/profile.hpp has no such order");
     CHECK_THROWS_WITH(read(R"([{ "name": "a", "fault": "tick_doubled" }, { "name": "a", "fault": "tick_halved" }])"),
                       file + ": /1/name: the name of another mutant, too");
     const std::vector<Mutant> mutants = read(

@@ -9,7 +9,7 @@
 #include <catch2/catch.hpp>
 #include <nlohmann/json.hpp>
 
-#include "crosscheck/scene_file.hpp"
+#include "crosscheck/scene/scene_file.hpp"
 #include "reference/model/error.hpp"
 
 namespace lockstep::test {

@@ -2,6 +2,7 @@
 
 #include <filesystem>
 #include <fstream>
+#include <optional>
 #include <regex>
 #include <sstream>
 #include <string>
@@ -16,6 +17,17 @@ bool starts_with_any(const std::string& text, const std::vector<std::string>& pr
         if (text.starts_with(prefix))
             return true;
     return false;
+}
+
+/// The jobs of crosscheck/, each knowing those before it.
+const std::vector<std::string> jobs{"files", "scene", "judge", "report", "record", "study", "package", "cli"};
+
+/// The place of a file's job among them; nothing of files that are no job's.
+std::optional<std::size_t> job_of(const std::string& file) {
+    for (std::size_t job = 0; job < jobs.size(); ++job)
+        if (file.starts_with("crosscheck/" + jobs[job] + "/"))
+            return job;
+    return {};
 }
 
 /// Why `file` may not include `header`; empty if it may.
@@ -33,6 +45,9 @@ std::string forbidden(const std::string& file, const std::string& header) {
         return "gpu/ knows nothing of its users";
     if (file.starts_with("crosscheck/") && header.starts_with("tests/"))
         return "only tests include tests";
+    const auto job = job_of(file), used = job_of(header);
+    if (job && used && *used > *job)
+        return jobs[*job] + " knows nothing of " + jobs[*used];
     return {};
 }
 
@@ -82,11 +97,14 @@ TEST_CASE("include borders: a crossing is seen, with its line") {
     CHECK(crossings("gpu/a.cpp", "\n#include \"reference/collision_pass.hpp\"\n") ==
           Strings{"gpu/a.cpp:2: gpu/ shares only the model with its twin"});
     CHECK(crossings("gpu/a.cpp", "#include \"reference/model/image.hpp\"\n#include <GL/glcorearb.h>\n").empty());
-    CHECK(crossings("gpu/a.cpp", "#include \"crosscheck/compare.hpp\"\n").size() == 1);
+    CHECK(crossings("gpu/a.cpp", "#include \"crosscheck/judge/compare.hpp\"\n").size() == 1);
     CHECK(crossings("reference/a.hpp", "  # include <EGL/egl.h> // why\n").size() == 1);
     CHECK(crossings("reference/a.hpp", "#include \"gpu/context.hpp\"\n").size() == 1);
     CHECK(crossings("reference/model/a.hpp", "#include \"reference/arithmetic.hpp\"\n").size() == 1);
     CHECK(crossings("crosscheck/a.cpp", "#include <GL/gl.h>\n").size() == 1);
+    CHECK(crossings("crosscheck/judge/a.cpp", "#include \"crosscheck/report/report.hpp\"\n") ==
+          Strings{"crosscheck/judge/a.cpp:1: judge knows nothing of report"});
+    CHECK(crossings("crosscheck/report/a.cpp", "#include \"crosscheck/judge/check.hpp\"\n").empty());
     CHECK(crossings("tests/gpu/a.cpp", "#include <GL/gl.h>\n").size() == 1);
     CHECK(crossings("crosscheck/a.cpp", "const char* text = \"#version 330 core\";\n") ==
           Strings{"crosscheck/a.cpp:1: shaders belong to shaders/"});

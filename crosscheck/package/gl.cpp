@@ -1,6 +1,6 @@
 #include <cstdlib>
 
-#include "crosscheck/profiles.hpp"
+#include "crosscheck/scene/profiles.hpp"
 #include "gpu/probe.hpp"
 #include "lockstep/lockstep.hpp"
 

@@ -4,10 +4,11 @@
 
 #include <fmt/format.h>
 
+#include "crosscheck/files/shell_words.hpp"
 #include "crosscheck/package/folded_text.hpp"
-#include "crosscheck/profiles.hpp"
-#include "crosscheck/run_text.hpp"
-#include "crosscheck/shell_words.hpp"
+#include "crosscheck/report/places.hpp"
+#include "crosscheck/scene/profiles.hpp"
+#include "crosscheck/scene/run_text.hpp"
 #include "lockstep/lockstep.hpp"
 
 namespace lockstep {

@@ -1,6 +1,6 @@
 #include <fmt/format.h>
 
-#include "crosscheck/shell_words.hpp"
+#include "crosscheck/files/shell_words.hpp"
 #include "gpu/simulation.hpp"
 #include "lockstep/lockstep.hpp"
 

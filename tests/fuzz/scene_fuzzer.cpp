@@ -2,11 +2,11 @@
 #include <cstdint>
 #include <string_view>
 
-#include "crosscheck/json_reader.hpp"
-#include "crosscheck/profile_json.hpp"
-#include "crosscheck/scene_obstacles.hpp"
-#include "crosscheck/scene_settings.hpp"
-#include "crosscheck/trace/seal.hpp"
+#include "crosscheck/files/json_reader.hpp"
+#include "crosscheck/record/seal.hpp"
+#include "crosscheck/scene/profile_json.hpp"
+#include "crosscheck/scene/scene_obstacles.hpp"
+#include "crosscheck/scene/scene_settings.hpp"
 #include "reference/model/error.hpp"
 
 using namespace lockstep;

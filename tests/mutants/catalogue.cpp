@@ -7,7 +7,7 @@
 
 #include <fmt/format.h>
 
-#include "crosscheck/json_reader.hpp"
+#include "crosscheck/files/json_reader.hpp"
 #include "reference/deviation.hpp"
 #include "reference/model/error.hpp"
 #include "tests/mutants/host_faults.hpp"

@@ -7,7 +7,7 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
-#include "crosscheck/step_table.hpp"
+#include "crosscheck/judge/step_table.hpp"
 #include "tests/mutants/catalogue.hpp"
 #include "tests/mutants/trial.hpp"
 #include "tests/temporary_folder.hpp"

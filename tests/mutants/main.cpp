@@ -9,8 +9,8 @@
 #include <fmt/format.h>
 #include <omp.h>
 
-#include "crosscheck/atomic_file.hpp"
-#include "crosscheck/profiles.hpp"
+#include "crosscheck/files/atomic_file.hpp"
+#include "crosscheck/scene/profiles.hpp"
 #include "gpu/context.hpp"
 #include "reference/model/error.hpp"
 #include "tests/mutants/score.hpp"

@@ -4,8 +4,8 @@
 
 #include <catch2/catch.hpp>
 
-#include "crosscheck/check.hpp"
-#include "crosscheck/scene_file.hpp"
+#include "crosscheck/judge/check.hpp"
+#include "crosscheck/scene/scene_file.hpp"
 #include "gpu/simulation.hpp"
 #include "reference/model/collision_state.hpp"
 #include "reference/model/same_bits.hpp"

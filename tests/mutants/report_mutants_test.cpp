@@ -10,10 +10,10 @@
 #include <fmt/ranges.h>
 #include <nlohmann/json.hpp>
 
-#include "crosscheck/capsule/capsule.hpp"
-#include "crosscheck/page/explained.hpp"
-#include "crosscheck/page/report_page.hpp"
-#include "crosscheck/page/template.hpp"
+#include "crosscheck/record/capsule.hpp"
+#include "crosscheck/report/page/explained.hpp"
+#include "crosscheck/report/page/report_page.hpp"
+#include "crosscheck/report/page/template.hpp"
 #include "gpu/simulation.hpp"
 #include "tests/mutants/catalogue.hpp"
 #include "tests/mutants/trial.hpp"

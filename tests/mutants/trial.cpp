@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <utility>
 
-#include "crosscheck/report.hpp"
-#include "crosscheck/scene_file.hpp"
+#include "crosscheck/report/report.hpp"
+#include "crosscheck/scene/scene_file.hpp"
 #include "gpu/simulation.hpp"
 #include "reference/model/error.hpp"
 #include "reference/render_pass.hpp"

@@ -9,7 +9,7 @@
 #include <string_view>
 #include <vector>
 
-#include "crosscheck/check.hpp"
+#include "crosscheck/judge/check.hpp"
 #include "gpu/render_pass.hpp"
 #include "tests/mutants/catalogue.hpp"
 #include "tests/mutants/common_rules.hpp"

@@ -7,9 +7,9 @@
 #include <sstream>
 #include <string>
 
-#include "crosscheck/catalogue.hpp"
-#include "crosscheck/catalogue_pictures.hpp"
-#include "crosscheck/study_pictures.hpp"
+#include "crosscheck/study/catalogue.hpp"
+#include "crosscheck/study/catalogue_pictures.hpp"
+#include "crosscheck/study/study_pictures.hpp"
 #include "reference/model/error.hpp"
 
 using namespace lockstep;

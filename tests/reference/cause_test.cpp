@@ -8,8 +8,8 @@
 #include <utility>
 #include <vector>
 
-#include "crosscheck/cause.hpp"
-#include "crosscheck/compare.hpp"
+#include "crosscheck/judge/cause.hpp"
+#include "crosscheck/judge/compare.hpp"
 #include "reference/model/camera.hpp"
 #include "reference/obstacle_pass.hpp"
 #include "reference/simulation.hpp"

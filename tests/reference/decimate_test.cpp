@@ -3,7 +3,7 @@
 #include <glm/geometric.hpp>
 #include <glm/vec2.hpp>
 
-#include "crosscheck/decimate.hpp"
+#include "crosscheck/scene/decimate.hpp"
 #include "reference/model/error.hpp"
 #include "reference/model/random.hpp"
 #include "tests/temporary_folder.hpp"

@@ -6,7 +6,7 @@
 
 #include <nlohmann/json.hpp>
 
-#include "crosscheck/profiles.hpp"
+#include "crosscheck/scene/profiles.hpp"
 #include "reference/collision_pass.hpp"
 #include "reference/known_operations.hpp"
 #include "reference/legal_outcomes.hpp"

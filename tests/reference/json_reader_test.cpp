@@ -2,7 +2,7 @@
 
 #include <string>
 
-#include "crosscheck/json_reader.hpp"
+#include "crosscheck/files/json_reader.hpp"
 #include "reference/model/error.hpp"
 
 using namespace lockstep;

@@ -3,8 +3,8 @@
 #include <random>
 #include <string>
 
-#include "crosscheck/plain_text.hpp"
-#include "crosscheck/shell_words.hpp"
+#include "crosscheck/files/plain_text.hpp"
+#include "crosscheck/files/shell_words.hpp"
 
 using namespace lockstep;
 

@@ -7,7 +7,7 @@
 #include <algorithm>
 #include <string>
 
-#include "crosscheck/profiles.hpp"
+#include "crosscheck/scene/profiles.hpp"
 
 using namespace lockstep;
 

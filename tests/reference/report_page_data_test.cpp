@@ -10,9 +10,9 @@
 #include <nlohmann/json.hpp>
 #include <zlib.h>
 
-#include "crosscheck/check.hpp"
-#include "crosscheck/page/blob.hpp"
-#include "crosscheck/page/report_page.hpp"
+#include "crosscheck/judge/check.hpp"
+#include "crosscheck/report/page/blob.hpp"
+#include "crosscheck/report/page/report_page.hpp"
 #include "gpu/gpu_side.hpp"
 #include "reference/model/collision_state.hpp"
 #include "reference/model/layered_cdt.hpp"

@@ -4,7 +4,7 @@
 
 #include <fmt/format.h>
 
-#include "crosscheck/scene_file.hpp"
+#include "crosscheck/scene/scene_file.hpp"
 #include "reference/model/collision_state.hpp"
 #include "reference/model/error.hpp"
 #include "reference/model/state_hash.hpp"

@@ -3,7 +3,7 @@
 #include <bit>
 #include <limits>
 
-#include "crosscheck/compare.hpp"
+#include "crosscheck/judge/compare.hpp"
 #include "reference/model/collision_state.hpp"
 #include "reference/model/error.hpp"
 #include "reference/model/random.hpp"

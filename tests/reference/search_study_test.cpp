@@ -11,12 +11,12 @@
 #include <glm/gtc/matrix_transform.hpp>
 #include <nlohmann/json.hpp>
 
-#include "crosscheck/gnuplot.hpp"
-#include "crosscheck/recall_table.hpp"
-#include "crosscheck/scene_file.hpp"
-#include "crosscheck/study.hpp"
-#include "crosscheck/study_pictures.hpp"
-#include "crosscheck/study_report.hpp"
+#include "crosscheck/scene/scene_file.hpp"
+#include "crosscheck/study/gnuplot.hpp"
+#include "crosscheck/study/recall_table.hpp"
+#include "crosscheck/study/study.hpp"
+#include "crosscheck/study/study_pictures.hpp"
+#include "crosscheck/study/study_report.hpp"
 #include "reference/collision_code.hpp"
 #include "reference/collision_pass.hpp"
 #include "reference/obstacle_pass.hpp"

@@ -6,7 +6,7 @@
 #include <set>
 #include <string>
 
-#include "crosscheck/scene_file.hpp"
+#include "crosscheck/scene/scene_file.hpp"
 #include "reference/model/error.hpp"
 #include "tests/skip.hpp"
 

@@ -8,7 +8,7 @@
 #include <fmt/format.h>
 #include <glm/geometric.hpp>
 
-#include "crosscheck/surface.hpp"
+#include "crosscheck/scene/surface.hpp"
 #include "reference/model/error.hpp"
 #include "tests/temporary_folder.hpp"
 

@@ -5,8 +5,8 @@
 #include <cstdint>
 #include <string>
 
-#include "crosscheck/verdict_summary.hpp"
-#include "crosscheck/verdict_text.hpp"
+#include "crosscheck/judge/verdict_summary.hpp"
+#include "crosscheck/report/verdict_text.hpp"
 #include <nlohmann/json.hpp>
 
 #include "reference/collision_code.hpp"

@@ -12,9 +12,9 @@
 
 #include <unistd.h>
 
-#include "crosscheck/check.hpp"
-#include "crosscheck/trace/seal.hpp"
-#include "crosscheck/trace/trace_side.hpp"
+#include "crosscheck/judge/check.hpp"
+#include "crosscheck/record/seal.hpp"
+#include "crosscheck/record/trace_side.hpp"
 #include "reference/model/collision_state.hpp"
 #include "reference/model/error.hpp"
 #include "reference/model/state_hash.hpp"

@@ -1,6 +1,6 @@
 #include <catch2/catch.hpp>
 
-#include "crosscheck/profile_json.hpp"
+#include "crosscheck/scene/profile_json.hpp"
 #include "tests/trace/small_trace.hpp"
 
 using namespace lockstep;

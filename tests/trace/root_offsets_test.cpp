@@ -3,7 +3,7 @@
 #include <bit>
 #include <cmath>
 
-#include "crosscheck/trace/root_offsets.hpp"
+#include "crosscheck/record/root_offsets.hpp"
 #include "tests/trace/small_trace.hpp"
 
 using namespace lockstep;

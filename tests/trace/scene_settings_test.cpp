@@ -3,8 +3,8 @@
 #include <filesystem>
 #include <string>
 
-#include "crosscheck/scene_file.hpp"
-#include "crosscheck/scene_settings.hpp"
+#include "crosscheck/scene/scene_file.hpp"
+#include "crosscheck/scene/scene_settings.hpp"
 #include "tests/trace/small_trace.hpp"
 
 using namespace lockstep;

@@ -1,6 +1,6 @@
 #include <catch2/catch.hpp>
 
-#include "crosscheck/trace/seal.hpp"
+#include "crosscheck/record/seal.hpp"
 #include "tests/temporary_folder.hpp"
 #include "tests/trace/small_trace.hpp"
 

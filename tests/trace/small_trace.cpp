@@ -3,9 +3,9 @@
 #include <fstream>
 #include <iterator>
 
-#include "crosscheck/scene_file.hpp"
-#include "crosscheck/trace/seal.hpp"
-#include "crosscheck/trace/trace_writer.hpp"
+#include "crosscheck/record/seal.hpp"
+#include "crosscheck/record/trace_writer.hpp"
+#include "crosscheck/scene/scene_file.hpp"
 #include "reference/model/error.hpp"
 #include "reference/simulation.hpp"
 #include "tests/temporary_folder.hpp"

@@ -3,7 +3,7 @@
 #include <functional>
 #include <string>
 
-#include "crosscheck/trace/trace_info.hpp"
+#include "crosscheck/record/trace_info.hpp"
 #include "reference/model/image.hpp"
 #include "reference/model/particles.hpp"
 

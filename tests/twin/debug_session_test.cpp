@@ -5,7 +5,7 @@
 
 #include <catch2/catch.hpp>
 
-#include "crosscheck/debug_session.hpp"
+#include "crosscheck/report/debug_session.hpp"
 #include "reference/model/error.hpp"
 #include "tests/planted_shader.hpp"
 #include "tests/twin/llvmpipe.hpp"

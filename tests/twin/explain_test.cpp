@@ -5,9 +5,9 @@
 #include <catch2/catch.hpp>
 #include <fmt/format.h>
 
-#include "crosscheck/explain_text.hpp"
-#include "crosscheck/frame_run.hpp"
-#include "crosscheck/step_table.hpp"
+#include "crosscheck/judge/frame_run.hpp"
+#include "crosscheck/judge/step_table.hpp"
+#include "crosscheck/report/explain_text.hpp"
 #include "reference/model/same_bits.hpp"
 #include "tests/planted_shader.hpp"
 #include "tests/twin/llvmpipe.hpp"

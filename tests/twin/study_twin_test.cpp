@@ -1,7 +1,7 @@
 #include <catch2/catch.hpp>
 
-#include "crosscheck/study.hpp"
-#include "crosscheck/study_report.hpp"
+#include "crosscheck/study/study.hpp"
+#include "crosscheck/study/study_report.hpp"
 #include "tests/twin/llvmpipe.hpp"
 #include "tests/twin/twin_scenes.hpp"
 

@@ -1,6 +1,6 @@
 #include "tests/twin/twin_scenes.hpp"
 
-#include "crosscheck/surface.hpp"
+#include "crosscheck/scene/surface.hpp"
 #include "tests/twin/random_scenes.hpp"
 
 namespace lockstep::test {

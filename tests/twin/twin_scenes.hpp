@@ -1,7 +1,7 @@
 #pragma once
 #include <cstddef>
 
-#include "crosscheck/check.hpp"
+#include "crosscheck/judge/check.hpp"
 #include "gpu/simulation.hpp"
 #include "reference/model/scene.hpp"
 

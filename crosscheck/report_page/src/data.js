@@ -1,4 +1,4 @@
-// What the program put into the page: a JSON head, and binary blobs as base64 of zlib streams (crosscheck/page/).
+// What the program put into the page: a JSON head, and binary blobs as base64 of zlib streams (crosscheck/report/page/).
 
 export function readHead() {
   return JSON.parse(document.getElementById("lockstep-head").textContent);
@@ -29,7 +29,7 @@ export async function jsonBlob(name) {
   return JSON.parse(new TextDecoder().decode(await blob(name)));
 }
 
-// Reads bytes as crosscheck/page/blob.hpp writes them.
+// Reads bytes as crosscheck/report/page/blob.hpp writes them.
 export class Reader {
   constructor(bytes) {
     this.data = bytes;

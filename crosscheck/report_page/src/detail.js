@@ -1,4 +1,4 @@
-// Exact values of a frame's texels and particles; layout: crosscheck/page/frame_blobs.hpp, detail_blob.
+// Exact values of a frame's texels and particles; layout: crosscheck/report/page/frame_blobs.hpp, detail_blob.
 import { blob, Reader, readHead } from "./data.js";
 import { componentNames } from "./schema.js";
 

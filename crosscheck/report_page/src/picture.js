@@ -1,4 +1,4 @@
-// A frame's CDT of both sides in 63 shades a component; layout: crosscheck/page/frame_blobs.hpp, picture_blob.
+// A frame's CDT of both sides in 63 shades a component; layout: crosscheck/report/page/frame_blobs.hpp, picture_blob.
 import { blob, Reader } from "./data.js";
 
 export const CLASS_NAMES = ["rounding", "tie", "undefined", "divergent", "not judged", "same"];

@@ -20,10 +20,10 @@
 #include <string_view>
 #include <vector>
 
-#include "crosscheck/check.hpp"
-#include "crosscheck/legal.hpp"
-#include "crosscheck/report.hpp"
-#include "crosscheck/scene_file.hpp"
+#include "crosscheck/judge/check.hpp"
+#include "crosscheck/judge/legal.hpp"
+#include "crosscheck/report/report.hpp"
+#include "crosscheck/scene/scene_file.hpp"
 #include "gpu/context.hpp"
 #include "gpu/data_folder.hpp"
 #include "gpu/gpu_side.hpp"

@@ -1,4 +1,4 @@
-// What crosscheck/page/live_scene.cpp put into the page, ready to run.
+// What crosscheck/report/page/live_scene.cpp put into the page, ready to run.
 import { Reader } from "../data.js";
 
 const floats = (words) => new Float32Array(words.buffer);

@@ -1,0 +1,169 @@
+#include <algorithm>
+#include <chrono>
+#include <memory>
+#include <vector>
+
+#include <fmt/format.h>
+#include <sys/resource.h>
+
+#include "crosscheck/cli/commands.hpp"
+#include "crosscheck/cli/judging_options.hpp"
+#include "crosscheck/cli/option_values.hpp"
+#include "crosscheck/cli/run_options.hpp"
+#include "crosscheck/judge/check.hpp"
+#include "crosscheck/report/report.hpp"
+#include "crosscheck/scene/profiles.hpp"
+#include "crosscheck/scene/scene_constants.hpp"
+#include "crosscheck/scene/scene_file.hpp"
+#include "crosscheck/study/statistics.hpp"
+#include "gpu/context.hpp"
+#include "gpu/simulation.hpp"
+#include "reference/model/error.hpp"
+#include "reference/model/layered_cdt.hpp"
+#include "reference/model/state_hash.hpp"
+
+namespace lockstep {
+namespace {
+
+struct Options {
+    RunOptions run;
+    std::vector<std::size_t> counts{50000, 100000, 150000, 200000};
+    std::vector<int> radii{1, 4};
+    int warm_up = 3;
+    Legal legal = Legal::measured;
+    PassRules rules;
+};
+
+double now() { return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count(); }
+
+/// Seconds a frame, medians over the run.
+struct Timing {
+    double gl = 0.0;        ///< GL frames alone, without any check, to glFinish
+    double timer = 0.0;     ///< the same by the GPU's own clock (GL_TIME_ELAPSED)
+    double check = 0.0;     ///< the whole of a checked frame
+    double reference = 0.0; ///< the reference's share of it
+    CheckReport report;
+};
+
+/// GL frames from the scene's start, without any check.
+void time_alone(GpuSimulation& gpu, const Scene& scene, int frames, std::vector<double>& wall,
+                std::vector<double>& timer) {
+    gpu.upload(scene.start, empty_cdt(scene));
+    for (int frame = 0; frame < frames; ++frame) {
+        const FrameParams params = frame_params(scene, frame);
+        const double start = now();
+        gpu.step(params);
+        wall.push_back(now() - start);
+        timer.push_back(gpu.frame_seconds());
+    }
+}
+
+/// The GL frames alone run before and after the checked ones, so that a machine that warms up or slows down shows on
+/// both sides of the ratio.
+Timing time_run(const Scene& scene, const Profile& profile, const Options& options) {
+    GpuSimulation gpu(scene, options.run.shaders);
+    std::vector<double> alone, timer, checked, reference, ignored;
+    time_alone(gpu, scene, options.warm_up, ignored, ignored);
+    time_alone(gpu, scene, options.run.frames, alone, timer);
+    double last = 0.0;
+    CheckOptions check_options;
+    check_options.frames = options.run.frames;
+    check_options.repeated_frames = 0;
+    check_options.known = known_operations(options.legal, profile);
+    check_options.on_frame = [&](int) {
+        checked.push_back(now() - last);
+        last = now();
+    };
+    last = now();
+    Timing timing;
+    timing.report = check(scene, profile, gpu, check_options);
+    for (const FrameTimes& times : timing.report.times)
+        reference.push_back(times.reference);
+    time_alone(gpu, scene, options.run.frames, alone, timer);
+    timing.gl = median(alone);
+    timing.timer = median(timer);
+    timing.check = median(checked);
+    timing.reference = median(reference);
+    return timing;
+}
+
+std::size_t peak_bytes() {
+    rusage usage{};
+    getrusage(RUSAGE_SELF, &usage);
+    return static_cast<std::size_t>(usage.ru_maxrss) * 1024;
+}
+
+int run(const Options& options) {
+    static_cast<void>(
+        shaders_to_run(options.run, load(options.run))); // says what is wrong with the scene before the table begins
+    const Context context(parse_context_request(options.run.gl));
+    const Profile profile = measured_profile(context, options.run.shaders);
+    fmt::print("{}\n{} frames each, median ms a frame; profile {}\n\n", summary(context.describe()), options.run.frames,
+               describe(profile));
+    fmt::print("{:>6} {:>9} {:>9} {:>9} {:>9} {:>9} {:>8} {:>8}  {:<16} {}\n", "radius", "particles", "GL", "GL timer",
+               "reference", "check", "GL/ref", "check/GL", "hash", "verdict");
+    int status = status_agree;
+    std::size_t largest = 0;
+    for (const int radius : options.radii) {
+        std::vector<double> gl, reference;
+        for (const std::size_t count : options.counts) {
+            RunOptions run = options.run;
+            run.particles = count;
+            run.set.push_back(fmt::format("texel_collide_range={}", radius));
+            const Timing t = time_run(load(run), profile, options);
+            fmt::print("{:>6} {:>9} {:>9.3f} {:>9.3f} {:>9.3f} {:>9.3f} {:>7.2f}x {:>7.2f}x  {} {}\n", radius, count,
+                       t.gl * 1e3, t.timer * 1e3, t.reference * 1e3, t.check * 1e3, t.gl / t.reference, t.check / t.gl,
+                       hash_text(t.report.gpu_hash), verdict_words(t.report));
+            std::fflush(stdout);
+            if (!passes(t.report, options.rules))
+                status = status_differ;
+            gl.push_back(t.gl);
+            reference.push_back(t.reference);
+            largest = std::max(largest, count);
+        }
+        if (options.counts.size() > 1)
+            fmt::print("       time ~ particles^{:.2f} (GL), ^{:.2f} (reference)\n",
+                       fitted_exponent(options.counts, gl), fitted_exponent(options.counts, reference));
+    }
+    fmt::print("peak memory {:.0f} MiB, {:.0f} bytes a particle at {} particles\n",
+               static_cast<double>(peak_bytes()) / 1048576.0,
+               static_cast<double>(peak_bytes()) / static_cast<double>(largest), largest);
+    return status;
+}
+
+} // namespace
+
+void add_bench_command(CLI::App& app, int& status) {
+    auto options = std::make_shared<Options>();
+    CLI::App* verb = app.add_subcommand("bench", "time GL frames, reference and check in one run, with the state hash");
+    add_scene_options(*verb, options->run);
+    add_gl_options(*verb, options->run);
+    options->run.frames = 30;
+    verb->add_option("--frames", options->run.frames, "frames a measurement")
+        ->check(integer(1, 1'000'000))
+        ->type_name("N");
+    verb->add_option("--counts", options->counts, "particle counts")
+        ->delimiter(',')
+        ->allow_extra_args(false)
+        ->check(integer(1, most_particles))
+        ->type_name("N,...");
+    verb->add_option("--warm-up", options->warm_up, "frames run before the measured ones")
+        ->check(integer(0, 10'000))
+        ->type_name("N");
+    verb->add_option("--radius", options->radii, "neighbourhood radii, texels")
+        ->delimiter(',')
+        ->allow_extra_args(false)
+        ->check(integer(0, widest_neighbourhood))
+        ->type_name("R,...");
+    add_legal_option(*verb, options->legal);
+    add_pass_options(*verb, options->rules);
+    verb->footer("Exit status: as lockstep check's, 1 where a row does not pass.\n"
+                 "Example: lockstep bench data/scenes/lattice.json --counts 50000,200000 --radius 1");
+    verb->callback([options, verb, &status] {
+        if (verb->count("--particles") > 0)
+            throw Error("bench: --particles does not go with it; --counts N,... names how many");
+        status = run(*options);
+    });
+}
+
+} // namespace lockstep

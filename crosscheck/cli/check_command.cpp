@@ -1,0 +1,378 @@
+#include <algorithm>
+#include <array>
+#include <cstdint>
+#include <cstdio>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include <fmt/format.h>
+
+#include "crosscheck/cli/commands.hpp"
+#include "crosscheck/cli/judging_options.hpp"
+#include "crosscheck/cli/option_values.hpp"
+#include "crosscheck/cli/run_options.hpp"
+#include "crosscheck/files/json_text.hpp"
+#include "crosscheck/files/output_files.hpp"
+#include "crosscheck/files/plain_text.hpp"
+#include "crosscheck/files/shell_words.hpp"
+#include "crosscheck/files/signals.hpp"
+#include "crosscheck/files/threads.hpp"
+#include "crosscheck/judge/check.hpp"
+#include "crosscheck/judge/side_state.hpp"
+#include "crosscheck/record/capsule_json.hpp"
+#include "crosscheck/record/trace_side.hpp"
+#include "crosscheck/report/frame_images.hpp"
+#include "crosscheck/report/hash_file.hpp"
+#include "crosscheck/report/page/explained.hpp"
+#include "crosscheck/report/page/report_page.hpp"
+#include "crosscheck/report/page/study_results.hpp"
+#include "crosscheck/report/page/template.hpp"
+#include "crosscheck/report/places.hpp"
+#include "crosscheck/report/progress.hpp"
+#include "crosscheck/report/report.hpp"
+#include "crosscheck/scene/profiles.hpp"
+#include "crosscheck/scene/run_text.hpp"
+#include "gpu/context.hpp"
+#include "gpu/simulation.hpp"
+#include "reference/model/error.hpp"
+#include "reference/model/layered_cdt.hpp"
+
+namespace lockstep {
+namespace {
+
+struct Options {
+    RunOptions run;
+    std::filesystem::path trace; ///< instead of a scene and GL
+    bool frames_given = false;
+    CheckMode mode = CheckMode::resync;
+    std::filesystem::path json, images, hashes, report;
+    Legal legal = Legal::measured;
+    PassRules rules;
+    bool render = false;
+    bool quiet = false;
+};
+
+std::string repeat_line(const Options& options, int frames) {
+    std::string line = options.trace.empty()
+                           ? command_line("check", options.run, frames)
+                           : fmt::format("lockstep check --trace {} --frames {}", shell_path(options.trace), frames);
+    if (options.mode == CheckMode::free)
+        line += " --mode free";
+    line += legal_option_text(options.legal);
+    return line + pass_options_text(options.rules) + (options.render ? " --render" : "");
+}
+
+std::string explain_line(const Options& options, const Place& place, int width) {
+    const std::string at = place_arguments(place, width);
+    return (options.trace.empty() ? command_line("explain", options.run, at)
+                                  : fmt::format("lockstep explain --trace {} {}", shell_path(options.trace), at)) +
+           legal_option_text(options.legal);
+}
+
+constexpr std::array<std::string_view, 2> report_files{"report.html", "capsule.json"};
+
+void expect_files(const Options& options, OutputFiles& files) {
+    protect_inputs(options.run, files);
+    files.protect(options.trace);
+    if (!options.images.empty())
+        files.expect_folder(options.images, FrameImages::names);
+    if (!options.report.empty()) {
+        files.protect(options.report / study_results_name);
+        files.expect_folder(options.report, report_files);
+    }
+    if (!options.json.empty())
+        files.expect(options.json);
+    if (!options.hashes.empty())
+        files.expect(options.hashes);
+}
+
+std::vector<PageCommand> page_commands(const Options& options, const RunDescription& run, const CheckReport& report) {
+    std::vector<PageCommand> commands{{"This run", repeat_line(options, report.frames)}};
+    if (report.first_frame && *report.first_frame + 1 < report.frames)
+        commands.push_back({"Up to the first frame that differs", run.repeat});
+    if (!run.explain.empty()) {
+        commands.push_back({"The first divergence, step by step", run.explain});
+        if (options.trace.empty())
+            commands.push_back({"The same, walked through by commands", command_line("debug", options.run, "")});
+    }
+    return commands;
+}
+
+/// What is checked: a scene on this machine's GL, or a recorded run.
+struct Checked {
+    const Scene& scene;
+    const Profile& profile;
+    GpuSide& gpu;
+    KnownOperations known;
+    std::string file;     ///< the scene's, or the trace's
+    std::string context;  ///< renderer, version
+    std::string settings; ///< preset and changed switches
+    std::vector<std::string> notes;
+    std::optional<ShaderUse> shaders; ///< not set: recorded elsewhere
+};
+
+/// The first divergent particle's step, for a file.
+struct FirstCapsule {
+    std::string file;    ///< empty where there is none
+    std::string missing; ///< why it could not be made; empty: it could, or nothing is divergent
+};
+
+FirstCapsule first_capsule(const Checked& checked, FrameRun& frames, const std::vector<PageItem>& items) {
+    const auto first = std::find_if(items.begin(), items.end(), [](const PageItem& item) {
+        return !item.texel && item.kind == static_cast<std::uint8_t>(DifferenceClass::divergent);
+    });
+    if (first == items.end())
+        return {};
+    frames.go_to(first->frame);
+    try {
+        return {capsule_file(cut_capsule(frames.judged(), {checked.scene, checked.context, checked.settings,
+                                                           first->frame, first->index, frames.capture(first->index)})),
+                ""};
+    } catch (const Error& error) {
+        return {"", fmt::format("no capsule of the first divergent particle: {}", error.what())};
+    }
+}
+
+/// What a second run of the GPU, or of what was recorded of it, tells of the items that the page lists.
+struct SecondLook {
+    std::vector<ExplainedItem> items;
+    FirstCapsule capsule;
+};
+
+SecondLook look_again(const Options& options, const Checked& checked, const std::vector<PageItem>& items) {
+    std::optional<FrameRun> frames;
+    const Scene& scene = checked.scene;
+    if (scene.switches.search == Search::cdt && !has_remedies(scene.switches) && !items.empty()) {
+        if (options.trace.empty())
+            frames.emplace(scene, checked.profile, checked.known, options.run.shaders);
+        else
+            frames.emplace(scene, checked.profile, checked.known, checked.gpu);
+    }
+    SecondLook look;
+    if (frames)
+        look.capsule = first_capsule(checked, *frames, items);
+    for (const PageItem& item : items)
+        look.items.push_back({item, explain_line(options, {item.frame, item.texel, item.index}, scene.width),
+                              frames ? explained(*frames, item) : nlohmann::json()});
+    return look;
+}
+
+RunDescription description(const Options& options, const Checked& checked, const CheckReport& report) {
+    const bool free = options.mode == CheckMode::free;
+    const int repeat_frames = report.first_frame ? *report.first_frame + 1 : report.frames;
+    return {fmt::format("{} ({})", checked.scene.name, plain_line(checked.file)),
+            checked.context,
+            describe(checked.profile),
+            checked.settings,
+            free ? "free" : "resync",
+            checked.scene.width,
+            repeat_line(options, repeat_frames),
+            report.verdicts && report.verdicts->first
+                ? explain_line(options, report.verdicts->first->place, checked.scene.width)
+                : std::string(),
+            checked.notes,
+            checked.shaders,
+            "not in the recording",
+            {},
+            checked.shaders ? " (--render compares it)" : ": no picture is in a recording"};
+}
+
+/// The last frame, where pictures are asked for.
+std::optional<RenderComparison> rendered(const Options& options, const Checked& checked, const CheckReport& report) {
+    if (!checked.shaders || (!options.render && options.images.empty()))
+        return {};
+    Particles last;
+    read_side(checked.gpu, checked.scene, last);
+    return compare_rendered(last, checked.scene, report.frames - 1, checked.profile, options.run.shaders);
+}
+
+int check_and_tell(const Options& options, OutputFiles& files, const Checked& checked) {
+    const std::string page = options.report.empty() ? std::string() : report_page_template();
+    const nlohmann::json study = options.report.empty() ? nlohmann::json() : study_results(options.report);
+    HashFile hashes;
+    FrameImages images;
+    CheckOptions check_options;
+    check_options.mode = options.mode;
+    check_options.frames = options.run.frames;
+    check_options.stop = &interrupted;
+    check_options.known = checked.known;
+    std::optional<PageCollector> collector;
+    if (!options.report.empty())
+        collector.emplace(checked.scene, checked.profile, options.mode, options.run.frames);
+    if (!options.hashes.empty() || !options.images.empty() || collector)
+        check_options.on_state = [&](const ComparedFrame& frame) {
+            if (!options.hashes.empty())
+                hashes.add(frame);
+            if (!options.images.empty())
+                images.keep(frame);
+            if (collector)
+                collector->add(frame);
+        };
+    int frames_done = 0;
+    const auto run_both = [&] {
+        const InterruptHandler handler;
+        Progress progress("check", options.run.frames, !options.quiet);
+        check_options.on_frame = [&](int done) { progress.show(frames_done = done); };
+        return check(checked.scene, checked.profile, checked.gpu, check_options);
+    };
+    std::optional<CheckReport> compared;
+    try {
+        compared = run_both();
+    } catch (const Error& error) {
+        if (!interrupted || frames_done > 0)
+            throw;
+        fmt::print(stderr, "lockstep: interrupted: {}\n", error.what());
+        return status_interrupted;
+    }
+    CheckReport& report = *compared;
+
+    RunDescription run = description(options, checked, report);
+    run.rendered = rendered(options, checked, report);
+    if (run.rendered && run.rendered->differing > 0)
+        report.untried.emplace_back("the rendered frame differs");
+    if (run.rendered && run.rendered->of_particles == 0)
+        report.untried.emplace_back("the rendered frame shows no particle");
+    if (!options.quiet) {
+        if (report.partial())
+            fmt::print("interrupted after {} of {} frames\n", report.frames, options.run.frames);
+        fmt::print("{}", plain_text(report_text(report, run)));
+        std::fflush(stdout);
+    }
+    if (collector) {
+        const SecondLook look = look_again(options, checked, collector->frames().items());
+        std::vector<PageCommand> commands = page_commands(options, run, report);
+        if (!look.capsule.missing.empty()) {
+            fmt::print(stderr, "lockstep: {}\n", look.capsule.missing);
+            run.notes.push_back(look.capsule.missing);
+        }
+        if (!look.capsule.file.empty()) {
+            files.write(options.report / report_files[1], look.capsule.file);
+            commands.push_back({"The first divergent particle's step, from the file beside this page; needs no GL",
+                                fmt::format("lockstep capsule show {}", shell_path(options.report / report_files[1]))});
+        }
+        files.write(options.report / report_files[0],
+                    report_page(page, *collector, report, run, commands, look.items, study));
+    }
+    if (!options.json.empty())
+        files.write(options.json, json_text(report_json(report, run)));
+    if (!options.hashes.empty())
+        files.write(options.hashes, hashes.text());
+    if (!options.images.empty())
+        images.write(files, options.images, checked.scene, checked.profile, options.run.shaders);
+    files.commit();
+    if (report.partial())
+        return status_interrupted;
+    const bool render_passes = !options.render || run.rendered->differing == 0;
+    return passes(report, options.rules) && render_passes ? status_agree : status_differ;
+}
+
+int run_scene(const Options& options) {
+    const Scene scene = load(options.run);
+    OutputFiles files;
+    expect_files(options, files);
+    ShaderUse shaders = shaders_to_run(options.run, scene, options.render || !options.images.empty());
+    const Context context(parse_context_request(options.run.gl));
+    const Profile profile = measured_profile(context, options.run.shaders);
+    GpuSimulation gpu(scene, options.run.shaders);
+    return check_and_tell(options, files,
+                          {scene,
+                           profile,
+                           gpu,
+                           known_operations(options.legal, profile),
+                           options.run.scene.string(),
+                           summary(context.describe()),
+                           settings_text(options.run, scene),
+                           {},
+                           std::move(shaders)});
+}
+
+int run_trace(Options options) {
+    start_threads(options.run.threads);
+    OutputFiles files;
+    expect_files(options, files);
+    TraceReader trace(options.trace);
+    const TraceInfo& info = trace.info();
+    if (!options.frames_given)
+        options.run.frames = info.frames;
+    if (options.run.frames > info.frames)
+        throw Error(fmt::format("--frames {}: {} holds {} frames", options.run.frames, info.file, info.frames));
+    const Profile profile = followed_profile(info);
+    std::vector<std::string> notes = notes_on(info);
+    if (options.run.frames < info.frames)
+        notes.push_back(fmt::format("{} of the {} frames recorded were compared", options.run.frames, info.frames));
+    TraceSide recorded(trace);
+    return check_and_tell(options, files,
+                          {info.scene,
+                           profile,
+                           recorded,
+                           known_operations(info, options.legal),
+                           info.file,
+                           fmt::format("recorded: {}", info.renderer.empty() ? "untold" : info.renderer),
+                           info.settings.empty() ? "untold" : info.settings,
+                           std::move(notes),
+                           {}});
+}
+
+} // namespace
+
+void add_report_command(CLI::App& app, int& status) {
+    auto options = std::make_shared<Options>();
+    options->report = ".";
+    CLI::App* verb = app.add_subcommand("report", "check a recorded run, and write report.html about it");
+    verb->add_option("trace", options->trace, "what `lockstep record` wrote, or an engine of your own (docs/traces.md)")
+        ->required()
+        ->type_name("FILE");
+    verb->add_option("-o,--output", options->report, "where report.html goes; else here")->type_name("DIR");
+    verb->add_option("--frames", options->run.frames, "frames to compare; else all")
+        ->check(integer(1, most_frames))
+        ->type_name("N");
+    add_threads_option(*verb, options->run);
+    add_legal_option(*verb, options->legal);
+    add_pass_options(*verb, options->rules);
+    verb->add_flag("--quiet", options->quiet, "the page alone, and the exit status");
+    verb->footer("Exit status: as lockstep check --trace FILE --report DIR, which does the same.\n"
+                 "Example: lockstep report run.h5 -o pages");
+    verb->callback([options, verb, &status] {
+        options->frames_given = verb->get_option("--frames")->count() > 0;
+        status = run_trace(*options);
+    });
+}
+
+void add_check_command(CLI::App& app, int& status) {
+    auto options = std::make_shared<Options>();
+    CLI::App* verb = app.add_subcommand("check", "run both sides and compare every bit of every frame");
+    add_scene_options(*verb, options->run);
+    add_gl_options(*verb, options->run);
+    add_trace_option(*verb, options->trace);
+    verb->add_option("--frames", options->run.frames, "frames to compare; of a trace: all")
+        ->check(integer(1, most_frames))
+        ->type_name("N");
+    add_choice<CheckMode>(*verb, "--mode", options->mode, {{"resync", CheckMode::resync}, {"free", CheckMode::free}},
+                          "resync: each frame's step alone; free: both run on by themselves");
+    add_legal_option(*verb, options->legal);
+    add_pass_options(*verb, options->rules);
+    verb->add_option("--json", options->json, "write the report as JSON")->type_name("FILE");
+    verb->add_option("--hashes", options->hashes, "write both sides' state hash of every frame")->type_name("FILE");
+    verb->add_option("--images", options->images,
+                     "write CDT and rendered frame of both sides, and their difference, as PNG")
+        ->type_name("DIR");
+    verb->add_option("--report", options->report,
+                     "write report.html, a page that opens in any browser; with what study.json there says")
+        ->type_name("DIR");
+    verb->add_flag("--render", options->render, "compare the rendered frame, too, the last one; fail where it differs");
+    verb->add_flag("--quiet", options->quiet, "no report, only the exit status");
+    verb->footer(
+        "Exit status: 0 every bit agrees, or what differs is legal (rounding, ties); 1 divergent, undefined "
+        "without --allow-undefined, any difference in free mode, or no hit with --require-hits; 2 could not run; "
+        "130 ended by Ctrl-C, with a verdict on the frames before.\n"
+        "Example: lockstep check data/scenes/lattice.json --frames 100 --preset paper");
+    verb->callback([options, verb, &status] {
+        check_scene_or_trace(*verb, options->run, options->trace);
+        options->frames_given = verb->get_option("--frames")->count() > 0;
+        status = options->trace.empty() ? run_scene(*options) : run_trace(*options);
+    });
+}
+
+} // namespace lockstep

@@ -1,0 +1,106 @@
+#include <filesystem>
+#include <memory>
+#include <optional>
+#include <string>
+
+#include <fmt/format.h>
+
+#include "crosscheck/cli/commands.hpp"
+#include "crosscheck/cli/judging_options.hpp"
+#include "crosscheck/cli/option_values.hpp"
+#include "crosscheck/cli/run_options.hpp"
+#include "crosscheck/files/plain_text.hpp"
+#include "crosscheck/files/threads.hpp"
+#include "crosscheck/judge/frame_run.hpp"
+#include "crosscheck/record/trace_side.hpp"
+#include "crosscheck/report/explain_text.hpp"
+#include "crosscheck/report/places.hpp"
+#include "crosscheck/scene/profiles.hpp"
+#include "gpu/context.hpp"
+#include "reference/model/error.hpp"
+
+namespace lockstep {
+namespace {
+
+struct Options {
+    RunOptions run;
+    int frame = 0;
+    std::filesystem::path trace; ///< instead of a scene and GL
+    std::optional<std::string> particle, texel;
+    Legal legal = Legal::measured;
+    bool hexadecimal = false;
+};
+
+std::size_t item_of(const Options& options, const Scene& scene) {
+    return options.particle ? particle_named(*options.particle, scene) : texel_named(*options.texel, scene);
+}
+
+void tell(const Options& options, FrameRun& frames, const std::string& file, const std::string& settings,
+          const std::string& renderer) {
+    const Scene& scene = frames.scene();
+    const std::size_t item = item_of(options, scene);
+    frames.go_to(options.frame);
+    const NumberFormat format = options.hexadecimal ? NumberFormat::hexadecimal : NumberFormat::decimal;
+    fmt::print("scene     {} ({})\nswitches  {}\nGL        {}\nprofile   {}\n\n", scene.name, plain_line(file),
+               settings, plain_line(renderer), describe(frames.profile()));
+    fmt::print(
+        "{}", plain_text(options.texel ? explain_texel(frames, item, format) : explain_particle(frames, item, format)));
+}
+
+void explain_scene(const Options& options) {
+    const Scene scene = load(options.run);
+    static_cast<void>(shaders_to_run(options.run, scene));
+    item_of(options, scene);
+    const Context context(parse_context_request(options.run.gl));
+    const Profile profile = measured_profile(context, options.run.shaders);
+    FrameRun frames(scene, profile, known_operations(options.legal, profile), options.run.shaders);
+    tell(options, frames, options.run.scene.string(), settings_text(options.run, scene), summary(context.describe()));
+}
+
+void explain_trace(const Options& options) {
+    start_threads(options.run.threads);
+    TraceReader trace(options.trace);
+    const TraceInfo& info = trace.info();
+    item_of(options, info.scene);
+    if (options.frame >= info.frames)
+        throw Error(fmt::format("--frame {}: {} holds frames 0 to {}", options.frame, info.file, info.frames - 1));
+    TraceSide recorded(trace);
+    FrameRun frames(info.scene, followed_profile(info), known_operations(info, options.legal), recorded);
+    tell(options, frames, info.file, info.settings.empty() ? "untold" : info.settings,
+         fmt::format("recorded: {}", info.renderer.empty() ? "untold" : info.renderer));
+}
+
+int run(const Options& options, const CLI::App& verb) {
+    if (options.particle.has_value() == options.texel.has_value())
+        throw Error("explain: either --particle I or --texel X,Y is needed");
+    check_scene_or_trace(verb, options.run, options.trace);
+    if (options.trace.empty())
+        explain_scene(options);
+    else
+        explain_trace(options);
+    return status_agree;
+}
+
+} // namespace
+
+void add_explain_command(CLI::App& app, int& status) {
+    auto options = std::make_shared<Options>();
+    CLI::App* verb = app.add_subcommand("explain", "both sides of one particle or texel in one frame, step by step");
+    add_scene_options(*verb, options->run);
+    add_gl_options(*verb, options->run);
+    add_trace_option(*verb, options->trace);
+    verb->add_option("--frame", options->frame, "the frame, counted from 0")
+        ->required()
+        ->check(integer(0, most_frames))
+        ->type_name("F");
+    verb->add_option("--particle", options->particle, "the particle")->type_name("I");
+    verb->add_option("--texel", options->texel, "the texel of the CDT, column and row from the bottom left")
+        ->type_name("X,Y");
+    add_legal_option(*verb, options->legal);
+    verb->add_flag("--hex", options->hexadecimal, "hexadecimal floats instead of decimal ones");
+    verb->footer("Exit status: 0 told, 2 could not run.\n"
+                 "Example: lockstep explain data/scenes/lattice.json --frame 30 --particle 17");
+    verb->callback([options, verb, &status] { status = run(*options, *verb); });
+}
+
+} // namespace lockstep

@@ -1,0 +1,48 @@
+#include <memory>
+#include <string>
+
+#include <fmt/format.h>
+
+#include "crosscheck/cli/commands.hpp"
+#include "crosscheck/cli/option_values.hpp"
+#include "crosscheck/cli/run_options.hpp"
+#include "reference/model/collision_state.hpp"
+#include "reference/model/profile.hpp"
+#include "reference/model/state_hash.hpp"
+#include "reference/simulation.hpp"
+
+namespace lockstep {
+namespace {
+
+struct Options {
+    RunOptions run;
+    std::string profile = "strict";
+    bool every = false;
+};
+
+int run(const Options& options) {
+    const Scene scene = load(options.run);
+    ReferenceSimulation reference(scene, named_profile(options.profile));
+    for (int frame = 0; frame < options.run.frames; ++frame) {
+        reference.step(frame_params(scene, frame));
+        if (options.every || frame + 1 == options.run.frames)
+            fmt::print("{} {}\n", frame, hash_text(state_hash(reference.particles(), reference.cdt())));
+    }
+    return status_agree;
+}
+
+} // namespace
+
+void add_hash_command(CLI::App& app, int& status) {
+    auto options = std::make_shared<Options>();
+    CLI::App* verb = app.add_subcommand("hash", "run the reference alone and print its state hash; needs no GL");
+    add_scene_options(*verb, options->run);
+    verb->add_option("--frames", options->run.frames, "frames to run")->check(integer(1, most_frames))->type_name("N");
+    verb->add_option("--profile", options->profile, "strict, llvmpipe or nvidia: the order of sums")
+        ->type_name("strict|llvmpipe|nvidia");
+    verb->add_flag("--every", options->every, "print every frame's hash, not only the last");
+    verb->footer("Example: lockstep hash data/scenes/lattice.json --frames 1000 --preset exact");
+    verb->callback([options, &status] { status = run(*options); });
+}
+
+} // namespace lockstep

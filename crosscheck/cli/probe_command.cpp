@@ -1,0 +1,56 @@
+#include <filesystem>
+#include <memory>
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include "crosscheck/cli/commands.hpp"
+#include "crosscheck/cli/option_values.hpp"
+#include "crosscheck/cli/run_options.hpp"
+#include "crosscheck/files/output_files.hpp"
+#include "crosscheck/report/probe_table.hpp"
+#include "crosscheck/scene/profiles.hpp"
+#include "gpu/probe.hpp"
+
+namespace lockstep {
+namespace {
+
+struct Options {
+    RunOptions run;
+    ProbeOptions probe;
+    std::filesystem::path json;
+};
+
+int run(const Options& options) {
+    OutputFiles files;
+    if (!options.json.empty())
+        files.expect(options.json);
+    const Context context(parse_context_request(options.run.gl));
+    const ProbeResult result = probe(context, options.probe);
+    const std::string profile = describe(profile_from(result));
+    if (!options.json.empty()) {
+        nlohmann::json json = result;
+        json["profile"] = profile;
+        files.write(options.json, json.dump(1) + "\n");
+    }
+    fmt::print("{}\nprofile {}\n", probe_table(result), profile);
+    files.commit();
+    return status_agree;
+}
+
+} // namespace
+
+void add_probe_command(CLI::App& app, int& status) {
+    auto options = std::make_shared<Options>();
+    CLI::App* verb = app.add_subcommand("probe", "measure the arithmetic and the rasterisation of a GL driver");
+    verb->add_option("--gl", options->run.gl, "which GL to open")->type_name("auto|osmesa|egl|egl-device:N");
+    verb->add_option("--json", options->json, "write the measurements as JSON")->type_name("FILE");
+    verb->add_option("--inputs", options->probe.inputs, "random inputs an arithmetic row")
+        ->check(integer(64, 1 << 22))
+        ->type_name("N");
+    verb->footer("Exit status: 0 measured, 2 could not run.\n"
+                 "Example: lockstep probe --gl egl-device:0 --json probe.json");
+    verb->callback([options, &status] { status = run(*options); });
+}
+
+} // namespace lockstep

@@ -1,0 +1,117 @@
+#include <filesystem>
+#include <memory>
+#include <optional>
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include "crosscheck/cli/commands.hpp"
+#include "crosscheck/cli/option_values.hpp"
+#include "crosscheck/cli/run_options.hpp"
+#include "crosscheck/files/plain_text.hpp"
+#include "crosscheck/judge/compare.hpp"
+#include "crosscheck/record/trace_writer.hpp"
+#include "crosscheck/report/progress.hpp"
+#include "crosscheck/report/verdict_text.hpp"
+#include "crosscheck/scene/profiles.hpp"
+#include "gpu/context.hpp"
+#include "gpu/simulation.hpp"
+#include "reference/model/collision_state.hpp"
+#include "reference/model/error.hpp"
+#include "reference/model/layered_cdt.hpp"
+
+namespace lockstep {
+namespace {
+
+struct Options {
+    RunOptions run;
+    std::filesystem::path output;
+    bool cdt = false;
+    int deflate = 1;
+};
+
+constexpr int repeated_frames = 2;
+
+/// As `check` does with its first frames: every buffer really written, and the same bits from the same state.
+void prove(GpuSimulation& gpu, const FrameParams& params, const Particles& particles, const CollisionImage& cdt,
+           int frame) {
+    gpu.find_canary(particles, cdt, frame);
+    gpu.repeat_step(params);
+    CollisionImage again;
+    gpu.read(again);
+    if (!gpu.holds(particles) || !compare(cdt, again).agree())
+        throw Error(fmt::format("the GPU gave two answers to frame {}, so nothing was recorded; lockstep check tells "
+                                "where they differ",
+                                frame));
+}
+
+TraceInfo info_of(const Options& options, Scene scene, const Context& context) {
+    const ProbeResult probed = probe(context);
+    TraceInfo info;
+    info.profile = measured_profile(probed, options.run.shaders);
+    info.renderer = summary(context.describe());
+    info.settings = settings_text(options.run, scene);
+    nlohmann::json measured = probed;
+    measured.erase("seconds"); // that it took: the same run is the same file
+    info.probe = measured.dump(1);
+    info.has_cdt = options.cdt;
+    info.scene = std::move(scene);
+    return info;
+}
+
+int run(const Options& options) {
+    Scene scene = load(options.run);
+    OutputFiles files;
+    protect_inputs(options.run, files);
+    files.expect(options.output);
+    static_cast<void>(shaders_to_run(options.run, scene));
+    const Context context(parse_context_request(options.run.gl));
+    GpuSimulation gpu(scene, options.run.shaders);
+    const TraceInfo info = info_of(options, std::move(scene), context);
+    TraceWriter writer(options.output, info, options.deflate);
+    Particles particles = info.scene.start;
+    CollisionImage cdt = empty_cdt(info.scene);
+    Progress progress("record", options.run.frames, true);
+    for (int frame = 0; frame < options.run.frames; ++frame) {
+        const FrameParams params = frame_params(info.scene, frame);
+        const bool proved = frame < repeated_frames;
+        if (proved)
+            gpu.lay_canary();
+        gpu.step(params);
+        gpu.read(particles);
+        if (proved || options.cdt)
+            gpu.read(cdt);
+        if (proved)
+            prove(gpu, params, particles, cdt, frame);
+        writer.add(particles, options.cdt ? &cdt : nullptr);
+        progress.show(frame + 1);
+    }
+    writer.commit();
+    fmt::print("{}: {} particles, {} frames{}, {} bytes; {}\n", plain_line(options.output.string()),
+               grouped(info.scene.start.size()), options.run.frames, options.cdt ? " with the CDT" : "",
+               grouped(std::filesystem::file_size(options.output)), plain_line(info.renderer));
+    return status_agree;
+}
+
+} // namespace
+
+void add_record_command(CLI::App& app, int& status) {
+    auto options = std::make_shared<Options>();
+    CLI::App* verb =
+        app.add_subcommand("record", "write the GPU's states of a run to a file that is checked elsewhere");
+    add_scene_options(*verb, options->run);
+    add_gl_options(*verb, options->run);
+    verb->add_option("-o,--output", options->output, "the trace, H5MD")->required()->type_name("FILE");
+    verb->add_option("--frames", options->run.frames, "frames to record")
+        ->check(integer(1, most_frames))
+        ->type_name("N");
+    verb->add_flag("--cdt", options->cdt, "with the CDT of every frame");
+    verb->add_option("--deflate", options->deflate, "how hard to compress, 0 to 9")
+        ->check(integer(0, 9))
+        ->type_name("LEVEL");
+    verb->footer("Example: lockstep record data/scenes/lattice.json --gl egl-device:0 -o run.h5\n"
+                 "then, on another machine: lockstep check --trace run.h5");
+    verb->callback([options, &status] { status = run(*options); });
+}
+
+} // namespace lockstep

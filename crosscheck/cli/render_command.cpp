@@ -1,0 +1,94 @@
+#include <memory>
+#include <string_view>
+
+#include <fmt/format.h>
+
+#include "crosscheck/cli/commands.hpp"
+#include "crosscheck/cli/option_values.hpp"
+#include "crosscheck/cli/run_options.hpp"
+#include "crosscheck/files/output_files.hpp"
+#include "crosscheck/files/png.hpp"
+#include "crosscheck/report/frame_images.hpp"
+#include "crosscheck/report/progress.hpp"
+#include "crosscheck/scene/profiles.hpp"
+#include "gpu/context.hpp"
+#include "gpu/simulation.hpp"
+#include "reference/model/error.hpp"
+#include "reference/render_pass.hpp"
+#include "reference/simulation.hpp"
+
+namespace lockstep {
+namespace {
+
+enum class Side { cpu, gpu };
+
+struct Options {
+    RunOptions run;
+    int frame = 0;
+    Side side = Side::cpu;
+    std::filesystem::path output;
+    std::string profile = "strict";
+};
+
+ColorImage render_cpu(const Scene& scene, const Options& options) {
+    const Profile profile = named_profile(options.profile);
+    ReferenceSimulation reference(scene, profile);
+    Progress progress("render", options.frame + 1, true);
+    for (int frame = 0; frame <= options.frame; ++frame) {
+        reference.step(frame_params(scene, frame));
+        progress.show(frame + 1);
+    }
+    return render_pass(reference.particles(), scene.obstacles, frame_params(scene, options.frame), profile);
+}
+
+ColorImage render_gpu(const Scene& scene, const Options& options) {
+    static_cast<void>(shaders_to_run(options.run, scene, true));
+    const Context context(parse_context_request(options.run.gl));
+    GpuSimulation gpu(scene, options.run.shaders);
+    Progress progress("render", options.frame + 1, true);
+    for (int frame = 0; frame <= options.frame; ++frame) {
+        gpu.step(frame_params(scene, frame));
+        progress.show(frame + 1);
+    }
+    Particles particles;
+    gpu.read(particles);
+    return render_on_gpu(particles, scene, frame_params(scene, options.frame), options.run.shaders);
+}
+
+int run(const Options& options) {
+    const Scene scene = load(options.run);
+    OutputFiles files;
+    protect_inputs(options.run, files);
+    files.expect(options.output);
+    files.write(options.output,
+                png(options.side == Side::cpu ? render_cpu(scene, options) : render_gpu(scene, options)));
+    files.commit();
+    return status_agree;
+}
+
+} // namespace
+
+void add_render_command(CLI::App& app, int& status) {
+    auto options = std::make_shared<Options>();
+    CLI::App* verb = app.add_subcommand("render", "run one side to a frame and write its picture");
+    add_scene_options(*verb, options->run);
+    add_gl_options(*verb, options->run);
+    verb->add_option("--frame", options->frame, "the frame to picture, counted from 0")
+        ->check(integer(0, most_frames))
+        ->type_name("F");
+    verb->add_option("-o,--output", options->output, "PNG file to write")->required()->type_name("FILE");
+    add_choice<Side>(*verb, "--side", options->side, {{"cpu", Side::cpu}, {"gpu", Side::gpu}},
+                     "cpu: the reference, needs no GL; gpu: the shaders");
+    verb->add_option("--profile", options->profile, "strict, llvmpipe or nvidia: the reference's order of sums")
+        ->type_name("strict|llvmpipe|nvidia");
+    verb->footer("Example: lockstep render data/scenes/lattice.json --frame 120 -o lattice.png --side cpu");
+    verb->callback([options, verb, &status] {
+        const bool cpu = options->side == Side::cpu;
+        for (const char* name : {"--gl", "--shaders", "--profile"})
+            if (verb->count(name) > 0 && cpu != (name == std::string_view("--profile")))
+                throw Error(fmt::format("render: {} goes with --side {}", name, cpu ? "gpu" : "cpu"));
+        status = run(*options);
+    });
+}
+
+} // namespace lockstep

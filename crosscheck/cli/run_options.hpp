@@ -1,0 +1,59 @@
+#pragma once
+#include <cstddef>
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include <CLI/CLI.hpp>
+
+#include "crosscheck/files/output_files.hpp"
+#include "gpu/shader_use.hpp"
+#include "reference/model/scene.hpp"
+
+namespace lockstep {
+
+/// Frames a run may have.
+inline constexpr int most_frames = 100'000'000;
+
+/// The options that say what is run; every verb that runs a scene has them.
+struct RunOptions {
+    std::filesystem::path scene;
+    std::optional<std::size_t> particles;
+    std::optional<std::string> preset;
+    std::vector<std::string> set;
+    int frames = 60;
+    int threads = 0; ///< 0: one a core
+    std::string gl = "auto";
+    std::filesystem::path shaders; ///< looked into first; empty: only the shipped shaders
+    bool allow_unused = false;     ///< shaders may lie there that do not run
+};
+
+void add_scene_options(CLI::App& verb, RunOptions& options);
+void add_threads_option(CLI::App& verb, RunOptions& options);
+void add_gl_options(CLI::App& verb, RunOptions& options);
+
+/// --trace FILE instead of the scene, which is then no longer required. check_scene_or_trace throws Error unless one of
+/// both is given, or when an option stands there that only a run on this machine's GL has.
+void add_trace_option(CLI::App& verb, std::filesystem::path& trace);
+void check_scene_or_trace(const CLI::App& verb, const RunOptions& options, const std::filesystem::path& trace);
+
+/// Loads the scene and sets the thread count.
+Scene load(const RunOptions& options);
+
+/// What a run of these options reads is no output of it.
+void protect_inputs(const RunOptions& options, OutputFiles& files);
+
+/// Whose shaders will run. Throws Error like check_shader_use. `rendered`: the rendered frame is drawn, too.
+ShaderUse shaders_to_run(const RunOptions& options, const Scene& scene, bool rendered = false);
+
+/// The options as they would be typed again in a shell, with another frame count.
+std::string command_line(const std::string& verb, const RunOptions& options, int frames);
+
+/// The same with options of the verb's own ("--frame 3 --particle 7") instead.
+std::string command_line(const std::string& verb, const RunOptions& options, const std::string& place);
+
+/// "corrected, texel_collide_range=4"
+std::string settings_text(const RunOptions& options, const Scene& scene);
+
+} // namespace lockstep

@@ -1,0 +1,326 @@
+#include <filesystem>
+#include <memory>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include "crosscheck/cli/commands.hpp"
+#include "crosscheck/cli/option_values.hpp"
+#include "crosscheck/cli/run_options.hpp"
+#include "crosscheck/cli/thesis_study.hpp"
+#include "crosscheck/files/json_text.hpp"
+#include "crosscheck/files/output_files.hpp"
+#include "crosscheck/files/plain_text.hpp"
+#include "crosscheck/files/png.hpp"
+#include "crosscheck/files/threads.hpp"
+#include "crosscheck/report/progress.hpp"
+#include "crosscheck/scene/profiles.hpp"
+#include "crosscheck/scene/scene_file.hpp"
+#include "crosscheck/study/camera_experiments.hpp"
+#include "crosscheck/study/catalogue.hpp"
+#include "crosscheck/study/catalogue_pictures.hpp"
+#include "crosscheck/study/gnuplot.hpp"
+#include "crosscheck/study/recall_table.hpp"
+#include "crosscheck/study/remedy_table.hpp"
+#include "crosscheck/study/study.hpp"
+#include "crosscheck/study/study_pictures.hpp"
+#include "crosscheck/study/study_report.hpp"
+#include "gpu/context.hpp"
+#include "gpu/data_folder.hpp"
+#include "gpu/simulation.hpp"
+#include "reference/model/error.hpp"
+#include "reference/model/profile.hpp"
+
+namespace lockstep {
+namespace {
+
+enum class Side { cpu, gpu };
+
+struct Options {
+    RunOptions run;
+    int every = 1;
+    std::string profile = "strict";
+    std::filesystem::path csv, json, images, chart;
+    std::filesystem::path scenes; ///< empty: those that come with lockstep
+    bool recall_table = false;
+    bool catalogue = false;
+    bool cameras = false;
+    Side side = Side::cpu;
+    bool remedies = false;
+    bool gl_asked = false;
+    bool thesis = false;
+    ThesisStudy thesis_study;
+};
+
+void print_recall_table(const Options& options) {
+    fmt::print("{}", recall_table_head());
+    recall_table(options.scenes, [](const RecallRow& row) {
+        fmt::print("{}", recall_row_text(row));
+        std::fflush(stdout);
+    });
+    fmt::print("{}", recall_table_foot());
+}
+
+/// With --gl on that context, else recall alone.
+void print_remedies(const Options& options) {
+    const bool gl = options.gl_asked;
+    OutputFiles files;
+    if (!options.json.empty())
+        files.expect(options.json);
+    std::optional<Context> context;
+    if (gl)
+        context.emplace(parse_context_request(options.run.gl));
+    RemedyOptions remedies;
+    remedies.scenes = options.scenes;
+    remedies.shaders = options.run.shaders;
+    remedies.particles = options.run.particles.value_or(remedies.particles);
+    remedies.gl = gl;
+    remedies.profile = context ? measured_profile(*context) : named_profile(options.profile);
+    remedies.on_row = [](const RemedyRow& row) {
+        fmt::print("{}", remedy_text(row));
+        std::fflush(stdout);
+    };
+    const std::string where = context ? summary(context->describe()) : "no GL: recall alone; --gl measures the cost";
+    fmt::print("{}\n{} particles in a cube at rest, radius 4\n\n{}", where, remedies.particles, remedy_head());
+    const std::vector<RemedyRow> rows = remedy_table(remedies);
+    if (!options.json.empty())
+        files.write(options.json, json_text({{"gl", where}, {"rows", remedy_json(rows)}}));
+    files.commit();
+}
+
+/// Whether every effect is there.
+bool print_catalogue(const Options& options) {
+    const std::filesystem::path scenes = options.scenes / "catalogue";
+    OutputFiles files;
+    if (!options.images.empty())
+        files.expect_folder(options.images);
+    bool all = true;
+    fmt::print("{}", catalogue_head());
+    for (const std::string_view name : catalogue_names()) {
+        for (const CatalogueRow& row : measure_catalogue(name, scenes)) {
+            fmt::print("{}", catalogue_text(row));
+            all = all && row.holds();
+        }
+        if (!options.images.empty())
+            files.write(options.images / fmt::format("{}.png", name), png(catalogue_picture(name, scenes)));
+    }
+    files.commit();
+    if (!options.images.empty())
+        fmt::print("\npictures  {}: what the viewer sees, and the collision camera's texels: {}\n",
+                   options.images.string(), picture_legend());
+    return all;
+}
+
+void print_cameras(const Options& options, const Scene& scene, const Profile& profile) {
+    CameraOptions cameras;
+    cameras.frames = options.run.frames;
+    cameras.every = options.every;
+    cameras.on_row = [](const CameraRow& row) {
+        fmt::print("{}", camera_text(row));
+        std::fflush(stdout);
+    };
+    fmt::print("{}", camera_head());
+    camera_experiments(scene, profile, cameras);
+    fmt::print("\nHoles: of the particles in contact that the viewer sees, those that find no neighbour.\n");
+}
+
+void study_scene(const Options& options) {
+    const Scene scene = load(options.run);
+    if (scene.switches.search == Search::octree)
+        throw Error("study: search = octree leaves no CDT to study; --thesis has the octree's recall");
+    if (!options.chart.empty() && !have_gnuplot())
+        throw Error(fmt::format("study: --chart: {}", no_gnuplot));
+    std::optional<Context> context;
+    if (options.side == Side::gpu)
+        context.emplace(parse_context_request(options.run.gl));
+    const Profile profile = context ? measured_profile(*context) : named_profile(options.profile);
+    if (options.cameras)
+        return print_cameras(options, scene, profile);
+    OutputFiles files;
+    protect_inputs(options.run, files);
+    if (!options.images.empty())
+        files.expect_folder(options.images);
+    for (const auto& file : {options.csv, options.json, options.chart})
+        if (!file.empty())
+            files.expect(file);
+
+    StudyOptions study_options;
+    study_options.frames = options.run.frames;
+    study_options.every = options.every;
+    if (!options.images.empty())
+        study_options.on_state = [&](const StudiedState& state) {
+            files.write(options.images / fmt::format("misses_{:05}.png", state.frame),
+                        png(study_picture(state, profile)));
+        };
+    const std::vector<StudyFrame> frames = [&] {
+        Progress progress("study", options.run.frames, true);
+        study_options.on_frame = [&](int done) { progress.show(done); };
+        if (!context)
+            return study_run(scene, profile, study_options);
+        GpuSimulation gpu(scene, options.run.shaders);
+        return study_run(scene, profile, gpu, study_options);
+    }();
+
+    if (!options.csv.empty())
+        files.write(options.csv, study_csv(frames));
+    if (!options.json.empty()) {
+        nlohmann::json json = study_json(frames);
+        json["scene"] = scene.name;
+        json["switches"] = settings_text(options.run, scene);
+        json["repeat"] = command_line("study", options.run, options.run.frames);
+        files.write(options.json, json_text(json));
+    }
+    if (!options.chart.empty())
+        files.write(options.chart, chart_svg(frames, scene.name));
+    files.commit();
+    fmt::print("scene     {} ({}): {} particles, range {}\nswitches  {}\n\n{}", scene.name,
+               plain_line(options.run.scene.string()), scene.start.size(), scene.constants.collision_range,
+               settings_text(options.run, scene), study_text(frames));
+    if (!options.images.empty())
+        fmt::print("\npictures  {}: {}\n", options.images.string(), picture_legend());
+}
+
+/// What a study is of, the words for it, and the options that it takes.
+struct Mode {
+    std::string text;
+    std::vector<std::string_view> options;
+};
+
+Mode mode_of(const Options& options) {
+    if (options.recall_table)
+        return {"--recall-table", {"--recall-table", "--scenes", "--threads"}};
+    if (options.catalogue)
+        return {"--catalogue", {"--catalogue", "--scenes", "--threads", "--images"}};
+    if (options.remedies && options.gl_asked)
+        return {"--remedies --gl",
+                {"--remedies", "--scenes", "--threads", "--particles", "--json", "--gl", "--shaders"}};
+    if (options.remedies)
+        return {"--remedies without --gl",
+                {"--remedies", "--scenes", "--threads", "--particles", "--json", "--profile"}};
+    if (options.thesis && !options.thesis_study.from.empty())
+        return {"--thesis --from", {"--thesis", "--from", "--json", "--csv", "--chart"}};
+    if (options.thesis)
+        return {"--thesis",
+                {"--thesis", "--scenes", "--threads", "--frames", "--json", "--csv", "--chart", "--set", "--preset",
+                 "--gl", "--shaders", "--counts", "--seconds"}};
+    Mode mode{"SCENE", {"scene", "--particles", "--preset", "--set", "--threads", "--frames", "--every", "--side"}};
+    const auto add = [&](std::initializer_list<std::string_view> more) {
+        mode.options.insert(mode.options.end(), more);
+    };
+    if (options.cameras) {
+        mode.text = "--cameras";
+        add({"--cameras"});
+    } else {
+        add({"--csv", "--json", "--images", "--chart"});
+    }
+    if (options.side == Side::gpu) {
+        mode.text += " --side gpu";
+        add({"--gl", "--shaders"});
+    } else {
+        mode.text += " --side cpu";
+        add({"--profile"});
+    }
+    return mode;
+}
+
+int run(Options options, const CLI::App& verb) {
+    if (options.thesis && options.run.particles)
+        throw Error("study: --thesis has several counts; --counts N,... names them");
+    if (options.recall_table || options.catalogue || options.remedies || options.thesis) {
+        if (!options.run.scene.empty())
+            throw Error("study: --recall-table, --catalogue, --remedies and --thesis have scenes of their own; leave "
+                        "SCENE out");
+        const Mode mode = mode_of(options);
+        check_options(verb, mode.text, mode.options);
+        start_threads(options.run.threads);
+        if (options.scenes.empty())
+            options.scenes = shipped_scene("lattice").parent_path();
+        if (options.thesis) {
+            ThesisStudy study = options.thesis_study;
+            study.run = options.run;
+            study.scenes = options.scenes;
+            study.csv = options.csv;
+            study.json = options.json;
+            study.chart = options.chart;
+            run_thesis_study(study);
+        }
+        if (options.recall_table)
+            print_recall_table(options);
+        if (options.remedies)
+            print_remedies(options);
+        return options.catalogue && !print_catalogue(options) ? status_differ : status_agree;
+    }
+    if (options.run.scene.empty())
+        throw Error("study: a SCENE, --recall-table, --catalogue, --remedies or --thesis is needed");
+    if (options.run.frames < 2)
+        throw Error("study: --frames 1 is the frame with the empty CDT; 2 or more have something to study");
+    const Mode mode = mode_of(options);
+    check_options(verb, mode.text, mode.options);
+    study_scene(options);
+    return status_agree;
+}
+
+} // namespace
+
+void add_study_command(CLI::App& app, int& status) {
+    auto options = std::make_shared<Options>();
+    CLI::App* verb =
+        app.add_subcommand("study", "compare what the CDT search finds with the exact neighbours, and say "
+                                    "why it misses what it misses; needs no GL but for --thesis and --side gpu");
+    add_scene_options(*verb, options->run);
+    verb->get_option("scene")->required(false);
+    verb->add_option("--frames", options->run.frames, "frames to run")->check(integer(1, most_frames))->type_name("N");
+    verb->add_option("--every", options->every, "study every Nth frame only")
+        ->check(integer(1, most_frames))
+        ->type_name("N");
+    verb->add_option("--profile", options->profile, "strict, llvmpipe or nvidia: the order of sums")
+        ->type_name("strict|llvmpipe|nvidia");
+    verb->add_option("--csv", options->csv, "write every number of every studied frame")->type_name("FILE");
+    verb->add_option("--json", options->json, "the same as JSON")->type_name("FILE");
+    verb->add_option(
+            "--images", options->images,
+            "write a false-colour picture of each studied frame, by cause; with --catalogue one of each effect")
+        ->type_name("DIR");
+    verb->add_option("--chart", options->chart, "draw recall and misses over the frames as SVG, by gnuplot")
+        ->type_name("FILE");
+    verb->add_flag("--recall-table", options->recall_table, "clouds at rest instead of a scene: recall by radius");
+    verb->add_flag("--catalogue", options->catalogue,
+                   "the thesis's failure catalogue as a table; exit status 1 if an effect is not there");
+    verb->add_flag("--cameras", options->cameras,
+                   "SCENE with the thesis's collision cameras (chapter 3.4): z offsets, fixed, side, rear");
+    add_choice<Side>(*verb, "--side", options->side, {{"cpu", Side::cpu}, {"gpu", Side::gpu}},
+                     "the side that runs SCENE: the reference, or the shaders, read back each frame");
+    verb->add_flag("--thesis", options->thesis,
+                   "the thesis's tables 4-1 and 5-1 and figures 5-3 and 5-5, CDT and octree, on GL; "
+                   "--frames, --json, --csv, --chart, --set and --gl apply");
+    verb->add_option("--counts", options->thesis_study.counts, "--thesis: particle counts")
+        ->delimiter(',')
+        ->allow_extra_args(false)
+        ->check(integer(1, most_particles))
+        ->type_name("N,...");
+    verb->add_option("--seconds", options->thesis_study.seconds,
+                     "--thesis: a measurement ends with the frame in which this is over")
+        ->check(seconds())
+        ->type_name("S");
+    verb->add_option("--from", options->thesis_study.from,
+                     "--thesis: tell and draw what an earlier --json wrote, on a machine without that GL")
+        ->type_name("FILE");
+    verb->add_flag("--remedies", options->remedies,
+                   "what the remedies find (docs/remedies.md), and with --gl what they cost, as a table; --json and "
+                   "--particles apply");
+    add_gl_options(*verb, options->run);
+    verb->add_option("--scenes", options->scenes, "where the scenes of --recall-table, --catalogue and --thesis are")
+        ->type_name("DIR");
+    verb->footer("Examples: lockstep study data/scenes/x_streams.json --frames 60 --every 10\n"
+                 "          lockstep study --thesis --gl egl-device:0 --json thesis.json --chart thesis.svg");
+    verb->callback([options, verb, &status] {
+        options->gl_asked = verb->count("--gl") > 0;
+        status = run(*options, *verb);
+    });
+}
+
+} // namespace lockstep

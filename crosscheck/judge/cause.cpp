@@ -1,0 +1,415 @@
+#include "crosscheck/judge/cause.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <iterator>
+#include <tuple>
+#include <utility>
+
+#include "crosscheck/judge/compare.hpp"
+#include "reference/collision_pass.hpp"
+#include "reference/model/same_bits.hpp"
+#include "reference/model/ulp.hpp"
+#include "reference/obstacle_pass.hpp"
+
+namespace lockstep {
+namespace {
+
+constexpr std::size_t first_pair_sample = 8;
+constexpr std::size_t first_pairs_kept = 256;
+constexpr std::size_t pair_sample = 48;
+constexpr std::size_t pairs_kept = 8;
+constexpr std::size_t whole_kept = 8;
+constexpr std::ptrdiff_t parts_kept = 8;
+
+/// At most `count` of them, evenly spread.
+std::vector<std::size_t> sample(const std::vector<std::size_t>& all, std::size_t count) {
+    if (all.size() <= count)
+        return all;
+    std::vector<std::size_t> some(count);
+    for (std::size_t i = 0; i < count; ++i)
+        some[i] = all[i * all.size() / count];
+    return some;
+}
+
+std::vector<std::size_t> divergent(const std::vector<ItemVerdict>& verdicts) {
+    std::vector<std::size_t> indices;
+    for (const ItemVerdict& verdict : verdicts)
+        if (verdict.kind == DifferenceClass::divergent)
+            indices.push_back(verdict.index);
+    return indices;
+}
+
+Deviations together(const Cause& cause) {
+    Deviations set;
+    for (const Deviation deviation : cause.deviations)
+        set.add(deviation);
+    return set;
+}
+
+/// Says what is seen, and so cannot be wrong where it explains everything; other causes of it are guesses.
+bool describes(const Cause& cause) {
+    return std::all_of(cause.deviations.begin(), cause.deviations.end(), [](Deviation deviation) {
+        return deviation == Deviation::never_collides || deviation == Deviation::cdt_not_drawn ||
+               deviation == Deviation::obstacles_not_drawn;
+    });
+}
+
+/// More explained than contradicted; then the simpler.
+bool better(const Cause& a, const Cause& b) {
+    const auto balance = [](const Cause& c) {
+        return static_cast<std::int64_t>(c.contradicted) - static_cast<std::int64_t>(c.explained);
+    };
+    return std::tuple(balance(a), a.deviations.size()) < std::tuple(balance(b), b.deviations.size());
+}
+
+/// `better`, with a description before its equals.
+bool before(const Cause& a, const Cause& b) { return better(a, b) || (!better(b, a) && describes(a) && !describes(b)); }
+
+bool is_whole(const Cause& cause, std::uint64_t divergent) {
+    return cause.explained == divergent && cause.contradicted == 0;
+}
+
+std::vector<Cause> singles(bool (*wanted)(Deviation, bool), bool places_points) {
+    std::vector<Cause> causes;
+    for (const DeviationInfo& info : deviation_table())
+        if (wanted(info.deviation, places_points))
+            causes.push_back({{info.deviation}});
+    return causes;
+}
+
+bool for_steps(Deviation deviation, bool) { return changes_step(deviation); }
+
+std::vector<Cause> pairs(const std::vector<Cause>& alone) {
+    std::vector<Cause> causes;
+    for (std::size_t a = 0; a < alone.size(); ++a)
+        for (std::size_t b = a + 1; b < alone.size(); ++b)
+            if (alone[a].deviations.size() == 1 && alone[b].deviations.size() == 1)
+                causes.push_back({{alone[a].deviations.front(), alone[b].deviations.front()}});
+    return causes;
+}
+
+/// By how many ULP a driver's length and normalize may be off the reference's: as measured, and no more than GLSL
+/// allows, 6 and 4.5 times 2^-23 of the value (4.7.1, as the Vulkan environment derives them), an ULP being at least
+/// 2^-24 of it.
+struct AllowedUlps {
+    std::int64_t speed = 0, direction = 0;
+
+    explicit AllowedUlps(const Profile& profile) {
+        if (profile.roots != nullptr) // the reference has the driver's own bits
+            return;
+        speed = std::min<std::int64_t>(profile.errors.length, 12);
+        direction = std::min<std::int64_t>(profile.errors.normalize, 9);
+    }
+};
+
+/// The same bits but for the sign of zero, which depends on how a mistake was written down; or so near.
+bool near(float a, float b, std::int64_t ulps) {
+    return same_bits(a, b) || (a == 0.0F && b == 0.0F) || ulp_distance(a, b) <= ulps;
+}
+
+/// A position is moved by direction * speed, times the tick or not. The two are off by their ULP, at most 2^-23 of them
+/// each; two products and the sum round once more on either side.
+bool near_position(const ParticleState& a, const ParticleState& b, int c, float tick, AllowedUlps allowed) {
+    if (same_bits(a.position[c], b.position[c]) || (a.position[c] == 0.0F && b.position[c] == 0.0F))
+        return true;
+    if (allowed.speed == 0 && allowed.direction == 0)
+        return false;
+    const double step = std::abs(double{b.direction[c]} * double{b.speed}) * std::max(1.0, std::abs(double{tick}));
+    const double off = step * static_cast<double>(allowed.speed + allowed.direction + 2) * 0x1p-23;
+    const double largest = std::max(std::abs(double{a.position[c]}), std::abs(double{b.position[c]}));
+    return std::abs(double{a.position[c]} - double{b.position[c]}) <= off + largest * 0x1p-23;
+}
+
+bool alike(const ParticleState& a, const ParticleState& b, float tick, AllowedUlps allowed) {
+    if (!same_bits(a.collide_time, b.collide_time) || !near(a.speed, b.speed, allowed.speed))
+        return false;
+    for (int c = 0; c < 3; ++c)
+        if (!near(a.direction[c], b.direction[c], allowed.direction) || !near_position(a, b, c, tick, allowed))
+            return false;
+    return true;
+}
+
+/// Counts, for each cause, the particles it explains and contradicts.
+void count_particles(std::vector<Cause>& causes, const JudgedFrame& frame, const FrameInputs& inputs,
+                     const std::vector<std::size_t>& divergent, const std::vector<std::size_t>& agreeing) {
+    const auto n = static_cast<std::ptrdiff_t>(causes.size());
+    const AllowedUlps allowed(frame.profile);
+    const float tick = frame.params.constants.tick;
+    const bool worth_threads = causes.size() * (divergent.size() + agreeing.size()) > 100'000;
+#pragma omp parallel for schedule(dynamic) if (worth_threads)
+    for (std::ptrdiff_t c = 0; c < n; ++c) {
+        Cause& cause = causes[static_cast<std::size_t>(c)];
+        const Deviations deviations = together(cause);
+        const auto explains = [&](std::size_t i) {
+            return alike(deviating_step(inputs, i, frame.profile, deviations), frame.gpu[i], tick, allowed);
+        };
+        // What is near without any deviation says nothing about one.
+        const auto telling = [&](std::size_t i) { return !alike(frame.reference[i], frame.gpu[i], tick, allowed); };
+        const auto explained = static_cast<std::uint64_t>(std::count_if(
+            divergent.begin(), divergent.end(), [&](std::size_t i) { return telling(i) && explains(i); }));
+        cause.explained += explained;
+        if (explained > 0)
+            cause.contradicted +=
+                agreeing.size() - static_cast<std::uint64_t>(std::count_if(agreeing.begin(), agreeing.end(), explains));
+    }
+}
+
+/// The same for texels: the whole image is drawn again.
+class TexelTrials {
+  public:
+    TexelTrials(const JudgedFrame& frame, const FrameInputs& inputs)
+        : frame_(frame), inputs_(inputs), obstacles_cdt_(frame.params.width, frame.params.height),
+          obstacles_depth_(frame.params.width, frame.params.height, 1.0F) {
+        obstacle_pass(frame.obstacles, frame.params, frame.profile, obstacles_cdt_, obstacles_depth_);
+        const CollisionImage expected = draw({});
+        for (std::size_t texel = 0; texel < expected.texels.size(); ++texel)
+            if (same_bits(expected.texels[texel], frame.gpu_cdt.texels[texel]))
+                agreeing_.push_back(texel);
+    }
+
+    void count(std::vector<Cause>& causes, const std::vector<std::size_t>& divergent) const {
+        const auto n = static_cast<std::ptrdiff_t>(causes.size());
+        const bool worth_threads = causes.size() * (frame_.gpu.size() + agreeing_.size()) > 100'000;
+#pragma omp parallel for schedule(dynamic) if (worth_threads)
+        for (std::ptrdiff_t c = 0; c < n; ++c) {
+            Cause& cause = causes[static_cast<std::size_t>(c)];
+            const CollisionImage drawn = draw(together(cause));
+            const auto equal = [&](const std::vector<std::size_t>& texels) {
+                return static_cast<std::uint64_t>(std::count_if(texels.begin(), texels.end(), [&](std::size_t texel) {
+                    return same_bits(drawn.texels[texel], frame_.gpu_cdt.texels[texel]);
+                }));
+            };
+            const std::uint64_t explained = equal(divergent);
+            cause.explained += explained;
+            if (explained > 0)
+                cause.contradicted += agreeing_.size() - equal(agreeing_);
+        }
+    }
+
+    [[nodiscard]] std::uint64_t contradicted(const Cause& cause) const {
+        const CollisionImage drawn = draw(together(cause));
+        return static_cast<std::uint64_t>(std::count_if(agreeing_.begin(), agreeing_.end(), [&](std::size_t texel) {
+            return !same_bits(drawn.texels[texel], frame_.gpu_cdt.texels[texel]);
+        }));
+    }
+
+  private:
+    [[nodiscard]] CollisionImage draw(const Deviations& deviations) const {
+        CollisionImage cdt;
+        deviating_draw(inputs_, frame_.gpu, frame_.profile, deviations, obstacles_cdt_, obstacles_depth_, cdt);
+        return cdt;
+    }
+
+    const JudgedFrame& frame_;
+    const FrameInputs& inputs_;
+    std::vector<std::size_t> agreeing_;
+    CollisionImage obstacles_cdt_;
+    DepthImage obstacles_depth_;
+};
+
+/// A wrong u_ProjView would show in what is drawn, too.
+void contradict_by_drawing(std::vector<Cause>& causes, std::size_t divergent, const JudgedFrame& frame,
+                           const FrameInputs& inputs) {
+    std::vector<Cause*> suspects;
+    for (Cause& cause : causes)
+        if (cause.explained >= divergent && cause.contradicted == 0 &&
+            std::any_of(cause.deviations.begin(), cause.deviations.end(), [](Deviation deviation) {
+                return deviation == Deviation::transposed_matrix || deviation == Deviation::matrix_of_earlier_frame;
+            }))
+            suspects.push_back(&cause);
+    if (suspects.empty())
+        return;
+    const TexelTrials trials(frame, inputs);
+    for (Cause* cause : suspects)
+        cause->contradicted += trials.contradicted(*cause);
+}
+
+/// What is drawn in a wrong place because the step computes it wrongly would show in the particles, too.
+void contradict_by_steps(std::vector<Cause>& causes, std::size_t divergent, const JudgedFrame& frame,
+                         const FrameInputs& inputs, const std::vector<std::size_t>& agreeing) {
+    const AllowedUlps allowed(frame.profile);
+    const float tick = frame.params.constants.tick;
+    for (Cause& cause : causes) {
+        if (cause.explained < divergent || std::none_of(cause.deviations.begin(), cause.deviations.end(), changes_step))
+            continue;
+        const Deviations deviations = together(cause);
+        cause.contradicted +=
+            static_cast<std::uint64_t>(std::count_if(agreeing.begin(), agreeing.end(), [&](std::size_t i) {
+                return !alike(deviating_step(inputs, i, frame.profile, deviations), frame.gpu[i], tick, allowed);
+            }));
+    }
+}
+
+/// At most trial_items particles that do not differ.
+std::vector<std::size_t> agreeing_particles(const JudgedFrame& frame, const FrameVerdicts& verdicts) {
+    std::vector<std::size_t> equal;
+    for (std::size_t i = 0, next = 0; i < frame.gpu.size(); ++i) {
+        if (next < verdicts.particles.size() && verdicts.particles[next].index == i)
+            ++next;
+        else
+            equal.push_back(i);
+    }
+    return sample(equal, CauseFinder::trial_items);
+}
+
+/// The best few.
+std::vector<Cause> best_of(std::vector<Cause> causes, std::size_t count) {
+    std::stable_sort(causes.begin(), causes.end(), before);
+    if (causes.size() > count)
+        causes.resize(count);
+    return causes;
+}
+
+/// What has failed to explain everything stays so: only the best of that is kept, to be told as a part.
+void drop_hopeless(std::vector<Cause>& causes, std::uint64_t divergent) {
+    std::stable_sort(causes.begin(), causes.end(), before);
+    const auto failed = std::stable_partition(causes.begin(), causes.end(),
+                                              [&](const Cause& cause) { return is_whole(cause, divergent); });
+    if (causes.end() - failed > parts_kept)
+        causes.erase(failed + parts_kept, causes.end());
+}
+
+void forget_counts(std::vector<Cause>& causes) {
+    for (Cause& cause : causes)
+        cause.explained = cause.contradicted = 0;
+}
+
+} // namespace
+
+std::string Cause::name() const {
+    std::string text;
+    for (const Deviation deviation : deviations)
+        text += (text.empty() ? "" : " + ") + std::string(deviation_name(deviation));
+    return text;
+}
+
+void CauseFinder::add(const JudgedFrame& frame, const FrameVerdicts& verdicts, const FrameInputs& inputs) {
+    try_on_particles(frame, verdicts, inputs);
+    try_on_texels(frame, verdicts, inputs);
+}
+
+/// `count(causes, divergent)` adds a frame's counts to causes; `pairs()` gives those worth trying.
+template <class Count, class Pairs>
+void CauseFinder::hold_against(Trial& trial, const std::vector<std::size_t>& divergent, std::vector<Cause> singles,
+                               const Count& count, const Pairs& pairs) {
+    if (divergent.empty())
+        return;
+    const bool first = trial.frames == 0;
+    const bool tries = trial.frames < trial_frames;
+    ++trial.frames;
+    if (first)
+        trial.causes = std::move(singles);
+    const auto whole_ones = [&] {
+        std::vector<Cause> whole = best_of(trial.causes, whole_kept);
+        std::erase_if(whole, [&](const Cause& cause) { return !is_whole(cause, trial.divergent); });
+        return whole;
+    };
+    if (!tries) {
+        std::vector<Cause> whole = whole_ones();
+        if (whole.empty())
+            return;
+        count(whole, divergent);
+        trial.divergent += divergent.size();
+        trial.causes = std::move(whole);
+        return;
+    }
+    const std::vector<std::size_t> some = sample(divergent, trial_items);
+    count(trial.causes, some);
+    trial.divergent += some.size();
+    if (first && whole_ones().empty()) {
+        const std::vector<Cause> two = pairs();
+        trial.causes.insert(trial.causes.end(), two.begin(), two.end());
+    }
+    drop_hopeless(trial.causes, trial.divergent);
+    std::vector<Cause> whole = whole_ones();
+    if (whole.empty() || some.size() == divergent.size())
+        return;
+    std::vector<std::size_t> rest;
+    std::set_difference(divergent.begin(), divergent.end(), some.begin(), some.end(), std::back_inserter(rest));
+    count(whole, rest);
+    trial.divergent += rest.size();
+    trial.causes = std::move(whole);
+}
+
+void CauseFinder::try_on_particles(const JudgedFrame& frame, const FrameVerdicts& verdicts, const FrameInputs& inputs) {
+    const std::vector<std::size_t> equal = agreeing_particles(frame, verdicts);
+    const std::vector<std::size_t> wrong = divergent(verdicts.particles);
+    const auto count = [&](std::vector<Cause>& causes, const std::vector<std::size_t>& items) {
+        count_particles(causes, frame, inputs, items, equal);
+        contradict_by_drawing(causes, items.size(), frame, inputs);
+    };
+    const auto best_pairs = [&] {
+        std::vector<Cause> two = pairs(particles_.causes);
+        // Where one explains nearly all, the other shows in the rest.
+        const Deviations best = together(best_of(particles_.causes, 1).front());
+        std::vector<std::size_t> rest;
+        for (const std::size_t i : sample(wrong, trial_items))
+            if (!alike(deviating_step(inputs, i, frame.profile, best), frame.gpu[i], frame.params.constants.tick,
+                       AllowedUlps(frame.profile)))
+                rest.push_back(i);
+        const auto keep_best = [&](std::size_t items, std::size_t kept) {
+            std::vector<std::size_t> telling = sample(rest, items);
+            const std::vector<std::size_t> others = sample(wrong, items);
+            telling.insert(telling.end(), others.begin(), others.end());
+            count_particles(two, frame, inputs, telling, sample(equal, items));
+            two = best_of(std::move(two), kept);
+            forget_counts(two);
+        };
+        keep_best(first_pair_sample, first_pairs_kept);
+        keep_best(pair_sample, pairs_kept);
+        count(two, sample(wrong, trial_items));
+        return two;
+    };
+    hold_against(particles_, wrong, singles(for_steps, false), count, best_pairs);
+}
+
+void CauseFinder::try_on_texels(const JudgedFrame& frame, const FrameVerdicts& verdicts, const FrameInputs& inputs) {
+    // Texels that only follow their particles are explained with these.
+    std::vector<ItemVerdict> drawn_wrong;
+    std::copy_if(verdicts.texels.begin(), verdicts.texels.end(), std::back_inserter(drawn_wrong),
+                 [](const ItemVerdict& verdict) { return !verdict.follows_particle; });
+    const std::vector<std::size_t> wrong = divergent(drawn_wrong);
+    if (wrong.empty())
+        return;
+    const TexelTrials trials(frame, inputs);
+    const std::vector<std::size_t> equal = agreeing_particles(frame, verdicts);
+    const auto count = [&](std::vector<Cause>& causes, const std::vector<std::size_t>& items) {
+        trials.count(causes, items);
+        contradict_by_steps(causes, items.size(), frame, inputs, equal);
+    };
+    const auto best_pairs = [&] {
+        // Each trial draws a whole image: only what explains something alone is worth a partner.
+        std::vector<Cause> two = pairs(texels_.causes);
+        std::erase_if(two, [&](const Cause& pair) {
+            return std::none_of(texels_.causes.begin(), texels_.causes.end(), [&](const Cause& alone) {
+                return alone.explained > 0 && (alone.deviations.front() == pair.deviations.front() ||
+                                               alone.deviations.front() == pair.deviations.back());
+            });
+        });
+        count(two, sample(wrong, trial_items));
+        return best_of(std::move(two), pairs_kept);
+    };
+    const bool places_points = frame.params.switches.arithmetic == ArithmeticSwitch::exact;
+    hold_against(texels_, wrong, singles(changes_drawing, places_points), count, best_pairs);
+}
+
+CauseFindings CauseFinder::findings(const Trial& trial) {
+    CauseFindings found;
+    found.divergent = trial.divergent;
+    const std::vector<Cause> sorted = best_of(trial.causes, trial.causes.size());
+    for (const Cause& cause : sorted) {
+        if (cause.explained == 0)
+            break;
+        if (!found.best.empty() && better(found.best.front(), cause))
+            break;
+        found.best.push_back(cause);
+    }
+    return found;
+}
+
+CauseFindings CauseFinder::particles() const { return findings(particles_); }
+
+CauseFindings CauseFinder::texels() const { return findings(texels_); }
+
+} // namespace lockstep

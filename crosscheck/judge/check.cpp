@@ -1,0 +1,266 @@
+#include "crosscheck/judge/check.hpp"
+
+#include <algorithm>
+#include <chrono>
+#include <utility>
+
+#include <fmt/format.h>
+
+#include "crosscheck/judge/side_state.hpp"
+#include "gpu/gpu_side.hpp"
+#include "reference/model/collision_state.hpp"
+#include "reference/model/error.hpp"
+#include "reference/model/layered_cdt.hpp"
+#include "reference/model/state_hash.hpp"
+#include "reference/simulation.hpp"
+
+namespace lockstep {
+namespace {
+
+/// Adds the time until it dies to a sum.
+class Stopwatch {
+  public:
+    explicit Stopwatch(double& seconds) : seconds_(seconds) {}
+    ~Stopwatch() { seconds_ += std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count(); }
+    Stopwatch(const Stopwatch&) = delete;
+    Stopwatch& operator=(const Stopwatch&) = delete;
+
+  private:
+    double& seconds_;
+    std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
+};
+
+/// State of one side after a frame.
+struct State {
+    Particles particles;
+    CollisionImage cdt;
+};
+
+Comparison compare(const Particles& reference, const CollisionImage& reference_cdt, const State& gpu, bool has_cdt) {
+    Comparison result = lockstep::compare(reference, gpu.particles);
+    if (has_cdt)
+        result.add(lockstep::compare(reference_cdt, gpu.cdt));
+    return result;
+}
+
+/// What the GPU has now, against what it had. Particles are only read back where they differ: a copy of 4 million
+/// would be the peak of the whole run.
+Comparison compare_again(const State& first, const GpuSide& gpu, const Scene& scene) {
+    State again;
+    Comparison result;
+    if (gpu.has_cdt()) {
+        read_side(gpu, scene, again.cdt);
+        result = lockstep::compare(first.cdt, again.cdt);
+    }
+    if (!gpu.holds(first.particles)) {
+        read_side(gpu, scene, again.particles);
+        result.add(lockstep::compare(first.particles, again.particles));
+    }
+    return result;
+}
+
+/// Those that searched and found something: a time that runs down can come to the same value.
+std::uint64_t count_hits(const Particles& before, const Particles& after, float collision_time) {
+    const auto n = static_cast<std::ptrdiff_t>(after.size());
+    const float* const time_before = before.collide_time.data();
+    const float* const time_after = after.collide_time.data();
+    std::uint64_t hits = 0;
+#pragma omp parallel for simd reduction(+ : hits) schedule(static)
+    for (std::ptrdiff_t i = 0; i < n; ++i)
+        hits += time_before[i] < 0.0F && time_after[i] == collision_time ? 1U : 0U;
+    return hits;
+}
+
+std::uint64_t count_drawn(const CollisionImage& cdt) {
+    const auto n = static_cast<std::ptrdiff_t>(cdt.texels.size());
+    std::uint64_t drawn = 0;
+#pragma omp parallel for simd reduction(+ : drawn) schedule(static)
+    for (std::ptrdiff_t i = 0; i < n; ++i)
+        drawn += cdt.texels[static_cast<std::size_t>(i)].a != 0.0F ? 1U : 0U;
+    return drawn;
+}
+
+void note_difference(CheckReport& report, int frame, const Comparison& comparison) {
+    const std::int64_t worst = comparison.worst.empty() ? 0 : comparison.worst.front().ulp;
+    FrameCount& counts = report.counts.emplace_back(FrameCount{frame, {}, worst});
+    for (std::uint8_t r = 0; r < report.schema.resources.size(); ++r)
+        counts.items.push_back(comparison.differing(r));
+    if (comparison.agree() || report.first_frame)
+        return;
+    report.first_frame = frame;
+    for (const Difference& difference : comparison.worst)
+        report.worst.push_back({frame, difference});
+}
+
+/// Judges the frames of a resync run that are not bit-equal.
+class RunJudge {
+  public:
+    /// `has_cdt`: texels are judged too.
+    RunJudge(const Scene& scene, const Profile& profile, const KnownOperations& known, bool has_cdt)
+        : scene_(scene), profile_(profile), known_(known), has_cdt_(has_cdt) {}
+
+    /// `earlier`: what the frame before started from, null for frame 0.
+    FrameVerdicts judge(int frame, const FrameParams& params, const State& before, const State* earlier,
+                        const ReferenceSimulation& reference, const State& gpu) {
+        const JudgedFrame judged{
+            scene_.obstacles,      params,          profile_,      known_, before.particles, before.cdt,
+            reference.particles(), reference.cdt(), gpu.particles, gpu.cdt};
+        FrameVerdicts verdicts = lockstep::judge(judged);
+        if (!has_cdt_)
+            verdicts.texels.clear();
+        const std::uint64_t divergent_before = summary_.total(DifferenceClass::divergent);
+        summary_.add(frame, verdicts);
+        const bool diverges = summary_.total(DifferenceClass::divergent) > divergent_before;
+        if (diverges && divergent_before == 0)
+            summary_.first = first_of(DifferenceClass::divergent, frame, judged, verdicts);
+        else if (!summary_.first)
+            summary_.first = first_of(DifferenceClass::undefined, frame, judged, verdicts);
+        if (!diverges)
+            return verdicts;
+        FrameInputs inputs{.before = &before.particles, .cdt = &before.cdt, .params = &params, .drawn_cdt = &gpu.cdt};
+        const FrameParams earlier_params = frame_params(scene_, std::max(frame - 1, 0));
+        if (earlier != nullptr) {
+            inputs.earlier = &earlier->particles;
+            inputs.earlier_cdt = &earlier->cdt;
+            inputs.earlier_params = &earlier_params;
+        }
+        causes_.add(judged, verdicts, inputs);
+        return verdicts;
+    }
+
+    [[nodiscard]] VerdictSummary summary() const {
+        VerdictSummary summary = summary_;
+        summary.particle_cause = causes_.particles();
+        summary.texel_cause = causes_.texels();
+        return summary;
+    }
+
+  private:
+    const Scene& scene_;
+    const Profile& profile_;
+    KnownOperations known_;
+    bool has_cdt_;
+    VerdictSummary summary_;
+    CauseFinder causes_;
+};
+
+/// What agreed without having been put to the test.
+std::vector<std::string> untried(const CheckReport& report, const Scene& scene) {
+    std::vector<std::string> all;
+    if (report.hits == 0)
+        all.emplace_back("nothing collided");
+    if (report.drawn_texels == 0 && scene.switches.search == Search::cdt)
+        all.emplace_back("nothing was drawn into the CDT");
+    const FieldCount position = report.total[collision::position];
+    if (position.nan > 0 && 2 * position.nan >= position.compared)
+        all.emplace_back(fmt::format("{} of {} coordinates are NaN, of which any equals any other", position.nan,
+                                     position.compared));
+    return all;
+}
+
+Verdict verdict_on(const CheckReport& report) {
+    if (report.total.agree())
+        return Verdict::agree;
+    if (!report.verdicts)
+        return Verdict::differ;
+    if (report.verdicts->total(DifferenceClass::divergent) > 0)
+        return Verdict::divergent;
+    return report.verdicts->total(DifferenceClass::undefined) > 0 ? Verdict::undefined : Verdict::legal;
+}
+
+} // namespace
+
+CheckReport check(const Scene& scene, const Profile& profile, GpuSide& gpu, const CheckOptions& options) {
+    if (const std::string problem = size_problem(scene.start, scene.start.size()); !problem.empty())
+        throw Error(fmt::format("{}: its start has {}", scene.name, problem));
+    CheckReport report;
+    report.schema = collision_schema();
+    report.particles = scene.start.size();
+    report.frames_asked = options.frames;
+    ReferenceSimulation reference(scene, profile);
+    State before{scene.start, empty_cdt(scene)};
+    State now = before;
+    State earlier = before;
+    // Legal runs are known of the listing's pass alone: what differs with an octree or remedies is told, not judged.
+    const bool has_cdt = gpu.has_cdt();
+    const bool judged =
+        options.mode == CheckMode::resync && scene.switches.search == Search::cdt && !has_remedies(scene.switches);
+    RunJudge judge(scene, profile, options.known.value_or(measured_operations(profile)), has_cdt);
+    gpu.upload(before.particles, before.cdt);
+
+    for (int frame = 0; frame < options.frames && !(options.stop != nullptr && *options.stop); ++frame) {
+        const FrameParams params = frame_params(scene, frame);
+        FrameTimes times;
+        const bool repeat = frame < options.repeated_frames && gpu.repeats();
+        if (repeat)
+            gpu.lay_canary();
+        {
+            const Stopwatch watch(times.gpu);
+            gpu.step(params);
+        }
+        {
+            const Stopwatch watch(times.readback);
+            read_side(gpu, scene, now.particles, now.cdt);
+        }
+        if (repeat) {
+            gpu.find_canary(now.particles, now.cdt, frame);
+            gpu.repeat_step(params);
+            const Comparison repeated = compare_again(now, gpu, scene);
+            if (!repeated.agree()) {
+                note_difference(report, frame, repeated);
+                report.verdict = Verdict::nondeterministic;
+                report.total.add(repeated);
+                report.frames = frame + 1;
+                return report;
+            }
+        }
+        {
+            const Stopwatch watch(times.reference);
+            if (options.mode == CheckMode::resync)
+                reference.step_from(before.particles, before.cdt, params);
+            else
+                reference.step(params);
+        }
+        Comparison comparison;
+        {
+            const Stopwatch watch(times.compare);
+            comparison = compare(reference.particles(), reference.cdt(), now, has_cdt);
+            if (!has_cdt && comparison.agree() && options.mode == CheckMode::resync)
+                now.cdt = reference.cdt();
+            else if (!has_cdt)
+                reference.draw(before.particles, now.particles, params, now.cdt);
+            if (!comparison.agree() || options.mode == CheckMode::free)
+                note_difference(report, frame, comparison);
+            report.total.add(comparison);
+            report.hits += count_hits(before.particles, reference.particles(), scene.constants.collision_time);
+            report.drawn_texels += count_drawn(reference.cdt());
+        }
+        std::optional<FrameVerdicts> verdicts;
+        if (judged && !comparison.agree()) {
+            const Stopwatch watch(times.judge);
+            verdicts = judge.judge(frame, params, before, frame > 0 ? &earlier : nullptr, reference, now);
+        }
+        report.times.push_back(times);
+        report.frames = frame + 1;
+        if (options.on_state)
+            options.on_state({frame, reference.particles(), reference.cdt(), now.particles, now.cdt, comparison,
+                              verdicts ? &*verdicts : nullptr});
+        std::swap(earlier, before);
+        std::swap(before, now);
+        if (options.on_frame)
+            options.on_frame(report.frames);
+    }
+    if (report.total.compared() == 0)
+        throw Error(fmt::format("{}: nothing was compared: {} frames of {} particles", scene.name, report.frames,
+                                report.particles));
+    if (judged)
+        report.verdicts = judge.summary();
+    report.verdict = verdict_on(report);
+    if (report.verdict != Verdict::divergent && report.verdict != Verdict::differ)
+        report.untried = untried(report, scene);
+    report.reference_hash = state_hash(reference.particles(), reference.cdt());
+    report.gpu_hash = state_hash(before.particles, before.cdt);
+    return report;
+}
+
+} // namespace lockstep

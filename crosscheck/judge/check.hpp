@@ -1,0 +1,117 @@
+#pragma once
+#include <atomic>
+#include <cstdint>
+#include <functional>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "crosscheck/judge/compare.hpp"
+#include "crosscheck/judge/verdict_summary.hpp"
+#include "reference/known_operations.hpp"
+#include "reference/model/profile.hpp"
+#include "reference/model/scene.hpp"
+
+namespace lockstep {
+
+class GpuSide;
+
+enum class CheckMode {
+    resync, ///< after each frame the reference restarts from the GPU's state, so each step is judged alone
+    free    ///< both sides run on by themselves, and the growth of the difference is shown
+};
+
+enum class Verdict {
+    agree,            ///< every bit
+    legal,            ///< what differs is rounding or a tie (verdict.hpp)
+    undefined,        ///< something rests on what GL leaves open, nothing is divergent
+    divergent,        ///< no legal run explains something
+    differ,           ///< free mode, search = octree or remedies, where differences are not judged
+    nondeterministic, ///< the GPU gave two answers to one frame
+};
+
+/// A difference and the frame it belongs to.
+struct FrameDifference {
+    int frame = 0;
+    Difference difference;
+};
+
+/// How much differed in one frame; kept for every frame with a difference, and in free mode for every frame.
+struct FrameCount {
+    int frame = 0;
+    std::vector<std::uint64_t> items; ///< of each buffer and image, in the schema's order
+    std::int64_t worst_ulp = 0;
+};
+
+/// Seconds a frame took, by what was done.
+struct FrameTimes {
+    double gpu = 0.0;      ///< the GL frame alone, to glFinish
+    double readback = 0.0; ///< particles and CDT to this side
+    double reference = 0.0;
+    double compare = 0.0;
+    double judge = 0.0; ///< verdicts and causes
+};
+
+struct CheckReport {
+    Schema schema; ///< what was compared
+    Verdict verdict = Verdict::agree;
+    int frames = 0;       ///< frames compared
+    int frames_asked = 0; ///< more than `frames`: the run was stopped
+    std::size_t particles = 0;
+    Comparison total;
+    std::optional<int> first_frame;     ///< the first frame with a difference, or that did not repeat itself
+    std::vector<FrameDifference> worst; ///< of the first differing frame, largest ULP first
+    std::vector<FrameCount> counts;
+    std::optional<VerdictSummary> verdicts; ///< resync mode, search = cdt, no remedies
+    std::uint64_t hits = 0;                 ///< particle-frames in which the reference found a collision
+    std::uint64_t drawn_texels = 0;         ///< texels written by the reference, summed over frames
+    std::uint64_t reference_hash = 0;
+    std::uint64_t gpu_hash = 0;    ///< state_hash of particles and CDT after the last frame
+    std::vector<FrameTimes> times; ///< one a frame
+    /// What such a run was to try and did not, as words after "but": "nothing collided".
+    std::vector<std::string> untried;
+
+    /// The run was stopped before its end; a verdict on the frames before that.
+    [[nodiscard]] bool partial() const { return frames < frames_asked && verdict != Verdict::nondeterministic; }
+};
+
+/// What passes besides agree and legal, and what does not although they do.
+struct PassRules {
+    bool allow_undefined = false;
+    bool require_hits = false; ///< a run in which nothing collided fails
+};
+
+[[nodiscard]] inline bool passes(const CheckReport& report, const PassRules& rules = {}) {
+    const bool fits = report.verdict == Verdict::agree || report.verdict == Verdict::legal ||
+                      (report.verdict == Verdict::undefined && rules.allow_undefined);
+    return fits && !report.partial() && !(rules.require_hits && report.hits == 0);
+}
+
+/// Both sides after one frame, and what their comparison said.
+struct ComparedFrame {
+    int frame = 0;
+    const Particles& reference;
+    const CollisionImage& reference_cdt;
+    const Particles& gpu;
+    const CollisionImage& gpu_cdt;
+    const Comparison& comparison;
+    const FrameVerdicts* verdicts = nullptr; ///< null where nothing differs, or differences are not judged
+};
+
+struct CheckOptions {
+    CheckMode mode = CheckMode::resync;
+    int frames = 60;
+    int repeated_frames = 2; ///< the first frames run twice on the GPU and must repeat themselves bit by bit
+    std::function<void(int frames_done)> on_frame;
+    /// Called after each comparison (hash files, images, traces).
+    std::function<void(const ComparedFrame&)> on_state;
+    /// What legal outcomes are taken from; not set: what the profile's driver was measured to do.
+    std::optional<KnownOperations> known;
+    const std::atomic<bool>* stop = nullptr; ///< set: end after the frame at hand, with the verdict so far
+};
+
+/// Runs both sides from the scene's start and compares every float of every frame. Throws Error when the run would
+/// prove nothing: a GL error, an incomplete framebuffer, output that was not written, no frame compared.
+CheckReport check(const Scene& scene, const Profile& profile, GpuSide& gpu, const CheckOptions& options);
+
+} // namespace lockstep

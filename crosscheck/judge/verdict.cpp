@@ -1,0 +1,247 @@
+#include "crosscheck/judge/verdict.hpp"
+
+#include <algorithm>
+#include <map>
+#include <set>
+#include <unordered_map>
+
+#include "crosscheck/judge/compare.hpp"
+#include "reference/collision_pass.hpp"
+#include "reference/legal_texels.hpp"
+#include "reference/model/collision_state.hpp"
+#include "reference/model/same_bits.hpp"
+#include "reference/obstacle_pass.hpp"
+#include "reference/step_trace.hpp"
+
+namespace lockstep {
+namespace {
+
+bool same_texel(const CollisionImage& cdt, BaseTexelIndex a, BaseTexelIndex b) {
+    const auto code = [&](BaseTexelIndex t) { return cdt.contains(t.x, t.y) ? cdt.at(t.x, t.y) : glm::vec4(0.0F); };
+    return same_bits(code(a), code(b));
+}
+
+/// Whether an outcome decides as the reference did: a hit or none, and of the same stored positions.
+bool decides_alike(const LegalOutcome& outcome, const StepTrace& reference, const JudgedFrame& frame) {
+    if (outcome.hit != reference.nearest.has_value())
+        return false;
+    if (!outcome.hit)
+        return true;
+    const bool own_from_texel = frame.params.switches.self_position == SelfPosition::texel;
+    return same_texel(frame.cdt, outcome.neighbour, reference.neighbours[*reference.nearest].texel) &&
+           (!own_from_texel || same_texel(frame.cdt, outcome.base, reference.base));
+}
+
+/// The tie that led to `outcome` instead of the reference's.
+std::optional<Tie> deciding_tie(const LegalOutcome& outcome, const StepTrace& reference) {
+    const auto of_kind = [&](TieKind kind) {
+        return std::find_if(outcome.ties.begin(), outcome.ties.end(), [&](const Tie& t) { return t.kind == kind; });
+    };
+    const bool same_base = outcome.base.x == reference.base.x && outcome.base.y == reference.base.y;
+    if (outcome.hit && reference.nearest && same_base)
+        if (const auto nearest = of_kind(TieKind::nearest); nearest != outcome.ties.end())
+            return *nearest;
+    if (outcome.ties.empty())
+        return {};
+    return outcome.ties.front();
+}
+
+/// The classes of differing particles, by the texels they are drawn to on either side.
+class ClassesByTexel {
+  public:
+    ClassesByTexel(const JudgedFrame& frame, const std::vector<ItemVerdict>& particles) : frame_(frame) {
+        const bool updated = frame.params.switches.raster_position == RasterPosition::updated;
+        for (const ItemVerdict& verdict : particles) {
+            const std::size_t i = verdict.index;
+            note(updated ? frame.gpu.position[i] : frame.before.position[i], verdict);
+            if (updated)
+                note(frame.reference.position[i], verdict);
+        }
+    }
+
+    /// The worst; null where none is drawn.
+    [[nodiscard]] const ItemVerdict* worst(std::size_t texel) const {
+        const auto found = worst_.find(texel);
+        return found == worst_.end() ? nullptr : found->second;
+    }
+
+  private:
+    void note(glm::vec3 position, const ItemVerdict& verdict) {
+        const PointFragment point = point_fragment(position, frame_.params, frame_.profile);
+        if (point.x < 0)
+            return;
+        const ItemVerdict*& known = worst_[frame_.gpu_cdt.index(point.x, point.y)];
+        if (known == nullptr || known->kind < verdict.kind)
+            known = &verdict;
+    }
+
+    const JudgedFrame& frame_;
+    std::unordered_map<std::size_t, const ItemVerdict*> worst_;
+};
+
+ItemVerdict judge_texel(std::size_t texel, const LegalTexel& legal, glm::vec4 gpu) {
+    ItemVerdict verdict{.index = texel, .outcomes = legal.owners.size()};
+    const TexelOwner* owner = legal.owner_of(gpu);
+    if (owner == nullptr)
+        return verdict;
+    const std::vector<Tie> ties = legal.ties(*owner);
+    verdict.kind = ties.empty() ? DifferenceClass::rounding : DifferenceClass::tie;
+    if (!ties.empty())
+        verdict.tie = ties.front();
+    return verdict;
+}
+
+/// A point that may land on several texels of the image.
+struct Wanderer {
+    std::vector<std::size_t> reach;   ///< the texels
+    std::vector<std::size_t> differs; ///< of those judged, where it may have been drawn
+};
+
+std::map<std::size_t, Wanderer> wanderers(const std::vector<LegalTexel>& legal, const CollisionImage& cdt) {
+    std::map<std::size_t, Wanderer> found;
+    for (std::size_t i = 0; i < legal.size(); ++i)
+        for (const TexelOwner& owner : legal[i].owners) {
+            const PixelRect& reach = owner.reach;
+            const bool on_image = reach.x0 >= 0 && reach.y0 >= 0 && reach.x1 <= cdt.width && reach.y1 <= cdt.height;
+            const bool several = reach.x1 - reach.x0 > 1 || reach.y1 - reach.y0 > 1;
+            if (owner.kind != TexelOwner::Kind::particle || owner.may_be_clipped || !on_image || !several)
+                continue;
+            Wanderer& wanderer = found[owner.index];
+            wanderer.differs.push_back(i);
+            if (wanderer.reach.empty())
+                for (int y = reach.y0; y < reach.y1; ++y)
+                    for (int x = reach.x0; x < reach.x1; ++x)
+                        wanderer.reach.push_back(cdt.index(x, y));
+        }
+    return found;
+}
+
+/// Whether a point is on one of the texels that it may land on, or may be hidden there; and on no second one.
+bool is_conserved(std::size_t particle, const Wanderer& wanderer, const std::map<std::size_t, LegalTexel>& legal,
+                  const CollisionImage& gpu) {
+    int drawn = 0;
+    bool may_be_hidden = false;
+    bool may_be_another = false;
+    for (const std::size_t texel : wanderer.reach) {
+        const LegalTexel& of_texel = legal.at(texel);
+        const auto is_point = [&](const TexelOwner& owner) {
+            return owner.kind == TexelOwner::Kind::particle && owner.index == particle;
+        };
+        const auto own = std::find_if(of_texel.owners.begin(), of_texel.owners.end(), is_point);
+        const TexelOwner* owner = of_texel.owner_of(gpu.texels[texel]);
+        if (own == of_texel.owners.end() || owner == nullptr) {
+            may_be_hidden = true;
+        } else if (own->stores(gpu.texels[texel])) {
+            ++drawn;
+            may_be_another = may_be_another ||
+                             std::any_of(of_texel.owners.begin(), of_texel.owners.end(), [&](const TexelOwner& other) {
+                                 return !is_point(other) && other.stores(own->code);
+                             });
+        } else if (owner->kind != TexelOwner::Kind::nothing && owner->depth.low <= own->depth.high) {
+            may_be_hidden = true;
+        }
+    }
+    return drawn == 1 || (drawn == 0 && may_be_hidden) || (drawn > 1 && may_be_another);
+}
+
+/// Each texel by itself may be legal where a point was dropped at the edge of a pixel, or drawn on both sides.
+void convict_lost_points(const JudgedFrame& frame, const std::vector<LegalTexel>& legal,
+                         std::vector<ItemVerdict>& verdicts) {
+    const std::map<std::size_t, Wanderer> points = wanderers(legal, frame.gpu_cdt);
+    std::set<std::size_t> wanted;
+    for (const auto& [particle, wanderer] : points)
+        wanted.insert(wanderer.reach.begin(), wanderer.reach.end());
+    if (wanted.empty())
+        return;
+    const std::vector<std::size_t> texels(wanted.begin(), wanted.end());
+    const auto around =
+        legal_texels(frame.obstacles, frame.before, frame.gpu, frame.params, frame.profile, frame.known, texels);
+    std::map<std::size_t, LegalTexel> by_texel;
+    for (std::size_t i = 0; i < texels.size(); ++i)
+        by_texel.emplace(texels[i], around[i]);
+    for (const auto& [particle, wanderer] : points)
+        if (!is_conserved(particle, wanderer, by_texel, frame.gpu_cdt))
+            for (const std::size_t i : wanderer.differs) {
+                verdicts[i].kind = DifferenceClass::divergent;
+                verdicts[i].tie = std::nullopt;
+            }
+}
+
+std::vector<ItemVerdict> judge_texels(const JudgedFrame& frame, const std::vector<ItemVerdict>& particles) {
+    const std::vector<std::size_t> differing = differing_items(frame.reference_cdt, frame.gpu_cdt);
+    std::vector<ItemVerdict> verdicts;
+    if (differing.empty())
+        return verdicts;
+    const CollisionImage expected = redraw(frame);
+    const ClassesByTexel classes(frame, particles);
+    std::vector<std::size_t> unexplained;
+    for (const std::size_t texel : differing) {
+        const ItemVerdict* cause = classes.worst(texel);
+        if (cause == nullptr || !same_bits(expected.texels[texel], frame.gpu_cdt.texels[texel])) {
+            unexplained.push_back(texel);
+            continue;
+        }
+        ItemVerdict inherited = *cause;
+        inherited.index = texel;
+        inherited.outcomes = 1;
+        inherited.follows_particle = true;
+        verdicts.push_back(inherited);
+    }
+    const auto legal =
+        legal_texels(frame.obstacles, frame.before, frame.gpu, frame.params, frame.profile, frame.known, unexplained);
+    std::vector<ItemVerdict> judged;
+    for (std::size_t i = 0; i < unexplained.size(); ++i)
+        judged.push_back(judge_texel(unexplained[i], legal[i], frame.gpu_cdt.texels[unexplained[i]]));
+    convict_lost_points(frame, legal, judged);
+    verdicts.insert(verdicts.end(), judged.begin(), judged.end());
+    std::sort(verdicts.begin(), verdicts.end(),
+              [](const ItemVerdict& a, const ItemVerdict& b) { return a.index < b.index; });
+    return verdicts;
+}
+
+} // namespace
+
+CollisionImage redraw(const JudgedFrame& frame) {
+    CollisionImage cdt(frame.params.width, frame.params.height);
+    DepthImage depth(frame.params.width, frame.params.height, 1.0F);
+    obstacle_pass(frame.obstacles, frame.params, frame.profile, cdt, depth);
+    rasterise_particles(frame.before, frame.gpu, frame.params, frame.profile, cdt, depth);
+    return cdt;
+}
+
+ItemVerdict judge_particle(const JudgedFrame& frame, std::size_t particle) {
+    const ParticleState gpu = frame.gpu[particle];
+    const std::vector<LegalOutcome> outcomes =
+        legal_outcomes(frame.before[particle], frame.cdt, frame.params, frame.profile, frame.known, &gpu);
+    ItemVerdict verdict{.index = particle, .outcomes = outcomes.size()};
+    const StepTrace reference = trace_step(frame.before[particle], frame.cdt, frame.params, frame.profile);
+    for (const LegalOutcome& outcome : outcomes) {
+        if (!outcome.contains(gpu))
+            continue;
+        DifferenceClass kind = DifferenceClass::tie;
+        if (outcome.undefined != Undefined::none)
+            kind = DifferenceClass::undefined;
+        else if (outcomes.size() == 1 || decides_alike(outcome, reference, frame))
+            kind = DifferenceClass::rounding;
+        if (kind >= verdict.kind)
+            continue;
+        verdict.kind = kind;
+        verdict.undefined = outcome.undefined;
+        verdict.tie = kind == DifferenceClass::tie ? deciding_tie(outcome, reference) : std::nullopt;
+    }
+    return verdict;
+}
+
+FrameVerdicts judge(const JudgedFrame& frame) {
+    const std::vector<std::size_t> differing = differing_items(frame.reference, frame.gpu);
+    FrameVerdicts verdicts;
+    verdicts.particles.resize(differing.size());
+    const auto count = static_cast<std::ptrdiff_t>(differing.size());
+#pragma omp parallel for schedule(dynamic, 64) if (count > 256)
+    for (std::ptrdiff_t i = 0; i < count; ++i)
+        verdicts.particles[static_cast<std::size_t>(i)] = judge_particle(frame, differing[static_cast<std::size_t>(i)]);
+    verdicts.texels = judge_texels(frame, verdicts.particles);
+    return verdicts;
+}
+
+} // namespace lockstep

@@ -1,0 +1,334 @@
+#include "crosscheck/report/report.hpp"
+
+#include <algorithm>
+#include <bit>
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include "crosscheck/report/value_text.hpp"
+#include "crosscheck/report/verdict_text.hpp"
+#include "reference/model/state_hash.hpp"
+
+namespace lockstep {
+namespace {
+
+/// "frame 3 particle 17 position.x"; "frame 3 texel (31, 282).w".
+std::string place(const CheckReport& r, const FrameDifference& d) {
+    const FieldId id = d.difference.field;
+    const Resource& resource = r.schema.resources[id.resource];
+    const std::string component = component_name(r.schema[id], d.difference.component);
+    const std::size_t index = d.difference.index;
+    if (resource.dimensions == 1)
+        return fmt::format("frame {} {} {} {}", d.frame, resource.item, index, component);
+    const auto [width, height, depth] = r.total.resources[id.resource].extent;
+    const std::string layer = resource.dimensions == 3 ? fmt::format(", {}", index / (width * height)) : "";
+    return fmt::format("frame {} {} ({}, {}{}){}", d.frame, resource.item, index % width, index / width % height, layer,
+                       component.substr(r.schema[id].name.size()));
+}
+
+/// "5 particle states and 7 texels": of each buffer and image as many as differ.
+std::string differing_text(const CheckReport& r, std::string_view state) {
+    std::string text;
+    for (std::uint8_t k = 0; k < r.schema.resources.size(); ++k) {
+        const Resource& resource = r.schema.resources[k];
+        text += fmt::format("{}{} {}{}s", k == 0 ? "" : " and ", grouped(r.total.differing(k)), resource.item,
+                            resource.dimensions == 1 ? state : "");
+    }
+    return text;
+}
+
+/// "12 floats of particles, 4 of texels".
+std::string compared_text(const CheckReport& r) {
+    std::string text;
+    for (std::uint8_t k = 0; k < r.schema.resources.size(); ++k) {
+        const Resource& resource = r.schema.resources[k];
+        const bool floats = std::all_of(resource.fields.begin(), resource.fields.end(),
+                                        [](const Field& field) { return field.scalar == Scalar::float32; });
+        const std::string_view what = k > 0 ? "" : floats ? "floats " : "values ";
+        text += fmt::format("{}{} {}of {}s", k == 0 ? "" : ", ", grouped(r.total.compared(k)), what, resource.item);
+    }
+    return text;
+}
+
+/// " and of the CDT": what was compared beside the first buffer.
+std::string others_compared(const CheckReport& r) {
+    std::string text;
+    for (std::uint8_t k = 1; k < r.schema.resources.size(); ++k)
+        if (r.total.compared(k) > 0)
+            text += fmt::format(" and of {}", r.schema.resources[k].title);
+    return text;
+}
+
+std::uint64_t nan_count(const Comparison& comparison) {
+    std::uint64_t sum = 0;
+    for (const ResourceCount& resource : comparison.resources)
+        for (const FieldCount& field : resource.fields)
+            sum += field.nan;
+    return sum;
+}
+
+/// Calls `work(field, its counts)` for all fields of the schema.
+template <class Work> void for_each_field(const CheckReport& r, const Work& work) {
+    for (std::uint8_t k = 0; k < r.schema.resources.size(); ++k)
+        for (std::uint8_t f = 0; f < r.schema.resources[k].fields.size(); ++f)
+            work(r.schema[{k, f}], r.total[{k, f}]);
+}
+
+FrameTimes total_times(const CheckReport& r) {
+    FrameTimes sum;
+    for (const FrameTimes& t : r.times) {
+        sum.gpu += t.gpu;
+        sum.readback += t.readback;
+        sum.reference += t.reference;
+        sum.compare += t.compare;
+        sum.judge += t.judge;
+    }
+    return sum;
+}
+
+/// Frames at which growth is told: 0, 1, 2, 4, 8, ... and the last.
+bool told(std::size_t i, std::size_t count) { return i == 0 || i + 1 == count || std::has_single_bit(i); }
+
+std::string of_class(const CheckReport& r, DifferenceClass kind) {
+    const auto k = static_cast<std::size_t>(kind);
+    return fmt::format("from frame {} on: {} particle states and {} texels in {} frames",
+                       r.verdicts->first->place.frame, grouped(r.verdicts->particles[k]),
+                       grouped(r.verdicts->texels[k]), r.frames);
+}
+
+/// After the verdict's words.
+std::string verdict_counts(const CheckReport& r) {
+    switch (r.verdict) {
+    case Verdict::agree:
+        return fmt::format(": every bit of {} particles{} in {} frames", grouped(r.particles), others_compared(r),
+                           r.frames);
+    case Verdict::legal:
+        return fmt::format(": {} differ in {} frames, as GL allows", differing_text(r, " state"), r.frames);
+    case Verdict::undefined:
+        return fmt::format(" {}, which rest on what GL leaves open", of_class(r, DifferenceClass::undefined));
+    case Verdict::divergent:
+        return fmt::format(" {}, which no legal run explains", of_class(r, DifferenceClass::divergent));
+    case Verdict::differ:
+        return fmt::format(" from frame {} on: {} in {} frames", *r.first_frame, differing_text(r, " state"), r.frames);
+    case Verdict::nondeterministic:
+        return fmt::format(": the GPU gave two answers to frame {}: {} differ between two runs of it", *r.first_frame,
+                           differing_text(r, ""));
+    }
+    return "";
+}
+
+std::string verdict_line(const CheckReport& r) {
+    const bool judged = r.verdicts || r.verdict == Verdict::nondeterministic;
+    return verdict_words(r) + verdict_counts(r) + (judged ? "" : "; compared, not judged");
+}
+
+std::string growth_text(const CheckReport& r) {
+    std::string text = "\n  growth: frame";
+    for (const Resource& resource : r.schema.resources)
+        text += fmt::format(", differing {}s", resource.item);
+    text += ", worst ULP\n";
+    for (std::size_t i = 0; i < r.counts.size(); ++i) {
+        if (!told(i, r.counts.size()))
+            continue;
+        text += fmt::format("  {:>8}", r.counts[i].frame);
+        for (const std::uint64_t items : r.counts[i].items)
+            text += fmt::format(" {:>12}", grouped(items));
+        text += fmt::format(" {:>16}\n", distance_text(r.counts[i].worst_ulp));
+    }
+    return text;
+}
+
+nlohmann::json counts_json(const CheckReport& r) {
+    nlohmann::json columns{"frame"};
+    for (const Resource& resource : r.schema.resources)
+        columns.push_back(resource.item + "s");
+    columns.push_back("worst_ulp");
+    nlohmann::json rows = nlohmann::json::array();
+    for (const FrameCount& count : r.counts) {
+        nlohmann::json row{count.frame};
+        for (const std::uint64_t items : count.items)
+            row.push_back(items);
+        row.push_back(count.worst_ulp);
+        rows.push_back(row);
+    }
+    return {{"columns", columns}, {"rows", rows}};
+}
+
+} // namespace
+
+std::string_view verdict_name(Verdict verdict) {
+    switch (verdict) {
+    case Verdict::agree:
+        return "AGREE";
+    case Verdict::legal:
+        return "LEGAL";
+    case Verdict::undefined:
+        return "UNDEFINED";
+    case Verdict::divergent:
+        return "DIVERGENT";
+    case Verdict::differ:
+        return "DIFFER";
+    case Verdict::nondeterministic:
+        return "NONDETERMINISTIC";
+    }
+    return "";
+}
+
+std::string shaders_line(const RunDescription& run) {
+    return run.shaders ? shaders_text(*run.shaders) : run.shaders_untold;
+}
+
+std::string render_line(const RunDescription& run) {
+    if (!run.rendered)
+        return "the rendered frame was not compared" + run.render_hint;
+    const RenderComparison& r = *run.rendered;
+    const std::string pixels = fmt::format("{} pixels of frame {}, {} of which show particles", grouped(r.pixels),
+                                           r.frame, grouped(r.of_particles));
+    return r.differing == 0 ? fmt::format("AGREE: every one of {}", pixels)
+                            : fmt::format("DIFFER: {} of {}; compared, not judged", grouped(r.differing), pixels);
+}
+
+std::string pass_options_text(const PassRules& rules) {
+    return fmt::format("{}{}", rules.allow_undefined ? " --allow-undefined" : "",
+                       rules.require_hits ? " --require-hits" : "");
+}
+
+std::string verdict_words(const CheckReport& r) {
+    std::string words(verdict_name(r.verdict));
+    if (r.partial())
+        words += fmt::format(" (partial: stopped after {} of {} frames)", r.frames, r.frames_asked);
+    for (std::size_t i = 0; i < r.untried.size(); ++i)
+        words += fmt::format("{}{}", i == 0 ? ", but " : ", and ", r.untried[i]);
+    return words;
+}
+
+std::string report_text(const CheckReport& r, const RunDescription& run) {
+    std::string out;
+    const auto line = [&](std::string_view key, std::string_view text) { out += fmt::format("{:<10}{}\n", key, text); };
+    line("scene", fmt::format("{}: {} particles, {} frames, {}", run.scene, grouped(r.particles), r.frames, run.mode));
+    line("switches", run.settings);
+    line("GL", run.context);
+    line("shaders", shaders_line(run));
+    line("profile", run.profile);
+    line("compared", fmt::format("{}; {} hits, {} texels drawn, {} NaN", compared_text(r), grouped(r.hits),
+                                 grouped(r.drawn_texels), grouped(nan_count(r.total))));
+    const FrameTimes seconds = total_times(r);
+    line("time", fmt::format("GL frames {:.2f} s, readback {:.2f} s, reference {:.2f} s, comparison {:.2f} s, "
+                             "verdicts {:.2f} s",
+                             seconds.gpu, seconds.readback, seconds.reference, seconds.compare, seconds.judge));
+    if (r.verdict != Verdict::nondeterministic)
+        line("hash", r.reference_hash == r.gpu_hash
+                         ? fmt::format("{} on both sides after the last frame", hash_text(r.gpu_hash))
+                         : fmt::format("reference {}, GPU {}", hash_text(r.reference_hash), hash_text(r.gpu_hash)));
+    line("render", render_line(run));
+    for (const std::string& note : run.notes)
+        line("note", note);
+    line("verdict", verdict_line(r));
+    if (r.total.agree())
+        return out;
+    if (r.verdicts)
+        out += verdict_text(*r.verdicts, run.width);
+    if (!run.explain.empty())
+        line("", fmt::format("again: {}", run.explain));
+
+    out += "\n  field         differing floats of compared\n";
+    for_each_field(r, [&](const Field& field, const FieldCount& counts) {
+        if (counts.differing > 0)
+            out +=
+                fmt::format("  {:<13} {:>16} of {}\n", field.name, grouped(counts.differing), grouped(counts.compared));
+    });
+    out += fmt::format("\n  worst of frame {}\n", *r.first_frame);
+    const std::string_view second = r.verdict == Verdict::nondeterministic ? "second run" : "GPU";
+    const std::string_view first = r.verdict == Verdict::nondeterministic ? "first run" : "reference";
+    for (const FrameDifference& d : r.worst)
+        out +=
+            fmt::format("  {}: {} {}, {} {}, {}\n", place(r, d), first, value_text(d.difference.reference), second,
+                        value_text(d.difference.gpu), distance_text(d.difference.ulp, d.difference.reference.scalar));
+    if (run.mode == "free" && r.verdict == Verdict::differ) {
+        out += growth_text(r);
+    }
+    out += fmt::format("\nrepeat    {}\n", run.repeat);
+    return out;
+}
+
+namespace {
+
+nlohmann::json shaders_json(const RunDescription& run) {
+    nlohmann::json files = nlohmann::json::array();
+    if (run.shaders)
+        for (const UsedShader& used : run.shaders->files)
+            files.push_back(
+                {{"file", used.file},
+                 {"foreign", used.foreign.empty() ? nlohmann::json() : nlohmann::json(used.foreign.string())},
+                 {"same_as_shipped", used.foreign.empty() || used.same_as_shipped},
+                 {"left_out", used.leaves_out}});
+    return {{"text", shaders_line(run)}, {"files", files}};
+}
+
+nlohmann::json render_json(const RunDescription& run) {
+    nlohmann::json json{{"text", render_line(run)}, {"compared", run.rendered.has_value()}};
+    if (run.rendered)
+        json.update(
+            {{"frame", run.rendered->frame}, {"pixels", run.rendered->pixels}, {"differing", run.rendered->differing}});
+    return json;
+}
+
+} // namespace
+
+nlohmann::json report_json(const CheckReport& r, const RunDescription& run) {
+    using nlohmann::json;
+    const FrameTimes seconds = total_times(r);
+    json fields = json::object();
+    for_each_field(r, [&](const Field& field, const FieldCount& counts) {
+        fields[field.name] = {{"compared", counts.compared}, {"differing", counts.differing}, {"nan", counts.nan}};
+    });
+    json worst = json::array();
+    for (const FrameDifference& d : r.worst)
+        worst.push_back({{"frame", d.frame},
+                         {"field", r.schema[d.difference.field].name},
+                         {"index", d.difference.index},
+                         {"component", d.difference.component},
+                         {"reference", value_json(d.difference.reference)},
+                         {"reference_hex", exact_text(d.difference.reference)},
+                         {"gpu", value_json(d.difference.gpu)},
+                         {"gpu_hex", exact_text(d.difference.gpu)},
+                         {"ulp", d.difference.ulp}});
+    json report{{"verdict", verdict_name(r.verdict)},
+                {"verdict_line", verdict_line(r)},
+                {"partial", r.partial()},
+                {"judged", r.verdicts.has_value()},
+                {"untried", r.untried},
+                {"scene", run.scene},
+                {"mode", run.mode},
+                {"switches", run.settings},
+                {"context", run.context},
+                {"shaders", shaders_json(run)},
+                {"render", render_json(run)},
+                {"profile", run.profile},
+                {"particles", r.particles},
+                {"frames", r.frames},
+                {"frames_asked", r.frames_asked},
+                {"first_frame", r.first_frame ? json(*r.first_frame) : json()},
+                {"hits", r.hits},
+                {"drawn_texels", r.drawn_texels},
+                {"fields", fields},
+                {"worst", worst},
+                {"counts", counts_json(r)},
+                {"hash", {{"reference", hash_text(r.reference_hash)}, {"gpu", hash_text(r.gpu_hash)}}},
+                {"seconds",
+                 {{"gpu", seconds.gpu},
+                  {"readback", seconds.readback},
+                  {"reference", seconds.reference},
+                  {"compare", seconds.compare},
+                  {"judge", seconds.judge}}},
+                {"verdicts", r.verdicts ? verdict_json(*r.verdicts, run.width) : json()},
+                {"repeat", run.repeat},
+                {"notes", run.notes},
+                {"explain", run.explain.empty() ? json() : json(run.explain)}};
+    for (std::uint8_t k = 0; k < r.schema.resources.size(); ++k)
+        report[fmt::format("differing_{}s", r.schema.resources[k].item)] = r.total.differing(k);
+    return report;
+}
+
+} // namespace lockstep

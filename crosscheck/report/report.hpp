@@ -1,0 +1,55 @@
+#pragma once
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include <nlohmann/json_fwd.hpp>
+
+#include "crosscheck/judge/check.hpp"
+#include "gpu/shader_use.hpp"
+
+namespace lockstep {
+
+/// The rendered frame of one state, as both sides draw it.
+struct RenderComparison {
+    int frame = 0;
+    std::uint64_t pixels = 0;
+    std::uint64_t differing = 0;
+    std::uint64_t of_particles = 0; ///< pixels that would be others without particles
+};
+
+/// What a report says about the run besides the comparison.
+struct RunDescription {
+    std::string scene;    ///< name and file
+    std::string context;  ///< backend, renderer, version
+    std::string profile;  ///< the arithmetic the reference followed
+    std::string settings; ///< preset and changed switches
+    std::string mode;
+    int width = 0;       ///< CDT, to turn a texel index into x, y
+    std::string repeat;  ///< a command line that repeats a run up to the first difference; {frames} is filled in
+    std::string explain; ///< one that shows the first divergence step by step; empty if there is none
+    std::vector<std::string> notes = {};   ///< what a reader of the verdict has to know besides
+    std::optional<ShaderUse> shaders = {}; ///< whose ran; not set: shaders_untold says why that is not known
+    std::string shaders_untold = "an engine's own, of which nothing is known";
+    std::optional<RenderComparison> rendered = {}; ///< not set: the rendered frame was not compared
+    std::string render_hint = {};                  ///< how it would be
+};
+
+/// "AGREE", "LEGAL", ...
+std::string_view verdict_name(Verdict verdict);
+
+/// The options that set these rules as they are typed, each after a space.
+std::string pass_options_text(const PassRules& rules);
+
+/// The verdict with what stands against taking it for more: "AGREE (partial: stopped after 3 of 60 frames), but nothing
+/// collided".
+std::string verdict_words(const CheckReport& report);
+
+/// The report as a person reads it, verdict last but one, at most 60 lines. See docs/report_lines.md.
+std::string report_text(const CheckReport& report, const RunDescription& run);
+
+/// The same as data.
+nlohmann::json report_json(const CheckReport& report, const RunDescription& run);
+
+} // namespace lockstep

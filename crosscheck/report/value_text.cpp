@@ -1,0 +1,40 @@
+#include "crosscheck/report/value_text.hpp"
+
+#include <cmath>
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include "crosscheck/report/verdict_text.hpp"
+
+namespace lockstep {
+
+std::string exact_text(Value value) {
+    return value.scalar == Scalar::float32 ? fmt::format("{:a}", value.real()) : std::to_string(value.integer());
+}
+
+std::string value_text(Value value) {
+    return value.scalar == Scalar::float32 ? fmt::format("{:.9g} ({:a})", value.real(), value.real())
+                                           : fmt::format("{} ({:#x})", value.integer(), value.bits);
+}
+
+nlohmann::json value_json(Value value) {
+    if (value.scalar != Scalar::float32)
+        return value.integer();
+    return std::isfinite(value.real()) ? nlohmann::json(value.real()) : nlohmann::json(fmt::format("{}", value.real()));
+}
+
+std::string distance_text(std::int64_t distance, Scalar scalar) {
+    if (distance == INT64_MAX)
+        return "NaN on one side";
+    if (scalar != Scalar::float32)
+        return grouped(static_cast<std::uint64_t>(distance)) + " apart";
+    return distance == 0 ? "sign of zero" : grouped(static_cast<std::uint64_t>(distance)) + " ULP";
+}
+
+std::string difference_text(const Schema& schema, const Difference& difference) {
+    return fmt::format("{}: reference {}, GPU {}", component_name(schema[difference.field], difference.component),
+                       exact_text(difference.reference), exact_text(difference.gpu));
+}
+
+} // namespace lockstep

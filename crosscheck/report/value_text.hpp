@@ -1,0 +1,26 @@
+#pragma once
+#include <cstdint>
+#include <string>
+
+#include <nlohmann/json_fwd.hpp>
+
+#include "crosscheck/judge/compare.hpp"
+
+namespace lockstep {
+
+/// "0.1 (0x1.99999ap-4)"; an integer "17 (0x11)".
+std::string value_text(Value value);
+
+/// "0x1.99999ap-4"; an integer "17".
+std::string exact_text(Value value);
+
+/// A number, or text where JSON has none for it.
+nlohmann::json value_json(Value value);
+
+/// "3 ULP"; of integers "3 apart".
+std::string distance_text(std::int64_t distance, Scalar scalar = Scalar::float32);
+
+/// "position.x: reference 0x1p+0, GPU 0x1.000002p+0".
+std::string difference_text(const Schema& schema, const Difference& difference);
+
+} // namespace lockstep

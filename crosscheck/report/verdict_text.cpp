@@ -1,0 +1,169 @@
+#include "crosscheck/report/verdict_text.hpp"
+
+#include <algorithm>
+#include <iterator>
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+#include <nlohmann/json.hpp>
+
+#include "crosscheck/report/value_text.hpp"
+#include "reference/model/collision_state.hpp"
+
+namespace lockstep {
+namespace {
+
+std::string line(std::string_view key, std::string_view text) { return fmt::format("{:<10}{}\n", key, text); }
+
+std::string place_text(const Place& place, int width) {
+    const auto index = static_cast<std::int64_t>(place.index);
+    return place.texel ? fmt::format("frame {} texel ({}, {})", place.frame, index % width, index / width)
+                       : fmt::format("frame {} particle {}", place.frame, index);
+}
+
+std::string classes_text(const std::array<std::uint64_t, class_names.size()>& counts) {
+    std::string text;
+    for (std::size_t k = 0; k < counts.size(); ++k)
+        if (counts[k] > 0)
+            text += fmt::format("{}{} {}", text.empty() ? "" : ", ", grouped(counts[k]), class_names[k]);
+    return text.empty() ? "none" : text;
+}
+
+std::string meaning(const Cause& cause) {
+    std::string text;
+    for (const Deviation deviation : cause.deviations)
+        text += fmt::format("{}{}", text.empty() ? "" : "; ",
+                            deviation_table()[static_cast<std::size_t>(deviation)].meaning);
+    return text;
+}
+
+std::string cause_text(const CauseFindings& found, std::string_view what) {
+    if (found.best.empty())
+        return fmt::format("no named deviation explains any of {} {}", grouped(found.divergent), what);
+    const Cause& best = found.best.front();
+    std::string text = found.explains_all()
+                           ? fmt::format("all {} {} are explained by {}: {}", grouped(found.divergent), what,
+                                         best.name(), meaning(best))
+                           : fmt::format("{} of {} {} are explained by {}: {}", grouped(best.explained),
+                                         grouped(found.divergent), what, best.name(), meaning(best));
+    if (best.contradicted > 0)
+        text += fmt::format(", which {} that agree contradict", grouped(best.contradicted));
+    constexpr std::size_t most_named = 3;
+    for (std::size_t i = 1; i < std::min(found.best.size(), most_named); ++i)
+        text += fmt::format(", or as well by {}", found.best[i].name());
+    if (found.best.size() > most_named)
+        text += fmt::format(", or by {} more", found.best.size() - most_named);
+    return text;
+}
+
+std::string first_text(const FirstDivergence& first, int width) {
+    const WrongStep& wrong = first.wrong;
+    std::string text =
+        line("first", fmt::format("{}, {}, step {}", place_text(first.place, width),
+                                  class_names[static_cast<std::size_t>(first.verdict.kind)], wrong.step));
+    if (first.verdict.undefined != Undefined::none)
+        text += line("", fmt::format("left open by GL: {}", undefined_name(first.verdict.undefined)));
+    text += line("", fmt::format("reference: {}", wrong.operation));
+    if (!wrong.gpu.empty())
+        text += line("", fmt::format("GPU: {}", wrong.gpu));
+    text += line("", fmt::format("{}{}{}", difference_text(collision_schema(), wrong.difference),
+                                 wrong.margin.empty() ? "" : "; ", wrong.margin));
+    return text;
+}
+
+nlohmann::json place_json(const Place& place, int width) {
+    if (!place.texel)
+        return {{"frame", place.frame}, {"particle", place.index}};
+    const auto index = static_cast<std::int64_t>(place.index);
+    return {{"frame", place.frame}, {"texel", {index % width, index / width}}};
+}
+
+nlohmann::json cause_json(const CauseFindings& found) {
+    nlohmann::json best = nlohmann::json::array();
+    for (const Cause& cause : found.best) {
+        nlohmann::json names = nlohmann::json::array();
+        for (const Deviation deviation : cause.deviations)
+            names.push_back(deviation_name(deviation));
+        best.push_back({{"deviations", names},
+                        {"meaning", meaning(cause)},
+                        {"explained", cause.explained},
+                        {"contradicted", cause.contradicted}});
+    }
+    return {{"divergent", found.divergent}, {"explains_all", found.explains_all()}, {"best", best}};
+}
+
+nlohmann::json counts_json(const std::array<std::uint64_t, class_names.size()>& counts) {
+    nlohmann::json json = nlohmann::json::object();
+    for (std::size_t k = 0; k < counts.size(); ++k)
+        json[std::string(class_names[k])] = counts[k];
+    return json;
+}
+
+} // namespace
+
+std::string grouped(std::uint64_t value) {
+    std::string digits = std::to_string(value);
+    for (auto i = static_cast<std::ptrdiff_t>(digits.size()) - 3; i > 0; i -= 3)
+        digits.insert(static_cast<std::size_t>(i), 1, ',');
+    return digits;
+}
+
+std::string verdict_text(const VerdictSummary& s, int width) {
+    std::string text =
+        line("classes", fmt::format("particles: {}; texels: {}", classes_text(s.particles), classes_text(s.texels)));
+    if (!s.set_sizes.empty())
+        text += line("outcomes", fmt::format("legal ones: median {}, largest {}", s.median_set_size(),
+                                             s.set_sizes.rbegin()->first));
+    for (const auto& [kind, tie] : s.ties)
+        text += line("ties",
+                     fmt::format("{}: {}, margins {:.3g} to {:.3g} {}; closest {}", tie_name(kind), grouped(tie.count),
+                                 tie.smallest, tie.largest, tie_unit(kind), place_text(tie.closest, width)));
+    for (const auto& [reason, count] : s.undefined)
+        text += line("undefined", fmt::format("{}: {}", undefined_name(reason), grouped(count)));
+    if (s.particle_cause.divergent > 0)
+        text += line("cause", cause_text(s.particle_cause, "particles"));
+    if (s.texel_cause.divergent > 0)
+        text += line("cause", cause_text(s.texel_cause, "texels"));
+    if (s.first)
+        text += first_text(*s.first, width);
+    return text;
+}
+
+nlohmann::json verdict_json(const VerdictSummary& s, int width) {
+    using nlohmann::json;
+    json ties = json::object();
+    for (const auto& [kind, tie] : s.ties)
+        ties[std::string(tie_name(kind))] = {{"count", tie.count},
+                                             {"smallest_margin", tie.smallest},
+                                             {"largest_margin", tie.largest},
+                                             {"unit", tie_unit(kind)},
+                                             {"closest", place_json(tie.closest, width)}};
+    json undefined = json::object();
+    for (const auto& [reason, count] : s.undefined)
+        undefined[std::string(undefined_name(reason))] = count;
+    json first;
+    if (s.first) {
+        const WrongStep& wrong = s.first->wrong;
+        first = {{"place", place_json(s.first->place, width)},
+                 {"class", class_names[static_cast<std::size_t>(s.first->verdict.kind)]},
+                 {"step", wrong.step},
+                 {"operation", wrong.operation},
+                 {"gpu_did", wrong.gpu},
+                 {"margin", wrong.margin},
+                 {"field", collision_schema()[wrong.difference.field].name},
+                 {"component", wrong.difference.component},
+                 {"reference_hex", exact_text(wrong.difference.reference)},
+                 {"gpu_hex", exact_text(wrong.difference.gpu)}};
+    }
+    return {{"particles", counts_json(s.particles)},
+            {"texels", counts_json(s.texels)},
+            {"set_size",
+             {{"median", s.median_set_size()}, {"largest", s.set_sizes.empty() ? 0 : s.set_sizes.rbegin()->first}}},
+            {"ties", ties},
+            {"undefined", undefined},
+            {"particle_cause", cause_json(s.particle_cause)},
+            {"texel_cause", cause_json(s.texel_cause)},
+            {"first", first}};
+}
+
+} // namespace lockstep

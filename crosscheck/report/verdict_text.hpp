@@ -1,0 +1,20 @@
+#pragma once
+#include <cstdint>
+#include <string>
+
+#include <nlohmann/json_fwd.hpp>
+
+#include "crosscheck/judge/verdict_summary.hpp"
+
+namespace lockstep {
+
+/// 4812 as "4,812".
+std::string grouped(std::uint64_t value);
+
+/// The lines of a report about verdicts: classes, ties, cause, first divergence. `width`: of the CDT, texels.
+std::string verdict_text(const VerdictSummary& summary, int width);
+
+/// The same as data.
+nlohmann::json verdict_json(const VerdictSummary& summary, int width);
+
+} // namespace lockstep

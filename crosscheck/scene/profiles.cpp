@@ -1,0 +1,316 @@
+#include "crosscheck/scene/profiles.hpp"
+
+#include <algorithm>
+#include <array>
+#include <initializer_list>
+#include <optional>
+#include <utility>
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include "gpu/probe/root_tables.hpp"
+#include "gpu/shader_source.hpp"
+#include "reference/known_operations.hpp"
+
+namespace lockstep {
+namespace {
+
+/// Turns rows into a profile, and notes those that cannot be followed.
+class Translation {
+  public:
+    explicit Translation(const ProbeResult& result) : result_(result) {}
+
+    /// What a row's finding stands for; where none of `known` was found, what comes closest, and a note.
+    template <class Value> Value pick(const char* row_name, const std::vector<std::pair<const char*, Value>>& known) {
+        const ProbeRow& row = result_.row(row_name);
+        for (const auto& [finding, value] : known)
+            if (row.finding == finding)
+                return value;
+        note(row_name);
+        const auto matched = [&](const char* name) {
+            const auto found = std::find_if(row.candidates.begin(), row.candidates.end(),
+                                            [&](const ProbeCandidate& c) { return c.name == name; });
+            return found == row.candidates.end() ? 0 : found->matched;
+        };
+        return std::max_element(known.begin(), known.end(),
+                                [&](const auto& a, const auto& b) { return matched(a.first) < matched(b.first); })
+            ->second;
+    }
+
+    /// The same of two rows that have to agree; the first one counts.
+    template <class Value>
+    Value pick(const char* first, const char* second, const std::vector<std::pair<const char*, Value>>& known) {
+        const Value value = pick(first, known);
+        if (pick(second, known) != value)
+            note(second);
+        return value;
+    }
+
+    void require(std::initializer_list<const char*> row_names, std::string_view finding) {
+        for (const char* row_name : row_names)
+            if (result_.row(row_name).finding != finding)
+                note(row_name);
+    }
+
+    /// Largest distance from a candidate over several rows.
+    [[nodiscard]] std::int64_t error(std::initializer_list<const char*> row_names, std::string_view from) const {
+        std::int64_t largest = 0;
+        for (const char* row_name : row_names)
+            largest = std::max(largest, candidate(result_.row(row_name), from).max_ulp);
+        return largest;
+    }
+
+    void note(const char* row_name) {
+        if (std::find(not_followed.begin(), not_followed.end(), row_name) == not_followed.end())
+            not_followed.emplace_back(row_name);
+    }
+
+    std::vector<std::string> not_followed;
+
+  private:
+    const ProbeResult& result_;
+};
+
+/// What a row about sums found: a shader gets the first of the driver's candidates that all inputs match.
+std::optional<DotOrder> order_named(std::string_view name) {
+    const auto names = dot_order_names();
+    const auto found = std::find(names.begin(), names.end(), name);
+    return found == names.end() ? std::nullopt : std::optional(static_cast<DotOrder>(found - names.begin()));
+}
+
+/// The order inside one of `forms`, "sqrt({}), rounded": "dot" stands for the driver's own dot of the same qualifier.
+std::optional<DotOrder> order_inside(std::string_view finding, std::initializer_list<std::string_view> forms,
+                                     DotOrder dot) {
+    for (const std::string_view form : forms) {
+        const std::size_t hole = form.find("{}");
+        const std::string_view before = form.substr(0, hole);
+        const std::string_view after = form.substr(hole + 2);
+        if (!finding.starts_with(before) || !finding.ends_with(after) || finding.size() < before.size() + after.size())
+            continue;
+        const auto inside = finding.substr(before.size(), finding.size() - before.size() - after.size());
+        if (inside == "dot")
+            return dot;
+        if (const auto order = order_named(inside))
+            return order;
+    }
+    return {};
+}
+
+/// The sums in dot, length and normalize, `precise` and not.
+void follow_orders(Translation& rows, const ProbeResult& result, Profile& profile) {
+    const auto names = dot_order_names();
+    std::vector<std::pair<const char*, DotOrder>> orders;
+    for (const std::string_view name : names)
+        orders.emplace_back(name.data(), *order_named(name));
+    profile.dot = rows.pick<DotOrder>("dot(vec3), precise", orders);
+    const DotOrder plain = rows.pick<DotOrder>("dot(vec3)", orders);
+    const bool tables = built_from_driver_roots(result);
+    const auto note_other = [](std::vector<DotOrder>& others, DotOrder own, DotOrder other) {
+        if (other != own && std::find(others.begin(), others.end(), other) == others.end())
+            others.push_back(other);
+    };
+    note_other(profile.other_orders.dot, profile.dot, plain);
+    const auto inside = [&](const char* row, DotOrder dot, std::initializer_list<std::string_view> rounded,
+                            std::string_view by_tables) {
+        const std::string& finding = result.row(row).finding;
+        return tables ? order_inside(finding, {by_tables}, dot) : order_inside(finding, rounded, dot);
+    };
+    const auto follow = [&](const char* precise_row, const char* plain_row,
+                            std::initializer_list<std::string_view> rounded, std::string_view by_tables,
+                            std::optional<DotOrder>& own, std::vector<DotOrder>& others) {
+        const DotOrder followed = inside(precise_row, profile.dot, rounded, by_tables).value_or(profile.dot);
+        if (followed != profile.dot)
+            own = followed;
+        note_other(others, followed, inside(plain_row, plain, rounded, by_tables).value_or(plain));
+        note_other(profile.other_orders.dot, profile.dot, followed);
+    };
+    follow("length, precise", "length", {"sqrt({}), rounded"}, "1/y, y inversesqrt({})", profile.length_dot,
+           profile.other_orders.length);
+    follow("normalize, precise", "normalize", {"v*(1/sqrt({})), rounded"}, "v*inversesqrt({})", profile.normalize_dot,
+           profile.other_orders.normalize);
+}
+
+/// 0 where an order of the sum inside is all that is to be followed.
+std::int64_t error_inside(const Translation& rows, const ProbeResult& result,
+                          std::initializer_list<const char*> row_names, std::string_view from, std::string_view form) {
+    std::int64_t largest = 0;
+    for (const char* row : row_names)
+        if (!order_inside(result.row(row).finding, {form}, DotOrder::left_to_right))
+            largest = std::max(largest, rows.error({row}, from));
+    return largest;
+}
+
+OperationErrors errors(const Translation& rows, const ProbeResult& result) {
+    OperationErrors e;
+    e.divide = rows.error({"a/b", "a/b, precise", "fragment a/b"}, "rounded");
+    e.reciprocal = rows.error({"1/b", "1/b, precise", "fragment 1/b"}, "rounded");
+    e.sqrt = rows.error({"sqrt", "sqrt, precise", "fragment sqrt"}, "rounded");
+    e.inverse_sqrt =
+        rows.error({"inversesqrt", "inversesqrt, precise", "fragment inversesqrt"}, "1/sqrt(x), each rounded");
+    e.length = error_inside(rows, result, {"length", "length, precise"}, "sqrt(dot), rounded", "sqrt({}), rounded");
+    e.normalize = error_inside(rows, result, {"normalize", "normalize, precise"}, "v*(1/sqrt(dot)), rounded",
+                               "v*(1/sqrt({})), rounded");
+    return e;
+}
+
+std::vector<std::pair<const char*, ViewportRounding>> viewports() {
+    return {{"(clip*(1/w))*scale + offset", ViewportRounding::separate},
+            {"fma(clip*(1/w), scale, offset)", ViewportRounding::fused},
+            {"(clip*scale)*(1/w) + offset", ViewportRounding::scaled}};
+}
+
+std::vector<std::pair<const char*, bool>> depths() {
+    return {{"(clip*(1/w))*0.5 + 0.5", false}, {"(clip*r)*0.5 + 0.5, r the driver's 1/w", true}};
+}
+
+RasterRules raster_rules(Translation& rows) {
+    const std::vector<std::pair<const char*, SnapRounding>> snaps{{"half to even", SnapRounding::half_to_even},
+                                                                  {"half away from zero", SnapRounding::half_away},
+                                                                  {"half up", SnapRounding::half_up},
+                                                                  {"down", SnapRounding::down}};
+    const std::vector<std::pair<const char*, int>> bits{{"4", 4}, {"5", 5},   {"6", 6},   {"7", 7},  {"8", 8},
+                                                        {"9", 9}, {"10", 10}, {"11", 11}, {"12", 12}};
+    RasterRules rules;
+    rules.subpixel_bits = rows.pick("points: sub-pixel bits", "triangles: sub-pixel bits", bits);
+    rules.point_snap = rows.pick("points: snap", snaps);
+    rules.vertex_snap = rows.pick("triangles: snap", snaps);
+    rules.viewport = rows.pick("points: viewport", viewports());
+    rules.vertex_viewport = rows.pick("triangles: viewport", viewports());
+    rules.point_edge_to_lower =
+        rows.pick<bool>("points: edge in x", "points: edge in y", {{"lower pixel", true}, {"upper pixel", false}});
+    rules.left_edge_in = rows.pick<bool>("triangles: left side", {{"in", true}, {"out", false}});
+    rules.lower_edge_in = rows.pick<bool>("triangles: lower side", {{"in", true}, {"out", false}});
+    rows.require({"triangles: right side"}, rules.left_edge_in ? "out" : "in");
+    rows.require({"triangles: upper side"}, rules.lower_edge_in ? "out" : "in");
+    rules.depth_by_driver_reciprocal = rows.pick("points: depth", depths());
+    rows.require({"equal depth, LESS"}, "first stays");
+    return rules;
+}
+
+bool has_geometry_stage(const std::filesystem::path& shaders) {
+    constexpr std::array stages{Stage::geometry};
+    return !load_stages(shader_folders(shaders), "collision_pass", stages).empty();
+}
+
+std::string errors_text(const OperationErrors& e) {
+    const std::pair<const char*, std::int64_t> all[] = {{"a/b", e.divide},    {"1/b", e.reciprocal},
+                                                        {"sqrt", e.sqrt},     {"inversesqrt", e.inverse_sqrt},
+                                                        {"length", e.length}, {"normalize", e.normalize}};
+    std::vector<std::string> off;
+    for (const auto& [name, ulp] : all)
+        if (ulp > 0)
+            off.push_back(fmt::format("{} {}", name, ulp == INT64_MAX ? "NaN" : std::to_string(ulp)));
+    return off.empty() ? "division and roots rounded" : fmt::format("ULP off: {}", fmt::join(off, ", "));
+}
+
+std::string dot_text(DotOrder order) {
+    if (order <= DotOrder::fused_chain)
+        return std::array{"(x + y) + z", "x + (y + z)", "fma(z, fma(y, x))"}[static_cast<std::size_t>(order)];
+    return std::string(dot_order_names()[static_cast<std::size_t>(order)]);
+}
+
+/// The orders of the sums, where they are not one.
+std::string orders_text(const Profile& profile) {
+    std::string text = dot_text(profile.dot);
+    if (profile.length_dot)
+        text += fmt::format(" (in length {})", dot_text(*profile.length_dot));
+    if (profile.normalize_dot)
+        text += fmt::format(" (in normalize {})", dot_text(*profile.normalize_dot));
+    std::vector<std::string> others;
+    for (const auto& orders : {profile.other_orders.dot, profile.other_orders.length, profile.other_orders.normalize})
+        for (const DotOrder order : orders)
+            if (std::string other = dot_text(order); std::find(others.begin(), others.end(), other) == others.end())
+                others.push_back(std::move(other));
+    if (!others.empty())
+        text += fmt::format(", or without precise {}", fmt::join(others, ", "));
+    return text;
+}
+
+} // namespace
+
+Profile profile_from(const ProbeResult& result) {
+    Translation rows(result);
+    Profile profile;
+    profile.name = "generic";
+    follow_orders(rows, result, profile);
+    rows.require({"mat4*vec4, precise", "mat4*vec4 written out, precise"}, "((x+y)+z)+w");
+    rows.require({"x*x+y*y+z*z, precise"}, "(x+y)+z");
+    rows.require({"a*b+c, precise", "x*a+x*b, precise", "cross, precise", "fragment a*b+c, precise"}, "each rounded");
+    profile.flush_subnormals = rows.pick<bool>("subnormal result of *", {{"flushed", true}, {"kept", false}});
+    rows.require({"subnormal operand of *", "subnormal operand of +", "subnormal result of +", "subnormal > 0"},
+                 profile.flush_subnormals ? "flushed" : "kept");
+    rows.require({"subnormal passed on"}, "kept");
+    if (result.has("compute: subnormal result of *")) {
+        profile.compute_flush_subnormals =
+            rows.pick<bool>("compute: subnormal result of *", {{"flushed", true}, {"kept", false}});
+        const bool results = profile.compute_flush_subnormals;
+        profile.compute_flush_subnormals =
+            rows.pick<bool>("compute: subnormal operand of *", {{"flushed", true}, {"kept", false}});
+        if (results != profile.compute_flush_subnormals)
+            profile.compute_flush_results = results;
+    }
+    rows.require({"transform feedback order"}, "as drawn");
+    profile.errors = errors(rows, result);
+    profile.raster = raster_rules(rows);
+    profile.not_followed = rows.not_followed;
+    for (const char* name : {"llvmpipe", "nvidia"})
+        if (computes_alike(profile, named_profile(name)))
+            profile.name = name;
+    return profile;
+}
+
+bool built_from_driver_roots(const ProbeResult& result) {
+    const auto is = [&](const char* row_name, const char* sequence) {
+        const ProbeRow& row = result.row(row_name);
+        return std::any_of(row.candidates.begin(), row.candidates.end(),
+                           [&](const ProbeCandidate& c) { return c.name == sequence && c.matched == row.total; });
+    };
+    return result.row("a/b, precise").finding != "rounded" && is("a/b, precise", "a*r, r the driver's 1/b") &&
+           is("a/b, b from 2^126, precise", "a*r, r the driver's 1/b") &&
+           is("sqrt, precise", "1/y, y the driver's inversesqrt") && is("length, precise", "1/y, y inversesqrt(dot)") &&
+           is("normalize, precise", "v*inversesqrt(dot)");
+}
+
+Profile measured_profile(const Context& context, const std::filesystem::path& shaders) {
+    return measured_profile(probe(context), shaders);
+}
+
+Profile measured_profile(const ProbeResult& result, const std::filesystem::path& shaders) {
+    Profile profile = profile_from(result);
+    if (built_from_driver_roots(result))
+        profile.roots = std::make_shared<const RootTables>(measure_root_tables());
+    return with_shaders(std::move(profile), result, shaders);
+}
+
+Profile with_shaders(Profile profile, const ProbeResult& result, const std::filesystem::path& shaders) {
+    if (has_geometry_stage(shaders))
+        return profile;
+    // The rows of points behind a geometry stage say nothing of these points.
+    std::erase(profile.not_followed, "points: viewport");
+    std::erase(profile.not_followed, "points: depth");
+    Translation rows(result);
+    profile.raster.viewport = rows.pick("points: viewport, no geometry stage", viewports());
+    profile.raster.depth_by_driver_reciprocal = rows.pick("points: depth, no geometry stage", depths());
+    profile.not_followed.insert(profile.not_followed.end(), rows.not_followed.begin(), rows.not_followed.end());
+    return profile;
+}
+
+std::string describe(const Profile& profile) {
+    std::string text =
+        fmt::format("{}: dot {}, {}, subnormals {}, {} sub-pixel bits, points on an edge to the {} pixel", profile.name,
+                    orders_text(profile),
+                    profile.roots ? "division and roots by the driver's own tables" : errors_text(profile.errors),
+                    profile.flush_subnormals ? "flushed" : "kept", profile.raster.subpixel_bits,
+                    profile.raster.point_edge_to_lower ? "lower" : "upper");
+    if (!profile.not_followed.empty())
+        text += fmt::format("; not followed: {}", fmt::join(profile.not_followed, ", "));
+    if (const KnownRaster known = measured_operations(profile).raster; !known.points() || !known.triangles())
+        text += known.gl_grid
+                    ? "; texels are held to GL's own rules for these (--preset exact leaves nothing open)"
+                    : "; texels are judged to half a pixel, since no sub-pixel grid of GL's explains the driver's "
+                      "(--preset exact leaves nothing open)";
+    return text;
+}
+
+} // namespace lockstep

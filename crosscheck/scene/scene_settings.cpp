@@ -1,0 +1,211 @@
+#include "crosscheck/scene/scene_settings.hpp"
+
+#include <algorithm>
+#include <cstdint>
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+#include <glm/geometric.hpp>
+
+#include "crosscheck/scene/scene_constants.hpp"
+#include "reference/model/error.hpp"
+#include "reference/model/layered_cdt.hpp"
+
+namespace lockstep {
+namespace {
+
+constexpr std::int64_t largest_image = 16384;
+constexpr NumberRule field_of_view{1.0, 179.0, "an angle from 1 to 179 degrees"};
+
+bool parallel(glm::vec3 a, glm::vec3 b) {
+    const glm::dvec3 normal = glm::cross(glm::normalize(glm::dvec3(a)), glm::normalize(glm::dvec3(b)));
+    return !(glm::length(normal) > 1e-6); // also when a or b is zero
+}
+
+Camera read_camera(const JsonValue& json) {
+    json.check_keys({"eye", "target", "up", "fov_y", "near", "far"});
+    Camera camera;
+    if (const auto eye = json.find("eye"))
+        camera.eye = eye->vector();
+    if (const auto target = json.find("target"))
+        camera.target = target->vector();
+    if (const auto up = json.find("up"))
+        camera.up = up->vector();
+    if (const auto fov_y = json.find("fov_y"))
+        camera.fov_y = fov_y->number(field_of_view);
+    if (const auto near = json.find("near"))
+        camera.near_plane = near->number(number::positive);
+    if (const auto far = json.find("far"))
+        camera.far_plane = far->number(number::positive);
+    if (camera.near_plane >= camera.far_plane)
+        json.fail(fmt::format("near {} is not below far {}", camera.near_plane, camera.far_plane));
+    if (parallel(camera.target - camera.eye, camera.up))
+        json.fail("eye, target and up lie on one line; the camera needs a direction of view and another one up");
+    return camera;
+}
+
+std::vector<CameraKey> read_camera_path(const JsonValue& json, const Camera& camera) {
+    std::vector<CameraKey> path;
+    for (const JsonValue& item : json.items()) {
+        item.check_keys({"frame", "eye", "target"});
+        CameraKey key{static_cast<int>(item.at("frame").integer(0, 1'000'000'000)), camera.eye, camera.target};
+        if (const auto eye = item.find("eye"))
+            key.eye = eye->vector();
+        if (const auto target = item.find("target"))
+            key.target = target->vector();
+        if (!path.empty() && key.frame <= path.back().frame)
+            item.fail(fmt::format("frame {} does not come after frame {}; keys are sorted by frame", key.frame,
+                                  path.back().frame));
+        if (parallel(key.target - key.eye, camera.up))
+            item.fail("eye, target and the camera's up lie on one line");
+        path.push_back(key);
+    }
+    return path;
+}
+
+void read_size(const JsonValue& json, int& width, int& height) {
+    const std::vector<JsonValue> size = json.items();
+    if (size.size() != 2)
+        json.fail("a size is two integers, [width, height]");
+    width = static_cast<int>(size[0].integer(1, largest_image));
+    height = static_cast<int>(size[1].integer(1, largest_image));
+}
+
+void read_switches(const JsonValue& json, Switches& switches) {
+    std::vector<std::string_view> names;
+    for (const SwitchInfo& info : switch_table())
+        names.push_back(info.name);
+    json.check_keys(names);
+    for (const SwitchInfo& info : switch_table())
+        if (const auto value = json.find(info.name)) {
+            if (info.number != nullptr)
+                switches.*info.number = value->number();
+            else
+                info.set(switches, static_cast<int>(value->choice(info.values)));
+        }
+}
+
+void read_constants(const JsonValue& json, Constants& constants) {
+    json.check_keys(constant_names());
+    for (const std::string_view name : constant_names())
+        if (const auto value = json.find(name))
+            set_constant(constants, name, *value);
+}
+
+void apply_setting(const std::string& setting, Scene& scene) {
+    constexpr std::size_t longest = 200; // far more than a name and three numbers
+    if (setting.size() > longest)
+        throw Error(fmt::format("--set {}...: {} characters; a setting has at most {}", setting.substr(0, 20),
+                                setting.size(), longest));
+    const std::size_t equals = setting.find('=');
+    if (equals == std::string::npos)
+        throw Error(fmt::format("--set {}: a setting is name=value", setting));
+    const std::string name = setting.substr(0, equals);
+    const std::string text = setting.substr(equals + 1);
+
+    const auto constants = constant_names();
+    if (std::find(constants.begin(), constants.end(), name) != constants.end()) {
+        nlohmann::json value = text;
+        try {
+            value = parse_json(name == "gravity" && !text.starts_with('[') ? "[" + text + "]" : text, "--set");
+        } catch (const Error&) { // a text, which no constant is
+        }
+        return set_constant(scene.constants, name, JsonValue(value, "--set", name));
+    }
+    std::vector<std::string_view> switches;
+    for (const SwitchInfo& info : switch_table())
+        switches.push_back(info.name);
+    if (std::find(switches.begin(), switches.end(), name) == switches.end())
+        throw Error(fmt::format("--set {}: nothing is named {}; the switches are {}; the constants are {}", setting,
+                                name, fmt::join(switches, ", "), fmt::join(constants, ", ")));
+    set_switch(scene.switches, name, text);
+}
+
+nlohmann::json vector_json(glm::vec3 v) { return {v.x, v.y, v.z}; }
+
+nlohmann::json camera_json(const Camera& camera) {
+    return {{"eye", vector_json(camera.eye)}, {"target", vector_json(camera.target)},
+            {"up", vector_json(camera.up)},   {"fov_y", camera.fov_y},
+            {"near", camera.near_plane},      {"far", camera.far_plane}};
+}
+
+nlohmann::json switches_json(const Switches& switches) {
+    nlohmann::json json = nlohmann::json::object();
+    for (const SwitchInfo& info : switch_table()) {
+        if (info.number != nullptr)
+            json[std::string(info.name)] = switches.*info.number;
+        else
+            json[std::string(info.name)] = switch_value(switches, info.name);
+    }
+    return json;
+}
+
+} // namespace
+
+Box read_box(const JsonValue& json) {
+    const Box box{json.at("min").vector(), json.at("max").vector()};
+    for (int axis = 0; axis < 3; ++axis)
+        if (box.min[axis] > box.max[axis])
+            json.fail(
+                fmt::format("min is above max in {}; a box goes from its lowest to its highest corner", "xyz"[axis]));
+    return box;
+}
+
+void read_settings(const JsonValue& json, const std::optional<std::string>& preset_name,
+                   const std::vector<std::string>& set, Scene& scene) {
+    if (const auto description = json.find("description"))
+        static_cast<void>(description->text());
+
+    std::string base = "corrected";
+    if (const auto name = json.find("preset")) {
+        base = name->text();
+        try {
+            static_cast<void>(preset(base));
+        } catch (const Error& error) {
+            name->fail(error.what());
+        }
+    }
+    scene.switches = preset(preset_name.value_or(base));
+    if (const auto switches = json.find("switches"))
+        read_switches(*switches, scene.switches);
+    if (const auto constants = json.find("constants"))
+        read_constants(*constants, scene.constants);
+    for (const std::string& setting : set)
+        apply_setting(setting, scene);
+    check_remedies(scene.switches);
+
+    if (const auto camera = json.find("camera"))
+        scene.camera = read_camera(*camera);
+    if (const auto path = json.find("camera_path"))
+        scene.camera_path = read_camera_path(*path, scene.camera);
+    const auto collision_camera = json.find("collision_camera");
+    scene.collision_camera = collision_camera ? read_camera(*collision_camera) : scene.camera;
+
+    if (const auto size = json.find("image"))
+        read_size(*size, scene.width, scene.height);
+    if (const auto size = json.find("render"))
+        read_size(*size, scene.render_width, scene.render_height);
+    if (const auto box = json.find("cdt_box")) {
+        box->check_keys({"min", "max"});
+        scene.cdt_box = read_box(*box);
+        for (int axis = 0; axis < 3; ++axis)
+            if (!(scene.cdt_box.min[axis] < scene.cdt_box.max[axis]))
+                box->fail(fmt::format("the box has no extent in {}", "xyz"[axis]));
+    }
+}
+
+nlohmann::json settings_json(const Scene& scene) {
+    nlohmann::json path = nlohmann::json::array();
+    for (const CameraKey& key : scene.camera_path)
+        path.push_back({{"frame", key.frame}, {"eye", vector_json(key.eye)}, {"target", vector_json(key.target)}});
+    return {{"switches", switches_json(scene.switches)},
+            {"constants", constants_json(scene.constants)},
+            {"camera", camera_json(scene.camera)},
+            {"camera_path", path},
+            {"collision_camera", camera_json(scene.collision_camera)},
+            {"image", {scene.width, scene.height}},
+            {"render", {scene.render_width, scene.render_height}},
+            {"cdt_box", {{"min", vector_json(scene.cdt_box.min)}, {"max", vector_json(scene.cdt_box.max)}}}};
+}
+
+} // namespace lockstep

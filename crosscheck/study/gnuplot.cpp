@@ -1,0 +1,129 @@
+#include "crosscheck/study/gnuplot.hpp"
+
+#include <array>
+#include <cerrno>
+#include <csignal>
+#include <cstdlib>
+#include <sstream>
+
+#include <fcntl.h>
+#include <poll.h>
+#include <spawn.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include "reference/model/error.hpp"
+
+extern char** environ;
+
+namespace lockstep {
+namespace {
+
+/// Both ends of a pipe that no other program gets.
+struct Pipe {
+    Pipe() {
+        if (pipe2(ends.data(), O_CLOEXEC) != 0)
+            throw Error("chart: no pipe to gnuplot can be made");
+    }
+    ~Pipe() {
+        close_end(0);
+        close_end(1);
+    }
+    Pipe(const Pipe&) = delete;
+    Pipe& operator=(const Pipe&) = delete;
+
+    void close_end(std::size_t end) {
+        if (ends[end] >= 0)
+            close(ends[end]);
+        ends[end] = -1;
+    }
+    std::array<int, 2> ends{-1, -1};
+};
+
+/// gnuplot between two pipes: no shell, and no file.
+pid_t start_gnuplot(const Pipe& in, const Pipe& out) {
+    posix_spawn_file_actions_t files;
+    posix_spawn_file_actions_init(&files);
+    posix_spawn_file_actions_adddup2(&files, in.ends[0], STDIN_FILENO);
+    posix_spawn_file_actions_adddup2(&files, out.ends[1], STDOUT_FILENO);
+    posix_spawnattr_t attributes;
+    posix_spawnattr_init(&attributes);
+    sigset_t ignored;
+    sigemptyset(&ignored);
+    sigaddset(&ignored, SIGPIPE);
+    posix_spawnattr_setsigdefault(&attributes, &ignored);
+    posix_spawnattr_setflags(&attributes, POSIX_SPAWN_SETSIGDEF);
+    std::string program = "gnuplot";
+    std::array<char*, 2> arguments{program.data(), nullptr};
+    pid_t child = -1;
+    const int failed = posix_spawnp(&child, "gnuplot", &files, &attributes, arguments.data(), environ);
+    posix_spawn_file_actions_destroy(&files);
+    posix_spawnattr_destroy(&attributes);
+    if (failed != 0)
+        throw Error("chart: gnuplot cannot be started");
+    return child;
+}
+
+/// Writes all of `text` and reads to the end, whichever the other side is ready for.
+std::string exchange(Pipe& in, Pipe& out, std::string_view text) {
+    fcntl(in.ends[1], F_SETFL, O_NONBLOCK);
+    std::string output;
+    std::array<char, 4096> part{};
+    for (;;) {
+        if (text.empty())
+            in.close_end(1);
+        std::array<pollfd, 2> ready{pollfd{out.ends[0], POLLIN, 0}, pollfd{in.ends[1], POLLOUT, 0}};
+        if (poll(ready.data(), ready.size(), -1) < 0)
+            continue;
+        if (ready[1].revents != 0) {
+            const ssize_t written = write(in.ends[1], text.data(), text.size());
+            text.remove_prefix(written > 0                         ? static_cast<std::size_t>(written)
+                               : errno == EAGAIN || errno == EINTR ? 0
+                                                                   : text.size());
+        }
+        if (ready[0].revents == 0)
+            continue;
+        const ssize_t got = read(out.ends[0], part.data(), part.size());
+        if (got == 0 || (got < 0 && errno != EINTR))
+            return output;
+        output.append(part.data(), static_cast<std::size_t>(got > 0 ? got : 0));
+    }
+}
+
+} // namespace
+
+bool have_gnuplot() {
+    const char* path = std::getenv("PATH");
+    std::istringstream folders(path == nullptr ? "/usr/bin:/bin" : path);
+    for (std::string folder; std::getline(folders, folder, ':');)
+        if (access(((folder.empty() ? "." : folder) + "/gnuplot").c_str(), X_OK) == 0)
+            return true;
+    return false;
+}
+
+std::string run_gnuplot(const std::string& script) {
+    Pipe in, out;
+    const pid_t child = start_gnuplot(in, out);
+    in.close_end(0);
+    out.close_end(1);
+    const std::string output = exchange(in, out, script);
+    int status = 0;
+    while (waitpid(child, &status, 0) < 0 && errno == EINTR) {
+    }
+    if (status != 0 || output.empty())
+        throw Error("chart: gnuplot failed; its message stands above");
+    return output;
+}
+
+std::string gnuplot_quoted(std::string_view text) {
+    std::string out(1, '\'');
+    for (const char c : text) {
+        if (c == '\'')
+            out += c;
+        out += c;
+    }
+    out += '\'';
+    return out;
+}
+
+} // namespace lockstep

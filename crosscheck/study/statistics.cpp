@@ -1,0 +1,53 @@
+#include "crosscheck/study/statistics.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace lockstep {
+
+double median(std::vector<double> values) {
+    const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
+    std::nth_element(values.begin(), middle, values.end());
+    return *middle;
+}
+
+namespace {
+
+struct Line {
+    double start, slope;
+};
+
+Line fitted_line(std::span<const double> x, std::span<const double> y) {
+    double sx = 0.0, sy = 0.0, sxx = 0.0, sxy = 0.0;
+    for (std::size_t i = 0; i < x.size(); ++i) {
+        sx += x[i];
+        sy += y[i];
+        sxx += x[i] * x[i];
+        sxy += x[i] * y[i];
+    }
+    const auto n = static_cast<double>(x.size());
+    const double slope = (n * sxy - sx * sy) / (n * sxx - sx * sx);
+    return {(sy - slope * sx) / n, slope};
+}
+
+} // namespace
+
+double fitted_exponent(std::span<const std::size_t> counts, std::span<const double> seconds) {
+    std::vector<double> x, y;
+    for (std::size_t i = 0; i < counts.size(); ++i) {
+        x.push_back(std::log(static_cast<double>(counts[i])));
+        y.push_back(std::log(seconds[i]));
+    }
+    return fitted_line(x, y).slope;
+}
+
+double deviation_from_line(std::span<const std::size_t> counts, std::span<const double> seconds) {
+    const std::vector<double> x(counts.begin(), counts.end());
+    const Line line = fitted_line(x, seconds);
+    double largest = 0.0;
+    for (std::size_t i = 0; i < x.size(); ++i)
+        largest = std::max(largest, std::abs(line.start + line.slope * x[i] - seconds[i]) / seconds[i]);
+    return largest;
+}
+
+} // namespace lockstep

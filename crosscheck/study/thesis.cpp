@@ -1,0 +1,108 @@
+#include "crosscheck/study/thesis.hpp"
+
+#include <algorithm>
+#include <chrono>
+#include <limits>
+
+#include <fmt/format.h>
+
+#include "crosscheck/scene/scene_file.hpp"
+#include "crosscheck/study/study.hpp"
+#include "gpu/simulation.hpp"
+#include "reference/octree_pass.hpp"
+
+namespace lockstep {
+namespace {
+
+constexpr float full_count = 200'000.0F;
+constexpr int thesis_octree_size = 50; // world units; `set` may say otherwise
+
+double now() { return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count(); }
+
+/// Leaves the particles after the last frame in `last`.
+SystemTimes time_system(const Scene& scene, const ThesisOptions& options, Particles& last) {
+    GpuSimulation gpu(scene, options.shaders);
+    gpu.step(frame_params(scene, 0));
+    SystemTimes sum;
+    const double first = now();
+    while (sum.frames < options.frames && now() - first < options.seconds) {
+        const FrameParams params = frame_params(scene, ++sum.frames);
+        const double start = now();
+        gpu.step(params);
+        sum.wall += now() - start;
+        sum.gpu += gpu.frame_seconds();
+    }
+    gpu.read(last);
+    return {sum.frames, sum.wall / sum.frames, sum.gpu / sum.frames};
+}
+
+/// Of a frame with the first particle alone.
+double fixed_time(Scene scene, const ThesisOptions& options) {
+    scene.start.resize(1);
+    Particles ignored;
+    return time_system(scene, options, ignored).wall;
+}
+
+/// What shares a leaf is seen.
+double octree_recall(const std::vector<glm::vec3>& positions, const Truth& truth, float size) {
+    std::vector<std::int32_t> leaf(positions.size());
+    std::transform(positions.begin(), positions.end(), leaf.begin(),
+                   [&](glm::vec3 position) { return octree_leaf(position, size); });
+    std::size_t with_neighbour = 0, recalled = 0;
+    for (std::size_t i = 0; i < positions.size(); ++i) {
+        const auto neighbours = truth.lists.of(i);
+        with_neighbour += neighbours.empty() ? 0U : 1U;
+        recalled += leaf[i] != no_leaf &&
+                            std::any_of(neighbours.begin(), neighbours.end(),
+                                        [&](std::int32_t j) { return leaf[static_cast<std::size_t>(j)] == leaf[i]; })
+                        ? 1U
+                        : 0U;
+    }
+    return with_neighbour == 0 ? std::numeric_limits<double>::quiet_NaN()
+                               : static_cast<double>(recalled) / static_cast<double>(with_neighbour);
+}
+
+ThesisCell measure(const std::string& name, std::size_t count, const ThesisOptions& options) {
+    SceneOptions scene_options;
+    scene_options.particles = count;
+    scene_options.emitter_length = static_cast<float>(count) / full_count;
+    scene_options.preset = options.preset;
+    scene_options.set = options.set;
+    scene_options.set.insert(scene_options.set.begin(), fmt::format("octree_size={}", thesis_octree_size));
+    Scene scene = load_scene(options.scenes / (name + ".json"), scene_options);
+    ThesisCell cell{name, count, {}, {}};
+    Particles last, ignored;
+    scene.switches.search = Search::cdt;
+    cell.cdt = time_system(scene, options, last);
+    cell.cdt.fixed = fixed_time(scene, options);
+    if (options.octree) {
+        scene.switches.search = Search::octree;
+        cell.octree = time_system(scene, options, ignored);
+        cell.octree->fixed = fixed_time(scene, options);
+    }
+    scene.start = last;
+    const Truth truth = find_truth(last.position, scene.constants.collision_range);
+    cell.cdt.recall = study_start(scene, truth, Profile{}).counts.recall();
+    if (cell.octree)
+        cell.octree->recall = octree_recall(last.position, truth, scene.constants.octree_size);
+    return cell;
+}
+
+} // namespace
+
+std::optional<double> ThesisCell::ratio() const {
+    return octree ? std::optional(octree->wall / cdt.wall) : std::nullopt;
+}
+
+std::vector<ThesisCell> thesis_study(const ThesisOptions& options) {
+    std::vector<ThesisCell> cells;
+    for (const std::string_view scene : thesis_scenes)
+        for (const std::size_t count : options.counts) {
+            cells.push_back(measure(std::string(scene), count, options));
+            if (options.on_cell)
+                options.on_cell(cells.back());
+        }
+    return cells;
+}
+
+} // namespace lockstep

@@ -1,0 +1,435 @@
+#include "crosscheck/study/thesis_report.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include "crosscheck/files/json_reader.hpp"
+#include "crosscheck/study/gnuplot.hpp"
+#include "crosscheck/study/statistics.hpp"
+
+namespace lockstep {
+namespace {
+
+constexpr std::array<std::size_t, 4> published_counts{50'000, 100'000, 150'000, 200'000};
+constexpr double not_a_number = std::numeric_limits<double>::quiet_NaN();
+
+/// The thesis's milliseconds. Its octree was run at a density "like B" alone.
+struct Published {
+    std::string_view scene;
+    std::array<double, 4> cdt, octree;
+};
+constexpr std::array published{
+    Published{"bunny_a", {12, 27, 52, 65}, {}},
+    Published{"bunny_b", {13, 31, 50, 70}, {100, 195, 284, 413}},
+    Published{"dragon_a", {12, 34, 54, 81}, {}},
+    Published{"dragon_b", {14, 34, 56, 83}, {104, 194, 284, 370}},
+};
+constexpr double published_average = 46.75; ///< ms, of its table 4-1
+
+/// How rows are called.
+std::string title(std::string_view scene) {
+    if (scene == "x_streams")
+        return "x-streams";
+    const std::size_t end = scene.size() - 2;
+    return fmt::format("{:<7}{}", scene.substr(0, end), scene.back() == 'a' ? 'A' : 'B');
+}
+
+enum class System { cdt, octree };
+
+/// The thesis's ms for a scene and count; NaN where it gives none.
+double published_ms(System system, std::string_view scene, std::size_t count) {
+    for (const Published& row : published)
+        for (std::size_t c = 0; c < published_counts.size(); ++c)
+            if (row.scene == scene && published_counts[c] == count) {
+                const double ms = system == System::cdt ? row.cdt[c] : row.octree[c];
+                return ms > 0.0 ? ms : not_a_number;
+            }
+    return not_a_number;
+}
+
+double measured_ms(System system, const ThesisCell& cell) {
+    if (system == System::octree && !cell.octree)
+        return not_a_number;
+    return 1e3 * (system == System::cdt ? cell.cdt.wall : cell.octree->wall);
+}
+
+/// What the particles add to a frame with one alone; NaN where that was not measured.
+double added_ms(System system, const ThesisCell& cell) {
+    const double fixed = system == System::cdt ? cell.cdt.fixed : cell.octree ? cell.octree->fixed : 0.0;
+    return fixed > 0.0 ? measured_ms(system, cell) - 1e3 * fixed : not_a_number;
+}
+
+std::vector<const ThesisCell*> of_scene(const ThesisRun& run, std::string_view scene) {
+    std::vector<const ThesisCell*> cells;
+    for (const ThesisCell& cell : run.cells)
+        if (cell.scene == scene)
+            cells.push_back(&cell);
+    return cells;
+}
+
+std::vector<std::size_t> counts(const ThesisRun& run) {
+    std::vector<std::size_t> all;
+    for (const ThesisCell* cell : of_scene(run, thesis_scenes.front()))
+        all.push_back(cell->particles);
+    return all;
+}
+
+/// Exponent of time over count; NaN where it cannot be told.
+double exponent(std::span<const std::size_t> counts, std::span<const double> ms) {
+    const bool known = std::all_of(ms.begin(), ms.end(), [](double v) { return v > 0.0; });
+    return counts.size() > 1 && known ? fitted_exponent(counts, ms) : not_a_number;
+}
+
+/// How far times are from growing along a straight line; NaN where it cannot be told.
+double off_line(std::span<const std::size_t> counts, std::span<const double> ms) {
+    return std::isnan(exponent(counts, ms)) ? not_a_number : deviation_from_line(counts, ms);
+}
+
+std::string digits_text(double value, int digits = 2) {
+    return std::isnan(value) ? "-" : fmt::format("{:.{}f}", value, digits);
+}
+
+/// As many digits as a short or a long time needs.
+std::string ms_text(double ms) { return digits_text(ms, ms < 100.0 ? 2 : 0); }
+
+/// A name, and one right-aligned text a column.
+std::string line(std::string_view name, const std::vector<std::string>& columns, std::size_t width = 9) {
+    std::string text = fmt::format("{:<11}", name);
+    for (const std::string& column : columns)
+        text += fmt::format(" {:>{}}", column, width);
+    return text + "\n";
+}
+
+/// The columns of times_row; with_exponents false: of ratio_row.
+std::string head(const std::vector<std::size_t>& counts, bool with_published, bool with_exponents = true) {
+    std::vector<std::string> columns;
+    const auto add_counts = [&] {
+        for (const std::size_t count : counts)
+            columns.push_back(fmt::format("{}", count));
+        if (with_exponents)
+            columns.emplace_back("exponent");
+    };
+    add_counts();
+    if (with_published) {
+        columns.emplace_back("thesis");
+        add_counts();
+    }
+    return line("", columns);
+}
+
+/// Measured times with their exponent, then the thesis's.
+std::string times_row(std::string_view name, const std::vector<std::size_t>& counts, const std::vector<double>& ms,
+                      const std::vector<double>& thesis) {
+    std::vector<std::string> columns;
+    for (const double value : ms)
+        columns.push_back(ms_text(value));
+    columns.push_back(digits_text(exponent(counts, ms)));
+    if (!thesis.empty()) {
+        columns.emplace_back("");
+        for (const double value : thesis)
+            columns.push_back(ms_text(value));
+        columns.push_back(digits_text(exponent(counts, thesis)));
+    }
+    return line(name, columns);
+}
+
+struct Series {
+    std::vector<double> ms, added, thesis;
+};
+
+Series series(const ThesisRun& run, System system, std::string_view scene) {
+    Series s;
+    for (const ThesisCell* cell : of_scene(run, scene)) {
+        s.ms.push_back(measured_ms(system, *cell));
+        s.added.push_back(added_ms(system, *cell));
+        s.thesis.push_back(published_ms(system, scene, cell->particles));
+    }
+    return s;
+}
+
+/// Figure 5-3: bunny and dragon at density B, averaged.
+Series average_of_b(const ThesisRun& run, System system) {
+    Series mean = series(run, system, "bunny_b");
+    const Series other = series(run, system, "dragon_b");
+    for (std::size_t i = 0; i < mean.ms.size(); ++i) {
+        mean.ms[i] = 0.5 * (mean.ms[i] + other.ms[i]);
+        mean.thesis[i] = 0.5 * (mean.thesis[i] + other.thesis[i]);
+    }
+    return mean;
+}
+
+std::vector<double> quotient(const std::vector<double>& a, const std::vector<double>& b) {
+    std::vector<double> q;
+    for (std::size_t i = 0; i < a.size(); ++i)
+        q.push_back(a[i] / b[i]);
+    return q;
+}
+
+std::string ratio_row(std::string_view name, const std::vector<double>& ratios, const std::vector<double>& thesis) {
+    std::vector<std::string> columns;
+    for (const double ratio : ratios)
+        columns.push_back(digits_text(ratio, 1));
+    columns.emplace_back("");
+    for (const double ratio : thesis)
+        columns.push_back(digits_text(ratio, 1));
+    return line(name, columns);
+}
+
+std::string percent(double part) { return digits_text(100.0 * part, 1); }
+
+/// Least and greatest of what is a number.
+std::string range(const std::vector<double>& values, int digits) {
+    double least = std::numeric_limits<double>::infinity();
+    double greatest = -least;
+    for (const double value : values)
+        if (!std::isnan(value)) {
+            least = std::min(least, value);
+            greatest = std::max(greatest, value);
+        }
+    return least > greatest ? "-" : fmt::format("{} to {}", digits_text(least, digits), digits_text(greatest, digits));
+}
+
+std::string findings(const ThesisRun& run) {
+    const std::vector<std::size_t> n = counts(run);
+    std::vector<double> cdt, octree, ratios, cdt_added, octree_added, cdt_off, octree_off;
+    double sum = 0.0, particles = 0.0, cells = 0.0;
+    for (const std::string_view scene : thesis_scenes) {
+        cdt.push_back(exponent(n, series(run, System::cdt, scene).ms));
+        octree.push_back(exponent(n, series(run, System::octree, scene).ms));
+        cdt_added.push_back(exponent(n, series(run, System::cdt, scene).added));
+        octree_added.push_back(exponent(n, series(run, System::octree, scene).added));
+        cdt_off.push_back(100.0 * off_line(n, series(run, System::cdt, scene).ms));
+        octree_off.push_back(100.0 * off_line(n, series(run, System::octree, scene).ms));
+    }
+    bool slower = true;
+    for (const ThesisCell& cell : run.cells) {
+        ratios.push_back(cell.ratio().value_or(not_a_number));
+        slower = slower && ratios.back() > 1.0;
+        if (cell.scene == "x_streams")
+            continue;
+        sum += measured_ms(System::cdt, cell);
+        particles += static_cast<double>(cell.particles);
+        cells += 1.0;
+    }
+    return fmt::format("CDT, average of table 4-1: {} ms at {:.0f} particles (thesis {} ms at 125000)\n"
+                       "time ~ particles^x: x {} (CDT), {} (octree); 0.9 to 1.1 is linear\n"
+                       "the same of what particles add to a frame with one alone: x {} (CDT), {} (octree)\n"
+                       "off the line a + b * particles: {} % (CDT), {} % (octree) at most\n"
+                       "octree / CDT: {} (thesis 4.5 to 7.7); octree slower in every cell: {}\n",
+                       ms_text(sum / cells), particles / cells, published_average, range(cdt, 2), range(octree, 2),
+                       range(cdt_added, 2), range(octree_added, 2), range(cdt_off, 1), range(octree_off, 1),
+                       range(ratios, 1), slower ? "yes" : "no");
+}
+
+struct Column {
+    std::string_view name;
+    double (*value)(const ThesisCell&);
+};
+
+double octree_value(const ThesisCell& cell, double (*value)(const SystemTimes&)) {
+    return cell.octree ? value(*cell.octree) : not_a_number;
+}
+
+constexpr auto gpu_ms = [](const SystemTimes& times) { return times.gpu > 0.0 ? 1e3 * times.gpu : not_a_number; };
+
+/// What a cell's line of CSV holds after scene and particles.
+constexpr std::array csv_columns{
+    Column{"cdt_ms", [](const ThesisCell& c) { return 1e3 * c.cdt.wall; }},
+    Column{"cdt_gpu_ms", [](const ThesisCell& c) { return gpu_ms(c.cdt); }},
+    Column{"cdt_recall", [](const ThesisCell& c) { return c.cdt.recall; }},
+    Column{"octree_ms",
+           [](const ThesisCell& c) { return octree_value(c, [](const SystemTimes& t) { return 1e3 * t.wall; }); }},
+    Column{"octree_gpu_ms", [](const ThesisCell& c) { return octree_value(c, gpu_ms); }},
+    Column{"octree_recall",
+           [](const ThesisCell& c) { return octree_value(c, [](const SystemTimes& t) { return t.recall; }); }},
+    Column{"octree_over_cdt", [](const ThesisCell& c) { return c.ratio().value_or(not_a_number); }},
+    Column{"thesis_cdt_ms", [](const ThesisCell& c) { return published_ms(System::cdt, c.scene, c.particles); }},
+    Column{"thesis_octree_ms", [](const ThesisCell& c) { return published_ms(System::octree, c.scene, c.particles); }},
+};
+
+nlohmann::json system_json(const SystemTimes& times) {
+    nlohmann::json json{{"frames", times.frames}, {"seconds", times.wall}, {"gpu_seconds", times.gpu}};
+    if (times.fixed > 0.0)
+        json["fixed_seconds"] = times.fixed;
+    if (!std::isnan(times.recall))
+        json["recall"] = times.recall;
+    return json;
+}
+
+SystemTimes read_system(const JsonValue& json) {
+    constexpr NumberRule seconds{0.0, 1e9, "a time in seconds"};
+    constexpr NumberRule share{0.0, 1.0, "a share from 0 to 1"};
+    json.check_keys({"frames", "seconds", "gpu_seconds", "fixed_seconds", "recall"});
+    SystemTimes times;
+    times.frames = static_cast<int>(json.at("frames").integer(1, 100'000'000));
+    times.wall = json.at("seconds").number(seconds);
+    times.gpu = json.at("gpu_seconds").number(seconds);
+    if (const auto fixed = json.find("fixed_seconds"))
+        times.fixed = fixed->number(seconds);
+    const auto recall = json.find("recall");
+    times.recall = recall ? recall->number(share) : not_a_number;
+    return times;
+}
+
+/// A block of data: count, then each series; a missing value is NaN, which gnuplot leaves out.
+std::string data_block(std::string_view name, const std::vector<std::size_t>& counts,
+                       const std::vector<std::vector<double>>& series) {
+    std::string text = fmt::format("${} << EOD\n", name);
+    for (std::size_t i = 0; i < counts.size(); ++i) {
+        text += fmt::format("{}", counts[i]);
+        for (const std::vector<double>& values : series)
+            text += std::isnan(values[i]) ? " NaN" : fmt::format(" {:.6g}", values[i]);
+        text += '\n';
+    }
+    return text + "EOD\n";
+}
+
+std::string panel(std::string_view name, std::string_view title, const std::vector<std::string>& lines) {
+    std::string text = fmt::format("set title {}\nplot ", gnuplot_quoted(title));
+    for (std::size_t i = 0; i < lines.size(); ++i)
+        text += fmt::format("{}${} using 1:{} with linespoints lw 2 lc {} title {}", i == 0 ? "" : ", ", name, i + 2,
+                            i + 1, gnuplot_quoted(lines[i]));
+    return text + "\n";
+}
+
+} // namespace
+
+std::string thesis_cell_head() {
+    const std::string system = fmt::format(" {:>9} {:>9} {:>6} {:>8}", "ms", "GPU clock", "frames", "recall %");
+    return fmt::format("{:<9} {:>9} {:^35} {:^35}\n{:<9} {:>9}{}{} {:>10}\n", "", "", "CDT", "octree", "scene",
+                       "particles", system, system, "octree/CDT");
+}
+
+std::string thesis_cell_text(const ThesisCell& cell) {
+    const auto system = [](const SystemTimes& t) {
+        return fmt::format(" {:>9} {:>9} {:>6} {:>8}", ms_text(1e3 * t.wall), ms_text(gpu_ms(t)), t.frames,
+                           percent(t.recall));
+    };
+    std::string text = fmt::format("{:<9} {:>9}{}", cell.scene, cell.particles, system(cell.cdt));
+    if (cell.octree)
+        text += fmt::format("{} {:>10}", system(*cell.octree), digits_text(*cell.ratio(), 1));
+    return text + "\n";
+}
+
+std::string thesis_text(const ThesisRun& run) {
+    const std::vector<std::size_t> n = counts(run);
+    std::string out = fmt::format("GL {}\nms a frame, mean, until GL has finished; thesis: RTX 2060\n", run.context);
+    const auto table = [&](System system) {
+        for (const std::string_view scene : thesis_scenes)
+            if (scene != "x_streams") {
+                const Series s = series(run, system, scene);
+                out += times_row(title(scene), n, s.ms, s.thesis);
+            }
+    };
+    out += "\nTable 4-1, CDT\n" + head(n, true);
+    table(System::cdt);
+    out += "\nTable 5-1, octree of depth 3\n" + head(n, true);
+    table(System::octree);
+
+    const Series cdt = average_of_b(run, System::cdt);
+    const Series octree = average_of_b(run, System::octree);
+    out += "\nFigure 5-3, bunny and dragon at density B, averaged\n" + head(n, true);
+    out += times_row("CDT", n, cdt.ms, cdt.thesis) + times_row("octree", n, octree.ms, octree.thesis);
+    out += "\nFigure 5-5, streams along x\n" + head(n, false);
+    out += times_row("CDT", n, series(run, System::cdt, "x_streams").ms, {});
+    out += times_row("octree", n, series(run, System::octree, "x_streams").ms, {});
+
+    out += "\nOctree / CDT\n" + head(n, true, false);
+    for (const std::string_view scene : thesis_scenes) {
+        const Series a = series(run, System::octree, scene);
+        const Series b = series(run, System::cdt, scene);
+        out += ratio_row(title(scene), quotient(a.ms, b.ms), quotient(a.thesis, b.thesis));
+    }
+    out += "\nRecall %, CDT / octree\n";
+    for (const std::string_view scene : thesis_scenes) {
+        std::vector<std::string> columns;
+        for (const ThesisCell* cell : of_scene(run, scene))
+            columns.push_back(fmt::format("{} / {}", percent(cell->cdt.recall),
+                                          percent(cell->octree ? cell->octree->recall : not_a_number)));
+        out += line(title(scene), columns, 14);
+    }
+    return out + "\n" + findings(run);
+}
+
+std::string thesis_csv(const ThesisRun& run) {
+    std::string out = "scene,particles";
+    for (const Column& column : csv_columns)
+        out += fmt::format(",{}", column.name);
+    out += '\n';
+    for (const ThesisCell& cell : run.cells) {
+        out += fmt::format("{},{}", cell.scene, cell.particles);
+        for (const Column& column : csv_columns) {
+            const double value = column.value(cell);
+            out += std::isnan(value) ? "," : fmt::format(",{:.6g}", value);
+        }
+        out += '\n';
+    }
+    return out;
+}
+
+nlohmann::json thesis_json(const ThesisRun& run) {
+    nlohmann::json cells = nlohmann::json::array();
+    for (const ThesisCell& cell : run.cells) {
+        cells.push_back({{"scene", cell.scene}, {"particles", cell.particles}, {"cdt", system_json(cell.cdt)}});
+        if (cell.octree)
+            cells.back()["octree"] = system_json(*cell.octree);
+    }
+    return {{"context", run.context}, {"cells", cells}};
+}
+
+ThesisRun read_thesis_json(const std::filesystem::path& file) {
+    const nlohmann::json document = read_json(file);
+    const JsonValue json(document, file.string());
+    json.check_keys({"context", "cells"});
+    ThesisRun run;
+    run.context = json.at("context").text();
+    for (const JsonValue& item : json.at("cells").items()) {
+        item.check_keys({"scene", "particles", "cdt", "octree"});
+        ThesisCell cell;
+        cell.scene = thesis_scenes[item.at("scene").choice(thesis_scenes)];
+        cell.particles = static_cast<std::size_t>(item.at("particles").integer(1, 100'000'000));
+        cell.cdt = read_system(item.at("cdt"));
+        if (const auto octree = item.find("octree"))
+            cell.octree = read_system(*octree);
+        run.cells.push_back(cell);
+    }
+    const std::size_t each = of_scene(run, thesis_scenes.front()).size();
+    for (const std::string_view scene : thesis_scenes)
+        if (each == 0 || of_scene(run, scene).size() != each)
+            json.at("cells").fail(
+                fmt::format("scene {} has another number of cells than {}, or none", scene, thesis_scenes.front()));
+    return run;
+}
+
+std::string thesis_chart(const ThesisRun& run) {
+    const std::vector<std::size_t> n = counts(run);
+    const auto ms = [&](System system, std::string_view scene) { return series(run, system, scene).ms; };
+    std::vector<std::vector<double>> table_4_1, table_5_1;
+    std::vector<std::string> names;
+    for (const std::string_view scene : thesis_scenes)
+        if (scene != "x_streams") {
+            table_4_1.push_back(ms(System::cdt, scene));
+            table_5_1.push_back(ms(System::octree, scene));
+            names.push_back(title(scene));
+        }
+    const Series cdt = average_of_b(run, System::cdt);
+    const Series octree = average_of_b(run, System::octree);
+    return data_block("t41", n, table_4_1) + data_block("t51", n, table_5_1) +
+           data_block("f53", n, {cdt.ms, octree.ms, cdt.thesis, octree.thesis}) +
+           data_block("f55", n, {ms(System::cdt, "x_streams"), ms(System::octree, "x_streams")}) +
+           fmt::format("set terminal svg size 1100,800 noenhanced background rgb 'white'\n"
+                       "set multiplot layout 2,2 title {}\n"
+                       "set xlabel 'particles'\nset ylabel 'ms a frame'\nset grid\nset key below\n"
+                       "set xtics 50000\n",
+                       gnuplot_quoted(run.context)) +
+           "set yrange [0:]\n" + panel("t41", "Table 4-1, CDT", names) +
+           panel("t51", "Table 5-1, octree of depth 3", names) + "set logscale y\nset yrange [*:*]\n" +
+           panel("f53", "Figure 5-3, average at density B", {"CDT", "octree", "CDT, thesis", "octree, thesis"}) +
+           panel("f55", "Figure 5-5, streams along x", {"CDT", "octree"}) + "unset multiplot\n";
+}
+
+} // namespace lockstep

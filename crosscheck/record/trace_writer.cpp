@@ -80,7 +80,8 @@ TraceWriter::File::File(const std::filesystem::path& temporary, std::string name
     write_run(info);
 
     const hsize_t particles = info.scene.start.size();
-    const Resource& buffer = view(info.scene.start).about();
+    const View start = view(info.scene.start);
+    const Resource& buffer = start.about();
     for (const Field& field : buffer.fields) {
         Extents extents{particles};
         if (field.components > 1)

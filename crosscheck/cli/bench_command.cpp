@@ -133,37 +133,27 @@ int run(const Options& options) {
 
 } // namespace
 
-void add_bench_command(CLI::App& app, int& status) {
+Verb bench_command() {
     auto options = std::make_shared<Options>();
-    CLI::App* verb = app.add_subcommand("bench", "time GL frames, reference and check in one run, with the state hash");
-    add_scene_options(*verb, options->run);
-    add_gl_options(*verb, options->run);
+    Verb verb{"bench", "time GL frames, reference and check in one run, with the state hash"};
+    add_scene_options(verb, options->run);
+    add_gl_options(verb, options->run);
     options->run.frames = 30;
-    verb->add_option("--frames", options->run.frames, "frames a measurement")
-        ->check(integer(1, 1'000'000))
-        ->type_name("N");
-    verb->add_option("--counts", options->counts, "particle counts")
-        ->delimiter(',')
-        ->allow_extra_args(false)
-        ->check(integer(1, most_particles))
-        ->type_name("N,...");
-    verb->add_option("--warm-up", options->warm_up, "frames run before the measured ones")
-        ->check(integer(0, 10'000))
-        ->type_name("N");
-    verb->add_option("--radius", options->radii, "neighbourhood radii, texels")
-        ->delimiter(',')
-        ->allow_extra_args(false)
-        ->check(integer(0, widest_neighbourhood))
-        ->type_name("R,...");
-    add_legal_option(*verb, options->legal);
-    add_pass_options(*verb, options->rules);
-    verb->footer("Exit status: as lockstep check's, 1 where a row does not pass.\n"
-                 "Example: lockstep bench data/scenes/lattice.json --counts 50000,200000 --radius 1");
-    verb->callback([options, verb, &status] {
-        if (verb->count("--particles") > 0)
+    verb.add(integer_option("--frames", "N", {1, 1'000'000}, options->run.frames, "frames a measurement"));
+    verb.add(integers_option("--counts", "N,...", {1, most_particles}, options->counts, "particle counts"));
+    verb.add(integer_option("--warm-up", "N", {0, 10'000}, options->warm_up, "frames run before the measured ones"));
+    verb.add(
+        integers_option("--radius", "R,...", {0, widest_neighbourhood}, options->radii, "neighbourhood radii, texels"));
+    add_legal_option(verb, options->legal);
+    add_pass_options(verb, options->rules);
+    verb.footer = "Exit status: as lockstep check's, 1 where a row does not pass.\n"
+                  "Example: lockstep bench data/scenes/lattice.json --counts 50000,200000 --radius 1";
+    verb.run = [options](const Call& call) {
+        if (call.has("--particles"))
             throw Error("bench: --particles does not go with it; --counts N,... names how many");
-        status = run(*options);
-    });
+        return run(*options);
+    };
+    return verb;
 }
 
 } // namespace lockstep

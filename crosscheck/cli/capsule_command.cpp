@@ -62,8 +62,8 @@ Capsule cut_recorded(const Options& options) {
     return cut_from(run, options, fmt::format("recorded: {}", info.renderer), info.settings);
 }
 
-int cut(const Options& options, const CLI::App& verb) {
-    check_scene_or_trace(verb, options.run, options.trace);
+int cut(const Options& options, const Call& call) {
+    check_scene_or_trace(call, options.run, options.trace);
     OutputFiles files;
     protect_inputs(options.run, files);
     files.protect(options.trace);
@@ -83,37 +83,33 @@ int show(const Options& options) {
 
 } // namespace
 
-void add_capsule_command(CLI::App& app, int& status) {
+Verb capsule_command() {
     auto options = std::make_shared<Options>();
-    CLI::App* verb =
-        app.add_subcommand("capsule", "one particle's step as a small file that repeats its verdict anywhere");
-    verb->require_subcommand(1);
-    verb->footer("Example: lockstep capsule cut data/scenes/lattice.json --frame 30 --particle 17 -o 17.json\n"
-                 "then, anywhere: lockstep capsule show 17.json");
+    Verb cut_verb{"cut", "cut one out of a run, live or recorded"};
+    add_scene_options(cut_verb, options->run, SceneArgument::optional);
+    add_gl_options(cut_verb, options->run);
+    add_trace_option(cut_verb, options->trace);
+    cut_verb.add(
+        required(integer_option("--frame", "F", {0, most_frames}, options->frame, "the frame, counted from 0")));
+    cut_verb.add(required(text_option("--particle", "I", options->particle, "the particle")));
+    cut_verb.add(required(path_option("-o,--output", "FILE", options->output, "the capsule, JSON, at most 100 kB")));
+    add_legal_option(cut_verb, options->legal);
+    cut_verb.footer = "Exit status: 0 the particle agrees or is legal, 1 it is not, 2 could not run.\n"
+                      "Example: lockstep capsule cut data/scenes/lattice.json --frame 30 --particle 17 -o 17.json";
+    cut_verb.run = [options](const Call& call) { return cut(*options, call); };
 
-    CLI::App* cut_verb = verb->add_subcommand("cut", "cut one out of a run, live or recorded");
-    add_scene_options(*cut_verb, options->run);
-    add_gl_options(*cut_verb, options->run);
-    add_trace_option(*cut_verb, options->trace);
-    cut_verb->add_option("--frame", options->frame, "the frame, counted from 0")
-        ->required()
-        ->check(integer(0, most_frames))
-        ->type_name("F");
-    cut_verb->add_option("--particle", options->particle, "the particle")->required()->type_name("I");
-    cut_verb->add_option("-o,--output", options->output, "the capsule, JSON, at most 100 kB")
-        ->required()
-        ->type_name("FILE");
-    add_legal_option(*cut_verb, options->legal);
-    cut_verb->footer("Exit status: 0 the particle agrees or is legal, 1 it is not, 2 could not run.\n"
-                     "Example: lockstep capsule cut data/scenes/lattice.json --frame 30 --particle 17 -o 17.json");
-    cut_verb->callback([options, cut_verb, &status] { status = cut(*options, *cut_verb); });
+    Verb show_verb{"show", "judge one again, and print its step table; needs no GL"};
+    show_verb.add(required(path_option("capsule", "FILE", options->capsule, "what `capsule cut` wrote")));
+    show_verb.add(flag("--hex", options->hexadecimal, "hexadecimal floats instead of decimal ones"));
+    show_verb.footer = "Exit status: 0 the particle agrees or is legal, 1 it is not, 2 could not run.\n"
+                       "Example: lockstep capsule show 17.json";
+    show_verb.run = [options](const Call&) { return show(*options); };
 
-    CLI::App* show_verb = verb->add_subcommand("show", "judge one again, and print its step table; needs no GL");
-    show_verb->add_option("capsule", options->capsule, "what `capsule cut` wrote")->required()->type_name("FILE");
-    show_verb->add_flag("--hex", options->hexadecimal, "hexadecimal floats instead of decimal ones");
-    show_verb->footer("Exit status: 0 the particle agrees or is legal, 1 it is not, 2 could not run.\n"
-                      "Example: lockstep capsule show 17.json");
-    show_verb->callback([options, &status] { status = show(*options); });
+    Verb verb{"capsule", "one particle's step as a small file that repeats its verdict anywhere"};
+    verb.footer = "Example: lockstep capsule cut data/scenes/lattice.json --frame 30 --particle 17 -o 17.json\n"
+                  "then, anywhere: lockstep capsule show 17.json";
+    verb.verbs = {cut_verb, show_verb};
+    return verb;
 }
 
 } // namespace lockstep

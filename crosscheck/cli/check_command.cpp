@@ -317,62 +317,59 @@ int run_trace(Options options) {
 
 } // namespace
 
-void add_report_command(CLI::App& app, int& status) {
+Verb report_command() {
     auto options = std::make_shared<Options>();
     options->report = ".";
-    CLI::App* verb = app.add_subcommand("report", "check a recorded run, and write report.html about it");
-    verb->add_option("trace", options->trace, "what `lockstep record` wrote, or an engine of your own (docs/traces.md)")
-        ->required()
-        ->type_name("FILE");
-    verb->add_option("-o,--output", options->report, "where report.html goes; else here")->type_name("DIR");
-    verb->add_option("--frames", options->run.frames, "frames to compare; else all")
-        ->check(integer(1, most_frames))
-        ->type_name("N");
-    add_threads_option(*verb, options->run);
-    add_legal_option(*verb, options->legal);
-    add_pass_options(*verb, options->rules);
-    verb->add_flag("--quiet", options->quiet, "the page alone, and the exit status");
-    verb->footer("Exit status: as lockstep check --trace FILE --report DIR, which does the same.\n"
-                 "Example: lockstep report run.h5 -o pages");
-    verb->callback([options, verb, &status] {
-        options->frames_given = verb->get_option("--frames")->count() > 0;
-        status = run_trace(*options);
-    });
+    Verb verb{"report", "check a recorded run, and write report.html about it"};
+    verb.add(required(path_option("trace", "FILE", options->trace,
+                                  "what `lockstep record` wrote, or an engine of your own (docs/traces.md)")));
+    verb.add(path_option("-o,--output", "DIR", options->report, "where report.html goes; else here"));
+    verb.add(integer_option("--frames", "N", {1, most_frames}, options->run.frames, "frames to compare; else all"));
+    add_threads_option(verb, options->run);
+    add_legal_option(verb, options->legal);
+    add_pass_options(verb, options->rules);
+    verb.add(flag("--quiet", options->quiet, "the page alone, and the exit status"));
+    verb.footer = "Exit status: as lockstep check --trace FILE --report DIR, which does the same.\n"
+                  "Example: lockstep report run.h5 -o pages";
+    verb.run = [options](const Call& call) {
+        options->frames_given = call.has("--frames");
+        return run_trace(*options);
+    };
+    return verb;
 }
 
-void add_check_command(CLI::App& app, int& status) {
+Verb check_command() {
     auto options = std::make_shared<Options>();
-    CLI::App* verb = app.add_subcommand("check", "run both sides and compare every bit of every frame");
-    add_scene_options(*verb, options->run);
-    add_gl_options(*verb, options->run);
-    add_trace_option(*verb, options->trace);
-    verb->add_option("--frames", options->run.frames, "frames to compare; of a trace: all")
-        ->check(integer(1, most_frames))
-        ->type_name("N");
-    add_choice<CheckMode>(*verb, "--mode", options->mode, {{"resync", CheckMode::resync}, {"free", CheckMode::free}},
-                          "resync: each frame's step alone; free: both run on by themselves");
-    add_legal_option(*verb, options->legal);
-    add_pass_options(*verb, options->rules);
-    verb->add_option("--json", options->json, "write the report as JSON")->type_name("FILE");
-    verb->add_option("--hashes", options->hashes, "write both sides' state hash of every frame")->type_name("FILE");
-    verb->add_option("--images", options->images,
-                     "write CDT and rendered frame of both sides, and their difference, as PNG")
-        ->type_name("DIR");
-    verb->add_option("--report", options->report,
-                     "write report.html, a page that opens in any browser; with what study.json there says")
-        ->type_name("DIR");
-    verb->add_flag("--render", options->render, "compare the rendered frame, too, the last one; fail where it differs");
-    verb->add_flag("--quiet", options->quiet, "no report, only the exit status");
-    verb->footer(
+    Verb verb{"check", "run both sides and compare every bit of every frame"};
+    add_scene_options(verb, options->run, SceneArgument::optional);
+    add_gl_options(verb, options->run);
+    add_trace_option(verb, options->trace);
+    verb.add(
+        integer_option("--frames", "N", {1, most_frames}, options->run.frames, "frames to compare; of a trace: all"));
+    verb.add(choice_option<CheckMode>("--mode", options->mode,
+                                      {{"resync", CheckMode::resync}, {"free", CheckMode::free}},
+                                      "resync: each frame's step alone; free: both run on by themselves"));
+    add_legal_option(verb, options->legal);
+    add_pass_options(verb, options->rules);
+    verb.add(path_option("--json", "FILE", options->json, "write the report as JSON"));
+    verb.add(path_option("--hashes", "FILE", options->hashes, "write both sides' state hash of every frame"));
+    verb.add(path_option("--images", "DIR", options->images,
+                         "write CDT and rendered frame of both sides, and their difference, as PNG"));
+    verb.add(path_option("--report", "DIR", options->report,
+                         "write report.html, a page that opens in any browser; with what study.json there says"));
+    verb.add(flag("--render", options->render, "compare the rendered frame, too, the last one; fail where it differs"));
+    verb.add(flag("--quiet", options->quiet, "no report, only the exit status"));
+    verb.footer =
         "Exit status: 0 every bit agrees, or what differs is legal (rounding, ties); 1 divergent, undefined "
         "without --allow-undefined, any difference in free mode, or no hit with --require-hits; 2 could not run; "
         "130 ended by Ctrl-C, with a verdict on the frames before.\n"
-        "Example: lockstep check data/scenes/lattice.json --frames 100 --preset paper");
-    verb->callback([options, verb, &status] {
-        check_scene_or_trace(*verb, options->run, options->trace);
-        options->frames_given = verb->get_option("--frames")->count() > 0;
-        status = options->trace.empty() ? run_scene(*options) : run_trace(*options);
-    });
+        "Example: lockstep check data/scenes/lattice.json --frames 100 --preset paper";
+    verb.run = [options](const Call& call) {
+        check_scene_or_trace(call, options->run, options->trace);
+        options->frames_given = call.has("--frames");
+        return options->trace.empty() ? run_scene(*options) : run_trace(*options);
+    };
+    return verb;
 }
 
 } // namespace lockstep

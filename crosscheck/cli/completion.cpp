@@ -9,19 +9,19 @@
 namespace lockstep {
 namespace {
 
-std::string verb_names(const std::vector<VerbText>& verbs) {
+std::string verb_names(const std::vector<Verb>& verbs) {
     std::vector<std::string> names;
-    for (const VerbText& verb : verbs)
+    for (const Verb& verb : verbs)
         names.push_back(verb.name);
     return fmt::format("{}", fmt::join(names, " "));
 }
 
-std::string option_names(const VerbText& verb) {
-    std::string names;
-    for (const OptionText& option : verb.options)
-        if (!option.argument)
-            names += fmt::format("{}{}", names.empty() ? "" : " ", fmt::join(option.names, " "));
-    return names;
+std::string option_names(const Verb& verb) {
+    std::string text;
+    for (const Option& option : all_options(verb))
+        if (!is_argument(option))
+            text += fmt::format("{}{}", text.empty() ? "" : " ", fmt::join(names(option), " "));
+    return text;
 }
 
 /// --set NAME=VALUE: what stands before the sign, what stands after.
@@ -63,24 +63,24 @@ complete -o bashdefault -o default -F _lockstep lockstep
 
 } // namespace
 
-std::string bash_completion(const std::vector<VerbText>& verbs) {
+std::string bash_completion(const std::vector<Verb>& verbs) {
     std::string values;
     for (const SwitchInfo& info : switch_table())
         if (!info.values.empty())
             values += fmt::format("        {}) words=\"{}\" ;;\n", info.name, fmt::join(info.values, " "));
-    std::string choices;
+    std::string few;
     std::string with_value;
     std::string options;
-    for (const VerbText& verb : verbs) {
+    for (const Verb& verb : verbs) {
         std::string words = option_names(verb);
-        for (const OptionText& option : verb.options) {
-            const std::string given = fmt::format("{}", fmt::join(option.choices(), " "));
-            if (option.argument)
+        for (const Option& option : all_options(verb)) {
+            const std::string given = fmt::format("{}", fmt::join(choices(option), " "));
+            if (is_argument(option))
                 words += given.empty() ? "" : " " + given;
             else
-                for (const std::string& name : option.names) {
+                for (const std::string& name : names(option)) {
                     if (!given.empty())
-                        choices += fmt::format("        \"{} {}\") words=\"{}\" ;;\n", verb.name, name, given);
+                        few += fmt::format("        \"{} {}\") words=\"{}\" ;;\n", verb.name, name, given);
                     else if (!option.value.empty())
                         with_value += fmt::format("{}\"{} {}\"", with_value.empty() ? "" : " | ", verb.name, name);
                 }
@@ -88,29 +88,29 @@ std::string bash_completion(const std::vector<VerbText>& verbs) {
         options += fmt::format("            {}) words=\"{}\" ;;\n", verb.name, words);
     }
     return fmt::format(bash_frame, fmt::arg("verbs", verb_names(verbs)), fmt::arg("switches", switch_names()),
-                       fmt::arg("values", values), fmt::arg("choices", choices), fmt::arg("with_value", with_value),
+                       fmt::arg("values", values), fmt::arg("choices", few), fmt::arg("with_value", with_value),
                        fmt::arg("options", options));
 }
 
-std::string zsh_completion(const std::vector<VerbText>& verbs) {
+std::string zsh_completion(const std::vector<Verb>& verbs) {
     return "autoload -Uz compinit bashcompinit\ncompinit\nbashcompinit\n" + bash_completion(verbs);
 }
 
-std::string fish_completion(const std::vector<VerbText>& verbs) {
+std::string fish_completion(const std::vector<Verb>& verbs) {
     std::string text = "# Completion of lockstep for fish, made by `lockstep completion fish`.\n";
-    for (const VerbText& verb : verbs) {
+    for (const Verb& verb : verbs) {
         text += fmt::format("complete -c lockstep -n __fish_use_subcommand -f -a {} -d {}\n", verb.name,
                             shell_word(verb.description));
-        for (const OptionText& option : verb.options) {
-            const std::string given = fmt::format("{}", fmt::join(option.choices(), " "));
-            if (option.argument && given.empty())
+        for (const Option& option : all_options(verb)) {
+            const std::string given = fmt::format("{}", fmt::join(choices(option), " "));
+            if (is_argument(option) && given.empty())
                 continue;
             text += fmt::format("complete -c lockstep -n '__fish_seen_subcommand_from {}'", verb.name);
-            if (!option.argument)
-                for (const std::string& name : option.names)
+            if (!is_argument(option))
+                for (const std::string& name : names(option))
                     text += name.starts_with("--") ? fmt::format(" -l {}", name.substr(2))
                                                    : fmt::format(" -s {}", name.substr(1));
-            if (!option.value.empty() && !option.argument)
+            if (!option.value.empty() && !is_argument(option))
                 text += " -r";
             if (!given.empty())
                 text += fmt::format(" -f -a '{}'", given);

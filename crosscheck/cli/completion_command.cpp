@@ -1,4 +1,3 @@
-#include <cstdio>
 #include <functional>
 #include <memory>
 
@@ -11,32 +10,33 @@
 
 namespace lockstep {
 
-void add_completion_command(CLI::App& app, int& status) {
-    using Writer = std::function<std::string(const std::vector<VerbText>&)>;
+Verb completion_command() {
+    using Writer = std::function<std::string(const std::vector<Verb>&)>;
     auto writer = std::make_shared<Writer>();
-    CLI::App* verb = app.add_subcommand("completion", "write the completion of a shell to standard output");
-    add_choice<Writer>(*verb, "shell", *writer,
-                       {{"bash", bash_completion}, {"zsh", zsh_completion}, {"fish", fish_completion}},
-                       "the shell it is for")
-        ->required();
-    verb->footer("In the shell's own file (.bashrc, .zshrc): source <(lockstep completion bash)\n"
-                 "Example: lockstep completion fish > ~/.config/fish/completions/lockstep.fish");
-    verb->callback([&app, &status, writer] {
-        fmt::print("{}", (*writer)(verb_texts(app)));
-        status = status_agree;
-    });
+    Verb verb{"completion", "write the completion of a shell to standard output"};
+    verb.add(required(choice_option<Writer>(
+        "shell", *writer, {{"bash", bash_completion}, {"zsh", zsh_completion}, {"fish", fish_completion}},
+        "the shell it is for")));
+    verb.footer = "In the shell's own file (.bashrc, .zshrc): source <(lockstep completion bash)\n"
+                  "Example: lockstep completion fish > ~/.config/fish/completions/lockstep.fish";
+    verb.run = [writer](const Call& call) {
+        fmt::print("{}", (*writer)(call.program.verbs));
+        return status_agree;
+    };
+    return verb;
 }
 
-void add_manual_command(CLI::App& app, int& status) {
-    CLI::App* verb = app.add_subcommand("manual", "write the manual page to standard output");
-    verb->footer("Example: lockstep manual | man -l -");
-    verb->callback([&app, &status] {
+Verb manual_command() {
+    Verb verb{"manual", "write the manual page to standard output"};
+    verb.footer = "Example: lockstep manual | man -l -";
+    verb.run = [](const Call& call) {
         fmt::print("{}",
                    man_page("runs an image-based particle system as plain C++ and as GLSL on OpenGL, and compares "
                             "every bit of every frame",
-                            verb_texts(app)));
-        status = status_agree;
-    });
+                            call.program.verbs));
+        return status_agree;
+    };
+    return verb;
 }
 
 } // namespace lockstep

@@ -75,21 +75,21 @@ int run(const Options& options) {
 
 } // namespace
 
-void add_debug_command(CLI::App& app, int& status) {
+Verb debug_command() {
     auto options = std::make_shared<Options>();
-    CLI::App* verb = app.add_subcommand("debug", "walk through both sides by commands, typed or from a pipe");
-    add_scene_options(*verb, options->run);
-    add_gl_options(*verb, options->run);
-    verb->add_option("--frames", options->run.frames, "how many frames `next` looks through")
-        ->check(integer(1, most_frames))
-        ->type_name("N");
-    add_legal_option(*verb, options->legal);
-    verb->add_flag("--hex", options->hexadecimal, "hexadecimal floats instead of decimal ones");
-    verb->footer("Commands: frame, particle, texel, show, step, back, next fetch|difference|divergence|nan, why, "
-                 "set NAME=VALUE, list divergent, help, quit; # starts a comment.\n"
-                 "Exit status: 0 told, 2 could not run, or a command of a script could not be done.\n"
-                 "Example: printf 'next difference\\nwhy\\n' | lockstep debug data/scenes/lattice.json --shaders mine");
-    verb->callback([options, &status] { status = run(*options); });
+    Verb verb{"debug", "walk through both sides by commands, typed or from a pipe"};
+    add_scene_options(verb, options->run);
+    add_gl_options(verb, options->run);
+    verb.add(
+        integer_option("--frames", "N", {1, most_frames}, options->run.frames, "how many frames `next` looks through"));
+    add_legal_option(verb, options->legal);
+    verb.add(flag("--hex", options->hexadecimal, "hexadecimal floats instead of decimal ones"));
+    verb.footer = "Commands: frame, particle, texel, show, step, back, next fetch|difference|divergence|nan, why, "
+                  "set NAME=VALUE, list divergent, help, quit; # starts a comment.\n"
+                  "Exit status: 0 told, 2 could not run, or a command of a script could not be done.\n"
+                  "Example: printf 'next difference\\nwhy\\n' | lockstep debug data/scenes/lattice.json --shaders mine";
+    verb.run = [options](const Call&) { return run(*options); };
+    return verb;
 }
 
 } // namespace lockstep

@@ -70,10 +70,10 @@ void explain_trace(const Options& options) {
          fmt::format("recorded: {}", info.renderer.empty() ? "untold" : info.renderer));
 }
 
-int run(const Options& options, const CLI::App& verb) {
+int run(const Options& options, const Call& call) {
     if (options.particle.has_value() == options.texel.has_value())
         throw Error("explain: either --particle I or --texel X,Y is needed");
-    check_scene_or_trace(verb, options.run, options.trace);
+    check_scene_or_trace(call, options.run, options.trace);
     if (options.trace.empty())
         explain_scene(options);
     else
@@ -83,24 +83,22 @@ int run(const Options& options, const CLI::App& verb) {
 
 } // namespace
 
-void add_explain_command(CLI::App& app, int& status) {
+Verb explain_command() {
     auto options = std::make_shared<Options>();
-    CLI::App* verb = app.add_subcommand("explain", "both sides of one particle or texel in one frame, step by step");
-    add_scene_options(*verb, options->run);
-    add_gl_options(*verb, options->run);
-    add_trace_option(*verb, options->trace);
-    verb->add_option("--frame", options->frame, "the frame, counted from 0")
-        ->required()
-        ->check(integer(0, most_frames))
-        ->type_name("F");
-    verb->add_option("--particle", options->particle, "the particle")->type_name("I");
-    verb->add_option("--texel", options->texel, "the texel of the CDT, column and row from the bottom left")
-        ->type_name("X,Y");
-    add_legal_option(*verb, options->legal);
-    verb->add_flag("--hex", options->hexadecimal, "hexadecimal floats instead of decimal ones");
-    verb->footer("Exit status: 0 told, 2 could not run.\n"
-                 "Example: lockstep explain data/scenes/lattice.json --frame 30 --particle 17");
-    verb->callback([options, verb, &status] { status = run(*options, *verb); });
+    Verb verb{"explain", "both sides of one particle or texel in one frame, step by step"};
+    add_scene_options(verb, options->run, SceneArgument::optional);
+    add_gl_options(verb, options->run);
+    add_trace_option(verb, options->trace);
+    verb.add(required(integer_option("--frame", "F", {0, most_frames}, options->frame, "the frame, counted from 0")));
+    verb.add(text_option("--particle", "I", options->particle, "the particle"));
+    verb.add(
+        text_option("--texel", "X,Y", options->texel, "the texel of the CDT, column and row from the bottom left"));
+    add_legal_option(verb, options->legal);
+    verb.add(flag("--hex", options->hexadecimal, "hexadecimal floats instead of decimal ones"));
+    verb.footer = "Exit status: 0 told, 2 could not run.\n"
+                  "Example: lockstep explain data/scenes/lattice.json --frame 30 --particle 17";
+    verb.run = [options](const Call& call) { return run(*options, call); };
+    return verb;
 }
 
 } // namespace lockstep

@@ -33,16 +33,17 @@ int run(const Options& options) {
 
 } // namespace
 
-void add_hash_command(CLI::App& app, int& status) {
+Verb hash_command() {
     auto options = std::make_shared<Options>();
-    CLI::App* verb = app.add_subcommand("hash", "run the reference alone and print its state hash; needs no GL");
-    add_scene_options(*verb, options->run);
-    verb->add_option("--frames", options->run.frames, "frames to run")->check(integer(1, most_frames))->type_name("N");
-    verb->add_option("--profile", options->profile, "strict, llvmpipe or nvidia: the order of sums")
-        ->type_name("strict|llvmpipe|nvidia");
-    verb->add_flag("--every", options->every, "print every frame's hash, not only the last");
-    verb->footer("Example: lockstep hash data/scenes/lattice.json --frames 1000 --preset exact");
-    verb->callback([options, &status] { status = run(*options); });
+    Verb verb{"hash", "run the reference alone and print its state hash; needs no GL"};
+    add_scene_options(verb, options->run);
+    verb.add(integer_option("--frames", "N", {1, most_frames}, options->run.frames, "frames to run"));
+    verb.add(text_option("--profile", "strict|llvmpipe|nvidia", options->profile,
+                         "strict, llvmpipe or nvidia: the order of sums"));
+    verb.add(flag("--every", options->every, "print every frame's hash, not only the last"));
+    verb.footer = "Example: lockstep hash data/scenes/lattice.json --frames 1000 --preset exact";
+    verb.run = [options](const Call&) { return run(*options); };
+    return verb;
 }
 
 } // namespace lockstep

@@ -56,11 +56,12 @@ int run() {
 
 } // namespace
 
-void add_info_command(CLI::App& app, int& status) {
-    CLI::App* verb = app.add_subcommand("info", "list the GL contexts found, with renderer, version and limits");
-    verb->footer("Exit status: 0 there is a context, 2 there is none.\n"
-                 "Example: LOCKSTEP_EGL_LIBRARY=/opt/mesa/lib/libEGL.so.1 lockstep info");
-    verb->callback([&status] { status = run(); });
+Verb info_command() {
+    Verb verb{"info", "list the GL contexts found, with renderer, version and limits"};
+    verb.footer = "Exit status: 0 there is a context, 2 there is none.\n"
+                  "Example: LOCKSTEP_EGL_LIBRARY=/opt/mesa/lib/libEGL.so.1 lockstep info";
+    verb.run = [](const Call&) { return run(); };
+    return verb;
 }
 
 } // namespace lockstep

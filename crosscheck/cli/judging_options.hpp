@@ -1,14 +1,13 @@
 #pragma once
-#include <CLI/CLI.hpp>
-
+#include "crosscheck/cli/verb.hpp"
 #include "crosscheck/judge/check.hpp"
 #include "crosscheck/judge/legal.hpp"
 
 namespace lockstep {
 
-void add_legal_option(CLI::App& verb, Legal& legal);
+void add_legal_option(Verb& verb, Legal& legal);
 
 /// --allow-undefined and --require-hits.
-void add_pass_options(CLI::App& verb, PassRules& rules);
+void add_pass_options(Verb& verb, PassRules& rules);
 
 } // namespace lockstep

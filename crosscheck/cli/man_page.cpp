@@ -21,9 +21,9 @@ std::string plain(const std::string& text) {
     return result;
 }
 
-std::string option_paragraph(const OptionText& option) {
-    std::string head = fmt::format("\\fB{}\\fR", plain(fmt::format("{}", fmt::join(option.names, ", "))));
-    if (!option.value.empty() && !option.argument)
+std::string option_paragraph(const Option& option) {
+    std::string head = fmt::format("\\fB{}\\fR", plain(fmt::format("{}", fmt::join(names(option), ", "))));
+    if (!option.value.empty() && !is_argument(option))
         head += fmt::format(" \\fI{}\\fR", plain(option.value));
     return fmt::format(".TP\n{}\n{}\n", head, plain(option.description));
 }
@@ -37,20 +37,20 @@ std::string lines_of(const std::string& footer) {
     return text;
 }
 
-std::string section(const VerbText& verb) {
+std::string section(const Verb& verb) {
     std::string text = fmt::format(".SS lockstep {}\n{}\n", plain(verb.name), plain(verb.description));
-    for (const OptionText& option : verb.options)
+    for (const Option& option : all_options(verb))
         text += option_paragraph(option);
     return text + lines_of(verb.footer);
 }
 
 } // namespace
 
-std::string man_page(const std::string& summary, const std::vector<VerbText>& verbs) {
+std::string man_page(const std::string& summary, const std::vector<Verb>& verbs) {
     std::string text = fmt::format(".TH LOCKSTEP 1\n.SH NAME\nlockstep \\- {}\n"
                                    ".SH SYNOPSIS\n\\fBlockstep\\fR \\fIVERB\\fR [\\fIOPTIONS\\fR]\n.SH VERBS\n",
                                    plain(summary));
-    for (const VerbText& verb : verbs)
+    for (const Verb& verb : verbs)
         text += section(verb);
     return text +
            ".SH ENVIRONMENT\n"

@@ -2,11 +2,11 @@
 #include <string>
 #include <vector>
 
-#include "crosscheck/cli/verb_texts.hpp"
+#include "crosscheck/cli/verb.hpp"
 
 namespace lockstep {
 
 /// lockstep(1), for man: `summary` in a sentence, then the verbs.
-std::string man_page(const std::string& summary, const std::vector<VerbText>& verbs);
+std::string man_page(const std::string& summary, const std::vector<Verb>& verbs);
 
 } // namespace lockstep

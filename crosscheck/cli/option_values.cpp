@@ -4,49 +4,147 @@
 #include <charconv>
 #include <cmath>
 
-#include "reference/model/error.hpp"
+#include <fmt/format.h>
+#include <fmt/ranges.h>
 
 namespace lockstep {
+namespace {
 
-CLI::Validator integer(std::int64_t min, std::int64_t max) {
-    const auto problem = [min, max](std::string& text) -> std::string {
-        std::int64_t value = 0;
-        const char* const end = text.data() + text.size();
-        const auto [rest, status] = std::from_chars(text.data(), end, value);
-        if (status == std::errc{} && rest == end && value >= min && value <= max)
-            return {};
-        return fmt::format("'{}' is not an integer from {} to {}", text, min, max);
+using Texts = std::span<const std::string>;
+
+/// Nothing unless `text` is a number and no more than that.
+template <class Number> std::optional<Number> number(const std::string& text) {
+    Number value{};
+    const char* const end = text.data() + text.size();
+    const auto [rest, status] = std::from_chars(text.data(), end, value);
+    return status == std::errc{} && rest == end ? std::optional(value) : std::nullopt;
+}
+
+/// Appends to `integers`; returns what is wrong with the first text that is none.
+template <class Integer> std::string read(Texts texts, IntegerRange range, std::vector<Integer>& integers) {
+    for (const std::string& text : texts) {
+        const std::optional<std::int64_t> value = number<std::int64_t>(text);
+        if (!value || *value < range.min || *value > range.max)
+            return fmt::format("'{}' is not an integer from {} to {}", text, range.min, range.max);
+        integers.push_back(static_cast<Integer>(*value));
+    }
+    return {};
+}
+
+template <class Integer, class Target>
+Option one_integer(std::string name, std::string value, IntegerRange range, Target& target, std::string description) {
+    const auto keep = [range, &target](Texts texts) {
+        std::vector<Integer> integers;
+        const std::string problem = read(texts, range, integers);
+        if (problem.empty())
+            target = integers.front();
+        return problem;
     };
-    return {problem, ""};
+    return {std::move(name), std::move(value), std::move(description), keep};
 }
 
-CLI::Validator seconds() {
-    const auto problem = [](std::string& text) -> std::string {
-        double value = 0.0;
-        const char* const end = text.data() + text.size();
-        const auto [rest, status] = std::from_chars(text.data(), end, value);
-        const bool number = status == std::errc{} && rest == end && std::isfinite(value);
-        return number && value > 0.0 ? "" : fmt::format("'{}' is not a number of seconds above 0", text);
+template <class Integer> Option some_integers(std::string name, std::string value, IntegerRange range,
+                                              std::vector<Integer>& target, std::string description) {
+    const auto keep = [range, &target](Texts texts) {
+        target.clear();
+        return read(texts, range, target);
     };
-    return {problem, ""};
+    return {std::move(name), std::move(value), std::move(description), keep, Values::list};
 }
 
-void refuse_empty_names(CLI::App& app) {
-    for (CLI::Option* option : app.get_options())
-        if (const std::string type = option->get_type_name(); type == "FILE" || type == "DIR" || type == "SCENE")
-            option->check(CLI::Validator(
-                [type](std::string& name) {
-                    return name.empty() ? fmt::format("'' names no {}", type == "DIR" ? "folder" : "file") : "";
-                },
-                ""));
-    for (CLI::App* verb : app.get_subcommands({}))
-        refuse_empty_names(*verb);
+template <class Target> Option one_text(std::string name, std::string value, Target& target, std::string description) {
+    const auto keep = [&target](Texts texts) {
+        target = texts.front();
+        return std::string();
+    };
+    return {std::move(name), std::move(value), std::move(description), keep};
 }
 
-void check_options(const CLI::App& verb, std::string_view mode, std::span<const std::string_view> allowed) {
-    for (const CLI::Option* option : verb.get_options())
-        if (option->count() > 0 && std::find(allowed.begin(), allowed.end(), option->get_name()) == allowed.end())
-            throw Error(fmt::format("{}: {} does not go with {}", verb.get_name(), option->get_name(), mode));
+} // namespace
+
+Option flag(std::string name, bool& target, std::string description) {
+    const auto keep = [&target](Texts) {
+        target = true;
+        return std::string();
+    };
+    return {std::move(name), {}, std::move(description), keep};
+}
+
+Option text_option(std::string name, std::string value, std::string& target, std::string description) {
+    return one_text(std::move(name), std::move(value), target, std::move(description));
+}
+
+Option text_option(std::string name, std::string value, std::optional<std::string>& target, std::string description) {
+    return one_text(std::move(name), std::move(value), target, std::move(description));
+}
+
+Option texts_option(std::string name, std::string value, std::vector<std::string>& target, std::string description) {
+    const auto keep = [&target](Texts texts) {
+        target.assign(texts.begin(), texts.end());
+        return std::string();
+    };
+    return {std::move(name), std::move(value), std::move(description), keep, Values::repeated};
+}
+
+Option path_option(std::string name, std::string value, std::filesystem::path& target, std::string description) {
+    const auto keep = [&target, folder = value == "DIR"](Texts texts) {
+        target = texts.front();
+        return target.empty() ? fmt::format("'' names no {}", folder ? "folder" : "file") : "";
+    };
+    return {std::move(name), std::move(value), std::move(description), keep};
+}
+
+Option integer_option(std::string name, std::string value, IntegerRange range, int& target, std::string description) {
+    return one_integer<int>(std::move(name), std::move(value), range, target, std::move(description));
+}
+
+Option integer_option(std::string name, std::string value, IntegerRange range, std::size_t& target,
+                      std::string description) {
+    return one_integer<std::size_t>(std::move(name), std::move(value), range, target, std::move(description));
+}
+
+Option integer_option(std::string name, std::string value, IntegerRange range, std::optional<std::size_t>& target,
+                      std::string description) {
+    return one_integer<std::size_t>(std::move(name), std::move(value), range, target, std::move(description));
+}
+
+Option integers_option(std::string name, std::string value, IntegerRange range, std::vector<int>& target,
+                       std::string description) {
+    return some_integers(std::move(name), std::move(value), range, target, std::move(description));
+}
+
+Option integers_option(std::string name, std::string value, IntegerRange range, std::vector<std::size_t>& target,
+                       std::string description) {
+    return some_integers(std::move(name), std::move(value), range, target, std::move(description));
+}
+
+Option seconds_option(std::string name, double& target, std::string description) {
+    const auto keep = [&target](Texts texts) {
+        const std::optional<double> value = number<double>(texts.front());
+        if (!value || !std::isfinite(*value) || *value <= 0.0)
+            return fmt::format("'{}' is not a number of seconds above 0", texts.front());
+        target = *value;
+        return std::string();
+    };
+    return {std::move(name), "S", std::move(description), keep};
+}
+
+Option named_option(std::string name, std::vector<std::string> choices, std::function<void(std::size_t)> choose,
+                    std::string description) {
+    std::string value = fmt::format("{}", fmt::join(choices, "|"));
+    const auto keep = [choices = std::move(choices), choose = std::move(choose)](Texts texts) {
+        const auto chosen = std::find(choices.begin(), choices.end(), texts.front());
+        if (chosen == choices.end())
+            return fmt::format("'{}' is not one of {}", texts.front(), fmt::join(choices, ", "));
+        choose(static_cast<std::size_t>(chosen - choices.begin()));
+        return std::string();
+    };
+    return {std::move(name), std::move(value), std::move(description), keep};
+}
+
+Option required(Option option) {
+    option.required = true;
+    return option;
 }
 
 } // namespace lockstep

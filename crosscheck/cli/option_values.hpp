@@ -1,47 +1,63 @@
 #pragma once
+#include <cstddef>
 #include <cstdint>
-#include <span>
+#include <filesystem>
+#include <optional>
 #include <string>
-#include <string_view>
 #include <utility>
 #include <vector>
 
-#include <CLI/CLI.hpp>
-#include <fmt/format.h>
-#include <fmt/ranges.h>
+#include "crosscheck/cli/verb.hpp"
 
 namespace lockstep {
 
-/// Accepts the integers from min to max; anything else is told with both.
-CLI::Validator integer(std::int64_t min, std::int64_t max);
+/// Each makes an option that keeps its value in `target`, which has to outlive the call of its verb.
+/// A text that is no value is refused with what would be one.
+Option flag(std::string name, bool& target, std::string description);
+Option text_option(std::string name, std::string value, std::string& target, std::string description);
+Option text_option(std::string name, std::string value, std::optional<std::string>& target, std::string description);
+Option texts_option(std::string name, std::string value, std::vector<std::string>& target, std::string description);
+
+/// Refuses the empty name. A `value` of DIR is a folder, anything else a file.
+Option path_option(std::string name, std::string value, std::filesystem::path& target, std::string description);
+
+struct IntegerRange {
+    std::int64_t min = 0, max = 0; ///< both allowed
+};
+
+Option integer_option(std::string name, std::string value, IntegerRange range, int& target, std::string description);
+Option integer_option(std::string name, std::string value, IntegerRange range, std::size_t& target,
+                      std::string description);
+Option integer_option(std::string name, std::string value, IntegerRange range, std::optional<std::size_t>& target,
+                      std::string description);
+
+/// "1,4"; replaces what the target held.
+Option integers_option(std::string name, std::string value, IntegerRange range, std::vector<int>& target,
+                       std::string description);
+Option integers_option(std::string name, std::string value, IntegerRange range, std::vector<std::size_t>& target,
+                       std::string description);
 
 /// A time that ends: seconds above 0.
-CLI::Validator seconds();
+Option seconds_option(std::string name, double& target, std::string description);
 
-/// Every option of every verb that takes a file or a folder refuses the empty name.
-void refuse_empty_names(CLI::App& app);
+/// One of a few names, given to `choose` by its place among them.
+Option named_option(std::string name, std::vector<std::string> choices, std::function<void(std::size_t)> choose,
+                    std::string description);
 
-/// For a verb of several modes: throws Error if an option was given that is not among `allowed`, which `mode` has.
-/// "study: --csv does not go with --catalogue".
-void check_options(const CLI::App& verb, std::string_view mode, std::span<const std::string_view> allowed);
-
-/// An option whose value is one of a few names; anything else is told with all of them.
-template <class Value> CLI::Option* add_choice(CLI::App& verb, const std::string& name, Value& value,
-                                               std::vector<std::pair<std::string, Value>> choices,
-                                               const std::string& description) {
-    std::vector<std::string> names;
-    for (const auto& [text, meaning] : choices)
-        names.push_back(text);
-    const auto choose = [&value, name, choices = std::move(choices), names](const std::string& chosen) {
-        for (const auto& [text, meaning] : choices)
-            if (text == chosen) {
-                value = meaning;
-                return;
-            }
-        throw CLI::ValidationError(name, fmt::format("'{}' is not one of {}", chosen, fmt::join(names, ", ")));
-    };
-    return verb.add_option_function<std::string>(name, choose, description)
-        ->type_name(fmt::format("{}", fmt::join(names, "|")));
+/// A value that has a name.
+template <class Value> Option choice_option(std::string name, Value& target,
+                                            const std::vector<std::pair<std::string, Value>>& choices,
+                                            std::string description) {
+    std::vector<std::string> texts;
+    std::vector<Value> values;
+    for (const auto& [text, value] : choices) {
+        texts.push_back(text);
+        values.push_back(value);
+    }
+    const auto choose = [&target, values = std::move(values)](std::size_t place) { target = values[place]; };
+    return named_option(std::move(name), std::move(texts), choose, std::move(description));
 }
+
+Option required(Option option);
 
 } // namespace lockstep

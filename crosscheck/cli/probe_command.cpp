@@ -40,17 +40,16 @@ int run(const Options& options) {
 
 } // namespace
 
-void add_probe_command(CLI::App& app, int& status) {
+Verb probe_command() {
     auto options = std::make_shared<Options>();
-    CLI::App* verb = app.add_subcommand("probe", "measure the arithmetic and the rasterisation of a GL driver");
-    verb->add_option("--gl", options->run.gl, "which GL to open")->type_name("auto|osmesa|egl|egl-device:N");
-    verb->add_option("--json", options->json, "write the measurements as JSON")->type_name("FILE");
-    verb->add_option("--inputs", options->probe.inputs, "random inputs an arithmetic row")
-        ->check(integer(64, 1 << 22))
-        ->type_name("N");
-    verb->footer("Exit status: 0 measured, 2 could not run.\n"
-                 "Example: lockstep probe --gl egl-device:0 --json probe.json");
-    verb->callback([options, &status] { status = run(*options); });
+    Verb verb{"probe", "measure the arithmetic and the rasterisation of a GL driver"};
+    verb.add(text_option("--gl", "auto|osmesa|egl|egl-device:N", options->run.gl, "which GL to open"));
+    verb.add(path_option("--json", "FILE", options->json, "write the measurements as JSON"));
+    verb.add(integer_option("--inputs", "N", {64, 1 << 22}, options->probe.inputs, "random inputs an arithmetic row"));
+    verb.footer = "Exit status: 0 measured, 2 could not run.\n"
+                  "Example: lockstep probe --gl egl-device:0 --json probe.json";
+    verb.run = [options](const Call&) { return run(*options); };
+    return verb;
 }
 
 } // namespace lockstep

@@ -95,23 +95,19 @@ int run(const Options& options) {
 
 } // namespace
 
-void add_record_command(CLI::App& app, int& status) {
+Verb record_command() {
     auto options = std::make_shared<Options>();
-    CLI::App* verb =
-        app.add_subcommand("record", "write the GPU's states of a run to a file that is checked elsewhere");
-    add_scene_options(*verb, options->run);
-    add_gl_options(*verb, options->run);
-    verb->add_option("-o,--output", options->output, "the trace, H5MD")->required()->type_name("FILE");
-    verb->add_option("--frames", options->run.frames, "frames to record")
-        ->check(integer(1, most_frames))
-        ->type_name("N");
-    verb->add_flag("--cdt", options->cdt, "with the CDT of every frame");
-    verb->add_option("--deflate", options->deflate, "how hard to compress, 0 to 9")
-        ->check(integer(0, 9))
-        ->type_name("LEVEL");
-    verb->footer("Example: lockstep record data/scenes/lattice.json --gl egl-device:0 -o run.h5\n"
-                 "then, on another machine: lockstep check --trace run.h5");
-    verb->callback([options, &status] { status = run(*options); });
+    Verb verb{"record", "write the GPU's states of a run to a file that is checked elsewhere"};
+    add_scene_options(verb, options->run);
+    add_gl_options(verb, options->run);
+    verb.add(required(path_option("-o,--output", "FILE", options->output, "the trace, H5MD")));
+    verb.add(integer_option("--frames", "N", {1, most_frames}, options->run.frames, "frames to record"));
+    verb.add(flag("--cdt", options->cdt, "with the CDT of every frame"));
+    verb.add(integer_option("--deflate", "LEVEL", {0, 9}, options->deflate, "how hard to compress, 0 to 9"));
+    verb.footer = "Example: lockstep record data/scenes/lattice.json --gl egl-device:0 -o run.h5\n"
+                  "then, on another machine: lockstep check --trace run.h5";
+    verb.run = [options](const Call&) { return run(*options); };
+    return verb;
 }
 
 } // namespace lockstep

@@ -68,27 +68,26 @@ int run(const Options& options) {
 
 } // namespace
 
-void add_render_command(CLI::App& app, int& status) {
+Verb render_command() {
     auto options = std::make_shared<Options>();
-    CLI::App* verb = app.add_subcommand("render", "run one side to a frame and write its picture");
-    add_scene_options(*verb, options->run);
-    add_gl_options(*verb, options->run);
-    verb->add_option("--frame", options->frame, "the frame to picture, counted from 0")
-        ->check(integer(0, most_frames))
-        ->type_name("F");
-    verb->add_option("-o,--output", options->output, "PNG file to write")->required()->type_name("FILE");
-    add_choice<Side>(*verb, "--side", options->side, {{"cpu", Side::cpu}, {"gpu", Side::gpu}},
-                     "cpu: the reference, needs no GL; gpu: the shaders");
-    verb->add_option("--profile", options->profile, "strict, llvmpipe or nvidia: the reference's order of sums")
-        ->type_name("strict|llvmpipe|nvidia");
-    verb->footer("Example: lockstep render data/scenes/lattice.json --frame 120 -o lattice.png --side cpu");
-    verb->callback([options, verb, &status] {
+    Verb verb{"render", "run one side to a frame and write its picture"};
+    add_scene_options(verb, options->run);
+    add_gl_options(verb, options->run);
+    verb.add(integer_option("--frame", "F", {0, most_frames}, options->frame, "the frame to picture, counted from 0"));
+    verb.add(required(path_option("-o,--output", "FILE", options->output, "PNG file to write")));
+    verb.add(choice_option<Side>("--side", options->side, {{"cpu", Side::cpu}, {"gpu", Side::gpu}},
+                                 "cpu: the reference, needs no GL; gpu: the shaders"));
+    verb.add(text_option("--profile", "strict|llvmpipe|nvidia", options->profile,
+                         "strict, llvmpipe or nvidia: the reference's order of sums"));
+    verb.footer = "Example: lockstep render data/scenes/lattice.json --frame 120 -o lattice.png --side cpu";
+    verb.run = [options](const Call& call) {
         const bool cpu = options->side == Side::cpu;
-        for (const char* name : {"--gl", "--shaders", "--profile"})
-            if (verb->count(name) > 0 && cpu != (name == std::string_view("--profile")))
+        for (const std::string_view name : {"--gl", "--shaders", "--profile"})
+            if (call.has(name) && cpu != (name == "--profile"))
                 throw Error(fmt::format("render: {} goes with --side {}", name, cpu ? "gpu" : "cpu"));
-        status = run(*options);
-    });
+        return run(*options);
+    };
+    return verb;
 }
 
 } // namespace lockstep

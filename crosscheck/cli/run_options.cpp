@@ -11,48 +11,44 @@
 
 namespace lockstep {
 
-void add_scene_options(CLI::App& verb, RunOptions& options) {
-    verb.add_option("scene", options.scene, "scene file, data/scenes/*.json")->required()->type_name("SCENE");
-    verb.add_option("--particles", options.particles, "number of particles instead of the scene's")
-        ->check(integer(1, most_particles))
-        ->type_name("N");
-    verb.add_option("--preset", options.preset, "instead of the scene's preset")->type_name("paper|corrected|exact");
-    verb.add_option("--set", options.set, "change one switch or constant; may be repeated")
-        ->type_name("NAME=VALUE")
-        ->allow_extra_args(false);
+void add_scene_options(Verb& verb, RunOptions& options, SceneArgument scene) {
+    verb.add(path_option("scene", "SCENE", options.scene, "scene file, data/scenes/*.json"));
+    verb.options.back().required = scene == SceneArgument::required;
+    verb.add(integer_option("--particles", "N", {1, most_particles}, options.particles,
+                            "number of particles instead of the scene's"));
+    verb.add(text_option("--preset", "paper|corrected|exact", options.preset, "instead of the scene's preset"));
+    verb.add(texts_option("--set", "NAME=VALUE", options.set, "change one switch or constant; may be repeated"));
     add_threads_option(verb, options);
 }
 
-void add_threads_option(CLI::App& verb, RunOptions& options) {
-    verb.add_option("--threads", options.threads, "threads of the reference, 0: one a core")
-        ->check(integer(0, most_threads))
-        ->type_name("N");
+void add_threads_option(Verb& verb, RunOptions& options) {
+    verb.add(integer_option("--threads", "N", {0, most_threads}, options.threads,
+                            "threads of the reference, 0: one a core"));
 }
 
-void add_gl_options(CLI::App& verb, RunOptions& options) {
-    verb.add_option("--gl", options.gl, "which GL to open")->type_name("auto|osmesa|egl|egl-device:N");
-    verb.add_option("--shaders", options.shaders, "take shader files from here first")->type_name("DIR");
-    verb.add_flag("--allow-unused", options.allow_unused, "let shaders that do not run here lie beside those that do");
+void add_gl_options(Verb& verb, RunOptions& options) {
+    verb.add(text_option("--gl", "auto|osmesa|egl|egl-device:N", options.gl, "which GL to open"));
+    verb.add(path_option("--shaders", "DIR", options.shaders, "take shader files from here first"));
+    verb.add(flag("--allow-unused", options.allow_unused, "let shaders that do not run here lie beside those that do"));
 }
 
-void add_trace_option(CLI::App& verb, std::filesystem::path& trace) {
-    verb.get_option("scene")->required(false);
-    verb.add_option("--trace", trace, "instead of a scene: a recorded run (lockstep record); needs no GL")
-        ->type_name("FILE");
+void add_trace_option(Verb& verb, std::filesystem::path& trace) {
+    verb.add(
+        path_option("--trace", "FILE", trace, "instead of a scene: a recorded run (lockstep record); needs no GL"));
 }
 
-void check_scene_or_trace(const CLI::App& verb, const RunOptions& options, const std::filesystem::path& trace) {
+void check_scene_or_trace(const Call& call, const RunOptions& options, const std::filesystem::path& trace) {
     if (options.scene.empty() && trace.empty())
-        throw Error(fmt::format("{}: a scene or --trace FILE is needed", verb.get_name()));
+        throw Error(fmt::format("{}: a scene or --trace FILE is needed", call.verb.name));
     if (trace.empty())
         return;
     if (!options.scene.empty())
-        throw Error(fmt::format("{}: a scene does not go with --trace, which brings its own", verb.get_name()));
+        throw Error(fmt::format("{}: a scene does not go with --trace, which brings its own", call.verb.name));
     for (const char* name :
          {"--particles", "--preset", "--set", "--gl", "--shaders", "--allow-unused", "--images", "--render"})
-        if (const CLI::Option* option = verb.get_option_no_throw(name); option != nullptr && option->count() > 0)
+        if (call.has(name))
             throw Error(
-                fmt::format("{}: {} goes with a scene that is run here, not with --trace", verb.get_name(), name));
+                fmt::format("{}: {} goes with a scene that is run here, not with --trace", call.verb.name, name));
 }
 
 Scene load(const RunOptions& options) {

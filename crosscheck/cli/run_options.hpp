@@ -5,8 +5,7 @@
 #include <string>
 #include <vector>
 
-#include <CLI/CLI.hpp>
-
+#include "crosscheck/cli/verb.hpp"
 #include "crosscheck/files/output_files.hpp"
 #include "gpu/shader_use.hpp"
 #include "reference/model/scene.hpp"
@@ -29,14 +28,16 @@ struct RunOptions {
     bool allow_unused = false;     ///< shaders may lie there that do not run
 };
 
-void add_scene_options(CLI::App& verb, RunOptions& options);
-void add_threads_option(CLI::App& verb, RunOptions& options);
-void add_gl_options(CLI::App& verb, RunOptions& options);
+enum class SceneArgument { required, optional };
 
-/// --trace FILE instead of the scene, which is then no longer required. check_scene_or_trace throws Error unless one of
-/// both is given, or when an option stands there that only a run on this machine's GL has.
-void add_trace_option(CLI::App& verb, std::filesystem::path& trace);
-void check_scene_or_trace(const CLI::App& verb, const RunOptions& options, const std::filesystem::path& trace);
+void add_scene_options(Verb& verb, RunOptions& options, SceneArgument scene = SceneArgument::required);
+void add_threads_option(Verb& verb, RunOptions& options);
+void add_gl_options(Verb& verb, RunOptions& options);
+
+/// --trace FILE instead of the scene, which is then optional. check_scene_or_trace throws Error unless one of both is
+/// given, or when an option stands there that only a run on this machine's GL has.
+void add_trace_option(Verb& verb, std::filesystem::path& trace);
+void check_scene_or_trace(const Call& call, const RunOptions& options, const std::filesystem::path& trace);
 
 /// Loads the scene and sets the thread count.
 Scene load(const RunOptions& options);

@@ -227,7 +227,7 @@ Mode mode_of(const Options& options) {
     return mode;
 }
 
-int run(Options options, const CLI::App& verb) {
+int run(Options options, const Call& call) {
     if (options.thesis && options.run.particles)
         throw Error("study: --thesis has several counts; --counts N,... names them");
     if (options.recall_table || options.catalogue || options.remedies || options.thesis) {
@@ -235,7 +235,7 @@ int run(Options options, const CLI::App& verb) {
             throw Error("study: --recall-table, --catalogue, --remedies and --thesis have scenes of their own; leave "
                         "SCENE out");
         const Mode mode = mode_of(options);
-        check_options(verb, mode.text, mode.options);
+        check_options(call, mode.text, mode.options);
         start_threads(options.run.threads);
         if (options.scenes.empty())
             options.scenes = shipped_scene("lattice").parent_path();
@@ -259,68 +259,58 @@ int run(Options options, const CLI::App& verb) {
     if (options.run.frames < 2)
         throw Error("study: --frames 1 is the frame with the empty CDT; 2 or more have something to study");
     const Mode mode = mode_of(options);
-    check_options(verb, mode.text, mode.options);
+    check_options(call, mode.text, mode.options);
     study_scene(options);
     return status_agree;
 }
 
 } // namespace
 
-void add_study_command(CLI::App& app, int& status) {
+Verb study_command() {
     auto options = std::make_shared<Options>();
-    CLI::App* verb =
-        app.add_subcommand("study", "compare what the CDT search finds with the exact neighbours, and say "
-                                    "why it misses what it misses; needs no GL but for --thesis and --side gpu");
-    add_scene_options(*verb, options->run);
-    verb->get_option("scene")->required(false);
-    verb->add_option("--frames", options->run.frames, "frames to run")->check(integer(1, most_frames))->type_name("N");
-    verb->add_option("--every", options->every, "study every Nth frame only")
-        ->check(integer(1, most_frames))
-        ->type_name("N");
-    verb->add_option("--profile", options->profile, "strict, llvmpipe or nvidia: the order of sums")
-        ->type_name("strict|llvmpipe|nvidia");
-    verb->add_option("--csv", options->csv, "write every number of every studied frame")->type_name("FILE");
-    verb->add_option("--json", options->json, "the same as JSON")->type_name("FILE");
-    verb->add_option(
-            "--images", options->images,
-            "write a false-colour picture of each studied frame, by cause; with --catalogue one of each effect")
-        ->type_name("DIR");
-    verb->add_option("--chart", options->chart, "draw recall and misses over the frames as SVG, by gnuplot")
-        ->type_name("FILE");
-    verb->add_flag("--recall-table", options->recall_table, "clouds at rest instead of a scene: recall by radius");
-    verb->add_flag("--catalogue", options->catalogue,
-                   "the thesis's failure catalogue as a table; exit status 1 if an effect is not there");
-    verb->add_flag("--cameras", options->cameras,
-                   "SCENE with the thesis's collision cameras (chapter 3.4): z offsets, fixed, side, rear");
-    add_choice<Side>(*verb, "--side", options->side, {{"cpu", Side::cpu}, {"gpu", Side::gpu}},
-                     "the side that runs SCENE: the reference, or the shaders, read back each frame");
-    verb->add_flag("--thesis", options->thesis,
-                   "the thesis's tables 4-1 and 5-1 and figures 5-3 and 5-5, CDT and octree, on GL; "
-                   "--frames, --json, --csv, --chart, --set and --gl apply");
-    verb->add_option("--counts", options->thesis_study.counts, "--thesis: particle counts")
-        ->delimiter(',')
-        ->allow_extra_args(false)
-        ->check(integer(1, most_particles))
-        ->type_name("N,...");
-    verb->add_option("--seconds", options->thesis_study.seconds,
-                     "--thesis: a measurement ends with the frame in which this is over")
-        ->check(seconds())
-        ->type_name("S");
-    verb->add_option("--from", options->thesis_study.from,
-                     "--thesis: tell and draw what an earlier --json wrote, on a machine without that GL")
-        ->type_name("FILE");
-    verb->add_flag("--remedies", options->remedies,
-                   "what the remedies find (docs/remedies.md), and with --gl what they cost, as a table; --json and "
-                   "--particles apply");
-    add_gl_options(*verb, options->run);
-    verb->add_option("--scenes", options->scenes, "where the scenes of --recall-table, --catalogue and --thesis are")
-        ->type_name("DIR");
-    verb->footer("Examples: lockstep study data/scenes/x_streams.json --frames 60 --every 10\n"
-                 "          lockstep study --thesis --gl egl-device:0 --json thesis.json --chart thesis.svg");
-    verb->callback([options, verb, &status] {
-        options->gl_asked = verb->count("--gl") > 0;
-        status = run(*options, *verb);
-    });
+    Verb verb{"study", "compare what the CDT search finds with the exact neighbours, and say "
+                       "why it misses what it misses; needs no GL but for --thesis and --side gpu"};
+    add_scene_options(verb, options->run, SceneArgument::optional);
+    verb.add(integer_option("--frames", "N", {1, most_frames}, options->run.frames, "frames to run"));
+    verb.add(integer_option("--every", "N", {1, most_frames}, options->every, "study every Nth frame only"));
+    verb.add(text_option("--profile", "strict|llvmpipe|nvidia", options->profile,
+                         "strict, llvmpipe or nvidia: the order of sums"));
+    verb.add(path_option("--csv", "FILE", options->csv, "write every number of every studied frame"));
+    verb.add(path_option("--json", "FILE", options->json, "the same as JSON"));
+    verb.add(path_option(
+        "--images", "DIR", options->images,
+        "write a false-colour picture of each studied frame, by cause; with --catalogue one of each effect"));
+    verb.add(
+        path_option("--chart", "FILE", options->chart, "draw recall and misses over the frames as SVG, by gnuplot"));
+    verb.add(flag("--recall-table", options->recall_table, "clouds at rest instead of a scene: recall by radius"));
+    verb.add(flag("--catalogue", options->catalogue,
+                  "the thesis's failure catalogue as a table; exit status 1 if an effect is not there"));
+    verb.add(flag("--cameras", options->cameras,
+                  "SCENE with the thesis's collision cameras (chapter 3.4): z offsets, fixed, side, rear"));
+    verb.add(choice_option<Side>("--side", options->side, {{"cpu", Side::cpu}, {"gpu", Side::gpu}},
+                                 "the side that runs SCENE: the reference, or the shaders, read back each frame"));
+    verb.add(flag("--thesis", options->thesis,
+                  "the thesis's tables 4-1 and 5-1 and figures 5-3 and 5-5, CDT and octree, on GL; "
+                  "--frames, --json, --csv, --chart, --set and --gl apply"));
+    verb.add(integers_option("--counts", "N,...", {1, most_particles}, options->thesis_study.counts,
+                             "--thesis: particle counts"));
+    verb.add(seconds_option("--seconds", options->thesis_study.seconds,
+                            "--thesis: a measurement ends with the frame in which this is over"));
+    verb.add(path_option("--from", "FILE", options->thesis_study.from,
+                         "--thesis: tell and draw what an earlier --json wrote, on a machine without that GL"));
+    verb.add(flag("--remedies", options->remedies,
+                  "what the remedies find (docs/remedies.md), and with --gl what they cost, as a table; --json and "
+                  "--particles apply"));
+    add_gl_options(verb, options->run);
+    verb.add(path_option("--scenes", "DIR", options->scenes,
+                         "where the scenes of --recall-table, --catalogue and --thesis are"));
+    verb.footer = "Examples: lockstep study data/scenes/x_streams.json --frames 60 --every 10\n"
+                  "          lockstep study --thesis --gl egl-device:0 --json thesis.json --chart thesis.svg";
+    verb.run = [options](const Call& call) {
+        options->gl_asked = call.has("--gl");
+        return run(*options, call);
+    };
+    return verb;
 }
 
 } // namespace lockstep

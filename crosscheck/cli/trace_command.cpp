@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include "crosscheck/cli/commands.hpp"
+#include "crosscheck/cli/option_values.hpp"
 #include "crosscheck/files/plain_text.hpp"
 #include "crosscheck/record/trace_reader.hpp"
 #include "crosscheck/report/verdict_text.hpp"
@@ -42,14 +43,14 @@ int run(const std::filesystem::path& file) {
 
 } // namespace
 
-void add_trace_command(CLI::App& app, int& status) {
+Verb trace_command() {
     auto file = std::make_shared<std::filesystem::path>();
-    CLI::App* verb = app.add_subcommand("trace", "read a recorded run whole, and tell what is in it or what is wrong");
-    verb->add_option("trace", *file, "what `lockstep record` wrote, or an engine of your own (docs/traces.md)")
-        ->required()
-        ->type_name("FILE");
-    verb->footer("Exit status: 0 it can be checked, 2 it cannot.\nExample: lockstep trace run.h5");
-    verb->callback([file, &status] { status = run(*file); });
+    Verb verb{"trace", "read a recorded run whole, and tell what is in it or what is wrong"};
+    verb.add(required(path_option("trace", "FILE", *file,
+                                  "what `lockstep record` wrote, or an engine of your own (docs/traces.md)")));
+    verb.footer = "Exit status: 0 it can be checked, 2 it cannot.\nExample: lockstep trace run.h5";
+    verb.run = [file](const Call&) { return run(*file); };
+    return verb;
 }
 
 } // namespace lockstep

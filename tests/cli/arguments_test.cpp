@@ -74,6 +74,11 @@ TEST_CASE("arguments: a number that is none, or out of range, is told with the r
     });
 }
 
+TEST_CASE("arguments: a number with zeros before it is the same number") {
+    CHECK(run_lockstep({"hash", scene, "--frames", "010"}).out == run_lockstep({"hash", scene, "--frames", "10"}).out);
+    CHECK(run_lockstep({"hash", scene, "--frames", "08"}).status == 0);
+}
+
 TEST_CASE("arguments: a file without a name is refused, wherever one can be given") {
     const std::string no_file = "'' names no file" + help, no_folder = "'' names no folder" + help;
     check_all({

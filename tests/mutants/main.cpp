@@ -2,13 +2,15 @@
 #include <algorithm>
 #include <chrono>
 #include <cstdio>
+#include <filesystem>
 #include <string>
 #include <vector>
 
-#include <CLI/CLI.hpp>
 #include <fmt/format.h>
 #include <omp.h>
 
+#include "crosscheck/cli/command_line.hpp"
+#include "crosscheck/cli/option_values.hpp"
 #include "crosscheck/files/atomic_file.hpp"
 #include "crosscheck/scene/profiles.hpp"
 #include "gpu/context.hpp"
@@ -20,8 +22,8 @@ using namespace lockstep::test;
 
 namespace {
 
-int run(const std::vector<std::string>& only, const std::string& gl, const std::string& json,
-        const std::string& markdown, const std::string& commit) {
+int run(const std::vector<std::string>& only, const std::string& gl, const std::filesystem::path& json,
+        const std::filesystem::path& markdown, const std::string& commit) {
     omp_set_num_threads(1); // the scenes are too small to share
     const Context context(parse_context_request(gl));
     const auto start = std::chrono::steady_clock::now();
@@ -54,20 +56,19 @@ int run(const std::vector<std::string>& only, const std::string& gl, const std::
 } // namespace
 
 int main(int argc, char** argv) {
-    CLI::App app{"Runs the catalogue of mutants, from the root of the source tree", "lockstep_mutants"};
     std::vector<std::string> only;
     std::string gl = "osmesa";
-    std::string json;
-    std::string markdown;
+    std::filesystem::path json, markdown;
     std::string commit;
-    app.add_option("name", only, "only these mutants");
-    app.add_option("--gl", gl, "auto, osmesa, egl or egl-device:N");
-    app.add_option("--json", json, "results as data");
-    app.add_option("--markdown", markdown, "results as a table");
-    app.add_option("--commit", commit, "kept in the results");
-    CLI11_PARSE(app, argc, argv);
+    Verb program{"lockstep_mutants", "Runs the catalogue of mutants, from the root of the source tree"};
+    program.add(texts_option("name", "MUTANT", only, "only these mutants"));
+    program.add(text_option("--gl", "auto|osmesa|egl|egl-device:N", gl, "which GL to open"));
+    program.add(path_option("--json", "FILE", json, "results as data"));
+    program.add(path_option("--markdown", "FILE", markdown, "results as a table"));
+    program.add(text_option("--commit", "COMMIT", commit, "kept in the results"));
+    program.run = [&](const Call&) { return run(only, gl, json, markdown, commit); };
     try {
-        return run(only, gl, json, markdown, commit);
+        return run_command_line(program, argc, argv, 2);
     } catch (const std::exception& error) {
         fmt::print(stderr, "lockstep_mutants: {}\n", error.what());
         return 2;

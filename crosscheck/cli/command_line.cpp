@@ -1,0 +1,110 @@
+#include "crosscheck/cli/command_line.hpp"
+
+#include <algorithm>
+#include <sstream>
+
+#include <CLI/CLI.hpp>
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include "crosscheck/files/plain_text.hpp"
+
+namespace lockstep {
+namespace {
+
+void add_option(CLI::App& app, const Option& option) {
+    const std::string name = names(option).back();
+    if (option.value.empty()) {
+        app.add_flag_callback(
+            option.name, [keep = option.keep] { keep({}); }, option.description);
+        return;
+    }
+    const auto keep = [name, keep = option.keep](const CLI::results_t& values) {
+        if (const std::string problem = keep(values); !problem.empty())
+            throw CLI::ValidationError(name, problem);
+        return true;
+    };
+    CLI::Option* added = app.add_option(option.name, keep, option.description);
+    added->type_name(option.value)->required(option.required);
+    if (option.values != Values::one)
+        added->expected(CLI::detail::expected_max_vector_size)->allow_extra_args(is_argument(option));
+    if (option.values == Values::list)
+        added->delimiter(',');
+}
+
+void describe(CLI::App& app, const Verb& verb) {
+    app.set_help_flag(help_option().name, help_option().description);
+    app.footer(verb.footer);
+    for (const Option& option : verb.options)
+        add_option(app, option);
+    for (const Verb& part : verb.verbs)
+        describe(*app.add_subcommand(part.name, part.description), part);
+    if (!verb.verbs.empty())
+        app.require_subcommand(1);
+}
+
+std::string verb_names(const Verb& program) {
+    std::vector<std::string> names;
+    for (const Verb& verb : program.verbs)
+        names.push_back(verb.name);
+    return fmt::format("{}", fmt::join(names, ", "));
+}
+
+/// The library's own words are for programmers.
+std::string usage_error(const Verb& program, const CLI::App& app, const CLI::Error& error) {
+    const bool verb_given = program.verbs.empty() || !app.get_subcommands().empty();
+    std::vector<std::string> unknown = app.remaining(true);
+    std::stable_partition(unknown.begin(), unknown.end(), [](const std::string& text) { return text[0] == '-'; });
+    if (!verb_given && unknown.empty())
+        return fmt::format("a verb is missing; the verbs are {}", verb_names(program));
+    if (!unknown.empty() && unknown.front().starts_with('-'))
+        return fmt::format("unknown option '{}'", unknown.front());
+    if (!verb_given)
+        return fmt::format("unknown verb '{}'; the verbs are {}", unknown.front(), verb_names(program));
+    if (!unknown.empty())
+        return fmt::format("'{}' is one argument too many", unknown.front());
+    const std::string text = error.what();
+    if (error.get_name() == "ArgumentMismatch") {
+        const std::string option = text.substr(0, text.find(':'));
+        const bool twice = text.find("received") != std::string::npos;
+        return fmt::format("{} {}", option, twice ? "is given more than once" : "needs a value");
+    }
+    return text;
+}
+
+Call called(const Verb& program, const CLI::App& app, const Verb& verb) {
+    for (const CLI::App* part : app.get_subcommands())
+        for (const Verb& candidate : verb.verbs)
+            if (candidate.name == part->get_name())
+                return called(program, *part, candidate);
+    Call call{program, verb, {}};
+    for (const Option& option : verb.options)
+        if (const std::string name = names(option).back(); app.count(name) > 0)
+            call.given.push_back(name);
+    return call;
+}
+
+} // namespace
+
+int run_command_line(const Verb& program, int argc, char** argv, int misused) {
+    CLI::App app(program.description);
+    app.name(program.name);
+    describe(app, program);
+    app.failure_message([&program](const CLI::App* root, const CLI::Error& error) {
+        return fmt::format("{0}: {1} ({0} --help tells more)\n", program.name,
+                           plain_line(usage_error(program, *root, error)));
+    });
+    try {
+        app.parse(argc, argv);
+    } catch (const CLI::ParseError& error) {
+        std::ostringstream out, err;
+        const bool asked = app.exit(error, out, err) == 0;
+        fmt::print("{}", out.str());
+        fmt::print(stderr, "{}", err.str());
+        return asked ? 0 : misused;
+    }
+    const Call call = called(program, app, program);
+    return call.verb.run(call);
+}
+
+} // namespace lockstep

@@ -84,6 +84,22 @@ inline constexpr ExpectedRow llvmpipe_rows[] = {
     {"equal depth, LEQUAL", "last wins"},
 };
 
+/// What a later llvmpipe computes otherwise; in releases between the two measured ones it may be either.
+struct LaterRow {
+    std::string_view name;
+    std::string_view finding;
+    int last_without; ///< Mesa's release
+    int first_with;
+};
+
+inline constexpr LaterRow later_rows[] = {
+    {"dot(vec3), precise", "(x+y)+z", 22, 25},
+    {"points: snap", "half to even", 22, 25},
+    {"fma", "rounded once", 25, 26},
+    {"fma, precise", "rounded once", 25, 26},
+    {"compute: subnormal result of *", "flushed", 25, 26},
+};
+
 /// Rows that depend on the processor: with fused multiply-add, or without.
 struct ProcessorRow {
     std::string_view name;

@@ -27,12 +27,28 @@ namespace {
 
 bool is_llvmpipe(const ContextInfo& info) { return info.renderer.starts_with("llvmpipe"); }
 
+/// "4.5 (Core Profile) Mesa 25.0.7": 25.
+int mesa_release(const ContextInfo& info) {
+    const std::size_t at = info.version.find("Mesa ");
+    REQUIRE(at != std::string::npos);
+    return std::stoi(info.version.substr(at + 5));
+}
+
+bool is_known(const ProbeRow& row, std::string_view earliest, int release) {
+    for (const test::LaterRow& later : test::later_rows)
+        if (later.name == row.name)
+            return (release < later.first_with && row.finding == earliest) ||
+                   (release > later.last_without && row.finding == later.finding);
+    return row.finding == earliest;
+}
+
 /// Every row there is has to be as llvmpipe's is known to be.
 void check_rows(const ProbeResult& result, bool fused) {
+    const int release = mesa_release(result.context);
     for (const auto& [name, finding] : test::llvmpipe_rows) {
         const ProbeRow& row = result.row(name);
-        INFO(name << ": " << row.matched << " of " << row.total);
-        CHECK(row.finding == finding);
+        INFO(name << ": " << row.finding << ", " << row.matched << " of " << row.total);
+        CHECK(is_known(row, finding, release));
     }
     for (const test::ProcessorRow& expected : test::processor_rows)
         CHECK(result.row(expected.name).finding == (fused ? expected.fused : expected.separate));
@@ -125,7 +141,8 @@ TEST_CASE("probe: llvmpipe's rows and profile are the same for every vector widt
         return;
     const Child native = probe_in_child("LOCKSTEP=1");
     check_rows(native.result, has_fused(native.result));
-    CHECK_THAT(native.profile, Catch::StartsWith("llvmpipe: "));
+    const bool dots_alike = native.result.row("dot(vec3), precise").finding == native.result.row("dot(vec3)").finding;
+    CHECK_THAT(native.profile, Catch::StartsWith(dots_alike ? "llvmpipe: " : "generic: "));
     for (const char* environment : {"LP_NATIVE_VECTOR_WIDTH=128", "LP_NATIVE_VECTOR_WIDTH=512"}) {
         INFO(environment);
         const Child child = probe_in_child(environment);

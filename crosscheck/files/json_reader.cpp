@@ -64,7 +64,7 @@ class Syntax : public nlohmann::json_sax<json> {
         const auto line = 1 + std::count(before.begin(), before.end(), '\n');
         const std::size_t line_start = before.rfind('\n') + 1; // npos + 1 is 0
         problem = fmt::format("{}:{}: malformed JSON: {}", line, std::max<std::size_t>(before.size() - line_start, 1),
-                              detail(error.what()));
+                              text_.empty() ? "it is empty" : detail(error.what())); // libraries differ on that
         return false;
     }
 

@@ -34,9 +34,7 @@ TEST_CASE("scene_errors: malformed JSON is told with line and column") {
     check_bad_scene("{\n  \"emitters\": [\n}",
                     ":3:1: malformed JSON: syntax error while parsing value - unexpected '}'; "
                     "expected '[', '{', or a literal");
-    check_bad_scene("",
-                    ":1:1: malformed JSON: syntax error while parsing value - unexpected end of input; expected '[', "
-                    "'{', or a literal");
+    check_bad_scene("", ":1:1: malformed JSON: it is empty");
 }
 
 TEST_CASE("scene_errors: an unknown key is told with the keys there are") {

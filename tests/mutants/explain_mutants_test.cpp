@@ -123,7 +123,7 @@ TEST_CASE("explain mutants: the first row that differs is the mutated operation"
     if (!context)
         return;
     const std::vector<test::Mutant> catalogue = test::whole_catalogue();
-    const std::vector<test::TrialScene> scenes = test::trial_scenes(named_profile("llvmpipe"));
+    const std::vector<test::TrialScene> scenes = test::trial_scenes(test::llvmpipe_profile());
     std::vector<std::string> elsewhere;
     for (const Expectation& expected : expectations) {
         const std::string row = first_row(named(catalogue, expected.mutant), scenes);

@@ -47,7 +47,7 @@ TEST_CASE("mutants: a few of the catalogue are found and named, and the shipped 
     if (!context)
         return;
     constexpr std::string_view names[] = {"crowd", "exact", "halves", "lattice"};
-    std::vector<TrialScene> scenes = trial_scenes(named_profile("llvmpipe"), names);
+    std::vector<TrialScene> scenes = trial_scenes(llvmpipe_profile(), names);
     const Outcome unmutated = run_mutant({}, scenes);
     CHECK(unmutated.killer() == nullptr);
     for (std::size_t rule = 0; rule < common_rule_count; ++rule)

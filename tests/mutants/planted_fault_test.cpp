@@ -51,7 +51,7 @@ TEST_CASE("planted faults: 100 in the GPU's state, each located to the frame, th
         options.frames = frames;
         const test::PlantedFault plant(fault, options.repeated_frames);
         GpuSimulation gpu(scene, {});
-        const CheckReport report = check(scene, named_profile("llvmpipe"), gpu, options);
+        const CheckReport report = check(scene, test::llvmpipe_profile(), gpu, options);
         if (plant.before() == 0.0F)
             continue; // a zero's sign and what is flushed to zero are GLSL's to choose
         ++planted;
@@ -83,7 +83,7 @@ TEST_CASE("planted faults: one in 50,000 particles is located in at most 5 secon
     options.frames = 8;
     const test::PlantedFault plant({6, 43210, 4, 1}, options.repeated_frames);
     GpuSimulation gpu(scene, {});
-    const CheckReport report = check(scene, named_profile("llvmpipe"), gpu, options);
+    const CheckReport report = check(scene, test::llvmpipe_profile(), gpu, options);
     REQUIRE(report.verdict == Verdict::divergent);
     CHECK(report.verdicts->total(DifferenceClass::divergent) == 1);
     CHECK(report.verdicts->first->place.frame == 6);

@@ -104,7 +104,7 @@ TEST_CASE("report mutants: page and capsule alone name the planted bug, 10 of 10
         return;
     const std::vector<test::Mutant> catalogue = test::whole_catalogue();
     constexpr std::string_view names[] = {"crowd", "lattice"};
-    const std::vector<test::TrialScene> scenes = test::trial_scenes(named_profile("llvmpipe"), names);
+    const std::vector<test::TrialScene> scenes = test::trial_scenes(test::llvmpipe_profile(), names);
     std::vector<std::string> named, other;
     for (const Expectation& expected : expectations) {
         const auto mutant = std::find_if(catalogue.begin(), catalogue.end(),

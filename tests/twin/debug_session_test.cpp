@@ -26,7 +26,7 @@ DebugSession session_of(const test::TemporaryFolder& shaders, int frames = 4) {
                              },
                          .start =
                              [&shaders](Scene scene) {
-                                 const Profile profile = named_profile("llvmpipe");
+                                 const Profile profile = test::llvmpipe_profile(shaders.path());
                                  return std::make_unique<FrameRun>(std::move(scene), profile,
                                                                    measured_operations(profile), shaders.path());
                              },

@@ -28,7 +28,7 @@ Scene busy_scene(std::string_view preset_name = "corrected") {
 }
 
 FrameRun run_of(const Scene& scene, const std::filesystem::path& shaders = {}) {
-    const Profile profile = named_profile("llvmpipe");
+    const Profile profile = test::llvmpipe_profile(shaders);
     return {scene, profile, measured_operations(profile), shaders};
 }
 

@@ -5,6 +5,7 @@
 #include "gpu/simulation.hpp"
 #include "reference/model/collision_state.hpp"
 #include "reference/model/state_hash.hpp"
+#include "reference/simulation.hpp"
 #include "tests/golden.hpp"
 #include "tests/skip.hpp"
 #include "tests/twin/llvmpipe.hpp"
@@ -22,6 +23,15 @@ TEST_CASE("golden hash twin: the shaders come to it by themselves") {
         if (!scene)
             continue;
         INFO(fmt::format("{}, {}", golden.scene, golden.preset));
+        // A driver that sums in other orders comes to what the reference does with these; in `exact` to the same.
+        std::string expected = golden.hash;
+        if (const Profile profile = test::llvmpipe_profile();
+            profile.name != "llvmpipe" && scene->switches.arithmetic == ArithmeticSwitch::plain) {
+            ReferenceSimulation reference(*scene, profile);
+            for (int frame = 0; frame < golden.frames; ++frame)
+                reference.step(frame_params(*scene, frame));
+            expected = hash_text(state_hash(reference.particles(), reference.cdt()));
+        }
         GpuSimulation gpu(*scene, {});
         for (int frame = 0; frame < golden.frames; ++frame)
             gpu.step(frame_params(*scene, frame));
@@ -29,6 +39,6 @@ TEST_CASE("golden hash twin: the shaders come to it by themselves") {
         CollisionImage cdt;
         gpu.read(particles);
         gpu.read(cdt);
-        CHECK(hash_text(state_hash(particles, cdt)) == golden.hash);
+        CHECK(hash_text(state_hash(particles, cdt)) == expected);
     }
 }

@@ -1,21 +1,43 @@
 #pragma once
 #include <cstdlib>
+#include <filesystem>
 #include <optional>
 #include <string>
 
+#include "crosscheck/scene/profiles.hpp"
 #include "tests/gpu/any_context.hpp"
 
 namespace lockstep::test {
 
-/// The context if Mesa's llvmpipe is behind it, whose rasteriser the default RasterRules describe; else a skip. EGL's
-/// instead of OSMesa's where the machine has no OSMesa and is not said to.
+/// What the probe found behind the last open_llvmpipe.
+inline ProbeResult& probed_llvmpipe() {
+    static ProbeResult result;
+    return result;
+}
+
+/// What llvmpipe computes here, for passes of `shaders`: the named profile where it still is as that was measured (Mesa
+/// 22.3), else its own.
+inline Profile llvmpipe_profile(const std::filesystem::path& shaders = {}) {
+    if (probed_llvmpipe().rows.empty())
+        return named_profile("llvmpipe");
+    const Profile measured = measured_profile(probed_llvmpipe(), shaders);
+    return measured.name == "llvmpipe" ? named_profile("llvmpipe") : measured;
+}
+
+/// The context if Mesa's llvmpipe is behind it; else a skip. EGL's instead of OSMesa's where the machine has
+/// no OSMesa and is not said to.
 inline std::optional<Context> open_llvmpipe(const std::string& wanted) {
     const bool without_osmesa =
         wanted == "osmesa" && !has_osmesa_library() && std::getenv("LOCKSTEP_REQUIRE_OSMESA") == nullptr;
     const std::string name = without_osmesa ? "egl" : wanted;
     std::optional<Context> context = open_context(name);
-    if (!context || context->describe().renderer.find("llvmpipe") != std::string::npos)
+    if (!context)
         return context;
+    if (context->describe().renderer.find("llvmpipe") != std::string::npos) {
+        if (summary(probed_llvmpipe().context) != summary(context->describe()))
+            probed_llvmpipe() = probe(*context);
+        return context;
+    }
     skip(name + " is not llvmpipe but " + context->describe().renderer);
     return std::nullopt;
 }

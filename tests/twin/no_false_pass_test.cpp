@@ -142,7 +142,7 @@ TEST_CASE("no false pass: a run that compared nothing is an error") {
     GpuSimulation gpu(scene, {});
     CheckOptions options;
     options.stop = &stop;
-    CHECK_THROWS_WITH(check(scene, named_profile("llvmpipe"), gpu, options),
+    CHECK_THROWS_WITH(check(scene, test::llvmpipe_profile(), gpu, options),
                       "crowded: nothing was compared: 0 frames of 10 particles");
 }
 

@@ -50,7 +50,7 @@ Images draw_gpu(const Mesh& obstacles, const FrameParams& params) {
 
 /// Draws `obstacles` on both sides and counts the texels that are not the same bits.
 Differences compare(const Mesh& obstacles, const FrameParams& params) {
-    const Images cpu = draw_cpu(obstacles, params);
+    const Images cpu = draw_cpu(obstacles, params, test::llvmpipe_profile());
     const Images gpu = draw_gpu(obstacles, params);
     Differences found;
     for (std::size_t i = 0; i < cpu.cdt.texels.size(); ++i) {
@@ -296,7 +296,7 @@ TEST_CASE("obstacle pass twin: another driver differs in edge ties, and by no mo
     const Mesh obstacles = test::RandomScenes(9).triangles(3000, 1.5F, 0.2F);
     // Corners lie within 1.7 of the origin and 0.4 of each other.
     const float bound = interpolation_bound(1.7F, 1.3F, 1.3F);
-    const Images cpu = draw_cpu(obstacles, params);
+    const Images cpu = draw_cpu(obstacles, params, test::llvmpipe_profile());
     const Images gpu = draw_gpu(obstacles, params);
     int rounding = 0;
     int ties = 0;

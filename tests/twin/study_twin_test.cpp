@@ -17,7 +17,7 @@ TEST_CASE("study twin: both sides give the same study, number for number") {
         StudyOptions options;
         options.frames = 12;
         options.every = 3;
-        const Profile profile = named_profile("llvmpipe");
+        const Profile profile = test::llvmpipe_profile();
         const auto reference = study_run(scene, profile, options);
         GpuSimulation gpu(scene, {});
         gpu.step(frame_params(scene, 0)); // a study starts at the scene's start, whatever ran before

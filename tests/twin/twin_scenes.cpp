@@ -1,6 +1,7 @@
 #include "tests/twin/twin_scenes.hpp"
 
 #include "crosscheck/scene/surface.hpp"
+#include "tests/twin/llvmpipe.hpp"
 #include "tests/twin/random_scenes.hpp"
 
 namespace lockstep::test {
@@ -27,7 +28,7 @@ CheckReport check_twins(const Scene& scene, int frames, const std::filesystem::p
     CheckOptions options;
     options.frames = frames;
     options.mode = mode;
-    return check(scene, named_profile("llvmpipe"), gpu, options);
+    return check(scene, llvmpipe_profile(shaders), gpu, options);
 }
 
 } // namespace lockstep::test

@@ -11,7 +11,7 @@ namespace lockstep::test {
 /// from frame 1 on; obstacles and images small enough for many runs.
 Scene crowded_scene(std::size_t count = 1200, int width = 97, int height = 64);
 
-/// Both sides of a scene over some frames, in the current context; llvmpipe's profile.
+/// Both sides of a scene over some frames, in the current context; llvmpipe_profile's arithmetic.
 CheckReport check_twins(const Scene& scene, int frames = 4, const std::filesystem::path& shaders = {},
                         CheckMode mode = CheckMode::resync);
 

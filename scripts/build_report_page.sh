@@ -1,12 +1,11 @@
 #!/usr/bin/env bash
 # Builds the page that `lockstep check --report` fills in, into build/report_page/report.html: one file, from
-# crosscheck/report_page and the npm packages its lock file names. Needs node and npm; lockstep itself does not.
+# crosscheck/report_page and the npm packages its lock file names. Installs Node.js and npm; lockstep itself needs neither.
 # Usage: scripts/build_report_page.sh
 set -euo pipefail
-cd "$(dirname "$0")/../crosscheck/report_page"
-for program in node npm; do
-    command -v $program >/dev/null || { echo "build_report_page: $program is missing; apt-get install nodejs npm" >&2; exit 2; }
-done
+cd "$(dirname "$0")/.."
+scripts/install_packages.sh --for page
+cd crosscheck/report_page
 # Node trusts only its own certificates; a machine behind a proxy has more in the system's store.
 export NODE_EXTRA_CA_CERTS=${NODE_EXTRA_CA_CERTS:-/etc/ssl/certs/ca-certificates.crt}
 if [ ! node_modules/.package-lock.json -nt package-lock.json ]; then npm ci --ignore-scripts --loglevel=error; fi

@@ -67,7 +67,10 @@ commit=$(git describe --always --dirty --abbrev=7 2>/dev/null || echo unknown)
 program=$work/program-$commit runs=$work/runs-$commit
 if [[ $commit == *-dirty || $commit == unknown ]]; then rm -rf "$program" "$runs"; fi
 if [ ! -x "$program/bin/lockstep" ]; then scripts/portable_folder.sh "$program" "$build"; fi
-if [ -n "$mutants" ]; then cmake --build "$build" --target lockstep_mutants >/dev/null; fi
+if [ -n "$mutants" ]; then
+    cmake -DLOCKSTEP_BUILD_TESTS=ON "$build" >/dev/null
+    cmake --build "$build" --target lockstep_mutants >/dev/null
+fi
 mkdir -p "$runs" "$results"
 
 # on DRIVER COMMAND...: in its root, with the program at /lockstep and the runs' folder at /runs; `here`, as they are.

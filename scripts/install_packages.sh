@@ -1,10 +1,15 @@
 #!/usr/bin/env bash
-# Installs the packages of Debian 12 or newer that building, testing and running lockstep needs. Does nothing where all
-# are there. OSMesa left Debian after release 13; EGL gives the contexts there.
-# Usage: scripts/install_packages.sh
+# Installs the packages of Debian 12 or newer that a purpose needs. Does nothing where all are there. OSMesa left Debian
+# after release 13; EGL gives the contexts there.
+# Usage: scripts/install_packages.sh [--for demo|page|unit_tests|test]      default: test, which is everything
+#   demo        lockstep is built and run
+#   page        scripts/build_report_page.sh
+#   unit_tests  demo, and Catch2 for tests of your own
+#   test        all of these, and what lockstep's own tests, benchmarks and charts need
 set -euo pipefail
+fail() { echo "install_packages: $*" >&2; exit 2; }
 
-packages=(
+demo=(
     g++ cmake ninja-build                         # build; g++ brings OpenMP
     libglm-dev libfmt-dev libcli11-dev            # vectors, text, command line
     nlohmann-json3-dev libpng-dev                 # scenes and reports, pictures
@@ -13,19 +18,31 @@ packages=(
     libhdf5-dev libaec-dev                        # traces: H5MD
     libdeflate-dev nettle-dev                     # reading them fast, their seal
     libseccomp-dev                                # the fence around the process that reads one
-    python3-numpy python3-h5py                    # the example that writes one
     libgl-dev libegl-dev                          # GL headers; the libraries are opened at run time
     libegl1 libgl1-mesa-dri                       # contexts without a GPU
-    catch2 libnanoflann-dev                       # tests and their oracle for neighbours
+)
+# Where Node.js did not come from Debian, npm came with it.
+page=()
+command -v node >/dev/null || page+=(nodejs)
+command -v npm >/dev/null || page+=(npm)
+tests=(
+    libnanoflann-dev                              # the oracle for neighbours
     libbenchmark-dev                              # benchmarks
     gnuplot-nox                                   # charts of lockstep study
+    chromium                                      # the report page's tests
+    python3-numpy python3-h5py                    # the example that writes a trace; states that the page saved become one
 )
 
-# Where Node.js did not come from Debian, npm came with it.
-command -v node >/dev/null || packages+=(nodejs)
-command -v npm >/dev/null || packages+=(npm)
-packages+=(chromium)                              # the report page is built by npm and tested in Chromium
-packages+=(python3-h5py)                          # states that the page saved become a trace
+purpose=${2-test}
+if [ $# -gt 0 ] && [ "$1" != --for ]; then fail "'$1' is not an option; the only one is --for"; fi
+if [ $# = 1 ] || [ $# -gt 2 ]; then fail "--for takes one of demo, page, unit_tests, test"; fi
+case $purpose in
+demo) packages=("${demo[@]}") ;;
+page) packages=("${page[@]}") ;;
+unit_tests) packages=("${demo[@]}" catch2) ;;
+test) packages=("${demo[@]}" catch2 "${page[@]}" "${tests[@]}") ;;
+*) fail "--for: '$purpose' is not one of demo, page, unit_tests, test" ;;
+esac
 
 is_installed() { [ "$(dpkg-query -W -f='${db:Status-Status}' "$1" 2>/dev/null)" = installed ]; }
 is_known() { apt-cache show "$1" >/dev/null 2>&1; }
@@ -33,7 +50,7 @@ no_osmesa() { echo "install_packages: this release has no libosmesa6; contexts c
 
 missing=()
 for package in "${packages[@]}"; do is_installed "$package" || missing+=("$package"); done
-if ! is_installed libosmesa6; then
+if [ "$purpose" != page ] && ! is_installed libosmesa6; then
     if [ ${#missing[@]} = 0 ] && is_known libegl1 && ! is_known libosmesa6; then no_osmesa && exit 0; fi
     missing+=(libosmesa6)
 fi
@@ -41,7 +58,7 @@ fi
 
 as_root=()
 if [ "$(id -u)" != 0 ]; then
-    command -v sudo >/dev/null || { echo "install_packages: run as root, or install sudo; missing: ${missing[*]}" >&2; exit 2; }
+    command -v sudo >/dev/null || fail "run as root, or install sudo; missing: ${missing[*]}"
     as_root=(sudo)
 fi
 "${as_root[@]}" apt-get update -qq

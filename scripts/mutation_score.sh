@@ -3,7 +3,7 @@
 # data/results/mutants/mutants.md. Takes some minutes. Status 0 if every mutant is found and the causes are named.
 set -euo pipefail
 cd "$(dirname "$0")/.."
-cmake --preset release
+cmake --preset release -DLOCKSTEP_BUILD_TESTS=ON
 cmake --build --preset release --target lockstep_mutants
 mkdir -p data/results/mutants
 build/release/tests/mutants/lockstep_mutants --commit "$(git rev-parse --short HEAD)" \

@@ -10,7 +10,7 @@ cd "$(dirname "$0")/.."
 folder=$1 build=${2:-build/release}
 
 if [ "$build" = build/release ]; then cmake --preset release >/dev/null; fi
-cmake --build "$build" --target lockstep >/dev/null
+cmake --build "$build" --target lockstep lockstep_manual >/dev/null
 rm -rf "$folder"
 cmake --install "$build" --prefix "$folder" --component program --strip >/dev/null
 mkdir -p "$folder/lib/runtime" "$folder/libexec"

@@ -47,6 +47,8 @@ KnownRaster measured_raster(const Profile& profile) {
     known.triangle_sides = followed(
         profile, {"triangles: left side", "triangles: right side", "triangles: lower side", "triangles: upper side"});
     known.equal_depth = followed(profile, {"equal depth"});
+    known.point_window_accurate = profile.point_window_accurate == true;
+    known.corner_window_accurate = profile.corner_window_accurate == true;
     known.gl_grid = known.point_grid && known.triangle_grid;
     return known;
 }

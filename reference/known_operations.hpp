@@ -17,6 +17,9 @@ struct KnownRaster {
     bool equal_depth = true;     ///< of equally deep ones the first stays: GL's own rule for LESS (17.3.4)
     /// Corners and points are on a grid of at least 4 sub-pixel bits, as GL asks; false of a driver measured on none.
     bool gl_grid = true;
+    /// Where the rounding of window coordinates is not known: that they err by no more than glsl_window_accuracy.
+    bool point_window_accurate = false;
+    bool corner_window_accurate = false;
 
     static constexpr KnownRaster all() { return {true, true, true, true, true, true, true, true, true}; }
     [[nodiscard]] bool triangles() const { return triangle_window && triangle_grid && triangle_sides; }

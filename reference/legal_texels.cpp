@@ -2,12 +2,14 @@
 
 #include <algorithm>
 #include <array>
+#include <bit>
 #include <cmath>
 #include <cstdint>
 
 #include "reference/collision_code.hpp"
 #include "reference/collision_pass.hpp"
 #include "reference/model/same_bits.hpp"
+#include "reference/model/window_accuracy.hpp"
 #include "reference/subnormals.hpp"
 #include "reference/triangle_interpolation.hpp"
 #include "reference/triangle_raster.hpp"
@@ -50,22 +52,24 @@ struct PixelRange {
     [[nodiscard]] bool one_answer() const { return first == last; }
 };
 
-/// "Accurate to about 1 part in 10^5" (GL 4.5, 2.3.4.1), each operation of fixed function by itself.
-constexpr double gl_accuracy = 1e-5;
 /// How far a grid that is not known may move a point or a corner: a step of the coarsest that GL allows, or half a
 /// pixel on a driver that was measured to be on none of these.
 double step_of(const KnownRaster& known) { return known.gl_grid ? 1.0 / 16.0 : 0.5; }
 
-Interval accurate(Interval v) {
-    return v.any ? v
-                 : interval::outward(v.low - gl_accuracy * std::abs(v.low), v.high + gl_accuracy * std::abs(v.high));
+Interval accurate(Interval v, double relative) {
+    return v.any ? v : interval::outward(v.low - relative * std::abs(v.low), v.high + relative * std::abs(v.high));
 }
 
-/// Perspective divide and viewport transform where nothing is known of them.
-Interval window_coordinate(Interval clip, Interval w, double scale, double offset) {
-    const Interval ndc = accurate(interval::divide(clip, w));
-    const Interval scaled = accurate(interval::multiply(ndc, {scale, scale}));
-    return accurate(interval::add(scaled, {offset, offset}));
+/// Perspective divide and viewport transform where their rounding is not known.
+Interval window_coordinate(Interval clip, Interval w, double scale, double offset, const WindowAccuracy& accuracy) {
+    const Interval ndc = accurate(interval::divide(clip, w), accuracy.ndc);
+    const Interval scaled = accurate(interval::multiply(ndc, {scale, scale}), accuracy.scaled);
+    return accurate(interval::add(scaled, {offset, offset}), accuracy.sum);
+}
+
+/// A number for what lies at these places.
+std::uint64_t place_of(float x, float y) {
+    return std::uint64_t{std::bit_cast<std::uint32_t>(x)} << 32U | std::bit_cast<std::uint32_t>(y);
 }
 
 /// A point's square of side 1 covers the centres inside; which of two on its border is open, unless it is known.
@@ -143,14 +147,17 @@ template <class A> class Candidates {
         const double half_width = params_.width * 0.5;
         const double half_height = params_.height * 0.5;
         const auto along = [&](const Interval& coordinate, float followed, double half) {
-            const Interval place =
-                window_known ? Interval(followed) : window_coordinate(coordinate, clip[3], half, half);
+            const Interval place = window_known ? Interval(followed)
+                                                : window_coordinate(coordinate, clip[3], half, half,
+                                                                    accuracy(known().raster.point_window_accurate));
             return pixels_of(place, known().raster, profile_.raster);
         };
         const PixelRange columns = along(clip[0], window.x, half_width);
         const PixelRange rows = along(clip[1], window.y, half_height);
-        owner.depth = known().raster.point_depth && drawn ? Interval(reference.depth)
-                                                          : window_coordinate(clip[2], clip[3], 0.5, 0.5);
+        owner.depth = known().raster.point_depth && drawn
+                          ? Interval(reference.depth)
+                          : window_coordinate(clip[2], clip[3], 0.5, 0.5, gl_window_accuracy);
+        owner.place = place_of(window.x, window.y);
         if (clip[2].is_point() && clip[3].is_point() && known().raster.equal_depth)
             owner.clip_zw = glm::vec2(clip[2].as_float(), clip[3].as_float());
         owner.sure = inside == InVolume::yes && columns.one_answer() && rows.one_answer();
@@ -164,7 +171,8 @@ template <class A> class Candidates {
         for (int y = rows.first; y <= rows.last; ++y)
             for (int x = columns.first; x <= columns.last; ++x) {
                 owner.is_reference = x == reference.x && y == reference.y;
-                owner.moved = drawn ? glm::ivec2(x - reference.x, y - reference.y) : glm::ivec2(0);
+                owner.drawn_by_reference = owner.is_reference;
+                owner.shift = drawn ? glm::dvec2(x - reference.x, y - reference.y) : glm::dvec2(0.0);
                 add(owner, x, y);
             }
     }
@@ -173,11 +181,22 @@ template <class A> class Candidates {
         std::vector<glm::vec4> clip(obstacles.positions.size());
         std::transform(obstacles.positions.begin(), obstacles.positions.end(), clip.begin(),
                        [&](glm::vec3 p) { return fp_.transform(params_.collision_proj_view, p); });
-        std::vector<bool> assembled(obstacles.indices.size() / 3, false);
-        for (const RasterTriangle& triangle :
-             assemble_triangles(clip, obstacles.indices, params_.width, params_.height, profile_.raster)) {
-            assembled[triangle.primitive] = true;
-            add_triangle(obstacles, clip, triangle, profile_.raster);
+        const auto drawn = assemble_triangles(clip, obstacles.indices, params_.width, params_.height, profile_.raster);
+        const auto primitives = static_cast<std::uint32_t>(obstacles.indices.size() / 3);
+        std::vector<bool> judged(primitives, false);
+        auto next = drawn.begin();
+        for (std::uint32_t primitive = 0; primitive < primitives; ++primitive) {
+            const auto first = next;
+            while (next != drawn.end() && next->primitive == primitive)
+                ++next;
+            const auto variants = possible_triangles(obstacles, clip, primitive);
+            judged[primitive] = first != next || !variants.empty();
+            if (!variants.empty())
+                add_variants(obstacles, clip, first == next ? nullptr : &*first, variants);
+            else
+                std::for_each(first, next, [&](const RasterTriangle& triangle) {
+                    add_triangle(obstacles, clip, triangle, profile_.raster);
+                });
         }
         if (side_tolerance(profile_.raster) == 0.0)
             return;
@@ -186,7 +205,7 @@ template <class A> class Candidates {
         finer.subpixel_bits = 12;
         for (const RasterTriangle& triangle :
              assemble_triangles(clip, obstacles.indices, params_.width, params_.height, finer))
-            if (!assembled[triangle.primitive])
+            if (!judged[triangle.primitive])
                 add_triangle(obstacles, clip, triangle, finer);
     }
 
@@ -198,11 +217,43 @@ template <class A> class Candidates {
             candidates_[static_cast<std::size_t>(slot)].push_back(owner);
     }
 
-    void add_triangle(const Mesh& obstacles, const std::vector<glm::vec4>& clip, const RasterTriangle& triangle,
-                      const RasterRules& rules) {
+    /// What the grid makes of a triangle inside the clip volume, each corner's window coordinates being as accurate as
+    /// was measured: along each axis one place, or two. None: a corner may lie anywhere that GL lets it.
+    [[nodiscard]] std::vector<RasterTriangle>
+    possible_triangles(const Mesh& obstacles, const std::vector<glm::vec4>& clip, std::uint32_t primitive) const {
+        const KnownRaster& raster = known().raster;
+        if (known().points || raster.triangle_window || !raster.corner_window_accurate || !raster.triangle_grid ||
+            !raster.triangle_sides)
+            return {};
+        std::array<std::vector<glm::ivec2>, 3> places;
+        for (std::size_t k = 0; k < 3; ++k) {
+            const glm::vec4 corner = clip[obstacles.indices[std::size_t{primitive} * 3 + k]];
+            if (!lockstep::in_clip_volume(corner))
+                return {};
+            const auto along = [&](float coordinate, int size) {
+                const Interval window =
+                    window_coordinate(coordinate, corner.w, size * 0.5, size * 0.5, glsl_window_accuracy);
+                const auto at = [&](double x) { return snap_vertex(static_cast<float>(x), profile_.raster); };
+                return std::pair(at(window.low), at(window.high));
+            };
+            const auto [x0, x1] = along(corner.x, params_.width);
+            const auto [y0, y1] = along(corner.y, params_.height);
+            for (int y = y0; y <= y1; ++y)
+                for (int x = x0; x <= x1; ++x)
+                    places[k].emplace_back(x, y);
+        }
+        std::vector<RasterTriangle> triangles;
+        for (const glm::ivec2 a : places[0])
+            for (const glm::ivec2 b : places[1])
+                for (const glm::ivec2 c : places[2])
+                    if (const auto triangle = raster_triangle(a, b, c, primitive))
+                        triangles.push_back(*triangle);
+        return triangles;
+    }
+
+    /// Calls visit(x, y) for the texels asked for that a triangle may reach.
+    template <class Visit> void for_each_wanted(const RasterTriangle& triangle, int bits, int beside, Visit visit) {
         const auto& c = triangle.corners;
-        const int bits = rules.subpixel_bits;
-        const int beside = static_cast<int>(std::ceil(std::ldexp(side_tolerance(rules), -bits)));
         const int x0 = (std::min({c[0].x, c[1].x, c[2].x}) >> bits) - beside;
         const int y0 = (std::min({c[0].y, c[1].y, c[2].y}) >> bits) - beside;
         const int x1 = (std::max({c[0].x, c[1].x, c[2].x}) >> bits) + 1 + beside;
@@ -210,18 +261,45 @@ template <class A> class Candidates {
         for (int y = std::max(y0, 0); y <= std::min(y1, params_.height - 1); ++y)
             for (int x = std::max(x0, 0); x <= std::min(x1, params_.width - 1); ++x)
                 if (wanted_.slot(x, y) >= 0)
-                    add_pixel(obstacles, clip, triangle, rules, x, y);
+                    visit(x, y);
     }
 
-    void add_pixel(const Mesh& obstacles, const std::vector<glm::vec4>& clip, const RasterTriangle& triangle,
-                   const RasterRules& rules, int x, int y) {
+    static bool covers(const RasterTriangle& triangle, const RasterRules& rules, int x, int y) {
         bool covered = false;
         for_each_pixel(triangle, rules, {x, y, x + 1, y + 1}, [&](int, int) { covered = true; });
+        return covered;
+    }
+
+    /// `drawn`: the reference's of these; null: it makes a line of them.
+    void add_variants(const Mesh& obstacles, const std::vector<glm::vec4>& clip, const RasterTriangle* drawn,
+                      const std::vector<RasterTriangle>& variants) {
+        const RasterTriangle& shape = drawn != nullptr ? *drawn : variants.front();
+        const RasterRules& rules = profile_.raster;
+        for_each_wanted(shape, rules.subpixel_bits, 1, [&](int x, int y) {
+            const auto covering = std::count_if(variants.begin(), variants.end(),
+                                                [&](const RasterTriangle& t) { return covers(t, rules, x, y); });
+            const bool covered = drawn != nullptr && covers(*drawn, rules, x, y);
+            if (covered || covering > 0)
+                add_fragment(obstacles, clip, shape, rules, x, y, covered,
+                             covered && static_cast<std::size_t>(covering) == variants.size());
+        });
+    }
+
+    void add_triangle(const Mesh& obstacles, const std::vector<glm::vec4>& clip, const RasterTriangle& triangle,
+                      const RasterRules& rules) {
         const bool exact = known().points || known().raster.triangles();
-        const double margin = exact ? HUGE_VAL : side_distance(triangle, x, y, rules);
         const double tolerance = side_tolerance(rules);
-        if (!covered && margin > tolerance)
-            return;
+        const int bits = rules.subpixel_bits;
+        for_each_wanted(triangle, bits, static_cast<int>(std::ceil(std::ldexp(tolerance, -bits))), [&](int x, int y) {
+            const bool covered = covers(triangle, rules, x, y);
+            const double margin = exact ? HUGE_VAL : nearest_side(triangle, x, y, rules).distance;
+            if (covered || margin <= tolerance)
+                add_fragment(obstacles, clip, triangle, rules, x, y, covered, covered && margin > tolerance);
+        });
+    }
+
+    void add_fragment(const Mesh& obstacles, const std::vector<glm::vec4>& clip, const RasterTriangle& triangle,
+                      const RasterRules& rules, int x, int y, bool covered, bool sure) {
         const std::uint32_t* index = &obstacles.indices[std::size_t{triangle.primitive} * 3];
         const std::array<glm::vec4, 3> corners{clip[index[0]], clip[index[1]], clip[index[2]]};
         const std::array<glm::vec3, 3> positions{obstacles.positions[index[0]], obstacles.positions[index[1]],
@@ -242,8 +320,13 @@ template <class A> class Candidates {
             owner.depth = {owner.reference_depth - error, owner.reference_depth + error};
         }
         owner.is_reference = covered && rules == profile_.raster;
-        owner.sure = covered && margin > tolerance;
-        owner.edge_margin = exact ? margin : std::ldexp(margin, 8 - rules.subpixel_bits);
+        owner.sure = sure;
+        const NearestSide side = nearest_side(triangle, x, y, rules);
+        owner.edge_margin = sure ? HUGE_VAL : std::ldexp(side.distance, 8 - rules.subpixel_bits);
+        owner.shift = covered ? -side.outward : side.outward;
+        owner.is_side = true;
+        owner.drawn_by_reference = covered;
+        owner.place = std::uint64_t{triangle.primitive} << 32U | static_cast<std::uint32_t>(y * params_.width + x);
         add(owner, x, y);
     }
 
@@ -254,13 +337,17 @@ template <class A> class Candidates {
         if (known().points || raster.triangles() || (raster.triangle_window && raster.triangle_grid))
             return 0.0;
         const double size = std::max(params_.width, params_.height);
-        // Three operations on at most half the image, half of it, and all of it.
-        const double window = raster.triangle_window ? 0.0 : gl_accuracy * (0.5 + 0.5 + 1.0) * size;
+        const double window =
+            raster.triangle_window ? 0.0 : accuracy(raster.corner_window_accurate).error(size, size * 0.5);
         const double step = raster.triangle_grid ? std::ldexp(1.0, -profile_.raster.subpixel_bits) : step_of(raster);
         return std::ldexp((window + step) * std::sqrt(2.0), rules.subpixel_bits);
     }
 
     [[nodiscard]] const KnownOperations& known() const { return arithmetic_.known(); }
+
+    static const WindowAccuracy& accuracy(bool measured) {
+        return measured ? glsl_window_accuracy : gl_window_accuracy;
+    }
 
     /// z and w interpolate like positions; their quotient is halved and moved, 2.5 ULP and two roundings.
     static double depth_bound(const std::array<glm::vec4, 3>& c) {

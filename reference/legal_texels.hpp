@@ -1,5 +1,6 @@
 #pragma once
 #include <cstddef>
+#include <cstdint>
 #include <optional>
 #include <span>
 #include <utility>
@@ -31,9 +32,14 @@ struct TexelOwner {
     std::optional<glm::vec2> clip_zw = std::nullopt;
     Interval depth{1.0F, 1.0F}; ///< window depth
 
-    glm::ivec2 moved{0};         ///< of a point: pixels from where the reference draws it
-    PixelRect reach = {};        ///< of a point: the pixels it may land on, the image's and those beside it
-    bool may_be_clipped = false; ///< of a point: it may lie outside the clip volume
+    /// Where a shift of everything points that makes the GPU decide otherwise here: for a point, from the pixel of the
+    /// reference to this one; for a triangle's side, outward where the reference does not cover the texel, else inward.
+    glm::dvec2 shift{0.0};
+    bool is_side = false;            ///< `shift` is a side's normal
+    bool drawn_by_reference = false; ///< to this texel, be it hidden there
+    std::uint64_t place = 0;         ///< the same for the same window position of a point, or texel of a triangle
+    PixelRect reach = {};            ///< of a point: the pixels it may land on, the image's and those beside it
+    bool may_be_clipped = false;     ///< of a point: it may lie outside the clip volume
 
     [[nodiscard]] bool stores(glm::vec4 texel) const;
 };
@@ -51,8 +57,9 @@ struct LegalTexel {
 /// For each of `texels` (indices into the CDT), who may own it after `after` was drawn over the obstacles: points whose
 /// window position may fall there, triangles whose sides pass the texel's centre, depths that rounding can swap.
 /// Each rule that is known (KnownRaster) is the reference's. Of the others: a window coordinate is what operations give
-/// that are accurate to 1 part in 10^5 (GL 4.5, 2.3.4.1); a grid that is not known moves it by up to one step, which is
-/// at most 1/16 pixel (SUBPIXEL_BITS, table 23.53); what lies on a pixel's edge may belong to either side.
+/// that are accurate to 1 part in 10^5 (GL 4.5, 2.3.4.1), or as GLSL's are where that was measured; a grid that is not
+/// known moves it by up to one step, which is at most 1/16 pixel (SUBPIXEL_BITS, table 23.53); what lies on a pixel's
+/// edge may belong to either side.
 std::vector<LegalTexel> legal_texels(const Mesh& obstacles, const Particles& before, const Particles& after,
                                      const FrameParams& params, const Profile& profile, const KnownOperations& known,
                                      std::span<const std::size_t> texels);

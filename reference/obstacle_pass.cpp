@@ -86,7 +86,7 @@ double obstacle_edge_distance(const Mesh& obstacles, const FrameParams& params, 
         for (const RasterTriangle& triangle :
              assemble_triangles(project(fp, obstacles, params.collision_proj_view), obstacles.indices, params.width,
                                 params.height, profile.raster))
-            nearest = std::min(nearest, side_distance(triangle, x, y, profile.raster));
+            nearest = std::min(nearest, nearest_side(triangle, x, y, profile.raster).distance);
         return nearest;
     });
 }

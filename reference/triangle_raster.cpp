@@ -88,12 +88,8 @@ struct AssembledVertex {
 };
 
 void append(std::vector<RasterTriangle>& triangles, glm::ivec2 a, glm::ivec2 b, glm::ivec2 c, std::uint32_t primitive) {
-    const std::int64_t area =
-        (std::int64_t{b.x} - a.x) * (std::int64_t{c.y} - a.y) - (std::int64_t{c.x} - a.x) * (std::int64_t{b.y} - a.y);
-    if (area < 0)
-        std::swap(b, c);
-    if (area != 0)
-        triangles.push_back({{a, b, c}, primitive});
+    if (const auto triangle = raster_triangle(a, b, c, primitive))
+        triangles.push_back(*triangle);
 }
 
 void append_fan(std::vector<RasterTriangle>& triangles, const ClipPolygon& polygon, const Viewport& viewport,
@@ -110,6 +106,16 @@ void append_fan(std::vector<RasterTriangle>& triangles, const ClipPolygon& polyg
 }
 
 } // namespace
+
+std::optional<RasterTriangle> raster_triangle(glm::ivec2 a, glm::ivec2 b, glm::ivec2 c, std::uint32_t primitive) {
+    const std::int64_t area =
+        (std::int64_t{b.x} - a.x) * (std::int64_t{c.y} - a.y) - (std::int64_t{c.x} - a.x) * (std::int64_t{b.y} - a.y);
+    if (area == 0)
+        return {};
+    if (area < 0)
+        std::swap(b, c);
+    return RasterTriangle{{a, b, c}, primitive};
+}
 
 ClipPolygon clip_triangle(const std::array<glm::vec4, 3>& triangle) {
     const std::array outside{outside_planes(triangle[0]), outside_planes(triangle[1]), outside_planes(triangle[2])};
@@ -153,15 +159,19 @@ std::pair<int, int> rows_touched(const RasterTriangle& triangle, const RasterRul
     return {low >> rules.subpixel_bits, high >> rules.subpixel_bits};
 }
 
-double side_distance(const RasterTriangle& triangle, int x, int y, const RasterRules& rules) {
+NearestSide nearest_side(const RasterTriangle& triangle, int x, int y, const RasterRules& rules) {
     const glm::dvec2 centre(std::int64_t{x} << rules.subpixel_bits, std::int64_t{y} << rules.subpixel_bits);
-    double nearest = HUGE_VAL;
+    NearestSide nearest{HUGE_VAL, glm::dvec2(0.0)};
     for (std::size_t i = 0; i < 3; ++i) {
         const glm::dvec2 a(triangle.corners[i]);
         const glm::dvec2 side = glm::dvec2(triangle.corners[(i + 1) % 3]) - a;
         const double length_squared = glm::dot(side, side);
         const double along = length_squared > 0.0 ? glm::dot(centre - a, side) / length_squared : 0.0;
-        nearest = std::min(nearest, glm::length(centre - a - std::clamp(along, 0.0, 1.0) * side));
+        const double distance = glm::length(centre - a - std::clamp(along, 0.0, 1.0) * side);
+        if (!(distance < nearest.distance))
+            continue;
+        const bool beside_it = 0.0 < along && along < 1.0;
+        nearest = {distance, beside_it ? glm::dvec2(side.y, -side.x) / std::sqrt(length_squared) : glm::dvec2(0.0)};
     }
     return nearest;
 }

@@ -3,6 +3,7 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <utility>
 #include <vector>
@@ -36,6 +37,9 @@ struct RasterTriangle {
     std::array<glm::ivec2, 3> corners{};
     std::uint32_t primitive = 0; ///< index of the triangle it was cut from
 };
+
+/// Corners in either order. Nothing: they make no area.
+std::optional<RasterTriangle> raster_triangle(glm::ivec2 a, glm::ivec2 b, glm::ivec2 c, std::uint32_t primitive);
 
 /// Clips and snaps the triangles `indices` makes of `clip` for a viewport of width x height at the origin, and drops
 /// those of no area. Clipped ones become fans. Drawing order is kept.
@@ -86,8 +90,12 @@ void for_each_pixel(const RasterTriangle& triangle, const RasterRules& rules, co
 /// The first and last row whose pixels it may cover.
 std::pair<int, int> rows_touched(const RasterTriangle& triangle, const RasterRules& rules);
 
-/// Distance from the centre of pixel (x, y) to the nearest side of `triangle`, in sub-pixel units. Another driver may
-/// decide the pixel otherwise only where this is small: within its snapping error, 1 for 8 sub-pixel bits.
-double side_distance(const RasterTriangle& triangle, int x, int y, const RasterRules& rules);
+/// The side of a triangle that lies nearest to a pixel's centre. Another driver may decide the pixel otherwise only
+/// where the distance is small: within its snapping error, 1 for 8 sub-pixel bits.
+struct NearestSide {
+    double distance;    ///< sub-pixel units
+    glm::dvec2 outward; ///< normal of length 1; 0 where a corner is nearest
+};
+NearestSide nearest_side(const RasterTriangle& triangle, int x, int y, const RasterRules& rules);
 
 } // namespace lockstep

@@ -97,7 +97,9 @@ class RunJudge {
   public:
     /// `has_cdt`: texels are judged too.
     RunJudge(const Scene& scene, const Profile& profile, const KnownOperations& known, bool has_cdt)
-        : scene_(scene), profile_(profile), known_(known), has_cdt_(has_cdt) {}
+        : scene_(scene), profile_(profile), known_(known), has_cdt_(has_cdt) {
+        summary_.judges_leans = can_judge_leans(known, profile);
+    }
 
     /// `earlier`: what the frame before started from, null for frame 0.
     FrameVerdicts judge(int frame, const FrameParams& params, const State& before, const State* earlier,
@@ -110,6 +112,8 @@ class RunJudge {
             verdicts.texels.clear();
         const std::uint64_t divergent_before = summary_.total(DifferenceClass::divergent);
         summary_.add(frame, verdicts);
+        if (summary_.judges_leans && !summary_.first_beyond_rounding)
+            summary_.first_beyond_rounding = first_tie_beyond_rounding(frame, judged, verdicts);
         const bool diverges = summary_.total(DifferenceClass::divergent) > divergent_before;
         if (diverges && divergent_before == 0)
             summary_.first = first_of(DifferenceClass::divergent, frame, judged, verdicts);
@@ -132,6 +136,7 @@ class RunJudge {
         VerdictSummary summary = summary_;
         summary.particle_cause = causes_.particles();
         summary.texel_cause = causes_.texels();
+        summary.convict_shift();
         return summary;
     }
 

@@ -1,9 +1,12 @@
 #include "crosscheck/judge/verdict.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <map>
 #include <set>
 #include <unordered_map>
+
+#include <glm/common.hpp>
 
 #include "crosscheck/judge/compare.hpp"
 #include "reference/collision_pass.hpp"
@@ -167,6 +170,69 @@ void convict_lost_points(const JudgedFrame& frame, const std::vector<LegalTexel>
             }
 }
 
+/// The signs of a shift. A side says nothing of a shift along it, and one that is oblique not along which axis it was.
+glm::ivec2 signs(glm::dvec2 shift, bool is_side) {
+    const auto sign = [](double x) { return x < 0.0 ? -1 : x > 0.0 ? 1 : 0; };
+    const glm::dvec2 size = glm::abs(shift);
+    if (!is_side)
+        return {sign(shift.x), sign(shift.y)};
+    return {size.x >= 2.0 * size.y ? sign(shift.x) : 0, size.y >= 2.0 * size.x ? sign(shift.y) : 0};
+}
+
+/// What a shift would have to be, to leave `gpu` in a texel by the widest of GL's rules.
+std::optional<Lean> lean_of(const LegalTexel& widest, glm::vec4 gpu) {
+    const TexelOwner* owner = widest.owner_of(gpu);
+    if (owner == nullptr || owner->is_reference)
+        return {};
+    const auto reference = std::find_if(widest.owners.begin(), widest.owners.end(),
+                                        [](const TexelOwner& other) { return other.is_reference; });
+    const TexelOwner* cause = owner;
+    const bool moved_here = owner->shift != glm::dvec2(0.0) && !owner->drawn_by_reference;
+    if (!moved_here) // then what the reference has here went elsewhere; of a point, that is told where it went
+        cause =
+            reference != widest.owners.end() && reference->kind == TexelOwner::Kind::obstacle ? &*reference : nullptr;
+    if (cause == nullptr || cause->shift == glm::dvec2(0.0))
+        return {};
+    Lean lean;
+    lean.direction = signs(cause->shift, cause->is_side);
+    lean.place = cause->place;
+    return lean;
+}
+
+/// Tells of ties and divergent texels which way things are shifted, if they are.
+void add_leans(const JudgedFrame& frame, std::vector<ItemVerdict>& verdicts) {
+    std::vector<std::size_t> texels;
+    for (const ItemVerdict& verdict : verdicts)
+        if (verdict.kind == DifferenceClass::divergent || verdict.kind == DifferenceClass::tie)
+            texels.push_back(verdict.index);
+    if (texels.empty())
+        return;
+    const auto legal_if = [&](const KnownRaster& raster) {
+        KnownOperations known = frame.known;
+        known.points = false;
+        known.raster = raster;
+        return legal_texels(frame.obstacles, frame.before, frame.gpu, frame.params, frame.profile, known, texels);
+    };
+    const std::vector<LegalTexel> widest = legal_if({});
+    KnownRaster accurate = KnownRaster::all();
+    accurate.point_window = accurate.triangle_window = false;
+    accurate.point_window_accurate = accurate.corner_window_accurate = true;
+    const std::vector<LegalTexel> rounded = legal_if(accurate);
+    const CollisionImage& cdt = frame.gpu_cdt;
+    auto next = verdicts.begin();
+    for (std::size_t i = 0; i < texels.size(); ++i) {
+        next = std::find_if(next, verdicts.end(), [&](const ItemVerdict& v) { return v.index == texels[i]; });
+        next->lean = lean_of(widest[i], cdt.texels[texels[i]]);
+        if (!next->lean)
+            continue;
+        next->lean->beyond_rounding = rounded[i].owner_of(cdt.texels[texels[i]]) == nullptr;
+        next->lean->right_half =
+            2 * (texels[i] % static_cast<std::size_t>(cdt.width)) >= static_cast<std::size_t>(cdt.width);
+        next->lean->upper_half =
+            2 * (texels[i] / static_cast<std::size_t>(cdt.width)) >= static_cast<std::size_t>(cdt.height);
+    }
+}
+
 std::vector<ItemVerdict> judge_texels(const JudgedFrame& frame, const std::vector<ItemVerdict>& particles) {
     const std::vector<std::size_t> differing = differing_items(frame.reference_cdt, frame.gpu_cdt);
     std::vector<ItemVerdict> verdicts;
@@ -193,6 +259,7 @@ std::vector<ItemVerdict> judge_texels(const JudgedFrame& frame, const std::vecto
     for (std::size_t i = 0; i < unexplained.size(); ++i)
         judged.push_back(judge_texel(unexplained[i], legal[i], frame.gpu_cdt.texels[unexplained[i]]));
     convict_lost_points(frame, legal, judged);
+    add_leans(frame, judged);
     verdicts.insert(verdicts.end(), judged.begin(), judged.end());
     std::sort(verdicts.begin(), verdicts.end(),
               [](const ItemVerdict& a, const ItemVerdict& b) { return a.index < b.index; });

@@ -5,6 +5,7 @@
 #include <string_view>
 #include <vector>
 
+#include "crosscheck/judge/lean.hpp"
 #include "reference/known_operations.hpp"
 #include "reference/legal_outcomes.hpp"
 #include "reference/model/image.hpp"
@@ -44,7 +45,8 @@ struct ItemVerdict {
     std::size_t outcomes = 1; ///< legal ones
     std::optional<Tie> tie = std::nullopt;
     Undefined undefined = Undefined::none;
-    bool follows_particle = false; ///< a texel that holds what the GPU's own particles leave there
+    bool follows_particle = false;           ///< a texel that holds what the GPU's own particles leave there
+    std::optional<Lean> lean = std::nullopt; ///< of a texel that is a tie or divergent, where a shift would explain it
 };
 
 /// Verdicts on what differs in a frame, by index.

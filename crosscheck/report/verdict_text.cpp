@@ -71,6 +71,42 @@ std::string first_text(const FirstDivergence& first, int width) {
     return text;
 }
 
+/// The name of a shift: of one that ties convict, or of what all points and sides beyond rounding have in common.
+std::string shift_name(const VerdictSummary& s) {
+    if (const std::string name = s.convicted_shift(); !name.empty())
+        return name;
+    return s.total(DifferenceClass::divergent) == 0
+               ? ""
+               : s.leans.shift([&](Leans::Direction d) { return s.leans.all_this_way(d); });
+}
+
+/// "7 left, 305 right, 1 down, 0 up".
+template <class Count> std::string directions_text(const Count& count) {
+    std::string text;
+    for (const auto d : {Leans::left, Leans::right, Leans::down, Leans::up})
+        text += fmt::format("{}{} {}", text.empty() ? "" : ", ", grouped(count(d)), Leans::names[d]);
+    return text;
+}
+
+std::string lean_text(const VerdictSummary& s) {
+    const auto beyond = [&](Leans::Direction d) { return s.leans.beyond_rounding(d); };
+    std::string text = directions_text([&](Leans::Direction d) { return s.leans.count(d); });
+    text += "; further than rounding: ";
+    text += beyond(Leans::left) + beyond(Leans::right) + beyond(Leans::down) + beyond(Leans::up) == 0
+                ? "none"
+                : directions_text(beyond);
+    return line("lean", "into the pixel beside: " + text);
+}
+
+nlohmann::json lean_json(const VerdictSummary& s) {
+    nlohmann::json all = nlohmann::json::object(), beyond = nlohmann::json::object();
+    for (const auto d : {Leans::left, Leans::right, Leans::down, Leans::up}) {
+        all[std::string(Leans::names[d])] = s.leans.count(d);
+        beyond[std::string(Leans::names[d])] = s.leans.beyond_rounding(d);
+    }
+    return {{"into_the_pixel_beside", all}, {"beyond_rounding", beyond}, {"shift", shift_name(s)}};
+}
+
 nlohmann::json place_json(const Place& place, int width) {
     if (!place.texel)
         return {{"frame", place.frame}, {"particle", place.index}};
@@ -118,6 +154,14 @@ std::string verdict_text(const VerdictSummary& s, int width) {
         text += line("ties",
                      fmt::format("{}: {}, margins {:.3g} to {:.3g} {}; closest {}", tie_name(kind), grouped(tie.count),
                                  tie.smallest, tie.largest, tie_unit(kind), place_text(tie.closest, width)));
+    if (s.leans.any())
+        text += lean_text(s);
+    if (const std::string name = shift_name(s); !name.empty())
+        text += line("shift", fmt::format("{}: {}", name,
+                                          s.convicted_shift().empty()
+                                              ? "what lies further than rounding goes this way alone"
+                                              : "in both halves of the image, where a fair coin would do it with less "
+                                                "than 2^-64"));
     for (const auto& [reason, count] : s.undefined)
         text += line("undefined", fmt::format("{}: {}", undefined_name(reason), grouped(count)));
     if (s.particle_cause.divergent > 0)
@@ -161,6 +205,7 @@ nlohmann::json verdict_json(const VerdictSummary& s, int width) {
              {{"median", s.median_set_size()}, {"largest", s.set_sizes.empty() ? 0 : s.set_sizes.rbegin()->first}}},
             {"ties", ties},
             {"undefined", undefined},
+            {"lean", lean_json(s)},
             {"particle_cause", cause_json(s.particle_cause)},
             {"texel_cause", cause_json(s.texel_cause)},
             {"first", first}};

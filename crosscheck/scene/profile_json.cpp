@@ -19,6 +19,10 @@ constexpr std::pair<std::string_view, std::int64_t OperationErrors::*> error_tab
     {"sqrt", &OperationErrors::sqrt},     {"inverse_sqrt", &OperationErrors::inverse_sqrt},
     {"length", &OperationErrors::length}, {"normalize", &OperationErrors::normalize}};
 
+constexpr std::pair<std::string_view, std::optional<bool> Profile::*> accuracy_table[] = {
+    {"point_window_accurate", &Profile::point_window_accurate},
+    {"corner_window_accurate", &Profile::corner_window_accurate}};
+
 constexpr std::pair<std::string_view, bool RasterRules::*> rule_table[] = {
     {"depth_by_driver_reciprocal", &RasterRules::depth_by_driver_reciprocal},
     {"point_edge_to_lower", &RasterRules::point_edge_to_lower},
@@ -113,6 +117,9 @@ nlohmann::json profile_json(const Profile& profile) {
                         {"ulp_errors", errors},
                         {"not_followed", profile.not_followed}};
     add_orders(json, profile);
+    for (const auto& [name, accurate] : accuracy_table)
+        if (profile.*accurate)
+            json[std::string(name)] = name_of(off_on, *(profile.*accurate));
     if (profile.compute_flush_results)
         json["compute_flush_results"] = name_of(off_on, *profile.compute_flush_results);
     return json;
@@ -120,7 +127,8 @@ nlohmann::json profile_json(const Profile& profile) {
 
 Profile read_profile(const JsonValue& json) {
     json.check_keys({"name", "dot", "length_dot", "normalize_dot", "other_orders", "flush_subnormals",
-                     "compute_flush_subnormals", "compute_flush_results", "raster", "ulp_errors", "not_followed"});
+                     "compute_flush_subnormals", "compute_flush_results", "raster", "ulp_errors", "not_followed",
+                     "point_window_accurate", "corner_window_accurate"});
     Profile profile = base(json);
     read_named(json, "dot", dot_order_names(), profile.dot);
     read_orders(json, profile);
@@ -130,6 +138,11 @@ Profile read_profile(const JsonValue& json) {
     }
     read_named(json, "flush_subnormals", off_on, profile.flush_subnormals);
     read_named(json, "compute_flush_subnormals", off_on, profile.compute_flush_subnormals);
+    for (const auto& [name, accurate] : accuracy_table) {
+        profile.*accurate = {};
+        if (const auto found = json.find(name))
+            profile.*accurate = found->choice(off_on) == 1;
+    }
     if (const auto raster = json.find("raster"))
         read_raster(*raster, profile.raster);
     if (const auto errors = json.find("ulp_errors")) {

@@ -188,6 +188,11 @@ RasterRules raster_rules(Translation& rows) {
     return rules;
 }
 
+/// Null where an older probe did not look.
+std::optional<bool> found(const ProbeResult& result, std::string_view row, std::string_view finding) {
+    return result.has(row) ? std::optional(result.row(row).finding == finding) : std::nullopt;
+}
+
 bool has_geometry_stage(const std::filesystem::path& shaders) {
     constexpr std::array stages{Stage::geometry};
     return !load_stages(shader_folders(shaders), "collision_pass", stages).empty();
@@ -253,6 +258,8 @@ Profile profile_from(const ProbeResult& result) {
     rows.require({"transform feedback order"}, "as drawn");
     profile.errors = errors(rows, result);
     profile.raster = raster_rules(rows);
+    profile.point_window_accurate = found(result, "points: window accuracy", "as GLSL's");
+    profile.corner_window_accurate = found(result, "triangles: window accuracy", "as GLSL's");
     profile.not_followed = rows.not_followed;
     for (const char* name : {"llvmpipe", "nvidia"})
         if (computes_alike(profile, named_profile(name)))

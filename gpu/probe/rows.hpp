@@ -30,7 +30,8 @@ void measure_order(Rows& rows);
 /// Sub-pixel grid, rounding to it, and who owns what lies on an edge: points and triangles.
 void measure_snapping(Rows& rows);
 
-/// Perspective divide and viewport transform, with and without a geometry stage. Needs measure_snapping's rows, and
+/// Perspective divide and viewport transform, with and without a geometry stage: their rounding, and whether they are as
+/// accurate as a shader's own operations. Needs measure_snapping's rows, and
 /// `plain` for the driver's own 1 / w.
 void measure_viewport(const DriverArithmetic& plain, Rows& rows);
 

@@ -8,6 +8,7 @@
 #include "gpu/probe/rows.hpp"
 #include "gpu/probe/snap.hpp"
 #include "reference/model/random.hpp"
+#include "reference/model/window_accuracy.hpp"
 
 namespace lockstep::probing {
 namespace {
@@ -92,6 +93,29 @@ std::vector<Discriminating> search(const Question& question) {
     return found;
 }
 
+float to_clip(double window, float w) {
+    return static_cast<float>((window / (side / 2.0) - 1.0) * static_cast<double>(w));
+}
+
+/// Places further from the border than glsl_window_accuracy explains, by up to 16 times.
+std::vector<Discriminating> search_beyond(const Question& question) {
+    std::vector<Discriminating> found;
+    Random random(43, 0);
+    constexpr double half = side / 2.0;
+    for (int row = 0; row < side; row += 2)
+        for (int column = 4; column < side - 4; column += 12) {
+            const auto w = static_cast<float>(1.0 + 7.0 * random.unit());
+            const double border = column + question.change;
+            const double distance = glsl_window_accuracy.error(border, half) * std::exp2(4.0 * random.unit()) *
+                                    (random.unit() < 0.5 ? 1 : -1);
+            const Projected x{to_clip(border + distance, w), w, 1.0F / w};
+            const double exact = not_rounded(x, half, half);
+            if (std::abs(exact - border) > glsl_window_accuracy.error(exact, half))
+                found.push_back({column, row, x});
+        }
+    return found;
+}
+
 void take_reciprocals(const DriverArithmetic& gl, std::vector<Discriminating>& inputs) {
     Floats w;
     for (const Discriminating& input : inputs)
@@ -99,10 +123,6 @@ void take_reciprocals(const DriverArithmetic& gl, std::vector<Discriminating>& i
     const Floats reciprocals = gl.reciprocal(w);
     for (std::size_t i = 0; i < inputs.size(); ++i)
         inputs[i].x.driver_reciprocal = reciprocals[i];
-}
-
-float to_clip(double window, float w) {
-    return static_cast<float>((window / (side / 2.0) - 1.0) * static_cast<double>(w));
 }
 
 std::vector<RasterVertex> points(const std::vector<Discriminating>& inputs) {
@@ -124,6 +144,22 @@ std::vector<RasterVertex> triangles(const std::vector<Discriminating>& inputs) {
     return vertices;
 }
 
+/// For each input, whether its primitive covers the pixel in question.
+std::vector<int> draw(Primitive primitive, bool geometry, const std::vector<Discriminating>& inputs,
+                      const IdImage& image) {
+    image.clear();
+    RasterStage(primitive, geometry).draw(primitive == Primitive::points ? points(inputs) : triangles(inputs));
+    const Floats ids = image.ids();
+    std::vector<int> covered;
+    for (std::size_t i = 0; i < inputs.size(); ++i) {
+        const auto pixel = static_cast<std::size_t>(inputs[i].row * side + inputs[i].column);
+        covered.push_back(ids[pixel] == static_cast<float>(i) ? 1 : 0);
+    }
+    return covered;
+}
+
+std::string name_of(Primitive primitive) { return primitive == Primitive::points ? "points" : "triangles"; }
+
 void measure(Primitive primitive, const DriverArithmetic& gl, const IdImage& image, const Question& question,
              Rows& rows) {
     auto inputs = search(question);
@@ -135,21 +171,22 @@ void measure(Primitive primitive, const DriverArithmetic& gl, const IdImage& ima
             values.push_back(question.covered(column, transform.window(x, side / 2.0F, side / 2.0F)) ? 1 : 0);
         predictions.push_back({transform.name, std::move(values)});
     }
-    const bool of_points = primitive == Primitive::points;
-    const auto vertices = of_points ? points(inputs) : triangles(inputs);
+    for (const bool geometry : {true, false})
+        rows.push_back(judge(name_of(primitive) + ": viewport" + (geometry ? "" : ", no geometry stage"),
+                             draw(primitive, geometry, inputs, image), predictions));
+}
+
+/// Whether window coordinates err by no more than a shader's own would, with a geometry stage and without.
+void measure_accuracy(Primitive primitive, const IdImage& image, const Question& question, Rows& rows) {
+    const auto inputs = search_beyond(question);
+    std::vector<int> measured, expected;
     for (const bool geometry : {true, false}) {
-        image.clear();
-        RasterStage(primitive, geometry).draw(vertices);
-        const Floats ids = image.ids();
-        std::vector<int> measured;
-        for (std::size_t i = 0; i < inputs.size(); ++i) {
-            const auto pixel = static_cast<std::size_t>(inputs[i].row * side + inputs[i].column);
-            measured.push_back(ids[pixel] == static_cast<float>(i) ? 1 : 0);
-        }
-        rows.push_back(judge(std::string(of_points ? "points" : "triangles") + ": viewport" +
-                                 (geometry ? "" : ", no geometry stage"),
-                             measured, predictions));
+        const std::vector<int> covered = draw(primitive, geometry, inputs, image);
+        measured.insert(measured.end(), covered.begin(), covered.end());
+        for (const auto& [column, row, x] : inputs)
+            expected.push_back(question.covered(column, not_rounded(x, side / 2.0F, side / 2.0F)) ? 1 : 0);
     }
+    rows.push_back(judge(name_of(primitive) + ": window accuracy", measured, {{"as GLSL's", expected}}));
 }
 
 bool found(const Rows& rows, std::string_view name, std::string_view finding) {
@@ -166,21 +203,21 @@ void measure_viewport(const DriverArithmetic& plain, Rows& rows) {
     const Snap point_snap = found_snap(rows, "points");
     const bool to_lower = !found(rows, "points: edge in x", "upper pixel");
     const double point_unit = std::ldexp(1.0, -point_snap.bits);
-    measure(Primitive::points, plain, image,
-            {to_lower ? point_unit / 2 : -point_unit / 2,
-             [&](int column, double window) { return point_pixel(window, point_snap, to_lower) == column; }},
-            rows);
+    const Question point{to_lower ? point_unit / 2 : -point_unit / 2, [&](int column, double window) {
+                             return point_pixel(window, point_snap, to_lower) == column;
+                         }};
+    measure(Primitive::points, plain, image, point, rows);
 
     const Snap corner_snap = found_snap(rows, "triangles");
     const bool left_in = !found(rows, "triangles: left side", "out");
     const double corner_unit = std::ldexp(1.0, -corner_snap.bits);
-    measure(Primitive::triangles, plain, image,
-            {left_in ? 0.5 + corner_unit / 2 : 0.5 - corner_unit / 2,
-             [&](int column, double window) {
-                 const std::int64_t centre = std::int64_t{column} << corner_snap.bits;
-                 return corner_snap(window) < centre + (left_in ? 1 : 0);
-             }},
-            rows);
+    const Question corner{left_in ? 0.5 + corner_unit / 2 : 0.5 - corner_unit / 2, [&](int column, double window) {
+                              const std::int64_t centre = std::int64_t{column} << corner_snap.bits;
+                              return corner_snap(window) < centre + (left_in ? 1 : 0);
+                          }};
+    measure(Primitive::triangles, plain, image, corner, rows);
+    measure_accuracy(Primitive::points, image, point, rows);
+    measure_accuracy(Primitive::triangles, image, corner, rows);
 }
 
 } // namespace lockstep::probing

@@ -42,6 +42,7 @@ Profile named_profile(std::string_view name) {
         profile.raster.point_snap = SnapRounding::half_to_even;
         profile.raster.viewport = profile.raster.vertex_viewport = ViewportRounding::scaled;
         profile.raster.depth_by_driver_reciprocal = true;
+        profile.point_window_accurate = profile.corner_window_accurate = true;
         profile.not_followed = {"points: viewport", "triangles: viewport"};
         return profile;
     }

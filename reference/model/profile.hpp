@@ -87,6 +87,8 @@ struct Profile {
     bool compute_flush_subnormals = true;      ///< subnormal operands are zero in compute shaders
     std::optional<bool> compute_flush_results; ///< subnormal results there; null: as operands
     RasterRules raster;
+    /// Whether window coordinates were measured to err by no more than glsl_window_accuracy; null: nobody measured.
+    std::optional<bool> point_window_accurate, corner_window_accurate;
     OperationErrors errors;
     /// The driver's own 1/x and inversesqrt, where division, square root and normalize were measured to be made of them
     /// (arithmetic DriverRoots); null: the reference rounds them correctly.

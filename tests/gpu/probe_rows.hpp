@@ -78,6 +78,8 @@ inline constexpr ExpectedRow llvmpipe_rows[] = {
     {"triangles: snap", "half to even"},
     {"points: viewport", "(clip*(1/w))*scale + offset"},
     {"triangles: viewport", "(clip*(1/w))*scale + offset"},
+    {"points: window accuracy", "as GLSL's"},
+    {"triangles: window accuracy", "as GLSL's"},
     {"points: depth", "(clip*(1/w))*0.5 + 0.5"},
     {"points: depth, no geometry stage", "(clip*(1/w))*0.5 + 0.5"},
     {"equal depth, LESS", "first stays"},

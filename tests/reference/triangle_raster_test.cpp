@@ -218,10 +218,10 @@ TEST_CASE("triangle raster: a clipped triangle becomes a fan of its own number",
 
 TEST_CASE("triangle raster: side distance is measured to the segment", "[triangle_raster]") {
     const RasterTriangle t = triangle({0, 0}, {4 * one, 0}, {0, 4 * one});
-    CHECK(side_distance(t, 2, 0, {}) == 0.0);
-    CHECK(side_distance(t, 1, 1, {}) == Approx(256.0));
-    CHECK(side_distance(t, 6, 0, {}) == Approx(512.0));
-    CHECK(side_distance(t, 4, 4, {}) == Approx(4 * 256 / std::sqrt(2.0)));
+    CHECK(nearest_side(t, 2, 0, {}).distance == 0.0);
+    CHECK(nearest_side(t, 1, 1, {}).distance == Approx(256.0));
+    CHECK(nearest_side(t, 6, 0, {}).distance == Approx(512.0));
+    CHECK(nearest_side(t, 4, 4, {}).distance == Approx(4 * 256 / std::sqrt(2.0)));
 }
 
 } // namespace lockstep

@@ -245,10 +245,14 @@ void check_blocks(GLuint program, std::span<const ShaderSource> stages) {
                                 declared.empty() ? stages.front().files.front() : declared.front().second,
                                 declared.empty() ? std::string() : declared.front().first));
     }
-    if (gl::GetProgramInterfaceiv == nullptr || stages.front().stage == Stage::compute)
+    if (stages.front().stage == Stage::compute)
         return;
     for (const auto& [name, place] : blocks("buffer", stages))
-        if (gl::GetProgramResourceIndex(program, GL_SHADER_STORAGE_BLOCK, name.c_str()) != GL_INVALID_INDEX)
+        if (gl::GetProgramInterfaceiv == nullptr)
+            throw Error(fmt::format("shader {}: nothing is given for storage buffer {}, and this GL is too old to tell "
+                                    "whether it is used (4.3 or GL_ARB_program_interface_query does)",
+                                    place, name));
+        else if (gl::GetProgramResourceIndex(program, GL_SHADER_STORAGE_BLOCK, name.c_str()) != GL_INVALID_INDEX)
             throw Error(fmt::format("shader {}: nothing is given for storage buffer {}", place, name));
 }
 

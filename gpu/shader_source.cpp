@@ -48,9 +48,17 @@ constexpr int oldest_version = 140;                         // that compiles in 
 
 std::string too_long() { return fmt::format("more than {} MiB of shader text", longest_text >> 20U); }
 
+/// As messages name a file or folder: a shipped one by its place among the shaders, which is the same on every machine.
+std::string shown(const fs::path& path) {
+    const fs::path inside = path.lexically_relative(built_in_shaders());
+    if (inside.empty() || *inside.begin() == "..")
+        return path.string();
+    return (fs::path("shaders") / (inside == "." ? fs::path() : inside)).string();
+}
+
 /// Without a byte order mark.
 std::string read_file(const fs::path& path) {
-    const auto fail = [&](const std::string& what) { throw Error(fmt::format("shader {}: {}", path.string(), what)); };
+    const auto fail = [&](const std::string& what) { throw Error(fmt::format("shader {}: {}", shown(path), what)); };
     std::ifstream stream(path, std::ios::binary);
     std::string text(longest_text + 1, '\0');
     stream.read(text.data(), static_cast<std::streamsize>(text.size()));
@@ -122,7 +130,7 @@ File find(const ShaderFolders& folders, const std::string& file, const std::stri
     for (const fs::path& folder : folders) {
         if (auto text = text_of(folder / file))
             return {folder / file, std::move(*text)};
-        tried += fmt::format("{}{}", tried.empty() ? "" : " or ", folder.string());
+        tried += fmt::format("{}{}", tried.empty() ? "" : " or ", shown(folder));
     }
     throw Error(fmt::format("{}no shader file {} in {}", where, file, tried));
 }
@@ -136,14 +144,14 @@ class Assembly {
         source_.stage = stage;
         append(path, text);
         if (!has_version_)
-            throw Error(fmt::format("shader {}:1: no #version line; GLSL 330 or later is needed", path.string()));
+            throw Error(fmt::format("shader {}:1: no #version line; GLSL 330 or later is needed", shown(path)));
         return std::move(source_);
     }
 
   private:
     void append(const fs::path& path, const std::string& text) {
         const std::size_t file = source_.files.size();
-        source_.files.push_back(path.string());
+        source_.files.push_back(shown(path));
         if (file > most_files)
             throw Error(fmt::format("shader {}: includes more than {} files", source_.files.front(), most_files));
         open_.push_back(path);
@@ -151,12 +159,12 @@ class Assembly {
         std::string line;
         for (int number = 1; std::getline(lines, line); ++number) {
             if (const auto included = directive(line, "include")) {
-                include(*included, fmt::format("shader {}:{}: ", path.string(), number));
+                include(*included, fmt::format("shader {}:{}: ", shown(path), number));
                 continue;
             }
             append_line(line, {file, number});
             if (const auto version = directive(line, "version"); version && !has_version_) {
-                check_version(*version, fmt::format("shader {}:{}: ", path.string(), number));
+                check_version(*version, fmt::format("shader {}:{}: ", shown(path), number));
                 has_version_ = true;
                 for (const auto& [name, value] : defines_)
                     append_line(fmt::format("#define {} {}", name, value), {file, number});
@@ -179,7 +187,7 @@ class Assembly {
             throw Error(fmt::format("{}#include needs a file name in double quotes", where));
         const auto [path, text] = find(folders_, std::string(argument.substr(1, end - 1)), where);
         if (std::find(open_.begin(), open_.end(), path) != open_.end())
-            throw Error(fmt::format("{}{} includes itself", where, path.string()));
+            throw Error(fmt::format("{}{} includes itself", where, shown(path)));
         append(path, text);
     }
 
@@ -254,7 +262,7 @@ std::vector<ShaderSource> load_stages(const ShaderFolders& folders, std::string_
     for (const Stage stage : stages) {
         const auto [path, text] = find(folders, fmt::format("{}{}", name, extension(stage)), "");
         if (blank(text) && stage != Stage::geometry)
-            throw Error(fmt::format("shader {}: is empty; only a geometry stage can be left out", path.string()));
+            throw Error(fmt::format("shader {}: is empty; only a geometry stage can be left out", shown(path)));
         if (!blank(text))
             sources.push_back(Assembly(folders, defines).assemble(path, text, stage));
     }

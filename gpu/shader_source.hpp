@@ -43,7 +43,7 @@ struct ShaderSource {
     Stage stage = Stage::vertex;
     std::string text;
     std::vector<Origin> origins;    ///< one a line of text
-    std::vector<std::string> files; ///< the stage's own file first
+    std::vector<std::string> files; ///< the stage's own file first; shipped ones as "shaders/NAME", wherever they lie
 };
 
 /// Throws Error naming the folders if a file is in none of them; FILE:LINE if an include is malformed, missing or

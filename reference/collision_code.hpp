@@ -1,4 +1,6 @@
 #pragma once
+#include <utility>
+
 #include "reference/model/image.hpp"
 #include "reference/model/scene.hpp"
 
@@ -12,6 +14,10 @@ class CollisionCode {
     explicit CollisionCode(const FrameParams& params);
 
     [[nodiscard]] glm::vec4 encode(glm::vec3 position) const;
+    /// Codes that a driver may make of plain floats: those next to each coordinate on either side (GL 4.5, 2.3.5), and,
+    /// for rgba8, of what a shader's rounding may make of its place in the box. `low` and `high`: of a position that
+    /// may lie anywhere between.
+    [[nodiscard]] std::pair<glm::vec4, glm::vec4> driver_codes(glm::vec3 low, glm::vec3 high) const;
     [[nodiscard]] glm::vec3 decode(glm::vec4 code) const {
         if (format_ != CdtFormat::rgba8)
             return {code.x, code.y, code.z};
@@ -20,7 +26,7 @@ class CollisionCode {
 
   private:
     CdtFormat format_;
-    glm::vec3 low_, step_, scale_;
+    glm::vec3 low_, step_, scale_, size_;
 };
 
 } // namespace lockstep

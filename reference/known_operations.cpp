@@ -19,13 +19,12 @@ bool followed(const Profile& profile, std::initializer_list<std::string_view> na
 /// Rows about what no pass leaves to the driver: their findings are told, and decide nothing.
 constexpr std::array told_only{std::string_view("transform feedback order")};
 
-constexpr std::array sums{std::string_view("mat4*vec4"), std::string_view("x*x+y*y+z*z"),
-                          std::string_view("a*b+c"),     std::string_view("x*a+x*b"),
-                          std::string_view("cross"),     std::string_view("fragment a*b+c")};
-constexpr std::array others{std::string_view("dot(vec3)"),  std::string_view("length"),
-                            std::string_view("normalize"),  std::string_view("subnormal"),
-                            std::string_view("compute:"),   std::string_view("points:"),
-                            std::string_view("triangles:"), std::string_view("equal depth")};
+constexpr std::array sums{std::string_view("mat4*vec4"), std::string_view("x*x+y*y+z*z"), std::string_view("a*b+c"),
+                          std::string_view("x*a+x*b"), std::string_view("cross")};
+constexpr std::array others{
+    std::string_view("fragment a*b+c"), std::string_view("dot(vec3)"),  std::string_view("length"),
+    std::string_view("normalize"),      std::string_view("subnormal"),  std::string_view("compute:"),
+    std::string_view("points:"),        std::string_view("triangles:"), std::string_view("equal depth")};
 
 bool all_names_known(const Profile& profile) {
     return std::all_of(profile.not_followed.begin(), profile.not_followed.end(), [](const std::string& row) {
@@ -57,13 +56,16 @@ KnownRaster measured_raster(const Profile& profile) {
 
 KnownOperations measured_operations(const Profile& profile) {
     if (!all_names_known(profile))
-        return {.sums = false};
+        return {.sums = false, .converts = profile.converts};
     const OperationErrors& errors = profile.errors;
     // With the driver's own tables, the reference has the driver's quotients and roots.
     const bool tables = profile.roots != nullptr;
     KnownOperations known;
     known.sums = std::all_of(sums.begin(), sums.end(), [&](std::string_view row) { return followed(profile, {row}); });
     known.divide = tables || (errors.divide == 0 && errors.reciprocal == 0);
+    known.interpolation = (tables || (errors.fragment_divide == 0 && errors.fragment_reciprocal == 0)) &&
+                          followed(profile, {"fragment a*b+c"});
+    known.converts = profile.converts;
     known.square_root = (tables || (errors.sqrt == 0 && errors.length == 0)) && followed(profile, {"length"});
     known.dot = followed(profile, {"dot(vec3)"});
     known.normalize = (tables || errors.normalize == 0) && followed(profile, {"normalize"});

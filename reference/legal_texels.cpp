@@ -117,8 +117,9 @@ template <class A> class Candidates {
   public:
     Candidates(A fp, const FrameParams& params, const Profile& profile, const KnownOperations& known,
                std::span<const std::size_t> texels)
-        : fp_(fp), params_(params), profile_(profile), code_(params), arithmetic_(fp, known, profile.other_orders),
-          wanted_(params.width, params.height, texels), candidates_(texels.size()) {}
+        : fp_(fp), params_(params), profile_(profile), converts_(known.converts), code_(params),
+          arithmetic_(fp, known, profile.other_orders), wanted_(params.width, params.height, texels),
+          candidates_(texels.size()) {}
 
     void add_point(Kind kind, std::size_t index, glm::vec3 drawn_at, glm::vec3 stored) {
         const PointFragment reference = point_fragment(drawn_at, params_, profile_);
@@ -127,6 +128,8 @@ template <class A> class Candidates {
             return;
         TexelOwner owner{.kind = kind, .index = index, .code = code_.encode(stored)};
         owner.reference_depth = reference.depth;
+        if (kind == Kind::particle ? converts_.particles : converts_.vertices)
+            owner.code_range = code_.driver_codes(stored, stored);
         if (known().points || known().raster.points()) {
             owner.is_reference = true;
             owner.depth = reference.depth;
@@ -311,14 +314,16 @@ template <class A> class Candidates {
         owner.code = code_.encode(position);
         owner.reference_depth = interpolation.depth(weights);
         owner.depth = owner.reference_depth;
-        if (!arithmetic_.known().divide) {
-            glm::vec3 bound;
+        glm::vec3 bound(0.0F);
+        if (!arithmetic_.known().interpolation) {
             for (int k = 0; k < 3; ++k)
                 bound[k] = interpolation_bound(positions[0][k], positions[1][k], positions[2][k]);
             owner.code_range = {code_.encode(position - bound), code_.encode(position + bound)};
             const double error = depth_bound(corners);
             owner.depth = {owner.reference_depth - error, owner.reference_depth + error};
         }
+        if (converts_.triangles)
+            owner.code_range = code_.driver_codes(position - bound, position + bound);
         owner.is_reference = covered && rules == profile_.raster;
         owner.sure = sure;
         const NearestSide side = nearest_side(triangle, x, y, rules);
@@ -360,6 +365,7 @@ template <class A> class Candidates {
     A fp_;
     const FrameParams& params_;
     const Profile& profile_;
+    DriverConverts converts_;
     CollisionCode code_;
     LegalArithmetic<A> arithmetic_;
     Wanted wanted_;
@@ -407,7 +413,7 @@ bool TexelOwner::stores(glm::vec4 texel) const {
         return false;
     const auto& [low, high] = *code_range;
     for (int c = 0; c < 4; ++c)
-        if (!(low[c] <= texel[c] && texel[c] <= high[c]))
+        if (!same_bits(code[c], texel[c]) && !(low[c] <= texel[c] && texel[c] <= high[c]))
             return false;
     return true;
 }

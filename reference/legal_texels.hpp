@@ -22,7 +22,8 @@ struct TexelOwner {
     Kind kind = Kind::nothing;
     std::size_t index = 0; ///< particle; triangle or vertex of the obstacles
     glm::vec4 code{0.0F};  ///< what it stores (image.hpp)
-    /// Codes between which an obstacle's interpolated position may lie; not set: exactly `code`.
+    /// Codes between which each component may lie: an obstacle's interpolated position, or what a driver makes of plain
+    /// floats. Not set: exactly `code`.
     std::optional<std::pair<glm::vec4, glm::vec4>> code_range = std::nullopt;
     bool is_reference = false;    ///< the one that the reference leaves here
     float reference_depth = 1.0F; ///< as the reference computes it

@@ -111,6 +111,7 @@ struct Checked {
     std::string settings; ///< preset and changed switches
     std::vector<std::string> notes;
     std::optional<ShaderUse> shaders; ///< not set: recorded elsewhere
+    std::string recorded_shaders;     ///< as told there; empty: not told
 };
 
 /// The first divergent particle's step, for a file.
@@ -153,9 +154,16 @@ SecondLook look_again(const Options& options, const Checked& checked, const std:
     SecondLook look;
     if (frames)
         look.capsule = first_capsule(checked, *frames, items);
+    const auto explanation = [&](const PageItem& item) {
+        try {
+            return frames ? explained(*frames, item) : nlohmann::json();
+        } catch (const Error&) { // what the capsule is told to miss; the verdicts stand
+            return nlohmann::json();
+        }
+    };
     for (const PageItem& item : items)
-        look.items.push_back({item, explain_line(options, {item.frame, item.texel, item.index}, scene.width),
-                              frames ? explained(*frames, item) : nlohmann::json()});
+        look.items.push_back(
+            {item, explain_line(options, {item.frame, item.texel, item.index}, scene.width), explanation(item)});
     return look;
 }
 
@@ -174,7 +182,7 @@ RunDescription description(const Options& options, const Checked& checked, const
                 : std::string(),
             checked.notes,
             checked.shaders,
-            "not in the recording",
+            checked.recorded_shaders.empty() ? "not in the recording" : "recorded: " + checked.recorded_shaders,
             {},
             checked.shaders ? " (--render compares it)" : ": no picture is in a recording"};
 }
@@ -284,8 +292,9 @@ int run_scene(const Options& options) {
                            options.run.scene.string(),
                            summary(context.describe()),
                            settings_text(options.run, scene),
-                           {},
-                           std::move(shaders)});
+                           conversion_notes(profile, scene.switches),
+                           std::move(shaders),
+                           {}});
 }
 
 int run_trace(Options options) {
@@ -300,6 +309,8 @@ int run_trace(Options options) {
         throw Error(fmt::format("--frames {}: {} holds {} frames", options.run.frames, info.file, info.frames));
     const Profile profile = followed_profile(info);
     std::vector<std::string> notes = notes_on(info);
+    for (std::string& note : conversion_notes(profile, info.scene.switches))
+        notes.push_back(std::move(note));
     if (options.run.frames < info.frames)
         notes.push_back(fmt::format("{} of the {} frames recorded were compared", options.run.frames, info.frames));
     TraceSide recorded(trace);
@@ -312,7 +323,8 @@ int run_trace(Options options) {
                            fmt::format("recorded: {}", info.renderer.empty() ? "untold" : info.renderer),
                            info.settings.empty() ? "untold" : info.settings,
                            std::move(notes),
-                           {}});
+                           {},
+                           info.shaders});
 }
 
 } // namespace

@@ -51,6 +51,10 @@ int run(int argc, char** argv) {
 
 int main(int argc, char** argv) {
     using namespace lockstep;
+    if (const std::string problem = stack_problem(); !problem.empty()) {
+        std::fprintf(stderr, "lockstep: %s\n", problem.c_str());
+        return status_could_not_run;
+    }
     let_waiting_threads_sleep(argv);
     own_signals(status_could_not_run);
     own_standard_output();

@@ -45,12 +45,13 @@ void prove(GpuSimulation& gpu, const FrameParams& params, const Particles& parti
                                 frame));
 }
 
-TraceInfo info_of(const Options& options, Scene scene, const Context& context) {
+TraceInfo info_of(const Options& options, Scene scene, const Context& context, const ShaderUse& shaders) {
     const ProbeResult probed = probe(context);
     TraceInfo info;
     info.profile = measured_profile(probed, options.run.shaders);
     info.renderer = summary(context.describe());
     info.settings = settings_text(options.run, scene);
+    info.shaders = shaders_text(shaders);
     nlohmann::json measured = probed;
     measured.erase("seconds"); // that it took: the same run is the same file
     info.probe = measured.dump(1);
@@ -64,10 +65,10 @@ int run(const Options& options) {
     OutputFiles files;
     protect_inputs(options.run, files);
     files.expect(options.output);
-    static_cast<void>(shaders_to_run(options.run, scene));
+    const ShaderUse shaders = shaders_to_run(options.run, scene);
     const Context context(parse_context_request(options.run.gl));
     GpuSimulation gpu(scene, options.run.shaders);
-    const TraceInfo info = info_of(options, std::move(scene), context);
+    const TraceInfo info = info_of(options, std::move(scene), context, shaders);
     TraceWriter writer(options.output, info, options.deflate);
     Particles particles = info.scene.start;
     CollisionImage cdt = empty_cdt(info.scene);

@@ -32,6 +32,7 @@ int run(const std::filesystem::path& file) {
                      grouped(info.scene.start.size()), info.frames, grouped(info.scene.obstacles.triangle_count())));
     line("switches", info.settings.empty() ? "untold" : info.settings);
     line("GL", info.renderer.empty() ? "untold" : info.renderer);
+    line("shaders", info.shaders.empty() ? "untold" : info.shaders);
     line("profile", info.profile ? describe(*info.profile)
                                  : "none: the reference is strict, and what differs is judged by GLSL's rules alone");
     line("CDT", info.has_cdt ? fmt::format("{}x{} texels", info.scene.width, info.scene.height)

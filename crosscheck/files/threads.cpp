@@ -8,6 +8,7 @@
 #include <fcntl.h>
 #include <fmt/format.h>
 #include <omp.h>
+#include <sys/resource.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -39,6 +40,15 @@ bool can_start(int threads) {
 }
 
 } // namespace
+
+std::string stack_problem() {
+    constexpr rlim_t least = rlim_t{256} << 10U; // twice what the smallest run on llvmpipe was seen to need
+    rlimit limit{};
+    if (getrlimit(RLIMIT_STACK, &limit) != 0 || limit.rlim_cur == RLIM_INFINITY || limit.rlim_cur >= least)
+        return "";
+    return fmt::format("the stack is limited to {} KiB (ulimit -s), too little to run in; {} KiB and more are enough",
+                       limit.rlim_cur >> 10U, least >> 10U);
+}
 
 void let_waiting_threads_sleep(char** argv) {
     if (std::getenv("OMP_WAIT_POLICY") != nullptr || setenv("OMP_WAIT_POLICY", "passive", 1) != 0)

@@ -1,9 +1,14 @@
 #pragma once
+#include <string>
 
 namespace lockstep {
 
 /// Threads that may be asked for.
 inline constexpr int most_threads = 1024;
+
+/// Why the stack is too small to run in; empty: it is not. A driver's compiler runs on it, and OpenMP's threads get as
+/// much each.
+std::string stack_problem();
 
 /// First thing in main: lets OpenMP's threads sleep while they wait. By default they spin, on the cores that a software
 /// driver's own threads need, which costs `check` more than the reference itself. OpenMP reads OMP_WAIT_POLICY before

@@ -3,7 +3,8 @@
 namespace lockstep {
 
 KnownOperations known_operations(Legal legal, const Profile& profile) {
-    return legal == Legal::measured ? measured_operations(profile) : KnownOperations{.sums = legal == Legal::glsl};
+    return legal == Legal::measured ? measured_operations(profile)
+                                    : KnownOperations{.sums = legal == Legal::glsl, .converts = profile.converts};
 }
 
 std::string legal_option_text(Legal legal) {

@@ -5,7 +5,9 @@
 #include <fmt/format.h>
 
 #include "crosscheck/files/shell_words.hpp"
+#include "crosscheck/judge/side_state.hpp"
 #include "crosscheck/package/folded_text.hpp"
+#include "crosscheck/report/frame_images.hpp"
 #include "crosscheck/report/places.hpp"
 #include "crosscheck/scene/profiles.hpp"
 #include "crosscheck/scene/run_text.hpp"
@@ -37,8 +39,9 @@ class CommandLines {
         if (!program_can())
             return options_.repeat.empty() ? this_program(own_arguments()) : options_.repeat;
         const int frames = report.first_frame ? *report.first_frame + 1 : report.frames;
-        return fmt::format("lockstep check {} --frames {}{}{}{}{}", scene_.origin, frames, *side_.arguments,
+        return fmt::format("lockstep check {} --frames {}{}{}{}{}{}", scene_.origin, frames, *side_.arguments,
                            options_.mode == CheckMode::free ? " --mode free" : "", legal_option_text(options_.legal),
+                           options_.render ? " --render" : "",
                            pass_options_text({options_.allow_undefined, options_.require_hits}));
     }
 
@@ -77,6 +80,9 @@ std::string MatchResult::text(std::size_t width) const {
 }
 
 MatchResult match_reference(GpuSide& gpu, const Scene& scene, const MatchOptions& options) {
+    const auto* shaders = dynamic_cast<const UserShaders*>(&gpu);
+    if (options.render && shaders == nullptr)
+        throw Error("render: an engine of its own draws no frame that could be compared; UserShaders do");
     const SideDescription side = gpu.describe();
     CheckOptions check_options;
     check_options.mode = options.mode;
@@ -93,9 +99,17 @@ MatchResult match_reference(GpuSide& gpu, const Scene& scene, const MatchOptions
                        scene.width,
                        commands.repeat(report),
                        commands.explain(report),
-                       {},
+                       conversion_notes(side.profile, scene.switches),
                        side.shaders};
-    const bool passed = passes(report, {options.allow_undefined, options.require_hits});
+    bool passed = passes(report, {options.allow_undefined, options.require_hits});
+    if (options.render) {
+        Particles last;
+        read_side(gpu, scene, last);
+        run.rendered = compare_rendered(last, scene, report.frames - 1, side.profile, shaders->folder());
+        if (run.rendered->differing > 0)
+            report.untried.emplace_back("the rendered frame differs");
+        passed = passed && run.rendered->differing == 0;
+    }
     return {std::move(report), std::move(run), passed};
 }
 

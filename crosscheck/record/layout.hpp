@@ -23,6 +23,7 @@ inline constexpr const char* name = "parameters/lockstep/name";   ///< the scene
 inline constexpr const char* profile = "parameters/lockstep/profile";
 inline constexpr const char* renderer = "parameters/lockstep/renderer";
 inline constexpr const char* settings = "parameters/lockstep/settings";
+inline constexpr const char* shaders = "parameters/lockstep/shaders";
 inline constexpr const char* probe = "parameters/lockstep/probe";
 
 /// Obstacles in the world: float32 [corners][3], and the three corners of each triangle, uint32 [triangles][3].

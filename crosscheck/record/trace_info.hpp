@@ -16,6 +16,7 @@ struct TraceInfo {
     std::optional<Profile> profile; ///< as measured when the run was recorded; not set: nobody did
     std::string renderer;           ///< renderer, version, context
     std::string settings;           ///< preset and changed switches, as a report tells them
+    std::string shaders;            ///< whose ran, as a report tells it; empty: not told
     std::string probe;              ///< what `lockstep probe --json` writes; may be empty
     bool has_cdt = false;
 

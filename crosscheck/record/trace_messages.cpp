@@ -135,6 +135,8 @@ TraceInfo read_contents(ByteSource& source, const std::string& file, std::uint64
     const auto particles = static_cast<std::size_t>(contents.at("particles").integer(1, most_particles));
     info.renderer = contents.at("renderer").label();
     info.settings = contents.at("settings").label();
+    if (const auto shaders = contents.find("shaders"))
+        info.shaders = shaders->label();
     info.probe = contents.at("probe").text();
     info.program = contents.at("program").label();
     for (const JsonValue& warning : contents.at("warnings").items())

@@ -174,6 +174,7 @@ class Reader {
                             {"profile", file_.text(layout::profile)},
                             {"renderer", file_.text(layout::renderer)},
                             {"settings", file_.text(layout::settings)},
+                            {"shaders", file_.text(layout::shaders)},
                             {"probe", file_.text(layout::probe)},
                             {"program", file_.program()},
                             {"warnings", warnings_}};

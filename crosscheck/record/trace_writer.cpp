@@ -130,6 +130,8 @@ void TraceWriter::File::write_run(const TraceInfo& info) const {
     write_text(layout::name, info.scene.name);
     write_text(layout::renderer, info.renderer);
     write_text(layout::settings, info.settings);
+    if (!info.shaders.empty())
+        write_text(layout::shaders, info.shaders);
     if (!info.probe.empty())
         write_text(layout::probe, info.probe);
     if (info.profile)

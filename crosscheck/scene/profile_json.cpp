@@ -19,6 +19,15 @@ constexpr std::pair<std::string_view, std::int64_t OperationErrors::*> error_tab
     {"sqrt", &OperationErrors::sqrt},     {"inverse_sqrt", &OperationErrors::inverse_sqrt},
     {"length", &OperationErrors::length}, {"normalize", &OperationErrors::normalize}};
 
+/// Older recordings have them in the vertex stage's.
+constexpr std::pair<std::string_view, std::int64_t OperationErrors::*> fragment_error_table[] = {
+    {"fragment_divide", &OperationErrors::fragment_divide},
+    {"fragment_reciprocal", &OperationErrors::fragment_reciprocal}};
+
+constexpr std::array<std::string_view, 3> converted_names{"particles", "triangles", "vertices"};
+constexpr bool DriverConverts::*converted_table[] = {&DriverConverts::particles, &DriverConverts::triangles,
+                                                     &DriverConverts::vertices};
+
 constexpr std::pair<std::string_view, std::optional<bool> Profile::*> accuracy_table[] = {
     {"point_window_accurate", &Profile::point_window_accurate},
     {"corner_window_accurate", &Profile::corner_window_accurate}};
@@ -109,6 +118,8 @@ nlohmann::json profile_json(const Profile& profile) {
     nlohmann::json errors = nlohmann::json::object();
     for (const auto& [name, error] : error_table)
         errors[std::string(name)] = profile.errors.*error;
+    for (const auto& [name, error] : fragment_error_table)
+        errors[std::string(name)] = profile.errors.*error;
     nlohmann::json json{{"name", profile.name},
                         {"dot", name_of(dot_order_names(), profile.dot)},
                         {"flush_subnormals", name_of(off_on, profile.flush_subnormals)},
@@ -117,6 +128,9 @@ nlohmann::json profile_json(const Profile& profile) {
                         {"ulp_errors", errors},
                         {"not_followed", profile.not_followed}};
     add_orders(json, profile);
+    for (std::size_t i = 0; i < converted_names.size(); ++i)
+        if (profile.converts.*converted_table[i])
+            json["driver_converts"].push_back(converted_names[i]);
     for (const auto& [name, accurate] : accuracy_table)
         if (profile.*accurate)
             json[std::string(name)] = name_of(off_on, *(profile.*accurate));
@@ -128,7 +142,7 @@ nlohmann::json profile_json(const Profile& profile) {
 Profile read_profile(const JsonValue& json) {
     json.check_keys({"name", "dot", "length_dot", "normalize_dot", "other_orders", "flush_subnormals",
                      "compute_flush_subnormals", "compute_flush_results", "raster", "ulp_errors", "not_followed",
-                     "point_window_accurate", "corner_window_accurate"});
+                     "point_window_accurate", "corner_window_accurate", "driver_converts"});
     Profile profile = base(json);
     read_named(json, "dot", dot_order_names(), profile.dot);
     read_orders(json, profile);
@@ -139,18 +153,29 @@ Profile read_profile(const JsonValue& json) {
     read_named(json, "flush_subnormals", off_on, profile.flush_subnormals);
     read_named(json, "compute_flush_subnormals", off_on, profile.compute_flush_subnormals);
     for (const auto& [name, accurate] : accuracy_table) {
-        profile.*accurate = {};
+        if (json.find("raster")) // an older program's, which did not look
+            profile.*accurate = {};
         if (const auto found = json.find(name))
             profile.*accurate = found->choice(off_on) == 1;
     }
     if (const auto raster = json.find("raster"))
         read_raster(*raster, profile.raster);
     if (const auto errors = json.find("ulp_errors")) {
-        errors->check_keys({"divide", "reciprocal", "sqrt", "inverse_sqrt", "length", "normalize"});
-        for (const auto& [name, error] : error_table)
-            if (const auto value = errors->find(name))
-                profile.errors.*error = value->integer(0, INT64_MAX);
+        errors->check_keys({"divide", "reciprocal", "sqrt", "inverse_sqrt", "length", "normalize", "fragment_divide",
+                            "fragment_reciprocal"});
+        const auto read = [&](const auto& table) {
+            for (const auto& [name, error] : table)
+                if (const auto value = errors->find(name))
+                    profile.errors.*error = value->integer(0, INT64_MAX);
+        };
+        read(error_table);
+        profile.errors.fragment_divide = profile.errors.divide;
+        profile.errors.fragment_reciprocal = profile.errors.reciprocal;
+        read(fragment_error_table);
     }
+    if (const auto converted = json.find("driver_converts"))
+        for (const JsonValue& name : converted->items())
+            profile.converts.*converted_table[name.choice(converted_names)] = true;
     if (const auto rows = json.find("not_followed")) {
         profile.not_followed.clear();
         for (const JsonValue& row : rows->items())

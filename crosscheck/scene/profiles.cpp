@@ -11,6 +11,7 @@
 
 #include "gpu/probe/root_tables.hpp"
 #include "gpu/shader_source.hpp"
+#include "gpu/shader_words.hpp"
 #include "reference/known_operations.hpp"
 
 namespace lockstep {
@@ -143,11 +144,12 @@ std::int64_t error_inside(const Translation& rows, const ProbeResult& result,
 
 OperationErrors errors(const Translation& rows, const ProbeResult& result) {
     OperationErrors e;
-    e.divide = rows.error({"a/b", "a/b, precise", "fragment a/b"}, "rounded");
-    e.reciprocal = rows.error({"1/b", "1/b, precise", "fragment 1/b"}, "rounded");
-    e.sqrt = rows.error({"sqrt", "sqrt, precise", "fragment sqrt"}, "rounded");
-    e.inverse_sqrt =
-        rows.error({"inversesqrt", "inversesqrt, precise", "fragment inversesqrt"}, "1/sqrt(x), each rounded");
+    e.divide = rows.error({"a/b", "a/b, precise"}, "rounded");
+    e.reciprocal = rows.error({"1/b", "1/b, precise"}, "rounded");
+    e.fragment_divide = rows.error({"fragment a/b"}, "rounded");
+    e.fragment_reciprocal = rows.error({"fragment 1/b"}, "rounded");
+    e.sqrt = rows.error({"sqrt", "sqrt, precise"}, "rounded");
+    e.inverse_sqrt = rows.error({"inversesqrt", "inversesqrt, precise"}, "1/sqrt(x), each rounded");
     e.length = error_inside(rows, result, {"length", "length, precise"}, "sqrt(dot), rounded", "sqrt({}), rounded");
     e.normalize = error_inside(rows, result, {"normalize", "normalize, precise"}, "v*(1/sqrt(dot)), rounded",
                                "v*(1/sqrt({})), rounded");
@@ -198,10 +200,31 @@ bool has_geometry_stage(const std::filesystem::path& shaders) {
     return !load_stages(shader_folders(shaders), "collision_pass", stages).empty();
 }
 
+/// Whether the fragment stage of a pass calls the encoder (collision_code.glsl), so that a driver has nothing to round.
+bool encodes(const std::filesystem::path& shaders, std::string_view pass) {
+    if (shaders.empty())
+        return true;
+    const ShaderSource stage = load_stage(shader_folders(shaders), pass, Stage::fragment);
+    ShaderWords words(stage.text);
+    while (words.next()) {
+        const std::size_t file = stage.origins.at(words.line() - 1).file;
+        const bool is_call =
+            words.token() == "encode_position" || words.token() == "half_round" || words.token() == "unorm8_code";
+        if (is_call && std::filesystem::path(stage.files.at(file)).filename() != "collision_code.glsl")
+            return true;
+    }
+    return false;
+}
+
 std::string errors_text(const OperationErrors& e) {
-    const std::pair<const char*, std::int64_t> all[] = {{"a/b", e.divide},    {"1/b", e.reciprocal},
-                                                        {"sqrt", e.sqrt},     {"inversesqrt", e.inverse_sqrt},
-                                                        {"length", e.length}, {"normalize", e.normalize}};
+    const std::pair<const char*, std::int64_t> all[] = {{"a/b", e.divide},
+                                                        {"1/b", e.reciprocal},
+                                                        {"sqrt", e.sqrt},
+                                                        {"inversesqrt", e.inverse_sqrt},
+                                                        {"length", e.length},
+                                                        {"normalize", e.normalize},
+                                                        {"fragment a/b", e.fragment_divide},
+                                                        {"fragment 1/b", e.fragment_reciprocal}};
     std::vector<std::string> off;
     for (const auto& [name, ulp] : all)
         if (ulp > 0)
@@ -250,8 +273,12 @@ Profile profile_from(const ProbeResult& result) {
         profile.compute_flush_subnormals =
             rows.pick<bool>("compute: subnormal result of *", {{"flushed", true}, {"kept", false}});
         const bool results = profile.compute_flush_subnormals;
+        if (result.has("compute: subnormal result of +"))
+            rows.require({"compute: subnormal result of +"}, results ? "flushed" : "kept");
         profile.compute_flush_subnormals =
             rows.pick<bool>("compute: subnormal operand of *", {{"flushed", true}, {"kept", false}});
+        if (result.has("compute: subnormal operand of +"))
+            rows.require({"compute: subnormal operand of +"}, profile.compute_flush_subnormals ? "flushed" : "kept");
         if (results != profile.compute_flush_subnormals)
             profile.compute_flush_results = results;
     }
@@ -291,6 +318,8 @@ Profile measured_profile(const ProbeResult& result, const std::filesystem::path&
 }
 
 Profile with_shaders(Profile profile, const ProbeResult& result, const std::filesystem::path& shaders) {
+    profile.converts = {!encodes(shaders, "collision_pass"), !encodes(shaders, "obstacle_pass"),
+                        !encodes(shaders, "obstacle_vertices")};
     if (has_geometry_stage(shaders))
         return profile;
     // The rows of points behind a geometry stage say nothing of these points.
@@ -313,11 +342,33 @@ std::string describe(const Profile& profile) {
     if (!profile.not_followed.empty())
         text += fmt::format("; not followed: {}", fmt::join(profile.not_followed, ", "));
     if (const KnownRaster known = measured_operations(profile).raster; !known.points() || !known.triangles())
-        text += known.gl_grid
-                    ? "; texels are held to GL's own rules for these (--preset exact leaves nothing open)"
-                    : "; texels are judged to half a pixel, since no sub-pixel grid of GL's explains the driver's "
-                      "(--preset exact leaves nothing open)";
+        text +=
+            known.point_window_accurate && known.corner_window_accurate && known.point_grid && known.triangle_grid
+                ? "; texels are held to the accuracy of GLSL's own operations for these (--preset exact leaves nothing "
+                  "open)"
+            : known.gl_grid
+                ? "; texels are held to GL's own rules for these (--preset exact leaves nothing open)"
+                : "; texels are judged to half a pixel, since no sub-pixel grid of GL's explains the driver's "
+                  "(--preset exact leaves nothing open)";
     return text;
+}
+
+std::vector<std::string> conversion_notes(const Profile& profile, const Switches& switches) {
+    if (switches.cdt_format == CdtFormat::rgba32f)
+        return {};
+    const bool of_triangles = switches.obstacles_in_cdt == ObstaclesInCdt::triangles && profile.converts.triangles;
+    const bool of_vertices = switches.obstacles_in_cdt == ObstaclesInCdt::vertices && profile.converts.vertices;
+    const std::pair<bool, const char*> stages[] = {{profile.converts.particles, "collision_pass.frag"},
+                                                   {of_triangles, "obstacle_pass.frag"},
+                                                   {of_vertices, "obstacle_vertices.frag"}};
+    std::vector<std::string> notes;
+    for (const auto& [converts, file] : stages)
+        if (converts)
+            notes.push_back(
+                fmt::format("{} leaves the rounding to {} to the driver, so either of two neighbouring codes "
+                            "is right; encode_position of collision_code.glsl leaves nothing open",
+                            file, switches.cdt_format == CdtFormat::rgba8 ? "rgba8" : "rgba16f"));
+    return notes;
 }
 
 } // namespace lockstep

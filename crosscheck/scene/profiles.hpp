@@ -4,6 +4,7 @@
 
 #include "gpu/probe.hpp"
 #include "reference/model/profile.hpp"
+#include "reference/model/switches.hpp"
 
 namespace lockstep {
 
@@ -23,8 +24,11 @@ Profile measured_profile(const Context& context, const std::filesystem::path& sh
 Profile measured_profile(const ProbeResult& result, const std::filesystem::path& shaders = {});
 
 /// `profile`, for passes of `shaders`: where their collision pass has no geometry stage, points are placed as the rows
-/// without one say.
+/// without one say; where a fragment stage stores plain floats, the driver converts them.
 Profile with_shaders(Profile profile, const ProbeResult& result, const std::filesystem::path& shaders);
+
+/// For a reader of a verdict: which fragment stages leave the rounding of what they store to the driver.
+std::vector<std::string> conversion_notes(const Profile& profile, const Switches& switches);
 
 /// One line: "llvmpipe: dot x + (y + z), division and roots rounded, subnormals flushed, 8 sub-pixel bits, ..."
 std::string describe(const Profile& profile);

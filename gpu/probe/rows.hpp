@@ -18,7 +18,7 @@ void measure_vertex_arithmetic(const DriverArithmetic& plain, std::size_t inputs
 /// The same operations in the fragment stage, as far as the passes have them there.
 void measure_fragment_arithmetic(Rows& rows);
 
-/// Subnormals in the compute stage. The context has one.
+/// Subnormals in products and sums of the compute stage. The context has one.
 void measure_compute_arithmetic(Rows& rows);
 
 /// Halves and 8-bit codes, on their way into an image and out of it; texels outside it.
@@ -30,9 +30,8 @@ void measure_order(Rows& rows);
 /// Sub-pixel grid, rounding to it, and who owns what lies on an edge: points and triangles.
 void measure_snapping(Rows& rows);
 
-/// Perspective divide and viewport transform, with and without a geometry stage: their rounding, and whether they are as
-/// accurate as a shader's own operations. Needs measure_snapping's rows, and
-/// `plain` for the driver's own 1 / w.
+/// Perspective divide and viewport transform, with and without a geometry stage: their rounding, and whether they are
+/// as accurate as a shader's own operations. Needs measure_snapping's rows, and `plain` for the driver's own 1 / w.
 void measure_viewport(const DriverArithmetic& plain, Rows& rows);
 
 /// The depth a point gets, and which of two equal ones stays.

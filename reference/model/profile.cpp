@@ -23,7 +23,8 @@ bool computes_alike(const Profile& a, const Profile& b) {
            a.other_orders == b.other_orders && a.flush_subnormals == b.flush_subnormals && a.raster == b.raster &&
            a.not_followed == b.not_followed && same(&OperationErrors::divide) && same(&OperationErrors::reciprocal) &&
            same(&OperationErrors::sqrt) && same(&OperationErrors::inverse_sqrt) && same(&OperationErrors::length) &&
-           same(&OperationErrors::normalize);
+           same(&OperationErrors::normalize) && same(&OperationErrors::fragment_divide) &&
+           same(&OperationErrors::fragment_reciprocal);
 }
 
 Profile named_profile(std::string_view name) {
@@ -38,7 +39,7 @@ Profile named_profile(std::string_view name) {
     }
     if (name == "nvidia") {
         profile.dot = DotOrder::fused_chain;
-        profile.errors = {2, 1, 3, 2, 3, 4};
+        profile.errors = {2, 1, 3, 2, 3, 4, 2, 1};
         profile.raster.point_snap = SnapRounding::half_to_even;
         profile.raster.viewport = profile.raster.vertex_viewport = ViewportRounding::scaled;
         profile.raster.depth_by_driver_reciprocal = true;

@@ -75,6 +75,18 @@ struct OperationErrors {
     std::int64_t inverse_sqrt = 0;
     std::int64_t length = 0;
     std::int64_t normalize = 0;
+    std::int64_t fragment_divide = 0; ///< in the fragment stage, which interpolates over triangles
+    std::int64_t fragment_reciprocal = 0;
+};
+
+/// Fragment stages that store plain floats: the driver converts them to the CDT's format, to either of two neighbours
+/// (GL 4.5, 2.3.5). The shipped ones round by themselves.
+struct DriverConverts {
+    bool particles = false;
+    bool triangles = false; ///< of obstacles
+    bool vertices = false;
+
+    bool operator==(const DriverConverts&) const = default;
 };
 
 struct Profile {
@@ -89,6 +101,7 @@ struct Profile {
     RasterRules raster;
     /// Whether window coordinates were measured to err by no more than glsl_window_accuracy; null: nobody measured.
     std::optional<bool> point_window_accurate, corner_window_accurate;
+    DriverConverts converts;
     OperationErrors errors;
     /// The driver's own 1/x and inversesqrt, where division, square root and normalize were measured to be made of them
     /// (arithmetic DriverRoots); null: the reference rounds them correctly.

@@ -1,11 +1,14 @@
 #version 430 core
-// One product an invocation.
+// One product or sum an invocation.
 layout(local_size_x = 64) in;
 
 layout(std430, binding = 0) buffer Values { float values[]; };
-uniform float u_Factor;
+uniform float u_Operand;
+uniform int u_Adds;
 
 void main() {
-    precise float product = values[gl_GlobalInvocationID.x] * u_Factor;
-    values[gl_GlobalInvocationID.x] = product;
+    float value = values[gl_GlobalInvocationID.x];
+    precise float product = value * u_Operand;
+    precise float sum = value + u_Operand;
+    values[gl_GlobalInvocationID.x] = u_Adds != 0 ? sum : product;
 }

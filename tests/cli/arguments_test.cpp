@@ -105,6 +105,12 @@ TEST_CASE("arguments: an option that the side or the verb would ignore is refuse
     });
 }
 
+TEST_CASE("arguments: a stack too small to run in is told in one line") {
+    const test::Outcome outcome = run_lockstep({"info"}, {.stack = std::size_t{64} << 10U});
+    CHECK(test::refusal(outcome) ==
+          "the stack is limited to 64 KiB (ulimit -s), too little to run in; 256 KiB and more are enough");
+}
+
 TEST_CASE("arguments: threads that cannot be started are no verdict; the reference runs on fewer") {
     const auto run = [](const char* name, const char* value) {
         test::Surroundings surroundings;

@@ -173,3 +173,20 @@ TEST_CASE("report page: tells of the study that lies beside it; what is no study
               study + ": is not what `lockstep study SCENE --json` writes; write it again, or remove it");
     }
 }
+
+TEST_CASE("report page: a capsule that cannot be made is told on standard error, on the page and in JSON") {
+    if (!test::have_osmesa())
+        return;
+    const Setting setting;
+    const test::TemporaryFolder shaders;
+    test::plant(shaders, "collision_pass.vert", " && len < particle_min_length", "");
+    test::plant(shaders, "collision_pass.vert", "#ifdef LOCKSTEP_TRACE\n// Drawn",
+                "#ifdef LOCKSTEP_TRACE\nnonsense;\n// Drawn");
+    const test::Outcome outcome = setting.check({"--frames", "8", "--shaders", shaders.path().string()});
+    CHECK(outcome.status == 1);
+    CHECK_THAT(outcome.err, Catch::StartsWith("lockstep: no capsule of the first divergent particle: ") &&
+                                Catch::Contains("collision_pass.vert:"));
+    CHECK(test::names_in(setting.folder) == std::vector<std::string>{"report.html"});
+    CHECK_THAT(setting.head().at("report").at("notes").back().get<std::string>(),
+               Catch::StartsWith("no capsule of the first divergent particle: "));
+}

@@ -44,6 +44,10 @@ void enter(const Surroundings& surroundings) {
         const rlimit limit{*surroundings.memory, *surroundings.memory};
         setrlimit(RLIMIT_AS, &limit);
     }
+    if (surroundings.stack) {
+        const rlimit limit{*surroundings.stack, *surroundings.stack};
+        setrlimit(RLIMIT_STACK, &limit);
+    }
     if (surroundings.standard_input) {
         int in[2];
         if (pipe(in) != 0)

@@ -22,6 +22,7 @@ struct Surroundings {
     std::optional<std::string> standard_output = {}; ///< a file instead of a pipe; empty: closed
     bool nobody_reads = false;                       ///< standard output is a pipe whose other end is closed
     std::optional<std::size_t> memory = {};          ///< bytes of address space
+    std::optional<std::size_t> stack = {};           ///< bytes
     std::string folder = {};                         ///< to run in; empty: the test's
     std::optional<std::string> standard_input = {};  ///< through a pipe; at most what one holds, 64 KiB
 };

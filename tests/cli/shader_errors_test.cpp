@@ -1,6 +1,7 @@
 #include <catch2/catch.hpp>
 
 #include <filesystem>
+#include <fstream>
 #include <string>
 #include <vector>
 
@@ -185,4 +186,48 @@ TEST_CASE("shader_errors: an octree where GL has no compute shaders is refused i
     CHECK(refusal(run_lockstep(arguments, {{{"GALLIUM_DRIVER", "softpipe"}}, {}, {}, {}})) ==
           "octree_pass: search = octree needs compute shaders and storage buffers, GL 4.3; this context is of an "
           "earlier version");
+}
+
+TEST_CASE("shader_errors: a shipped shader is named by its place among the shaders, not by the machine's path") {
+    if (!test::have_osmesa())
+        return;
+    const test::TemporaryFolder data;
+    std::filesystem::copy("shaders", data.path() / "shaders", std::filesystem::copy_options::recursive);
+    const auto refused = [&] {
+        return refusal(run_lockstep({"check", "data/scenes/lattice.json", "--frames", "1", "--gl", "osmesa"},
+                                    {.environment = {{"LOCKSTEP_DATA", data.path().string()}}}));
+    };
+    const auto break_shader = [&](const char* name, const std::string& text) {
+        std::ofstream(data.path() / "shaders" / name, std::ios::app) << text;
+    };
+    break_shader("collision_code.glsl", "nonsense;\n");
+    CHECK_THAT(refused(), Catch::StartsWith("shader shaders/collision_code.glsl:"));
+    break_shader("collision_code.glsl", "#include \"gone.glsl\"\n");
+    const std::string missing = refused();
+    CHECK_THAT(missing, Catch::StartsWith("shader shaders/collision_code.glsl:") &&
+                            Catch::Contains("no shader file gone.glsl in shaders/"));
+    CHECK_THAT(missing, !Catch::Contains(data.path().string()));
+}
+
+TEST_CASE("shader_errors: a storage buffer that nobody binds is refused on a GL that cannot tell of it, too") {
+    if (!test::have_osmesa())
+        return;
+    const test::TemporaryFolder shaders;
+    test::plant(shaders, "collision_pass.frag", "flat in vec3 out_Position;",
+                "layout(std430) buffer Step { float apart; };\nflat in vec3 out_Position;");
+    test::plant(shaders, "collision_pass.frag", "#extension GL_ARB_gpu_shader5 : require",
+                "#extension GL_ARB_gpu_shader5 : require\n"
+                "#extension GL_ARB_shader_storage_buffer_object : require");
+    test::plant(shaders, "collision_pass.frag", "encode_position(out_Position)",
+                "encode_position(out_Position + vec3(apart))");
+    const auto run = [&](const test::Surroundings& surroundings) {
+        return run_lockstep(
+            {"check", "data/scenes/lattice.json", "--frames", "1", "--gl", "osmesa", "--shaders", shaders.path()},
+            surroundings);
+    };
+    CHECK_THAT(refusal(run({})), Catch::EndsWith("nothing is given for storage buffer Step"));
+    const test::Outcome old = run({.environment = {{"MESA_GL_VERSION_OVERRIDE", "4.2"},
+                                                   {"MESA_EXTENSION_OVERRIDE", "-GL_ARB_program_interface_query"}}});
+    CHECK(old.status == 2); // Mesa says on standard output what it leaves out
+    CHECK_THAT(old.err, Catch::Contains("nothing is given for storage buffer Step, and this GL is too old to tell"));
 }

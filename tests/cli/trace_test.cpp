@@ -66,6 +66,7 @@ TEST_CASE("record: what was recorded here is checked there, with the verdict of 
     const std::vector<std::string> same{"switches", "profile", "compared", "hash", "verdict"};
     CHECK(lines(checked.out, same) == lines(setting.check_live().out, same));
     CHECK_THAT(checked.out, Contains("GL        recorded: llvmpipe"));
+    CHECK_THAT(checked.out, Contains("shaders   recorded: shipped: collision_pass.vert, "));
     CHECK(test::names_in(setting.folder.path()) == std::vector<std::string>{"run.h5", "scene.json"});
 
     const test::Outcome told = run_lockstep({"trace", setting.file});

@@ -58,6 +58,8 @@ inline constexpr ExpectedRow llvmpipe_rows[] = {
     {"fragment a*b+c, precise", "each rounded"},
     {"compute: subnormal operand of *", "kept"},
     {"compute: subnormal result of *", "kept"},
+    {"compute: subnormal operand of +", "kept"},
+    {"compute: subnormal result of +", "kept"},
     {"float to half", "truncate"},
     {"float to subnormal half", "truncate"},
     {"float above the largest half", "largest"},

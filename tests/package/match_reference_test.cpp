@@ -195,3 +195,24 @@ TEST_CASE("user shaders: what the compiler says comes with file and line") {
     const Scene scene = streams();
     CHECK_THROWS_WITH(UserShaders(gl, scene, folder.path()), Contains("collision_pass.vert:2"));
 }
+
+TEST_CASE("match_reference: with render the last frame is compared, too, and an engine has none") {
+    const Scene scene = streams();
+    ReferenceEngine engine(scene);
+    CHECK_THROWS_WITH(match_reference(engine, scene, {.frames = 2, .render = true}),
+                      Contains("an engine of its own draws no frame"));
+    const Gl gl("osmesa");
+    if (!gl)
+        return test::skip(gl.missing());
+    const test::TemporaryFolder right, wrong;
+    test::plant(right, "render_pass.frag", "#version 330 core", "#version 330 core\n");
+    test::plant(wrong, "render_pass.frag", "void main() {", "void main() { if (gl_FragCoord.x > 100.0) discard;");
+    for (const auto* folder : {&right, &wrong}) {
+        test::plant(*folder, "collision_pass.frag", "#version 330 core", "#version 330 core\n");
+        UserShaders shaders(gl, scene, folder->path(), UnusedShaders::allowed);
+        CHECK(match_reference(shaders, scene, {.frames = 4}).passed());
+        const MatchResult result = match_reference(shaders, scene, {.frames = 4, .render = true});
+        CHECK(result.passed() == (folder == &right));
+        CHECK_THAT(result.text(), Contains(folder == &right ? "render    AGREE: every one of" : "render    DIFFER: "));
+    }
+}

@@ -2,6 +2,7 @@
 
 #include <cmath>
 #include <limits>
+#include <span>
 
 #include "reference/arithmetic.hpp"
 #include "reference/collision_code.hpp"
@@ -98,44 +99,93 @@ TEST_CASE("legal outcomes: GLSL's rules allow every driver's arithmetic, and lit
     CHECK(largest <= 2);
 }
 
-TEST_CASE("legal outcomes: any order allows a position that is decoded fused, and no more than a difference can be") {
-    RandomScene scene = random_scene(9, 2000, 41, 33);
-    scene.params.switches = preset("corrected");
-    scene.params.switches.cdt_format = CdtFormat::rgba8;
-    scene.params.cdt_box = {glm::vec3(-1.5F), glm::vec3(1.5F)};
-    for (glm::vec4& t : scene.cdt.texels)
-        t = t.a != 0.0F ? CollisionCode(scene.params).encode(glm::vec3(t)) : t;
-    const Profile profile = named_profile("strict");
-    KnownOperations known = measured_operations(profile);
-    known.sums = false;
-    const Constants& constants = scene.params.constants;
-    const glm::vec3 step = (scene.params.cdt_box.max - scene.params.cdt_box.min) / 255.0F;
-    int hits = 0, others = 0;
-    for (std::size_t i = 0; i < scene.particles.size(); ++i) {
-        const ParticleState before = scene.particles[i];
-        const StepTrace trace = trace_step(before, scene.cdt, scene.params, profile);
-        if (!trace.nearest)
-            continue;
-        const glm::vec4 code = trace.neighbours[*trace.nearest].stored;
-        ParticleState fused = trace.after;
-        glm::vec3 away;
-        for (int c = 0; c < 3; ++c)
-            away[c] = before.position[c] - std::fma(code[c], step[c], scene.params.cdt_box.min[c]);
-        fused.direction = Strict::normalize(away);
-        glm::vec3 move = Strict::scale(fused.direction, fused.speed);
-        if (scene.params.switches.collision_step == CollisionStep::tick)
-            move = Strict::scale(move, constants.tick);
-        fused.position = before.position + move;
-        ++hits;
-        others += same_bits(fused, trace.after) ? 0 : 1;
-        CHECK(admits(outcomes_for(scene, i, profile, known, fused), fused));
-        fused.collide_time = std::nextafter(fused.collide_time, 9.0F);
-        CHECK_FALSE(admits(outcomes_for(scene, i, profile, known, fused), fused));
-    }
-    CHECK(hits > 20);
-    CHECK(others > 5);
-    // A collide time is one difference: no order gives it another bit.
-    ParticleState later = trace_step(scene.particles[0], scene.cdt, scene.params, profile).after;
-    later.collide_time = std::nextafter(later.collide_time, 9.0F);
-    CHECK_FALSE(admits(outcomes_for(scene, 0, profile, known, later), later));
+namespace {
+
+/// own - (low + code * step), where own may be low + own_code * step itself.
+struct Decoded {
+    float own, own_code, code, low, step;
+};
+
+using Order = float (*)(const Decoded&);
+
+/// Three terms in every order, fused and not.
+constexpr Order orders[] = {
+    [](const Decoded& d) { return d.own - (d.low + d.code * d.step); },
+    [](const Decoded& d) { return d.own - std::fma(d.code, d.step, d.low); },
+    [](const Decoded& d) { return (d.own - d.low) - d.code * d.step; },
+    [](const Decoded& d) { return std::fma(-d.code, d.step, d.own - d.low); },
+    [](const Decoded& d) { return (d.own - d.code * d.step) - d.low; },
+    [](const Decoded& d) { return std::fma(-d.code, d.step, d.own) - d.low; },
+};
+
+/// Four, where both are decoded.
+constexpr Order orders_of_two[] = {
+    [](const Decoded& d) { return (d.low + d.own_code * d.step) - (d.low + d.code * d.step); },
+    [](const Decoded& d) { return std::fma(d.own_code, d.step, d.low) - (d.low + d.code * d.step); },
+    [](const Decoded& d) { return std::fma(d.own_code, d.step, d.low) - std::fma(d.code, d.step, d.low); },
+    [](const Decoded& d) { return (d.own_code - d.code) * d.step; },
+    [](const Decoded& d) { return d.own_code * d.step - d.code * d.step; },
+    [](const Decoded& d) { return std::fma(d.own_code, d.step, -(d.code * d.step)); },
+    [](const Decoded& d) { return ((d.low + d.own_code * d.step) - d.low) - d.code * d.step; },
+    [](const Decoded& d) { return std::fma(-d.code, d.step, (d.low + d.own_code * d.step) - d.low); },
+    [](const Decoded& d) { return ((d.low - d.code * d.step) + d.own_code * d.step) - d.low; },
+};
+
+} // namespace
+
+TEST_CASE(
+    "legal outcomes: any order allows every order of decoding, fused and not, and no more than a difference can be") {
+    for (const SelfPosition self : {SelfPosition::vertex, SelfPosition::texel})
+        for (const float low : {-1.5F, -1.1F, -1.937F}) {
+            RandomScene scene = random_scene(9, 2000, 41, 33);
+            scene.params.switches = preset("corrected");
+            scene.params.switches.self_position = self;
+            scene.params.switches.cdt_format = CdtFormat::rgba8;
+            scene.params.cdt_box = {glm::vec3(low), glm::vec3(1.5F)};
+            for (glm::vec4& t : scene.cdt.texels)
+                t = t.a != 0.0F ? CollisionCode(scene.params).encode(glm::vec3(t)) : t;
+            const Profile profile = named_profile("strict");
+            KnownOperations known = measured_operations(profile);
+            known.sums = false;
+            const Constants& constants = scene.params.constants;
+            const glm::vec3 step = (scene.params.cdt_box.max - scene.params.cdt_box.min) / 255.0F;
+            int hits = 0, others = 0;
+            for (std::size_t i = 0; i < scene.particles.size(); ++i) {
+                const ParticleState before = scene.particles[i];
+                const StepTrace trace = trace_step(before, scene.cdt, scene.params, profile);
+                if (!trace.nearest)
+                    continue;
+                ++hits;
+                const glm::vec4 code = trace.neighbours[*trace.nearest].stored;
+                const glm::vec4 own_code = scene.cdt.at(trace.base.x, trace.base.y);
+                const auto with = [&](Order order) {
+                    ParticleState other = trace.after;
+                    glm::vec3 away;
+                    for (int c = 0; c < 3; ++c)
+                        away[c] = order({before.position[c], own_code[c], code[c], low, step[c]});
+                    other.direction = Strict::normalize(away);
+                    glm::vec3 move = Strict::scale(other.direction, other.speed);
+                    if (scene.params.switches.collision_step == CollisionStep::tick)
+                        move = Strict::scale(move, constants.tick);
+                    other.position = before.position + move;
+                    return other;
+                };
+                for (const Order order : self == SelfPosition::texel ? std::span<const Order>(orders_of_two)
+                                                                     : std::span<const Order>(orders)) {
+                    ParticleState other = with(order);
+                    others += same_bits(other, trace.after) ? 0 : 1;
+                    if (std::isnan(other.direction.x))
+                        continue;
+                    CHECK(admits(outcomes_for(scene, i, profile, known, other), other));
+                    other.collide_time = std::nextafter(other.collide_time, 9.0F);
+                    CHECK_FALSE(admits(outcomes_for(scene, i, profile, known, other), other));
+                }
+            }
+            CHECK(hits > 20);
+            CHECK(others > 5);
+            // A collide time is one difference: no order gives it another bit.
+            ParticleState later = trace_step(scene.particles[0], scene.cdt, scene.params, profile).after;
+            later.collide_time = std::nextafter(later.collide_time, 9.0F);
+            CHECK_FALSE(admits(outcomes_for(scene, 0, profile, known, later), later));
+        }
 }

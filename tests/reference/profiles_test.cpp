@@ -8,6 +8,7 @@
 #include <string>
 
 #include "crosscheck/scene/profiles.hpp"
+#include "reference/known_operations.hpp"
 
 using namespace lockstep;
 
@@ -134,7 +135,7 @@ TEST_CASE("profiles: what measures as the NVIDIA column is nvidia, with the erro
     CHECK_FALSE(built_from_driver_roots(llvmpipe()));
     CHECK_THAT(describe(profile),
                Catch::StartsWith("nvidia: dot fma(z, fma(y, x)), ULP off: a/b 2, 1/b 1, sqrt 3, inversesqrt 2, "
-                                 "length 2, normalize 3, subnormals flushed"));
+                                 "length 2, normalize 3, fragment a/b 2, fragment 1/b 1, subnormals flushed"));
 }
 
 TEST_CASE("profiles: the known ones are what the spec's columns give") {
@@ -143,13 +144,36 @@ TEST_CASE("profiles: the known ones are what the spec's columns give") {
     CHECK_FALSE(computes_alike(named_profile("llvmpipe"), named_profile("nvidia")));
 }
 
-TEST_CASE("profiles: an operation that is off in the fragment stage alone is off") {
+TEST_CASE("profiles: an operation that is off in the fragment stage alone is off there alone") {
     ProbeResult result = llvmpipe();
     be_off(result, "fragment a/b", 2);
     const Profile profile = profile_from(result);
     CHECK(profile.name == "generic");
-    CHECK(profile.errors.divide == 2);
+    CHECK(profile.errors.divide == 0);
+    CHECK(profile.errors.fragment_divide == 2);
     CHECK(profile.not_followed.empty());
+    CHECK(measured_operations(profile).divide);
+    CHECK_FALSE(measured_operations(profile).interpolation);
+    CHECK_THAT(describe(profile), Catch::Contains("ULP off: fragment a/b 2"));
+    result = llvmpipe();
+    be_off(result, "a/b, precise", 2);
+    CHECK_FALSE(measured_operations(profile_from(result)).divide);
+    CHECK(measured_operations(profile_from(result)).interpolation);
+    result = llvmpipe();
+    find(result, "fragment a*b+c, precise", "fused");
+    CHECK(measured_operations(profile_from(result)).sums);
+    CHECK_FALSE(measured_operations(profile_from(result)).interpolation);
+}
+
+TEST_CASE("profiles: in the compute stage sums flush subnormals as products do, or the row is not followed") {
+    ProbeResult result = llvmpipe();
+    for (const char* name : {"compute: subnormal operand of *", "compute: subnormal result of *"})
+        result.rows.push_back({name, "kept", 1, 1, 0, {{"flushed", 0, 0}, {"kept", 1, 0}}});
+    result.rows.push_back({"compute: subnormal operand of +", "kept", 1, 1, 0, {}});
+    result.rows.push_back({"compute: subnormal result of +", "flushed", 1, 1, 0, {}});
+    CHECK(profile_from(result).not_followed == std::vector<std::string>{"compute: subnormal result of +"});
+    result.rows.back().finding = "kept";
+    CHECK(profile_from(result).not_followed.empty());
 }
 
 TEST_CASE("profiles: a chain that divides exactly is neither known one") {

@@ -3,6 +3,7 @@
 #include <bit>
 #include <cmath>
 #include <cstdint>
+#include <map>
 #include <string>
 
 #include "crosscheck/judge/verdict_summary.hpp"
@@ -205,6 +206,59 @@ TEST_CASE("verdict: an obstacle's texel may lie within the bound of its interpol
         const FrameVerdicts far = judge(frame.judged());
         REQUIRE(far.texels.size() == 1);
         CHECK(far.texels[0].kind == DifferenceClass::divergent);
+    }
+}
+
+TEST_CASE("verdict: what a driver makes of plain floats is rounding, and two codes further is divergent") {
+    for (const CdtFormat format : {CdtFormat::rgba16f, CdtFormat::rgba8}) {
+        INFO(static_cast<int>(format));
+        Frame frame("corrected");
+        frame.scene.params.cdt_box = {glm::vec3(-2.0F), glm::vec3(2.0F)};
+        frame.scene.params.switches.cdt_format = format;
+        frame.reference_cdt = frame.gpu_cdt = frame.drawn(frame.reference);
+        // The code next to what the reference rounds to, on the side of the position itself.
+        const auto code_of = [&](double x, bool above) {
+            const double unit = format == CdtFormat::rgba8 ? 4.0 / 255.0 : std::ldexp(1.0, std::ilogb(x) - 10);
+            const double place = format == CdtFormat::rgba8 ? (x + 2.0) / unit : x / unit;
+            const double code = above ? std::ceil(place) : std::floor(place);
+            return static_cast<float>(format == CdtFormat::rgba8 ? code : code * unit);
+        };
+        std::map<std::pair<float, float>, glm::vec3> positions; // by stored code, x and y
+        const CollisionCode encoder(frame.scene.params);
+        for (const glm::vec3& p : frame.reference.position) {
+            const glm::vec4 code = encoder.encode(p);
+            if (const auto [entry, is_new] = positions.emplace(std::pair(code.x, code.y), p); !is_new)
+                entry->second = glm::vec3(NAN); // either of several
+        }
+        std::size_t last = 0;
+        for (std::size_t i = 0; i < frame.gpu_cdt.texels.size(); ++i) {
+            glm::vec4& texel = frame.gpu_cdt.texels[i];
+            if (texel.a == 0.0F || std::abs(texel.z) < 0x1p-10F)
+                continue;
+            const glm::vec3 p = positions.at({texel.x, texel.y});
+            if (std::isnan(p.x))
+                continue;
+            for (int c = 0; c < 2; ++c)
+                texel[c] = code_of(static_cast<double>(p[c]), (i + static_cast<std::size_t>(c)) % 2 == 0);
+            last = i;
+        }
+        const auto worst = [&] {
+            DifferenceClass kind = DifferenceClass::rounding;
+            for (const ItemVerdict& verdict : judge(frame.judged()).texels)
+                kind = std::max(kind, verdict.kind);
+            return kind;
+        };
+        CHECK(worst() == DifferenceClass::divergent); // the shader rounds by itself
+        frame.known.converts.particles = true;
+        CHECK(worst() == DifferenceClass::rounding);
+        glm::vec4& texel = frame.gpu_cdt.texels[last];
+        const glm::vec4 right = texel;
+        texel.x = format == CdtFormat::rgba8 ? right.x + 2.0F : right.x * (1.0F + 0x1p-9F);
+        CHECK(worst() == DifferenceClass::divergent);
+        texel = {right.y, right.x, right.z, right.w};
+        CHECK(worst() == DifferenceClass::divergent);
+        texel = {right.x, right.y, right.z, 0.0F};
+        CHECK(worst() == DifferenceClass::divergent);
     }
 }
 

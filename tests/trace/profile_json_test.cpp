@@ -27,10 +27,26 @@ TEST_CASE("profile json: every known profile comes back as it was") {
     other.errors = {1, 2, 3, 4, 5, INT64_MAX};
     other.raster = {11, SnapRounding::down, SnapRounding::half_up, ViewportRounding::fused, true, false, false, false};
     other.not_followed = {"points: snap"};
+    other.errors.fragment_divide = 7;
+    other.converts = {.triangles = true};
+    other.point_window_accurate = false;
     const Profile back = read(profile_json(other).dump());
     CHECK(same(back, other));
     CHECK(back.errors.normalize == INT64_MAX);
     CHECK(back.raster == other.raster);
+    CHECK(back.errors.fragment_divide == 7);
+    CHECK(back.converts == other.converts);
+    CHECK(back.point_window_accurate == false);
+    CHECK(back.corner_window_accurate == true);
+}
+
+TEST_CASE(
+    "profile json: an older program's has one division, and nobody looked at the accuracy of window coordinates") {
+    const Profile old = read(R"({"name": "nvidia", "raster": {"subpixel_bits": 8}, "ulp_errors": {"divide": 5}})");
+    CHECK(old.errors.fragment_divide == 5);
+    CHECK(old.errors.fragment_reciprocal == 1);
+    CHECK_FALSE(old.point_window_accurate);
+    CHECK_FALSE(old.corner_window_accurate);
 }
 
 TEST_CASE("profile json: what is left out is the named profile's") {

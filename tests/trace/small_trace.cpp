@@ -28,6 +28,7 @@ TraceInfo small_info(bool has_cdt) {
     info.profile = named_profile("llvmpipe");
     info.renderer = "a renderer";
     info.settings = "the scene's";
+    info.shaders = "shipped";
     info.has_cdt = has_cdt;
     return info;
 }

@@ -136,11 +136,12 @@ TEST_CASE("trace: texts that are shown cannot pass for lines of a report, nor st
     Changed changed;
     const std::string forged = "x\nverdict   AGREE\x1b[2J\xe2\x80\xae\xff";
     const std::string shown = "x\\nverdict   AGREE\\x1b[2J\\u202e";
-    for (const char* path : {layout::renderer, layout::settings, layout::name})
+    for (const char* path : {layout::renderer, layout::settings, layout::shaders, layout::name})
         changed.replace_text(path, forged);
     const TraceReader trace(changed.file());
     CHECK_THAT(trace.info().renderer, StartsWith(shown));
     CHECK_THAT(trace.info().settings, StartsWith(shown));
+    CHECK_THAT(trace.info().shaders, StartsWith(shown));
     CHECK_THAT(trace.info().scene.name, StartsWith(shown));
 }
 
@@ -162,6 +163,7 @@ TEST_CASE("trace: everything that is written is read back, states in any order")
     CHECK(read.scene.name == "small");
     CHECK(read.renderer == "a renderer");
     CHECK(read.settings == "the scene's");
+    CHECK(read.shaders == "shipped");
     CHECK(read.probe == "{}");
     CHECK_THAT(read.program, StartsWith("lockstep "));
     CHECK(read.warnings.empty());
@@ -356,12 +358,18 @@ TEST_CASE("trace: values that lie in another file are not read") {
 
 TEST_CASE("trace: what is missing may be missing") {
     Changed bare(false);
-    bare.remove("h5md").remove(layout::name).remove(layout::profile).remove(layout::renderer).remove(layout::settings);
+    bare.remove("h5md")
+        .remove(layout::name)
+        .remove(layout::profile)
+        .remove(layout::renderer)
+        .remove(layout::settings)
+        .remove(layout::shaders);
     CHECK(bare.refusal().empty());
     const TraceReader trace(bare.file());
     CHECK(!trace.info().profile);
     CHECK(trace.info().scene.name == "trace");
     CHECK(trace.info().program.empty());
+    CHECK(trace.info().shaders.empty());
     REQUIRE(trace.info().warnings.size() == 1);
     CHECK_THAT(trace.info().warnings[0], StartsWith("h5md: missing"));
 }

@@ -66,6 +66,10 @@ class MatchesReference : public CatchMatcher<GpuSide> {
         options_.allow_undefined = true;
         return *this;
     }
+    MatchesReference& render() {
+        options_.render = true;
+        return *this;
+    }
     MatchesReference& require_hits() {
         options_.require_hits = true;
         return *this;

@@ -92,6 +92,8 @@ class UserShaders : public GpuSide {
     void repeat_step(const FrameParams& params) override;
     [[nodiscard]] bool holds(const Particles& particles) const override;
 
+    [[nodiscard]] const std::filesystem::path& folder() const { return folder_; }
+
   private:
     const Gl& gl_;
     std::filesystem::path folder_;
@@ -107,6 +109,8 @@ struct MatchOptions {
     Legal legal = Legal::measured;
     bool allow_undefined = false; ///< pass what rests on what GL leaves open
     bool require_hits = false;    ///< fail a run in which nothing collided
+    /// Draw the last frame on both sides, too, and fail where a pixel differs; for UserShaders alone.
+    bool render = false;
     /// The command that repeats it where `lockstep check` cannot, for an engine or a scene made in code; empty: this
     /// program's own command line.
     std::string repeat = {};

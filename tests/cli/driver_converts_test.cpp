@@ -1,0 +1,83 @@
+#include <catch2/catch.hpp>
+
+#include <string>
+
+#include "tests/cli/cli_checks.hpp"
+#include "tests/planted_shader.hpp"
+#include "tests/temporary_folder.hpp"
+
+using namespace lockstep;
+
+namespace {
+
+/// What check says of a fragment stage that stores `stored` where the shipped one calls the encoder.
+test::Outcome checked(const std::string& format, const std::string& obstacles, const std::string& file,
+                      const std::string& encoded, const std::string& stored) {
+    const test::TemporaryFolder folder, shaders;
+    test::plant(shaders, file, encoded, stored);
+    return test::run_lockstep({"check", "data/scenes/lattice.json", "--particles", "500", "--frames", "8", "--gl",
+                               "osmesa", "--set", "cdt_format=" + format, "--set", "obstacles_in_cdt=" + obstacles,
+                               "--shaders", shaders.path().string()});
+}
+
+struct Format {
+    const char* name;
+    const char* stored; ///< plain floats; P stands for the position
+};
+constexpr Format formats[] = {{"rgba32f", "vec4(P, 1.0)"},
+                              {"rgba16f", "vec4(P, 1.0)"},
+                              {"rgba8", "vec4((P - u_CdtBoxMin) / (u_CdtBoxStep * 255.0), 1.0)"}};
+
+struct Stage {
+    const char *obstacles, *file, *encoded, *position;
+};
+constexpr Stage stages[] = {{"triangles", "collision_pass.frag", "encode_position(out_Position)", "out_Position"},
+                            {"triangles", "obstacle_pass.frag",
+                             "encode_position(interpolate(g_Position, fragment.shares))",
+                             "interpolate(g_Position, fragment.shares)"},
+                            {"vertices", "obstacle_vertices.frag", "encode_position(g_Position)", "g_Position"}};
+
+std::string with_position(std::string text, const std::string& position) {
+    return text.replace(text.find('P'), 1, position);
+}
+
+} // namespace
+
+TEST_CASE("driver converts: a fragment stage that stores plain floats is LEGAL in every format, with a hint") {
+    if (!test::have_osmesa())
+        return;
+    for (const Stage& stage : stages)
+        for (const Format& format : formats) {
+            INFO(stage.file << " " << format.name);
+            const test::Outcome outcome = checked(format.name, stage.obstacles, stage.file, stage.encoded,
+                                                  with_position(format.stored, stage.position));
+            INFO(outcome.out << outcome.err);
+            CHECK(outcome.status == 0);
+            const std::string hint = "note      " + std::string(stage.file) + " leaves the rounding to " + format.name;
+            if (std::string(format.name) == "rgba32f") {
+                CHECK_THAT(outcome.out, Catch::Contains("verdict   AGREE"));
+                CHECK_THAT(outcome.out, !Catch::Contains("leaves the rounding"));
+            } else {
+                CHECK_THAT(outcome.out, Catch::Contains(hint));
+            }
+        }
+}
+
+TEST_CASE("driver converts: components swapped, codes two off or an encoder of one's own that is off are DIVERGENT") {
+    if (!test::have_osmesa())
+        return;
+    const auto divergent = [](const char* format, const Stage& stage, const std::string& stored) {
+        INFO(stage.file << " " << format << " " << stored);
+        const test::Outcome outcome = checked(format, stage.obstacles, stage.file, stage.encoded, stored);
+        CHECK(outcome.status == 1);
+        CHECK_THAT(outcome.out, Catch::Contains("DIVERGENT"));
+    };
+    for (const Stage& stage : stages) {
+        const std::string p = stage.position;
+        divergent("rgba16f", stage, "vec4(" + p + ".yxz, 1.0)");
+        divergent("rgba16f", stage, "vec4(" + p + " * 1.002, 1.0)");
+        divergent("rgba8", stage, "vec4((" + p + " - u_CdtBoxMin).zyx / (u_CdtBoxStep * 255.0).zyx, 1.0)");
+        divergent("rgba8", stage, "vec4((" + p + " - u_CdtBoxMin) / (u_CdtBoxStep * 255.0) + 2.0 / 255.0, 1.0)");
+        divergent("rgba16f", stage, "encode_position(" + p + " * 1.001)");
+    }
+}

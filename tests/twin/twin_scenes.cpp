@@ -23,12 +23,15 @@ Scene crowded_scene(std::size_t count, int width, int height) {
     return scene;
 }
 
-CheckReport check_twins(const Scene& scene, int frames, const std::filesystem::path& shaders, CheckMode mode) {
+CheckReport check_twins(const Scene& scene, int frames, const std::filesystem::path& shaders, CheckMode mode,
+                        Legal legal) {
     GpuSimulation gpu(scene, shaders);
+    const Profile profile = llvmpipe_profile(shaders);
     CheckOptions options;
     options.frames = frames;
     options.mode = mode;
-    return check(scene, llvmpipe_profile(shaders), gpu, options);
+    options.known = known_operations(legal, profile);
+    return check(scene, profile, gpu, options);
 }
 
 } // namespace lockstep::test

@@ -2,6 +2,7 @@
 #include <cstddef>
 
 #include "crosscheck/judge/check.hpp"
+#include "crosscheck/judge/legal.hpp"
 #include "gpu/simulation.hpp"
 #include "reference/model/scene.hpp"
 
@@ -13,6 +14,6 @@ Scene crowded_scene(std::size_t count = 1200, int width = 97, int height = 64);
 
 /// Both sides of a scene over some frames, in the current context; llvmpipe_profile's arithmetic.
 CheckReport check_twins(const Scene& scene, int frames = 4, const std::filesystem::path& shaders = {},
-                        CheckMode mode = CheckMode::resync);
+                        CheckMode mode = CheckMode::resync, Legal legal = Legal::measured);
 
 } // namespace lockstep::test

@@ -13,6 +13,7 @@
 #include "gpu/shader_log.hpp"
 #include "gpu/shader_words.hpp"
 #include "reference/model/error.hpp"
+#include "reference/model/near_name.hpp"
 
 namespace lockstep {
 namespace {
@@ -150,20 +151,6 @@ Capture linked_capture(GLuint program, GLuint index) {
 /// Of an active variable: GL calls an array's first element by the array's name and [0].
 Declaration declaration(std::span<const ShaderSource> stages, std::string_view qualifier, const std::string& name) {
     return find_declaration(stages, qualifier, std::string_view(name).substr(0, name.find_first_of("[.")));
-}
-
-/// How many letters to add, drop or change to make one word of the other.
-std::size_t edits(std::string_view a, std::string_view b) {
-    std::vector<std::size_t> row(b.size() + 1);
-    for (std::size_t j = 0; j <= b.size(); ++j)
-        row[j] = j;
-    for (std::size_t i = 1; i <= a.size(); ++i) {
-        std::size_t diagonal = std::exchange(row[0], i);
-        for (std::size_t j = 1; j <= b.size(); ++j)
-            diagonal = std::exchange(
-                row[j], std::min({row[j] + 1, row[j - 1] + 1, diagonal + (a[i - 1] == b[j - 1] ? 0U : 1U)}));
-    }
-    return row[b.size()];
 }
 
 void check_capture_type(GLuint program, GLuint index, const Capture& capture, std::span<const ShaderSource> stages) {

@@ -8,6 +8,7 @@
 #include <fmt/ranges.h>
 
 #include "crosscheck/files/plain_text.hpp"
+#include "reference/model/near_name.hpp"
 
 namespace lockstep {
 namespace {
@@ -43,24 +44,49 @@ void describe(CLI::App& app, const Verb& verb) {
         app.require_subcommand(1);
 }
 
-std::string verb_names(const Verb& program) {
+/// The verb that was called, as far as the command line went, and the library's part for it.
+struct Called {
+    const CLI::App& app;
+    const Verb& verb;
+};
+
+Called called(const CLI::App& app, const Verb& verb) {
+    for (const CLI::App* part : app.get_subcommands())
+        for (const Verb& candidate : verb.verbs)
+            if (candidate.name == part->get_name())
+                return called(*part, candidate);
+    return {app, verb};
+}
+
+/// `unknown`: the word in its place, if any.
+std::string verb_error(const Verb& program, const Verb& verb, const std::string& unknown) {
     std::vector<std::string> names;
-    for (const Verb& verb : program.verbs)
-        names.push_back(verb.name);
-    return fmt::format("{}", fmt::join(names, ", "));
+    for (const Verb& part : verb.verbs)
+        names.push_back(part.name);
+    const std::string there = fmt::format(
+        "the verbs {}are {}", &verb == &program ? "" : fmt::format("of {} ", verb.name), fmt::join(names, ", "));
+    if (unknown.empty())
+        return fmt::format("a verb is missing; {}", there);
+    return fmt::format("unknown verb '{}'; {}{}", unknown, there, did_you_mean(unknown, names));
+}
+
+std::string option_error(const Verb& verb, const std::string& unknown) {
+    std::vector<std::string> all;
+    for (const Option& option : all_options(verb))
+        for (const std::string& name : names(option))
+            all.push_back(name);
+    return fmt::format("unknown option '{}'{}", unknown, did_you_mean(unknown.substr(0, unknown.find('=')), all));
 }
 
 /// The library's own words are for programmers.
 std::string usage_error(const Verb& program, const CLI::App& app, const CLI::Error& error) {
-    const bool verb_given = program.verbs.empty() || !app.get_subcommands().empty();
+    const Verb& verb = called(app, program).verb;
     std::vector<std::string> unknown = app.remaining(true);
     std::stable_partition(unknown.begin(), unknown.end(), [](const std::string& text) { return text[0] == '-'; });
-    if (!verb_given && unknown.empty())
-        return fmt::format("a verb is missing; the verbs are {}", verb_names(program));
     if (!unknown.empty() && unknown.front().starts_with('-'))
-        return fmt::format("unknown option '{}'", unknown.front());
-    if (!verb_given)
-        return fmt::format("unknown verb '{}'; the verbs are {}", unknown.front(), verb_names(program));
+        return option_error(verb, unknown.front());
+    if (!verb.verbs.empty())
+        return verb_error(program, verb, unknown.empty() ? "" : unknown.front());
     if (!unknown.empty())
         return fmt::format("'{}' is one argument too many", unknown.front());
     const std::string text = error.what();
@@ -72,23 +98,14 @@ std::string usage_error(const Verb& program, const CLI::App& app, const CLI::Err
     return text;
 }
 
-Call called(const Verb& program, const CLI::App& app, const Verb& verb) {
-    for (const CLI::App* part : app.get_subcommands())
-        for (const Verb& candidate : verb.verbs)
-            if (candidate.name == part->get_name())
-                return called(program, *part, candidate);
-    Call call{program, verb, {}};
-    for (const Option& option : verb.options)
-        if (const std::string name = names(option).back(); app.count(name) > 0)
-            call.given.push_back(name);
-    return call;
-}
-
 } // namespace
 
 int run_command_line(const Verb& program, int argc, char** argv, int misused) {
     CLI::App app(program.description);
     app.name(program.name);
+    if (!program.version.empty())
+        app.set_version_flag("--version", fmt::format("{} {}", program.name, program.version),
+                             "Print the version and exit");
     describe(app, program);
     app.failure_message([&program](const CLI::App* root, const CLI::Error& error) {
         return fmt::format("{0}: {1} ({0} --help tells more)\n", program.name,
@@ -103,7 +120,11 @@ int run_command_line(const Verb& program, int argc, char** argv, int misused) {
         fmt::print(stderr, "{}", err.str());
         return asked ? 0 : misused;
     }
-    const Call call = called(program, app, program);
+    const Called last = called(app, program);
+    Call call{program, last.verb, {}};
+    for (const Option& option : last.verb.options)
+        if (const std::string name = names(option).back(); last.app.count(name) > 0)
+            call.given.push_back(name);
     return call.verb.run(call);
 }
 

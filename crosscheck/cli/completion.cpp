@@ -37,7 +37,7 @@ _lockstep() {{
     local word=${{COMP_WORDS[COMP_CWORD]}} before=${{COMP_WORDS[COMP_CWORD - 1]}} verb=${{COMP_WORDS[1]}} words=
     COMPREPLY=()
     if [ "$COMP_CWORD" = 1 ]; then
-        words="{verbs} --help"
+        words="{verbs} --help --version"
     elif [ "$before" = --set ]; then
         words="{switches}"
         compopt -o nospace

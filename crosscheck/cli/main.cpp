@@ -22,6 +22,7 @@ lockstep::Verb program() {
     program.verbs = {check_command(), explain_command(), debug_command(),  render_command(),     hash_command(),
                      info_command(),  probe_command(),   bench_command(),  study_command(),      record_command(),
                      trace_command(), capsule_command(), report_command(), completion_command(), manual_command()};
+    program.version = LOCKSTEP_VERSION;
     program.footer = "lockstep VERB --help tells more of each.\n"
                      "Example: lockstep check data/scenes/lattice.json --frames 100";
     return program;

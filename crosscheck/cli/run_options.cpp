@@ -1,5 +1,9 @@
 #include "crosscheck/cli/run_options.hpp"
 
+#include <cerrno>
+#include <cstring>
+#include <system_error>
+
 #include <fmt/format.h>
 
 #include "crosscheck/cli/option_values.hpp"
@@ -7,9 +11,38 @@
 #include "crosscheck/files/threads.hpp"
 #include "crosscheck/scene/run_text.hpp"
 #include "crosscheck/scene/scene_file.hpp"
+#include "gpu/data_folder.hpp"
 #include "reference/model/error.hpp"
+#include "reference/model/near_name.hpp"
 
 namespace lockstep {
+
+namespace {
+
+/// A scene in `folder` whose name is near.
+std::filesystem::path near_scene(const std::filesystem::path& folder, const std::filesystem::path& scene) {
+    std::error_code error;
+    std::vector<std::string> names;
+    for (const auto& entry : std::filesystem::directory_iterator(folder.empty() ? "." : folder, error))
+        if (entry.path().extension() == ".json")
+            names.push_back(entry.path().stem().string());
+    const std::string name = nearest_name(scene.stem().string(), names);
+    return name.empty() ? "" : folder / (name + ".json");
+}
+
+/// Throws Error where no file is named so; says which is, beside it or among the scenes that come with lockstep.
+void check_scene_exists(const std::filesystem::path& scene) {
+    std::error_code error;
+    if (std::filesystem::status(scene, error).type() != std::filesystem::file_type::not_found)
+        return;
+    std::filesystem::path meant = near_scene(scene.parent_path(), scene);
+    if (meant.empty())
+        meant = near_scene(std::filesystem::proximate(shipped_scene("lattice").parent_path(), error), scene);
+    throw Error(fmt::format("{}: cannot be read: {}{}", scene.string(), std::strerror(ENOENT),
+                            meant.empty() ? "" : fmt::format("; did you mean {}?", meant.string())));
+}
+
+} // namespace
 
 void add_scene_options(Verb& verb, RunOptions& options, SceneArgument scene) {
     verb.add(path_option("scene", "SCENE", options.scene, "scene file, data/scenes/*.json"));
@@ -52,6 +85,7 @@ void check_scene_or_trace(const Call& call, const RunOptions& options, const std
 }
 
 Scene load(const RunOptions& options) {
+    check_scene_exists(options.scene);
     start_threads(options.threads);
     return load_scene(options.scene, {options.particles, options.preset, options.set});
 }

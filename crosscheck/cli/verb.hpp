@@ -39,7 +39,8 @@ struct Verb {
 
     std::string name;
     std::string description;
-    std::string footer; ///< exit status and example
+    std::string footer;  ///< exit status and example
+    std::string version; ///< of a program, which --version prints; empty: it has none
     std::vector<Option> options;
     std::vector<Verb> verbs;             ///< if any, one of them has to be given
     std::function<int(const Call&)> run; ///< gives the exit status, or throws Error; unused where there are verbs

@@ -10,6 +10,7 @@
 #include "crosscheck/scene/scene_constants.hpp"
 #include "reference/model/error.hpp"
 #include "reference/model/layered_cdt.hpp"
+#include "reference/model/near_name.hpp"
 
 namespace lockstep {
 namespace {
@@ -92,6 +93,16 @@ void read_constants(const JsonValue& json, Constants& constants) {
             set_constant(constants, name, *value);
 }
 
+/// Of the switches and the constants.
+std::string nearest_setting(const std::string& name) {
+    std::vector<std::string> names;
+    for (const SwitchInfo& info : switch_table())
+        names.emplace_back(info.name);
+    for (const std::string_view constant : constant_names())
+        names.emplace_back(constant);
+    return did_you_mean(name, names);
+}
+
 void apply_setting(const std::string& setting, Scene& scene) {
     constexpr std::size_t longest = 200; // far more than a name and three numbers
     if (setting.size() > longest)
@@ -116,8 +127,8 @@ void apply_setting(const std::string& setting, Scene& scene) {
     for (const SwitchInfo& info : switch_table())
         switches.push_back(info.name);
     if (std::find(switches.begin(), switches.end(), name) == switches.end())
-        throw Error(fmt::format("--set {}: nothing is named {}; the switches are {}; the constants are {}", setting,
-                                name, fmt::join(switches, ", "), fmt::join(constants, ", ")));
+        throw Error(fmt::format("--set {}: nothing is named {}; the switches are {}; the constants are {}{}", setting,
+                                name, fmt::join(switches, ", "), fmt::join(constants, ", "), nearest_setting(name)));
     set_switch(scene.switches, name, text);
 }
 

@@ -40,9 +40,35 @@ TEST_CASE("arguments: an unknown verb, or none, is told with the verbs") {
     CHECK(refusal(run_lockstep({"--frames", "3"})) == "unknown option '--frames'" + help);
 }
 
+TEST_CASE("arguments: a slip is told with what was meant; another word is not") {
+    const auto says = [](const std::vector<std::string>& arguments) { return refusal(run_lockstep(arguments)); };
+    CHECK_THAT(says({"chekc", scene}), Catch::EndsWith("; did you mean check?" + help));
+    CHECK_THAT(says({"recrd", scene}), Catch::EndsWith("; did you mean record?" + help));
+    CHECK_THAT(says({"frobnicate"}), Catch::EndsWith(", manual" + help));
+    CHECK(says({"capsule", "shw"}) ==
+          "unknown verb 'shw'; the verbs of capsule are cut, show; did you mean show?" + help);
+    CHECK(says({"capsule"}) == "a verb is missing; the verbs of capsule are cut, show" + help);
+    CHECK(says({"check", scene, "--freams=3"}) == "unknown option '--freams=3'; did you mean --frames?" + help);
+    CHECK(says({"check", scene, "-x"}) == "unknown option '-x'" + help);
+    CHECK(says({"check", "data/scenes/latice.json"}) ==
+          "data/scenes/latice.json: cannot be read: No such file or directory; did you mean data/scenes/lattice.json?");
+    CHECK(says({"hash", "lattice"}) ==
+          "lattice: cannot be read: No such file or directory; did you mean data/scenes/lattice.json?");
+    CHECK(says({"hash", "nothing_like_it.json"}) == "nothing_like_it.json: cannot be read: No such file or directory");
+    CHECK_THAT(says({"check", scene, "--set", "base_texle=floor"}), Catch::EndsWith("; did you mean base_texel?"));
+    CHECK_THAT(says({"check", scene, "--set", "tik=1"}), Catch::EndsWith("; did you mean tick?"));
+}
+
+TEST_CASE("arguments: the version is printed") {
+    const test::Outcome outcome = run_lockstep({"--version"});
+    CHECK(outcome.status == 0);
+    CHECK(outcome.err.empty());
+    CHECK_THAT(outcome.out, Catch::Matches("lockstep [0-9]+[.][0-9]+[.][0-9]+\n"));
+}
+
 TEST_CASE("arguments: an unknown option, or a missing one, is named") {
     check_all({
-        {{"check", scene, "--particle", "3"}, "unknown option '--particle'" + help},
+        {{"check", scene, "--particle", "3"}, "unknown option '--particle'; did you mean --particles?" + help},
         {{"check"}, "check: a scene or --trace FILE is needed"},
         {{"debug"}, "scene is required" + help},
         {{"report"}, "trace is required" + help},

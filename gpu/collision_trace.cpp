@@ -10,7 +10,6 @@
 
 #include "gpu/check.hpp"
 #include "gpu/collision_pass.hpp"
-#include "gpu/glsl_type.hpp"
 #include "reference/model/collision_state.hpp"
 #include "reference/model/error.hpp"
 
@@ -28,8 +27,6 @@ std::vector<ShaderSource> trace_build(const Switches& switches, const std::files
     const std::array stages{Stage::vertex, Stage::geometry, Stage::fragment};
     return load_stages(shader_folders(shaders), "collision_pass", stages, defines);
 }
-
-int components(const Capture& capture) { return output_components(capture.type) * capture.size; }
 
 bool has_stage(std::span<const ShaderSource> stages, Stage stage) {
     return std::any_of(stages.begin(), stages.end(), [&](const ShaderSource& s) { return s.stage == stage; });
@@ -69,6 +66,12 @@ std::optional<ParticleState> state_of(const CapturedVertex& vertex, const std::s
     return state;
 }
 
+std::vector<CapturedVertex> capture(const VertexCapture& part, const FrameParams& params, const ParticleBuffer& from,
+                                    std::size_t particle, int instances) {
+    set_collision_uniforms(part.program(), params);
+    return part.run(from, particle, instances);
+}
+
 /// While it lives, nothing is drawn.
 struct NothingDrawn {
     NothingDrawn() { gl::Enable(GL_RASTERIZER_DISCARD); }
@@ -77,55 +80,7 @@ struct NothingDrawn {
     NothingDrawn& operator=(const NothingDrawn&) = delete;
 };
 
-template <class Vector> std::optional<Vector> vector_of(const CapturedOutput* output) {
-    if (output == nullptr)
-        return {};
-    Vector v;
-    for (int c = 0; c < Vector::length(); ++c)
-        v[c] = std::bit_cast<typename Vector::value_type>(output->words[static_cast<std::size_t>(c)]);
-    return v;
-}
-
 } // namespace
-
-float CapturedOutput::number(std::size_t component) const { return std::bit_cast<float>(words[component]); }
-
-std::int32_t CapturedOutput::integer(std::size_t component) const {
-    return std::bit_cast<std::int32_t>(words[component]);
-}
-
-const CapturedOutput* CapturedVertex::find(std::string_view name, std::string_view type) const {
-    const auto found = std::find_if(outputs.begin(), outputs.end(), [&](const CapturedOutput& output) {
-        return output.name == name && output.type == type;
-    });
-    return found == outputs.end() ? nullptr : &*found;
-}
-
-std::optional<float> CapturedVertex::real(std::string_view name) const {
-    const CapturedOutput* output = find(name, "float");
-    return output == nullptr ? std::nullopt : std::optional(output->number(0));
-}
-
-std::optional<std::int32_t> CapturedVertex::integer(std::string_view name) const {
-    const CapturedOutput* output = find(name, "int");
-    return output == nullptr ? std::nullopt : std::optional(output->integer(0));
-}
-
-std::optional<glm::ivec2> CapturedVertex::integers(std::string_view name) const {
-    return vector_of<glm::ivec2>(find(name, "ivec2"));
-}
-
-std::optional<glm::vec2> CapturedVertex::vec2(std::string_view name) const {
-    return vector_of<glm::vec2>(find(name, "vec2"));
-}
-
-std::optional<glm::vec3> CapturedVertex::vec3(std::string_view name) const {
-    return vector_of<glm::vec3>(find(name, "vec3"));
-}
-
-std::optional<glm::vec4> CapturedVertex::vec4(std::string_view name) const {
-    return vector_of<glm::vec4>(find(name, "vec4"));
-}
 
 CollisionTrace::CollisionTrace(const Switches& switches, const std::filesystem::path& shaders, int width, int height)
     : target_(width, height, switches.cdt_format) {
@@ -137,7 +92,7 @@ CollisionTrace::CollisionTrace(const Switches& switches, const std::filesystem::
     ordinary.push_back({"gl_Position", GL_FLOAT_VEC4});
     if (geometry)
         append(ordinary, outputs_with(prefix, stages));
-    whole_pass_ = parts("trace build of collision_pass", stages, ordinary);
+    whole_pass_ = vertex_captures("trace build of collision_pass", stages, ordinary);
     if (vertex == stages.end())
         return;
     const std::span<const ShaderSource> alone(&*vertex, 1);
@@ -147,88 +102,19 @@ CollisionTrace::CollisionTrace(const Switches& switches, const std::filesystem::
             for (const Capture& output : outputs_with(handed_on + member.name, alone))
                 if (output.name == handed_on + member.name)
                     traced.push_back(output);
-    vertex_stage_ = parts("trace build of collision_pass, vertex stage", alone, traced);
-}
-
-std::vector<CollisionTrace::Part> CollisionTrace::parts(const std::string& name, std::span<const ShaderSource> stages,
-                                                        std::span<const Capture> captured) {
-    GLint most = 0;
-    gl::GetIntegerv(GL_MAX_TRANSFORM_FEEDBACK_INTERLEAVED_COMPONENTS, &most);
-    std::vector<std::vector<Capture>> groups;
-    int room = 0;
-    for (const Capture& capture : captured) {
-        if (components(capture) == 0 || components(capture) > most)
-            throw Error(fmt::format("{}: output {} is {}, which cannot be captured; scalars, vectors and matrices of "
-                                    "float, int and uint can",
-                                    name, capture.name, declared_type(capture.type, capture.size)));
-        if (groups.empty() || components(capture) > room) {
-            groups.emplace_back();
-            room = most;
-        }
-        groups.back().push_back(capture);
-        room -= components(capture);
-    }
-    std::vector<Part> parts;
-    for (std::vector<Capture>& group : groups) {
-        Program program(name, stages, group);
-        parts.push_back({std::move(group), std::move(program)});
-    }
-    return parts;
-}
-
-std::vector<CapturedVertex> CollisionTrace::capture(const Part& part, const FrameParams& params,
-                                                    const ParticleBuffer& from, std::size_t particle, int instances) {
-    std::size_t words_each = 0;
-    for (const Capture& output : part.captured)
-        words_each += static_cast<std::size_t>(components(output));
-    set_collision_uniforms(part.program, params);
-    const GlVertexArray vertices = vertex_array(from, part.program);
-    gl::BindVertexArray(vertices.id());
-    const GlBuffer buffer;
-    const GlQuery written;
-    const auto count = static_cast<std::size_t>(instances);
-    std::vector<std::uint32_t> words(count * words_each);
-    const auto bytes = static_cast<GLsizeiptr>(words.size() * sizeof(std::uint32_t));
-    gl::BindBufferBase(GL_TRANSFORM_FEEDBACK_BUFFER, 0, buffer.id());
-    gl::BufferData(GL_TRANSFORM_FEEDBACK_BUFFER, bytes, nullptr, GL_STREAM_READ);
-    part.program.use();
-    gl::BeginQuery(GL_TRANSFORM_FEEDBACK_PRIMITIVES_WRITTEN, written.id());
-    gl::BeginTransformFeedback(GL_POINTS);
-    gl::DrawArraysInstanced(GL_POINTS, static_cast<GLint>(particle), 1, instances);
-    gl::EndTransformFeedback();
-    gl::EndQuery(GL_TRANSFORM_FEEDBACK_PRIMITIVES_WRITTEN);
-    GLuint points = 0;
-    gl::GetQueryObjectuiv(written.id(), GL_QUERY_RESULT, &points);
-    gl::GetBufferSubData(GL_TRANSFORM_FEEDBACK_BUFFER, 0, bytes, words.data());
-    gl::BindBufferBase(GL_TRANSFORM_FEEDBACK_BUFFER, 0, 0);
-    gl::BindVertexArray(0);
-    check_gl(part.program.name());
-    if (points != static_cast<GLuint>(instances))
-        throw Error(
-            fmt::format("{}: transform feedback wrote {} points for {}", part.program.name(), points, instances));
-
-    std::vector<CapturedVertex> captured(count);
-    auto word = words.cbegin();
-    for (CapturedVertex& vertex : captured)
-        for (const Capture& output : part.captured) {
-            const auto end = word + components(output);
-            vertex.outputs.push_back({output.name, declared_type(output.type, output.size), is_float_type(output.type),
-                                      std::vector<std::uint32_t>(word, end)});
-            word = end;
-        }
-    return captured;
+    vertex_stage_ = vertex_captures("trace build of collision_pass, vertex stage", alone, traced);
 }
 
 void CollisionTrace::capture_vertex_stage(const FrameParams& params, const ParticleBuffer& from, std::size_t particle,
                                           StepCapture& step) const {
     const NothingDrawn guard;
-    for (const Part& part : vertex_stage_)
+    for (const VertexCapture& part : vertex_stage_)
         append(step.vertex, capture(part, params, from, particle, 1).front());
     const int instances = std::clamp(step.vertex.integer(neighbour_count).value_or(1), 0, most_neighbours);
     take(step.vertex, neighbour_prefix);
     step.neighbours.resize(static_cast<std::size_t>(instances));
     if (instances > 0)
-        for (const Part& part : vertex_stage_) {
+        for (const VertexCapture& part : vertex_stage_) {
             std::vector<CapturedVertex> captured = capture(part, params, from, particle, instances);
             for (std::size_t i = 0; i < captured.size(); ++i)
                 append(step.neighbours[i], take(captured[i], neighbour_prefix));
@@ -245,7 +131,7 @@ void CollisionTrace::capture_whole_pass(const FrameParams& params, const Particl
     target_.clear();
     gl::Enable(GL_DEPTH_TEST);
     gl::DepthFunc(GL_LESS);
-    for (const Part& part : whole_pass_)
+    for (const VertexCapture& part : whole_pass_)
         append(step.last, capture(part, params, from, particle, 1).front());
     step.state = state_of(step.last, "out_").value_or(ParticleState{});
     step.position = step.last.vec4("gl_Position").value_or(glm::vec4(0.0F));

@@ -1,11 +1,7 @@
 #pragma once
 #include <cstddef>
-#include <cstdint>
 #include <filesystem>
 #include <optional>
-#include <span>
-#include <string>
-#include <string_view>
 #include <vector>
 
 #include <glm/vec2.hpp>
@@ -14,37 +10,11 @@
 
 #include "gpu/collision_texture.hpp"
 #include "gpu/particle_buffer.hpp"
-#include "gpu/program.hpp"
+#include "gpu/vertex_capture.hpp"
 #include "reference/model/particles.hpp"
 #include "reference/model/scene.hpp"
 
 namespace lockstep {
-
-/// A captured output, bit for bit.
-struct CapturedOutput {
-    std::string name;
-    std::string type;                 ///< as GLSL names it
-    bool is_float = true;             ///< else integers
-    std::vector<std::uint32_t> words; ///< its components
-
-    [[nodiscard]] float number(std::size_t component) const;
-    [[nodiscard]] std::int32_t integer(std::size_t component) const;
-};
-
-/// Captured outputs of one vertex.
-class CapturedVertex {
-  public:
-    std::vector<CapturedOutput> outputs;
-
-    /// Null where there is none of that name and type.
-    [[nodiscard]] const CapturedOutput* find(std::string_view name, std::string_view type) const;
-    [[nodiscard]] std::optional<float> real(std::string_view name) const;
-    [[nodiscard]] std::optional<std::int32_t> integer(std::string_view name) const;
-    [[nodiscard]] std::optional<glm::ivec2> integers(std::string_view name) const;
-    [[nodiscard]] std::optional<glm::vec2> vec2(std::string_view name) const;
-    [[nodiscard]] std::optional<glm::vec3> vec3(std::string_view name) const;
-    [[nodiscard]] std::optional<glm::vec4> vec4(std::string_view name) const;
-};
 
 /// What one particle's step computed on the GPU.
 struct StepCapture {
@@ -74,23 +44,14 @@ class CollisionTrace {
                                   const CollisionTexture& cdt);
 
   private:
-    /// Outputs that one draw can capture, and the program that does.
-    struct Part {
-        std::vector<Capture> captured;
-        Program program;
-    };
-    static std::vector<Part> parts(const std::string& name, std::span<const ShaderSource> stages,
-                                   std::span<const Capture> captured);
-    static std::vector<CapturedVertex> capture(const Part& part, const FrameParams& params, const ParticleBuffer& from,
-                                               std::size_t particle, int instances);
     void capture_vertex_stage(const FrameParams& params, const ParticleBuffer& from, std::size_t particle,
                               StepCapture& step) const;
     void capture_whole_pass(const FrameParams& params, const ParticleBuffer& from, std::size_t particle,
                             StepCapture& step);
 
     CollisionTexture target_;
-    std::vector<Part> vertex_stage_; ///< the vertex stage by itself
-    std::vector<Part> whole_pass_;
+    std::vector<VertexCapture> vertex_stage_; ///< the vertex stage by itself
+    std::vector<VertexCapture> whole_pass_;
 };
 
 } // namespace lockstep

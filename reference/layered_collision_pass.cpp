@@ -9,6 +9,7 @@
 #include <optional>
 #include <utility>
 
+#include "reference/collision/layered_twin.hpp"
 #include "reference/collision_code.hpp"
 #include "reference/collision_pass.hpp"
 #include "reference/layered_search.hpp"
@@ -19,90 +20,6 @@
 
 namespace lockstep {
 namespace {
-
-/// One particle's step. `A`: the arithmetic (arithmetic.hpp).
-template <class A> class LayeredStep {
-  public:
-    LayeredStep(A fp, const CollisionImage& cdt, const FrameParams& params)
-        : fp_(fp), params_(params), search_(fp, cdt, params), answer_(fp, params) {}
-
-    [[nodiscard]] ParticleState operator()(const ParticleState& before) const {
-        const ParticleState a = answer_.flushed(before);
-        if (a.collide_time < 0.0F) {
-            if (params_.switches.response == Response::mutual) {
-                if (const auto velocity = velocity_after_contacts(a))
-                    return rebound(a, *velocity);
-            } else if (const auto nearest = search_.nearest(a.position)) {
-                return answer_.collide(a, nearest->away);
-            }
-        }
-        return answer_.integrate(a);
-    }
-
-  private:
-    /// The velocity after all contacts at once; none where there is no contact. Positions and velocities are taken as
-    /// stored, the own ones too, so that both of a pair compute with the same numbers.
-    [[nodiscard]] std::optional<glm::vec3> velocity_after_contacts(const ParticleState& a) const {
-        const glm::vec3 velocity = fp_.scale(a.direction, a.speed);
-        const glm::vec3 self = search_.as_stored(a.position);
-        const glm::vec3 self_velocity = search_.as_stored(velocity);
-        glm::vec3 change(0.0F);
-        bool hit = false, seen = false;
-        float least = 100000.0F;
-        std::optional<glm::vec3> wall;
-        search_.for_each_stored(a.position, [&](StoredAt at, glm::vec3 stored) {
-            const bool obstacle = at.layer < 0;
-            const glm::vec3 apart = fp_.flush(self - stored);
-            const float length = fp_.length(apart);
-            seen = seen || (!obstacle && stored == self);
-            if (stored == self || length == 0.0F || !(params_.constants.collision_range > length))
-                return;
-            if (obstacle) {
-                if (length < least) {
-                    least = length;
-                    wall = apart;
-                }
-                return;
-            }
-            const glm::vec4 other = search_.velocity(at);
-            const glm::vec3 relative = fp_.flush(self_velocity - fp_.flush(glm::vec3(other)));
-            if (other.a == 0.0F || !(fp_.dot(relative, apart) < 0.0F))
-                return;
-            change = fp_.flush(change + bounce(relative, apart, 0.5F));
-            hit = true;
-        });
-        hit = hit && seen;
-        glm::vec3 after = hit ? fp_.flush(velocity + change) : velocity;
-        if (wall && fp_.dot(after, *wall) < 0.0F) {
-            after = fp_.flush(after + bounce(after, *wall, 1.0F));
-            hit = true;
-        }
-        return hit ? std::optional(after) : std::nullopt;
-    }
-
-    /// What a contact adds to the velocity: -share * (1 + restitution) * the component of `relative` along `apart`.
-    [[nodiscard]] glm::vec3 bounce(glm::vec3 relative, glm::vec3 apart, float share) const {
-        const float restitution = params_.switches.speed_factor;
-        const float part = fp_.divide(fp_.dot(relative, apart), fp_.dot(apart, apart));
-        const float weight = fp_.flush(-share * fp_.flush(1.0F + fp_.flush(restitution)));
-        return fp_.scale(apart, fp_.flush(part * weight));
-    }
-
-    [[nodiscard]] ParticleState rebound(const ParticleState& a, glm::vec3 velocity) const {
-        ParticleState v;
-        v.speed = fp_.length(velocity);
-        v.direction = v.speed == 0.0F ? a.direction : fp_.normalize(velocity);
-        v.collide_time = params_.constants.collision_time;
-        const bool tick = params_.switches.collision_step == CollisionStep::tick;
-        v.position = fp_.flush(a.position + (tick ? fp_.scale(velocity, params_.constants.tick) : velocity));
-        return v;
-    }
-
-    A fp_;
-    const FrameParams& params_;
-    LayeredSearch<A> search_;
-    ParticleStep<A> answer_;
-};
 
 /// Where each particle is drawn, its depth a multiple of 2^-24.
 template <class A> std::vector<PointFragment> place(A fp, std::span<const glm::vec3> positions,
@@ -174,14 +91,19 @@ void update_particles_layered(const Particles& before, const CollisionImage& cdt
     assert(cdt.height == params.height * cdt_planes(params.switches).count());
     after.resize(before.size());
     const auto count = static_cast<std::ptrdiff_t>(before.size());
-    with_arithmetic(profile, params.switches, [&](auto fp) {
-        const LayeredStep step(fp, cdt, params);
+    with_arithmetic(profile, params.switches, [&]<class A>(A fp) {
 #pragma omp parallel
         {
             const FlushSubnormals guard(profile.flush_subnormals);
+            Values<A> values(fp);
+            const LayeredTwin step(values, cdt, params);
 #pragma omp for schedule(dynamic, 1024)
-            for (std::ptrdiff_t i = 0; i < count; ++i)
-                after.set(static_cast<std::size_t>(i), step(before[static_cast<std::size_t>(i)]));
+            for (std::ptrdiff_t i = 0; i < count; ++i) {
+                const auto v = step(before[static_cast<std::size_t>(i)]);
+                after.set(static_cast<std::size_t>(i),
+                          {floats(v.position), floats(v.direction), static_cast<float>(v.speed),
+                           static_cast<float>(v.collide_time)});
+            }
         }
     });
 }

@@ -37,14 +37,6 @@ template <class State> LegalOutcome as_outcome(const State& state) {
     return v;
 }
 
-TieKind tie_kind(const Site& site) {
-    if (&site == &site::searches)
-        return TieKind::search;
-    if (&site == &site::in_range)
-        return TieKind::collision_range;
-    return &site == &site::nearest ? TieKind::nearest : TieKind::base_texel;
-}
-
 /// One tie for all decisions of a kind.
 std::vector<Tie> ties(std::span<const Fork> forks) {
     std::vector<Tie> found;
@@ -52,7 +44,7 @@ std::vector<Tie> ties(std::span<const Fork> forks) {
         for (const OpenDecision& decision : fork.decisions) {
             if (decision.site == nullptr)
                 continue;
-            const TieKind kind = tie_kind(*decision.site);
+            const TieKind kind{decision.site->label, decision.site->unit};
             if (!found.empty() && found.back().kind == kind)
                 found.back().margin = std::min(found.back().margin, decision.margin);
             else
@@ -75,41 +67,6 @@ void add(std::vector<LegalOutcome>& outcomes, LegalOutcome outcome) {
 }
 
 } // namespace
-
-std::string_view tie_name(TieKind kind) {
-    switch (kind) {
-    case TieKind::search:
-        return "search";
-    case TieKind::base_texel:
-        return "base texel";
-    case TieKind::collision_range:
-        return "collision range";
-    case TieKind::nearest:
-        return "nearest";
-    case TieKind::point_edge:
-        return "point edge";
-    case TieKind::depth:
-        return "depth";
-    }
-    return "";
-}
-
-std::string_view tie_unit(TieKind kind) {
-    switch (kind) {
-    case TieKind::search:
-        return "s";
-    case TieKind::base_texel:
-        return "/256 texel";
-    case TieKind::collision_range:
-    case TieKind::nearest:
-        return "world units";
-    case TieKind::point_edge:
-        return "/256 pixel";
-    case TieKind::depth:
-        return "of depth";
-    }
-    return "";
-}
 
 std::string_view undefined_name(Undefined reason) {
     switch (reason) {

@@ -10,26 +10,10 @@
 #include "reference/model/particles.hpp"
 #include "reference/model/profile.hpp"
 #include "reference/model/scene.hpp"
+#include "reference/tie.hpp"
 #include "reference/undefined.hpp"
 
 namespace lockstep {
-
-/// A decision of the pass that legal rounding can take either way, and how far its operands are from the border.
-enum class TieKind {
-    search,          ///< collide time a subnormal below 0; margin in seconds
-    base_texel,      ///< image position at a texel's edge; margin in 1/256 texel
-    collision_range, ///< a distance at the collision range; margin in world units
-    nearest,         ///< two distances as good as equal; margin: their difference, world units
-    point_edge,      ///< window position at a pixel's edge; margin in 1/256 pixel
-    depth,           ///< two depths as good as equal; margin: their difference, window depth
-};
-std::string_view tie_name(TieKind kind);
-std::string_view tie_unit(TieKind kind);
-
-struct Tie {
-    TieKind kind = TieKind::base_texel;
-    double margin = 0.0;
-};
 
 /// One way a particle's step may legally go, and what its fields may then be. Fields are sets of floats; a state is
 /// legal when all of its fields lie in the same outcome.

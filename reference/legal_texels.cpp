@@ -436,9 +436,9 @@ std::vector<Tie> LegalTexel::ties(const TexelOwner& owner) const {
     if (reference != owners.end() && !reference->sure)
         edge = std::min(edge, reference->edge_margin);
     if (edge < HUGE_VAL)
-        ties.push_back({TieKind::point_edge, edge});
+        ties.push_back({point_edge_tie, edge});
     else if (reference != owners.end())
-        ties.push_back({TieKind::depth, std::abs(middle(owner.depth) - middle(reference->depth))});
+        ties.push_back({depth_tie, std::abs(middle(owner.depth) - middle(reference->depth))});
     return ties;
 }
 

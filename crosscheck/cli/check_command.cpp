@@ -36,6 +36,7 @@
 #include "crosscheck/scene/run_text.hpp"
 #include "gpu/context.hpp"
 #include "gpu/simulation.hpp"
+#include "reference/model/collision_state.hpp"
 #include "reference/model/error.hpp"
 #include "reference/model/layered_cdt.hpp"
 
@@ -65,7 +66,7 @@ std::string repeat_line(const Options& options, int frames) {
 }
 
 std::string explain_line(const Options& options, const Place& place, int width) {
-    const std::string at = place_arguments(place, width);
+    const std::string at = place_arguments(place, collision_schema(), width);
     return (options.trace.empty() ? command_line("explain", options.run, at)
                                   : fmt::format("lockstep explain --trace {} {}", shell_path(options.trace), at)) +
            legal_option_text(options.legal);
@@ -163,7 +164,10 @@ SecondLook look_again(const Options& options, const Checked& checked, const std:
     };
     for (const PageItem& item : items)
         look.items.push_back(
-            {item, explain_line(options, {item.frame, item.texel, item.index}, scene.width), explanation(item)});
+            {item,
+             explain_line(options, {item.frame, item.texel ? collision::cdt : collision::particles, item.index},
+                          scene.width),
+             explanation(item)});
     return look;
 }
 

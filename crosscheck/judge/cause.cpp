@@ -40,7 +40,7 @@ std::vector<std::size_t> divergent(const std::vector<ItemVerdict>& verdicts) {
     return indices;
 }
 
-Deviations together(const Cause& cause) {
+Deviations together(const TriedCause& cause) {
     Deviations set;
     for (const Deviation deviation : cause.deviations)
         set.add(deviation);
@@ -48,7 +48,7 @@ Deviations together(const Cause& cause) {
 }
 
 /// Says what is seen, and so cannot be wrong where it explains everything; other causes of it are guesses.
-bool describes(const Cause& cause) {
+bool describes(const TriedCause& cause) {
     return std::all_of(cause.deviations.begin(), cause.deviations.end(), [](Deviation deviation) {
         return deviation == Deviation::never_collides || deviation == Deviation::cdt_not_drawn ||
                deviation == Deviation::obstacles_not_drawn;
@@ -56,22 +56,24 @@ bool describes(const Cause& cause) {
 }
 
 /// More explained than contradicted; then the simpler.
-bool better(const Cause& a, const Cause& b) {
-    const auto balance = [](const Cause& c) {
+bool better(const TriedCause& a, const TriedCause& b) {
+    const auto balance = [](const TriedCause& c) {
         return static_cast<std::int64_t>(c.contradicted) - static_cast<std::int64_t>(c.explained);
     };
     return std::tuple(balance(a), a.deviations.size()) < std::tuple(balance(b), b.deviations.size());
 }
 
 /// `better`, with a description before its equals.
-bool before(const Cause& a, const Cause& b) { return better(a, b) || (!better(b, a) && describes(a) && !describes(b)); }
+bool before(const TriedCause& a, const TriedCause& b) {
+    return better(a, b) || (!better(b, a) && describes(a) && !describes(b));
+}
 
-bool is_whole(const Cause& cause, std::uint64_t divergent) {
+bool is_whole(const TriedCause& cause, std::uint64_t divergent) {
     return cause.explained == divergent && cause.contradicted == 0;
 }
 
-std::vector<Cause> singles(bool (*wanted)(Deviation, bool), bool places_points) {
-    std::vector<Cause> causes;
+std::vector<TriedCause> singles(bool (*wanted)(Deviation, bool), bool places_points) {
+    std::vector<TriedCause> causes;
     for (const DeviationInfo& info : deviation_table())
         if (wanted(info.deviation, places_points))
             causes.push_back({{info.deviation}});
@@ -80,8 +82,8 @@ std::vector<Cause> singles(bool (*wanted)(Deviation, bool), bool places_points) 
 
 bool for_steps(Deviation deviation, bool) { return changes_step(deviation); }
 
-std::vector<Cause> pairs(const std::vector<Cause>& alone) {
-    std::vector<Cause> causes;
+std::vector<TriedCause> pairs(const std::vector<TriedCause>& alone) {
+    std::vector<TriedCause> causes;
     for (std::size_t a = 0; a < alone.size(); ++a)
         for (std::size_t b = a + 1; b < alone.size(); ++b)
             if (alone[a].deviations.size() == 1 && alone[b].deviations.size() == 1)
@@ -131,7 +133,7 @@ bool alike(const ParticleState& a, const ParticleState& b, float tick, AllowedUl
 }
 
 /// Counts, for each cause, the particles it explains and contradicts.
-void count_particles(std::vector<Cause>& causes, const JudgedFrame& frame, const FrameInputs& inputs,
+void count_particles(std::vector<TriedCause>& causes, const JudgedFrame& frame, const FrameInputs& inputs,
                      const std::vector<std::size_t>& divergent, const std::vector<std::size_t>& agreeing) {
     const auto n = static_cast<std::ptrdiff_t>(causes.size());
     const AllowedUlps allowed(frame.profile);
@@ -139,7 +141,7 @@ void count_particles(std::vector<Cause>& causes, const JudgedFrame& frame, const
     const bool worth_threads = causes.size() * (divergent.size() + agreeing.size()) > 100'000;
 #pragma omp parallel for schedule(dynamic) if (worth_threads)
     for (std::ptrdiff_t c = 0; c < n; ++c) {
-        Cause& cause = causes[static_cast<std::size_t>(c)];
+        TriedCause& cause = causes[static_cast<std::size_t>(c)];
         const Deviations deviations = together(cause);
         const auto explains = [&](std::size_t i) {
             return alike(deviating_step(inputs, i, frame.profile, deviations), frame.gpu[i], tick, allowed);
@@ -168,12 +170,12 @@ class TexelTrials {
                 agreeing_.push_back(texel);
     }
 
-    void count(std::vector<Cause>& causes, const std::vector<std::size_t>& divergent) const {
+    void count(std::vector<TriedCause>& causes, const std::vector<std::size_t>& divergent) const {
         const auto n = static_cast<std::ptrdiff_t>(causes.size());
         const bool worth_threads = causes.size() * (frame_.gpu.size() + agreeing_.size()) > 100'000;
 #pragma omp parallel for schedule(dynamic) if (worth_threads)
         for (std::ptrdiff_t c = 0; c < n; ++c) {
-            Cause& cause = causes[static_cast<std::size_t>(c)];
+            TriedCause& cause = causes[static_cast<std::size_t>(c)];
             const CollisionImage drawn = draw(together(cause));
             const auto equal = [&](const std::vector<std::size_t>& texels) {
                 return static_cast<std::uint64_t>(std::count_if(texels.begin(), texels.end(), [&](std::size_t texel) {
@@ -187,7 +189,7 @@ class TexelTrials {
         }
     }
 
-    [[nodiscard]] std::uint64_t contradicted(const Cause& cause) const {
+    [[nodiscard]] std::uint64_t contradicted(const TriedCause& cause) const {
         const CollisionImage drawn = draw(together(cause));
         return static_cast<std::uint64_t>(std::count_if(agreeing_.begin(), agreeing_.end(), [&](std::size_t texel) {
             return !same_bits(drawn.texels[texel], frame_.gpu_cdt.texels[texel]);
@@ -209,10 +211,10 @@ class TexelTrials {
 };
 
 /// A wrong u_ProjView would show in what is drawn, too.
-void contradict_by_drawing(std::vector<Cause>& causes, std::size_t divergent, const JudgedFrame& frame,
+void contradict_by_drawing(std::vector<TriedCause>& causes, std::size_t divergent, const JudgedFrame& frame,
                            const FrameInputs& inputs) {
-    std::vector<Cause*> suspects;
-    for (Cause& cause : causes)
+    std::vector<TriedCause*> suspects;
+    for (TriedCause& cause : causes)
         if (cause.explained >= divergent && cause.contradicted == 0 &&
             std::any_of(cause.deviations.begin(), cause.deviations.end(), [](Deviation deviation) {
                 return deviation == Deviation::transposed_matrix || deviation == Deviation::matrix_of_earlier_frame;
@@ -221,16 +223,16 @@ void contradict_by_drawing(std::vector<Cause>& causes, std::size_t divergent, co
     if (suspects.empty())
         return;
     const TexelTrials trials(frame, inputs);
-    for (Cause* cause : suspects)
+    for (TriedCause* cause : suspects)
         cause->contradicted += trials.contradicted(*cause);
 }
 
 /// What is drawn in a wrong place because the step computes it wrongly would show in the particles, too.
-void contradict_by_steps(std::vector<Cause>& causes, std::size_t divergent, const JudgedFrame& frame,
+void contradict_by_steps(std::vector<TriedCause>& causes, std::size_t divergent, const JudgedFrame& frame,
                          const FrameInputs& inputs, const std::vector<std::size_t>& agreeing) {
     const AllowedUlps allowed(frame.profile);
     const float tick = frame.params.constants.tick;
-    for (Cause& cause : causes) {
+    for (TriedCause& cause : causes) {
         if (cause.explained < divergent || std::none_of(cause.deviations.begin(), cause.deviations.end(), changes_step))
             continue;
         const Deviations deviations = together(cause);
@@ -254,7 +256,7 @@ std::vector<std::size_t> agreeing_particles(const JudgedFrame& frame, const Fram
 }
 
 /// The best few.
-std::vector<Cause> best_of(std::vector<Cause> causes, std::size_t count) {
+std::vector<TriedCause> best_of(std::vector<TriedCause> causes, std::size_t count) {
     std::stable_sort(causes.begin(), causes.end(), before);
     if (causes.size() > count)
         causes.resize(count);
@@ -262,27 +264,20 @@ std::vector<Cause> best_of(std::vector<Cause> causes, std::size_t count) {
 }
 
 /// What has failed to explain everything stays so: only the best of that is kept, to be told as a part.
-void drop_hopeless(std::vector<Cause>& causes, std::uint64_t divergent) {
+void drop_hopeless(std::vector<TriedCause>& causes, std::uint64_t divergent) {
     std::stable_sort(causes.begin(), causes.end(), before);
     const auto failed = std::stable_partition(causes.begin(), causes.end(),
-                                              [&](const Cause& cause) { return is_whole(cause, divergent); });
+                                              [&](const TriedCause& cause) { return is_whole(cause, divergent); });
     if (causes.end() - failed > parts_kept)
         causes.erase(failed + parts_kept, causes.end());
 }
 
-void forget_counts(std::vector<Cause>& causes) {
-    for (Cause& cause : causes)
+void forget_counts(std::vector<TriedCause>& causes) {
+    for (TriedCause& cause : causes)
         cause.explained = cause.contradicted = 0;
 }
 
 } // namespace
-
-std::string Cause::name() const {
-    std::string text;
-    for (const Deviation deviation : deviations)
-        text += (text.empty() ? "" : " + ") + std::string(deviation_name(deviation));
-    return text;
-}
 
 void CauseFinder::add(const JudgedFrame& frame, const FrameVerdicts& verdicts, const FrameInputs& inputs) {
     try_on_particles(frame, verdicts, inputs);
@@ -291,7 +286,7 @@ void CauseFinder::add(const JudgedFrame& frame, const FrameVerdicts& verdicts, c
 
 /// `count(causes, divergent)` adds a frame's counts to causes; `pairs()` gives those worth trying.
 template <class Count, class Pairs>
-void CauseFinder::hold_against(Trial& trial, const std::vector<std::size_t>& divergent, std::vector<Cause> singles,
+void CauseFinder::hold_against(Trial& trial, const std::vector<std::size_t>& divergent, std::vector<TriedCause> singles,
                                const Count& count, const Pairs& pairs) {
     if (divergent.empty())
         return;
@@ -301,12 +296,12 @@ void CauseFinder::hold_against(Trial& trial, const std::vector<std::size_t>& div
     if (first)
         trial.causes = std::move(singles);
     const auto whole_ones = [&] {
-        std::vector<Cause> whole = best_of(trial.causes, whole_kept);
-        std::erase_if(whole, [&](const Cause& cause) { return !is_whole(cause, trial.divergent); });
+        std::vector<TriedCause> whole = best_of(trial.causes, whole_kept);
+        std::erase_if(whole, [&](const TriedCause& cause) { return !is_whole(cause, trial.divergent); });
         return whole;
     };
     if (!tries) {
-        std::vector<Cause> whole = whole_ones();
+        std::vector<TriedCause> whole = whole_ones();
         if (whole.empty())
             return;
         count(whole, divergent);
@@ -318,11 +313,11 @@ void CauseFinder::hold_against(Trial& trial, const std::vector<std::size_t>& div
     count(trial.causes, some);
     trial.divergent += some.size();
     if (first && whole_ones().empty()) {
-        const std::vector<Cause> two = pairs();
+        const std::vector<TriedCause> two = pairs();
         trial.causes.insert(trial.causes.end(), two.begin(), two.end());
     }
     drop_hopeless(trial.causes, trial.divergent);
-    std::vector<Cause> whole = whole_ones();
+    std::vector<TriedCause> whole = whole_ones();
     if (whole.empty() || some.size() == divergent.size())
         return;
     std::vector<std::size_t> rest;
@@ -335,12 +330,12 @@ void CauseFinder::hold_against(Trial& trial, const std::vector<std::size_t>& div
 void CauseFinder::try_on_particles(const JudgedFrame& frame, const FrameVerdicts& verdicts, const FrameInputs& inputs) {
     const std::vector<std::size_t> equal = agreeing_particles(frame, verdicts);
     const std::vector<std::size_t> wrong = divergent(verdicts.particles);
-    const auto count = [&](std::vector<Cause>& causes, const std::vector<std::size_t>& items) {
+    const auto count = [&](std::vector<TriedCause>& causes, const std::vector<std::size_t>& items) {
         count_particles(causes, frame, inputs, items, equal);
         contradict_by_drawing(causes, items.size(), frame, inputs);
     };
     const auto best_pairs = [&] {
-        std::vector<Cause> two = pairs(particles_.causes);
+        std::vector<TriedCause> two = pairs(particles_.causes);
         // Where one explains nearly all, the other shows in the rest.
         const Deviations best = together(best_of(particles_.causes, 1).front());
         std::vector<std::size_t> rest;
@@ -374,15 +369,15 @@ void CauseFinder::try_on_texels(const JudgedFrame& frame, const FrameVerdicts& v
         return;
     const TexelTrials trials(frame, inputs);
     const std::vector<std::size_t> equal = agreeing_particles(frame, verdicts);
-    const auto count = [&](std::vector<Cause>& causes, const std::vector<std::size_t>& items) {
+    const auto count = [&](std::vector<TriedCause>& causes, const std::vector<std::size_t>& items) {
         trials.count(causes, items);
         contradict_by_steps(causes, items.size(), frame, inputs, equal);
     };
     const auto best_pairs = [&] {
         // Each trial draws a whole image: only what explains something alone is worth a partner.
-        std::vector<Cause> two = pairs(texels_.causes);
-        std::erase_if(two, [&](const Cause& pair) {
-            return std::none_of(texels_.causes.begin(), texels_.causes.end(), [&](const Cause& alone) {
+        std::vector<TriedCause> two = pairs(texels_.causes);
+        std::erase_if(two, [&](const TriedCause& pair) {
+            return std::none_of(texels_.causes.begin(), texels_.causes.end(), [&](const TriedCause& alone) {
                 return alone.explained > 0 && (alone.deviations.front() == pair.deviations.front() ||
                                                alone.deviations.front() == pair.deviations.back());
             });
@@ -394,16 +389,26 @@ void CauseFinder::try_on_texels(const JudgedFrame& frame, const FrameVerdicts& v
     hold_against(texels_, wrong, singles(changes_drawing, places_points), count, best_pairs);
 }
 
+Cause as_cause(const TriedCause& tried) {
+    Cause cause{{}, {}, tried.explained, tried.contradicted};
+    for (const Deviation deviation : tried.deviations) {
+        const DeviationInfo& info = deviation_table()[static_cast<std::size_t>(deviation)];
+        cause.mistakes.emplace_back(info.name);
+        cause.meaning += (cause.meaning.empty() ? "" : "; ") + std::string(info.meaning);
+    }
+    return cause;
+}
+
 CauseFindings CauseFinder::findings(const Trial& trial) {
     CauseFindings found;
     found.divergent = trial.divergent;
-    const std::vector<Cause> sorted = best_of(trial.causes, trial.causes.size());
-    for (const Cause& cause : sorted) {
+    const std::vector<TriedCause> sorted = best_of(trial.causes, trial.causes.size());
+    for (const TriedCause& cause : sorted) {
         if (cause.explained == 0)
             break;
-        if (!found.best.empty() && better(found.best.front(), cause))
+        if (!found.best.empty() && better(sorted.front(), cause))
             break;
-        found.best.push_back(cause);
+        found.best.push_back(as_cause(cause));
     }
     return found;
 }

@@ -2,15 +2,23 @@
 
 #include <algorithm>
 #include <chrono>
+#include <functional>
 #include <utility>
 
 #include <fmt/format.h>
 
+#include "crosscheck/judge/cause.hpp"
+#include "crosscheck/judge/diagnosis.hpp"
+#include "crosscheck/judge/item_cause.hpp"
+#include "crosscheck/judge/item_judge.hpp"
 #include "crosscheck/judge/side_state.hpp"
 #include "gpu/gpu_side.hpp"
+#include "reference/collision/collision_mistakes.hpp"
+#include "reference/collision/step_pass.hpp"
 #include "reference/model/collision_state.hpp"
 #include "reference/model/error.hpp"
 #include "reference/model/layered_cdt.hpp"
+#include "reference/model/same_bits.hpp"
 #include "reference/model/state_hash.hpp"
 #include "reference/simulation.hpp"
 
@@ -92,61 +100,168 @@ void note_difference(CheckReport& report, int frame, const Comparison& compariso
         report.worst.push_back({frame, difference});
 }
 
+/// What a frame of a resync run came to, on both sides; `earlier`: what the frame before started from, null in frame 0.
+struct RunFrame {
+    int number;
+    const FrameParams& params;
+    const State& before;
+    const State* earlier;
+    ReferenceSimulation& reference;
+    const State& gpu;
+};
+
 /// Judges the frames of a resync run that are not bit-equal.
 class RunJudge {
   public:
     /// `has_cdt`: texels are judged too.
     RunJudge(const Scene& scene, const Profile& profile, const KnownOperations& known, bool has_cdt)
-        : scene_(scene), profile_(profile), known_(known), has_cdt_(has_cdt) {
+        : scene_(scene), profile_(profile), known_(known), has_cdt_(has_cdt), named_(named_mistakes()),
+          step_causes_(named_) {
         summary_.judges_leans = can_judge_leans(known, profile);
     }
 
-    /// `earlier`: what the frame before started from, null for frame 0.
-    FrameVerdicts judge(int frame, const FrameParams& params, const State& before, const State* earlier,
-                        const ReferenceSimulation& reference, const State& gpu) {
+    FrameVerdicts judge(const RunFrame& frame) {
+        FrameVerdicts verdicts = drawn_by_listing() ? judge_listing(frame) : judge_step(frame);
+        summary_.add(frame.number, collision::particles, verdicts.particles);
+        summary_.add(frame.number, collision::cdt, verdicts.texels);
+        return verdicts;
+    }
+
+    [[nodiscard]] VerdictSummary summary() const {
+        VerdictSummary summary = summary_;
+        summary.causes[collision::particles] = drawn_by_listing() ? causes_.particles() : step_causes_.findings();
+        summary.causes[collision::cdt] = causes_.texels();
+        summary.convict_shift();
+        return summary;
+    }
+
+  private:
+    /// Of the listing's own pass steps and texels are judged together, and causes are sought in both.
+    [[nodiscard]] bool drawn_by_listing() const {
+        return scene_.switches.search == Search::cdt && !has_remedies(scene_.switches);
+    }
+
+    /// Whether there are divergent ones among the verdicts, and the first of them kept.
+    bool keep_first(const FrameVerdicts& verdicts,
+                    const std::function<std::optional<FirstDivergence>(DifferenceClass)>& first) {
+        const auto divergent = [](const std::vector<ItemVerdict>& items) {
+            return std::any_of(items.begin(), items.end(),
+                               [](const ItemVerdict& item) { return item.kind == DifferenceClass::divergent; });
+        };
+        const bool diverges = divergent(verdicts.particles) || divergent(verdicts.texels);
+        if (diverges && summary_.total(DifferenceClass::divergent) == 0)
+            summary_.first = first(DifferenceClass::divergent);
+        else if (!summary_.first)
+            summary_.first = first(DifferenceClass::undefined);
+        return diverges;
+    }
+
+    FrameVerdicts judge_listing(const RunFrame& f) {
         const JudgedFrame judged{
-            scene_.obstacles,      params,          profile_,      known_, before.particles, before.cdt,
-            reference.particles(), reference.cdt(), gpu.particles, gpu.cdt};
+            scene_.obstacles,        f.params,          profile_,        known_,   f.before.particles, f.before.cdt,
+            f.reference.particles(), f.reference.cdt(), f.gpu.particles, f.gpu.cdt};
         FrameVerdicts verdicts = lockstep::judge(judged);
         if (!has_cdt_)
             verdicts.texels.clear();
-        const std::uint64_t divergent_before = summary_.total(DifferenceClass::divergent);
-        summary_.add(frame, verdicts);
         if (summary_.judges_leans && !summary_.first_beyond_rounding)
-            summary_.first_beyond_rounding = first_tie_beyond_rounding(frame, judged, verdicts);
-        const bool diverges = summary_.total(DifferenceClass::divergent) > divergent_before;
-        if (diverges && divergent_before == 0)
-            summary_.first = first_of(DifferenceClass::divergent, frame, judged, verdicts);
-        else if (!summary_.first)
-            summary_.first = first_of(DifferenceClass::undefined, frame, judged, verdicts);
-        if (!diverges)
+            summary_.first_beyond_rounding = first_tie_beyond_rounding(f.number, judged, verdicts);
+        if (!keep_first(verdicts, [&](DifferenceClass kind) { return first_of(kind, f.number, judged, verdicts); }))
             return verdicts;
-        FrameInputs inputs{.before = &before.particles, .cdt = &before.cdt, .params = &params, .drawn_cdt = &gpu.cdt};
-        const FrameParams earlier_params = frame_params(scene_, std::max(frame - 1, 0));
-        if (earlier != nullptr) {
-            inputs.earlier = &earlier->particles;
-            inputs.earlier_cdt = &earlier->cdt;
+        FrameInputs inputs{
+            .before = &f.before.particles, .cdt = &f.before.cdt, .params = &f.params, .drawn_cdt = &f.gpu.cdt};
+        const FrameParams earlier_params = frame_params(scene_, std::max(f.number - 1, 0));
+        if (f.earlier != nullptr) {
+            inputs.earlier = &f.earlier->particles;
+            inputs.earlier_cdt = &f.earlier->cdt;
             inputs.earlier_params = &earlier_params;
         }
         causes_.add(judged, verdicts, inputs);
         return verdicts;
     }
 
-    [[nodiscard]] VerdictSummary summary() const {
-        VerdictSummary summary = summary_;
-        summary.particle_cause = causes_.particles();
-        summary.texel_cause = causes_.texels();
-        summary.convict_shift();
-        return summary;
+    FrameVerdicts judge_step(const RunFrame& f) {
+        const StepInputs inputs{f.before.particles, f.before.cdt, scene_.obstacles, f.params};
+        const auto pass = step_pass(inputs);
+        const SystemView before = step_state(inputs);
+        const View reference = view(f.reference.particles()), gpu = view(f.gpu.particles);
+        const JudgedPass judged{*pass, profile_, known_, f.number, before, reference, gpu};
+        FrameVerdicts verdicts{judge_items(judged), {}};
+        if (has_cdt_)
+            verdicts.texels = judge_drawn(f, verdicts.particles);
+        const bool diverges = keep_first(verdicts, [&](DifferenceClass kind) -> std::optional<FirstDivergence> {
+            for (const ItemVerdict& verdict : verdicts.particles)
+                if (verdict.kind == kind)
+                    return FirstDivergence{{f.number, collision::particles, verdict.index},
+                                           verdict,
+                                           wrong_step_of_item(judged, verdict.index)};
+            for (const ItemVerdict& verdict : verdicts.texels)
+                if (verdict.kind == kind)
+                    return FirstDivergence{{f.number, collision::cdt, verdict.index}, verdict, wrong_texel(f, verdict)};
+            return {};
+        });
+        if (diverges)
+            step_causes_.add(judged, verdicts.particles);
+        return verdicts;
     }
 
-  private:
+    /// What the reference draws of the GPU's own particles is what the GPU has to have drawn, as far as it is known how
+    /// the driver computes where that is.
+    std::vector<ItemVerdict> judge_drawn(const RunFrame& f, const std::vector<ItemVerdict>& particles) {
+        const std::vector<std::size_t> differing = differing_items(f.reference.cdt(), f.gpu.cdt);
+        std::vector<ItemVerdict> verdicts;
+        if (differing.empty())
+            return verdicts;
+        redrawn_ = f.gpu.cdt; // of its size
+        f.reference.draw(f.before.particles, f.gpu.particles, f.params, redrawn_);
+        ItemVerdict followed{.kind = DifferenceClass::rounding, .follows_particle = true};
+        for (const ItemVerdict& particle : particles)
+            followed.kind = std::max(followed.kind, particle.kind);
+        const bool known = known_.sums && known_.divide && known_.raster.triangles();
+        for (const std::size_t texel : differing) {
+            ItemVerdict verdict = followed;
+            if (particles.empty() || !same_bits(redrawn_.texels[texel], f.gpu.cdt.texels[texel]))
+                verdict = {.kind = known ? DifferenceClass::divergent : DifferenceClass::undefined,
+                           .undefined = known ? Undefined::none : Undefined::undecided};
+            verdict.index = texel;
+            verdicts.push_back(verdict);
+        }
+        return verdicts;
+    }
+
+    [[nodiscard]] WrongStep wrong_texel(const RunFrame& f, const ItemVerdict& verdict) const {
+        const View reference = view(redrawn_), gpu = view(f.gpu.cdt);
+        int component = 0;
+        while (component < 3 &&
+               same_bits(reference.value(0, verdict.index, component), gpu.value(0, verdict.index, component)))
+            ++component;
+        const Value expected = reference.value(0, verdict.index, component),
+                    got = gpu.value(0, verdict.index, component);
+        WrongStep wrong;
+        wrong.step = "drawn texel";
+        wrong.operation = "what is drawn of the GPU's own particles";
+        wrong.difference = {collision::texel, verdict.index, component, expected, got, distance(expected, got)};
+        return wrong;
+    }
+
+    /// The catalogue's mistakes of the step, in any pass that makes it.
+    static std::vector<NamedMistake> named_mistakes() {
+        std::vector<NamedMistake> named;
+        for (const DeviationInfo& info : deviation_table())
+            if (const auto mistake = step_mistake(info.deviation))
+                for (const char* pass : {"octree_pass", "layered_collision_pass"})
+                    named.push_back({std::string(info.name), std::string(info.meaning), pass, *mistake});
+        return named;
+    }
+
     const Scene& scene_;
     const Profile& profile_;
     KnownOperations known_;
     bool has_cdt_;
-    VerdictSummary summary_;
+    VerdictSummary summary_{collision_schema()};
+    CollisionImage redrawn_; ///< of the frame judged last
     CauseFinder causes_;
+    std::vector<NamedMistake> named_;
+    ItemCauseFinder step_causes_;
 };
 
 /// What agreed without having been put to the test.
@@ -186,10 +301,11 @@ CheckReport check(const Scene& scene, const Profile& profile, GpuSide& gpu, cons
     State before{scene.start, empty_cdt(scene)};
     State now = before;
     State earlier = before;
-    // Legal runs are known of the listing's pass alone: what differs with an octree or remedies is told, not judged.
     const bool has_cdt = gpu.has_cdt();
-    const bool judged =
-        options.mode == CheckMode::resync && scene.switches.search == Search::cdt && !has_remedies(scene.switches);
+    const FrameParams first_params = frame_params(scene, 0);
+    // What differs in a search that has no twin is told, not judged.
+    const bool judged = options.mode == CheckMode::resync &&
+                        step_pass({before.particles, before.cdt, scene.obstacles, first_params}) != nullptr;
     RunJudge judge(scene, profile, options.known.value_or(measured_operations(profile)), has_cdt);
     gpu.upload(before.particles, before.cdt);
 
@@ -243,7 +359,7 @@ CheckReport check(const Scene& scene, const Profile& profile, GpuSide& gpu, cons
         std::optional<FrameVerdicts> verdicts;
         if (judged && !comparison.agree()) {
             const Stopwatch watch(times.judge);
-            verdicts = judge.judge(frame, params, before, frame > 0 ? &earlier : nullptr, reference, now);
+            verdicts = judge.judge({frame, params, before, frame > 0 ? &earlier : nullptr, reference, now});
         }
         report.times.push_back(times);
         report.frames = frame + 1;

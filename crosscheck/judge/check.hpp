@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "crosscheck/judge/compare.hpp"
+#include "crosscheck/judge/verdict.hpp"
 #include "crosscheck/judge/verdict_summary.hpp"
 #include "reference/known_operations.hpp"
 #include "reference/model/profile.hpp"

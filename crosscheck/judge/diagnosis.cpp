@@ -271,4 +271,35 @@ WrongStep wrong_step_of_texel(const JudgedFrame& frame, std::size_t texel) {
     return wrong;
 }
 
+std::optional<FirstDivergence> first_of(DifferenceClass kind, int frame, const JudgedFrame& judged,
+                                        const FrameVerdicts& verdicts) {
+    const auto find = [&](const std::vector<ItemVerdict>& items) {
+        return std::find_if(items.begin(), items.end(), [&](const ItemVerdict& item) { return item.kind == kind; });
+    };
+    if (const auto found = find(verdicts.particles); found != verdicts.particles.end())
+        return FirstDivergence{
+            {frame, collision::particles, found->index}, *found, wrong_step_of_particle(judged, found->index)};
+    if (const auto found = find(verdicts.texels); found != verdicts.texels.end())
+        return FirstDivergence{
+            {frame, collision::cdt, found->index}, *found, wrong_step_of_texel(judged, found->index)};
+    return {};
+}
+
+bool can_judge_leans(const KnownOperations& known, const Profile& profile) {
+    const KnownRaster& raster = known.raster;
+    return raster.point_grid && raster.point_edges && raster.triangle_grid && raster.triangle_sides &&
+           profile.point_window_accurate != false && profile.corner_window_accurate != false;
+}
+
+std::optional<FirstDivergence> first_tie_beyond_rounding(int frame, const JudgedFrame& judged,
+                                                         const FrameVerdicts& verdicts) {
+    const auto found = std::find_if(verdicts.texels.begin(), verdicts.texels.end(), is_tie_beyond_rounding);
+    if (found == verdicts.texels.end())
+        return {};
+    ItemVerdict convicted = *found;
+    convicted.kind = DifferenceClass::divergent;
+    convicted.tie = std::nullopt;
+    return FirstDivergence{{frame, collision::cdt, found->index}, convicted, wrong_step_of_texel(judged, found->index)};
+}
+
 } // namespace lockstep

@@ -1,23 +1,26 @@
 #pragma once
 #include <cstddef>
-#include <string>
+#include <optional>
 
-#include "crosscheck/judge/compare.hpp"
 #include "crosscheck/judge/verdict.hpp"
+#include "crosscheck/judge/verdict_summary.hpp"
 
 namespace lockstep {
 
-/// The first step of the pass at which no legal run reaches what the GPU has, as far as what was captured tells:
-/// whether it hit, then speed, direction and position, then the texel.
-struct WrongStep {
-    std::string step;      ///< "search", "nearest", "speed", ...
-    std::string operation; ///< what the reference computed there, with its operands
-    std::string gpu;       ///< what the GPU must have done instead, where that is known; else empty
-    std::string margin;    ///< how far the GPU is from what is legal
-    Difference difference; ///< the field that shows it
-};
-
+/// Whether it hit, then speed, direction and position.
 WrongStep wrong_step_of_particle(const JudgedFrame& frame, std::size_t particle);
 WrongStep wrong_step_of_texel(const JudgedFrame& frame, std::size_t texel);
+
+/// The first item of a class in a frame: a particle if there is one, whose texel may only follow it.
+std::optional<FirstDivergence> first_of(DifferenceClass kind, int frame, const JudgedFrame& judged,
+                                        const FrameVerdicts& verdicts);
+
+/// Whether a shift of what is drawn is no tie, though each texel by itself may be one: the driver's grid was measured,
+/// and nothing says that its window coordinates are less accurate than GLSL's.
+bool can_judge_leans(const KnownOperations& known, const Profile& profile);
+
+/// The first texel that by itself is a tie, and that a shift explains better than rounding.
+std::optional<FirstDivergence> first_tie_beyond_rounding(int frame, const JudgedFrame& judged,
+                                                         const FrameVerdicts& verdicts);
 
 } // namespace lockstep

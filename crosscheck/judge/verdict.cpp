@@ -9,6 +9,7 @@
 #include <glm/common.hpp>
 
 #include "crosscheck/judge/compare.hpp"
+#include "reference/collision/sites.hpp"
 #include "reference/collision_pass.hpp"
 #include "reference/legal_texels.hpp"
 #include "reference/model/collision_state.hpp"
@@ -37,12 +38,11 @@ bool decides_alike(const LegalOutcome& outcome, const StepTrace& reference, cons
 
 /// The tie that led to `outcome` instead of the reference's.
 std::optional<Tie> deciding_tie(const LegalOutcome& outcome, const StepTrace& reference) {
-    const auto of_kind = [&](TieKind kind) {
-        return std::find_if(outcome.ties.begin(), outcome.ties.end(), [&](const Tie& t) { return t.kind == kind; });
-    };
+    const auto nearest = std::find_if(outcome.ties.begin(), outcome.ties.end(),
+                                      [](const Tie& tie) { return tie.kind.name == site::nearest.label; });
     const bool same_base = outcome.base.x == reference.base.x && outcome.base.y == reference.base.y;
     if (outcome.hit && reference.nearest && same_base)
-        if (const auto nearest = of_kind(TieKind::nearest); nearest != outcome.ties.end())
+        if (nearest != outcome.ties.end())
             return *nearest;
     if (outcome.ties.empty())
         return {};

@@ -4,18 +4,20 @@
 #include <cstdint>
 #include <map>
 #include <optional>
+#include <span>
 #include <string>
+#include <vector>
 
-#include "crosscheck/judge/cause.hpp"
-#include "crosscheck/judge/diagnosis.hpp"
-#include "crosscheck/judge/verdict.hpp"
+#include "crosscheck/judge/cause_findings.hpp"
+#include "crosscheck/judge/compare.hpp"
+#include "crosscheck/judge/item_verdict.hpp"
 
 namespace lockstep {
 
 /// Where a verdict belongs.
 struct Place {
     int frame = 0;
-    bool texel = false; ///< else a particle
+    std::uint8_t resource = 0; ///< of the schema
     std::size_t index = 0;
 };
 
@@ -27,6 +29,15 @@ struct TieCount {
     Place closest; ///< the one of the smallest margin
 };
 
+/// The first step of a pass at which no legal run reaches what the GPU has, as far as what was captured tells.
+struct WrongStep {
+    std::string step;      ///< "search", "nearest", "speed", ...
+    std::string operation; ///< what the reference computed there, with its operands
+    std::string gpu;       ///< what the GPU must have done instead, where that is known; else empty
+    std::string margin;    ///< how far the GPU is from what is legal
+    Difference difference; ///< the field that shows it
+};
+
 struct FirstDivergence {
     Place place;
     ItemVerdict verdict;
@@ -35,9 +46,9 @@ struct FirstDivergence {
 
 /// The verdicts of a run.
 struct VerdictSummary {
-    std::array<std::uint64_t, class_names.size()> particles{}; ///< by DifferenceClass
-    std::array<std::uint64_t, class_names.size()> texels{};
-    std::map<std::size_t, std::uint64_t> set_sizes; ///< how many items had that many legal outcomes
+    using Counts = std::array<std::uint64_t, class_names.size()>; ///< by DifferenceClass
+    std::vector<Counts> classes;                                  ///< of each buffer and image, in the schema's order
+    std::map<std::size_t, std::uint64_t> set_sizes;               ///< how many items had that many legal outcomes
     std::map<TieKind, TieCount> ties;
     std::map<Undefined, std::uint64_t> undefined;
     Leans leans;
@@ -45,31 +56,24 @@ struct VerdictSummary {
     std::uint64_t ties_beyond_rounding = 0;
     std::optional<FirstDivergence> first_beyond_rounding;
     std::optional<FirstDivergence> first; ///< the first divergent item, else the first undefined one
-    CauseFindings particle_cause, texel_cause;
+    std::vector<CauseFindings> causes;    ///< likewise
 
-    void add(int frame, const FrameVerdicts& verdicts);
+    VerdictSummary() = default;
+    explicit VerdictSummary(const Schema& schema) : classes(schema.resources.size()), causes(schema.resources.size()) {}
+
     /// The name of the shift that ties alone convict; empty: none.
     [[nodiscard]] std::string convicted_shift() const;
     /// Where they convict one, ties beyond rounding are divergent.
     void convict_shift();
 
-    [[nodiscard]] std::uint64_t total(DifferenceClass kind) const {
-        const auto k = static_cast<std::size_t>(kind);
-        return particles[k] + texels[k];
-    }
+    /// The verdicts on a frame's items of one buffer or image.
+    void add(int frame, std::uint8_t resource, std::span<const ItemVerdict> verdicts);
+
+    [[nodiscard]] std::uint64_t total(DifferenceClass kind) const;
     [[nodiscard]] std::size_t median_set_size() const;
 };
 
-/// Whether a shift of what is drawn is no tie, though each texel by itself may be one: the driver's grid was measured,
-/// and nothing says that its window coordinates are less accurate than GLSL's.
-bool can_judge_leans(const KnownOperations& known, const Profile& profile);
-
-/// The first item of a class in a frame: a particle if there is one, whose texel may only follow it.
-std::optional<FirstDivergence> first_of(DifferenceClass kind, int frame, const JudgedFrame& judged,
-                                        const FrameVerdicts& verdicts);
-
-/// The first texel that by itself is a tie, and that a shift explains better than rounding.
-std::optional<FirstDivergence> first_tie_beyond_rounding(int frame, const JudgedFrame& judged,
-                                                         const FrameVerdicts& verdicts);
+/// Whether a shift explains the verdict better than rounding does, though it is a tie by itself.
+bool is_tie_beyond_rounding(const ItemVerdict& verdict);
 
 } // namespace lockstep

@@ -49,8 +49,8 @@ class CommandLines {
         if (!program_can() || !report.verdicts || !report.verdicts->first)
             return "";
         return fmt::format("lockstep explain {} {}{}{}", scene_.origin,
-                           place_arguments(report.verdicts->first->place, scene_.width), *side_.arguments,
-                           legal_option_text(options_.legal));
+                           place_arguments(report.verdicts->first->place, report.schema, scene_.width),
+                           *side_.arguments, legal_option_text(options_.legal));
     }
 
   private:

@@ -13,6 +13,7 @@
 
 #include "crosscheck/files/asked_memory.hpp"
 #include "crosscheck/files/json_text.hpp"
+#include "crosscheck/record/capsule_parts.hpp"
 #include "crosscheck/scene/profile_json.hpp"
 #include "crosscheck/scene/scene_settings.hpp"
 #include "reference/model/collision_state.hpp"
@@ -25,46 +26,14 @@ namespace {
 using nlohmann::json;
 
 constexpr std::int64_t version = 1;
-constexpr std::size_t reciprocals = std::size_t{1} << 23U;
-constexpr std::size_t inverse_sqrts = std::size_t{1} << 24U;
-
-constexpr std::pair<std::string_view, bool KnownOperations::*> known_table[] = {
-    {"sums", &KnownOperations::sums},
-    {"divide", &KnownOperations::divide},
-    {"square_root", &KnownOperations::square_root},
-    {"dot", &KnownOperations::dot},
-    {"normalize", &KnownOperations::normalize},
-    {"subnormals", &KnownOperations::subnormals},
-    {"points", &KnownOperations::points}};
-
-std::string words_text(std::span<const std::uint32_t> words) { return fmt::format("{:08x}", fmt::join(words, " ")); }
-
-template <int Count> std::string words_text(const glm::vec<Count, float>& v) {
+template <int Count> std::string vector_text(const glm::vec<Count, float>& v) {
     std::uint32_t words[Count];
     for (int i = 0; i < Count; ++i)
         words[i] = std::bit_cast<std::uint32_t>(v[i]);
     return words_text(words);
 }
 
-std::string word_text(float value) { return words_text(glm::vec<1, float>(value)); }
-
-/// Groups of eight hexadecimal digits; `count` of them, or any number where it is 0.
-std::vector<std::uint32_t> read_words(const JsonValue& value, std::size_t count) {
-    const std::string text = value.text();
-    std::vector<std::uint32_t> words;
-    for (std::size_t at = 0; at < text.size(); at += 9) {
-        std::uint32_t word = 0;
-        const char* first = text.data() + at;
-        const char* last = first + std::min<std::size_t>(8, text.size() - at);
-        const auto [end, status] = std::from_chars(first, last, word, 16);
-        if (status != std::errc{} || end != first + 8 || (at + 8 < text.size() && text[at + 8] != ' '))
-            value.fail("not groups of eight hexadecimal digits, a space between them");
-        words.push_back(word);
-    }
-    if (count != 0 && words.size() != count)
-        value.fail(fmt::format("{} groups of eight hexadecimal digits, to be {}", words.size(), count));
-    return words;
-}
+std::string word_text(float value) { return vector_text(glm::vec<1, float>(value)); }
 
 template <int Count> glm::vec<Count, float> read_vector(const JsonValue& value) {
     const auto words = read_words(value, Count);
@@ -104,31 +73,13 @@ ParticleState read_state(const JsonValue& value) {
     return state;
 }
 
-json known_json(const KnownOperations& known) {
-    json list = json::array();
-    for (const auto& [name, operation] : known_table)
-        if (known.*operation)
-            list.push_back(name);
-    return list;
-}
-
-KnownOperations read_known(const JsonValue& value) {
-    KnownOperations known{.sums = false};
-    std::vector<std::string_view> names;
-    for (const auto& [name, operation] : known_table)
-        names.push_back(name);
-    for (const JsonValue& item : value.items())
-        known.*known_table[item.choice(names)].second = true;
-    return known;
-}
-
 /// Texels that hold something: [x, y, code].
 json texels_json(const CollisionImage& cdt) {
     json texels = json::array();
     for (int y = 0; y < cdt.height; ++y)
         for (int x = 0; x < cdt.width; ++x)
             if (cdt.at(x, y) != glm::vec4(0.0F))
-                texels.push_back({x, y, words_text(cdt.at(x, y))});
+                texels.push_back({x, y, vector_text(cdt.at(x, y))});
     return texels;
 }
 
@@ -176,10 +127,10 @@ json capture_json(const StepCapture& capture) {
             {"last", vertex_json(capture.last)},
             {"state", state_json(capture.state)},
             {"drawn_alone", capture.drawn_alone ? 1 : 0},
-            {"position", words_text(capture.position)},
+            {"position", vector_text(capture.position)},
             {"texel", {capture.texel.x, capture.texel.y}},
             {"depth", word_text(capture.depth)},
-            {"code", words_text(capture.code)}};
+            {"code", vector_text(capture.code)}};
 }
 
 StepCapture read_capture(const JsonValue& value, const Scene& scene) {
@@ -207,44 +158,6 @@ StepCapture read_capture(const JsonValue& value, const Scene& scene) {
     return capture;
 }
 
-/// Index and value of what was looked up in a table.
-using Lookups = std::map<std::size_t, float>;
-
-json lookups_json(const Lookups& lookups) {
-    json list = json::array();
-    for (const auto& [index, value] : lookups)
-        list.push_back({index, word_text(value)});
-    return list;
-}
-
-std::vector<float> read_lookups(const JsonValue& value, std::size_t count) {
-    std::vector<float> table(count, std::numeric_limits<float>::quiet_NaN());
-    for (const JsonValue& item : value.items()) {
-        const std::vector<JsonValue> parts = item.items();
-        if (parts.size() != 2)
-            item.fail("not [index, value]");
-        table[static_cast<std::size_t>(parts[0].integer(0, static_cast<std::int64_t>(count) - 1))] =
-            read_float(parts[1]);
-    }
-    return table;
-}
-
-/// The values of the driver's tables that judging the capsule looks up.
-json roots_json(const Capsule& capsule) {
-    if (!capsule.profile.roots)
-        return nullptr;
-    Lookups reciprocal, inverse_sqrt;
-    auto tables = std::make_shared<RootTables>(*capsule.profile.roots);
-    tables->on_lookup = [&](const std::vector<float>& table, std::size_t index) {
-        (&table == &tables->reciprocal ? reciprocal : inverse_sqrt)[index] = table[index];
-    };
-    Capsule watched = capsule;
-    watched.profile.roots = tables;
-    static_cast<void>(capsule_text(watched, NumberFormat::decimal));
-    tables->on_lookup = {};
-    return {{"reciprocal", lookups_json(reciprocal)}, {"inverse_sqrt", lookups_json(inverse_sqrt)}};
-}
-
 /// As a JSON file gives it back: what is no UTF-8, in a file's name, is replaced.
 std::string as_utf8(const std::string& text) {
     return json::parse(json(text).dump(-1, ' ', false, json::error_handler_t::replace)).get<std::string>();
@@ -264,7 +177,12 @@ std::string capsule_file(const Capsule& cut) {
                         {"frame", capsule.frame},
                         {"particle", capsule.particle},
                         {"profile", profile_json(capsule.profile)},
-                        {"roots", roots_json(capsule)},
+                        {"roots", roots_json(capsule.profile,
+                                             [&](const Profile& watched) {
+                                                 Capsule looked_into = capsule;
+                                                 looked_into.profile = watched;
+                                                 static_cast<void>(capsule_text(looked_into, NumberFormat::decimal));
+                                             })},
                         {"known", known_json(capsule.known)},
                         {"before", state_json(capsule.before)},
                         {"gpu", state_json(capsule.gpu)},
@@ -301,11 +219,7 @@ Capsule read_capsule(const JsonValue& value) {
     capsule.frame = static_cast<int>(value.at("frame").integer(0, 1'000'000'000));
     capsule.particle = static_cast<std::size_t>(value.at("particle").integer(0, INT32_MAX));
     capsule.profile = read_profile(value.at("profile"));
-    if (const JsonValue roots = value.at("roots"); !roots.is_null()) {
-        roots.check_keys({"reciprocal", "inverse_sqrt"});
-        capsule.profile.roots = std::make_shared<const RootTables>(RootTables{
-            read_lookups(roots.at("reciprocal"), reciprocals), read_lookups(roots.at("inverse_sqrt"), inverse_sqrts)});
-    }
+    capsule.profile.roots = read_roots(value.at("roots"));
     capsule.known = read_known(value.at("known"));
     capsule.before = read_state(value.at("before"));
     capsule.gpu = read_state(value.at("gpu"));

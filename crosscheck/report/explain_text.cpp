@@ -62,8 +62,8 @@ std::string class_text(const ItemVerdict* verdict) {
         return "every bit agrees";
     std::string text(class_names[static_cast<std::size_t>(verdict->kind)]);
     if (verdict->tie)
-        text += fmt::format(": {}, margin {:.3g} {}", tie_name(verdict->tie->kind), verdict->tie->margin,
-                            tie_unit(verdict->tie->kind));
+        text += fmt::format(": {}, margin {:.3g} {}", verdict->tie->kind.name, verdict->tie->margin,
+                            verdict->tie->kind.unit);
     if (verdict->undefined != Undefined::none)
         text += fmt::format(": {}", undefined_name(verdict->undefined));
     if (verdict->follows_particle)
@@ -97,7 +97,7 @@ std::string outcome_text(const LegalOutcome& o) {
     if (o.undefined != Undefined::none)
         text += fmt::format(", open: {}", undefined_name(o.undefined));
     for (const Tie& tie : o.ties)
-        text += fmt::format(", tie of {} ({:.3g} {})", tie_name(tie.kind), tie.margin, tie_unit(tie.kind));
+        text += fmt::format(", tie of {} ({:.3g} {})", tie.kind.name, tie.margin, tie.kind.unit);
     return text + fmt::format("\n    speed {}, collide time {}\n    direction {}\n    position {}\n",
                               interval_text(o.speed), interval_text(o.collide_time), interval_text(o.direction),
                               interval_text(o.position));

@@ -4,11 +4,9 @@
 
 #include "crosscheck/judge/frame_run.hpp"
 #include "crosscheck/judge/step_table.hpp"
+#include "crosscheck/report/value_text.hpp"
 
 namespace lockstep {
-
-/// How floats are written.
-enum class NumberFormat { decimal, hexadecimal };
 
 /// The table of a particle: what it started from, the rows, the verdict, the first row no legal run explains, and the
 /// neighbourhood as characters.

@@ -38,11 +38,13 @@ std::size_t texel_named(std::string_view text, const Scene& scene) {
     return static_cast<std::size_t>(y) * static_cast<std::size_t>(scene.width) + static_cast<std::size_t>(x);
 }
 
-std::string place_arguments(const Place& place, int width) {
+std::string place_arguments(const Place& place, const Schema& schema, int width) {
+    const Resource& resource = schema.resources[place.resource];
     const auto columns = static_cast<std::size_t>(width);
-    return place.texel
-               ? fmt::format("--frame {} --texel {},{}", place.frame, place.index % columns, place.index / columns)
-               : fmt::format("--frame {} --particle {}", place.frame, place.index);
+    const std::string item = resource.dimensions == 1
+                                 ? std::to_string(place.index)
+                                 : fmt::format("{},{}", place.index % columns, place.index / columns);
+    return fmt::format("--frame {} --{} {}", place.frame, resource.item, item);
 }
 
 } // namespace lockstep

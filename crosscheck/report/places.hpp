@@ -13,7 +13,7 @@ namespace lockstep {
 std::size_t particle_named(std::string_view text, const Scene& scene);
 std::size_t texel_named(std::string_view text, const Scene& scene);
 
-/// "--frame 3 --texel 4,5", as `lockstep explain` takes it. `width`: of the CDT, texels.
-std::string place_arguments(const Place& place, int width);
+/// "--frame 3 --texel 4,5", as `lockstep explain` takes it. `width`: of an image, texels.
+std::string place_arguments(const Place& place, const Schema& schema, int width);
 
 } // namespace lockstep

@@ -27,15 +27,23 @@ std::string place(const CheckReport& r, const FrameDifference& d) {
                        component.substr(r.schema[id].name.size()));
 }
 
-/// "5 particle states and 7 texels": of each buffer and image as many as differ.
-std::string differing_text(const CheckReport& r, std::string_view state) {
+/// "5 particle states and 7 texels": of each buffer and image as many.
+std::string items_text(const CheckReport& r, const std::vector<std::uint64_t>& counts, std::string_view state) {
     std::string text;
-    for (std::uint8_t k = 0; k < r.schema.resources.size(); ++k) {
+    for (std::size_t k = 0; k < counts.size(); ++k) {
         const Resource& resource = r.schema.resources[k];
-        text += fmt::format("{}{} {}{}s", k == 0 ? "" : " and ", grouped(r.total.differing(k)), resource.item,
+        text += fmt::format("{}{} {}{}s", k == 0 ? "" : " and ", grouped(counts[k]), resource.item,
                             resource.dimensions == 1 ? state : "");
     }
     return text;
+}
+
+/// As many as differ.
+std::string differing_text(const CheckReport& r, std::string_view state) {
+    std::vector<std::uint64_t> differing;
+    for (std::uint8_t k = 0; k < r.schema.resources.size(); ++k)
+        differing.push_back(r.total.differing(k));
+    return items_text(r, differing, state);
 }
 
 /// "12 floats of particles, 4 of texels".
@@ -91,10 +99,11 @@ FrameTimes total_times(const CheckReport& r) {
 bool told(std::size_t i, std::size_t count) { return i == 0 || i + 1 == count || std::has_single_bit(i); }
 
 std::string of_class(const CheckReport& r, DifferenceClass kind) {
-    const auto k = static_cast<std::size_t>(kind);
-    return fmt::format("from frame {} on: {} particle states and {} texels in {} frames",
-                       r.verdicts->first->place.frame, grouped(r.verdicts->particles[k]),
-                       grouped(r.verdicts->texels[k]), r.frames);
+    std::vector<std::uint64_t> items;
+    for (const VerdictSummary::Counts& counts : r.verdicts->classes)
+        items.push_back(counts[static_cast<std::size_t>(kind)]);
+    return fmt::format("from frame {} on: {} in {} frames", r.verdicts->first->place.frame,
+                       items_text(r, items, " state"), r.frames);
 }
 
 /// After the verdict's words.
@@ -228,7 +237,7 @@ std::string report_text(const CheckReport& r, const RunDescription& run) {
     if (r.total.agree())
         return out;
     if (r.verdicts)
-        out += verdict_text(*r.verdicts, run.width);
+        out += verdict_text(*r.verdicts, r.schema, run.width);
     if (!run.explain.empty())
         line("", fmt::format("again: {}", run.explain));
 
@@ -322,7 +331,7 @@ nlohmann::json report_json(const CheckReport& r, const RunDescription& run) {
                   {"reference", seconds.reference},
                   {"compare", seconds.compare},
                   {"judge", seconds.judge}}},
-                {"verdicts", r.verdicts ? verdict_json(*r.verdicts, run.width) : json()},
+                {"verdicts", r.verdicts ? verdict_json(*r.verdicts, r.schema, run.width) : json()},
                 {"repeat", run.repeat},
                 {"notes", run.notes},
                 {"explain", run.explain.empty() ? json() : json(run.explain)}};

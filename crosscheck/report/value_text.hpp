@@ -8,6 +8,9 @@
 
 namespace lockstep {
 
+/// How floats are written.
+enum class NumberFormat { decimal, hexadecimal };
+
 /// "0.1 (0x1.99999ap-4)"; an integer "17 (0x11)".
 std::string value_text(Value value);
 

@@ -8,17 +8,24 @@
 #include <nlohmann/json.hpp>
 
 #include "crosscheck/report/value_text.hpp"
-#include "reference/model/collision_state.hpp"
 
 namespace lockstep {
 namespace {
 
 std::string line(std::string_view key, std::string_view text) { return fmt::format("{:<10}{}\n", key, text); }
 
-std::string place_text(const Place& place, int width) {
+/// What the words of verdicts are about.
+struct Shape {
+    const Schema& schema;
+    std::int64_t width; ///< of images
+};
+
+std::string place_text(const Place& place, const Shape& shape) {
+    const Resource& resource = shape.schema.resources[place.resource];
     const auto index = static_cast<std::int64_t>(place.index);
-    return place.texel ? fmt::format("frame {} texel ({}, {})", place.frame, index % width, index / width)
-                       : fmt::format("frame {} particle {}", place.frame, index);
+    return resource.dimensions > 1 ? fmt::format("frame {} {} ({}, {})", place.frame, resource.item,
+                                                 index % shape.width, index / shape.width)
+                                   : fmt::format("frame {} {} {}", place.frame, resource.item, index);
 }
 
 std::string classes_text(const std::array<std::uint64_t, class_names.size()>& counts) {
@@ -29,23 +36,15 @@ std::string classes_text(const std::array<std::uint64_t, class_names.size()>& co
     return text.empty() ? "none" : text;
 }
 
-std::string meaning(const Cause& cause) {
-    std::string text;
-    for (const Deviation deviation : cause.deviations)
-        text += fmt::format("{}{}", text.empty() ? "" : "; ",
-                            deviation_table()[static_cast<std::size_t>(deviation)].meaning);
-    return text;
-}
-
 std::string cause_text(const CauseFindings& found, std::string_view what) {
     if (found.best.empty())
         return fmt::format("no named deviation explains any of {} {}", grouped(found.divergent), what);
     const Cause& best = found.best.front();
     std::string text = found.explains_all()
                            ? fmt::format("all {} {} are explained by {}: {}", grouped(found.divergent), what,
-                                         best.name(), meaning(best))
+                                         best.name(), best.meaning)
                            : fmt::format("{} of {} {} are explained by {}: {}", grouped(best.explained),
-                                         grouped(found.divergent), what, best.name(), meaning(best));
+                                         grouped(found.divergent), what, best.name(), best.meaning);
     if (best.contradicted > 0)
         text += fmt::format(", which {} that agree contradict", grouped(best.contradicted));
     constexpr std::size_t most_named = 3;
@@ -56,17 +55,17 @@ std::string cause_text(const CauseFindings& found, std::string_view what) {
     return text;
 }
 
-std::string first_text(const FirstDivergence& first, int width) {
+std::string first_text(const FirstDivergence& first, const Shape& shape) {
     const WrongStep& wrong = first.wrong;
     std::string text =
-        line("first", fmt::format("{}, {}, step {}", place_text(first.place, width),
+        line("first", fmt::format("{}, {}, step {}", place_text(first.place, shape),
                                   class_names[static_cast<std::size_t>(first.verdict.kind)], wrong.step));
     if (first.verdict.undefined != Undefined::none)
         text += line("", fmt::format("left open by GL: {}", undefined_name(first.verdict.undefined)));
     text += line("", fmt::format("reference: {}", wrong.operation));
     if (!wrong.gpu.empty())
         text += line("", fmt::format("GPU: {}", wrong.gpu));
-    text += line("", fmt::format("{}{}{}", difference_text(collision_schema(), wrong.difference),
+    text += line("", fmt::format("{}{}{}", difference_text(shape.schema, wrong.difference),
                                  wrong.margin.empty() ? "" : "; ", wrong.margin));
     return text;
 }
@@ -107,21 +106,19 @@ nlohmann::json lean_json(const VerdictSummary& s) {
     return {{"into_the_pixel_beside", all}, {"beyond_rounding", beyond}, {"shift", shift_name(s)}};
 }
 
-nlohmann::json place_json(const Place& place, int width) {
-    if (!place.texel)
-        return {{"frame", place.frame}, {"particle", place.index}};
+nlohmann::json place_json(const Place& place, const Shape& shape) {
+    const Resource& resource = shape.schema.resources[place.resource];
+    if (resource.dimensions == 1)
+        return {{"frame", place.frame}, {resource.item, place.index}};
     const auto index = static_cast<std::int64_t>(place.index);
-    return {{"frame", place.frame}, {"texel", {index % width, index / width}}};
+    return {{"frame", place.frame}, {resource.item, {index % shape.width, index / shape.width}}};
 }
 
 nlohmann::json cause_json(const CauseFindings& found) {
     nlohmann::json best = nlohmann::json::array();
     for (const Cause& cause : found.best) {
-        nlohmann::json names = nlohmann::json::array();
-        for (const Deviation deviation : cause.deviations)
-            names.push_back(deviation_name(deviation));
-        best.push_back({{"deviations", names},
-                        {"meaning", meaning(cause)},
+        best.push_back({{"deviations", cause.mistakes},
+                        {"meaning", cause.meaning},
                         {"explained", cause.explained},
                         {"contradicted", cause.contradicted}});
     }
@@ -144,16 +141,19 @@ std::string grouped(std::uint64_t value) {
     return digits;
 }
 
-std::string verdict_text(const VerdictSummary& s, int width) {
-    std::string text =
-        line("classes", fmt::format("particles: {}; texels: {}", classes_text(s.particles), classes_text(s.texels)));
+std::string verdict_text(const VerdictSummary& s, const Schema& schema, int width) {
+    const Shape shape{schema, width};
+    std::string classes;
+    for (std::size_t r = 0; r < s.classes.size(); ++r)
+        classes += fmt::format("{}{}s: {}", r == 0 ? "" : "; ", schema.resources[r].item, classes_text(s.classes[r]));
+    std::string text = line("classes", classes);
     if (!s.set_sizes.empty())
         text += line("outcomes", fmt::format("legal ones: median {}, largest {}", s.median_set_size(),
                                              s.set_sizes.rbegin()->first));
     for (const auto& [kind, tie] : s.ties)
-        text += line("ties",
-                     fmt::format("{}: {}, margins {:.3g} to {:.3g} {}; closest {}", tie_name(kind), grouped(tie.count),
-                                 tie.smallest, tie.largest, tie_unit(kind), place_text(tie.closest, width)));
+        text +=
+            line("ties", fmt::format("{}: {}, margins {:.3g} to {:.3g} {}; closest {}", kind.name, grouped(tie.count),
+                                     tie.smallest, tie.largest, kind.unit, place_text(tie.closest, shape)));
     if (s.leans.any())
         text += lean_text(s);
     if (const std::string name = shift_name(s); !name.empty())
@@ -164,51 +164,53 @@ std::string verdict_text(const VerdictSummary& s, int width) {
                                                 "than 2^-64"));
     for (const auto& [reason, count] : s.undefined)
         text += line("undefined", fmt::format("{}: {}", undefined_name(reason), grouped(count)));
-    if (s.particle_cause.divergent > 0)
-        text += line("cause", cause_text(s.particle_cause, "particles"));
-    if (s.texel_cause.divergent > 0)
-        text += line("cause", cause_text(s.texel_cause, "texels"));
+    for (std::size_t r = 0; r < s.causes.size(); ++r)
+        if (s.causes[r].divergent > 0)
+            text += line("cause", cause_text(s.causes[r], schema.resources[r].item + "s"));
     if (s.first)
-        text += first_text(*s.first, width);
+        text += first_text(*s.first, shape);
     return text;
 }
 
-nlohmann::json verdict_json(const VerdictSummary& s, int width) {
+nlohmann::json verdict_json(const VerdictSummary& s, const Schema& schema, int width) {
+    const Shape shape{schema, width};
     using nlohmann::json;
     json ties = json::object();
     for (const auto& [kind, tie] : s.ties)
-        ties[std::string(tie_name(kind))] = {{"count", tie.count},
-                                             {"smallest_margin", tie.smallest},
-                                             {"largest_margin", tie.largest},
-                                             {"unit", tie_unit(kind)},
-                                             {"closest", place_json(tie.closest, width)}};
+        ties[std::string(kind.name)] = {{"count", tie.count},
+                                        {"smallest_margin", tie.smallest},
+                                        {"largest_margin", tie.largest},
+                                        {"unit", kind.unit},
+                                        {"closest", place_json(tie.closest, shape)}};
     json undefined = json::object();
     for (const auto& [reason, count] : s.undefined)
         undefined[std::string(undefined_name(reason))] = count;
     json first;
     if (s.first) {
         const WrongStep& wrong = s.first->wrong;
-        first = {{"place", place_json(s.first->place, width)},
+        first = {{"place", place_json(s.first->place, shape)},
                  {"class", class_names[static_cast<std::size_t>(s.first->verdict.kind)]},
                  {"step", wrong.step},
                  {"operation", wrong.operation},
                  {"gpu_did", wrong.gpu},
                  {"margin", wrong.margin},
-                 {"field", collision_schema()[wrong.difference.field].name},
+                 {"field", schema[wrong.difference.field].name},
                  {"component", wrong.difference.component},
                  {"reference_hex", exact_text(wrong.difference.reference)},
                  {"gpu_hex", exact_text(wrong.difference.gpu)}};
     }
-    return {{"particles", counts_json(s.particles)},
-            {"texels", counts_json(s.texels)},
-            {"set_size",
-             {{"median", s.median_set_size()}, {"largest", s.set_sizes.empty() ? 0 : s.set_sizes.rbegin()->first}}},
-            {"ties", ties},
-            {"undefined", undefined},
-            {"lean", lean_json(s)},
-            {"particle_cause", cause_json(s.particle_cause)},
-            {"texel_cause", cause_json(s.texel_cause)},
-            {"first", first}};
+    json verdicts{
+        {"set_size",
+         {{"median", s.median_set_size()}, {"largest", s.set_sizes.empty() ? 0 : s.set_sizes.rbegin()->first}}},
+        {"ties", ties},
+        {"undefined", undefined},
+        {"lean", lean_json(s)},
+        {"first", first}};
+    for (std::size_t r = 0; r < s.classes.size(); ++r) {
+        verdicts[schema.resources[r].item + "s"] = counts_json(s.classes[r]);
+        verdicts[schema.resources[r].item + "_cause"] = cause_json(s.causes[r]);
+    }
+    return verdicts;
 }
 
 } // namespace lockstep

@@ -11,10 +11,10 @@ namespace lockstep {
 /// 4812 as "4,812".
 std::string grouped(std::uint64_t value);
 
-/// The lines of a report about verdicts: classes, ties, cause, first divergence. `width`: of the CDT, texels.
-std::string verdict_text(const VerdictSummary& summary, int width);
+/// The lines of a report about verdicts: classes, ties, cause, first divergence. `width`: of images, texels.
+std::string verdict_text(const VerdictSummary& summary, const Schema& schema, int width);
 
 /// The same as data.
-nlohmann::json verdict_json(const VerdictSummary& summary, int width);
+nlohmann::json verdict_json(const VerdictSummary& summary, const Schema& schema, int width);
 
 } // namespace lockstep

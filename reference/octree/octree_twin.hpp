@@ -2,9 +2,9 @@
 #include <cstddef>
 #include <cstdint>
 #include <optional>
-#include <span>
 
 #include "reference/collision/particle_twin.hpp"
+#include "reference/octree/octree_leaves.hpp"
 #include "reference/readings/values.hpp"
 
 namespace lockstep {
@@ -13,12 +13,6 @@ namespace site {
 inline constexpr Site itself{"particle itself"};
 inline constexpr Site entry{"entry of the leaf"};
 } // namespace site
-
-/// What a leaf of the octree holds: particles, then obstacles' corners, by number and position.
-struct LeafEntries {
-    std::span<const std::int32_t> number;
-    std::span<const glm::vec3> position;
-};
 
 /// One particle's step with the octree's search for the CDT's, over a reading `R`. Twin of shaders/octree_pass.comp.
 template <class R> class OctreeTwin {

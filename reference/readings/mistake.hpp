@@ -78,6 +78,11 @@ struct Mistake {
     bool operator==(const Mistake&) const = default;
 };
 
+/// As data: a change at a site, of its part `part` or the whole, by the value of `source`.
+inline Mistake mistake_at(const Site& site, Change change, int part = -1, const Site* source = nullptr) {
+    return {.site = site.id, .change = change, .part = part, .source = source == nullptr ? 0 : source->id};
+}
+
 /// What a run came by at a site: enough to say what can be done wrong there.
 struct SeenSite {
     enum class Kind : std::uint8_t {

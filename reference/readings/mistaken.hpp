@@ -38,6 +38,7 @@ template <class A> class Mistaken {
         explicit operator float() const { return value_; }
         friend Real operator+(const Real& a, const Real& b) { return a.plus(b, 1.0F); }
         friend Real operator-(const Real& a, const Real& b) { return a.plus(b, -1.0F); }
+        friend Real operator-(const Real& a) { return A::flush(-a.value_); }
         friend Real operator*(const Real& a, const Real& b) {
             Real product = static_cast<float>(NumberOf<A>(a.value_) * NumberOf<A>(b.value_));
             if constexpr (fuses<A>)
@@ -69,6 +70,11 @@ template <class A> class Mistaken {
         Int(int i) : value_(i) {}               // NOLINT: an int is one
         operator int() const { return value_; } // NOLINT: and is one again
         friend Int operator+(Int a, Int b) { return a.value_ + b.value_; }
+        friend Int operator+(Int a, int b) { return a.value_ + b; }
+        friend Int operator-(Int a, Int b) { return a.value_ - b.value_; }
+        friend Int operator-(Int a, int b) { return a.value_ - b; }
+        friend Int operator*(Int a, Int b) { return a.value_ * b.value_; }
+        friend Int operator*(Int a, int b) { return a.value_ * b; }
         friend Int operator-(Int a) { return -a.value_; }
         friend OpenComparison<Real> operator==(Int a, int b) {
             return Real(static_cast<float>(a.value_)) == Real(static_cast<float>(b));
@@ -159,11 +165,21 @@ template <class A> class Mistaken {
     }
 
     static Real real(Int i) { return static_cast<float>(static_cast<int>(i)); }
+    static Real real(std::uint32_t i) { return static_cast<float>(i); }
     static Int to_int(At, Real x) { return static_cast<int>(static_cast<float>(x)); }
     Real divide(At p, Real a, Real b) {
         see(p, Kind::optional_operation);
         return change_at(p) == Change::not_done ? a : Real(fp_.divide(static_cast<float>(a), static_cast<float>(b)));
     }
+    Real sqrt(At p, Real a) {
+        see(p, Kind::optional_operation);
+        return change_at(p) == Change::not_done ? a : Real(fp_.sqrt(static_cast<float>(a)));
+    }
+    static Real min(Real a, Real b) { return static_cast<float>(b) < static_cast<float>(a) ? b : a; }
+    static Real max(Real a, Real b) { return static_cast<float>(a) < static_cast<float>(b) ? b : a; }
+    static Real abs(Real a) { return std::abs(static_cast<float>(a)); }
+    template <class Function> static Real monotone(Real a, const Function& f) { return f(static_cast<float>(a)); }
+    static Real floor(Real a) { return std::floor(static_cast<float>(a)); }
     Real dot(At, const Vec3& a, const Vec3& b) const { return fp_.dot(floats(a), floats(b)); }
     Real length(At p, const Vec3& v) {
         see(p, Kind::length);

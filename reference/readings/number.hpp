@@ -18,6 +18,7 @@ template <class A> struct FlushingNumber {
     friend FlushingNumber operator+(FlushingNumber a, FlushingNumber b) { return A::flush(a.value + b.value); }
     friend FlushingNumber operator-(FlushingNumber a, FlushingNumber b) { return A::flush(a.value - b.value); }
     friend FlushingNumber operator*(FlushingNumber a, FlushingNumber b) { return A::multiply(a.value, b.value); }
+    friend FlushingNumber operator-(FlushingNumber a) { return A::flush(-a.value); }
     friend auto operator<=>(FlushingNumber a, FlushingNumber b) { return a.value <=> b.value; }
     friend bool operator==(FlushingNumber a, FlushingNumber b) { return a.value == b.value; }
 };

@@ -1,10 +1,12 @@
 #pragma once
+#include <algorithm>
 #include <array>
 #include <cstddef>
 #include <source_location>
 #include <tuple>
 #include <vector>
 
+#include "reference/interval.hpp"
 #include "reference/readings/values.hpp"
 
 namespace lockstep {
@@ -23,6 +25,26 @@ struct RecordedRow {
     std::array<float, 4> values{};
     int size = 0;
     std::source_location where = {};
+};
+
+/// A named value or decision of a run, and what the GPU told of it.
+struct ReadingRow {
+    const Site* site = nullptr;
+    int occurrence = 0; ///< how often the site came before
+    int size = 0;
+    std::array<Interval, 4> legal{}; ///< by what was told before
+    std::array<float, 4> told{};
+    bool is_told = false;
+    bool is_integer = false;
+    std::source_location where = {};
+
+    /// Whether what was told, if anything, is one of the legal values.
+    [[nodiscard]] bool is_legal() const {
+        for (std::size_t c = 0; is_told && c < static_cast<std::size_t>(size); ++c)
+            if (!legal[c].contains(told[c]))
+                return false;
+        return true;
+    }
 };
 
 /// Computes as Values does, and writes down what it comes by.

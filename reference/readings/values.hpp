@@ -1,6 +1,8 @@
 #pragma once
 #include <array>
+#include <cmath>
 #include <concepts>
+#include <cstdint>
 #include <optional>
 #include <utility>
 
@@ -71,9 +73,18 @@ template <class A> class Values {
     }
 
     static Real real(int i) { return static_cast<float>(i); }
+    static Real real(std::uint32_t i) { return static_cast<float>(i); }
     /// Towards zero. The value fits.
     static int to_int(At, Real x) { return static_cast<int>(static_cast<float>(x)); }
     Real divide(At, Real a, Real b) const { return fp_.divide(static_cast<float>(a), static_cast<float>(b)); }
+    Real sqrt(At, Real a) const { return fp_.sqrt(static_cast<float>(a)); }
+    // Exact, as GLSL writes them; of NaN GL leaves them open.
+    static Real min(Real a, Real b) { return b < a ? b : a; }
+    static Real max(Real a, Real b) { return a < b ? b : a; }
+    static Real abs(Real a) { return std::abs(static_cast<float>(a)); }
+    /// A function that never falls where its argument rises: rounding to a storage format.
+    template <class Function> static Real monotone(Real a, const Function& f) { return f(static_cast<float>(a)); }
+    static Real floor(Real a) { return std::floor(static_cast<float>(a)); }
     Real dot(At, const Vec3& a, const Vec3& b) const { return fp_.dot(floats(a), floats(b)); }
     Real length(At, const Vec3& v) const { return fp_.length(floats(v)); }
     Vec3 normalize(At, const Vec3& v) const { return vector(fp_.normalize(floats(v))); }

@@ -11,6 +11,7 @@
 #include <span>
 #include <string_view>
 #include <type_traits>
+#include <utility>
 #include <vector>
 
 #include <glm/mat4x4.hpp>
@@ -64,6 +65,11 @@ template <class A> class Worlds {
         friend Real operator+(Real a, Real b) { return added(a, b); }
         friend Real operator-(Real a, Real b) { return subtracted(a, b); }
         friend Real operator*(Real a, Real b) { return multiplied(a, b); }
+        friend Real operator-(Real a) {
+            if (a.is_float())
+                return Real(a.run_, static_cast<float>(-NumberOf<A>(a.point_)));
+            return a.run_->make({a}, [&](const auto&) { return interval::negate(a.set()); });
+        }
 
       private:
         friend class Worlds;
@@ -158,7 +164,7 @@ template <class A> class Worlds {
     static bool setting(At, bool on) { return on; }
 
     template <class T> T note(At place, const T& value) {
-        if constexpr (std::is_same_v<T, Real> || std::is_same_v<T, Vec3>)
+        if constexpr (is_of_reals<T>())
             if (!told_.empty() && place.site.output_id != 0)
                 for (const Told& told : told_)
                     if (told.output_id == place.site.output_id && known().sums)
@@ -192,6 +198,7 @@ template <class A> class Worlds {
     }
 
     static Real real(int i) { return static_cast<float>(i); }
+    static Real real(std::uint32_t i) { return static_cast<float>(i); }
     int to_int(At place, Real x) {
         if (next_answer_ < log_.size())
             return log_[next_answer_++];
@@ -220,6 +227,41 @@ template <class A> class Worlds {
                 return Real(this, quotient);
         return make(
             {a, b}, [&](const auto& fp) { return fp.divide(a.set(), b.set()); }, Undefined::unbounded);
+    }
+    Real sqrt(At, Real a) {
+        if (known().square_root && a.is_float())
+            if (const float root = fp_.sqrt(a.point_); is_sure(root))
+                return Real(this, root);
+        return make({a}, [&](const auto& fp) { return fp.square_root(a.set()); });
+    }
+    Real min(Real a, Real b) {
+        return ordered(a, b, [](double x, double y) { return y < x ? y : x; });
+    }
+    Real max(Real a, Real b) {
+        return ordered(a, b, [](double x, double y) { return x < y ? y : x; });
+    }
+    Real abs(Real a) {
+        return make({a}, [&](const auto&) {
+            const Interval v = a.set();
+            if (v.any || std::isnan(v.low))
+                return v;
+            const double low = std::abs(v.low), high = std::abs(v.high);
+            return Interval(v.low <= 0.0 && v.high >= 0.0 ? 0.0 : std::min(low, high), std::max(low, high));
+        });
+    }
+    template <class Function> Real monotone(Real a, const Function& f) {
+        if (a.is_float())
+            return Real(this, f(a.point_));
+        return make({a}, [&](const auto&) {
+            const Interval v = a.set();
+            return v.any ? v : Interval(double{f(static_cast<float>(v.low))}, double{f(static_cast<float>(v.high))});
+        });
+    }
+    Real floor(Real a) {
+        return make({a}, [&](const auto&) {
+            const Interval v = a.set();
+            return v.any || std::isnan(v.low) ? v : Interval(std::floor(v.low), std::floor(v.high));
+        });
     }
     Real dot(At, const Vec3& a, const Vec3& b) {
         if (known().dot && one_order_ && are_floats(a) && are_floats(b))
@@ -252,6 +294,12 @@ template <class A> class Worlds {
                 return {Real(this, t.x), Real(this, t.y), Real(this, t.z), Real(this, t.w)};
         }
         return make_all<Vec4>(v, [&](const auto& fp) { return fp.transform(m, sets(v)); });
+    }
+
+    /// Whether a condition may be answered with yes, and with no.
+    static std::pair<bool, bool> ways(const auto& condition) {
+        const Answer answer = ask(condition);
+        return {answer.yes, answer.no};
     }
 
     /// Yes, no, or either.
@@ -393,6 +441,15 @@ template <class A> class Worlds {
     static bool are_floats(const Vec3& v) { return v.x.is_float() && v.y.is_float() && v.z.is_float(); }
     static glm::vec3 points(const Vec3& v) { return {v.x.point_, v.y.point_, v.z.point_}; }
 
+    /// min and max: exact, but GL leaves open what they make of NaN.
+    template <class Pick> Real ordered(Real a, Real b, const Pick& pick) {
+        return make({a, b}, [&](const auto&) {
+            const Interval x = a.set(), y = b.set();
+            if (x.any || y.any || std::isnan(x.low) || std::isnan(y.low))
+                return Interval::anything();
+            return Interval(pick(x.low, y.low), pick(x.high, y.high));
+        });
+    }
     template <class Compute>
     Real make(std::initializer_list<Real> operands, const Compute& compute, Undefined own = Undefined::not_a_number) {
         const auto id = static_cast<std::uint32_t>(next_value_++);
@@ -436,6 +493,8 @@ template <class A> class Worlds {
     template <class Field> static Undefined open_field(const Field& field) {
         if constexpr (std::is_same_v<Field, Real>)
             return field.why();
+        else if constexpr (std::is_integral_v<Field>)
+            return Undefined::none;
         else {
             Undefined reason = Undefined::none;
             std::apply([&](const auto&... part) { ((reason = first_of(reason, open_field(part))), ...); },
@@ -550,13 +609,26 @@ template <class A> class Worlds {
         values_[x.id_].set = set;
     }
 
+    /// Numbers, not integers: these are decided, and so told already.
+    template <class T> static constexpr bool is_of_reals() {
+        return std::is_same_v<T, Real> || std::is_same_v<T, Vec2> || std::is_same_v<T, Vec3> || std::is_same_v<T, Vec4>;
+    }
     Real go_on_from(std::span<const float> told, const Real& value) {
         return agree(value.set().contains(told[0])) ? instead_of(value, told[0]) : value;
     }
-    Vec3 go_on_from(std::span<const float> told, const Vec3& v) {
-        return agree(v.x.set().contains(told[0]) && v.y.set().contains(told[1]) && v.z.set().contains(told[2]))
-                   ? Vec3{instead_of(v.x, told[0]), instead_of(v.y, told[1]), instead_of(v.z, told[2])}
-                   : v;
+    template <class Vector> Vector go_on_from(std::span<const float> told, const Vector& v) {
+        const bool legal = std::apply(
+            [&](const auto&... part) {
+                std::size_t c = 0;
+                return (part.set().contains(told[c++]) && ...);
+            },
+            v.fields());
+        if (!agree(legal))
+            return v;
+        Vector observed = v;
+        std::size_t c = 0;
+        std::apply([&](auto&... part) { ((part = instead_of(part, told[c++])), ...); }, observed.fields());
+        return observed;
     }
     /// An answer like a decision's: a run that is repeated must not ask again.
     bool agree(bool answer) {

@@ -213,18 +213,18 @@ TEST_CASE("verdict: a run that draws nothing says so") {
     CHECK_THAT(outcome.out, Catch::Contains("AGREE, but nothing collided, and nothing was drawn into the CDT: every"));
 }
 
-TEST_CASE("verdict: what is compared and not judged says so, also where it agrees") {
+TEST_CASE("verdict: every search is judged; free runs are compared, and say so") {
     if (!test::have_osmesa())
         return;
     const Setting setting;
-    for (const char* unjudged : {"search=octree", "cdt_layers=2"}) {
-        INFO(unjudged);
-        const test::Outcome outcome = setting.check({"--frames", "6", "--set", unjudged});
+    for (const char* search : {"search=cdt", "search=octree", "cdt_layers=2"}) {
+        INFO(search);
+        const test::Outcome outcome = setting.check({"--frames", "6", "--set", search});
         CHECK(outcome.status == 0);
-        CHECK_THAT(outcome.out, Catch::Contains("verdict   AGREE: ") && Catch::Contains("; compared, not judged\n"));
-        CHECK(json_of(setting.report)["judged"] == false);
+        CHECK_THAT(outcome.out, Catch::Contains("verdict   AGREE: ") && !Catch::Contains("not judged\n"));
+        CHECK(json_of(setting.report)["judged"] == true);
     }
-    CHECK(setting.check({"--frames", "6"}).out.find("not judged") == std::string::npos);
+    CHECK_THAT(setting.check({"--frames", "6", "--mode", "free"}).out, Catch::Contains("; compared, not judged\n"));
 }
 
 TEST_CASE("verdict: bench has check's words and status") {

@@ -62,14 +62,14 @@ TEST_CASE("planted faults: 100 in the GPU's state, each located to the frame, th
         REQUIRE(report.verdicts->first);
         const FirstDivergence& first = *report.verdicts->first;
         CHECK(first.place.frame == fault.frame);
-        CHECK_FALSE(first.place.texel);
+        CHECK(first.place.resource == collision::particles);
         CHECK(first.place.index == fault.particle);
         const auto [field, component] = place_of(fault.component);
         CHECK(first.wrong.difference.field == field);
         CHECK(first.wrong.difference.component == component);
         CHECK(same_bits(first.wrong.difference.reference, plant.before()));
         CHECK(same_bits(first.wrong.difference.gpu, plant.after()));
-        CHECK_FALSE(report.verdicts->particle_cause.explains_all());
+        CHECK_FALSE(report.verdicts->causes[collision::particles].explains_all());
         CHECK(seconds_to_answer(report) < 5.0);
     }
 }

@@ -41,7 +41,7 @@ void note_verdict(Trial& trial, const CheckReport& report) {
         trial.frame = verdicts.first->place.frame;
         trial.step = verdicts.first->wrong.step;
     }
-    const CauseFindings& found = verdicts.particle_cause.divergent > 0 ? verdicts.particle_cause : verdicts.texel_cause;
+    const CauseFindings& found = verdicts.causes[verdicts.causes[0].divergent > 0 ? 0 : 1];
     trial.explained = found.explains_all();
     for (const Cause& cause : found.best)
         trial.causes.push_back(cause.name());

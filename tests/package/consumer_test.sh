@@ -47,6 +47,24 @@ sed -n '/^  repeat    /,/^$/p' out.txt | sed 's/repeat    //' >repeat.sh
 PATH="$work/prefix/bin:$PATH" ends_with 1 bash repeat.sh
 says 'verdict DIVERGENT from frame '
 
+# A system of its own, with every verb on a planted mistake.
+succeeds build/grains check --frames 30
+says 'verdict '
+mkdir planted
+sed 's/u_Gravity - a_Velocity \* u_Drag/u_Gravity/' "$source/tests/consumer/grains/grains_step.vert" >planted/grains_step.vert
+ends_with 1 build/grains check --frames 30 --shaders planted --json report.json --capsule capsule.json
+says 'verdict DIVERGENT from frame 0 on'
+says 'explained by '
+says 'u_Drag: zero'
+says 'first frame 0 grain 0, divergent, step grains_step'
+grep -q '"verdict": "DIVERGENT"' report.json || fail 'the JSON report does not say DIVERGENT'
+succeeds build/grains explain --frame 3 --item 17 --shaders planted
+says 'first acceleration.'
+ends_with 1 build/grains capsule capsule.json
+says 'first acceleration.'
+ends_with 2 build/grains check --frame 30
+says 'there is no option --frame; there are --frames'
+
 # The shaders are the package's.
 echo 'not GLSL' >>prefix/share/lockstep/shaders/collision_pass.frag
 ends_with 8 ctest --test-dir build -V

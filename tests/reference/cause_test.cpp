@@ -173,7 +173,7 @@ class Run {
 
 bool names(const CauseFindings& found, Deviation deviation) {
     for (const Cause& cause : found.best)
-        if (cause.deviations == std::vector{deviation})
+        if (cause.mistakes == std::vector{std::string(deviation_name(deviation))})
             return true;
     return false;
 }
@@ -198,7 +198,7 @@ TEST_CASE("cause: every deviation that shows is found by its name, alone or besi
             shown[info.deviation] = true;
             CHECK(found.explains_all());
             CHECK(names(found, info.deviation));
-            first[info.deviation] = !found.best.empty() && found.best.front().deviations.front() == info.deviation;
+            first[info.deviation] = !found.best.empty() && found.best.front().mistakes.front() == info.name;
         }
     }
     std::string hidden, second;
@@ -224,9 +224,10 @@ TEST_CASE("cause: two deviations at once are found as a pair") {
         const CauseFindings found = run.with(Deviations(a).add(b)).particles;
         INFO(deviation_name(a) << " + " << deviation_name(b));
         REQUIRE(found.explains_all());
-        CHECK(found.best.front().deviations.size() == 2);
+        CHECK(found.best.front().mistakes.size() == 2);
         CHECK(std::any_of(found.best.begin(), found.best.end(), [&](const Cause& cause) {
-            return cause.deviations == std::vector{std::min(a, b), std::max(a, b)};
+            return cause.mistakes == std::vector{std::string(deviation_name(std::min(a, b))),
+                                                 std::string(deviation_name(std::max(a, b)))};
         }));
     }
     const CauseFindings drawn = run.with(Deviations(point_half_pixel_up).add(depth_not_tested)).texels;

@@ -6,6 +6,8 @@
 #include <map>
 #include <string>
 
+#include "crosscheck/judge/diagnosis.hpp"
+#include "crosscheck/judge/verdict.hpp"
 #include "crosscheck/judge/verdict_summary.hpp"
 #include "crosscheck/report/verdict_text.hpp"
 #include <nlohmann/json.hpp>
@@ -282,31 +284,32 @@ TEST_CASE("verdict: normalize of zero is undefined, but the fields it does not t
 }
 
 TEST_CASE("verdict: a summary counts classes, set sizes and ties, and its text and JSON say so") {
-    VerdictSummary summary;
+    const TieKind nearest_tie{"nearest", "world units"};
+    VerdictSummary summary(collision_schema());
     FrameVerdicts verdicts;
-    verdicts.particles = {
-        {.index = 3, .kind = DifferenceClass::rounding},
-        {.index = 4, .kind = DifferenceClass::tie, .outcomes = 2, .tie = Tie{TieKind::nearest, 0.25}},
-        {.index = 9, .kind = DifferenceClass::tie, .outcomes = 3, .tie = Tie{TieKind::nearest, 0.125}}};
+    verdicts.particles = {{.index = 3, .kind = DifferenceClass::rounding},
+                          {.index = 4, .kind = DifferenceClass::tie, .outcomes = 2, .tie = Tie{nearest_tie, 0.25}},
+                          {.index = 9, .kind = DifferenceClass::tie, .outcomes = 3, .tie = Tie{nearest_tie, 0.125}}};
     verdicts.texels = {{.index = 70,
                         .kind = DifferenceClass::undefined,
                         .outcomes = 1,
                         .tie = std::nullopt,
                         .undefined = Undefined::zero_direction}};
-    summary.add(5, verdicts);
+    summary.add(5, collision::particles, verdicts.particles);
+    summary.add(5, collision::cdt, verdicts.texels);
     CHECK(summary.total(DifferenceClass::tie) == 2);
     CHECK(summary.median_set_size() == 1);
-    const TieCount& nearest = summary.ties.at(TieKind::nearest);
+    const TieCount& nearest = summary.ties.at(nearest_tie);
     CHECK(nearest.count == 2);
     CHECK(nearest.smallest == 0.125);
     CHECK(nearest.largest == 0.25);
     CHECK(nearest.closest.index == 9);
-    const std::string text = verdict_text(summary, 64);
+    const std::string text = verdict_text(summary, collision_schema(), 64);
     CHECK_THAT(text, Catch::Contains("particles: 1 rounding, 2 tie; texels: 1 undefined"));
     CHECK_THAT(text, Catch::Contains("median 1, largest 3"));
     CHECK_THAT(text, Catch::Contains("nearest: 2, margins 0.125 to 0.25 world units; closest frame 5 particle 9"));
     CHECK_THAT(text, Catch::Contains("normalize of a vector of length 0: 1"));
-    const nlohmann::json json = verdict_json(summary, 64);
+    const nlohmann::json json = verdict_json(summary, collision_schema(), 64);
     CHECK(json["particles"]["tie"] == 2);
     CHECK(json["set_size"]["largest"] == 3);
     CHECK(json["ties"]["nearest"]["closest"]["particle"] == 9);

@@ -80,8 +80,8 @@ TEST_CASE("check trace: without the CDT a changed particle is found, and no texe
     CHECK(report.verdict == Verdict::divergent);
     CHECK(report.first_frame == 3);
     REQUIRE(report.verdicts);
-    CHECK(report.verdicts->particles[3] >= 1);
-    for (const std::uint64_t texels : report.verdicts->texels)
+    CHECK(report.verdicts->classes[0][3] >= 1);
+    for (const std::uint64_t texels : report.verdicts->classes[1])
         CHECK(texels == 0);
     CHECK(check_trace(file, CheckMode::free).verdict == Verdict::differ);
 }

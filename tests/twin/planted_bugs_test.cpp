@@ -3,6 +3,7 @@
 #include <catch2/catch.hpp>
 #include <glm/geometric.hpp>
 
+#include "reference/model/collision_state.hpp"
 #include "tests/planted_shader.hpp"
 #include "tests/twin/llvmpipe.hpp"
 #include "tests/twin/random_scenes.hpp"
@@ -179,7 +180,7 @@ TEST_CASE("planted bugs: each is found, in the frame in which it first shows, by
         CHECK(report.first_frame == expected);
         CHECK(report.worst.front().frame == expected);
         REQUIRE(report.verdicts);
-        const CauseFindings& cause = report.verdicts->particle_cause;
+        const CauseFindings& cause = report.verdicts->causes[collision::particles];
         CHECK(cause.explains_all() == (*bug.cause != '\0'));
         CHECK((cause.explains_all() ? cause.best.front().name() : "") == bug.cause);
         CHECK(report.verdicts->first->place.frame == expected);

@@ -1,0 +1,52 @@
+#pragma once
+#include <cstddef>
+#include <cstdint>
+#include <map>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "crosscheck/judge/cause_findings.hpp"
+#include "crosscheck/judge/item_verdict.hpp"
+#include "crosscheck/judge/system.hpp"
+
+namespace lockstep {
+
+/// Looks for the mistake in a pass's twin that explains what diverged: first those with names, then the host's (an old
+/// state, nothing written), then every change that the sites of the divergent items allow. On the first frames with
+/// divergence; what explains all there is held against the frames that follow.
+class ItemCauseFinder {
+  public:
+    static constexpr int trial_frames = 4;
+    static constexpr std::size_t trial_items = 1024; ///< a frame
+    static constexpr std::size_t most_shown = 3;
+
+    explicit ItemCauseFinder(const std::vector<NamedMistake>& named) : named_(named) {}
+
+    void add(const JudgedPass& pass, const std::vector<ItemVerdict>& verdicts);
+
+    [[nodiscard]] CauseFindings findings() const;
+
+  private:
+    /// What may have gone wrong.
+    struct Hypothesis {
+        enum class Host : std::uint8_t { none, unwritten, earlier_state };
+        Host host = Host::none;
+        std::optional<Mistake> mistake = {};
+        const NamedMistake* named = nullptr;
+        std::string text = {}; ///< of one without a name
+        std::uint64_t explained = 0, contradicted = 0;
+
+        [[nodiscard]] int rank() const { return named != nullptr ? 0 : host != Host::none ? 1 : 2; }
+    };
+    [[nodiscard]] std::vector<Hypothesis> hypotheses(const JudgedPass& pass,
+                                                     const std::vector<std::size_t>& items) const;
+    static bool explains(const Hypothesis& hypothesis, const JudgedPass& pass, std::size_t item);
+
+    const std::vector<NamedMistake>& named_;
+    int frames_ = 0;
+    std::uint64_t divergent_ = 0;
+    std::vector<Hypothesis> tried_;
+};
+
+} // namespace lockstep

@@ -1,0 +1,45 @@
+#pragma once
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "reference/readings/mistake.hpp"
+#include "reference/system/item_pass.hpp"
+
+namespace lockstep {
+
+/// A mistake with a name that people use: where in a twin, and what. Tried before those that sites allow by themselves.
+struct NamedMistake {
+    std::string name;    ///< "gravity_missing"
+    std::string meaning; ///< one line
+    std::string pass;    ///< in which it is made
+    Mistake mistake;
+};
+
+/// A particle or image system as a check sees it: what its state is, the twins of its passes in the order in which a
+/// frame runs them, and how a run starts.
+struct System {
+    std::string name;     ///< of the run
+    const Schema& schema; ///< outlives this
+    std::vector<std::unique_ptr<ItemPass>> passes;
+    std::vector<NamedMistake> mistakes;
+    SystemState start;
+    std::string settings; ///< as a report has them
+};
+
+/// One pass of one frame: what it started from, and what both sides made of it. Refers to the run's own data.
+struct JudgedPass {
+    const ItemPass& pass;
+    const Profile& profile;
+    const KnownOperations& known;
+    int frame = 0;
+    const SystemView& before;
+    const View& reference; ///< of the pass's buffer
+    const View& gpu;
+    /// What the pass started from in the frame before; null in frame 0.
+    const SystemView* earlier = nullptr;
+
+    [[nodiscard]] PassInput input() const { return {before, frame}; }
+};
+
+} // namespace lockstep

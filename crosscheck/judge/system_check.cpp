@@ -1,0 +1,297 @@
+#include "crosscheck/judge/system_check.hpp"
+
+#include <chrono>
+#include <utility>
+
+#include <fmt/format.h>
+
+#include "crosscheck/judge/item_cause.hpp"
+#include "crosscheck/judge/item_judge.hpp"
+#include "gpu/system_side.hpp"
+#include "reference/model/error.hpp"
+#include "reference/model/state_hash.hpp"
+
+namespace lockstep {
+namespace {
+
+/// Adds the time until it dies to a sum.
+class Stopwatch {
+  public:
+    explicit Stopwatch(double& seconds) : seconds_(seconds) {}
+    ~Stopwatch() { seconds_ += std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count(); }
+    Stopwatch(const Stopwatch&) = delete;
+    Stopwatch& operator=(const Stopwatch&) = delete;
+
+  private:
+    double& seconds_;
+    std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
+};
+
+void check_system(const System& system) {
+    if (system.passes.empty())
+        throw Error(fmt::format("{}: a system without passes does nothing", system.schema.system));
+    for (const auto& pass : system.passes) {
+        if (pass->resource() >= system.schema.resources.size() ||
+            system.schema.resources[pass->resource()].dimensions != 1)
+            throw Error(fmt::format("{}: pass {} makes the items of no buffer", system.schema.system, pass->name()));
+        if (system.start.extent(pass->resource()).count() == 0)
+            throw Error(fmt::format("{}: nothing would be compared: there are no {}s", system.schema.system,
+                                    system.schema.resources[pass->resource()].item));
+    }
+    for (const NamedMistake& named : system.mistakes) {
+        bool known = false;
+        for (const auto& pass : system.passes)
+            known = known || pass->name() == named.pass;
+        if (!known)
+            throw Error(fmt::format("{}: mistake {} is made in pass '{}', which there is not", system.schema.system,
+                                    named.name, named.pass));
+    }
+}
+
+void note_difference(CheckReport& report, int frame, const Comparison& comparison) {
+    const std::int64_t worst = comparison.worst.empty() ? 0 : comparison.worst.front().ulp;
+    if (report.counts.empty() || report.counts.back().frame != frame)
+        report.counts.push_back({frame, std::vector<std::uint64_t>(report.schema.resources.size()), 0});
+    FrameCount& counts = report.counts.back();
+    counts.worst_ulp = std::max(counts.worst_ulp, worst);
+    for (std::uint8_t r = 0; r < report.schema.resources.size(); ++r)
+        counts.items[r] += comparison.differing(r);
+    if (comparison.agree() || report.first_frame)
+        return;
+    report.first_frame = frame;
+    for (const Difference& difference : comparison.worst)
+        report.worst.push_back({frame, difference});
+}
+
+std::uint64_t hash_of(const SystemState& state) {
+    std::uint64_t hash = state_hash(state[0]);
+    for (std::uint8_t r = 1; r < state.schema().resources.size(); ++r)
+        hash = combined_hash(hash, state_hash(state[r]));
+    return hash;
+}
+
+/// A frame in which nothing but copies was made proves little.
+std::uint64_t changed_items(const View& before, const View& after) { return differing_items(before, after).size(); }
+
+/// The words that agree in a state of NaN prove nothing.
+std::vector<std::string> untried(const CheckReport& report, std::uint64_t changed) {
+    std::vector<std::string> all;
+    if (changed == 0)
+        all.emplace_back("no pass changed anything");
+    std::uint64_t compared = 0, nan = 0;
+    for (const ResourceCount& resource : report.total.resources)
+        for (const FieldCount& field : resource.fields) {
+            compared += field.compared;
+            nan += field.nan;
+        }
+    if (nan > 0 && 2 * nan >= compared)
+        all.emplace_back(fmt::format("{} of {} values are NaN, of which any equals any other", nan, compared));
+    return all;
+}
+
+Verdict verdict_on(const CheckReport& report) {
+    if (report.total.agree())
+        return Verdict::agree;
+    if (!report.verdicts)
+        return Verdict::differ;
+    if (report.verdicts->total(DifferenceClass::divergent) > 0)
+        return Verdict::divergent;
+    return report.verdicts->total(DifferenceClass::undefined) > 0 ? Verdict::undefined : Verdict::legal;
+}
+
+/// A pass writes its own buffer and no other.
+void expect_untouched(const System& system, const ItemPass& pass, const SystemState& before, const SystemState& now,
+                      int frame) {
+    for (std::uint8_t r = 0; r < system.schema.resources.size(); ++r) {
+        if (r == pass.resource())
+            continue;
+        const auto changed = differing_items(before[r], now[r]);
+        if (!changed.empty())
+            throw Error(fmt::format("frame {}: {} changed {} {}; it is to write {} alone", frame, pass.name(),
+                                    system.schema.resources[r].item, changed.front(),
+                                    system.schema.resources[pass.resource()].title));
+    }
+}
+
+void find_canary(const System& system, const ItemPass& pass, const SystemState& now, int frame) {
+    const View view = now[pass.resource()];
+    if (const std::size_t item = find_word(view, canary_word); item < view.count())
+        throw Error(fmt::format("frame {}: {} did not write {} {}: its record still holds what was laid there before",
+                                frame, pass.name(), system.schema.resources[pass.resource()].item, item));
+}
+
+} // namespace
+
+CheckReport check(const System& system, SystemSide& gpu, const CheckOptions& options) {
+    check_system(system);
+    const Profile profile = gpu.describe().profile;
+    const KnownOperations known = options.known.value_or(measured_operations(profile));
+    const bool judged = options.mode == CheckMode::resync;
+    CheckReport report;
+    report.schema = system.schema;
+    report.particles = system.start.extent(0).count();
+    report.frames_asked = options.frames;
+    VerdictSummary summary(system.schema);
+    std::vector<ItemCauseFinder> causes;
+    for (std::size_t p = 0; p < system.passes.size(); ++p)
+        causes.emplace_back(system.mistakes);
+    std::vector<SystemState> earlier(system.passes.size()); // what each pass started from, a frame ago
+    SystemState before = system.start, now = system.start, reference = system.start;
+    std::uint64_t changed = 0;
+    gpu.upload(before.view());
+
+    for (int frame = 0; frame < options.frames && !(options.stop != nullptr && *options.stop); ++frame) {
+        FrameTimes times;
+        for (std::size_t p = 0; p < system.passes.size(); ++p) {
+            const ItemPass& pass = *system.passes[p];
+            const std::uint8_t r = pass.resource();
+            const bool repeat = frame < options.repeated_frames && gpu.repeats();
+            if (repeat)
+                gpu.lay_canary(p);
+            {
+                const Stopwatch watch(times.gpu);
+                gpu.step(p, frame);
+            }
+            {
+                const Stopwatch watch(times.readback);
+                gpu.read(now);
+            }
+            expect_untouched(system, pass, before, now, frame);
+            if (repeat) {
+                find_canary(system, pass, now, frame);
+                SystemState again = now;
+                gpu.repeat_step(p, frame);
+                gpu.read(again);
+                if (const Comparison repeated = compare(now[r], again[r]); !repeated.agree()) {
+                    note_difference(report, frame, repeated);
+                    report.verdict = Verdict::nondeterministic;
+                    report.total.add(repeated);
+                    report.frames = frame + 1;
+                    return report;
+                }
+            }
+            const SystemView from = judged ? before.view() : reference.view();
+            SystemState made = judged ? before : reference;
+            {
+                const Stopwatch watch(times.reference);
+                run_pass(pass, {from, frame}, profile, made[r]);
+            }
+            Comparison comparison;
+            {
+                const Stopwatch watch(times.compare);
+                comparison = compare(std::as_const(made)[r], std::as_const(now)[r]);
+                if (!comparison.agree() || !judged)
+                    note_difference(report, frame, comparison);
+                report.total.add(comparison);
+                changed += changed_items(from[r], std::as_const(made)[r]);
+            }
+            if (judged && comparison.differing(r) > 0) {
+                const Stopwatch watch(times.judge);
+                const SystemView earlier_view = frame > 0 ? earlier[p].view() : SystemView();
+                const View reference_view = std::as_const(made)[r], gpu_view = std::as_const(now)[r];
+                const JudgedPass one{pass, profile,        known,    frame,
+                                     from, reference_view, gpu_view, frame > 0 ? &earlier_view : nullptr};
+                const std::vector<ItemVerdict> verdicts = judge_items(one);
+                const std::uint64_t divergent_before = summary.total(DifferenceClass::divergent);
+                summary.add(frame, r, verdicts);
+                const bool diverges = summary.total(DifferenceClass::divergent) > divergent_before;
+                const auto first = [&](DifferenceClass kind) {
+                    for (const ItemVerdict& verdict : verdicts)
+                        if (verdict.kind == kind) {
+                            summary.first = {
+                                {frame, r, verdict.index}, verdict, wrong_step_of_item(one, verdict.index)};
+                            return;
+                        }
+                };
+                if (diverges && divergent_before == 0)
+                    first(DifferenceClass::divergent);
+                else if (!summary.first)
+                    first(DifferenceClass::undefined);
+                if (diverges)
+                    causes[p].add(one, verdicts);
+            }
+            earlier[p] = judged ? before : reference;
+            reference = std::move(made);
+            before = now;
+        }
+        report.times.push_back(times);
+        report.frames = frame + 1;
+        if (options.on_frame)
+            options.on_frame(report.frames);
+    }
+    if (report.total.compared() == 0)
+        throw Error(fmt::format("{}: nothing was compared: {} frames", system.name, report.frames));
+    if (judged) {
+        for (std::size_t p = 0; p < causes.size(); ++p) {
+            const CauseFindings found = causes[p].findings();
+            CauseFindings& of_buffer = summary.causes[system.passes[p]->resource()];
+            if (found.divergent > of_buffer.divergent)
+                of_buffer = found;
+        }
+        report.verdicts = summary;
+    }
+    report.verdict = verdict_on(report);
+    if (report.verdict != Verdict::divergent && report.verdict != Verdict::differ)
+        report.untried = untried(report, changed);
+    report.reference_hash = hash_of(reference);
+    report.gpu_hash = hash_of(before);
+    return report;
+}
+
+SystemRun::SystemRun(const System& system, SystemSide& gpu, const KnownOperations& known, int frame, std::size_t pass)
+    : system_(system), gpu_(gpu), profile_(gpu.describe().profile), known_(known), frame_(frame), pass_(pass),
+      before_(system.start), earlier_(system.start), reference_(system.start), now_(system.start) {
+    check_system(system);
+    if (pass >= system.passes.size())
+        throw Error(fmt::format("{} has no pass {}; it has 0 to {}", system.name, pass, system.passes.size() - 1));
+    gpu.upload(system.start.view());
+    for (int f = 0; f <= frame; ++f)
+        for (std::size_t p = 0; p < system.passes.size(); ++p) {
+            if (f == frame && p > pass)
+                break;
+            before_ = now_;
+            gpu.step(p, f);
+            gpu.read(now_);
+            if (p == pass && f + 1 == frame) {
+                earlier_ = before_;
+                has_earlier_ = true;
+            }
+        }
+    before_view_ = before_.view();
+    earlier_view_ = earlier_.view();
+    const ItemPass& made = *system.passes[pass];
+    reference_ = before_;
+    run_pass(made, {before_view_, frame}, profile_, reference_[made.resource()]);
+    reference_view_ = std::as_const(reference_)[made.resource()];
+    gpu_view_ = std::as_const(now_)[made.resource()];
+}
+
+JudgedPass SystemRun::judged() const {
+    return {*system_.passes[pass_], profile_,        known_,    frame_,
+            before_view_,           reference_view_, gpu_view_, has_earlier_ ? &earlier_view_ : nullptr};
+}
+
+std::vector<ToldValue> SystemRun::told(std::size_t item) {
+    std::vector<ToldValue> told;
+    for (const CapturedVertex& vertex : gpu_.trace(pass_, frame_, item))
+        for (const CapturedOutput& output : vertex.outputs) {
+            ToldValue value{output.name, {}};
+            for (std::size_t c = 0; c < output.words.size(); ++c)
+                value.values.push_back(output.is_float ? output.number(c) : static_cast<float>(output.integer(c)));
+            told.push_back(std::move(value));
+        }
+    // What the pass wrote is told, too.
+    const View& gpu = gpu_view_;
+    for (std::size_t f = 0; f < gpu.fields().size(); ++f) {
+        const std::string_view output = system_.passes[pass_]->output(gpu.about(), static_cast<std::uint8_t>(f));
+        ToldValue value{std::string(output), {}};
+        for (int c = 0; c < gpu.fields()[f].components; ++c) {
+            const Value v = gpu.value(f, item, c);
+            value.values.push_back(v.scalar == Scalar::float32 ? v.real() : static_cast<float>(v.integer()));
+        }
+        told.push_back(std::move(value));
+    }
+    return told;
+}
+
+} // namespace lockstep

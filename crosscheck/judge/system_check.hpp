@@ -1,0 +1,40 @@
+#pragma once
+#include "crosscheck/judge/check.hpp"
+#include "crosscheck/judge/system.hpp"
+
+namespace lockstep {
+
+class SystemSide;
+
+/// Runs a system's passes on both sides from its start and compares every bit of what each pass wrote. Each pass is
+/// judged alone: it starts from what the GPU's passes before it left (CheckMode::resync), or both sides run on by
+/// themselves (free). Throws Error when the run would prove nothing: a GL error, output that was not written, nothing
+/// compared.
+CheckReport check(const System& system, SystemSide& gpu, const CheckOptions& options);
+
+/// What a run of both sides came to in one pass of one frame, for a look into it.
+class SystemRun {
+  public:
+    /// Runs to pass `pass` of frame `frame`. `system` and `gpu` outlive this. The GPU starts again from the start.
+    SystemRun(const System& system, SystemSide& gpu, const KnownOperations& known, int frame, std::size_t pass);
+
+    [[nodiscard]] JudgedPass judged() const;
+    [[nodiscard]] const System& system() const { return system_; }
+    [[nodiscard]] const Profile& profile() const { return profile_; }
+    /// What the GPU's pass told of an item, where it can.
+    [[nodiscard]] std::vector<ToldValue> told(std::size_t item);
+
+  private:
+    const System& system_;
+    SystemSide& gpu_;
+    Profile profile_;
+    KnownOperations known_;
+    int frame_;
+    std::size_t pass_;
+    SystemState before_, earlier_, reference_, now_;
+    SystemView before_view_, earlier_view_;
+    View reference_view_, gpu_view_;
+    bool has_earlier_ = false;
+};
+
+} // namespace lockstep

@@ -1,0 +1,45 @@
+#pragma once
+/// A system of one's own (docs/own_system.md): what its state is (Schema), the twin of each pass (values.hpp has the
+/// words of a twin), and the shaders that a GL context runs. check() compares and judges, explain_item() looks into one
+/// item.
+#include <string>
+
+#include "crosscheck/judge/system.hpp"
+#include "crosscheck/judge/system_check.hpp"
+#include "crosscheck/record/item_capsule.hpp"
+#include "crosscheck/report/item_text.hpp"
+#include "crosscheck/report/report.hpp"
+#include "gpu/gl_system.hpp"
+#include "lockstep/lockstep.hpp"
+#include "reference/system/item_twin.hpp"
+
+namespace lockstep {
+
+/// A system's passes on a context's GL; its profile is the context's, as measured.
+class GlSystemSide final : public SystemSide {
+  public:
+    /// `gl` and `system` outlive this. `shaders`: the folder of the passes' files. Throws Error for what is wrong with
+    /// one.
+    GlSystemSide(const Gl& gl, const System& system, std::vector<GlPass> passes, const std::string& shaders,
+                 ArithmeticSwitch arithmetic = ArithmeticSwitch::plain);
+
+    [[nodiscard]] SideDescription describe() const override;
+    void upload(const SystemView& state) override { system_.upload(state); }
+    void step(std::size_t pass, int frame) override { system_.step(pass, frame); }
+    void read(SystemState& state) const override { system_.read(state); }
+    [[nodiscard]] bool repeats() const override { return true; }
+    void lay_canary(std::size_t pass) override { system_.lay_canary(pass); }
+    void repeat_step(std::size_t pass, int frame) override { system_.repeat_step(pass, frame); }
+    std::vector<CapturedVertex> trace(std::size_t pass, int frame, std::size_t item) override {
+        return system_.trace(pass, frame, item);
+    }
+
+  private:
+    const Gl& gl_;
+    GlSystem system_;
+};
+
+/// Runs both sides for `frames` frames; what check() found, with the heading of a report.
+MatchResult match_system(SystemSide& gpu, const System& system, const MatchOptions& options = {});
+
+} // namespace lockstep

@@ -1,0 +1,18 @@
+#pragma once
+/// The verbs of `lockstep` for a system of one's own, as the main() of a program:
+///
+///     int main(int argc, char** argv) { return lockstep::run_system_program(argc, argv, my_system(), my_passes()); }
+#include <string>
+#include <vector>
+
+#include "lockstep/system.hpp"
+
+namespace lockstep {
+
+/// Runs `argv` (`PROGRAM help` says what there is): check, explain and capsule, on GL with the shaders of `--shaders`,
+/// otherwise those of `shaders`. Returns the exit status: 0 the check passed, 1 it did not, 2 a message was printed
+/// that says what is wrong.
+int run_system_program(int argc, char** argv, const System& system, const std::vector<GlPass>& passes,
+                       const std::string& shaders);
+
+} // namespace lockstep

@@ -1,0 +1,23 @@
+#pragma once
+#include <cstddef>
+#include <span>
+#include <string>
+
+#include "crosscheck/judge/system_check.hpp"
+#include "crosscheck/report/report.hpp"
+#include "crosscheck/report/value_text.hpp"
+#include "gpu/gpu_side.hpp"
+
+namespace lockstep {
+
+/// One item's step in a pass, value by value down its twin: the reference strict, with the driver's profile, and what
+/// the GPU told; each judged by the GPU's own values above it. Then the verdict and every legal outcome.
+std::string explain_item(SystemRun& run, std::size_t item, NumberFormat format = NumberFormat::decimal);
+std::string explain_item(const JudgedPass& pass, std::size_t item, std::span<const ToldValue> told,
+                         NumberFormat format);
+
+/// The heading of a report on a system's run. `repeat`: the command that repeats it.
+RunDescription describe_run(const System& system, const SideDescription& side, const CheckOptions& options,
+                            const std::string& repeat);
+
+} // namespace lockstep

@@ -1,0 +1,71 @@
+#pragma once
+#include <cstddef>
+#include <cstdint>
+#include <filesystem>
+#include <functional>
+#include <map>
+#include <memory>
+#include <string>
+#include <string_view>
+#include <variant>
+#include <vector>
+
+#include <glm/mat4x4.hpp>
+#include <glm/vec2.hpp>
+#include <glm/vec3.hpp>
+#include <glm/vec4.hpp>
+
+#include "gpu/shader_source.hpp"
+#include "gpu/system_side.hpp"
+#include "reference/model/switches.hpp"
+
+namespace lockstep {
+
+/// A uniform's value; its type in GLSL is this one.
+using UniformValue = std::variant<float, int, unsigned, glm::vec2, glm::vec3, glm::vec4, glm::ivec2, glm::mat4>;
+using Uniforms = std::map<std::string, UniformValue>;
+
+/// A pass on GL: a shader that makes every item of a buffer anew.
+///
+/// NAME.vert: attributes a_Field and captured outputs out_Field of each field, `collide_time` being a_CollideTime.
+/// NAME.comp: storage blocks BufferBefore and BufferAfter of each buffer, `grains` being GrainsBefore, an item a record
+/// of its fields in the schema's order without gaps (a struct of scalars; a vec3 would leave one).
+struct GlPass {
+    std::string name;
+    Stage stage = Stage::vertex; ///< or compute
+    std::uint8_t resource = 0;
+    /// What its uniforms are in a frame; u_ItemCount is set by itself. May be empty.
+    std::function<Uniforms(int frame)> uniforms = {};
+};
+
+/// The GPU side of a system whose state is buffers, in the current context: each pass reads the state that the one
+/// before left, in one copy of each buffer, and writes the other.
+class GlSystem final : public SystemSide {
+  public:
+    /// `shaders`: the folder of the passes' files, which may include the shipped arithmetic.glsl. `schema` outlives
+    /// this. Throws Error for a schema with images, and for what is wrong with a shader.
+    GlSystem(const Schema& schema, std::vector<GlPass> passes, std::filesystem::path shaders,
+             ArithmeticSwitch arithmetic = ArithmeticSwitch::plain);
+
+    ~GlSystem() override;
+
+    void upload(const SystemView& state) override;
+    void step(std::size_t pass, int frame) override;
+    void read(SystemState& state) const override;
+
+    [[nodiscard]] bool repeats() const override { return true; }
+    void lay_canary(std::size_t pass) override;
+    void repeat_step(std::size_t pass, int frame) override;
+
+    /// Of a vertex pass: its outputs named trace_*, from the same files with LOCKSTEP_TRACE defined.
+    std::vector<CapturedVertex> trace(std::size_t pass, int frame, std::size_t item) override;
+
+  private:
+    struct Parts;
+    std::unique_ptr<Parts> parts_;
+};
+
+/// "CollideTime" of "collide_time".
+std::string shader_name(std::string_view name);
+
+} // namespace lockstep

@@ -1,0 +1,48 @@
+#pragma once
+#include <cstddef>
+#include <vector>
+
+#include "gpu/captured_vertex.hpp"
+#include "gpu/gpu_side.hpp"
+#include "reference/model/system_state.hpp"
+
+namespace lockstep {
+
+/// Whatever computes the frames of a system that a check holds against its twins, pass by pass: GlSystem runs them on
+/// GL, and an engine of one's own is another by deriving from this.
+class SystemSide {
+  public:
+    SystemSide() = default;
+    virtual ~SystemSide() = default;
+    SystemSide(const SystemSide&) = delete;
+    SystemSide& operator=(const SystemSide&) = delete;
+
+    /// The state that the next pass starts from.
+    virtual void upload(const SystemView& state) = 0;
+
+    /// Pass `pass` of frame `frame`, both counted from 0. Returns when it is done.
+    virtual void step(std::size_t pass, int frame) = 0;
+
+    /// The state after the last pass; `state` has the extents of what was uploaded.
+    virtual void read(SystemState& state) const = 0;
+
+    [[nodiscard]] virtual SideDescription describe() const { return {}; }
+
+    /// Whether a pass can be run twice from one state, to prove that it repeats itself. Only then what follows is
+    /// called.
+    [[nodiscard]] virtual bool repeats() const { return false; }
+
+    /// Fills what the pass will write with a pattern that no step computes.
+    virtual void lay_canary(std::size_t /*pass*/) {}
+
+    /// The last pass once more, from the same state. A side that repeats() overrides this: here it throws Error.
+    virtual void repeat_step(std::size_t pass, int frame);
+
+    /// What the last pass told of one item on its way: outputs by name, in order; empty where it tells nothing.
+    virtual std::vector<CapturedVertex> trace(std::size_t pass, int frame, std::size_t item);
+};
+
+/// The word that lay_canary() leaves.
+inline constexpr std::uint32_t canary_word = 0xca7ca7ca;
+
+} // namespace lockstep

@@ -1,0 +1,27 @@
+#pragma once
+#include <memory>
+
+#include "reference/model/image.hpp"
+#include "reference/model/mesh.hpp"
+#include "reference/model/particles.hpp"
+#include "reference/model/scene.hpp"
+#include "reference/system/item_pass.hpp"
+
+namespace lockstep {
+
+/// What the particles' step of one frame reads; outlives the pass.
+struct StepInputs {
+    const Particles& before;
+    const CollisionImage& cdt;
+    const Mesh& obstacles;
+    const FrameParams& params;
+};
+
+/// The twin of the particles' step of one frame, by the scene's switches: the listing's search, or the octree's. Null
+/// for a search that has no twin.
+std::unique_ptr<ItemPass> step_pass(const StepInputs& inputs);
+
+/// The state that it starts from, as one.
+SystemView step_state(const StepInputs& inputs);
+
+} // namespace lockstep

@@ -1,0 +1,87 @@
+#pragma once
+#include <compare>
+#include <cstddef>
+#include <cstdint>
+#include <set>
+#include <string_view>
+#include <vector>
+
+#include <glm/vec2.hpp>
+#include <glm/vec3.hpp>
+#include <glm/vec4.hpp>
+
+#include "reference/model/state_view.hpp"
+
+namespace lockstep {
+
+/// An item by its buffer or image, and its number there.
+struct ItemId {
+    std::uint8_t resource = 0;
+    std::size_t item = 0;
+    auto operator<=>(const ItemId&) const = default;
+};
+
+/// A system's whole state, wherever it lies: a view of each buffer and image, in the schema's order.
+struct SystemView {
+    std::vector<View> resources;
+    std::set<ItemId>* read = nullptr; ///< not null: gathers the items that are read
+
+    [[nodiscard]] const View& operator[](std::uint8_t resource) const { return resources[resource]; }
+
+    // Components of an item's field. Floats and integers are read as their field has them.
+    [[nodiscard]] Value value(FieldId field, std::size_t item, int component = 0) const {
+        if (read != nullptr)
+            read->insert({field.resource, item});
+        return resources[field.resource].value(field.field, item, component);
+    }
+    [[nodiscard]] float real(FieldId field, std::size_t item, int component = 0) const {
+        return value(field, item, component).real();
+    }
+    [[nodiscard]] std::int32_t integer(FieldId field, std::size_t item, int component = 0) const {
+        return static_cast<std::int32_t>(value(field, item, component).bits);
+    }
+    [[nodiscard]] std::uint32_t word(FieldId field, std::size_t item, int component = 0) const {
+        return value(field, item, component).bits;
+    }
+    [[nodiscard]] glm::vec2 vec2(FieldId field, std::size_t item) const {
+        return {real(field, item, 0), real(field, item, 1)};
+    }
+    [[nodiscard]] glm::vec3 vec3(FieldId field, std::size_t item) const {
+        return {real(field, item, 0), real(field, item, 1), real(field, item, 2)};
+    }
+    [[nodiscard]] glm::vec4 vec4(FieldId field, std::size_t item) const {
+        return {real(field, item, 0), real(field, item, 1), real(field, item, 2), real(field, item, 3)};
+    }
+};
+
+/// A state of its own: of each field an array of 32-bit words, zero at first.
+class SystemState {
+  public:
+    SystemState() = default;
+    /// `extents`: one a resource. `schema` outlives this. Throws Error where their number is another, or a buffer has a
+    /// second dimension.
+    SystemState(const Schema& schema, std::vector<Extent> extents);
+
+    [[nodiscard]] const Schema& schema() const { return *schema_; }
+    [[nodiscard]] Extent extent(std::uint8_t resource) const { return extents_[resource]; }
+    [[nodiscard]] WritableView operator[](std::uint8_t resource);
+    [[nodiscard]] View operator[](std::uint8_t resource) const;
+    [[nodiscard]] SystemView view() const;
+
+    void set(FieldId field, std::size_t item, float value, int component = 0);
+    void set(FieldId field, std::size_t item, std::int32_t value, int component = 0);
+    void set(FieldId field, std::size_t item, std::uint32_t value, int component = 0);
+    void set(FieldId field, std::size_t item, glm::vec2 value);
+    void set(FieldId field, std::size_t item, glm::vec3 value);
+    void set(FieldId field, std::size_t item, glm::vec4 value);
+
+  private:
+    const Schema* schema_ = nullptr;
+    std::vector<Extent> extents_;
+    std::vector<std::vector<std::uint32_t>> columns_; ///< Schema::column
+};
+
+/// The place of a field by its name. Throws Error naming those there are.
+FieldId field_named(const Schema& schema, std::string_view name);
+
+} // namespace lockstep

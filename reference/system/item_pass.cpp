@@ -1,0 +1,33 @@
+#include "reference/system/item_pass.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace lockstep {
+
+bool ItemOutcome::contains(const View& state, std::size_t item) const {
+    std::size_t at = 0;
+    for (const Component c : components(state.about())) {
+        const Value value = state.value(c.field, item, c.component);
+        const Interval& legal = values[at++];
+        const bool fits = value.scalar == Scalar::float32
+                              ? legal.contains(value.real())
+                              : legal.any || (legal.low <= static_cast<double>(value.integer()) &&
+                                              static_cast<double>(value.integer()) <= legal.high);
+        if (!fits)
+            return false;
+    }
+    return true;
+}
+
+void run_pass(const ItemPass& pass, const PassInput& in, const Profile& profile, const WritableView& after) {
+    constexpr std::size_t block = 1024;
+    const auto blocks = static_cast<std::ptrdiff_t>((after.count() + block - 1) / block);
+#pragma omp parallel for schedule(dynamic)
+    for (std::ptrdiff_t b = 0; b < blocks; ++b) {
+        const std::size_t first = static_cast<std::size_t>(b) * block;
+        pass.run(in, profile, first, std::min(first + block, after.count()), after);
+    }
+}
+
+} // namespace lockstep

@@ -1,0 +1,105 @@
+#pragma once
+#include <cstddef>
+#include <cstdint>
+#include <memory>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "reference/interval.hpp"
+#include "reference/known_operations.hpp"
+#include "reference/model/profile.hpp"
+#include "reference/model/switches.hpp"
+#include "reference/model/system_state.hpp"
+#include "reference/readings/mistake.hpp"
+#include "reference/readings/recording.hpp"
+#include "reference/undefined.hpp"
+
+namespace lockstep {
+
+/// What a pass of one frame reads.
+struct PassInput {
+    const SystemView& before; ///< the state that the frame, or the pass before, left
+    int frame = 0;            ///< counted from 0
+};
+
+/// The stage that a pass's shader runs in: drivers treat subnormals by stage.
+enum class PassStage : std::uint8_t { vertex, compute };
+
+/// A decision that could have gone another way, and how far its operands are from the border, in the site's unit.
+struct OpenSite {
+    std::string_view site, unit;
+    double margin = 0.0;
+};
+
+/// What an item may legally become: one of these, with all of its fields.
+struct ItemOutcome {
+    std::vector<Interval> values; ///< of each component, in the order of the item's fields; an integer as a double
+    std::vector<OpenSite> open;   ///< the decisions on the way here that could have gone otherwise
+    Undefined undefined = Undefined::none;
+
+    /// Whether the item has these values, all of them.
+    [[nodiscard]] bool contains(const View& state, std::size_t item) const;
+};
+
+/// Values that a shader's output told of an item's step, in the order in which it came by them.
+struct ToldValue {
+    std::string output;
+    std::vector<float> values;
+};
+
+/// A legal run's rows, and where it ends. Of several runs the one in which the fewest values are not legal.
+struct FollowedStep {
+    std::vector<ReadingRow> rows;
+    std::vector<OpenSite> open;
+    Undefined undefined = Undefined::none;
+};
+
+/// A pass that makes each item of one buffer anew, from what the frame before left: its twin in every reading
+/// (reference/readings), behind one interface. Pure: any number of threads may ask at once.
+class ItemPass {
+  public:
+    ItemPass() = default;
+    virtual ~ItemPass() = default;
+    ItemPass(const ItemPass&) = delete;
+    ItemPass& operator=(const ItemPass&) = delete;
+
+    [[nodiscard]] virtual std::string_view name() const = 0;
+    [[nodiscard]] virtual std::uint8_t resource() const = 0; ///< the buffer whose items it makes
+    [[nodiscard]] virtual PassStage stage() const = 0;
+
+    /// The output by which the twin's sites know a field of the buffer.
+    [[nodiscard]] virtual std::string_view output(const Resource& about, std::uint8_t field) const = 0;
+
+    /// Items first to last, the last excluded, into `after`.
+    virtual void run(const PassInput& in, const Profile& profile, std::size_t first, std::size_t last,
+                     const WritableView& after) const = 0;
+
+    /// Every legal outcome. `observed`: the state to be judged; values that it tells of, named like a site's output,
+    /// are gone on from where they are legal. Null: nothing was told.
+    [[nodiscard]] virtual std::vector<ItemOutcome> outcomes(const PassInput& in, std::size_t item,
+                                                            const Profile& profile, const KnownOperations& known,
+                                                            const View* observed) const = 0;
+
+    /// What the reference comes by on its way, in order.
+    [[nodiscard]] virtual std::vector<RecordedRow> record(const PassInput& in, std::size_t item,
+                                                          const Profile& profile) const = 0;
+
+    /// The same along what the GPU told: each value is judged by those told before it.
+    [[nodiscard]] virtual FollowedStep follow(const PassInput& in, std::size_t item, const Profile& profile,
+                                              const KnownOperations& known, std::span<const ToldValue> told) const = 0;
+
+    /// The sites that a step comes by: where it can go wrong.
+    [[nodiscard]] virtual std::vector<SeenSite> sites(const PassInput& in, std::size_t item,
+                                                      const Profile& profile) const = 0;
+
+    /// The words of the item, field by field, with mistakes made.
+    [[nodiscard]] virtual std::vector<std::uint32_t>
+    mistaken(const PassInput& in, std::size_t item, const Profile& profile, std::span<const Mistake> made) const = 0;
+};
+
+/// All items of the pass's buffer. The same bits for any number of threads.
+void run_pass(const ItemPass& pass, const PassInput& in, const Profile& profile, const WritableView& after);
+
+} // namespace lockstep

@@ -1,0 +1,256 @@
+#pragma once
+#include <bit>
+#include <concepts>
+#include <memory>
+#include <span>
+#include <string>
+#include <type_traits>
+#include <utility>
+#include <vector>
+
+#include "reference/model/error.hpp"
+#include "reference/plain_arithmetic.hpp"
+#include "reference/readings/following.hpp"
+#include "reference/readings/mistaken.hpp"
+#include "reference/readings/recording.hpp"
+#include "reference/readings/values.hpp"
+#include "reference/readings/worlds.hpp"
+#include "reference/subnormals.hpp"
+#include "reference/system/item_pass.hpp"
+
+namespace lockstep {
+
+namespace item_twin {
+
+/// Calls `visit` with every number of a struct, in the order of its fields().
+template <class State, class Visit> void for_each_number(const State& state, const Visit& visit) {
+    if constexpr (requires { state.fields(); })
+        std::apply([&](const auto&... part) { (for_each_number(part, visit), ...); }, state.fields());
+    else
+        visit(state);
+}
+
+template <class Number> std::uint32_t word_of(const Number& x) {
+    if constexpr (std::is_same_v<Number, std::uint32_t>)
+        return x;
+    else if constexpr (std::is_convertible_v<Number, int> && !std::is_floating_point_v<Number>)
+        return static_cast<std::uint32_t>(static_cast<int>(x));
+    else
+        return std::bit_cast<std::uint32_t>(static_cast<float>(x));
+}
+
+template <class Number> Interval set_of(const Number& x) {
+    if constexpr (requires { x.legal(); })
+        return x.legal();
+    else
+        return {static_cast<double>(x), static_cast<double>(x)};
+}
+
+inline void check_size(std::string_view pass, const Resource& about, std::size_t words) {
+    if (words * sizeof(std::uint32_t) != item_bytes(about))
+        throw Error(std::string(pass) + ": its twin gives " + std::to_string(words) + " numbers; a " + about.item +
+                    " has " + std::to_string(item_bytes(about) / sizeof(std::uint32_t)));
+}
+
+} // namespace item_twin
+
+/// What item_pass is told of a pass besides its twin.
+struct ItemPassOptions {
+    std::string name;          ///< that of its shader
+    std::uint8_t resource = 0; ///< the buffer whose items it makes
+    PassStage stage = PassStage::vertex;
+    ArithmeticSwitch arithmetic = ArithmeticSwitch::plain; ///< exact: as shaders/portable.glsl computes
+    /// The outputs by which the twin's sites know the fields, in their order; empty: their names.
+    std::vector<std::string> outputs = {};
+};
+
+/// A twin as an ItemPass: `twin(r, in, item)`, a template over the reading R& r (values.hpp), pure, returning a struct
+/// whose fields() are those of the buffer's items, in order.
+template <class Twin> class ItemTwin final : public ItemPass {
+  public:
+    ItemTwin(ItemPassOptions options, Twin twin) : options_(std::move(options)), twin_(std::move(twin)) {
+        require_two_roundings();
+    }
+
+    [[nodiscard]] std::string_view name() const override { return options_.name; }
+    [[nodiscard]] std::uint8_t resource() const override { return options_.resource; }
+    [[nodiscard]] PassStage stage() const override { return options_.stage; }
+
+    [[nodiscard]] std::string_view output(const Resource& about, std::uint8_t field) const override {
+        return field < options_.outputs.size() ? options_.outputs[field] : about.fields[field].name;
+    }
+
+    void run(const PassInput& in, const Profile& profile, std::size_t first, std::size_t last,
+             const WritableView& after) const override {
+        const FlushSubnormals guard = flush(profile);
+        const std::vector<Component> parts = components(after.about());
+        with_arithmetic_of(profile, [&]<class A>(A fp) {
+            for (std::size_t item = first; item < last; ++item) {
+                Values<A> values(fp);
+                const std::vector<std::uint32_t> words = words_of(twin_(values, in, item), after.about());
+                for (std::size_t w = 0; w < words.size(); ++w) {
+                    const auto stride = static_cast<std::size_t>(after.fields()[parts[w].field].components);
+                    std::memcpy(after.columns[parts[w].field] +
+                                    (item * stride + static_cast<std::size_t>(parts[w].component)) * sizeof words[w],
+                                &words[w], sizeof words[w]);
+                }
+            }
+        });
+    }
+
+    [[nodiscard]] std::vector<ItemOutcome> outcomes(const PassInput& in, std::size_t item, const Profile& profile,
+                                                    const KnownOperations& known, const View* observed) const override {
+        const FlushSubnormals guard = flush(profile, known.subnormals);
+        std::vector<ItemOutcome> found;
+        with_arithmetic_of(profile, [&]<class A>(A fp) {
+            Worlds<A> worlds(fp, known, profile.other_orders);
+            std::vector<std::vector<float>> kept;
+            if (observed != nullptr)
+                tell(worlds, *observed, item, kept);
+            worlds.run([&] { return twin_(worlds, in, item); },
+                       [&](const auto* state, std::span<const Fork> forks, Undefined undefined) {
+                           ItemOutcome outcome{.values = {}, .open = open_sites(forks), .undefined = undefined};
+                           if (state != nullptr)
+                               item_twin::for_each_number(
+                                   *state, [&](const auto& x) { outcome.values.push_back(item_twin::set_of(x)); });
+                           else
+                               outcome.values.assign(components(about(in)).size(), Interval::anything());
+                           add(found, std::move(outcome));
+                       });
+        });
+        return found;
+    }
+
+    [[nodiscard]] std::vector<RecordedRow> record(const PassInput& in, std::size_t item,
+                                                  const Profile& profile) const override {
+        const FlushSubnormals guard = flush(profile);
+        return with_arithmetic_of(profile, [&]<class A>(A fp) {
+            Recording<A> reading(fp);
+            twin_(reading, in, item);
+            return reading.rows();
+        });
+    }
+
+    [[nodiscard]] FollowedStep follow(const PassInput& in, std::size_t item, const Profile& profile,
+                                      const KnownOperations& known, std::span<const ToldValue> told) const override {
+        const FlushSubnormals guard = flush(profile, known.subnormals);
+        return with_arithmetic_of(profile, [&]<class A>(A fp) {
+            Following<A> reading(fp, known, profile.other_orders);
+            std::map<std::string_view, int> occurrences;
+            for (const ToldValue& value : told)
+                reading.tell_in_order(name_id(value.output), occurrences[value.output]++, value.values);
+            FollowedStep best;
+            std::size_t fewest = SIZE_MAX;
+            reading.run(
+                [&] {
+                    reading.start_run();
+                    return twin_(reading, in, item);
+                },
+                [&](const auto* /*state*/, std::span<const Fork> forks, Undefined undefined) {
+                    const auto wrong =
+                        static_cast<std::size_t>(std::count_if(reading.rows().begin(), reading.rows().end(),
+                                                               [](const ReadingRow& row) { return !row.is_legal(); }));
+                    if (wrong >= fewest)
+                        return;
+                    fewest = wrong;
+                    best = {reading.rows(), open_sites(forks), undefined};
+                });
+            return best;
+        });
+    }
+
+    [[nodiscard]] std::vector<SeenSite> sites(const PassInput& in, std::size_t item,
+                                              const Profile& profile) const override {
+        const FlushSubnormals guard = flush(profile);
+        return with_arithmetic_of(profile, [&]<class A>(A fp) {
+            Mistaken<A> reading(fp, {});
+            reading.look_at_sites();
+            twin_(reading, in, item);
+            return std::vector<SeenSite>(reading.sites().begin(), reading.sites().end());
+        });
+    }
+
+    [[nodiscard]] std::vector<std::uint32_t> mistaken(const PassInput& in, std::size_t item, const Profile& profile,
+                                                      std::span<const Mistake> made) const override {
+        const FlushSubnormals guard = flush(profile);
+        return with_arithmetic_of(profile, [&]<class A>(A fp) {
+            Mistaken<A> reading(fp, made);
+            return words_of(twin_(reading, in, item), about(in));
+        });
+    }
+
+  private:
+    [[nodiscard]] const Resource& about(const PassInput& in) const { return in.before[options_.resource].about(); }
+
+    [[nodiscard]] FlushSubnormals flush(const Profile& profile, bool known = true) const {
+        if (options_.stage == PassStage::vertex)
+            return FlushSubnormals(known && profile.flush_subnormals);
+        return {known && profile.compute_flush_subnormals,
+                known && profile.compute_flush_results.value_or(profile.compute_flush_subnormals)};
+    }
+
+    template <class Work> decltype(auto) with_arithmetic_of(const Profile& profile, const Work& work) const {
+        if (options_.arithmetic == ArithmeticSwitch::exact)
+            return work(Portable{});
+        return work(
+            PlainArithmetic(profile.dot, profile.length_order(), profile.normalize_order(), profile.roots.get()));
+    }
+
+    template <class State>
+    [[nodiscard]] std::vector<std::uint32_t> words_of(const State& state, const Resource& of) const {
+        std::vector<std::uint32_t> words;
+        item_twin::for_each_number(state, [&](const auto& x) { words.push_back(item_twin::word_of(x)); });
+        item_twin::check_size(options_.name, of, words.size());
+        return words;
+    }
+
+    template <class A>
+    void tell(Worlds<A>& worlds, const View& observed, std::size_t item, std::vector<std::vector<float>>& kept) const {
+        for (std::size_t f = 0; f < observed.fields().size(); ++f) {
+            const Field& field = observed.fields()[f];
+            if (field.scalar != Scalar::float32)
+                continue;
+            std::vector<float>& values = kept.emplace_back();
+            for (int c = 0; c < field.components; ++c)
+                values.push_back(observed.value(f, item, c).real());
+        }
+        std::size_t next = 0;
+        for (std::size_t f = 0; f < observed.fields().size(); ++f)
+            if (observed.fields()[f].scalar == Scalar::float32)
+                worlds.tell(output(observed.about(), static_cast<std::uint8_t>(f)), kept[next++]);
+    }
+
+    static std::vector<OpenSite> open_sites(std::span<const Fork> forks) {
+        std::vector<OpenSite> found;
+        for (const Fork& fork : forks)
+            for (const OpenDecision& decision : fork.decisions)
+                if (decision.site != nullptr)
+                    found.push_back({decision.site->label, decision.site->unit, decision.margin});
+        return found;
+    }
+
+    /// One that is there already keeps the shorter way.
+    static void add(std::vector<ItemOutcome>& outcomes, ItemOutcome outcome) {
+        const auto same = [](const Interval& a, const Interval& b) {
+            return a.any == b.any && (a.any || (a.low == b.low && a.high == b.high));
+        };
+        for (ItemOutcome& known : outcomes) {
+            if (known.undefined != outcome.undefined || !std::equal(known.values.begin(), known.values.end(),
+                                                                    outcome.values.begin(), outcome.values.end(), same))
+                continue;
+            if (outcome.open.size() < known.open.size())
+                known = std::move(outcome);
+            return;
+        }
+        outcomes.push_back(std::move(outcome));
+    }
+
+    ItemPassOptions options_;
+    Twin twin_;
+};
+
+template <class Twin> std::unique_ptr<ItemPass> item_pass(ItemPassOptions options, Twin twin) {
+    return std::make_unique<ItemTwin<Twin>>(std::move(options), std::move(twin));
+}
+
+} // namespace lockstep

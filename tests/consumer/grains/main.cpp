@@ -1,0 +1,7 @@
+#include <lockstep/system_program.hpp>
+
+#include "grains.hpp"
+
+int main(int argc, char** argv) {
+    return lockstep::run_system_program(argc, argv, grains::system(2000), grains::passes(), SHADERS);
+}

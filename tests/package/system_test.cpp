@@ -1,0 +1,131 @@
+#include <fstream>
+#include <sstream>
+#include <string>
+
+#include <lockstep/catch.hpp>
+
+#include "tests/consumer/grains/grains.hpp"
+#include "tests/temporary_folder.hpp"
+
+using namespace lockstep;
+using lockstep::test::TemporaryFolder;
+
+namespace {
+
+constexpr const char* shipped = "tests/consumer/grains";
+
+const Gl& gl() {
+    static const Gl one;
+    return one;
+}
+
+/// The shader with one of its texts replaced, in a folder of its own.
+std::string planted(const TemporaryFolder& folder, const std::string& what, const std::string& by) {
+    std::ostringstream text;
+    text << std::ifstream(std::string(shipped) + "/grains_step.vert").rdbuf();
+    std::string shader = text.str();
+    const std::size_t at = shader.find(what);
+    REQUIRE(at != std::string::npos);
+    shader.replace(at, what.size(), by);
+    std::ofstream(folder.path() / "grains_step.vert") << shader;
+    return folder.path().string();
+}
+
+CheckReport run(const std::string& shaders, const System& system, int frames = 40) {
+    GlSystemSide side(gl(), system, grains::passes(), shaders);
+    CheckOptions options;
+    options.frames = frames;
+    return check(system, side, options);
+}
+
+} // namespace
+
+TEST_CASE("own system: the right shader agrees or is legal, and every bit was compared") {
+    if (!gl())
+        return skip(gl().missing());
+    const System system = grains::system(2000);
+    const CheckReport report = run(shipped, system);
+    INFO(report_text(report, {}));
+    CHECK((report.verdict == Verdict::agree || report.verdict == Verdict::legal));
+    CHECK(report.untried.empty());
+    CHECK(report.total.compared() == std::uint64_t{2000} * 40 * 7);
+}
+
+TEST_CASE("own system: planted bugs are divergent, with their cause by name and the step where they show") {
+    if (!gl())
+        return skip(gl().missing());
+    struct Bug {
+        const char *what, *by, *cause;
+    };
+    const Bug bug = GENERATE(Bug{"u_Gravity - a_Velocity", "vec3(0.0) - a_Velocity", "gravity_missing"},
+                             Bug{"normal = normalize(away)", "normal = away", "normal_not_normalised"},
+                             Bug{"a_Velocity * u_Drag", "a_Velocity * -u_Drag", "u_Drag: negated"},
+                             Bug{"if (distance < u_Radius)", "if (distance > u_Radius)", "inside the sphere: inverted"},
+                             Bug{"bounces = bounces + 1", "bounces = bounces", ""},
+                             Bug{"(1.0 + u_Elasticity)", "(1.0 + u_Radius)", "u_Elasticity: one"},
+                             Bug{"position.y = 0.0;", "", ""});
+    const TemporaryFolder folder;
+    const System system = grains::system(2000);
+    const CheckReport report = run(planted(folder, bug.what, bug.by), system);
+    INFO(bug.what << "\n" << report_text(report, {}));
+    REQUIRE(report.verdict == Verdict::divergent);
+    if (*bug.cause == '\0')
+        return;
+    const CauseFindings& found = report.verdicts->causes[0];
+    REQUIRE(found.explains_all());
+    bool named = false;
+    for (const Cause& cause : found.best)
+        named = named || cause.name() == bug.cause;
+    CHECK(named);
+}
+
+TEST_CASE("own system: explain names the first value that does not follow, and a capsule says the same without GL") {
+    if (!gl())
+        return skip(gl().missing());
+    const TemporaryFolder folder;
+    const System system = grains::system(500);
+    const std::string shaders = planted(folder, "u_Gravity - a_Velocity * u_Drag", "u_Gravity - a_Velocity");
+    GlSystemSide side(gl(), system, grains::passes(), shaders);
+    SystemRun run(system, side, measured_operations(side.describe().profile), 3, 0);
+    const std::string text = explain_item(run, 17);
+    INFO(text);
+    CHECK_THAT(text, Catch::Contains("first     acceleration.x"));
+    CHECK_THAT(text, Catch::Contains("verdict   divergent"));
+    CHECK_THAT(text, Catch::Contains("grains.hpp:"));
+
+    const ItemCapsule capsule = cut_item_capsule(run, 17, side.describe().name);
+    const std::string file = item_capsule_file(capsule, system);
+    CHECK(file.size() < 4000);
+    std::ofstream(folder.path() / "capsule.json") << file;
+    const ItemCapsule back = load_item_capsule(folder.path() / "capsule.json", system);
+    CHECK(item_capsule_text(back, system) == text);
+    CHECK(judge(back, system).kind == DifferenceClass::divergent);
+
+    std::ofstream(folder.path() / "broken.json") << file.substr(0, file.size() / 2);
+    CHECK_THROWS_AS(load_item_capsule(folder.path() / "broken.json", system), Error);
+}
+
+TEST_CASE("own system: what would prove nothing is an error or said") {
+    if (!gl())
+        return skip(gl().missing());
+    const TemporaryFolder folder;
+    const System system = grains::system(100);
+    const auto throws = [&](const std::string& what, const std::string& by, const std::string& words) {
+        const std::string shaders = planted(folder, what, by);
+        try {
+            run(shaders, system, 3);
+        } catch (const Error& error) {
+            INFO(error.what());
+            CHECK_THAT(error.what(), Catch::Contains(words));
+            return;
+        }
+        FAIL("no error for " << by);
+    };
+    throws("uniform vec3 u_Gravity, u_Centre;",
+           "uniform vec3 u_Gravity, u_Centre;\nuniform float u_Tock;\n#define u_Drag u_Tock", "u_Tock");
+    throws("out_Bounces = bounces;", "", "out_Bounces");
+    throws("void main() {", "out float out_Extra;\nvoid main() {\n    out_Extra = 1.0;", "out_Extra");
+    throws("in int a_Bounces;", "in float a_Bounces;", "cannot be assigned");
+    CHECK_THROWS_WITH(run(folder.path().string() + "/nowhere", system, 3), Catch::Contains("nowhere"));
+    CHECK_THROWS_WITH(run(shipped, grains::system(0), 3), Catch::Contains("there are no grains"));
+}

@@ -6,10 +6,13 @@
 
 #include <nlohmann/json.hpp>
 
+#include "crosscheck/judge/diagnosis.hpp"
+#include "crosscheck/judge/verdict.hpp"
 #include "crosscheck/judge/verdict_summary.hpp"
 #include "crosscheck/report/verdict_text.hpp"
 #include "reference/collision_pass.hpp"
 #include "reference/legal_texels.hpp"
+#include "reference/model/collision_state.hpp"
 #include "reference/obstacle_pass.hpp"
 #include "tests/reference/collision_scenes.hpp"
 
@@ -88,9 +91,10 @@ struct Setting {
         const JudgedFrame frame{obstacles, scene.params,    profile,   known,           scene.particles,
                                 scene.cdt, scene.particles, reference, scene.particles, gpu};
         const FrameVerdicts verdicts = judge(frame);
-        VerdictSummary summary;
+        VerdictSummary summary(collision_schema());
         summary.judges_leans = can_judge_leans(known, profile);
-        summary.add(0, verdicts);
+        summary.add(0, collision::particles, verdicts.particles);
+        summary.add(0, collision::cdt, verdicts.texels);
         summary.first = first_of(DifferenceClass::divergent, 0, frame, verdicts);
         summary.first_beyond_rounding = first_tie_beyond_rounding(0, frame, verdicts);
         summary.convict_shift();
@@ -98,7 +102,9 @@ struct Setting {
     }
 };
 
-std::string shift_of(const VerdictSummary& summary) { return verdict_json(summary, side)["lean"]["shift"]; }
+std::string shift_of(const VerdictSummary& summary) {
+    return verdict_json(summary, collision_schema(), side)["lean"]["shift"];
+}
 
 const std::pair<glm::vec2, const char*> shifts[] = {{{0.4F, 0.0F}, "shifted_right"},
                                                     {{-0.4F, 0.0F}, "shifted_left"},
@@ -115,7 +121,8 @@ TEST_CASE("tie bias: points shifted by 0.4 of a sub-pixel step are divergent, an
         const VerdictSummary summary = setting.judged(steps);
         CHECK(summary.total(DifferenceClass::divergent) > 20);
         CHECK(shift_of(summary) == name);
-        CHECK_THAT(verdict_text(summary, side), Catch::Contains("\nshift     " + std::string(name) + ": "));
+        CHECK_THAT(verdict_text(summary, collision_schema(), side),
+                   Catch::Contains("\nshift     " + std::string(name) + ": "));
         REQUIRE(summary.first);
         const std::string& step = summary.first->wrong.step;
         CHECK((step == "window position" || step == "texel")); // the one it left, empty now
@@ -129,7 +136,7 @@ TEST_CASE("tie bias: triangles shifted by 0.4 of a sub-pixel step are divergent,
         INFO(name);
         const VerdictSummary summary = setting.judged(steps);
         CHECK(summary.total(DifferenceClass::divergent) > 20);
-        INFO(verdict_text(summary, side));
+        INFO(verdict_text(summary, collision_schema(), side));
         CHECK(shift_of(summary) == name);
     }
 }
@@ -160,7 +167,8 @@ TEST_CASE("tie bias: where nobody measured how accurate window coordinates are, 
         CHECK(summary.total(DifferenceClass::divergent) > 100);
         REQUIRE(summary.first);
         CHECK(summary.first->verdict.kind == DifferenceClass::divergent);
-        CHECK_THAT(verdict_text(summary, side), Catch::Contains(std::string(name) + ": in both halves of the image"));
+        CHECK_THAT(verdict_text(summary, collision_schema(), side),
+                   Catch::Contains(std::string(name) + ": in both halves of the image"));
     }
     CHECK(setting.judged({0.0F, 0.0F}, ViewportRounding::separate).total(DifferenceClass::divergent) == 0);
 }
@@ -174,7 +182,8 @@ TEST_CASE("tie bias: a driver measured to be less accurate, or on no known grid,
     const VerdictSummary summary = setting.judged({0.4F, 0.0F});
     CHECK(summary.total(DifferenceClass::divergent) == 0);
     CHECK(shift_of(summary).empty());
-    CHECK_THAT(verdict_text(summary, side), Catch::Contains("\nlean      into the pixel beside: 0 left, "));
+    CHECK_THAT(verdict_text(summary, collision_schema(), side),
+               Catch::Contains("\nlean      into the pixel beside: 0 left, "));
 }
 
 TEST_CASE("tie bias: a lean counts in both halves, and a place once") {

@@ -68,4 +68,4 @@ says 'there is no option --frame; there are --frames'
 # The shaders are the package's.
 echo 'not GLSL' >>prefix/share/lockstep/shaders/collision_pass.frag
 ends_with 8 ctest --test-dir build -V
-says "$work/prefix/share/lockstep/shaders/collision_pass.frag:"
+says 'shader shaders/collision_pass.frag:'

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <chrono>
-#include <functional>
 #include <utility>
 
 #include <fmt/format.h>
@@ -10,15 +9,14 @@
 #include "crosscheck/judge/cause.hpp"
 #include "crosscheck/judge/diagnosis.hpp"
 #include "crosscheck/judge/item_cause.hpp"
-#include "crosscheck/judge/item_judge.hpp"
 #include "crosscheck/judge/side_state.hpp"
+#include "crosscheck/judge/step_judge.hpp"
 #include "gpu/gpu_side.hpp"
 #include "reference/collision/collision_mistakes.hpp"
 #include "reference/collision/step_pass.hpp"
 #include "reference/model/collision_state.hpp"
 #include "reference/model/error.hpp"
 #include "reference/model/layered_cdt.hpp"
-#include "reference/model/same_bits.hpp"
 #include "reference/model/state_hash.hpp"
 #include "reference/simulation.hpp"
 
@@ -120,53 +118,50 @@ class RunJudge {
         summary_.judges_leans = can_judge_leans(known, profile);
     }
 
-    FrameVerdicts judge(const RunFrame& frame) {
-        FrameVerdicts verdicts = drawn_by_listing() ? judge_listing(frame) : judge_step(frame);
-        summary_.add(frame.number, collision::particles, verdicts.particles);
-        summary_.add(frame.number, collision::cdt, verdicts.texels);
-        return verdicts;
-    }
-
-    [[nodiscard]] VerdictSummary summary() const {
-        VerdictSummary summary = summary_;
-        summary.causes[collision::particles] = drawn_by_listing() ? causes_.particles() : step_causes_.findings();
-        summary.causes[collision::cdt] = causes_.texels();
-        summary.convict_shift();
-        return summary;
-    }
-
-  private:
-    /// Of the listing's own pass steps and texels are judged together, and causes are sought in both.
-    [[nodiscard]] bool drawn_by_listing() const {
-        return scene_.switches.search == Search::cdt && !has_remedies(scene_.switches);
-    }
-
-    /// Whether there are divergent ones among the verdicts, and the first of them kept.
-    bool keep_first(const FrameVerdicts& verdicts,
-                    const std::function<std::optional<FirstDivergence>(DifferenceClass)>& first) {
-        const auto divergent = [](const std::vector<ItemVerdict>& items) {
-            return std::any_of(items.begin(), items.end(),
-                               [](const ItemVerdict& item) { return item.kind == DifferenceClass::divergent; });
-        };
-        const bool diverges = divergent(verdicts.particles) || divergent(verdicts.texels);
-        if (diverges && summary_.total(DifferenceClass::divergent) == 0)
-            summary_.first = first(DifferenceClass::divergent);
-        else if (!summary_.first)
-            summary_.first = first(DifferenceClass::undefined);
-        return diverges;
-    }
-
-    FrameVerdicts judge_listing(const RunFrame& f) {
+    FrameVerdicts judge(const RunFrame& f) {
         const JudgedFrame judged{
             scene_.obstacles,        f.params,          profile_,        known_,   f.before.particles, f.before.cdt,
             f.reference.particles(), f.reference.cdt(), f.gpu.particles, f.gpu.cdt};
         FrameVerdicts verdicts = lockstep::judge(judged);
         if (!has_cdt_)
             verdicts.texels.clear();
-        if (summary_.judges_leans && !summary_.first_beyond_rounding)
-            summary_.first_beyond_rounding = first_tie_beyond_rounding(f.number, judged, verdicts);
-        if (!keep_first(verdicts, [&](DifferenceClass kind) { return first_of(kind, f.number, judged, verdicts); }))
-            return verdicts;
+        const bool diverges = keep_first(f.number, judged, verdicts);
+        summary_.add(f.number, collision::particles, verdicts.particles);
+        summary_.add(f.number, collision::cdt, verdicts.texels);
+        if (diverges)
+            seek_causes(f, judged, verdicts);
+        return verdicts;
+    }
+
+    [[nodiscard]] VerdictSummary summary() const {
+        VerdictSummary summary = summary_;
+        summary.causes[collision::particles] =
+            is_listing(scene_.switches) ? causes_.particles() : step_causes_.findings();
+        summary.causes[collision::cdt] = causes_.texels();
+        summary.convict_shift();
+        return summary;
+    }
+
+  private:
+    /// Whether there are divergent ones among the verdicts, and the first of them kept.
+    bool keep_first(int frame, const JudgedFrame& judged, const FrameVerdicts& verdicts) {
+        const auto divergent = [](const std::vector<ItemVerdict>& items) {
+            return std::any_of(items.begin(), items.end(),
+                               [](const ItemVerdict& item) { return item.kind == DifferenceClass::divergent; });
+        };
+        const bool diverges = divergent(verdicts.particles) || divergent(verdicts.texels);
+        if (diverges && summary_.total(DifferenceClass::divergent) == 0)
+            summary_.first = first_of(DifferenceClass::divergent, frame, judged, verdicts);
+        else if (!summary_.first)
+            summary_.first = first_of(DifferenceClass::undefined, frame, judged, verdicts);
+        if (is_listing(scene_.switches) && summary_.judges_leans && !summary_.first_beyond_rounding)
+            summary_.first_beyond_rounding = first_tie_beyond_rounding(frame, judged, verdicts);
+        return diverges;
+    }
+
+    void seek_causes(const RunFrame& f, const JudgedFrame& judged, const FrameVerdicts& verdicts) {
+        if (!is_listing(scene_.switches))
+            return with_step_pass(judged, [&](const JudgedPass& pass) { step_causes_.add(pass, verdicts.particles); });
         FrameInputs inputs{
             .before = &f.before.particles, .cdt = &f.before.cdt, .params = &f.params, .drawn_cdt = &f.gpu.cdt};
         const FrameParams earlier_params = frame_params(scene_, std::max(f.number - 1, 0));
@@ -176,71 +171,6 @@ class RunJudge {
             inputs.earlier_params = &earlier_params;
         }
         causes_.add(judged, verdicts, inputs);
-        return verdicts;
-    }
-
-    FrameVerdicts judge_step(const RunFrame& f) {
-        const StepInputs inputs{f.before.particles, f.before.cdt, scene_.obstacles, f.params};
-        const auto pass = step_pass(inputs);
-        const SystemView before = step_state(inputs);
-        const View reference = view(f.reference.particles()), gpu = view(f.gpu.particles);
-        const JudgedPass judged{*pass, profile_, known_, f.number, before, reference, gpu};
-        FrameVerdicts verdicts{judge_items(judged), {}};
-        if (has_cdt_)
-            verdicts.texels = judge_drawn(f, verdicts.particles);
-        const bool diverges = keep_first(verdicts, [&](DifferenceClass kind) -> std::optional<FirstDivergence> {
-            for (const ItemVerdict& verdict : verdicts.particles)
-                if (verdict.kind == kind)
-                    return FirstDivergence{{f.number, collision::particles, verdict.index},
-                                           verdict,
-                                           wrong_step_of_item(judged, verdict.index)};
-            for (const ItemVerdict& verdict : verdicts.texels)
-                if (verdict.kind == kind)
-                    return FirstDivergence{{f.number, collision::cdt, verdict.index}, verdict, wrong_texel(f, verdict)};
-            return {};
-        });
-        if (diverges)
-            step_causes_.add(judged, verdicts.particles);
-        return verdicts;
-    }
-
-    /// What the reference draws of the GPU's own particles is what the GPU has to have drawn, as far as it is known how
-    /// the driver computes where that is.
-    std::vector<ItemVerdict> judge_drawn(const RunFrame& f, const std::vector<ItemVerdict>& particles) {
-        const std::vector<std::size_t> differing = differing_items(f.reference.cdt(), f.gpu.cdt);
-        std::vector<ItemVerdict> verdicts;
-        if (differing.empty())
-            return verdicts;
-        redrawn_ = f.gpu.cdt; // of its size
-        f.reference.draw(f.before.particles, f.gpu.particles, f.params, redrawn_);
-        ItemVerdict followed{.kind = DifferenceClass::rounding, .follows_particle = true};
-        for (const ItemVerdict& particle : particles)
-            followed.kind = std::max(followed.kind, particle.kind);
-        const bool known = known_.sums && known_.divide && known_.raster.triangles();
-        for (const std::size_t texel : differing) {
-            ItemVerdict verdict = followed;
-            if (particles.empty() || !same_bits(redrawn_.texels[texel], f.gpu.cdt.texels[texel]))
-                verdict = {.kind = known ? DifferenceClass::divergent : DifferenceClass::undefined,
-                           .undefined = known ? Undefined::none : Undefined::undecided};
-            verdict.index = texel;
-            verdicts.push_back(verdict);
-        }
-        return verdicts;
-    }
-
-    [[nodiscard]] WrongStep wrong_texel(const RunFrame& f, const ItemVerdict& verdict) const {
-        const View reference = view(redrawn_), gpu = view(f.gpu.cdt);
-        int component = 0;
-        while (component < 3 &&
-               same_bits(reference.value(0, verdict.index, component), gpu.value(0, verdict.index, component)))
-            ++component;
-        const Value expected = reference.value(0, verdict.index, component),
-                    got = gpu.value(0, verdict.index, component);
-        WrongStep wrong;
-        wrong.step = "drawn texel";
-        wrong.operation = "what is drawn of the GPU's own particles";
-        wrong.difference = {collision::texel, verdict.index, component, expected, got, distance(expected, got)};
-        return wrong;
     }
 
     /// The catalogue's mistakes of the step, in any pass that makes it.
@@ -258,7 +188,6 @@ class RunJudge {
     KnownOperations known_;
     bool has_cdt_;
     VerdictSummary summary_{collision_schema()};
-    CollisionImage redrawn_; ///< of the frame judged last
     CauseFinder causes_;
     std::vector<NamedMistake> named_;
     ItemCauseFinder step_causes_;
@@ -302,10 +231,7 @@ CheckReport check(const Scene& scene, const Profile& profile, GpuSide& gpu, cons
     State now = before;
     State earlier = before;
     const bool has_cdt = gpu.has_cdt();
-    const FrameParams first_params = frame_params(scene, 0);
-    // What differs in a search that has no twin is told, not judged.
-    const bool judged = options.mode == CheckMode::resync &&
-                        step_pass({before.particles, before.cdt, scene.obstacles, first_params}) != nullptr;
+    const bool judged = options.mode == CheckMode::resync;
     RunJudge judge(scene, profile, options.known.value_or(measured_operations(profile)), has_cdt);
     gpu.upload(before.particles, before.cdt);
 

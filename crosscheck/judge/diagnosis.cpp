@@ -1,5 +1,8 @@
 #include "crosscheck/judge/diagnosis.hpp"
 
+#include "crosscheck/judge/item_judge.hpp"
+#include "crosscheck/judge/step_judge.hpp"
+
 #include <algorithm>
 #include <cmath>
 #include <optional>
@@ -230,10 +233,14 @@ std::string owner_text(const TexelOwner& owner, const JudgedFrame& frame) {
 } // namespace
 
 WrongStep wrong_step_of_particle(const JudgedFrame& frame, std::size_t particle) {
+    if (!is_listing(frame.params.switches))
+        return with_step_pass(frame, [&](const JudgedPass& pass) { return wrong_step_of_item(pass, particle); });
     return ParticleDiagnosis(frame, particle)();
 }
 
 WrongStep wrong_step_of_texel(const JudgedFrame& frame, std::size_t texel) {
+    if (!is_listing(frame.params.switches))
+        return wrong_drawn_texel(frame, texel);
     const std::size_t wanted[] = {texel};
     const LegalTexel legal =
         legal_texels(frame.obstacles, frame.before, frame.gpu, frame.params, frame.profile, frame.known, wanted)[0];

@@ -2,37 +2,20 @@
 
 #include <utility>
 
-#include <fmt/format.h>
-
 #include "crosscheck/judge/side_state.hpp"
-#include "reference/model/error.hpp"
+#include "reference/collision/step_pass.hpp"
 #include "reference/model/layered_cdt.hpp"
 #include "reference/obstacle_pass.hpp"
 
 namespace lockstep {
-namespace {
-
-Scene searched_in_cdt(Scene scene) {
-    if (scene.switches.search != Search::cdt)
-        throw Error(
-            fmt::format("{}: only the search through the CDT is followed step by step; set search=cdt", scene.name));
-    for (const std::string_view name : remedy_switches)
-        if (const std::string first = switch_value({}, name); switch_value(scene.switches, name) != first)
-            throw Error(fmt::format("{}: only the listing's own search is followed step by step; set {}={}", scene.name,
-                                    name, first));
-    return scene;
-}
-
-} // namespace
-
 FrameRun::FrameRun(Scene scene, Profile profile, const KnownOperations& known, const std::filesystem::path& shaders)
-    : scene_(searched_in_cdt(std::move(scene))), profile_(std::move(profile)), known_(known),
+    : scene_(std::move(scene)), profile_(std::move(profile)), known_(known),
       simulation_(std::make_unique<GpuSimulation>(scene_, shaders)), gpu_(*simulation_), reference_(scene_, profile_),
       cdt_before_(empty_cdt(scene_)), cdt_after_(cdt_before_) {}
 
 FrameRun::FrameRun(Scene scene, Profile profile, const KnownOperations& known, GpuSide& gpu)
-    : scene_(searched_in_cdt(std::move(scene))), profile_(std::move(profile)), known_(known), gpu_(gpu),
-      reference_(scene_, profile_), cdt_before_(empty_cdt(scene_)), cdt_after_(cdt_before_) {}
+    : scene_(std::move(scene)), profile_(std::move(profile)), known_(known), gpu_(gpu), reference_(scene_, profile_),
+      cdt_before_(empty_cdt(scene_)), cdt_after_(cdt_before_) {}
 
 /// From the state in after_, which is kept in before_.
 void FrameRun::step(int frame) {
@@ -73,7 +56,7 @@ void FrameRun::go_to(int frame) {
 }
 
 StepCapture FrameRun::capture(std::size_t particle) {
-    if (simulation_)
+    if (simulation_ && is_listing(scene_.switches))
         return simulation_->trace(params_, particle);
     StepCapture untold;
     untold.state = after_[particle];

@@ -15,7 +15,6 @@ namespace lockstep {
 class FrameRun {
   public:
     /// `known`: what legal outcomes are taken from. `shaders`: looked into first; may be empty.
-    /// Throws Error for a scene with search = octree.
     FrameRun(Scene scene, Profile profile, const KnownOperations& known, const std::filesystem::path& shaders);
 
     /// The same of frames computed elsewhere, of whose steps nothing is told in between. `gpu` has to outlive this.

@@ -84,6 +84,13 @@ std::string set_text(const Interval& legal, Scalar scalar) {
 
 } // namespace
 
+bool same_item(const View& a, const View& b, std::size_t item) {
+    const std::vector<Component> parts = components(a.about());
+    return std::all_of(parts.begin(), parts.end(), [&](const Component& c) {
+        return same_bits(a.value(c.field, item, c.component), b.value(c.field, item, c.component));
+    });
+}
+
 ItemVerdict judge_item(const JudgedPass& p, std::size_t item) {
     const auto outcomes = p.pass.outcomes(p.input(), item, p.profile, p.known, &p.gpu);
     ItemVerdict verdict{.index = item, .outcomes = outcomes.size()};

@@ -8,6 +8,9 @@
 
 namespace lockstep {
 
+/// Whether all of an item's words are the same, NaN being one value.
+bool same_item(const View& a, const View& b, std::size_t item);
+
 /// The verdict on one item, whether it differs or not. It is legal when all of its fields lie in one legal outcome of
 /// its step; a tie where that is an outcome which the reference's own values do not lie in.
 ItemVerdict judge_item(const JudgedPass& pass, std::size_t item);

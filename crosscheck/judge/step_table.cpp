@@ -8,6 +8,9 @@
 
 #include <fmt/format.h>
 
+#include "crosscheck/judge/item_table.hpp"
+#include "crosscheck/judge/step_judge.hpp"
+#include "reference/collision/step_pass.hpp"
 #include "reference/collision_code.hpp"
 #include "reference/legal_arithmetic.hpp"
 #include "reference/legal_outcomes.hpp"
@@ -756,17 +759,6 @@ template <class A> class TableBuilder {
 
 } // namespace
 
-std::int64_t StepRow::ulp() const {
-    return reference.number && gpu.number ? ulp_distance(*reference.number, *gpu.number) : 0;
-}
-
-bool StepRow::has_nan() const {
-    for (const Cell* cell : {&strict, &reference, &gpu})
-        if (cell->number && std::isnan(*cell->number))
-            return true;
-    return false;
-}
-
 const StepRow* StepTable::first_divergent() const {
     const auto found =
         std::find_if(rows.begin(), rows.end(), [](const StepRow& row) { return row.verdict == RowVerdict::divergent; });
@@ -774,6 +766,11 @@ const StepRow* StepTable::first_divergent() const {
 }
 
 StepTable step_table(FrameRun& run, std::size_t particle) {
+    if (!is_listing(run.scene().switches)) {
+        StepTable table = step_table(run.judged(), particle, run.capture(particle));
+        table.frame = run.frame();
+        return table;
+    }
     StepTable table = with_arithmetic(run.profile(), run.scene().switches, [&](auto fp) {
         return TableBuilder(fp, run.judged(), particle, run.capture(particle), &run)();
     });
@@ -782,11 +779,34 @@ StepTable step_table(FrameRun& run, std::size_t particle) {
 }
 
 StepTable step_table(const JudgedFrame& frame, std::size_t particle, const StepCapture& capture) {
+    if (!is_listing(frame.params.switches)) {
+        StepTable table;
+        table.particle = particle;
+        table.gpu = capture;
+        table.reference.before = frame.before[particle];
+        table.rows = with_step_pass(
+            frame, [&](const JudgedPass& pass) { return item_rows(pass, particle, told_by_state(pass, particle)); });
+        return table;
+    }
     return with_arithmetic(frame.profile, frame.params.switches,
                            [&](auto fp) { return TableBuilder(fp, frame, particle, capture, nullptr)(); });
 }
 
+/// Of an image that is drawn otherwise than the listing's: what is stored, beside what the reference draws of the GPU's
+/// own particles.
+TexelTable drawn_texel_table(FrameRun& run, std::size_t texel) {
+    const JudgedFrame frame = run.judged();
+    Rows rows;
+    const glm::vec4 reference = run.redrawn().texels[texel], gpu = frame.gpu_cdt.texels[texel];
+    for (int c = 0; c < 4; ++c)
+        rows.number(fmt::format("stored.{}", axes[static_cast<std::size_t>(c)]), {}, reference[c], gpu[c],
+                    legality(Interval(reference[c]), gpu[c]));
+    return {run.frame(), texel, rows.take(), {}};
+}
+
 TexelTable texel_table(FrameRun& run, std::size_t texel) {
+    if (!is_listing(run.scene().switches))
+        return drawn_texel_table(run, texel);
     const JudgedFrame frame = run.judged();
     const auto width = static_cast<std::size_t>(frame.params.width);
     const glm::ivec2 at(static_cast<int>(texel % width), static_cast<int>(texel / width));

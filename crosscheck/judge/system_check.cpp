@@ -7,6 +7,7 @@
 
 #include "crosscheck/judge/item_cause.hpp"
 #include "crosscheck/judge/item_judge.hpp"
+#include "crosscheck/judge/item_table.hpp"
 #include "gpu/system_side.hpp"
 #include "reference/model/error.hpp"
 #include "reference/model/state_hash.hpp"
@@ -280,17 +281,8 @@ std::vector<ToldValue> SystemRun::told(std::size_t item) {
                 value.values.push_back(output.is_float ? output.number(c) : static_cast<float>(output.integer(c)));
             told.push_back(std::move(value));
         }
-    // What the pass wrote is told, too.
-    const View& gpu = gpu_view_;
-    for (std::size_t f = 0; f < gpu.fields().size(); ++f) {
-        const std::string_view output = system_.passes[pass_]->output(gpu.about(), static_cast<std::uint8_t>(f));
-        ToldValue value{std::string(output), {}};
-        for (int c = 0; c < gpu.fields()[f].components; ++c) {
-            const Value v = gpu.value(f, item, c);
-            value.values.push_back(v.scalar == Scalar::float32 ? v.real() : static_cast<float>(v.integer()));
-        }
-        told.push_back(std::move(value));
-    }
+    const std::vector<ToldValue> written = told_by_state(judged(), item);
+    told.insert(told.end(), written.begin(), written.end());
     return told;
 }
 

@@ -9,10 +9,14 @@
 #include <glm/common.hpp>
 
 #include "crosscheck/judge/compare.hpp"
+#include "crosscheck/judge/item_judge.hpp"
+#include "crosscheck/judge/step_judge.hpp"
 #include "reference/collision/sites.hpp"
 #include "reference/collision_pass.hpp"
+#include "reference/layered_collision_pass.hpp"
 #include "reference/legal_texels.hpp"
 #include "reference/model/collision_state.hpp"
+#include "reference/model/layered_cdt.hpp"
 #include "reference/model/same_bits.hpp"
 #include "reference/obstacle_pass.hpp"
 #include "reference/step_trace.hpp"
@@ -269,7 +273,14 @@ std::vector<ItemVerdict> judge_texels(const JudgedFrame& frame, const std::vecto
 } // namespace
 
 CollisionImage redraw(const JudgedFrame& frame) {
+    if (has_remedies(frame.params.switches)) {
+        CollisionImage planes = frame.gpu_cdt; // of its size
+        draw_layered_cdt(frame.gpu, frame.obstacles, frame.params, frame.profile, planes);
+        return planes;
+    }
     CollisionImage cdt(frame.params.width, frame.params.height);
+    if (!is_listing(frame.params.switches))
+        return cdt;
     DepthImage depth(frame.params.width, frame.params.height, 1.0F);
     obstacle_pass(frame.obstacles, frame.params, frame.profile, cdt, depth);
     rasterise_particles(frame.before, frame.gpu, frame.params, frame.profile, cdt, depth);
@@ -277,6 +288,8 @@ CollisionImage redraw(const JudgedFrame& frame) {
 }
 
 ItemVerdict judge_particle(const JudgedFrame& frame, std::size_t particle) {
+    if (!is_listing(frame.params.switches))
+        return with_step_pass(frame, [&](const JudgedPass& pass) { return judge_item(pass, particle); });
     const ParticleState gpu = frame.gpu[particle];
     const std::vector<LegalOutcome> outcomes =
         legal_outcomes(frame.before[particle], frame.cdt, frame.params, frame.profile, frame.known, &gpu);
@@ -300,6 +313,8 @@ ItemVerdict judge_particle(const JudgedFrame& frame, std::size_t particle) {
 }
 
 FrameVerdicts judge(const JudgedFrame& frame) {
+    if (!is_listing(frame.params.switches))
+        return judge_by_twin(frame);
     const std::vector<std::size_t> differing = differing_items(frame.reference, frame.gpu);
     FrameVerdicts verdicts;
     verdicts.particles.resize(differing.size());

@@ -1,6 +1,9 @@
 #pragma once
 #include <cstddef>
 #include <string>
+#include <vector>
+
+#include <glm/vec3.hpp>
 
 #include "crosscheck/judge/verdict.hpp"
 #include "crosscheck/report/explain_text.hpp"
@@ -25,7 +28,9 @@ struct Capsule {
     Profile profile;          ///< of the driver's tables only the values that the verdict needs, NaN elsewhere
     KnownOperations known;
     ParticleState before, gpu;
-    CollisionImage cdt;  ///< empty but for the texels that may be looked at
+    CollisionImage cdt; ///< empty but for the texels that may be looked at
+    /// With search = octree, what the particle's leaf holds within reach, but for itself, in the leaf's order.
+    std::vector<glm::vec3> entries;
     StepCapture capture; ///< what the GPU computed on its way; of a recorded run it tells only the new state
 };
 

@@ -83,6 +83,13 @@ json texels_json(const CollisionImage& cdt) {
     return texels;
 }
 
+json entries_json(const std::vector<glm::vec3>& entries) {
+    json list = json::array();
+    for (const glm::vec3& entry : entries)
+        list.push_back(vector_text(entry));
+    return list;
+}
+
 void read_texels(const JsonValue& value, CollisionImage& cdt) {
     for (const JsonValue& texel : value.items()) {
         const std::vector<JsonValue> parts = texel.items();
@@ -187,6 +194,7 @@ std::string capsule_file(const Capsule& cut) {
                         {"before", state_json(capsule.before)},
                         {"gpu", state_json(capsule.gpu)},
                         {"cdt", texels_json(capsule.cdt)},
+                        {"entries", entries_json(capsule.entries)},
                         {"capture", capture_json(capsule.capture)}};
     const std::string text = document.dump(-1, ' ', false, json::error_handler_t::replace) + "\n";
     if (text.size() > largest_capsule)
@@ -206,13 +214,11 @@ Capsule read_capsule(const JsonValue& value) {
         value.fail("no capsule: the key \"lockstep_capsule\" is missing");
     static_cast<void>(value.at("lockstep_capsule").integer(version, version));
     value.check_keys({"lockstep_capsule", "scene", "settings", "renderer", "switches", "frame", "particle", "profile",
-                      "roots", "known", "before", "gpu", "cdt", "capture"});
+                      "roots", "known", "before", "gpu", "cdt", "entries", "capture"});
     Capsule capsule;
     const JsonValue settings = value.at("settings");
     settings.check_keys(scene_keys);
     read_settings(settings, {}, {}, capsule.scene);
-    if (capsule.scene.switches.search != Search::cdt || has_remedies(capsule.scene.switches))
-        settings.fail("a capsule is of the listing's own search");
     capsule.scene.name = value.at("scene").label();
     capsule.renderer = value.at("renderer").label();
     capsule.settings = value.at("switches").label();
@@ -223,11 +229,14 @@ Capsule read_capsule(const JsonValue& value) {
     capsule.known = read_known(value.at("known"));
     capsule.before = read_state(value.at("before"));
     capsule.gpu = read_state(value.at("gpu"));
-    const auto texels =
-        static_cast<std::uint64_t>(capsule.scene.width) * static_cast<std::uint64_t>(capsule.scene.height);
+    const int height = cdt_height(capsule.scene);
+    const auto texels = static_cast<std::uint64_t>(capsule.scene.width) * static_cast<std::uint64_t>(height);
     expect_affordable({texels, 1}, 0, "capsule");
-    capsule.cdt = CollisionImage(capsule.scene.width, capsule.scene.height);
+    capsule.cdt = CollisionImage(capsule.scene.width, height);
     read_texels(value.at("cdt"), capsule.cdt);
+    if (const auto entries = value.find("entries"))
+        for (const JsonValue& entry : entries->items())
+            capsule.entries.push_back(read_vector<3>(entry));
     capsule.capture = read_capture(value.at("capture"), capsule.scene);
     return capsule;
 }

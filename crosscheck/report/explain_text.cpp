@@ -6,42 +6,21 @@
 #include <fmt/format.h>
 
 #include "crosscheck/judge/diagnosis.hpp"
+#include "crosscheck/judge/item_judge.hpp"
 #include "crosscheck/judge/neighbourhood.hpp"
+#include "crosscheck/judge/step_judge.hpp"
+#include "crosscheck/report/item_text.hpp"
 #include "crosscheck/report/value_text.hpp"
 #include "crosscheck/report/verdict_text.hpp"
+#include "reference/collision/step_pass.hpp"
 #include "reference/model/collision_state.hpp"
 #include "reference/model/same_bits.hpp"
 
 namespace lockstep {
 namespace {
 
-std::string number_text(float value, NumberFormat format) {
-    return format == NumberFormat::hexadecimal ? fmt::format("{:a}", value) : fmt::format("{:.9g}", value);
-}
-
 std::string vector_text(glm::vec3 v, NumberFormat format) {
     return fmt::format("({}, {}, {})", number_text(v.x, format), number_text(v.y, format), number_text(v.z, format));
-}
-
-std::string cell_text(const Cell& cell, NumberFormat format) {
-    if (!cell.number)
-        return cell.text.empty() ? "-" : cell.text;
-    return number_text(*cell.number, format) + (cell.text.empty() ? "" : " " + cell.text);
-}
-
-std::string ulp_text(const StepRow& row) {
-    if (!row.reference.number || !row.gpu.number)
-        return "";
-    const std::int64_t ulp = row.ulp();
-    return ulp == INT64_MAX ? "NaN" : fmt::format("{}", ulp);
-}
-
-std::string line(std::string_view mark, std::string_view label, std::string_view strict, std::string_view reference,
-                 std::string_view gpu, std::string_view ulp, std::string_view verdict) {
-    std::string text =
-        fmt::format("{:1} {:<25} {:<24} {:<24} {:<24} {:>10}  {}", mark, label, strict, reference, gpu, ulp, verdict);
-    text.erase(text.find_last_not_of(' ') + 1);
-    return text + "\n";
 }
 
 std::string rows_text(const std::vector<StepRow>& rows, NumberFormat format) {
@@ -121,16 +100,22 @@ std::string agrees_text(const LegalOutcome& o, const ParticleState& gpu) {
     return "the GPU is not: " + outside;
 }
 
+/// The same of a step that its twin alone judges.
+std::string why_item(const JudgedPass& pass, std::size_t item, const std::string& name) {
+    const bool differs = !same_item(pass.reference, pass.gpu, item);
+    const ItemVerdict verdict = judge_item(pass, item);
+    std::string text = fmt::format("{}: {}\n", name, class_text(differs ? &verdict : nullptr));
+    const auto outcomes = pass.pass.outcomes(pass.input(), item, pass.profile, pass.known, &pass.gpu);
+    for (std::size_t i = 0; i < outcomes.size(); ++i)
+        text += fmt::format("  legal outcome {} of {}, {}: {}\n", i + 1, outcomes.size(),
+                            outcomes[i].contains(pass.gpu, item) ? "the GPU is in it" : "the GPU is not",
+                            outcome_text(outcomes[i], pass.gpu.about()));
+    if (differs && verdict.kind >= DifferenceClass::undefined)
+        text += wrong_text(wrong_step_of_item(pass, item));
+    return text;
+}
+
 } // namespace
-
-std::string row_text(const StepRow& row, NumberFormat format) {
-    return line(row.differs() ? ">" : "", row.label, cell_text(row.strict, format), cell_text(row.reference, format),
-                cell_text(row.gpu, format), ulp_text(row), row_verdict_names[static_cast<std::size_t>(row.verdict)]);
-}
-
-std::string head_text(const Profile& profile) {
-    return line("", "step", "reference (strict)", fmt::format("reference ({})", profile.name), "GPU", "ULP", "verdict");
-}
 
 std::string particle_head(const StepTable& table, NumberFormat format) {
     const ParticleState& s = table.reference.before;
@@ -186,6 +171,8 @@ std::string why_particle(FrameRun& run, std::size_t particle) {
 }
 
 std::string why_particle(const JudgedFrame& frame, std::size_t particle, const std::string& name) {
+    if (!is_listing(frame.params.switches))
+        return with_step_pass(frame, [&](const JudgedPass& pass) { return why_item(pass, particle, name); });
     const ParticleState gpu = frame.gpu[particle];
     const bool differs = !same_bits(frame.reference[particle], gpu);
     const ItemVerdict verdict = judge_particle(frame, particle);

@@ -4,6 +4,7 @@
 
 #include "crosscheck/judge/frame_run.hpp"
 #include "crosscheck/judge/step_table.hpp"
+#include "crosscheck/report/row_text.hpp"
 #include "crosscheck/report/value_text.hpp"
 
 namespace lockstep {
@@ -14,10 +15,6 @@ std::string explain_particle(FrameRun& run, std::size_t particle, NumberFormat f
 
 /// The table of a texel, then those of the particles that own it on either side.
 std::string explain_texel(FrameRun& run, std::size_t texel, NumberFormat format);
-
-/// One row under the table's heads; the heads alone.
-std::string row_text(const StepRow& row, NumberFormat format);
-std::string head_text(const Profile& profile);
 
 /// What the particle started from.
 std::string particle_head(const StepTable& table, NumberFormat format);

@@ -16,6 +16,9 @@ std::string explain_item(SystemRun& run, std::size_t item, NumberFormat format =
 std::string explain_item(const JudgedPass& pass, std::size_t item, std::span<const ToldValue> told,
                          NumberFormat format);
 
+/// What an outcome's fields may be, and the ties on the way to it.
+std::string outcome_text(const ItemOutcome& outcome, const Resource& about);
+
 /// The heading of a report on a system's run. `repeat`: the command that repeats it.
 RunDescription describe_run(const System& system, const SideDescription& side, const CheckOptions& options,
                             const std::string& repeat);

@@ -54,6 +54,8 @@ ItemPassOptions options(const char* name, PassStage stage, const FrameParams& pa
 
 } // namespace
 
+bool is_listing(const Switches& switches) { return switches.search == Search::cdt && !has_remedies(switches); }
+
 std::unique_ptr<ItemPass> step_pass(const StepInputs& inputs) {
     const FrameParams& params = inputs.params;
     if (params.switches.search == Search::octree)

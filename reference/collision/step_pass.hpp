@@ -9,6 +9,9 @@
 
 namespace lockstep {
 
+/// Whether particles search as the listing does, and are drawn by its pass.
+bool is_listing(const Switches& switches);
+
 /// What the particles' step of one frame reads; outlives the pass.
 struct StepInputs {
     const Particles& before;

@@ -123,14 +123,27 @@ TEST_CASE("capsule: at most 100 kB, in every preset, format and at a wide radius
     }
 }
 
+TEST_CASE("capsule: a step of the octree, and one with remedies, says what the run's says") {
+    if (!test::have_osmesa())
+        return;
+    const Setting setting;
+    for (const char* search : {"search=octree", "cdt_layers=2", "cdt_cameras=2"})
+        for (const char* particle : {"3", "42", "117"}) {
+            INFO(search << " " << particle);
+            const std::vector<std::string> from{setting.scene, "--gl", "osmesa", "--set", search};
+            REQUIRE(setting.cut(from, "3", particle).status == 0);
+            const test::Outcome shown = setting.show();
+            CHECK(shown.status == 0);
+            CHECK_THAT(shown.out, Contains("particle " + std::string(particle) + " in frame 3: every bit agrees"));
+        }
+}
+
 TEST_CASE("capsule: what cannot be cut or read is refused in a line, and no file is left") {
     if (!test::have_osmesa())
         return;
     const Setting setting;
     CHECK_THAT(refusal(setting.cut_live("3", "300")), Contains("300"));
     CHECK_THAT(refusal(setting.cut({}, "3", "3")), Contains("a scene or --trace FILE is needed"));
-    CHECK_THAT(refusal(setting.cut({setting.scene, "--gl", "osmesa", "--set", "search=octree"}, "3", "3")),
-               Contains("search=cdt"));
     CHECK_THAT(refusal(setting.show()), Contains("capsule.json: cannot be read"));
     CHECK_THAT(refusal(run_lockstep({"capsule", "show", setting.scene})),
                Contains("scene.json: /: no capsule: the key \"lockstep_capsule\" is missing"));

@@ -162,8 +162,6 @@ TEST_CASE("debug_command: what cannot be done is told with the line of the scrip
     CHECK(setting.error("\n# first\nnonsense\n") == "line 3: unknown command 'nonsense'; the commands are frame, "
                                                     "particle, texel, show, step, back, next, why, set, "
                                                     "list, help, quit");
-    CHECK(setting.error("set search=octree\n") ==
-          "line 1: scene: only the search through the CDT is followed step by step; set search=cdt");
     CHECK_THAT(setting.error("set arithmetic=loose\n"), Catch::StartsWith("line 1: ") && Catch::Contains("exact"));
     const test::Outcome outcome = setting.obey("frame 1\nnonsense\nframe 2\n");
     CHECK(outcome.out == "frame 1: particles: none differ; texels: none differ\n");

@@ -129,14 +129,20 @@ TEST_CASE("explain_command: what cannot be explained is told in one line") {
               "there is no texel '" + std::string(wrong) + "'; the CDT has 0,0 to 63,47");
 }
 
-TEST_CASE("explain_command: the octree's search is not followed") {
+TEST_CASE("explain_command: a step of the octree, and one with remedies, value by value along its twin") {
     if (!test::have_osmesa())
         return;
     const Setting setting;
-    CHECK(refusal(setting.explain({"--frame", "1", "--particle", "1", "--set", "search=octree"})) ==
-          "scene: only the search through the CDT is followed step by step; set search=cdt");
-    CHECK(refusal(setting.explain({"--frame", "1", "--particle", "1", "--set", "cdt_layers=2"})) ==
-          "scene: only the listing's own search is followed step by step; set cdt_layers=1");
+    for (const char* search : {"search=octree", "cdt_layers=2"}) {
+        INFO(search);
+        const test::Outcome outcome = setting.explain({"--frame", "1", "--particle", "1", "--set", search});
+        CHECK(outcome.status == 0);
+        CHECK_THAT(outcome.out, Catch::Contains(" same\n") &&
+                                    Catch::Contains("particle 1 in frame 1: every bit agrees") &&
+                                    Catch::Contains("legal outcome 1 of 1, the GPU is in it"));
+    }
+    CHECK_THAT(setting.explain({"--frame", "1", "--texel", "3,4", "--set", "cdt_layers=2"}).out,
+               Catch::Contains("texel (3, 4) in frame 1: every bit agrees"));
 }
 
 TEST_CASE("explain_command: a trace build that does not compile is told with file and line") {

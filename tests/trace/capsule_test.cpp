@@ -109,7 +109,7 @@ TEST_CASE("capsule: what is wrong in one is named by its key") {
     CHECK_THAT(with("/cdt", {{24, 0, "0 0 0 0"}}), Contains("/cdt/0/0: 24 is not an integer from 0 to 23"));
     CHECK_THAT(with("/cdt", {{1, 2}}), Contains("/cdt/0: not [x, y, code]"));
     CHECK_THAT(with("/frame", -1), Contains("/frame"));
-    CHECK_THAT(with("/settings/switches/search", "octree"), Contains("a capsule is of the listing's own search"));
+    CHECK_THAT(with("/entries", {"3f800000"}), Contains("/entries/0: 1 groups of eight hexadecimal digits, to be 3"));
     CHECK_THAT(with("/profile/dot", 1), Contains("/profile/dot"));
     CHECK_THAT(with("/roots", {{"reciprocal", {{1}}}, {"inverse_sqrt", nlohmann::json::array()}}),
                Contains("/roots/reciprocal/0: not [index, value]"));
@@ -120,7 +120,7 @@ TEST_CASE("capsule: what is wrong in one is named by its key") {
     CHECK_THAT(with("/capture/vertex", {{"trace_clip"}}), Contains("not [name, type, 1 for floats, words]"));
 }
 
-TEST_CASE("capsule: only of particles that there are, and of the listing's own search") {
+TEST_CASE("capsule: only of particles that there are") {
     const TraceInfo info = test::small_info(true);
     const test::TemporaryFolder folder;
     test::record(folder.path() / "run.h5", info, 2);
@@ -132,12 +132,6 @@ TEST_CASE("capsule: only of particles that there are, and of the listing's own s
                    cut_capsule(run.judged(), {info.scene, "", "", 1, 60, {}});
                }),
                Contains("particle 60: there are 60, counted from 0"));
-    Scene octree = info.scene;
-    octree.switches.search = Search::octree;
-    CHECK_THAT(test::error_of([&] {
-                   cut_capsule(run.judged(), {octree, "", "", 1, 6, {}});
-               }),
-               Contains("only of it capsules can be cut"));
 }
 
 TEST_CASE("capsule: more texels than 100 kB hold are refused") {

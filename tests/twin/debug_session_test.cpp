@@ -73,7 +73,6 @@ TEST_CASE("debug_session: a command that cannot be done says why and changes not
         {"why not", "why: takes no argument, not 'not'"},
         {"set", "set: '' is not NAME=VALUE"},
         {"set arithmetic", "set: 'arithmetic' is not NAME=VALUE"},
-        {"set search=octree", "crowded: only the search through the CDT is followed step by step; set search=cdt"},
         {"list", "list: '' is not one of rounding, tie, undefined, divergent"},
         {"list all", "list: 'all' is not one of rounding, tie, undefined, divergent"},
         {"help me", "help: takes no argument, not 'me'"},

@@ -102,8 +102,10 @@ NumberFormat format_of(const Arguments& arguments) {
 /// One run of the program.
 class SystemProgram {
   public:
-    SystemProgram(const System& system, const std::vector<GlPass>& passes, std::string shaders)
-        : system_(system), passes_(passes), shaders_(std::move(shaders)) {}
+    /// `words`: of the command line, after the program's name.
+    SystemProgram(const System& system, const std::vector<GlPass>& passes, std::string shaders,
+                  std::vector<std::string> words)
+        : system_(system), passes_(passes), shaders_(std::move(shaders)), words_(std::move(words)) {}
 
     int check_verb(const Arguments& arguments) {
         arguments.allow(
@@ -123,7 +125,7 @@ class SystemProgram {
         for (const char* output : {"--json", "--capsule"})
             if (arguments.has(output))
                 files.expect(arguments.text(output));
-        options.repeat = this_program({"check"});
+        options.repeat = this_program(words_);
         const MatchResult result = match_system(side, system_, options);
         fmt::print("{}", result.text());
         if (arguments.has("--json"))
@@ -180,6 +182,7 @@ class SystemProgram {
     const System& system_;
     const std::vector<GlPass>& passes_;
     std::string shaders_;
+    std::vector<std::string> words_;
 };
 
 } // namespace
@@ -189,7 +192,7 @@ int run_system_program(int argc, char** argv, const System& system, const std::v
     const std::string name = argc > 0 ? std::filesystem::path(argv[0]).filename().string() : system.schema.system;
     const std::string_view verb = argc > 1 ? argv[1] : "help";
     try {
-        SystemProgram program(system, passes, shaders);
+        SystemProgram program(system, passes, shaders, {argv + std::min(argc, 1), argv + argc});
         const Arguments arguments(argc, argv);
         if (verb == "check")
             return program.check_verb(arguments);

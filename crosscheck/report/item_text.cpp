@@ -75,14 +75,19 @@ std::string explain_item(const JudgedPass& pass, std::size_t item, std::span<con
 RunDescription describe_run(const System& system, const SideDescription& side, const CheckOptions& options,
                             const std::string& repeat) {
     RunDescription run;
-    run.scene = fmt::format("{} ({})", system.name, system.schema.system);
+    run.scene =
+        system.name == system.schema.system ? system.name : fmt::format("{} ({})", system.name, system.schema.system);
     run.context = side.name;
     run.profile = describe(side.profile);
-    run.settings = system.settings;
+    run.settings = system.settings.empty() ? "none" : system.settings;
     run.mode = options.mode == CheckMode::free ? "free" : "resync";
     run.width = 1;
     run.repeat = repeat;
     run.shaders = side.shaders;
+    std::string passes;
+    for (const auto& pass : system.passes)
+        passes += fmt::format("{}{}", passes.empty() ? "" : ", ", pass->name());
+    run.shaders_untold = "the system's own: " + passes;
     return run;
 }
 

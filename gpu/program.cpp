@@ -1,6 +1,7 @@
 #include "gpu/program.hpp"
 
 #include <algorithm>
+#include <filesystem>
 #include <iterator>
 #include <set>
 
@@ -243,6 +244,31 @@ void check_blocks(GLuint program, std::span<const ShaderSource> stages) {
             throw Error(fmt::format("shader {}: nothing is given for storage buffer {}", place, name));
 }
 
+/// The same of a geometry stage, whose inputs are arrays: drivers leave what is missing undefined without a word.
+void check_geometry_inputs(std::span<const ShaderSource> stages) {
+    const auto of = [&](Stage stage) {
+        return std::find_if(stages.begin(), stages.end(), [&](const ShaderSource& s) { return s.stage == stage; });
+    };
+    const auto vertex = of(Stage::vertex), geometry = of(Stage::geometry);
+    if (vertex == stages.end() || geometry == stages.end())
+        return;
+    const std::set<std::string> written = words_with("", vertex->text);
+    std::string qualifier, type, name; // the words before
+    bool located = false;
+    for (ShaderWords words(geometry->text); words.next();) {
+        const std::string word(words.token());
+        if (word == "[" && qualifier == "in" && !located && !written.contains(name)) {
+            const ShaderSource::Origin& origin = geometry->origins[words.line() - 1];
+            throw Error(fmt::format("shader {}:{}: input {} is written by no stage before it ({}); an empty {} leaves "
+                                    "the geometry stage out",
+                                    geometry->files[origin.file], origin.line, name, vertex->files.front(),
+                                    std::filesystem::path(geometry->files.front()).filename().string()));
+        }
+        located = word != ";" && (located || word == "location");
+        qualifier = std::exchange(type, std::exchange(name, word));
+    }
+}
+
 /// What a fragment stage reads has to be written: by name, where no location stands beside it.
 void check_fragment_inputs(std::span<const ShaderSource> stages) {
     const ShaderSource* last = last_vertex_stage(stages);
@@ -340,6 +366,7 @@ Program::Program(std::string name, std::span<const ShaderSource> stages, std::sp
         for (std::size_t i = 0; i < captured.size(); ++i)
             check_capture_type(id_, static_cast<GLuint>(i), captured[i], stages);
         check_blocks(id_, stages);
+        check_geometry_inputs(stages);
         check_fragment_inputs(stages);
         check_fragment_output(id_, stages);
         for (const Shader& shader : shaders)

@@ -9,6 +9,7 @@
 #include "crosscheck/judge/cause.hpp"
 #include "crosscheck/judge/diagnosis.hpp"
 #include "crosscheck/judge/item_cause.hpp"
+#include "crosscheck/judge/legal_hint.hpp"
 #include "crosscheck/judge/side_state.hpp"
 #include "crosscheck/judge/step_judge.hpp"
 #include "gpu/gpu_side.hpp"
@@ -128,10 +129,15 @@ class RunJudge {
         const bool diverges = keep_first(f.number, judged, verdicts);
         summary_.add(f.number, collision::particles, verdicts.particles);
         summary_.add(f.number, collision::cdt, verdicts.texels);
-        if (diverges)
+        if (diverges) {
             seek_causes(f, judged, verdicts);
+            hint_.add(judged, verdicts);
+        }
         return verdicts;
     }
+
+    /// By which what diverges is legal, where that is judged by what was measured.
+    [[nodiscard]] std::optional<Legal> wider_rule() const { return hint_.rule(); }
 
     [[nodiscard]] VerdictSummary summary() const {
         VerdictSummary summary = summary_;
@@ -189,6 +195,7 @@ class RunJudge {
     bool has_cdt_;
     VerdictSummary summary_{collision_schema()};
     CauseFinder causes_;
+    LegalHint hint_;
     std::vector<NamedMistake> named_;
     ItemCauseFinder step_causes_;
 };
@@ -300,8 +307,10 @@ CheckReport check(const Scene& scene, const Profile& profile, GpuSide& gpu, cons
     if (report.total.compared() == 0)
         throw Error(fmt::format("{}: nothing was compared: {} frames of {} particles", scene.name, report.frames,
                                 report.particles));
-    if (judged)
+    if (judged) {
         report.verdicts = judge.summary();
+        report.wider_rule = judge.wider_rule();
+    }
     report.verdict = verdict_on(report);
     if (report.verdict != Verdict::divergent && report.verdict != Verdict::differ)
         report.untried = untried(report, scene);

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "crosscheck/judge/compare.hpp"
+#include "crosscheck/judge/legal.hpp"
 #include "crosscheck/judge/verdict.hpp"
 #include "crosscheck/judge/verdict_summary.hpp"
 #include "reference/known_operations.hpp"
@@ -63,6 +64,8 @@ struct CheckReport {
     std::optional<int> first_frame;     ///< the first frame with a difference, or that did not repeat itself
     std::vector<FrameDifference> worst; ///< of the first differing frame, largest ULP first
     std::vector<FrameCount> counts;
+    /// What diverges is legal by this rule, as far as was tried: the shader may be right and round otherwise.
+    std::optional<Legal> wider_rule = {};
     std::optional<VerdictSummary> verdicts; ///< resync mode, search = cdt, no remedies
     std::uint64_t hits = 0;                 ///< particle-frames in which the reference found a collision
     std::uint64_t drawn_texels = 0;         ///< texels written by the reference, summed over frames

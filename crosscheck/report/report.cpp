@@ -236,6 +236,12 @@ std::string report_text(const CheckReport& r, const RunDescription& run) {
     line("verdict", verdict_line(r));
     if (r.total.agree())
         return out;
+    if (r.verdict == Verdict::divergent && r.wider_rule)
+        line("hint",
+             fmt::format(
+                 "none of those that were tried is wrong by{}: a right shader that writes the same in another way "
+                 "rounds otherwise than what was measured",
+                 legal_option_text(*r.wider_rule)));
     if (r.verdicts)
         out += verdict_text(*r.verdicts, r.schema, run.width);
     if (!run.explain.empty())
@@ -307,6 +313,7 @@ nlohmann::json report_json(const CheckReport& r, const RunDescription& run) {
                 {"verdict_line", verdict_line(r)},
                 {"partial", r.partial()},
                 {"judged", r.verdicts.has_value()},
+                {"legal_by", r.wider_rule ? json(legal_option_text(*r.wider_rule).substr(1)) : json()},
                 {"untried", r.untried},
                 {"scene", run.scene},
                 {"mode", run.mode},

@@ -180,6 +180,18 @@ TEST_CASE("no false pass: a block that nobody binds is an error with its name") 
     }
 }
 
+TEST_CASE("no false pass: a geometry stage's input that the vertex stage does not write is an error with its name") {
+    const auto context = test::open_context("osmesa");
+    if (!context)
+        return;
+    const test::TemporaryFolder shaders;
+    std::ifstream stream("tests/right_shaders/components.vert"); // which has outputs of its own
+    shaders.write("collision_pass.vert", std::string{std::istreambuf_iterator<char>(stream), {}});
+    CHECK_THAT(refusal(shaders), Catch::StartsWith("shader shaders/collision_pass.geom:9: input v_Position is written "
+                                                   "by no stage before it (") &&
+                                     Catch::EndsWith("; an empty collision_pass.geom leaves the geometry stage out"));
+}
+
 TEST_CASE("no false pass: a fragment stage's input that no stage writes is an error with its name") {
     const auto context = test::open_context("osmesa");
     if (!context)

@@ -186,6 +186,8 @@ class RunJudge {
             if (const auto mistake = step_mistake(info.deviation))
                 for (const char* pass : {"octree_pass", "layered_collision_pass"})
                     named.push_back({std::string(info.name), std::string(info.meaning), pass, *mistake});
+        for (const SearchMistake& m : search_mistakes())
+            named.push_back({std::string(m.name), std::string(m.meaning), std::string(m.pass), m.mistake});
         return named;
     }
 

@@ -1,6 +1,9 @@
 #include "crosscheck/judge/item_cause.hpp"
 
 #include <algorithm>
+#include <limits>
+#include <numeric>
+#include <span>
 #include <tuple>
 
 #include <fmt/format.h>
@@ -27,7 +30,19 @@ std::vector<std::size_t> divergent_of(const std::vector<ItemVerdict>& verdicts) 
     return items;
 }
 
-std::vector<std::size_t> agreeing_of(const JudgedPass& pass, const std::vector<ItemVerdict>& verdicts) {
+/// As few at the front as one likes come from everywhere.
+std::vector<std::size_t> spread(const std::vector<std::size_t>& all) {
+    constexpr std::size_t stride = 61;
+    std::vector<std::size_t> some;
+    some.reserve(all.size());
+    for (std::size_t first = 0; first < stride; ++first)
+        for (std::size_t i = first; i < all.size(); i += stride)
+            some.push_back(all[i]);
+    return some;
+}
+
+std::vector<std::size_t> agreeing_of(const JudgedPass& pass, const std::vector<ItemVerdict>& verdicts,
+                                     std::size_t most) {
     std::vector<std::size_t> items;
     for (std::size_t i = 0, next = 0; i < pass.gpu.count(); ++i) {
         if (next < verdicts.size() && verdicts[next].index == i)
@@ -35,7 +50,7 @@ std::vector<std::size_t> agreeing_of(const JudgedPass& pass, const std::vector<I
         else
             items.push_back(i);
     }
-    return sample(items, ItemCauseFinder::trial_items);
+    return sample(items, most);
 }
 
 /// The same bits but for the sign of zero, which depends on how a mistake was written down.
@@ -45,9 +60,10 @@ bool alike(Value a, Value b) {
 
 } // namespace
 
-bool ItemCauseFinder::explains(const Hypothesis& hypothesis, const JudgedPass& p, std::size_t item) {
+bool ItemCauseFinder::explains(const Hypothesis& hypothesis, const Trial& trial, std::size_t item) {
     using Host = Hypothesis::Host;
-    const std::vector<Component> parts = components(p.gpu.about());
+    const JudgedPass& p = trial.pass;
+    const std::vector<Component>& parts = trial.parts;
     if (hypothesis.host == Host::unwritten) {
         const View& before = p.before[p.pass.resource()];
         return std::all_of(parts.begin(), parts.end(), [&](const Component& c) {
@@ -55,9 +71,7 @@ bool ItemCauseFinder::explains(const Hypothesis& hypothesis, const JudgedPass& p
         });
     }
     const PassInput input{hypothesis.host == Host::earlier_state ? *p.earlier : p.before, p.frame};
-    std::vector<Mistake> made;
-    if (hypothesis.mistake)
-        made.push_back(*hypothesis.mistake);
+    const auto made = hypothesis.mistake ? std::span(&*hypothesis.mistake, 1) : std::span<const Mistake>();
     const std::vector<std::uint32_t> words = p.pass.mistaken(input, item, p.profile, made);
     for (std::size_t w = 0; w < parts.size(); ++w) {
         const Value gpu = p.gpu.value(parts[w].field, item, parts[w].component);
@@ -87,40 +101,92 @@ std::vector<ItemCauseFinder::Hypothesis> ItemCauseFinder::hypotheses(const Judge
     return all;
 }
 
+/// Counts what it explains and what contradicts it, unless its balance is sure to fall below `at_least`: false then.
+bool ItemCauseFinder::hold(Hypothesis& hypothesis, const Trial& trial, std::int64_t at_least) {
+    auto left = static_cast<std::int64_t>(trial.divergent.size());
+    const std::uint64_t before = hypothesis.explained;
+    for (const std::size_t item : trial.divergent) {
+        if (hypothesis.balance() + left-- < at_least)
+            return false;
+        hypothesis.explained += explains(hypothesis, trial, item) ? 1 : 0;
+    }
+    if (hypothesis.explained == before)
+        return true;
+    for (const std::size_t item : trial.agreeing) {
+        if (hypothesis.balance() < at_least)
+            return false;
+        hypothesis.contradicted += explains(hypothesis, trial, item) ? 0 : 1;
+    }
+    return hypothesis.balance() >= at_least;
+}
+
+/// The most promising are held against all items, and the others until one of the divergent is not
+/// explained, or one that agrees contradicts.
+void ItemCauseFinder::try_all(const Trial& trial) {
+    constexpr std::size_t few = 4, most_promising = 8;
+    const auto n = static_cast<std::ptrdiff_t>(tried_.size());
+    const std::span items(trial.divergent.data(), std::min(few, trial.divergent.size()));
+    std::vector<std::size_t> promise(tried_.size());
+#pragma omp parallel for schedule(dynamic)
+    for (std::ptrdiff_t h = 0; h < n; ++h) {
+        const auto at = static_cast<std::size_t>(h);
+        for (const std::size_t item : items)
+            if (explains(tried_[at], trial, item))
+                ++promise[at];
+            else if (tried_[at].named == nullptr)
+                break;
+    }
+    std::vector<std::size_t> order(tried_.size());
+    std::iota(order.begin(), order.end(), std::size_t{0});
+    std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) {
+        return std::tuple(promise[b], tried_[a].rank()) < std::tuple(promise[a], tried_[b].rank());
+    });
+    std::vector<char> kept(tried_.size());
+    const auto hold_from = [&](std::size_t from, std::size_t to, std::int64_t at_least) {
+#pragma omp parallel for schedule(dynamic)
+        for (std::ptrdiff_t i = static_cast<std::ptrdiff_t>(from); i < static_cast<std::ptrdiff_t>(to); ++i) {
+            const std::size_t h = order[static_cast<std::size_t>(i)];
+            kept[h] = hold(tried_[h], trial, at_least) ? 1 : 0;
+        }
+    };
+    const std::size_t first = std::min(most_promising, order.size());
+    hold_from(0, first, std::numeric_limits<std::int64_t>::min());
+    divergent_ += trial.divergent.size();
+    hold_from(first, order.size(), static_cast<std::int64_t>(divergent_));
+    std::vector<Hypothesis> next;
+    for (std::size_t h = 0; h < tried_.size(); ++h)
+        if (kept[h] != 0 && tried_[h].explained > 0)
+            next.push_back(std::move(tried_[h]));
+    tried_ = std::move(next);
+    std::stable_sort(tried_.begin(), tried_.end(), [](const Hypothesis& a, const Hypothesis& b) {
+        return std::tuple(-a.balance(), a.rank()) < std::tuple(-b.balance(), b.rank());
+    });
+}
+
 void ItemCauseFinder::add(const JudgedPass& pass, const std::vector<ItemVerdict>& verdicts) {
     const std::vector<std::size_t> divergent = divergent_of(verdicts);
     if (divergent.empty())
         return;
-    const bool first = frames_ == 0;
+    const bool first = frames_ == 0, later = frames_ >= trial_frames;
     if (frames_++ >= trial_frames && (tried_.empty() || tried_.front().explained < divergent_))
         return;
-    const std::vector<std::size_t> some = sample(divergent, trial_items);
-    const std::vector<std::size_t> agreeing = agreeing_of(pass, verdicts);
+    const std::size_t most = later ? later_items : trial_items;
+    const std::vector<std::size_t> items = spread(sample(divergent, most)),
+                                   agreeing = spread(agreeing_of(pass, verdicts, most));
+    const auto part = [&](std::size_t from, std::size_t to) {
+        const auto of = [&](const std::vector<std::size_t>& all) {
+            return std::span(all).subspan(std::min(from, all.size()),
+                                          std::min(to, all.size()) - std::min(from, all.size()));
+        };
+        return Trial{pass, components(pass.gpu.about()), of(items), of(agreeing)};
+    };
     if (first)
         tried_ = hypotheses(pass, sample(divergent, 16));
-    divergent_ += some.size();
-    const auto count = [&](Hypothesis& hypothesis, const std::vector<std::size_t>& items) {
-        return static_cast<std::uint64_t>(std::count_if(
-            items.begin(), items.end(), [&](std::size_t item) { return explains(hypothesis, pass, item); }));
-    };
-    const auto n = static_cast<std::ptrdiff_t>(tried_.size());
-#pragma omp parallel for schedule(dynamic)
-    for (std::ptrdiff_t h = 0; h < n; ++h) {
-        Hypothesis& hypothesis = tried_[static_cast<std::size_t>(h)];
-        // A few items tell of most that they explain nothing.
-        const std::uint64_t few = some.size() > 32 ? count(hypothesis, sample(some, 8)) : 1;
-        const std::uint64_t explained = few == 0 ? 0 : count(hypothesis, some);
-        hypothesis.explained += explained;
-        if (explained > 0)
-            hypothesis.contradicted += agreeing.size() - count(hypothesis, agreeing);
-    }
-    std::stable_sort(tried_.begin(), tried_.end(), [](const Hypothesis& a, const Hypothesis& b) {
-        const auto balance = [](const Hypothesis& h) {
-            return static_cast<std::int64_t>(h.contradicted) - static_cast<std::int64_t>(h.explained);
-        };
-        return std::tuple(balance(a), a.rank()) < std::tuple(balance(b), b.rank());
-    });
-    std::erase_if(tried_, [](const Hypothesis& h) { return h.explained == 0; });
+    if (later && tried_.size() > most_shown + 1)
+        tried_.resize(most_shown + 1);
+    try_all(part(0, first_items));
+    if (!tried_.empty() && tried_.front().explained == divergent_)
+        try_all(part(first_items, most));
 }
 
 CauseFindings ItemCauseFinder::findings() const {

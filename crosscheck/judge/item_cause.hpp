@@ -3,6 +3,7 @@
 #include <cstdint>
 #include <map>
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -14,11 +15,13 @@ namespace lockstep {
 
 /// Looks for the mistake in a pass's twin that explains what diverged: first those with names, then the host's (an old
 /// state, nothing written), then every change that the sites of the divergent items allow. On the first frames with
-/// divergence; what explains all there is held against the frames that follow.
+/// divergence; what explains all there, and most_shown beside it, is held against the frames that follow.
 class ItemCauseFinder {
   public:
     static constexpr int trial_frames = 4;
-    static constexpr std::size_t trial_items = 1024; ///< a frame
+    static constexpr std::size_t trial_items = 512; ///< a frame; of those that agree as many
+    static constexpr std::size_t first_items = 128; ///< of them; the rest is only for what explains all of these
+    static constexpr std::size_t later_items = 64;  ///< a frame that follows
     static constexpr std::size_t most_shown = 3;
 
     explicit ItemCauseFinder(const std::vector<NamedMistake>& named) : named_(named) {}
@@ -38,10 +41,21 @@ class ItemCauseFinder {
         std::uint64_t explained = 0, contradicted = 0;
 
         [[nodiscard]] int rank() const { return named != nullptr ? 0 : host != Host::none ? 1 : 2; }
+        [[nodiscard]] std::int64_t balance() const {
+            return static_cast<std::int64_t>(explained) - static_cast<std::int64_t>(contradicted);
+        }
+    };
+    /// The items of a frame that hypotheses are held against.
+    struct Trial {
+        const JudgedPass& pass;
+        std::vector<Component> parts;
+        std::span<const std::size_t> divergent, agreeing;
     };
     [[nodiscard]] std::vector<Hypothesis> hypotheses(const JudgedPass& pass,
                                                      const std::vector<std::size_t>& items) const;
-    static bool explains(const Hypothesis& hypothesis, const JudgedPass& pass, std::size_t item);
+    static bool explains(const Hypothesis& hypothesis, const Trial& trial, std::size_t item);
+    static bool hold(Hypothesis& hypothesis, const Trial& trial, std::int64_t at_least);
+    void try_all(const Trial& trial);
 
     const std::vector<NamedMistake>& named_;
     int frames_ = 0;

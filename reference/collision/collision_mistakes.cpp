@@ -3,7 +3,9 @@
 #include <algorithm>
 #include <array>
 
+#include "reference/collision/layered_twin.hpp"
 #include "reference/collision/sites.hpp"
+#include "reference/octree/octree_twin.hpp"
 
 namespace lockstep {
 namespace {
@@ -96,7 +98,80 @@ constexpr std::array table{
     Row{Deviation::collide_time_counted_twice, site::counted, Change::doubled},
 };
 
+constexpr std::string_view octree = "octree_pass", layered = "layered_collision_pass";
+const std::array searches{
+    SearchMistake{octree, "itself_not_skipped", "the particle is its own neighbour",
+                  mistake_at(site::itself, Change::never)},
+    SearchMistake{octree, "itself_alone_searched", "every entry but the particle itself is skipped",
+                  mistake_at(site::itself, Change::inverted)},
+    SearchMistake{octree, "first_entry_skipped", "the leaf's first entry is not looked at",
+                  mistake_at(site::entries, Change::first_skipped)},
+    SearchMistake{octree, "last_entry_skipped", "the leaf's last entry is not looked at",
+                  mistake_at(site::entries, Change::last_skipped)},
+    SearchMistake{octree, "obstacles_not_searched", "obstacles' corners are not looked at",
+                  mistake_at(site::corners, Change::never)},
+    SearchMistake{octree, "only_obstacles_searched", "particles are not looked at",
+                  mistake_at(site::particles, Change::never)},
+    SearchMistake{octree, "obstacles_at_origin", "obstacles' corners are read as 0",
+                  mistake_at(site::corner, Change::zero)},
+    SearchMistake{octree, "range_reversed", "len > u_CollisionRange for <",
+                  mistake_at(site::in_range, Change::reversed, 0)},
+    SearchMistake{layered, "range_reversed", "len > u_CollisionRange for <",
+                  mistake_at(site::in_range, Change::reversed, 0)},
+    SearchMistake{layered, "obstacles_not_searched", "the obstacles' plane is not looked at",
+                  mistake_at(site::obstacles, Change::never)},
+    SearchMistake{layered, "first_layer_skipped", "layer 0 is not looked at",
+                  mistake_at(site::layers, Change::first_skipped)},
+    SearchMistake{layered, "last_layer_skipped", "the last layer is not looked at",
+                  mistake_at(site::layers, Change::last_skipped)},
+    SearchMistake{layered, "layers_from_behind", "the layers are looked at from the last to the first",
+                  mistake_at(site::layers, Change::backwards)},
+    SearchMistake{layered, "first_camera_skipped", "the first camera's planes are not searched",
+                  mistake_at(site::cameras, Change::first_skipped)},
+    SearchMistake{layered, "last_camera_skipped", "the second camera's planes are not searched",
+                  mistake_at(site::cameras, Change::last_skipped)},
+    SearchMistake{layered, "first_matrix_for_both", "the second camera's planes are searched with the first's matrix",
+                  mistake_at(site::own_matrix, Change::never)},
+    SearchMistake{layered, "first_reach_for_both", "the second camera's windows are as wide as the first's",
+                  mistake_at(site::own_reach, Change::never)},
+    SearchMistake{layered, "empty_texels_searched", "an empty texel is looked at",
+                  mistake_at(site::holds_particle, Change::always)},
+    SearchMistake{layered, "window_not_projected", "the window is u_TexelCollideRange wide, whatever the reach",
+                  mistake_at(site::projected_window, Change::never)},
+    SearchMistake{layered, "window_margin_missing", "the projected window lacks u_WindowMargin",
+                  mistake_at(site::window_margin, Change::zero)},
+    SearchMistake{layered, "reach_missing", "u_Reach is 0", mistake_at(site::reach, Change::zero)},
+    SearchMistake{layered, "itself_not_skipped", "what is stored of the particle itself is its neighbour",
+                  mistake_at(site::itself_skipped, Change::never)},
+    SearchMistake{layered, "own_position_not_as_stored", "the distance to another is from the vertex's own position",
+                  mistake_at(site::itself_stored, Change::never)},
+    SearchMistake{layered, "others_always_search", "one that does not search pushes, too",
+                  mistake_at(site::other_searches, Change::always)},
+    SearchMistake{layered, "separating_push", "contacts that move apart are answered, too",
+                  mistake_at(site::approaches, Change::always)},
+    SearchMistake{layered, "approach_reversed", "contacts that move apart are answered, and no others",
+                  mistake_at(site::approaches, Change::reversed, 0)},
+    SearchMistake{layered, "leaving_obstacle_reflected", "one that moves away from the obstacle is reflected, too",
+                  mistake_at(site::approaches_wall, Change::always)},
+    SearchMistake{layered, "obstacle_never_reflects", "one that moves towards the obstacle is not reflected",
+                  mistake_at(site::approaches_wall, Change::never)},
+    SearchMistake{layered, "whole_push", "a particle takes the whole of a contact's impulse, not half",
+                  mistake_at(site::share, Change::doubled)},
+    SearchMistake{layered, "restitution_missing", "impulses are not enlarged by u_SpeedFactor",
+                  mistake_at(site::speed_factor, Change::zero)},
+    SearchMistake{layered, "push_reversed", "contacts pull instead of pushing",
+                  mistake_at(site::share, Change::negated)},
+    SearchMistake{layered, "unseen_pushed", "a particle that is in no texel is pushed, too",
+                  mistake_at(site::unseen_pushed, Change::always)},
+    SearchMistake{layered, "other_at_rest", "the other's velocity is left out",
+                  mistake_at(site::other_velocity, Change::zero)},
+    SearchMistake{layered, "last_push_alone", "of several contacts the last one counts",
+                  mistake_at(site::adds_up, Change::never)},
+};
+
 } // namespace
+
+std::span<const SearchMistake> search_mistakes() { return searches; }
 
 std::optional<Mistake> step_mistake(Deviation deviation) {
     const auto* row = std::find_if(table.begin(), table.end(), [&](const Row& r) { return r.deviation == deviation; });

@@ -13,25 +13,35 @@ namespace lockstep {
 
 namespace site {
 inline constexpr Site second_proj_view{"u_SecondProjView"};
+inline constexpr Site own_matrix{"camera's own matrix"};
+inline constexpr Site own_reach{"camera's own reach"};
 inline constexpr Site reach{"u_Reach"};
+inline constexpr Site cameras{"collision cameras"};
 inline constexpr Site window_margin{"u_WindowMargin"};
 inline constexpr Site window_reach{"window's reach"};
 inline constexpr Site projected_window{"projected window"};
 inline constexpr Site before{"clip w before"};
 inline constexpr Site behind{"clip w behind"};
 inline constexpr Site hidden{"out of reach behind", {}, "world units"};
-inline constexpr Site planes{"planes"};
+inline constexpr Site obstacles{"obstacles' plane"};
+inline constexpr Site layers{"layers"};
 inline constexpr Site itself_stored{"own position as stored"};
 inline constexpr Site is_itself{"stored is itself"};
+inline constexpr Site itself_skipped{"itself is skipped"};
 inline constexpr Site mutual{"mutual response"};
 inline constexpr Site other_velocity{"other's velocity"};
 inline constexpr Site other_searches{"other searches"};
 inline constexpr Site relative{"relative velocity"};
 inline constexpr Site approaches{"approaches"};
+inline constexpr Site approaches_wall{"approaches the obstacle"};
 inline constexpr Site share{"share of the bounce"};
+inline constexpr Site wall_share{"share of the bounce off the obstacle"};
+inline constexpr Site unseen_pushed{"unseen is pushed"};
 inline constexpr Site along{"part along"};
+inline constexpr Site adds_up{"contacts add up"};
 inline constexpr Site change{"change by a contact"};
 inline constexpr Site after_contacts{"velocity after contacts"};
+inline constexpr Site after_wall{"velocity after the obstacle"};
 inline constexpr Site stands_still{"stands still"};
 } // namespace site
 
@@ -100,14 +110,16 @@ template <class R> class LayeredTwin {
     [[nodiscard]] Contacts search(const Particle& a) const {
         Contacts contacts{least<Vec3>(r, site::nearest, 100000.0F)};
         const Vec3 self = r.note(site::itself_stored, as_stored(a.position));
-        for (int camera = 0; camera < planes_.cameras; ++camera) {
-            const glm::mat4& matrix = camera == 0 ? params_.collision_proj_view : params_.second_proj_view;
-            const auto& proj_view = r.uniform(camera == 0 ? site::proj_view : site::second_proj_view, matrix);
-            const Vec3 reach = r.uniform(site::reach, reach_[static_cast<std::size_t>(camera)]);
+        for (const int camera : r.range(site::cameras, 0, planes_.cameras - 1)) {
+            const bool first = camera == 0;
+            const auto& proj_view = first || !r.setting(site::own_matrix, true)
+                                        ? r.uniform(site::proj_view, params_.collision_proj_view)
+                                        : r.uniform(site::second_proj_view, params_.second_proj_view);
+            const Vec3 reach = r.uniform(site::reach, reach_[first || !r.setting(site::own_reach, true) ? 0 : 1]);
             const Vec4 clip = r.note(site::clip, r.transform(site::clip, proj_view, a.position));
             const Texel size = r.uniform(site::client_size, glm::ivec2(params_.width, params_.height));
             const auto placed = [&](Real c, Int pixels) {
-                return (r.divide(site::ndc, c, clip.w) + 1.0F) * 0.5F * r.real(pixels);
+                return (r.divide(site::ndc, c, clip.w) + 1.0F) * r.uniform(site::half, 0.5F) * r.real(pixels);
             };
             const typename R::Vec2 at =
                 r.note(site::image_position, typename R::Vec2{placed(clip.x, size.x), placed(clip.y, size.y)});
@@ -143,28 +155,34 @@ template <class R> class LayeredTwin {
     /// A texel's obstacle, then its layers from the front, up to one that is empty or out of reach.
     template <class Matrix> void look(const Particle& a, const Vec3& self, int camera, const Matrix& proj_view,
                                       Real behind, int x, int y, Contacts& contacts) const {
-        for (int layer = -1; layer < planes_.layers; ++layer) {
-            if (!cdt_.contains(x, y))
-                return;
+        if (!cdt_.contains(x, y))
+            return;
+        const auto reaches = [&](int layer) {
             const glm::vec4& code = texel(planes_.position(camera, layer), x, y);
             const Vec3 stored = r.note(site::stored_position, decode(r.read(site::stored, glm::vec3(code))));
-            const bool holds = r.decide(site::holds_particle, code.a != 0.0F);
-            if (holds && !r.decide(site::hidden, r.transform(site::behind, proj_view, stored).w > behind))
-                meet(a, self, stored, camera, layer, x, y, contacts);
-            else if (layer >= 0)
+            if (!r.decide(site::holds_particle, code.a != 0.0F) ||
+                r.decide(site::hidden, r.transform(site::behind, proj_view, stored).w > behind))
+                return false;
+            meet(a, self, stored, camera, layer, x, y, contacts);
+            return true;
+        };
+        if (r.setting(site::obstacles, true))
+            reaches(-1);
+        for (const int layer : r.range(site::layers, 0, planes_.layers - 1))
+            if (!reaches(layer))
                 return;
-        }
     }
 
     void meet(const Particle& a, const Vec3& self, const Vec3& stored, int camera, int layer, int x, int y,
               Contacts& contacts) const {
         const bool obstacle = layer < 0;
         const bool mutual = switches_.response == Response::mutual;
-        const Vec3 apart = r.note(site::apart, (mutual ? self : a.position) - stored);
+        const Vec3 apart =
+            r.note(site::apart, (mutual && r.setting(site::itself_stored, true) ? self : a.position) - stored);
         const Real length = r.note(site::distance, r.length(site::distance, apart));
         const bool own = r.decide(site::is_itself, stored.x == self.x && stored.y == self.y && stored.z == self.z);
         contacts.seen = contacts.seen || (own && !obstacle);
-        if (own)
+        if (own && r.setting(site::itself_skipped, true))
             return;
         const Real range = r.uniform(site::collision_range, params_.constants.collision_range);
         if (!mutual || obstacle) {
@@ -180,31 +198,31 @@ template <class R> class LayeredTwin {
         if (!r.decide(site::other_searches, other.a != 0.0F) ||
             !r.decide(site::approaches, r.dot(site::approaches, relative, apart) < 0.0F))
             return;
-        contacts.change = r.note(site::change, contacts.change + bounce(relative, apart, 0.5F));
+        const Vec3 so_far = r.setting(site::adds_up, true) ? contacts.change : Vec3{};
+        contacts.change = r.note(site::change, so_far + bounce(site::share, relative, apart, 0.5F));
         contacts.pushed = true;
     }
     /// The velocity planes are read as they stand.
     static glm::vec3 decoded(const glm::vec4& code) { return glm::vec3(code); }
 
     /// What a contact adds to the velocity: -share * (1 + restitution) * the component of `relative` along `apart`.
-    [[nodiscard]] Vec3 bounce(const Vec3& relative, const Vec3& apart, float share) const {
+    [[nodiscard]] Vec3 bounce(const Site& place, const Vec3& relative, const Vec3& apart, float share) const {
         const Real part = r.note(
             site::along, r.divide(site::along, r.dot(site::along, relative, apart), r.dot(site::along, apart, apart)));
-        const Real weight =
-            r.uniform(site::share, -share) * (r.uniform(site::speed_factor, switches_.speed_factor) + 1.0F);
+        const Real weight = r.uniform(place, -share) * (r.uniform(site::speed_factor, switches_.speed_factor) + 1.0F);
         return apart * (part * weight);
     }
 
     /// Where there is a contact to answer.
     [[nodiscard]] std::optional<Vec3> velocity_after(const Particle& a, Contacts& contacts) const {
-        const bool pushed = contacts.pushed && contacts.seen;
+        const bool pushed = contacts.pushed && (contacts.seen || r.setting(site::unseen_pushed, false));
         Vec3 velocity = a.direction * a.speed;
         if (pushed)
             velocity = r.note(site::after_contacts, velocity + contacts.change);
         bool reflected = false;
         if (const auto wall = contacts.nearest.take())
-            if (r.decide(site::approaches, r.dot(site::approaches, velocity, *wall) < 0.0F)) {
-                velocity = r.note(site::after_contacts, velocity + bounce(velocity, *wall, 1.0F));
+            if (r.decide(site::approaches_wall, r.dot(site::approaches_wall, velocity, *wall) < 0.0F)) {
+                velocity = r.note(site::after_wall, velocity + bounce(site::wall_share, velocity, *wall, 1.0F));
                 reflected = true;
             }
         return pushed || reflected ? std::optional(velocity) : std::nullopt;

@@ -23,6 +23,7 @@ OctreeLeaves fill_leaves(std::span<const glm::vec3> particles, const Mesh& obsta
         if (const std::int32_t leaf = octree_leaf(position(i), params.constants.octree_size); leaf != no_leaf)
             entries[static_cast<std::size_t>(leaf)].push_back(static_cast<std::int32_t>(i));
     OctreeLeaves leaves;
+    leaves.particles = static_cast<std::int32_t>(particles.size());
     for (const std::vector<std::int32_t>& leaf : entries) {
         leaves.first.push_back(leaves.entry.size());
         leaves.entry.insert(leaves.entry.end(), leaf.begin(), leaf.end());
@@ -39,7 +40,7 @@ LeafEntries leaf_of(glm::vec3 position, const OctreeLeaves& leaves, const FrameP
         return {};
     const auto leaf = static_cast<std::size_t>(found);
     const std::size_t first = leaves.first[leaf], count = leaves.first[leaf + 1] - first;
-    return {{leaves.entry.data() + first, count}, {leaves.position.data() + first, count}};
+    return {{leaves.entry.data() + first, count}, {leaves.position.data() + first, count}, leaves.particles};
 }
 
 std::int32_t octree_leaf(glm::vec3 position, float size) {

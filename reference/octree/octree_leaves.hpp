@@ -15,6 +15,7 @@ namespace lockstep {
 struct LeafEntries {
     std::span<const std::int32_t> number;
     std::span<const glm::vec3> position;
+    std::int32_t particles = 0; ///< numbers from here on are obstacles' corners
 };
 
 /// What the leaves hold, leaf by leaf.
@@ -22,6 +23,7 @@ struct OctreeLeaves {
     std::vector<std::size_t> first; ///< leaf l has the entries [first[l], first[l + 1])
     std::vector<std::int32_t> entry;
     std::vector<glm::vec3> position; ///< of each entry
+    std::int32_t particles = 0;
 };
 
 OctreeLeaves fill_leaves(std::span<const glm::vec3> particles, const Mesh& obstacles, const FrameParams& params);

@@ -10,8 +10,12 @@
 namespace lockstep {
 
 namespace site {
+inline constexpr Site entries{"leaf's entries"};
+inline constexpr Site entry{"entry's position"};
+inline constexpr Site corner{"corner's position"};
+inline constexpr Site particles{"particles are entries"};
+inline constexpr Site corners{"obstacles' corners are entries"};
 inline constexpr Site itself{"particle itself"};
-inline constexpr Site entry{"entry of the leaf"};
 } // namespace site
 
 /// One particle's step with the octree's search for the CDT's, over a reading `R`. Twin of shaders/octree_pass.comp.
@@ -46,10 +50,14 @@ template <class R> class OctreeTwin {
         const bool zero_hits = r.setting(site::zero_distance_hits, switches_.zero_distance == ZeroDistance::hit);
         const Real range = r.uniform(site::collision_range, constants_.collision_range);
         auto nearest = least<Collision>(r, site::nearest, 100000.0F);
-        for (std::size_t e = 0; e < leaf.number.size(); ++e) {
+        for (const int at : r.range(site::entries, 0, static_cast<int>(leaf.number.size()) - 1)) {
+            const auto e = static_cast<std::size_t>(at);
+            const bool corner = leaf.number[e] >= leaf.particles;
+            if (!r.setting(corner ? site::corners : site::particles, true))
+                continue;
             if (r.decide(site::itself, leaf.number[e] == self))
                 continue;
-            const Vec3 apart = r.note(site::apart, own - r.read(site::entry, leaf.position[e]));
+            const Vec3 apart = r.note(site::apart, own - r.read(corner ? site::corner : site::entry, leaf.position[e]));
             const Real len = r.note(site::distance, r.length(site::distance, apart));
             nearest.offer(site::in_range, range > len && (zero_hits || len != 0.0F), len, {leaf.number[e], apart});
         }

@@ -8,6 +8,7 @@
 #include <fmt/format.h>
 
 #include "crosscheck/files/json_reader.hpp"
+#include "reference/collision/collision_mistakes.hpp"
 #include "reference/deviation.hpp"
 #include "reference/model/error.hpp"
 #include "tests/mutants/host_faults.hpp"
@@ -35,8 +36,9 @@ DotOrder read_order(const JsonValue& json) {
     return static_cast<DotOrder>(name - names.begin());
 }
 
-Mutant read_mutant(const JsonValue& json) {
+Mutant read_mutant(const JsonValue& json, const std::string& pass) {
     Mutant mutant;
+    mutant.pass = pass;
     mutant.name = json.at("name").text();
     mutant.cause = text_or_nothing(json, "cause");
     mutant.equivalent = text_or_nothing(json, "equivalent");
@@ -61,7 +63,13 @@ Mutant read_mutant(const JsonValue& json) {
         mutant.edits.push_back(read_edit(json));
     }
     const auto table = deviation_table();
-    if (!mutant.cause.empty() &&
+    const auto searches = search_mistakes();
+    const bool is_other =
+        pass != "collision_pass" && (mutant.cause.find(": ") != std::string::npos ||
+                                     std::any_of(searches.begin(), searches.end(), [&](const SearchMistake& m) {
+                                         return m.pass == pass && m.name == mutant.cause;
+                                     }));
+    if (!mutant.cause.empty() && !is_other &&
         std::none_of(table.begin(), table.end(), [&](const DeviationInfo& info) { return info.name == mutant.cause; }))
         json.at("cause").fail("reference/deviation.hpp has no such deviation");
     return mutant;
@@ -95,12 +103,12 @@ std::string Mutant::where() const {
     return files;
 }
 
-std::vector<Mutant> read_catalogue(const std::filesystem::path& file) {
+std::vector<Mutant> read_catalogue(const std::filesystem::path& file, const std::string& pass) {
     const nlohmann::json document = read_json(file);
     std::vector<Mutant> mutants;
     std::set<std::string> names;
     for (const JsonValue& item : JsonValue(document, file.string()).items()) {
-        mutants.push_back(read_mutant(item));
+        mutants.push_back(read_mutant(item, pass));
         if (!names.insert(mutants.back().name).second)
             item.at("name").fail("the name of another mutant, too");
     }
@@ -109,8 +117,10 @@ std::vector<Mutant> read_catalogue(const std::filesystem::path& file) {
 
 std::vector<Mutant> whole_catalogue() {
     std::vector<Mutant> mutants = read_catalogue("tests/mutants/shaders.json");
-    const std::vector<Mutant> host = read_catalogue("tests/mutants/host.json");
-    mutants.insert(mutants.end(), host.begin(), host.end());
+    const auto add = [&](const std::vector<Mutant>& more) { mutants.insert(mutants.end(), more.begin(), more.end()); };
+    add(read_catalogue("tests/mutants/host.json"));
+    for (const char* pass : {"octree_pass", "layered_collision_pass"})
+        add(read_catalogue(std::filesystem::path("tests/mutants") / pass += ".json", pass));
     return mutants;
 }
 

@@ -23,7 +23,8 @@ struct Mutant {
     std::string name;
     std::vector<Edit> edits;
     std::string fault;
-    std::string cause; ///< its name in reference/deviation.hpp; empty: it has none
+    std::string pass = "collision_pass"; ///< that of the scenes which it is run in
+    std::string cause;                   ///< as a report names it; empty: no one change of the twin is the same
     /// What else does just the same in some scenes, and why.
     std::map<std::string, std::string> alike;
     std::string equivalent; ///< why it is as right as the original; empty: it is to be found
@@ -40,10 +41,11 @@ struct Mutant {
 
 /// Reads a catalogue: a JSON array of objects with `name`, then `file`, `text`, `replacement` and `times` (default 1),
 /// or an array `edits` of such, or `fault`; `cause`, `alike` (an object), `equivalent` and `sums` ("(x+y)+z") as above.
+/// Causes are names of reference/deviation.hpp; those of another `pass` may also be changes at a site, as "part: zero".
 /// Throws Error naming the value that is wrong: an unknown fault, cause or order, a name that stands twice.
-std::vector<Mutant> read_catalogue(const std::filesystem::path& file);
+std::vector<Mutant> read_catalogue(const std::filesystem::path& file, const std::string& pass = "collision_pass");
 
-/// All of tests/mutants/: shaders.json and host.json.
+/// All of tests/mutants/: shaders.json and host.json, octree_pass.json and layered_collision_pass.json.
 std::vector<Mutant> whole_catalogue();
 
 /// The catalogue on a driver of `profile`: a mutant that sums as the driver itself does, with `precise` or without, is

@@ -104,6 +104,8 @@ std::string first_row(const test::Mutant& mutant, const std::vector<test::TrialS
     const test::TemporaryFolder shaders;
     test::plant(mutant, shaders);
     for (const test::TrialScene& scene : scenes) {
+        if (scene.pass() != mutant.pass)
+            continue;
         const auto table = first_divergent(scene.scene(), scene.profile(), shaders.path());
         if (!table)
             continue;

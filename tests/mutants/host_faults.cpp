@@ -57,6 +57,13 @@ bool in_collision_pass() {
     return program != 0 && state.real.GetUniformLocation(static_cast<GLuint>(program), "u_CDTexture") >= 0;
 }
 
+/// Whether the program of a pass that steps particles is in use, whichever search it makes.
+bool in_step() {
+    GLint program = 0;
+    state.real.GetIntegerv(GL_CURRENT_PROGRAM, &program);
+    return program != 0 && state.real.GetUniformLocation(static_cast<GLuint>(program), "u_CollisionRange") >= 0;
+}
+
 bool in_obstacle_pass() { return !in_collision_pass(); }
 
 /// The images are cleared when they are made, and once a frame; the first two frames run twice.
@@ -80,18 +87,22 @@ template <auto Before, auto After> void draw_points(GLenum mode, GLint first, GL
         After();
 }
 
-/// Value `Change`d for uniform `Name` of the collision pass.
+/// Value `Change`d for uniform `Name` of the pass that steps the particles.
 template <const char* Name, auto Change> void uniform_float(GLint location, GLfloat value) {
-    const bool faulty = in_collision_pass() && is_uniform(location, Name);
+    const bool faulty = in_step() && is_uniform(location, Name);
     state.real.Uniform1f(location, faulty ? Change(value) : value);
 }
 template <const char* Name, auto Change> void uniform_int(GLint location, GLint value) {
-    const bool faulty = in_collision_pass() && is_uniform(location, Name);
+    const bool faulty = in_step() && is_uniform(location, Name);
     state.real.Uniform1i(location, faulty ? Change(value) : value);
+}
+/// In whatever pass.
+template <const char* Name, auto Change> void every_uniform_int(GLint location, GLint value) {
+    state.real.Uniform1i(location, is_uniform(location, Name) ? Change(value) : value);
 }
 template <const char* Name, auto Change> void uniform_vector(GLint location, GLsizei count, const GLfloat* value) {
     std::array<GLfloat, 3> vector{value[0], value[1], value[2]};
-    if (in_collision_pass() && is_uniform(location, Name))
+    if (in_step() && is_uniform(location, Name))
         Change(vector.data());
     state.real.Uniform3fv(location, count, vector.data());
 }
@@ -111,6 +122,11 @@ constexpr char collision_time[] = "u_CollisionTime";
 constexpr char radius[] = "u_TexelCollideRange";
 constexpr char client_width[] = "u_ClientWidth";
 constexpr char cd_texture[] = "u_CDTexture";
+constexpr char layer_number[] = "u_Layer";
+constexpr char reach[] = "u_Reach";
+constexpr char second_reach[] = "u_SecondReach";
+constexpr char window_margin[] = "u_WindowMargin";
+constexpr char obstacles[] = "u_Obstacles";
 constexpr char box_min[] = "u_CdtBoxMin";
 constexpr char box_scale[] = "u_CdtBoxScale";
 
@@ -531,6 +547,30 @@ const Fault faults[] = {
      [] {
          gl::BufferData = [](GLenum target, GLsizeiptr bytes, const void* data, GLenum) {
              state.real.BufferData(target, bytes, data, GL_STATIC_DRAW);
+         };
+     }},
+    {"one_group_missing",
+     [] { gl::DispatchCompute = [](GLuint x, GLuint y, GLuint z) { state.real.DispatchCompute(x - 1, y, z); }; }},
+    {"octree_obstacles_not_uploaded",
+     [] {
+         gl::BindBufferBase = [](GLenum target, GLuint index, GLuint buffer) {
+             state.real.BindBufferBase(target, index, target == GL_SHADER_STORAGE_BUFFER && index == 4 ? 0 : buffer);
+         };
+     }},
+    {"layer_always_first", [] { gl::Uniform1i = every_uniform_int<layer_number, [](int) { return 0; }>; }},
+    {"layer_one_more", [] { gl::Uniform1i = every_uniform_int<layer_number, [](int l) { return l + 1; }>; }},
+    {"keys_never_cleared", [] { gl::ClearBufferiv = [](GLenum, GLint, const GLint*) {}; }},
+    {"reach_not_set", [] { gl::Uniform3fv = uniform_vector<reach, [](GLfloat* v) { std::fill_n(v, 3, 0.0F); }>; }},
+    {"second_reach_not_set",
+     [] { gl::Uniform3fv = uniform_vector<second_reach, [](GLfloat* v) { std::fill_n(v, 3, 0.0F); }>; }},
+    {"margin_not_set", [] { gl::Uniform1f = uniform_float<window_margin, [](float) { return 0.0F; }>; }},
+    {"obstacles_not_told", [] { gl::Uniform1i = uniform_int<obstacles, [](int) { return 0; }>; }},
+    {"second_matrix_not_set",
+     [] {
+         gl::UniformMatrix4fv = [](GLint location, GLsizei count, GLboolean transposed, const GLfloat* value) {
+             const Matrix none{};
+             const bool faulty = is_uniform(location, "u_SecondProjView");
+             state.real.UniformMatrix4fv(location, count, transposed, faulty ? none.data() : value);
          };
      }},
     {"flushed_not_finished", [] { gl::Finish = [] { state.real.Flush(); }; }},

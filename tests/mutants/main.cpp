@@ -1,4 +1,5 @@
-/// Runs the catalogue of mutants and tells what finds them: lockstep_mutants [--json FILE] [--markdown FILE].
+/// Runs the catalogue of mutants and tells what finds them: lockstep_mutants [--pass PASS] [--json FILE] [--markdown
+/// FILE].
 #include <algorithm>
 #include <chrono>
 #include <cstdio>
@@ -23,7 +24,7 @@ using namespace lockstep::test;
 namespace {
 
 int run(const std::vector<std::string>& only, const std::string& gl, const std::filesystem::path& json,
-        const std::filesystem::path& markdown, const std::string& commit) {
+        const std::filesystem::path& markdown, const std::string& commit, const std::string& pass) {
     omp_set_num_threads(1); // the scenes are too small to share
     const Context context(parse_context_request(gl));
     const auto start = std::chrono::steady_clock::now();
@@ -31,11 +32,16 @@ int run(const std::vector<std::string>& only, const std::string& gl, const std::
     score.renderer = summary(context.describe());
     score.commit = commit;
     const Profile profile = measured_profile(context);
-    const std::vector<Mutant> catalogue = on_driver(whole_catalogue(), profile);
+    std::vector<Mutant> catalogue = on_driver(whole_catalogue(), profile);
+    if (!pass.empty())
+        std::erase_if(catalogue, [&](const Mutant& m) { return m.pass != pass; });
+    if (catalogue.empty())
+        throw Error(fmt::format("no mutant is of pass {}", pass));
     for (const std::string& name : only)
         if (std::none_of(catalogue.begin(), catalogue.end(), [&](const Mutant& m) { return m.name == name; }))
             throw Error(fmt::format("no mutant is named {}", name));
     std::vector<TrialScene> scenes = trial_scenes(profile);
+    std::erase_if(scenes, [&](const TrialScene& scene) { return !pass.empty() && scene.pass() != pass; });
     score.unmutated = run_mutant({}, scenes);
     for (const Mutant& mutant : catalogue) {
         if (!only.empty() && std::find(only.begin(), only.end(), mutant.name) == only.end())
@@ -59,14 +65,15 @@ int main(int argc, char** argv) {
     std::vector<std::string> only;
     std::string gl = "osmesa";
     std::filesystem::path json, markdown;
-    std::string commit;
+    std::string commit, pass;
     Verb program{"lockstep_mutants", "Runs the catalogue of mutants, from the root of the source tree"};
     program.add(texts_option("name", "MUTANT", only, "only these mutants"));
+    program.add(text_option("--pass", "PASS", pass, "only those of octree_pass, say"));
     program.add(text_option("--gl", "auto|osmesa|egl|egl-device:N", gl, "which GL to open"));
     program.add(path_option("--json", "FILE", json, "results as data"));
     program.add(path_option("--markdown", "FILE", markdown, "results as a table"));
     program.add(text_option("--commit", "COMMIT", commit, "kept in the results"));
-    program.run = [&](const Call&) { return run(only, gl, json, markdown, commit); };
+    program.run = [&](const Call&) { return run(only, gl, json, markdown, commit, pass); };
     try {
         return run_command_line(program, argc, argv, 2);
     } catch (const std::exception& error) {

@@ -25,6 +25,8 @@ class TrialScene {
     TrialScene(const std::string& name, const std::string& preset, const Profile& profile);
 
     [[nodiscard]] const std::string& name() const { return name_; }
+    /// The one that searches, by the name of its shader.
+    [[nodiscard]] const char* pass() const;
     [[nodiscard]] const Scene& scene() const { return scene_; }
     [[nodiscard]] const Profile& profile() const { return profile_; }
     [[nodiscard]] const FinalState& expected() const { return expected_; }
@@ -67,7 +69,7 @@ struct Trial {
 /// end with that of the reference's own run.
 Trial run_trial(const Mutant& mutant, TrialScene& scene);
 
-/// A mutant's trials, in every scene.
+/// A mutant's trials, in every scene that runs its pass; of one that changes nothing, in all.
 struct Outcome {
     Mutant mutant;
     std::vector<Trial> trials;
@@ -75,7 +77,7 @@ struct Outcome {
     [[nodiscard]] const Trial* killer() const;              ///< the first that kills it, null if none does
     [[nodiscard]] bool rejected_by(std::size_t rule) const; ///< in any scene
     [[nodiscard]] bool judged_by(std::size_t rule) const;
-    [[nodiscard]] bool named() const;         ///< the first cause of the killer is the mutant's
+    [[nodiscard]] bool named() const; ///< the killer's first cause is the mutant's; or shown beside what it is alike
     [[nodiscard]] bool wrongly_named() const; ///< something else is said to explain everything
 };
 

@@ -8,6 +8,7 @@
 
 #include "crosscheck/judge/cause.hpp"
 #include "crosscheck/judge/diagnosis.hpp"
+#include "crosscheck/judge/drawn_cause.hpp"
 #include "crosscheck/judge/item_cause.hpp"
 #include "crosscheck/judge/legal_hint.hpp"
 #include "crosscheck/judge/side_state.hpp"
@@ -143,7 +144,7 @@ class RunJudge {
         VerdictSummary summary = summary_;
         summary.causes[collision::particles] =
             is_listing(scene_.switches) ? causes_.particles() : step_causes_.findings();
-        summary.causes[collision::cdt] = causes_.texels();
+        summary.causes[collision::cdt] = has_remedies(scene_.switches) ? drawn_causes_.findings() : causes_.texels();
         summary.convict_shift();
         return summary;
     }
@@ -166,8 +167,11 @@ class RunJudge {
     }
 
     void seek_causes(const RunFrame& f, const JudgedFrame& judged, const FrameVerdicts& verdicts) {
-        if (!is_listing(scene_.switches))
+        if (!is_listing(scene_.switches)) {
+            if (has_remedies(scene_.switches))
+                drawn_causes_.add(judged, f.earlier != nullptr ? &f.earlier->cdt : nullptr, verdicts.texels);
             return with_step_pass(judged, [&](const JudgedPass& pass) { step_causes_.add(pass, verdicts.particles); });
+        }
         FrameInputs inputs{
             .before = &f.before.particles, .cdt = &f.before.cdt, .params = &f.params, .drawn_cdt = &f.gpu.cdt};
         const FrameParams earlier_params = frame_params(scene_, std::max(f.number - 1, 0));
@@ -200,6 +204,7 @@ class RunJudge {
     LegalHint hint_;
     std::vector<NamedMistake> named_;
     ItemCauseFinder step_causes_;
+    DrawnCauseFinder drawn_causes_;
 };
 
 /// What agreed without having been put to the test.

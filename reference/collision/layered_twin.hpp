@@ -14,8 +14,9 @@ namespace lockstep {
 namespace site {
 inline constexpr Site second_proj_view{"u_SecondProjView"};
 inline constexpr Site own_matrix{"camera's own matrix"};
-inline constexpr Site own_reach{"camera's own reach"};
+inline constexpr Site own_planes{"camera's own planes"};
 inline constexpr Site reach{"u_Reach"};
+inline constexpr Site second_reach{"u_SecondReach"};
 inline constexpr Site cameras{"collision cameras"};
 inline constexpr Site window_margin{"u_WindowMargin"};
 inline constexpr Site window_reach{"window's reach"};
@@ -24,6 +25,7 @@ inline constexpr Site before{"clip w before"};
 inline constexpr Site behind{"clip w behind"};
 inline constexpr Site hidden{"out of reach behind", {}, "world units"};
 inline constexpr Site obstacles{"obstacles' plane"};
+inline constexpr Site stops_at_no_obstacle{"layers end at no obstacle"};
 inline constexpr Site layers{"layers"};
 inline constexpr Site itself_stored{"own position as stored"};
 inline constexpr Site is_itself{"stored is itself"};
@@ -115,7 +117,8 @@ template <class R> class LayeredTwin {
             const auto& proj_view = first || !r.setting(site::own_matrix, true)
                                         ? r.uniform(site::proj_view, params_.collision_proj_view)
                                         : r.uniform(site::second_proj_view, params_.second_proj_view);
-            const Vec3 reach = r.uniform(site::reach, reach_[first || !r.setting(site::own_reach, true) ? 0 : 1]);
+            const Vec3 reach = r.uniform(first ? site::reach : site::second_reach, reach_[first ? 0 : 1]);
+            const int planes_of = r.setting(site::own_planes, true) ? camera : 0;
             const Vec4 clip = r.note(site::clip, r.transform(site::clip, proj_view, a.position));
             const Texel size = r.uniform(site::client_size, glm::ivec2(params_.width, params_.height));
             const auto placed = [&](Real c, Int pixels) {
@@ -132,7 +135,7 @@ template <class R> class LayeredTwin {
             const auto rows = window(at.y, r.divide(site::window_reach, reach.y, before), params_.height);
             for (const Int y : r.range(site::rows, rows[0], rows[1]))
                 for (const Int x : r.range(site::columns, columns[0], columns[1]))
-                    look(a, self, camera, proj_view, behind, x, y, contacts);
+                    look(a, self, planes_of, proj_view, behind, x, y, contacts);
         }
         return contacts;
     }
@@ -166,8 +169,8 @@ template <class R> class LayeredTwin {
             meet(a, self, stored, camera, layer, x, y, contacts);
             return true;
         };
-        if (r.setting(site::obstacles, true))
-            reaches(-1);
+        if (r.setting(site::obstacles, true) && !reaches(-1) && r.setting(site::stops_at_no_obstacle, false))
+            return;
         for (const int layer : r.range(site::layers, 0, planes_.layers - 1))
             if (!reaches(layer))
                 return;

@@ -8,6 +8,7 @@
 #include <fmt/format.h>
 
 #include "crosscheck/files/json_reader.hpp"
+#include "crosscheck/judge/drawn_cause.hpp"
 #include "reference/collision/collision_mistakes.hpp"
 #include "reference/deviation.hpp"
 #include "reference/model/error.hpp"
@@ -64,11 +65,11 @@ Mutant read_mutant(const JsonValue& json, const std::string& pass) {
     }
     const auto table = deviation_table();
     const auto searches = search_mistakes();
-    const bool is_other =
-        pass != "collision_pass" && (mutant.cause.find(": ") != std::string::npos ||
-                                     std::any_of(searches.begin(), searches.end(), [&](const SearchMistake& m) {
-                                         return m.pass == pass && m.name == mutant.cause;
-                                     }));
+    const bool is_other = pass != "collision_pass" &&
+                          (mutant.cause.find(": ") != std::string::npos || DrawnCauseFinder::knows(mutant.cause) ||
+                           std::any_of(searches.begin(), searches.end(), [&](const SearchMistake& m) {
+                               return m.pass == pass && m.name == mutant.cause;
+                           }));
     if (!mutant.cause.empty() && !is_other &&
         std::none_of(table.begin(), table.end(), [&](const DeviationInfo& info) { return info.name == mutant.cause; }))
         json.at("cause").fail("reference/deviation.hpp has no such deviation");

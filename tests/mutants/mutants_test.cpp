@@ -29,7 +29,18 @@ const std::set<std::string> few{"nearest_last_found",
                                 "host_depth_func_greater",
                                 "host_cdt_cleared_twice_only",
                                 "host_captures_half",
-                                "host_tick_one_ulp"};
+                                "host_tick_one_ulp",
+                                "octree_last_of_equals",
+                                "octree_obstacles_left_out",
+                                "octree_last_entry_skipped",
+                                "octree_hit_old_speed_moves",
+                                "octree_host_speed_factor_complement",
+                                "layered_last_layer_skipped",
+                                "layered_own_not_skipped",
+                                "layered_first_matrix_for_both",
+                                "layered_unseen_pushed",
+                                "layered_draws_stored_again",
+                                "layered_velocity_without_speed"};
 
 } // namespace
 
@@ -46,7 +57,8 @@ TEST_CASE("mutants: a few of the catalogue are found and named, and the shipped 
     const auto context = open_llvmpipe("osmesa");
     if (!context)
         return;
-    constexpr std::string_view names[] = {"crowd", "exact", "halves", "lattice"};
+    constexpr std::string_view names[] = {"crowd",  "exact",        "halves", "lattice",    "octree",
+                                          "mutual", "octree_edges", "layers", "two_cameras"};
     std::vector<TrialScene> scenes = trial_scenes(llvmpipe_profile(), names);
     const Outcome unmutated = run_mutant({}, scenes);
     CHECK(unmutated.killer() == nullptr);

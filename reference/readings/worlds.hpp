@@ -65,11 +65,7 @@ template <class A> class Worlds {
         friend Real operator+(Real a, Real b) { return added(a, b); }
         friend Real operator-(Real a, Real b) { return subtracted(a, b); }
         friend Real operator*(Real a, Real b) { return multiplied(a, b); }
-        friend Real operator-(Real a) {
-            if (a.is_float())
-                return Real(a.run_, static_cast<float>(-NumberOf<A>(a.point_)));
-            return a.run_->make({a}, [&](const auto&) { return interval::negate(a.set()); });
-        }
+        friend Real operator-(Real a) { return negated(a); }
 
       private:
         friend class Worlds;
@@ -91,6 +87,11 @@ template <class A> class Worlds {
             if (const auto product = of_floats(a, b, [](auto x, auto y) { return x * y; }))
                 return *product;
             return run_of(a, b)->make({a, b}, [&](const auto& fp) { return fp.product(a.set(), b.set()); });
+        }
+        static Real negated(Real a) {
+            if (a.is_float())
+                return Real(a.run_, static_cast<float>(-NumberOf<A>(a.point_)));
+            return a.run_->make({a}, [&](const auto&) { return interval::negate(a.set()); });
         }
         /// The one float that an operation of two gives.
         template <class Operation> static std::optional<Real> of_floats(Real a, Real b, const Operation& operation) {

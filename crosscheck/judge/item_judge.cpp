@@ -11,6 +11,7 @@
 
 #include "crosscheck/judge/compare.hpp"
 #include "reference/model/ulp.hpp"
+#include "reference/parallel_blocks.hpp"
 
 namespace lockstep {
 namespace {
@@ -123,10 +124,13 @@ ItemVerdict judge_item(const JudgedPass& p, std::size_t item) {
 std::vector<ItemVerdict> judge_items(const JudgedPass& pass) {
     const std::vector<std::size_t> differing = differing_items(pass.reference, pass.gpu);
     std::vector<ItemVerdict> verdicts(differing.size());
-    const auto count = static_cast<std::ptrdiff_t>(differing.size());
-#pragma omp parallel for schedule(dynamic, 16) if (count > 64)
-    for (std::ptrdiff_t i = 0; i < count; ++i)
-        verdicts[static_cast<std::size_t>(i)] = judge_item(pass, differing[static_cast<std::size_t>(i)]);
+    constexpr std::size_t block = 16;
+    const auto blocks = static_cast<std::ptrdiff_t>((differing.size() + block - 1) / block);
+    parallel_blocks(blocks, [&](std::ptrdiff_t b) {
+        const std::size_t first = static_cast<std::size_t>(b) * block;
+        for (std::size_t i = first; i < std::min(first + block, differing.size()); ++i)
+            verdicts[i] = judge_item(pass, differing[i]);
+    });
     return verdicts;
 }
 

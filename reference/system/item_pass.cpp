@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "reference/parallel_blocks.hpp"
+
 namespace lockstep {
 
 bool ItemOutcome::contains(const View& state, std::size_t item) const {
@@ -23,11 +25,10 @@ bool ItemOutcome::contains(const View& state, std::size_t item) const {
 void run_pass(const ItemPass& pass, const PassInput& in, const Profile& profile, const WritableView& after) {
     constexpr std::size_t block = 1024;
     const auto blocks = static_cast<std::ptrdiff_t>((after.count() + block - 1) / block);
-#pragma omp parallel for schedule(dynamic)
-    for (std::ptrdiff_t b = 0; b < blocks; ++b) {
+    parallel_blocks(blocks, [&](std::ptrdiff_t b) {
         const std::size_t first = static_cast<std::size_t>(b) * block;
         pass.run(in, profile, first, std::min(first + block, after.count()), after);
-    }
+    });
 }
 
 } // namespace lockstep

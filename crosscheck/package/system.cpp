@@ -2,13 +2,46 @@
 
 #include <utility>
 
+#include <fmt/format.h>
+
 #include "crosscheck/scene/profiles.hpp"
 
 namespace lockstep {
+namespace {
+
+std::string_view stage_name(bool compute) { return compute ? "compute" : "vertex"; }
+
+/// The shaders in the twins' order, each of its twin's buffer and stage. Throws Error where one is not.
+std::vector<GlPass> of_twins(std::vector<GlPass> passes, const System& system) {
+    const std::string& name = system.schema.system;
+    if (passes.size() != system.passes.size())
+        throw Error(fmt::format("{}: {} shaders for {} twins; right is a GlPass for each", name, passes.size(),
+                                system.passes.size()));
+    for (std::size_t p = 0; p < passes.size(); ++p) {
+        if (system.passes[p] == nullptr)
+            continue; // check() says so
+        const GlPass& gl = passes[p];
+        const ItemPass& twin = *system.passes[p];
+        const bool compute = twin.stage() == PassStage::compute;
+        if (gl.name != twin.name())
+            throw Error(fmt::format("{}: pass {} is shader '{}', but twin '{}'; right is one name in one order", name,
+                                    p, gl.name, twin.name()));
+        if (gl.resource != twin.resource())
+            throw Error(fmt::format("{}: {}: its GlPass is of buffer {}, its twin of buffer {}", name, gl.name,
+                                    gl.resource, twin.resource()));
+        if ((gl.stage == Stage::compute) != compute)
+            throw Error(fmt::format("{}: {}: its GlPass is a {} shader, its twin's stage is {}", name, gl.name,
+                                    stage_name(gl.stage == Stage::compute), stage_name(compute)));
+    }
+    return passes;
+}
+
+} // namespace
 
 GlSystemSide::GlSystemSide(const Gl& gl, const System& system, std::vector<GlPass> passes, const std::string& shaders,
                            ArithmeticSwitch arithmetic)
-    : gl_(gl), system_((gl ? system : throw Error(gl.missing())).schema, std::move(passes), shaders, arithmetic) {}
+    : gl_(gl), system_((gl ? system : throw Error(gl.missing())).schema, of_twins(std::move(passes), system), shaders,
+                       arithmetic) {}
 
 SideDescription GlSystemSide::describe() const { return {gl_.name(), gl_.profile(), {}, {}}; }
 

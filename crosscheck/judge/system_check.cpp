@@ -31,7 +31,12 @@ class Stopwatch {
 void check_system(const System& system) {
     if (system.passes.empty())
         throw Error(fmt::format("{}: a system without passes does nothing", system.schema.system));
+    if (!system.start.is_of(system.schema))
+        throw Error(fmt::format("{}: its start is no state of its schema; right is SystemState(schema, sizes)",
+                                system.schema.system));
     for (const auto& pass : system.passes) {
+        if (pass == nullptr)
+            throw Error(fmt::format("{}: a pass is null; right is item_pass(options, twin)", system.schema.system));
         if (pass->resource() >= system.schema.resources.size() ||
             system.schema.resources[pass->resource()].dimensions != 1)
             throw Error(fmt::format("{}: pass {} makes the items of no buffer", system.schema.system, pass->name()));
@@ -141,7 +146,8 @@ CheckReport check(const System& system, SystemSide& gpu, const CheckOptions& opt
     std::uint64_t changed = 0;
     gpu.upload(before.view());
 
-    for (int frame = 0; frame < options.frames && !(options.stop != nullptr && *options.stop); ++frame) {
+    bool stopped = false;
+    for (int frame = 0; frame < options.frames && !stopped && !(options.stop != nullptr && *options.stop); ++frame) {
         FrameTimes times;
         for (std::size_t p = 0; p < system.passes.size(); ++p) {
             const ItemPass& pass = *system.passes[p];
@@ -173,9 +179,16 @@ CheckReport check(const System& system, SystemSide& gpu, const CheckOptions& opt
             }
             const SystemView from = judged ? before.view() : reference.view();
             SystemState made = judged ? before : reference;
-            {
+            try {
                 const Stopwatch watch(times.reference);
                 run_pass(pass, {from, frame}, profile, made[r]);
+            } catch (const OutsideState& error) {
+                // What the GPU left may lead there, and then is the verdict already.
+                if (judged && summary.total(DifferenceClass::divergent) > 0) {
+                    stopped = true;
+                    break;
+                }
+                throw Error(fmt::format("frame {}: the twin of {}: {}", frame, pass.name(), error.what()));
             }
             Comparison comparison;
             {

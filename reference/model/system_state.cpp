@@ -1,5 +1,6 @@
 #include "reference/model/system_state.hpp"
 
+#include <algorithm>
 #include <bit>
 #include <utility>
 
@@ -19,7 +20,34 @@ BasicView<Byte> view_of(const Schema& schema, std::uint8_t resource, Extent exte
     return view;
 }
 
+/// Why `schema`'s state has no such component.
+[[noreturn]] void throw_outside_of(const Schema& schema, std::size_t items, FieldId id, std::size_t item,
+                                   int component) {
+    if (id.resource >= schema.resources.size())
+        throw OutsideState(fmt::format("{} has no buffer or image {}; it has 0 to {}", schema.system, id.resource,
+                                       schema.resources.size() - 1));
+    const Resource& about = schema.resources[id.resource];
+    if (id.field >= about.fields.size())
+        throw OutsideState(
+            fmt::format("'{}' has no field {}; it has 0 to {}", about.name, id.field, about.fields.size() - 1));
+    const Field& field = about.fields[id.field];
+    if (component < 0 || component >= field.components)
+        throw OutsideState(fmt::format("{} of a {} has type {}; there is no component {}", field.name, about.item,
+                                       glsl_type(field), component));
+    if (items == 0)
+        throw OutsideState(fmt::format("{} of {} {} is asked for; there are none", field.name, about.item, item));
+    throw OutsideState(fmt::format("{} of {} {} is asked for; there are {} 0 to {}", field.name, about.item,
+                                   static_cast<std::ptrdiff_t>(item), about.name, items - 1));
+}
+
 } // namespace
+
+void SystemView::throw_outside(FieldId field, std::size_t item, int component) const {
+    if (resources.empty())
+        throw OutsideState("a state of nothing is read");
+    throw_outside_of(*resources.front().schema,
+                     field.resource < resources.size() ? resources[field.resource].count() : 0, field, item, component);
+}
 
 SystemState::SystemState(const Schema& schema, std::vector<Extent> extents)
     : schema_(&schema), extents_(std::move(extents)) {
@@ -53,9 +81,32 @@ SystemView SystemState::view() const {
     return all;
 }
 
+bool SystemState::is_of(const Schema& schema) const {
+    if (schema_ == &schema || schema_ == nullptr || schema_->resources.size() != schema.resources.size())
+        return schema_ == &schema;
+    for (std::size_t r = 0; r < schema.resources.size(); ++r) {
+        const Resource &mine = schema_->resources[r], &other = schema.resources[r];
+        const bool same =
+            std::equal(mine.fields.begin(), mine.fields.end(), other.fields.begin(), other.fields.end(),
+                       [](const Field& a, const Field& b) {
+                           return a.name == b.name && a.scalar == b.scalar && a.components == b.components;
+                       });
+        if (!same || mine.name != other.name || mine.dimensions != other.dimensions)
+            return false;
+    }
+    return true;
+}
+
 void SystemState::set(FieldId field, std::size_t item, std::uint32_t value, int component) {
+    if (schema_ == nullptr)
+        throw OutsideState("a state of nothing is written; right is a SystemState of a schema");
+    const bool known =
+        field.resource < extents_.size() && field.field < schema_->resources[field.resource].fields.size();
+    const std::size_t items = field.resource < extents_.size() ? extents_[field.resource].count() : 0;
+    if (!known || item >= items || component < 0 || component >= (*schema_)[field].components)
+        throw_outside_of(*schema_, items, field, item, component);
     const auto components = static_cast<std::size_t>((*schema_)[field].components);
-    columns_[schema_->column(field)].at(item * components + static_cast<std::size_t>(component)) = value;
+    columns_[schema_->column(field)][item * components + static_cast<std::size_t>(component)] = value;
 }
 
 void SystemState::set(FieldId field, std::size_t item, std::int32_t value, int component) {

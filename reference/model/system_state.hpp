@@ -10,6 +10,7 @@
 #include <glm/vec3.hpp>
 #include <glm/vec4.hpp>
 
+#include "reference/model/error.hpp"
 #include "reference/model/state_view.hpp"
 
 namespace lockstep {
@@ -21,6 +22,12 @@ struct ItemId {
     auto operator<=>(const ItemId&) const = default;
 };
 
+/// A read or write of what a state does not have: another item, field or component.
+class OutsideState : public Error {
+  public:
+    using Error::Error;
+};
+
 /// A system's whole state, wherever it lies: a view of each buffer and image, in the schema's order.
 struct SystemView {
     std::vector<View> resources;
@@ -28,8 +35,10 @@ struct SystemView {
 
     [[nodiscard]] const View& operator[](std::uint8_t resource) const { return resources[resource]; }
 
-    // Components of an item's field. Floats and integers are read as their field has them.
+    // Components of an item's field. Floats and integers are read as their field has them. Throw OutsideState.
     [[nodiscard]] Value value(FieldId field, std::size_t item, int component = 0) const {
+        if (!has(field, item, component))
+            throw_outside(field, item, component);
         if (read != nullptr)
             read->insert({field.resource, item});
         return resources[field.resource].value(field.field, item, component);
@@ -52,6 +61,16 @@ struct SystemView {
     [[nodiscard]] glm::vec4 vec4(FieldId field, std::size_t item) const {
         return {real(field, item, 0), real(field, item, 1), real(field, item, 2), real(field, item, 3)};
     }
+
+  private:
+    [[nodiscard]] bool has(FieldId field, std::size_t item, int component) const {
+        if (field.resource >= resources.size())
+            return false;
+        const View& view = resources[field.resource];
+        return field.field < view.columns.size() && item < view.count() && component >= 0 &&
+               component < view.fields()[field.field].components;
+    }
+    [[noreturn]] void throw_outside(FieldId field, std::size_t item, int component) const;
 };
 
 /// A state of its own: of each field an array of 32-bit words, zero at first.
@@ -63,11 +82,14 @@ class SystemState {
     SystemState(const Schema& schema, std::vector<Extent> extents);
 
     [[nodiscard]] const Schema& schema() const { return *schema_; }
+    /// Whether it is a state of `schema`, or of an equal one.
+    [[nodiscard]] bool is_of(const Schema& schema) const;
     [[nodiscard]] Extent extent(std::uint8_t resource) const { return extents_[resource]; }
     [[nodiscard]] WritableView operator[](std::uint8_t resource);
     [[nodiscard]] View operator[](std::uint8_t resource) const;
     [[nodiscard]] SystemView view() const;
 
+    // Throw OutsideState.
     void set(FieldId field, std::size_t item, float value, int component = 0);
     void set(FieldId field, std::size_t item, std::int32_t value, int component = 0);
     void set(FieldId field, std::size_t item, std::uint32_t value, int component = 0);

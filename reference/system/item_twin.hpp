@@ -46,6 +46,9 @@ template <class Number> Interval set_of(const Number& x) {
         return {static_cast<double>(x), static_cast<double>(x)};
 }
 
+/// A word of which no item of all such words is right: the greatest float, less its last bit.
+inline constexpr std::uint32_t nothing_reads_so = 0x7f7ffffe;
+
 inline void check_size(std::string_view pass, const Resource& about, std::size_t words) {
     if (words * sizeof(std::uint32_t) != item_bytes(about))
         throw Error(std::string(pass) + ": its twin gives " + std::to_string(words) + " numbers; a " + about.item +
@@ -174,8 +177,12 @@ template <class Twin> class ItemTwin final : public ItemPass {
                                                       std::span<const Mistake> made) const override {
         const FlushSubnormals guard = flush(profile);
         return with_arithmetic_of(profile, [&]<class A>(A fp) {
-            Mistaken<A> reading(fp, made);
-            return words_of(twin_(reading, in, item), about(in));
+            try {
+                Mistaken<A> reading(fp, made);
+                return words_of(twin_(reading, in, item), about(in));
+            } catch (const OutsideState&) { // a mistaken index: what a shader reads there is open
+                return std::vector<std::uint32_t>(components(about(in)).size(), item_twin::nothing_reads_so);
+            }
         });
     }
 

@@ -129,3 +129,85 @@ TEST_CASE("own system: what would prove nothing is an error or said") {
     CHECK_THROWS_WITH(run(folder.path().string() + "/nowhere", system, 3), Catch::Contains("nowhere"));
     CHECK_THROWS_WITH(run(shipped, grains::system(0), 3), Catch::Contains("there are no grains"));
 }
+
+namespace {
+
+/// A twin that reads another item's field; a number of it is negated, which every reading can.
+struct Elsewhere {
+    FieldId field;
+    std::size_t further;
+    template <class R> grains::Grain<R> operator()(R& r, const PassInput& in, std::size_t item) const {
+        grains::Grain<R> g;
+        g.position = r.read(grains::site::start, in.before.vec3(field, item + further));
+        g.velocity.x = -g.position.x;
+        return g;
+    }
+};
+
+/// A twin of one number.
+struct Speck {
+    template <class R> auto operator()(R& r, const PassInput& in, std::size_t item) const {
+        struct State {
+            typename R::Real x;
+            auto fields() const { return std::tie(x); }
+        };
+        return State{r.read(grains::site::start, in.before.real(grains::position, item))};
+    }
+};
+
+System with_twin(std::unique_ptr<ItemPass> pass) {
+    System system = grains::system(3000);
+    system.mistakes.clear();
+    system.passes.clear();
+    system.passes.push_back(std::move(pass));
+    return system;
+}
+
+} // namespace
+
+TEST_CASE("own system: a twin that reads or gives what the state does not have is an error that names it") {
+    if (!gl())
+        return skip(gl().missing());
+    const auto elsewhere = [](FieldId field, std::size_t further) {
+        return with_twin(item_pass({.name = "grains_step"}, Elsewhere{field, further}));
+    };
+    CHECK_THROWS_WITH(
+        run(shipped, elsewhere(grains::position, 1), 3),
+        "frame 0: the twin of grains_step: position of grain 3000 is asked for; there are grains 0 to 2999");
+    CHECK_THROWS_WITH(run(shipped, elsewhere(grains::position, static_cast<std::size_t>(-1)), 3),
+                      Catch::Contains("position of grain -1 is asked for"));
+    CHECK_THROWS_WITH(run(shipped, elsewhere({3, 0}, 0), 3), Catch::Contains("grains has no buffer or image 3"));
+    CHECK_THROWS_WITH(run(shipped, elsewhere({0, 9}, 0), 3), Catch::Contains("'grains' has no field 9"));
+    CHECK_THROWS_WITH(run(shipped, elsewhere(grains::bounces, 0), 3),
+                      Catch::Contains("bounces of a grain has type int; there is no component 1"));
+    CHECK_THROWS_WITH(run(shipped, with_twin(item_pass({.name = "grains_step"}, Speck{})), 3),
+                      Catch::Contains("its twin gives 1 numbers; a grain has 7"));
+}
+
+TEST_CASE("own system: a start, twins and shaders that do not belong together are an error") {
+    if (!gl())
+        return skip(gl().missing());
+    System system = grains::system(10);
+    CHECK_THROWS_WITH(system.start.set(grains::position, 10, 1.0F), Catch::Contains("there are grains 0 to 9"));
+    CHECK_THROWS_WITH(SystemState().set(grains::position, 0, 1.0F), Catch::Contains("a state of nothing"));
+    const auto refused = [&](std::vector<GlPass> passes, const std::string& words) {
+        CHECK_THROWS_WITH(GlSystemSide(gl(), system, std::move(passes), shipped), Catch::Contains(words));
+    };
+    refused({}, "0 shaders for 1 twins");
+    std::vector<GlPass> passes = grains::passes();
+    passes[0].name = "fall";
+    refused(passes, "pass 0 is shader 'fall', but twin 'grains_step'");
+    passes = grains::passes();
+    passes[0].stage = Stage::compute;
+    refused(passes, "its GlPass is a compute shader, its twin's stage is vertex");
+    passes = grains::passes();
+    passes[0].resource = 1;
+    refused(passes, "its GlPass is of buffer 1, its twin of buffer 0");
+    system.start = {};
+    CHECK_THROWS_WITH(run(shipped, system, 3), Catch::Contains("its start is no state of its schema"));
+    const System right = grains::system(10);
+    GlSystemSide side(gl(), right, grains::passes(), shipped);
+    System with_null = grains::system(10);
+    with_null.passes.push_back(nullptr);
+    CHECK_THROWS_WITH(check(with_null, side, {}), Catch::Contains("a pass is null"));
+}

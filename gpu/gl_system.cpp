@@ -12,6 +12,7 @@
 #include "gpu/check.hpp"
 #include "gpu/program.hpp"
 #include "gpu/record_buffer.hpp"
+#include "gpu/texture.hpp"
 #include "gpu/vertex_capture.hpp"
 #include "reference/model/error.hpp"
 
@@ -70,6 +71,23 @@ void set_uniforms(const Program& program, const GlPass& pass, std::size_t items,
             std::visit([&](const auto& v) { program.set(name, v); }, value);
 }
 
+/// A framebuffer of one texel. A context without a surface has none, and then draws nothing: not even a point that
+/// transform feedback alone would have.
+class SmallestTarget {
+  public:
+    SmallestTarget() {
+        allocate_texture(color_.id(), {GL_RGBA8, GL_RGBA, GL_UNSIGNED_BYTE}, 1, 1);
+        bind();
+        gl::FramebufferTexture2D(GL_FRAMEBUFFER, GL_COLOR_ATTACHMENT0, GL_TEXTURE_2D, color_.id(), 0);
+        check_framebuffer(GL_FRAMEBUFFER, "framebuffer of one texel");
+    }
+    void bind() const { gl::BindFramebuffer(GL_FRAMEBUFFER, framebuffer_.id()); }
+
+  private:
+    GlTexture color_;
+    GlFramebuffer framebuffer_;
+};
+
 } // namespace
 
 void SystemSide::repeat_step(std::size_t /*pass*/, int /*frame*/) {
@@ -103,6 +121,7 @@ struct GlSystem::Parts {
     std::vector<Linked> passes;
     std::vector<std::vector<RecordBuffer>> buffers; ///< two a buffer
     std::vector<std::size_t> current;               ///< which of the two the next pass reads
+    SmallestTarget target = {};                     ///< of vertex passes
 
     void run(const Linked& linked, int frame);
     [[nodiscard]] std::vector<ShaderSource> sources(const GlPass& pass, bool traced) const;
@@ -115,7 +134,7 @@ GlSystem::~GlSystem() = default;
 GlSystem::GlSystem(const Schema& schema, std::vector<GlPass> passes, std::filesystem::path shaders,
                    ArithmeticSwitch arithmetic)
     : parts_(new Parts{
-          &schema, std::move(shaders), arithmetic, {}, {}, {}, std::vector<std::size_t>(schema.resources.size())}) {
+          &schema, std::move(shaders), arithmetic, {}, {}, {}, std::vector<std::size_t>(schema.resources.size()), {}}) {
     for (std::uint8_t r = 0; r < schema.resources.size(); ++r) {
         const Resource& resource = schema.resources[r];
         if (resource.dimensions != 1)
@@ -160,7 +179,7 @@ void GlSystem::upload(const SystemView& state) {
 void GlSystem::Parts::run(const Linked& linked, int frame) {
     const GlPass& pass = linked.pass;
     const RecordBuffer& source = from(pass.resource);
-    RecordBuffer& target = to(pass.resource);
+    RecordBuffer& written_to = to(pass.resource);
     set_uniforms(linked.program, pass, source.size(), frame);
     if (pass.stage == Stage::vertex) {
         const GlVertexArray vertices = vertex_array(source, linked.program);
@@ -168,7 +187,8 @@ void GlSystem::Parts::run(const Linked& linked, int frame) {
         const GlQuery written;
         linked.program.use();
         gl::BindVertexArray(vertices.id());
-        target.bind_capture();
+        target.bind();
+        written_to.bind_capture();
         gl::Enable(GL_RASTERIZER_DISCARD);
         gl::BeginQuery(GL_TRANSFORM_FEEDBACK_PRIMITIVES_WRITTEN, written.id());
         gl::BeginTransformFeedback(GL_POINTS);
@@ -234,6 +254,7 @@ std::vector<CapturedVertex> GlSystem::trace(std::size_t pass, int frame, std::si
     // What the pass wrote is what it read the last time.
     const RecordBuffer& source = parts_->to(linked.pass.resource);
     CapturedVertex all;
+    parts_->target.bind();
     gl::Enable(GL_RASTERIZER_DISCARD);
     for (const VertexCapture& part : *linked.traced) {
         set_uniforms(part.program(), linked.pass, source.size(), frame);

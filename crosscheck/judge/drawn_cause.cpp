@@ -95,10 +95,15 @@ DrawnCauseFinder::DrawnCauseFinder() {
 
 void DrawnCauseFinder::add(const JudgedFrame& frame, const CollisionImage* stale,
                            const std::vector<ItemVerdict>& texels) {
+    if (std::none_of(texels.begin(), texels.end(),
+                     [](const ItemVerdict& texel) { return texel.kind == DifferenceClass::divergent; }))
+        return;
+    const CollisionImage right = redraw(frame);
     std::vector<char> diverges(frame.gpu_cdt.texels.size());
     std::uint64_t count = 0;
     for (const ItemVerdict& texel : texels)
-        if (texel.kind == DifferenceClass::divergent) {
+        if (texel.kind == DifferenceClass::divergent &&
+            !same_bits(right.texels[texel.index], frame.gpu_cdt.texels[texel.index])) {
             diverges[texel.index] = 1;
             ++count;
         }
@@ -107,7 +112,6 @@ void DrawnCauseFinder::add(const JudgedFrame& frame, const CollisionImage* stale
     divergent_ += count;
     const FrameParams& params = frame.params;
     const CdtPlanes planes = cdt_planes(params.switches);
-    const CollisionImage right = redraw(frame);
     const LayeredOwners owners = draw_layered_owners(frame.gpu, params, frame.profile);
     for (int plane = 0; plane < planes.count(); ++plane) {
         const int half = plane % planes.positions(), layer = half % planes.a_camera() - 1;

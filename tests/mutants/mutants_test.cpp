@@ -3,6 +3,7 @@
 
 #include <catch2/catch.hpp>
 
+#include "gpu/simulation.hpp"
 #include "reference/deviation.hpp"
 #include "reference/model/error.hpp"
 #include "tests/mutants/score.hpp"
@@ -76,6 +77,28 @@ TEST_CASE("mutants: a few of the catalogue are found and named, and the shipped 
         CHECK_FALSE(outcome.wrongly_named());
     }
     CHECK(run == few.size());
+}
+
+TEST_CASE("mutants: what is drawn rightly of particles that diverge has no cause of its own") {
+    const auto context = open_llvmpipe("osmesa");
+    if (!context)
+        return;
+    constexpr std::string_view names[] = {"layers"};
+    std::vector<TrialScene> scenes = trial_scenes(llvmpipe_profile(), names);
+    const std::vector<Mutant> mutants = whole_catalogue();
+    const auto mutant = std::find_if(mutants.begin(), mutants.end(),
+                                     [](const Mutant& m) { return m.name == "layered_gravity_missing"; });
+    REQUIRE(mutant != mutants.end());
+    const TemporaryFolder folder;
+    plant(*mutant, folder);
+    GpuSimulation gpu(scenes[0].scene(), folder.path());
+    CheckOptions options;
+    options.frames = 3;
+    const CheckReport report = check(scenes[0].scene(), llvmpipe_profile(), gpu, options);
+    REQUIRE(report.verdicts);
+    CHECK(report.verdicts->causes[0].explains_all());
+    CHECK(report.verdicts->classes[1][static_cast<std::size_t>(DifferenceClass::divergent)] > 0);
+    CHECK(report.verdicts->causes[1].divergent == 0);
 }
 
 TEST_CASE("mutants: one that sums as the driver does by itself changes nothing there, and is to be found elsewhere") {

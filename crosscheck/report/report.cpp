@@ -110,8 +110,8 @@ std::string of_class(const CheckReport& r, DifferenceClass kind) {
 std::string verdict_counts(const CheckReport& r) {
     switch (r.verdict) {
     case Verdict::agree:
-        return fmt::format(": every bit of {} particles{} in {} frames", grouped(r.particles), others_compared(r),
-                           r.frames);
+        return fmt::format(": every bit of {} {}s{} in {} frames", grouped(r.particles),
+                           r.schema.resources.front().item, others_compared(r), r.frames);
     case Verdict::legal:
         return fmt::format(": {} differ in {} frames, as GL allows", differing_text(r, " state"), r.frames);
     case Verdict::undefined:
@@ -215,7 +215,8 @@ std::string verdict_words(const CheckReport& r) {
 std::string report_text(const CheckReport& r, const RunDescription& run) {
     std::string out;
     const auto line = [&](std::string_view key, std::string_view text) { out += fmt::format("{:<10}{}\n", key, text); };
-    line("scene", fmt::format("{}: {} particles, {} frames, {}", run.scene, grouped(r.particles), r.frames, run.mode));
+    line("scene", fmt::format("{}: {} {}s, {} frames, {}", run.scene, grouped(r.particles),
+                              r.schema.resources.front().item, r.frames, run.mode));
     line("switches", run.settings);
     line("GL", run.context);
     line("shaders", shaders_line(run));

@@ -47,6 +47,7 @@ TEST_CASE("own system: the right shader agrees or is legal, and every bit was co
     const CheckReport report = run(shipped, system);
     INFO(report_text(report, {}));
     CHECK((report.verdict == Verdict::agree || report.verdict == Verdict::legal));
+    CHECK_THAT(report_text(report, {}), Catch::Contains("2,000 grains, 40 frames") && !Catch::Contains("particles"));
     CHECK(report.untried.empty());
     CHECK(report.total.compared() == std::uint64_t{2000} * 40 * 7);
 }

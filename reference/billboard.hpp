@@ -9,6 +9,7 @@
 #include <glm/vec4.hpp>
 
 #include "reference/model/profile.hpp"
+#include "reference/numbers.hpp"
 #include "reference/pixel_box.hpp"
 #include "reference/window.hpp"
 
@@ -16,22 +17,24 @@ namespace lockstep {
 
 /// A particle as a camera-facing square: its opposite corners in clip space. Both have the z and w of `low`, so the
 /// square is a rectangle along the axes of the window too.
-struct Billboard {
-    glm::vec4 low{0.0F};
-    glm::vec4 high{0.0F};
+template <class Vec4> struct BillboardOf {
+    Vec4 low{};
+    Vec4 high{};
 };
+using Billboard = BillboardOf<glm::vec4>;
 
 /// The square of half side `radius` round `centre` (view space), parallel to the image.
-template <class A> Billboard expand_billboard(A fp, glm::vec3 centre, float radius, const glm::mat4& projection) {
+template <class A> BillboardOf<typename NumbersOf<A>::Vec4>
+expand_billboard(A fp, const typename NumbersOf<A>::Vec3& centre, float radius, const glm::mat4& projection) {
     return {fp.transform(projection, {centre.x - radius, centre.y - radius, centre.z}),
             fp.transform(projection, {centre.x + radius, centre.y + radius, centre.z})};
 }
 
 /// Whether any of it can be seen: in front of the camera, between near and far plane, not beside the image. False for
 /// NaN. The geometry shader emits nothing otherwise.
-inline bool is_visible(const Billboard& b) {
-    const float w = b.low.w;
-    return w > 0.0F && std::abs(b.low.z) <= w && b.low.x <= w && b.low.y <= w && b.high.x >= -w && b.high.y >= -w;
+template <class Vec4> auto is_visible(const BillboardOf<Vec4>& b) {
+    const auto w = b.low.w;
+    return (w > 0.0F) & (abs(b.low.z) <= w) & (b.low.x <= w) & (b.low.y <= w) & (b.high.x >= -w) & (b.high.y >= -w);
 }
 
 /// The pixels of a visible billboard, as its two triangles cover them: half open, by the fill rule.
@@ -53,16 +56,18 @@ inline PixelRect covered_pixels(const Billboard& b, int width, int height, const
 }
 
 /// The window rectangle as the fragment shader sees it, pixels: not snapped.
-struct BillboardWindow {
-    glm::vec2 low{0.0F};
-    glm::vec2 high{0.0F};
-    glm::vec2 centre{0.0F};
-    glm::vec2 half{0.0F};
+template <class Vec2> struct BillboardWindowOf {
+    Vec2 low{};
+    Vec2 high{};
+    Vec2 centre{};
+    Vec2 half{};
 };
+using BillboardWindow = BillboardWindowOf<glm::vec2>;
 
-template <class A> BillboardWindow billboard_window(A fp, const Billboard& b, int width, int height) {
-    const glm::vec2 low = window_place(fp, glm::vec2(b.low), b.low.w, width, height);
-    const glm::vec2 high = window_place(fp, glm::vec2(b.high), b.low.w, width, height);
+template <class A> BillboardWindowOf<typename NumbersOf<A>::Vec2>
+billboard_window(A fp, const BillboardOf<typename NumbersOf<A>::Vec4>& b, int width, int height) {
+    const auto low = window_place(fp, {b.low.x, b.low.y}, b.low.w, width, height);
+    const auto high = window_place(fp, {b.high.x, b.high.y}, b.low.w, width, height);
     return {low, high, (low + high) * 0.5F, (high - low) * 0.5F};
 }
 

@@ -8,8 +8,8 @@
 
 #include "reference/collision_code.hpp"
 #include "reference/collision_pass.hpp"
+#include "reference/legal_triangles.hpp"
 #include "reference/model/same_bits.hpp"
-#include "reference/model/window_accuracy.hpp"
 #include "reference/subnormals.hpp"
 #include "reference/triangle_interpolation.hpp"
 #include "reference/triangle_raster.hpp"
@@ -52,21 +52,6 @@ struct PixelRange {
     [[nodiscard]] bool one_answer() const { return first == last; }
 };
 
-/// How far a grid that is not known may move a point or a corner: a step of the coarsest that GL allows, or half a
-/// pixel on a driver that was measured to be on none of these.
-double step_of(const KnownRaster& known) { return known.gl_grid ? 1.0 / 16.0 : 0.5; }
-
-Interval accurate(Interval v, double relative) {
-    return v.any ? v : interval::outward(v.low - relative * std::abs(v.low), v.high + relative * std::abs(v.high));
-}
-
-/// Perspective divide and viewport transform where their rounding is not known.
-Interval window_coordinate(Interval clip, Interval w, double scale, double offset, const WindowAccuracy& accuracy) {
-    const Interval ndc = accurate(interval::divide(clip, w), accuracy.ndc);
-    const Interval scaled = accurate(interval::multiply(ndc, {scale, scale}), accuracy.scaled);
-    return accurate(interval::add(scaled, {offset, offset}), accuracy.sum);
-}
-
 /// A number for what lies at these places.
 std::uint64_t place_of(float x, float y) {
     return std::uint64_t{std::bit_cast<std::uint32_t>(x)} << 32U | std::bit_cast<std::uint32_t>(y);
@@ -77,8 +62,8 @@ PixelRange pixels_of(Interval window, const KnownRaster& known, const RasterRule
     const double centre = middle(window);
     const double margin = std::abs(centre - std::round(centre)) * 256.0;
     if (!known.point_grid) {
-        const double low = window.low - step_of(known);
-        const double high = window.high + step_of(known);
+        const double low = window.low - grid_step(known);
+        const double high = window.high + grid_step(known);
         return {static_cast<int>(std::ceil(low)) - 1, static_cast<int>(std::floor(high)), margin};
     }
     RasterRules lower = rules, upper = rules;
@@ -150,9 +135,10 @@ template <class A> class Candidates {
         const double half_width = params_.width * 0.5;
         const double half_height = params_.height * 0.5;
         const auto along = [&](const Interval& coordinate, float followed, double half) {
-            const Interval place = window_known ? Interval(followed)
-                                                : window_coordinate(coordinate, clip[3], half, half,
-                                                                    accuracy(known().raster.point_window_accurate));
+            const Interval place = window_known
+                                       ? Interval(followed)
+                                       : window_coordinate(coordinate, clip[3], half, half,
+                                                           window_accuracy(known().raster.point_window_accurate));
             return pixels_of(place, known().raster, profile_.raster);
         };
         const PixelRange columns = along(clip[0], window.x, half_width);
@@ -184,32 +170,13 @@ template <class A> class Candidates {
         std::vector<glm::vec4> clip(obstacles.positions.size());
         std::transform(obstacles.positions.begin(), obstacles.positions.end(), clip.begin(),
                        [&](glm::vec3 p) { return fp_.transform(params_.collision_proj_view, p); });
-        const auto drawn = assemble_triangles(clip, obstacles.indices, params_.width, params_.height, profile_.raster);
-        const auto primitives = static_cast<std::uint32_t>(obstacles.indices.size() / 3);
-        std::vector<bool> judged(primitives, false);
-        auto next = drawn.begin();
-        for (std::uint32_t primitive = 0; primitive < primitives; ++primitive) {
-            const auto first = next;
-            while (next != drawn.end() && next->primitive == primitive)
-                ++next;
-            const auto variants = possible_triangles(obstacles, clip, primitive);
-            judged[primitive] = first != next || !variants.empty();
-            if (!variants.empty())
-                add_variants(obstacles, clip, first == next ? nullptr : &*first, variants);
-            else
-                std::for_each(first, next, [&](const RasterTriangle& triangle) {
-                    add_triangle(obstacles, clip, triangle, profile_.raster);
-                });
-        }
-        if (side_tolerance(profile_.raster) == 0.0)
-            return;
-        // What the reference's grid makes a line of may be a triangle on the driver's.
-        RasterRules finer = profile_.raster;
-        finer.subpixel_bits = 12;
-        for (const RasterTriangle& triangle :
-             assemble_triangles(clip, obstacles.indices, params_.width, params_.height, finer))
-            if (!judged[triangle.primitive])
-                add_triangle(obstacles, clip, triangle, finer);
+        const LegalTriangles triangles(clip, obstacles.indices, params_.width, params_.height, profile_.raster,
+                                       known().raster, known().points);
+        triangles.for_each([&](int x, int y) { return wanted_.slot(x, y) >= 0; },
+                           [&](const LegalCover& cover) {
+                               add_fragment(obstacles, clip, cover.triangle, cover.rules, cover.x, cover.y,
+                                            cover.covered, cover.sure);
+                           });
     }
 
     std::vector<std::vector<TexelOwner>> take() { return std::move(candidates_); }
@@ -218,87 +185,6 @@ template <class A> class Candidates {
     void add(const TexelOwner& owner, int x, int y) {
         if (const int slot = wanted_.slot(x, y); slot >= 0)
             candidates_[static_cast<std::size_t>(slot)].push_back(owner);
-    }
-
-    /// What the grid makes of a triangle inside the clip volume, each corner's window coordinates being as accurate as
-    /// was measured: along each axis one place, or two. None: a corner may lie anywhere that GL lets it.
-    [[nodiscard]] std::vector<RasterTriangle>
-    possible_triangles(const Mesh& obstacles, const std::vector<glm::vec4>& clip, std::uint32_t primitive) const {
-        const KnownRaster& raster = known().raster;
-        if (known().points || raster.triangle_window || !raster.corner_window_accurate || !raster.triangle_grid ||
-            !raster.triangle_sides)
-            return {};
-        std::array<std::vector<glm::ivec2>, 3> places;
-        for (std::size_t k = 0; k < 3; ++k) {
-            const glm::vec4 corner = clip[obstacles.indices[std::size_t{primitive} * 3 + k]];
-            if (!lockstep::in_clip_volume(corner))
-                return {};
-            const auto along = [&](float coordinate, int size) {
-                const Interval window =
-                    window_coordinate(coordinate, corner.w, size * 0.5, size * 0.5, glsl_window_accuracy);
-                const auto at = [&](double x) { return snap_vertex(static_cast<float>(x), profile_.raster); };
-                return std::pair(at(window.low), at(window.high));
-            };
-            const auto [x0, x1] = along(corner.x, params_.width);
-            const auto [y0, y1] = along(corner.y, params_.height);
-            for (int y = y0; y <= y1; ++y)
-                for (int x = x0; x <= x1; ++x)
-                    places[k].emplace_back(x, y);
-        }
-        std::vector<RasterTriangle> triangles;
-        for (const glm::ivec2 a : places[0])
-            for (const glm::ivec2 b : places[1])
-                for (const glm::ivec2 c : places[2])
-                    if (const auto triangle = raster_triangle(a, b, c, primitive))
-                        triangles.push_back(*triangle);
-        return triangles;
-    }
-
-    /// Calls visit(x, y) for the texels asked for that a triangle may reach.
-    template <class Visit> void for_each_wanted(const RasterTriangle& triangle, int bits, int beside, Visit visit) {
-        const auto& c = triangle.corners;
-        const int x0 = (std::min({c[0].x, c[1].x, c[2].x}) >> bits) - beside;
-        const int y0 = (std::min({c[0].y, c[1].y, c[2].y}) >> bits) - beside;
-        const int x1 = (std::max({c[0].x, c[1].x, c[2].x}) >> bits) + 1 + beside;
-        const int y1 = (std::max({c[0].y, c[1].y, c[2].y}) >> bits) + 1 + beside;
-        for (int y = std::max(y0, 0); y <= std::min(y1, params_.height - 1); ++y)
-            for (int x = std::max(x0, 0); x <= std::min(x1, params_.width - 1); ++x)
-                if (wanted_.slot(x, y) >= 0)
-                    visit(x, y);
-    }
-
-    static bool covers(const RasterTriangle& triangle, const RasterRules& rules, int x, int y) {
-        bool covered = false;
-        for_each_pixel(triangle, rules, {x, y, x + 1, y + 1}, [&](int, int) { covered = true; });
-        return covered;
-    }
-
-    /// `drawn`: the reference's of these; null: it makes a line of them.
-    void add_variants(const Mesh& obstacles, const std::vector<glm::vec4>& clip, const RasterTriangle* drawn,
-                      const std::vector<RasterTriangle>& variants) {
-        const RasterTriangle& shape = drawn != nullptr ? *drawn : variants.front();
-        const RasterRules& rules = profile_.raster;
-        for_each_wanted(shape, rules.subpixel_bits, 1, [&](int x, int y) {
-            const auto covering = std::count_if(variants.begin(), variants.end(),
-                                                [&](const RasterTriangle& t) { return covers(t, rules, x, y); });
-            const bool covered = drawn != nullptr && covers(*drawn, rules, x, y);
-            if (covered || covering > 0)
-                add_fragment(obstacles, clip, shape, rules, x, y, covered,
-                             covered && static_cast<std::size_t>(covering) == variants.size());
-        });
-    }
-
-    void add_triangle(const Mesh& obstacles, const std::vector<glm::vec4>& clip, const RasterTriangle& triangle,
-                      const RasterRules& rules) {
-        const bool exact = known().points || known().raster.triangles();
-        const double tolerance = side_tolerance(rules);
-        const int bits = rules.subpixel_bits;
-        for_each_wanted(triangle, bits, static_cast<int>(std::ceil(std::ldexp(tolerance, -bits))), [&](int x, int y) {
-            const bool covered = covers(triangle, rules, x, y);
-            const double margin = exact ? HUGE_VAL : nearest_side(triangle, x, y, rules).distance;
-            if (covered || margin <= tolerance)
-                add_fragment(obstacles, clip, triangle, rules, x, y, covered, covered && margin > tolerance);
-        });
     }
 
     void add_fragment(const Mesh& obstacles, const std::vector<glm::vec4>& clip, const RasterTriangle& triangle,
@@ -335,32 +221,7 @@ template <class A> class Candidates {
         add(owner, x, y);
     }
 
-    /// How far, in steps of the grid of `rules`, a side may lie from where the reference puts it: each corner by what
-    /// its window coordinate may err and by a step of the grid, along both axes.
-    [[nodiscard]] double side_tolerance(const RasterRules& rules) const {
-        const KnownRaster& raster = known().raster;
-        if (known().points || raster.triangles() || (raster.triangle_window && raster.triangle_grid))
-            return 0.0;
-        const double size = std::max(params_.width, params_.height);
-        const double window =
-            raster.triangle_window ? 0.0 : accuracy(raster.corner_window_accurate).error(size, size * 0.5);
-        const double step = raster.triangle_grid ? std::ldexp(1.0, -profile_.raster.subpixel_bits) : step_of(raster);
-        return std::ldexp((window + step) * std::sqrt(2.0), rules.subpixel_bits);
-    }
-
     [[nodiscard]] const KnownOperations& known() const { return arithmetic_.known(); }
-
-    static const WindowAccuracy& accuracy(bool measured) {
-        return measured ? glsl_window_accuracy : gl_window_accuracy;
-    }
-
-    /// z and w interpolate like positions; their quotient is halved and moved, 2.5 ULP and two roundings.
-    static double depth_bound(const std::array<glm::vec4, 3>& c) {
-        const double z = interpolation_bound(c[0].z, c[1].z, c[2].z);
-        const double w = interpolation_bound(c[0].w, c[1].w, c[2].w);
-        const double least_w = std::min({std::abs(c[0].w), std::abs(c[1].w), std::abs(c[2].w)});
-        return least_w > 0.0 ? 0.5 * (z + w) / least_w + 3.0 * 0x1p-23 : 1.0;
-    }
 
     A fp_;
     const FrameParams& params_;

@@ -7,6 +7,7 @@
 #include <glm/vec2.hpp>
 #include <glm/vec4.hpp>
 
+#include "reference/numbers.hpp"
 #include "reference/window.hpp"
 
 namespace lockstep {
@@ -15,7 +16,9 @@ namespace lockstep {
 /// then decide by themselves what is covered. Twin of shaders/pixel_box.glsl and shaders/whole_triangle.glsl.
 
 /// Where clip space lies on the image, pixels. Not snapped.
-template <class A> glm::vec2 window_place(A fp, glm::vec2 clip, float w, int width, int height) {
+template <class A> typename NumbersOf<A>::Vec2 window_place(A fp, const typename NumbersOf<A>::Vec2& clip,
+                                                            const typename NumbersOf<A>::Real& w, int width,
+                                                            int height) {
     return {(fp.divide(clip.x, w) + 1.0F) * 0.5F * static_cast<float>(width),
             (fp.divide(clip.y, w) + 1.0F) * 0.5F * static_cast<float>(height)};
 }

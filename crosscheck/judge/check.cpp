@@ -233,6 +233,18 @@ Verdict verdict_on(const CheckReport& report) {
 
 } // namespace
 
+void add_rendered(CheckReport& report, RenderVerdict rendered) {
+    const Verdict frame = rendered.count(DifferenceClass::divergent) > 0   ? Verdict::divergent
+                          : rendered.count(DifferenceClass::undefined) > 0 ? Verdict::undefined
+                          : rendered.differing > 0                         ? Verdict::legal
+                                                                           : Verdict::agree;
+    report.rendered = std::move(rendered);
+    if (frame <= report.verdict)
+        return;
+    report.state_verdict = report.verdict;
+    report.verdict = frame;
+}
+
 CheckReport check(const Scene& scene, const Profile& profile, GpuSide& gpu, const CheckOptions& options) {
     if (const std::string problem = size_problem(scene.start, scene.start.size()); !problem.empty())
         throw Error(fmt::format("{}: its start has {}", scene.name, problem));

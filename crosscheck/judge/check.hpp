@@ -8,6 +8,7 @@
 
 #include "crosscheck/judge/compare.hpp"
 #include "crosscheck/judge/legal.hpp"
+#include "crosscheck/judge/render_judge.hpp"
 #include "crosscheck/judge/verdict.hpp"
 #include "crosscheck/judge/verdict_summary.hpp"
 #include "reference/known_operations.hpp"
@@ -70,8 +71,10 @@ struct CheckReport {
     std::uint64_t hits = 0;                 ///< particle-frames in which the reference found a collision
     std::uint64_t drawn_texels = 0;         ///< texels written by the reference, summed over frames
     std::uint64_t reference_hash = 0;
-    std::uint64_t gpu_hash = 0;    ///< state_hash of particles and CDT after the last frame
-    std::vector<FrameTimes> times; ///< one a frame
+    std::uint64_t gpu_hash = 0;            ///< state_hash of particles and CDT after the last frame
+    std::vector<FrameTimes> times;         ///< one a frame
+    std::optional<RenderVerdict> rendered; ///< not set: the rendered frame was not compared
+    std::optional<Verdict> state_verdict;  ///< set: on all but the rendered frame, which made the verdict worse
     /// What such a run was to try and did not, as words after "but": "nothing collided".
     std::vector<std::string> untried;
 
@@ -90,6 +93,9 @@ struct PassRules {
                       (report.verdict == Verdict::undefined && rules.allow_undefined);
     return fits && !report.partial() && !(rules.require_hits && report.hits == 0);
 }
+
+/// Takes up the verdict on a rendered frame of the run: the run's is the worse of both.
+void add_rendered(CheckReport& report, RenderVerdict rendered);
 
 /// Both sides after one frame, and what their comparison said.
 struct ComparedFrame {

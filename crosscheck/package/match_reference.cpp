@@ -101,15 +101,13 @@ MatchResult match_reference(GpuSide& gpu, const Scene& scene, const MatchOptions
                        commands.explain(report),
                        conversion_notes(side.profile, scene.switches),
                        side.shaders};
-    bool passed = passes(report, {options.allow_undefined, options.require_hits});
     if (options.render) {
         Particles last;
         read_side(gpu, scene, last);
-        run.rendered = compare_rendered(last, scene, report.frames - 1, side.profile, shaders->folder());
-        if (run.rendered->differing > 0)
-            report.untried.emplace_back("the rendered frame differs");
-        passed = passed && run.rendered->differing == 0;
+        add_rendered(report, judge_rendered(last, nullptr, scene, report.frames - 1, side.profile, *check_options.known,
+                                            shaders->folder()));
     }
+    const bool passed = passes(report, {options.allow_undefined, options.require_hits});
     return {std::move(report), std::move(run), passed};
 }
 

@@ -1,14 +1,11 @@
 #include "crosscheck/report/frame_images.hpp"
 
-#include <cstddef>
+#include <algorithm>
 #include <iterator>
-
-#include <fmt/format.h>
 
 #include "crosscheck/files/png.hpp"
 #include "crosscheck/report/pictures.hpp"
 #include "gpu/render_pass.hpp"
-#include "reference/model/error.hpp"
 #include "reference/render_pass.hpp"
 
 namespace lockstep {
@@ -24,21 +21,16 @@ ColorImage render_on_gpu(const Particles& particles, const Scene& scene, const F
     return image;
 }
 
-RenderComparison compare_rendered(const Particles& particles, const Scene& scene, int frame, const Profile& profile,
-                                  const std::filesystem::path& shaders) {
+RenderVerdict judge_rendered(const Particles& particles, const Particles* earlier, const Scene& scene, int frame,
+                             const Profile& profile, const KnownOperations& known,
+                             const std::filesystem::path& shaders) {
     const FrameParams params = frame_params(scene, frame);
+    const FrameParams earlier_params = frame_params(scene, std::max(frame - 1, 0));
     const ColorImage gpu = render_on_gpu(particles, scene, params, shaders);
-    const ColorImage reference = render_pass(particles, scene.obstacles, params, profile);
-    if (gpu.texels.size() != reference.texels.size())
-        throw Error(fmt::format("rendered frame: {} pixels on the GPU, {} in the reference", gpu.texels.size(),
-                                reference.texels.size()));
-    const ColorImage without = render_pass({}, scene.obstacles, params, profile);
-    RenderComparison compared{frame, gpu.texels.size(), 0, 0};
-    for (std::size_t i = 0; i < gpu.texels.size(); ++i) {
-        compared.differing += gpu.texels[i] == reference.texels[i] ? 0U : 1U;
-        compared.of_particles += without.texels[i] == reference.texels[i] ? 0U : 1U;
-    }
-    return compared;
+    RenderVerdict verdict =
+        judge_render({particles, scene.obstacles, params, earlier, &earlier_params}, profile, known, gpu);
+    verdict.frame = frame;
+    return verdict;
 }
 
 void FrameImages::keep(const ComparedFrame& frame) {

@@ -13,9 +13,11 @@ namespace lockstep {
 ColorImage render_on_gpu(const Particles& particles, const Scene& scene, const FrameParams& params,
                          const std::filesystem::path& shaders);
 
-/// One state, rendered by the GPU and by the reference. Needs the current context.
-RenderComparison compare_rendered(const Particles& particles, const Scene& scene, int frame, const Profile& profile,
-                                  const std::filesystem::path& shaders);
+/// The state after frame `frame`, rendered by the GPU and judged; `earlier`: that of the frame before, null where it is
+/// not known. Needs the current context.
+RenderVerdict judge_rendered(const Particles& particles, const Particles* earlier, const Scene& scene, int frame,
+                             const Profile& profile, const KnownOperations& known,
+                             const std::filesystem::path& shaders);
 
 /// Pictures of one frame of a check: the first that differs, or else the last.
 class FrameImages {

@@ -106,9 +106,22 @@ std::string of_class(const CheckReport& r, DifferenceClass kind) {
                        items_text(r, items, " state"), r.frames);
 }
 
-/// After the verdict's words.
+/// The same of the rendered frame.
+std::string rendered_counts(const RenderVerdict& r) {
+    const auto pixels = [&](DifferenceClass kind) {
+        return fmt::format(" in the rendered frame: {} of {} pixels", grouped(r.count(kind)), grouped(r.pixels));
+    };
+    if (r.count(DifferenceClass::divergent) > 0)
+        return pixels(DifferenceClass::divergent) + ", which no legal run explains";
+    if (r.count(DifferenceClass::undefined) > 0)
+        return pixels(DifferenceClass::undefined) + ", which rest on what GL leaves open";
+    return fmt::format(" in the rendered frame: {} of {} pixels differ, as GL allows", grouped(r.differing),
+                       grouped(r.pixels));
+}
+
+/// After the verdict's words; of all but the rendered frame.
 std::string verdict_counts(const CheckReport& r) {
-    switch (r.verdict) {
+    switch (r.state_verdict.value_or(r.verdict)) {
     case Verdict::agree:
         return fmt::format(": every bit of {} {}s{} in {} frames", grouped(r.particles),
                            r.schema.resources.front().item, others_compared(r), r.frames);
@@ -129,7 +142,47 @@ std::string verdict_counts(const CheckReport& r) {
 
 std::string verdict_line(const CheckReport& r) {
     const bool judged = r.verdicts || r.verdict == Verdict::nondeterministic;
-    return verdict_words(r) + verdict_counts(r) + (judged ? "" : "; compared, not judged");
+    const std::string state = verdict_counts(r) + (judged ? "" : "; compared, not judged");
+    if (!r.state_verdict)
+        return verdict_words(r) + state;
+    return fmt::format("{}{}; the state itself {}{}", verdict_words(r), rendered_counts(*r.rendered),
+                       verdict_name(*r.state_verdict), state);
+}
+
+std::string color_text(Rgba8 c) {
+    return fmt::format("#{:02x}{:02x}{:02x}{}", c.r, c.g, c.b, c.a == 255 ? "" : fmt::format(" alpha {}", c.a));
+}
+
+std::string owner_text(const PixelOwner& owner) {
+    switch (owner.kind) {
+    case PixelOwner::Kind::background:
+        return "the background";
+    case PixelOwner::Kind::obstacle:
+        return fmt::format("triangle {} of the obstacles", owner.index);
+    case PixelOwner::Kind::particle:
+        return fmt::format("particle {}", owner.index);
+    }
+    return "";
+}
+
+std::string first_pixel_text(const RenderVerdict& r) {
+    const auto width = static_cast<std::size_t>(r.width);
+    return fmt::format("pixel ({}, {}): reference {} of {}, GPU {}", r.first->index % width, r.first->index / width,
+                       color_text(r.first->reference), owner_text(r.first->owner), color_text(r.first->gpu));
+}
+
+/// The lines under `render`: cause, and the first pixel.
+std::vector<std::string> render_details(const RenderVerdict& r) {
+    std::vector<std::string> lines;
+    if (r.count(DifferenceClass::divergent) > 0 && r.causes.empty())
+        lines.emplace_back("cause: no named mistake explains it");
+    for (std::size_t i = 0; i < r.causes.size() && i < 3; ++i)
+        lines.push_back(fmt::format("{}: {} ({})", i == 0 ? "cause" : "or", r.causes[i].name, r.causes[i].meaning));
+    if (r.causes.size() > 3)
+        lines.push_back(fmt::format("or one of {} more that draw the same here", r.causes.size() - 3));
+    if (r.first)
+        lines.push_back("first: " + first_pixel_text(r));
+    return lines;
 }
 
 std::string growth_text(const CheckReport& r) {
@@ -188,14 +241,23 @@ std::string shaders_line(const RunDescription& run) {
     return run.shaders ? shaders_text(*run.shaders) : run.shaders_untold;
 }
 
-std::string render_line(const RunDescription& run) {
-    if (!run.rendered)
+std::string render_line(const CheckReport& report, const RunDescription& run) {
+    if (!report.rendered)
         return "the rendered frame was not compared" + run.render_hint;
-    const RenderComparison& r = *run.rendered;
+    const RenderVerdict& r = *report.rendered;
     const std::string pixels = fmt::format("{} pixels of frame {}, {} of which show particles", grouped(r.pixels),
                                            r.frame, grouped(r.of_particles));
-    return r.differing == 0 ? fmt::format("AGREE: every one of {}", pixels)
-                            : fmt::format("DIFFER: {} of {}; compared, not judged", grouped(r.differing), pixels);
+    const auto count = [&](DifferenceClass kind) { return grouped(r.count(kind)); };
+    if (r.differing == 0)
+        return fmt::format("AGREE: every one of {}", pixels);
+    const std::string legal =
+        fmt::format("{} rounding, {} tie", count(DifferenceClass::rounding), count(DifferenceClass::tie));
+    if (r.count(DifferenceClass::divergent) > 0)
+        return fmt::format("DIVERGENT: {} of {}; {}, {} undefined", count(DifferenceClass::divergent), pixels, legal,
+                           count(DifferenceClass::undefined));
+    if (r.count(DifferenceClass::undefined) > 0)
+        return fmt::format("UNDEFINED: {} of {}; {}", count(DifferenceClass::undefined), pixels, legal);
+    return fmt::format("LEGAL: {} of {}; {}", grouped(r.differing), pixels, legal);
 }
 
 std::string pass_options_text(const PassRules& rules) {
@@ -231,12 +293,15 @@ std::string report_text(const CheckReport& r, const RunDescription& run) {
         line("hash", r.reference_hash == r.gpu_hash
                          ? fmt::format("{} on both sides after the last frame", hash_text(r.gpu_hash))
                          : fmt::format("reference {}, GPU {}", hash_text(r.reference_hash), hash_text(r.gpu_hash)));
-    line("render", render_line(run));
+    line("render", render_line(r, run));
+    if (r.rendered)
+        for (const std::string& detail : render_details(*r.rendered))
+            line("", detail);
     for (const std::string& note : run.notes)
         line("note", note);
     line("verdict", verdict_line(r));
     if (r.total.agree())
-        return out;
+        return r.state_verdict ? out + fmt::format("\nrepeat    {}\n", run.repeat) : out;
     if (r.verdict == Verdict::divergent && r.wider_rule)
         line("hint",
              fmt::format(
@@ -282,11 +347,25 @@ nlohmann::json shaders_json(const RunDescription& run) {
     return {{"text", shaders_line(run)}, {"files", files}};
 }
 
-nlohmann::json render_json(const RunDescription& run) {
-    nlohmann::json json{{"text", render_line(run)}, {"compared", run.rendered.has_value()}};
-    if (run.rendered)
-        json.update(
-            {{"frame", run.rendered->frame}, {"pixels", run.rendered->pixels}, {"differing", run.rendered->differing}});
+nlohmann::json render_json(const CheckReport& report, const RunDescription& run) {
+    nlohmann::json json{{"text", render_line(report, run)}, {"compared", report.rendered.has_value()}};
+    if (!report.rendered)
+        return json;
+    const RenderVerdict& r = *report.rendered;
+    json.update({{"frame", r.frame},
+                 {"pixels", r.pixels},
+                 {"of_particles", r.of_particles},
+                 {"differing", r.differing},
+                 {"classes", nlohmann::json::object()},
+                 {"causes", nlohmann::json::array()}});
+    for (std::size_t kind = 0; kind < class_names.size(); ++kind)
+        json["classes"][std::string(class_names[kind])] = r.classes[kind];
+    for (const RenderMistakeInfo& cause : r.causes)
+        json["causes"].push_back({{"name", cause.name}, {"meaning", cause.meaning}});
+    if (r.first)
+        json["first"] = {{"text", first_pixel_text(r)},
+                         {"x", r.first->index % static_cast<std::size_t>(r.width)},
+                         {"y", r.first->index / static_cast<std::size_t>(r.width)}};
     return json;
 }
 
@@ -321,7 +400,7 @@ nlohmann::json report_json(const CheckReport& r, const RunDescription& run) {
                 {"switches", run.settings},
                 {"context", run.context},
                 {"shaders", shaders_json(run)},
-                {"render", render_json(run)},
+                {"render", render_json(r, run)},
                 {"profile", run.profile},
                 {"particles", r.particles},
                 {"frames", r.frames},

@@ -1,5 +1,4 @@
 #pragma once
-#include <cstdint>
 #include <optional>
 #include <string>
 #include <vector>
@@ -10,14 +9,6 @@
 #include "gpu/shader_use.hpp"
 
 namespace lockstep {
-
-/// The rendered frame of one state, as both sides draw it.
-struct RenderComparison {
-    int frame = 0;
-    std::uint64_t pixels = 0;
-    std::uint64_t differing = 0;
-    std::uint64_t of_particles = 0; ///< pixels that would be others without particles
-};
 
 /// What a report says about the run besides the comparison.
 struct RunDescription {
@@ -32,8 +23,7 @@ struct RunDescription {
     std::vector<std::string> notes = {};   ///< what a reader of the verdict has to know besides
     std::optional<ShaderUse> shaders = {}; ///< whose ran; not set: shaders_untold says why that is not known
     std::string shaders_untold = "an engine's own, of which nothing is known";
-    std::optional<RenderComparison> rendered = {}; ///< not set: the rendered frame was not compared
-    std::string render_hint = {};                  ///< how it would be
+    std::string render_hint = {}; ///< how the rendered frame would be compared, where it was not
 };
 
 /// "AGREE", "LEGAL", ...

@@ -1,0 +1,38 @@
+#pragma once
+#include <glm/vec2.hpp>
+
+#include "reference/model/image.hpp"
+
+namespace lockstep {
+
+/// How a fragment's depth is held against what is there.
+enum class DepthTest { less, less_or_equal, greater, always };
+
+/// The places of the render pass that a mistake may change (mistakes.hpp), each with what it is handed on: here all as
+/// it is. Numbers may be of any reading (numbers.hpp).
+struct RightSites {
+    template <class Real> static Real background_up(Real up) { return up; }
+    template <class Vec3> static Vec3 background_color(Vec3 color) { return color; }
+    template <class Vec3> static Vec3 corner_normal(Vec3 turned, Vec3) { return turned; }
+    template <class Real> static Real obstacle_lambert(Real lambert) { return lambert; }
+    static float corner_radius(float radius) { return radius; }
+    template <class Billboard> static Billboard quad(Billboard square) { return square; }
+    static glm::ivec2 size(int width, int height) { return {width, height}; }
+    static float pixel_centre() { return 0.5F; }
+    template <class Bool> static Bool in_disc(Bool inside) { return inside; }
+    template <class Real> static Real under_root(Real rest) { return rest; }
+    template <class Vec3> static Vec3 sphere_normal(Vec3 normal) { return normal; }
+    template <class Real> static Real towards_camera(Real normal_z) { return normal_z; }
+    template <class Real> static Real fast(Real share) { return share; }
+    template <class Real> static Real heat(Real share) { return share; }
+    template <class Real> static Real lambert(Real share) { return share; }
+    template <class Real> static Real gleam(Real light) { return light; }
+    template <class Real> static Real glow(Real, Real glow) { return glow; }
+    static constexpr DepthTest depth_test() { return DepthTest::less; }
+    static Rgba8 stored(Rgba8 color) { return color; }
+    static constexpr bool draws_background() { return true; }
+    /// The pixel drawn whose colour is at pixel (x, y) of the image.
+    static glm::ivec2 source(int x, int y, int, int) { return {x, y}; }
+};
+
+} // namespace lockstep

@@ -56,6 +56,14 @@ template <class A> class LegalNumber {
         return a.with({std::clamp(a.set_.low, 0.0, most), std::clamp(a.set_.high, 0.0, most)});
     }
 
+    /// Where the condition is open, and holds.
+    friend LegalNumber where(Truth holds, LegalNumber x, float most) {
+        if (!holds.yes || !holds.no)
+            return x;
+        const double end = most;
+        return x.with(x.set_.any ? x.set_ : Interval(std::min(x.set_.low, end), std::min(x.set_.high, end)));
+    }
+
     friend Truth operator<=(LegalNumber a, LegalNumber b) {
         if (a.set_.any || b.set_.any)
             return {true, true};

@@ -28,6 +28,9 @@ struct NumbersOf<A> {
 /// Both are evaluated.
 template <class T> T choose(bool condition, const T& yes, const T& no) { return condition ? yes : no; }
 
+/// What x is where `holds`, which says that it is at most `most`, holds.
+inline float where(bool, float x, float) { return x; }
+
 inline float abs(float x) { return std::abs(x); }
 
 } // namespace lockstep

@@ -27,8 +27,8 @@ template <class A, class Sites> class RenderDrawing {
 
     void draw_background() {
         for (int y = 0; y < height_; ++y) {
-            const Rgba8 color = Shading<A>::quantise(shading_.background(y, sites_.size(width_, height_).y));
-            std::fill_n(&color_.at(0, y), width_, sites_.stored(color));
+            const Rgba8 color = Shading<A>::quantise(shading_.background(y, sites_.size(width_, height_, false).y));
+            std::fill_n(&color_.at(0, y), width_, sites_.stored(color, false));
         }
     }
 
@@ -86,7 +86,7 @@ template <class A, class Sites> class RenderDrawing {
         const Billboard square = billboard(view_centre);
         if (!is_visible(square))
             return {};
-        const glm::ivec2 size = sites_.size(width_, height_);
+        const glm::ivec2 size = sites_.size(width_, height_, true);
         const BillboardWindow window = billboard_window(fp_, square, size.x, size.y);
         const Billboard quad = sites_.quad(square);
         if constexpr (std::is_same_v<A, Portable>) {
@@ -123,7 +123,7 @@ template <class A, class Sites> class RenderDrawing {
 
     void keep(int x, int y, float depth, Rgba8 color, PixelOwner owner) {
         depth_.at(x, y) = depth;
-        color_.at(x, y) = sites_.stored(color);
+        color_.at(x, y) = sites_.stored(color, owner.kind == PixelOwner::Kind::particle);
         owner_.at(x, y) = owner;
     }
 

@@ -145,7 +145,7 @@ template <class Sites> class LegalPixels {
         if (!visible.yes)
             return result;
         result.surely_visible = visible.sure();
-        const glm::ivec2 size = sites_.size(width_, height_);
+        const glm::ivec2 size = sites_.size(width_, height_, true);
         const auto window = billboard_window(geometry_, square, size.x, size.y);
         result.window = {fragment_.taken(window.low), fragment_.taken(window.high), fragment_.taken(window.centre),
                          fragment_.taken(window.half)};
@@ -270,7 +270,7 @@ template <class Sites> class LegalPixels {
                 candidate.low = candidate.high = {};
                 return;
             }
-            shade = shading_.background(y, sites_.size(width_, height_).y);
+            shade = shading_.background(y, sites_.size(width_, height_, false).y);
         } else if (candidate.owner.kind == Kind::obstacle) {
             const std::uint32_t* index = &obstacles_.indices[std::size_t{candidate.owner.index} * 3];
             const auto corner = [&](std::size_t k) { return fragment_.taken(to_view(obstacles_.positions[index[k]])); };
@@ -289,8 +289,9 @@ template <class Sites> class LegalPixels {
         const auto [r0, r1] = code(shade.x);
         const auto [g0, g1] = code(shade.y);
         const auto [b0, b1] = code(shade.z);
-        candidate.low = sites_.stored({r0, g0, b0, 255});
-        candidate.high = sites_.stored({r1, g1, b1, 255});
+        const bool of_particle = candidate.owner.kind == Kind::particle;
+        candidate.low = sites_.stored({r0, g0, b0, 255}, of_particle);
+        candidate.high = sites_.stored({r1, g1, b1, 255}, of_particle);
     }
 
     Sites sites_;

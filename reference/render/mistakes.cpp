@@ -42,7 +42,9 @@ constexpr std::array table{
     RenderMistakeInfo{normal_z_flipped, "normal_z_flipped", "the sphere's normal has -z"},
     RenderMistakeInfo{half_pixel_off, "half_pixel_off", "the sphere is half a pixel off: no + 0.5 at the fragment"},
     RenderMistakeInfo{colour_swapped, "colour_swapped", "red and blue are swapped"},
+    RenderMistakeInfo{sprite_colour_swapped, "sprite_colour_swapped", "red and blue of particles are swapped"},
     RenderMistakeInfo{alpha_missing, "alpha_missing", "stores alpha 0"},
+    RenderMistakeInfo{sprite_alpha_missing, "sprite_alpha_missing", "particles store alpha 0"},
     RenderMistakeInfo{colour_of_speed_missing, "colour_of_speed_missing", "every particle has the colour of rest"},
     RenderMistakeInfo{colour_of_collision_missing, "colour_of_collision_missing", "no particle has just collided"},
     RenderMistakeInfo{speed_not_halved, "speed_not_halved", "white at a speed of 1, not 2"},
@@ -59,6 +61,8 @@ constexpr std::array table{
     RenderMistakeInfo{projection_transposed, "projection_transposed", "u_Projection is transposed"},
     RenderMistakeInfo{width_and_height_swapped, "width_and_height_swapped",
                       "u_ClientWidth and u_ClientHeight are swapped"},
+    RenderMistakeInfo{sprite_width_and_height_swapped, "sprite_width_and_height_swapped",
+                      "u_ClientWidth and u_ClientHeight are swapped for particles"},
     RenderMistakeInfo{view_of_earlier_frame, "view_of_earlier_frame", "u_View is still the frame before's"},
     RenderMistakeInfo{state_of_earlier_frame, "state_of_earlier_frame", "draws the particles of the frame before"},
 };

@@ -42,7 +42,9 @@ enum class RenderMistake {
     normal_z_flipped,
     half_pixel_off,
     colour_swapped,
+    sprite_colour_swapped,
     alpha_missing,
+    sprite_alpha_missing,
     colour_of_speed_missing,
     colour_of_collision_missing,
     speed_not_halved,
@@ -57,6 +59,7 @@ enum class RenderMistake {
     view_transposed,
     projection_transposed,
     width_and_height_swapped,
+    sprite_width_and_height_swapped,
     view_of_earlier_frame,
     state_of_earlier_frame,
 };
@@ -128,8 +131,10 @@ class MistakenSites : public RightSites {
         square.high.y = square.high.y - y;
         return square;
     }
-    [[nodiscard]] glm::ivec2 size(int width, int height) const {
-        return is(RenderMistake::width_and_height_swapped) ? glm::ivec2(height, width) : glm::ivec2(width, height);
+    [[nodiscard]] glm::ivec2 size(int width, int height, bool of_particle) const {
+        const bool swapped = is(RenderMistake::width_and_height_swapped) ||
+                             (of_particle && is(RenderMistake::sprite_width_and_height_swapped));
+        return swapped ? glm::ivec2(height, width) : glm::ivec2(width, height);
     }
     [[nodiscard]] float pixel_centre() const { return is(RenderMistake::half_pixel_off) ? 0.0F : 0.5F; }
     template <class Bool> [[nodiscard]] Bool in_disc(Bool inside) const {
@@ -178,10 +183,12 @@ class MistakenSites : public RightSites {
             return DepthTest::less_or_equal;
         return is(RenderMistake::depth_reversed) ? DepthTest::greater : DepthTest::less;
     }
-    [[nodiscard]] Rgba8 stored(Rgba8 c) const {
-        if (is(RenderMistake::alpha_missing))
+    [[nodiscard]] Rgba8 stored(Rgba8 c, bool of_particle) const {
+        if (is(RenderMistake::alpha_missing) || (of_particle && is(RenderMistake::sprite_alpha_missing)))
             c.a = 0;
-        return is(RenderMistake::colour_swapped) ? Rgba8{c.b, c.g, c.r, c.a} : c;
+        const bool swapped =
+            is(RenderMistake::colour_swapped) || (of_particle && is(RenderMistake::sprite_colour_swapped));
+        return swapped ? Rgba8{c.b, c.g, c.r, c.a} : c;
     }
     [[nodiscard]] bool draws_background() const {
         return !is(RenderMistake::background_not_drawn) && !is(RenderMistake::frame_not_drawn);

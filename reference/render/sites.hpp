@@ -17,7 +17,7 @@ struct RightSites {
     template <class Real> static Real obstacle_lambert(Real lambert) { return lambert; }
     static float corner_radius(float radius) { return radius; }
     template <class Billboard> static Billboard quad(Billboard square) { return square; }
-    static glm::ivec2 size(int width, int height) { return {width, height}; }
+    static glm::ivec2 size(int width, int height, bool /*of a particle*/) { return {width, height}; }
     static float pixel_centre() { return 0.5F; }
     template <class Bool> static Bool in_disc(Bool inside) { return inside; }
     template <class Real> static Real under_root(Real rest) { return rest; }
@@ -29,7 +29,7 @@ struct RightSites {
     template <class Real> static Real gleam(Real light) { return light; }
     template <class Real> static Real glow(Real, Real glow) { return glow; }
     static constexpr DepthTest depth_test() { return DepthTest::less; }
-    static Rgba8 stored(Rgba8 color) { return color; }
+    static Rgba8 stored(Rgba8 color, bool /*of a particle*/) { return color; }
     static constexpr bool draws_background() { return true; }
     /// The pixel drawn whose colour is at pixel (x, y) of the image.
     static glm::ivec2 source(int x, int y, int, int) { return {x, y}; }

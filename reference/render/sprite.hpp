@@ -24,7 +24,7 @@ SphereFragment<A> sphere_fragment(A fp, const Sites& sites, const typename Numbe
     const Real dy = fp.divide(Real(static_cast<float>(y) + sites.pixel_centre()) - window.centre.y, window.half.y);
     const Real squared = dx * dx + dy * dy;
     const auto inside = sites.in_disc(squared <= 1.0F);
-    const Real root = fp.sqrt(sites.under_root(Real(1.0F) - squared));
+    const Real root = fp.sqrt(sites.under_root(Real(1.0F) - where(inside, squared, 1.0F)));
     const typename NumbersOf<A>::Vec3 sphere{dx, dy, root};
     const Real z = centre.z + sites.towards_camera(root) * params.constants.billboard_radius;
     const auto clip = fp.transform(params.render_projection, {centre.x, centre.y, z});

@@ -114,7 +114,11 @@ TEST_CASE("shader use: the rendered frame is compared where that is asked for, a
     test::plant(setting.shaders, "render_pass.frag", "void main() {", "void main() { if (true) discard;");
     outcome = run_lockstep(setting.command({"--frames", "4", "--render"}));
     CHECK(outcome.status == 1);
-    CHECK_THAT(outcome.out, Contains("\nrender    DIFFER: 1 of 1,200 pixels of frame 3, 1 of which show particles; "
-                                     "compared, not judged\n") &&
-                                Contains("verdict   AGREE, but the rendered frame differs: "));
+    CHECK_THAT(outcome.out,
+               Contains("\nrender    DIVERGENT: 1 of 1,200 pixels of frame 3, 1 of which show particles; "
+                        "0 rounding, 0 tie, 0 undefined\n"
+                        "          cause: sprites_not_drawn (no particle is drawn)\n") &&
+                   Contains("\n          first: pixel (24, 11): reference #406db2 of particle 49, GPU #22252c\n") &&
+                   Contains("verdict   DIVERGENT in the rendered frame: 1 of 1,200 pixels, which no legal "
+                            "run explains; the state itself AGREE: "));
 }

@@ -109,7 +109,7 @@ struct MatchOptions {
     Legal legal = Legal::measured;
     bool allow_undefined = false; ///< pass what rests on what GL leaves open
     bool require_hits = false;    ///< fail a run in which nothing collided
-    /// Draw the last frame on both sides, too, and fail where a pixel differs; for UserShaders alone.
+    /// Draw the last frame on both sides, too, and judge it; for UserShaders alone.
     bool render = false;
     /// The command that repeats it where `lockstep check` cannot, for an engine or a scene made in code; empty: this
     /// program's own command line.

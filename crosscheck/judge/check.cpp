@@ -11,6 +11,7 @@
 #include "crosscheck/judge/drawn_cause.hpp"
 #include "crosscheck/judge/item_cause.hpp"
 #include "crosscheck/judge/legal_hint.hpp"
+#include "crosscheck/judge/power.hpp"
 #include "crosscheck/judge/side_state.hpp"
 #include "crosscheck/judge/step_judge.hpp"
 #include "gpu/gpu_side.hpp"
@@ -116,7 +117,7 @@ class RunJudge {
     /// `has_cdt`: texels are judged too.
     RunJudge(const Scene& scene, const Profile& profile, const KnownOperations& known, bool has_cdt)
         : scene_(scene), profile_(profile), known_(known), has_cdt_(has_cdt), named_(named_mistakes()),
-          step_causes_(named_) {
+          step_causes_(named_), power_(named_) {
         summary_.judges_leans = can_judge_leans(known, profile);
     }
 
@@ -136,6 +137,24 @@ class RunJudge {
         }
         return verdicts;
     }
+
+    /// Tries on a frame's own states which mistakes would have shown: in all of the first frames, then in some.
+    void measure_power(const RunFrame& f) {
+        constexpr int first_frames = 8;
+        if (f.number >= first_frames && f.number % first_frames != 0)
+            return;
+        std::vector<std::size_t> hits;
+        const float hit = scene_.constants.collision_time;
+        for (std::size_t i = 0; i < f.before.particles.size() && hits.size() < 4096; ++i)
+            if (f.before.particles.collide_time[i] < 0.0F && f.reference.particles().collide_time[i] == hit)
+                hits.push_back(i);
+        const StepInputs inputs{f.before.particles, f.before.cdt, scene_.obstacles, f.params};
+        const auto pass = step_pass(inputs);
+        const SystemView before = step_state(inputs);
+        const View reference = view(f.reference.particles());
+        power_.add({*pass, profile_, known_, f.number, before, reference, reference}, hits);
+    }
+    [[nodiscard]] PowerSummary power() const { return power_.summary(); }
 
     /// By which what diverges is legal, where that is judged by what was measured.
     [[nodiscard]] std::optional<Legal> wider_rule() const { return hint_.rule(); }
@@ -188,8 +207,9 @@ class RunJudge {
         std::vector<NamedMistake> named;
         for (const DeviationInfo& info : deviation_table())
             if (const auto mistake = step_mistake(info.deviation))
-                for (const char* pass : {"octree_pass", "layered_collision_pass"})
-                    named.push_back({std::string(info.name), std::string(info.meaning), pass, *mistake});
+                for (const char* pass : {"collision_pass", "octree_pass", "layered_collision_pass"})
+                    if (has_site(pass, mistake->site))
+                        named.push_back({std::string(info.name), std::string(info.meaning), pass, *mistake});
         for (const SearchMistake& m : search_mistakes())
             named.push_back({std::string(m.name), std::string(m.meaning), std::string(m.pass), m.mistake});
         return named;
@@ -205,6 +225,7 @@ class RunJudge {
     std::vector<NamedMistake> named_;
     ItemCauseFinder step_causes_;
     DrawnCauseFinder drawn_causes_;
+    PowerMeter power_;
 };
 
 /// What agreed without having been put to the test.
@@ -309,6 +330,10 @@ CheckReport check(const Scene& scene, const Profile& profile, GpuSide& gpu, cons
             report.drawn_texels += count_drawn(reference.cdt());
         }
         std::optional<FrameVerdicts> verdicts;
+        if (judged) {
+            const Stopwatch watch(times.power);
+            judge.measure_power({frame, params, before, frame > 0 ? &earlier : nullptr, reference, now});
+        }
         if (judged && !comparison.agree()) {
             const Stopwatch watch(times.judge);
             verdicts = judge.judge({frame, params, before, frame > 0 ? &earlier : nullptr, reference, now});
@@ -329,6 +354,7 @@ CheckReport check(const Scene& scene, const Profile& profile, GpuSide& gpu, cons
     if (judged) {
         report.verdicts = judge.summary();
         report.wider_rule = judge.wider_rule();
+        report.power = judge.power();
     }
     report.verdict = verdict_on(report);
     if (report.verdict != Verdict::divergent && report.verdict != Verdict::differ)

@@ -8,6 +8,7 @@
 
 #include "crosscheck/judge/compare.hpp"
 #include "crosscheck/judge/legal.hpp"
+#include "crosscheck/judge/power_summary.hpp"
 #include "crosscheck/judge/render_judge.hpp"
 #include "crosscheck/judge/verdict.hpp"
 #include "crosscheck/judge/verdict_summary.hpp"
@@ -53,6 +54,7 @@ struct FrameTimes {
     double reference = 0.0;
     double compare = 0.0;
     double judge = 0.0; ///< verdicts and causes
+    double power = 0.0; ///< trying which mistakes would have shown
 };
 
 struct CheckReport {
@@ -65,6 +67,7 @@ struct CheckReport {
     std::optional<int> first_frame;     ///< the first frame with a difference, or that did not repeat itself
     std::vector<FrameDifference> worst; ///< of the first differing frame, largest ULP first
     std::vector<FrameCount> counts;
+    PowerSummary power; ///< resync mode
     /// What diverges is legal by this rule, as far as was tried: the shader may be right and round otherwise.
     std::optional<Legal> wider_rule = {};
     std::optional<VerdictSummary> verdicts; ///< resync mode, search = cdt, no remedies

@@ -8,6 +8,7 @@
 #include "crosscheck/judge/item_cause.hpp"
 #include "crosscheck/judge/item_judge.hpp"
 #include "crosscheck/judge/item_table.hpp"
+#include "crosscheck/judge/power.hpp"
 #include "gpu/system_side.hpp"
 #include "reference/model/error.hpp"
 #include "reference/model/state_hash.hpp"
@@ -141,6 +142,7 @@ CheckReport check(const System& system, SystemSide& gpu, const CheckOptions& opt
     std::vector<ItemCauseFinder> causes;
     for (std::size_t p = 0; p < system.passes.size(); ++p)
         causes.emplace_back(system.mistakes);
+    PowerMeter power(system.mistakes);
     std::vector<SystemState> earlier(system.passes.size()); // what each pass started from, a frame ago
     SystemState before = system.start, now = system.start, reference = system.start;
     std::uint64_t changed = 0;
@@ -199,6 +201,11 @@ CheckReport check(const System& system, SystemSide& gpu, const CheckOptions& opt
                 report.total.add(comparison);
                 changed += changed_items(from[r], std::as_const(made)[r]);
             }
+            if (judged) {
+                const Stopwatch watch(times.power);
+                const View reference_view = std::as_const(made)[r];
+                power.add({pass, profile, known, frame, from, reference_view, reference_view}, {});
+            }
             if (judged && comparison.differing(r) > 0) {
                 const Stopwatch watch(times.judge);
                 const SystemView earlier_view = frame > 0 ? earlier[p].view() : SystemView();
@@ -243,6 +250,7 @@ CheckReport check(const System& system, SystemSide& gpu, const CheckOptions& opt
                 of_buffer = found;
         }
         report.verdicts = summary;
+        report.power = power.summary();
     }
     report.verdict = verdict_on(report);
     if (report.verdict != Verdict::divergent && report.verdict != Verdict::differ)

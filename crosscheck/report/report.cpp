@@ -91,6 +91,7 @@ FrameTimes total_times(const CheckReport& r) {
         sum.reference += t.reference;
         sum.compare += t.compare;
         sum.judge += t.judge;
+        sum.power += t.power;
     }
     return sum;
 }
@@ -274,6 +275,22 @@ std::string verdict_words(const CheckReport& r) {
     return words;
 }
 
+namespace {
+
+/// "71 of 77 mistakes would have shown; not: a, b, c and 3 more".
+std::string power_line(const PowerSummary& power) {
+    constexpr std::size_t most_named = 4;
+    std::string text =
+        fmt::format("{} of {} named mistakes in the step would have shown", power.seen(), power.mistakes);
+    for (std::size_t i = 0; i < std::min(power.unseen.size(), most_named); ++i)
+        text += fmt::format("{}{}", i == 0 ? "; not: " : ", ", power.unseen[i]);
+    if (power.unseen.size() > most_named)
+        text += fmt::format(" and {} more", power.unseen.size() - most_named);
+    return text;
+}
+
+} // namespace
+
 std::string report_text(const CheckReport& r, const RunDescription& run) {
     std::string out;
     const auto line = [&](std::string_view key, std::string_view text) { out += fmt::format("{:<10}{}\n", key, text); };
@@ -286,13 +303,16 @@ std::string report_text(const CheckReport& r, const RunDescription& run) {
     line("compared", fmt::format("{}; {} hits, {} texels drawn, {} NaN", compared_text(r), grouped(r.hits),
                                  grouped(r.drawn_texels), grouped(nan_count(r.total))));
     const FrameTimes seconds = total_times(r);
-    line("time", fmt::format("GL frames {:.2f} s, readback {:.2f} s, reference {:.2f} s, comparison {:.2f} s, "
-                             "verdicts {:.2f} s",
-                             seconds.gpu, seconds.readback, seconds.reference, seconds.compare, seconds.judge));
+    line("time",
+         fmt::format("GL frames {:.2f} s, readback {:.2f} s, reference {:.2f} s, comparison {:.2f} s, "
+                     "verdicts {:.2f} s, power {:.2f} s",
+                     seconds.gpu, seconds.readback, seconds.reference, seconds.compare, seconds.judge, seconds.power));
     if (r.verdict != Verdict::nondeterministic)
         line("hash", r.reference_hash == r.gpu_hash
                          ? fmt::format("{} on both sides after the last frame", hash_text(r.gpu_hash))
                          : fmt::format("reference {}, GPU {}", hash_text(r.reference_hash), hash_text(r.gpu_hash)));
+    if (r.power.mistakes > 0)
+        line("power", power_line(r.power));
     line("render", render_line(r, run));
     if (r.rendered)
         for (const std::string& detail : render_details(*r.rendered))
@@ -393,6 +413,7 @@ nlohmann::json report_json(const CheckReport& r, const RunDescription& run) {
                 {"verdict_line", verdict_line(r)},
                 {"partial", r.partial()},
                 {"judged", r.verdicts.has_value()},
+                {"power", {{"mistakes", r.power.mistakes}, {"seen", r.power.seen()}, {"unseen", r.power.unseen}}},
                 {"legal_by", r.wider_rule ? json(legal_option_text(*r.wider_rule).substr(1)) : json()},
                 {"untried", r.untried},
                 {"scene", run.scene},
@@ -417,7 +438,8 @@ nlohmann::json report_json(const CheckReport& r, const RunDescription& run) {
                   {"readback", seconds.readback},
                   {"reference", seconds.reference},
                   {"compare", seconds.compare},
-                  {"judge", seconds.judge}}},
+                  {"judge", seconds.judge},
+                  {"power", seconds.power}}},
                 {"verdicts", r.verdicts ? verdict_json(*r.verdicts, r.schema, run.width) : json()},
                 {"repeat", run.repeat},
                 {"notes", run.notes},

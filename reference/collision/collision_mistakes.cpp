@@ -186,4 +186,22 @@ std::optional<Mistake> step_mistake(Deviation deviation) {
                    .source = row->source != nullptr ? row->source->id : 0};
 }
 
+bool has_site(std::string_view pass, std::uint32_t site) {
+    using namespace lockstep::site;
+    static constexpr std::array<std::uint32_t, 12> of_listing{
+        perspective_divide.id, half.id,           base_by_floor.id, scale.id,
+        texture_coordinate.id, own_from_texel.id, own_texel.id,     own_texel_skipped.id,
+        neighbour.id,          phantom.id,        own_position.id,  zero_distance_hits.id};
+    static constexpr std::array<std::uint32_t, 14> of_images{
+        proj_view.id, client_size.id,     texel_collide_range.id, clip.id,           ndc.id,
+        rows.id,      columns.id,         image_position.id,      holds_particle.id, stored.id,
+        box_low.id,   stored_position.id, scaled_to_box.id,       base_texel.id};
+    const auto among = [&](const auto& sites) { return std::find(sites.begin(), sites.end(), site) != sites.end(); };
+    if (pass == "collision_pass")
+        return true;
+    if (pass == "octree_pass" && site == zero_distance_hits.id)
+        return true;
+    return !among(of_listing) && !(pass == "octree_pass" && among(of_images));
+}
+
 } // namespace lockstep

@@ -1,4 +1,5 @@
 #pragma once
+#include <cstdint>
 #include <optional>
 #include <span>
 #include <string_view>
@@ -20,5 +21,8 @@ struct SearchMistake {
     Mistake mistake;
 };
 std::span<const SearchMistake> search_mistakes();
+
+/// Whether the step of this search comes by a site at all: the octree's projects nothing.
+bool has_site(std::string_view pass, std::uint32_t site);
 
 } // namespace lockstep

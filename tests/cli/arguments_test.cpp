@@ -123,7 +123,7 @@ TEST_CASE("arguments: a file without a name is refused, wherever one can be give
 
 TEST_CASE("arguments: an option that the side or the verb would ignore is refused") {
     check_all({
-        {{"render", scene, "-o", "x.png", "--gl", "osmesa"}, "render: --gl goes with --side gpu"},
+        {{"render", scene, "-o", "x.png", "--gl", test::software_gl()}, "render: --gl goes with --side gpu"},
         {{"render", scene, "-o", "x.png", "--shaders", "."}, "render: --shaders goes with --side gpu"},
         {{"render", scene, "-o", "x.png", "--side", "gpu", "--profile", "bogus"},
          "render: --profile goes with --side cpu"},
@@ -181,14 +181,14 @@ TEST_CASE("arguments: a setting that cannot be is told with what can") {
 }
 
 TEST_CASE("arguments: the command that repeats a run names a file that begins with a dash so that it is none") {
-    if (!test::have_osmesa())
+    if (!test::have_software_gl())
         return;
     const test::TemporaryFolder folder;
     folder.write("-a b.json", test::small_scene);
     test::Surroundings there;
     there.folder = folder.path();
-    const auto outcome =
-        run_lockstep({"check", "--gl", "osmesa", "--frames", "2", "--json", "r.json", "--", "-a b.json"}, there);
+    const auto outcome = run_lockstep(
+        {"check", "--gl", test::software_gl(), "--frames", "2", "--json", "r.json", "--", "-a b.json"}, there);
     CHECK(outcome.status == 0);
     std::ifstream stream(folder.path() / "r.json");
     const std::string report(std::istreambuf_iterator<char>(stream), {});

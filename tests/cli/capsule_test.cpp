@@ -24,7 +24,7 @@ struct Setting {
     std::string file = (folder.path() / "capsule.json").string();
 
     [[nodiscard]] std::vector<std::string> live(const char* verb) const {
-        return test::joined({verb, scene, "--gl", "osmesa"}, test::shader_options(shaders));
+        return test::joined({verb, scene, "--gl", test::software_gl()}, test::shader_options(shaders));
     }
     [[nodiscard]] test::Outcome cut(std::vector<std::string> from, const std::string& frame,
                                     const std::string& particle) const {
@@ -33,7 +33,7 @@ struct Setting {
         return run_lockstep(arguments);
     }
     [[nodiscard]] test::Outcome cut_live(const std::string& frame, const std::string& particle) const {
-        return cut(test::joined({scene, "--gl", "osmesa"}, test::shader_options(shaders)), frame, particle);
+        return cut(test::joined({scene, "--gl", test::software_gl()}, test::shader_options(shaders)), frame, particle);
     }
     [[nodiscard]] test::Outcome show() const { return run_lockstep({"capsule", "show", file}); }
 };
@@ -56,7 +56,7 @@ std::string first_particle(const std::string& report) {
 } // namespace
 
 TEST_CASE("capsule: cut out of a live run, it tells what explain tells, without GL") {
-    if (!test::have_osmesa())
+    if (!test::have_software_gl())
         return;
     const Setting setting;
     for (const char* particle : {"0", "17", "123"}) {
@@ -64,21 +64,21 @@ TEST_CASE("capsule: cut out of a live run, it tells what explain tells, without 
         const test::Outcome shown = setting.show();
         CHECK(shown.status == 0);
         CHECK(shown.err.empty());
-        const test::Outcome explained =
-            run_lockstep({"explain", setting.scene, "--gl", "osmesa", "--frame", "4", "--particle", particle});
+        const test::Outcome explained = run_lockstep(
+            {"explain", setting.scene, "--gl", test::software_gl(), "--frame", "4", "--particle", particle});
         CHECK(verdict_of(shown.out) == verdict_of(explained.out));
         CHECK_THAT(shown.out, Contains("every bit agrees") && Contains("texture coordinate.x"));
     }
 }
 
 TEST_CASE("capsule: of a planted bug it names the wrong operation anywhere, from a live run and from a trace") {
-    if (!test::have_osmesa())
+    if (!test::have_software_gl())
         return;
     const Setting setting;
     test::plant(setting.shaders, "collision_pass.vert", "v_Speed = product(a_Speed, u_SpeedFactor);",
                 "v_Speed = product(a_Speed, 0.5);");
-    const test::Outcome checked =
-        run_lockstep({"check", setting.scene, "--gl", "osmesa", "--shaders", setting.shaders.path(), "--frames", "4"});
+    const test::Outcome checked = run_lockstep(
+        {"check", setting.scene, "--gl", test::software_gl(), "--shaders", setting.shaders.path(), "--frames", "4"});
     REQUIRE(checked.status == 1);
     const std::string particle = first_particle(checked.out);
     const std::string frame = checked.out.substr(checked.out.find("--frame ") + 8, 1);
@@ -88,8 +88,8 @@ TEST_CASE("capsule: of a planted bug it names the wrong operation anywhere, from
     CHECK(live.status == 1);
     CHECK_THAT(live.out, Contains("first     speed: ") && Contains(": divergent\n") && Contains("DIVERGENT"));
 
-    REQUIRE(run_lockstep({"record", setting.scene, "--gl", "osmesa", "--shaders", setting.shaders.path(), "--cdt",
-                          "--frames", "4", "-o", setting.trace})
+    REQUIRE(run_lockstep({"record", setting.scene, "--gl", test::software_gl(), "--shaders", setting.shaders.path(),
+                          "--cdt", "--frames", "4", "-o", setting.trace})
                 .status == 0);
     CHECK(setting.cut({"--trace", setting.trace}, frame, particle).status == 1);
     const test::Outcome recorded = setting.show();
@@ -99,15 +99,15 @@ TEST_CASE("capsule: of a planted bug it names the wrong operation anywhere, from
     CHECK(of_live.substr(0, of_live.find("first ")) == of_recorded.substr(0, of_recorded.find("first ")));
 
     // Without the CDT too, as long as the reference draws what the GPU drew.
-    REQUIRE(run_lockstep({"record", setting.scene, "--gl", "osmesa", "--shaders", setting.shaders.path(), "--frames",
-                          "4", "-o", setting.trace})
+    REQUIRE(run_lockstep({"record", setting.scene, "--gl", test::software_gl(), "--shaders", setting.shaders.path(),
+                          "--frames", "4", "-o", setting.trace})
                 .status == 0);
     CHECK(setting.cut({"--trace", setting.trace}, frame, particle).status == 1);
     CHECK(verdict_of(setting.show().out) == of_recorded);
 }
 
 TEST_CASE("capsule: at most 100 kB, in every preset, format and at a wide radius") {
-    if (!test::have_osmesa())
+    if (!test::have_software_gl())
         return;
     const Setting setting;
     for (const std::vector<std::string>& options :
@@ -115,7 +115,7 @@ TEST_CASE("capsule: at most 100 kB, in every preset, format and at a wide radius
                                                {"--preset", "exact"},
                                                {"--set", "cdt_format=rgba8"},
                                                {"--set", "cdt_format=rgba16f", "--set", "texel_collide_range=8"}}) {
-        std::vector<std::string> from{setting.scene, "--gl", "osmesa"};
+        std::vector<std::string> from{setting.scene, "--gl", test::software_gl()};
         from.insert(from.end(), options.begin(), options.end());
         CHECK(setting.cut(from, "7", "42").status == 0);
         CHECK(std::filesystem::file_size(setting.file) <= 100'000);
@@ -124,13 +124,13 @@ TEST_CASE("capsule: at most 100 kB, in every preset, format and at a wide radius
 }
 
 TEST_CASE("capsule: a step of the octree, and one with remedies, says what the run's says") {
-    if (!test::have_osmesa())
+    if (!test::have_software_gl())
         return;
     const Setting setting;
     for (const char* search : {"search=octree", "cdt_layers=2", "cdt_cameras=2"})
         for (const char* particle : {"3", "42", "117"}) {
             INFO(search << " " << particle);
-            const std::vector<std::string> from{setting.scene, "--gl", "osmesa", "--set", search};
+            const std::vector<std::string> from{setting.scene, "--gl", test::software_gl(), "--set", search};
             REQUIRE(setting.cut(from, "3", particle).status == 0);
             const test::Outcome shown = setting.show();
             CHECK(shown.status == 0);
@@ -139,7 +139,7 @@ TEST_CASE("capsule: a step of the octree, and one with remedies, says what the r
 }
 
 TEST_CASE("capsule: what cannot be cut or read is refused in a line, and no file is left") {
-    if (!test::have_osmesa())
+    if (!test::have_software_gl())
         return;
     const Setting setting;
     CHECK_THAT(refusal(setting.cut_live("3", "300")), Contains("300"));

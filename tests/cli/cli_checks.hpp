@@ -42,9 +42,9 @@ class SceneSetting {
     TemporaryFolder folder, shaders;
     std::string scene = folder.write("scene.json", small_scene).string();
 
-    /// The verb on the scene with these shaders, on OSMesa.
+    /// The verb on the scene with these shaders, on the software GL.
     [[nodiscard]] std::vector<std::string> command(const std::vector<std::string>& options = {}) const {
-        return joined(joined({verb_, scene, "--gl", "osmesa"}, shader_options(shaders)), options);
+        return joined(joined({verb_, scene, "--gl", test::software_gl()}, shader_options(shaders)), options);
     }
 
   private:
@@ -69,8 +69,8 @@ inline std::vector<std::string> names_in(const std::filesystem::path& folder) {
     return names;
 }
 
-/// Whether OSMesa is there; if not, the test is skipped with the reason.
-inline bool have_osmesa() { return open_context("osmesa").has_value(); }
+/// Whether the software GL is there; if not, the test is skipped with the reason.
+inline bool have_software_gl() { return open_context(software_gl()).has_value(); }
 
 /// And whether a program can be given a terminal: a container without /dev/pts has none.
 inline bool have_terminal() {

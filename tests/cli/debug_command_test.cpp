@@ -54,7 +54,7 @@ std::string label(const std::string& row) { return row.substr(2, row.find("  ", 
 } // namespace
 
 TEST_CASE("debug_command: frame, particle and texel choose the place") {
-    if (!test::have_osmesa())
+    if (!test::have_software_gl())
         return;
     const Setting setting;
     CHECK(setting.told("frame 2\n") == "frame 2: particles: none differ; texels: none differ\n");
@@ -67,7 +67,7 @@ TEST_CASE("debug_command: frame, particle and texel choose the place") {
 }
 
 TEST_CASE("debug_command: step and back walk the table that show prints") {
-    if (!test::have_osmesa())
+    if (!test::have_software_gl())
         return;
     const Setting setting;
     const std::string shown = setting.told("frame 2\nparticle 17\nshow\n");
@@ -85,7 +85,7 @@ TEST_CASE("debug_command: step and back walk the table that show prints") {
 }
 
 TEST_CASE("debug_command: next finds fetches of this particle") {
-    if (!test::have_osmesa())
+    if (!test::have_software_gl())
         return;
     const Setting setting;
     const std::vector<std::string> rows = lines(setting.told("frame 1\nnext fetch\nnext fetch\nback\n"));
@@ -97,7 +97,7 @@ TEST_CASE("debug_command: next finds fetches of this particle") {
 }
 
 TEST_CASE("debug_command: next difference and next divergence go to the first of them, wherever it is") {
-    if (!test::have_osmesa())
+    if (!test::have_software_gl())
         return;
     const Setting setting;
     CHECK(setting.error("next difference\n", {"--frames", "3"}) ==
@@ -108,15 +108,15 @@ TEST_CASE("debug_command: next difference and next divergence go to the first of
                                      "particle \\d+ in frame \\d+: divergent\n  legal outcome 1 of (.|\n)*"
                                      "  texel \\(\\d+, \\d+\\): \"not taken\" follows from .*\n"
                                      "> .* (DIVERGENT|follows)\n(particle \\d+\n)+(.|\n)*"));
-    const std::string check =
-        run_lockstep({"check", setting.scene, "--frames", "8", "--gl", "osmesa", "--shaders", setting.shaders.path()})
-            .out;
+    const std::string check = run_lockstep({"check", setting.scene, "--frames", "8", "--gl", test::software_gl(),
+                                            "--shaders", setting.shaders.path()})
+                                  .out;
     const std::string place = found.substr(0, found.find('\n'));
     CHECK_THAT(check, Catch::Contains("first     " + place + ", divergent"));
 }
 
 TEST_CASE("debug_command: next nan goes to the next NaN") {
-    if (!test::have_osmesa())
+    if (!test::have_software_gl())
         return;
     const Setting setting;
     test::plant(setting.shaders, "collision_pass.vert", "v_Dir = ls_normalize(temp);",
@@ -127,7 +127,7 @@ TEST_CASE("debug_command: next nan goes to the next NaN") {
 }
 
 TEST_CASE("debug_command: set runs the same frame with another switch, on both sides") {
-    if (!test::have_osmesa())
+    if (!test::have_software_gl())
         return;
     const Setting setting;
     const std::string script = "frame 3\nset arithmetic=exact\nset collision_range=0.2\nparticle 3\nshow\n";
@@ -136,14 +136,14 @@ TEST_CASE("debug_command: set runs the same frame with another switch, on both s
                                        "frame 3: particles: none differ; texels: none differ\n"
                                        "frame 3: particles: none differ; texels: none differ\n"));
     const test::Outcome explained =
-        run_lockstep({"explain", setting.scene, "--gl", "osmesa", "--frame", "3", "--particle", "3", "--set",
+        run_lockstep({"explain", setting.scene, "--gl", test::software_gl(), "--frame", "3", "--particle", "3", "--set",
                       "arithmetic=exact", "--set", "collision_range=0.2"});
     const std::string table = explained.out.substr(explained.out.find("particle 3 in frame 3"));
     CHECK_THAT(told, Catch::EndsWith(table));
 }
 
 TEST_CASE("debug_command: help names every command; quit, and the end of the input, end it") {
-    if (!test::have_osmesa())
+    if (!test::have_software_gl())
         return;
     const Setting setting;
     const std::string help = setting.told("help\n");
@@ -156,7 +156,7 @@ TEST_CASE("debug_command: help names every command; quit, and the end of the inp
 }
 
 TEST_CASE("debug_command: what cannot be done is told with the line of the script, and ends it") {
-    if (!test::have_osmesa())
+    if (!test::have_software_gl())
         return;
     const Setting setting;
     CHECK(setting.error("\n# first\nnonsense\n") == "line 3: unknown command 'nonsense'; the commands are frame, "
@@ -168,7 +168,7 @@ TEST_CASE("debug_command: what cannot be done is told with the line of the scrip
 }
 
 TEST_CASE("debug_command: on a terminal there is a prompt, and an error does not end it") {
-    if (!test::have_osmesa() || !test::have_terminal())
+    if (!test::have_software_gl() || !test::have_terminal())
         return;
     const Setting setting;
     const std::string shown =

@@ -16,8 +16,8 @@ test::Outcome checked(const std::string& format, const std::string& obstacles, c
     const test::TemporaryFolder folder, shaders;
     test::plant(shaders, file, encoded, stored);
     return test::run_lockstep({"check", "data/scenes/lattice.json", "--particles", "500", "--frames", "8", "--gl",
-                               "osmesa", "--set", "cdt_format=" + format, "--set", "obstacles_in_cdt=" + obstacles,
-                               "--shaders", shaders.path().string()});
+                               test::software_gl(), "--set", "cdt_format=" + format, "--set",
+                               "obstacles_in_cdt=" + obstacles, "--shaders", shaders.path().string()});
 }
 
 struct Format {
@@ -44,7 +44,7 @@ std::string with_position(std::string text, const std::string& position) {
 } // namespace
 
 TEST_CASE("driver converts: a fragment stage that stores plain floats is LEGAL in every format, with a hint") {
-    if (!test::have_osmesa())
+    if (!test::have_software_gl())
         return;
     for (const Stage& stage : stages)
         for (const Format& format : formats) {
@@ -64,7 +64,7 @@ TEST_CASE("driver converts: a fragment stage that stores plain floats is LEGAL i
 }
 
 TEST_CASE("driver converts: components swapped, codes two off or an encoder of one's own that is off are DIVERGENT") {
-    if (!test::have_osmesa())
+    if (!test::have_software_gl())
         return;
     const auto divergent = [](const char* format, const Stage& stage, const std::string& stored) {
         INFO(stage.file << " " << format << " " << stored);

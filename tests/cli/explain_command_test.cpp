@@ -40,7 +40,7 @@ std::string after(const std::string& text, const std::string& mark) {
 } // namespace
 
 TEST_CASE("explain_command: a particle's table, from clip position to the texel's owner") {
-    if (!test::have_osmesa())
+    if (!test::have_software_gl())
         return;
     const Setting setting;
     const test::Outcome outcome = setting.explain({"--frame", "2", "--particle", "17"});
@@ -79,12 +79,12 @@ TEST_CASE("explain_command: a particle's table, from clip position to the texel'
 }
 
 TEST_CASE("explain_command: check's first divergence names the command that shows it again") {
-    if (!test::have_osmesa())
+    if (!test::have_software_gl())
         return;
     const Setting setting;
     const auto check = [&] {
-        return run_lockstep(
-            {"check", setting.scene, "--frames", "6", "--gl", "osmesa", "--shaders", setting.shaders.path()});
+        return run_lockstep({"check", setting.scene, "--frames", "6", "--gl", test::software_gl(), "--shaders",
+                             setting.shaders.path()});
     };
     CHECK_THAT(check().out, !Catch::Contains("again: "));
     SECTION("a particle") {
@@ -130,7 +130,7 @@ TEST_CASE("explain_command: what cannot be explained is told in one line") {
 }
 
 TEST_CASE("explain_command: a step of the octree, and one with remedies, value by value along its twin") {
-    if (!test::have_osmesa())
+    if (!test::have_software_gl())
         return;
     const Setting setting;
     for (const char* search : {"search=octree", "cdt_layers=2"}) {
@@ -146,7 +146,7 @@ TEST_CASE("explain_command: a step of the octree, and one with remedies, value b
 }
 
 TEST_CASE("explain_command: a trace build that does not compile is told with file and line") {
-    if (!test::have_osmesa())
+    if (!test::have_software_gl())
         return;
     const Setting setting;
     test::plant(setting.shaders, "collision_pass.vert", "void start_trace() {", "void start_trace() { nonsense;");
@@ -155,6 +155,7 @@ TEST_CASE("explain_command: a trace build that does not compile is told with fil
     CHECK_THAT(outcome.err,
                Catch::StartsWith("lockstep: shader " + (setting.shaders.path() / "collision_pass.vert:").string()) &&
                    Catch::Contains("nonsense"));
-    CHECK(run_lockstep({"check", setting.scene, "--frames", "2", "--gl", "osmesa", "--shaders", setting.shaders.path()})
+    CHECK(run_lockstep({"check", setting.scene, "--frames", "2", "--gl", test::software_gl(), "--shaders",
+                        setting.shaders.path()})
               .status == 0);
 }

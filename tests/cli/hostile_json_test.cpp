@@ -40,7 +40,7 @@ TEST_CASE("hostile json: what is nested 60,000 deep is one line of error whereve
 }
 
 TEST_CASE("hostile json: and in a debug session, which goes on from there") {
-    if (!test::have_osmesa())
+    if (!test::have_software_gl())
         return;
     const test::SceneSetting setting("debug");
     const auto outcome =

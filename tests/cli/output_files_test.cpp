@@ -27,7 +27,7 @@ struct Setting {
     [[nodiscard]] std::string path(const std::string& name) const { return (output.path() / name).string(); }
     [[nodiscard]] test::Outcome check(const std::vector<std::string>& outputs,
                                       const test::Surroundings& surroundings = {}) const {
-        std::vector<std::string> arguments{"check", scene, "--gl", "osmesa"};
+        std::vector<std::string> arguments{"check", scene, "--gl", test::software_gl()};
         arguments.insert(arguments.end(), outputs.begin(), outputs.end());
         return run_lockstep(arguments, surroundings);
     }
@@ -56,7 +56,7 @@ void check_full(const test::Outcome& outcome, const std::string& file) {
 } // namespace
 
 TEST_CASE("output_files: all that was asked for is there after a run") {
-    if (!test::have_osmesa())
+    if (!test::have_software_gl())
         return;
     const Setting setting;
     CHECK(setting
@@ -105,7 +105,7 @@ TEST_CASE("output_files: what cannot be written is told before the run") {
 }
 
 TEST_CASE("output_files: on a full disk there is the verdict, one line of error, and no file") {
-    if (!test::have_osmesa())
+    if (!test::have_software_gl())
         return;
     const Setting setting;
     const std::string report = setting.path("report.json");
@@ -134,7 +134,7 @@ TEST_CASE("output_files: on a full disk there is the verdict, one line of error,
 }
 
 TEST_CASE("output_files: a file from before stays when the new one cannot be written") {
-    if (!test::have_osmesa())
+    if (!test::have_software_gl())
         return;
     const Setting setting;
     const std::string report = setting.output.write("report.json", "from before").string();
@@ -156,7 +156,7 @@ TEST_CASE("output_files: through a symbolic link, the file behind it is written"
 }
 
 TEST_CASE("output_files: where one of them fails, what was there before is there again") {
-    if (!test::have_osmesa())
+    if (!test::have_software_gl())
         return;
     const Setting setting;
     const std::string report = setting.output.write("report.json", "from before").string();
@@ -222,7 +222,7 @@ TEST_CASE("output_files: a file that was there keeps its mode") {
 }
 
 TEST_CASE("output_files: a report goes beside whatever is there") {
-    if (!test::have_osmesa())
+    if (!test::have_software_gl())
         return;
     const Setting setting;
     fs::create_directory(setting.path("lockstep"));
@@ -236,7 +236,7 @@ TEST_CASE("output_files: a name as long as a folder takes") {
 }
 
 TEST_CASE("output_files: to standard output, after the report; by another name of it, refused") {
-    if (!test::have_osmesa())
+    if (!test::have_software_gl())
         return;
     const Setting setting;
     const std::string out = setting.output.write("out", "").string();
@@ -251,7 +251,7 @@ TEST_CASE("output_files: to standard output, after the report; by another name o
 }
 
 TEST_CASE("output_files: they are there where nobody reads the report, or it cannot be written") {
-    if (!test::have_osmesa())
+    if (!test::have_software_gl())
         return;
     const Setting setting;
     const std::string report = setting.path("report.json");

@@ -37,7 +37,7 @@ std::vector<std::vector<std::string>> commands_on_listing(const std::string& ver
 } // namespace
 
 TEST_CASE("own shader page: the example that starts from the thesis's listing agrees in every bit") {
-    if (!test::have_osmesa())
+    if (!test::have_software_gl())
         return;
     const auto commands = commands_on_listing("check");
     REQUIRE(commands.size() == 1);
@@ -47,7 +47,7 @@ TEST_CASE("own shader page: the example that starts from the thesis's listing ag
 }
 
 TEST_CASE("own shader page: explain shows the example's own output") {
-    if (!test::have_osmesa())
+    if (!test::have_software_gl())
         return;
     const auto commands = commands_on_listing("explain");
     REQUIRE(commands.size() == 1);

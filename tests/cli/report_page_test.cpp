@@ -31,7 +31,7 @@ struct Setting {
     std::string folder = (output.path() / "report").string();
 
     [[nodiscard]] test::Outcome check(const std::vector<std::string>& more = {}) const {
-        std::vector<std::string> arguments{"check", scene, "--gl", "osmesa", "--report", folder};
+        std::vector<std::string> arguments{"check", scene, "--gl", test::software_gl(), "--report", folder};
         arguments.insert(arguments.end(), more.begin(), more.end());
         test::Surroundings surroundings;
         surroundings.environment = {{"LOCKSTEP_DATA", data.path().string()}};
@@ -77,7 +77,7 @@ TEST_CASE("report page: a template without a place for data is refused before th
 }
 
 TEST_CASE("report page: one file with the run's data, the template round it") {
-    if (!test::have_osmesa())
+    if (!test::have_software_gl())
         return;
     const Setting setting;
     CHECK(setting.check({"--frames", "5"}).status == 0);
@@ -88,11 +88,12 @@ TEST_CASE("report page: one file with the run's data, the template round it") {
     CHECK(head.at("width") == 64);
     CHECK(head.at("frames").size() == 5);
     CHECK(head.at("items").size() > 0);
-    CHECK(head.at("commands").at(0).at("line") == "lockstep check " + setting.scene + " --frames 5 --gl osmesa");
+    CHECK(head.at("commands").at(0).at("line") ==
+          "lockstep check " + setting.scene + " --frames 5 --gl " + test::software_gl());
 }
 
 TEST_CASE("report page: nothing in the data ends its element") {
-    if (!test::have_osmesa())
+    if (!test::have_software_gl())
         return;
     Setting setting;
     fs::create_directory(setting.input.path() / "<");
@@ -103,7 +104,7 @@ TEST_CASE("report page: nothing in the data ends its element") {
 }
 
 TEST_CASE("report page: a planted bug is named, and its items are listed with the wrong step") {
-    if (!test::have_osmesa())
+    if (!test::have_software_gl())
         return;
     const Setting setting;
     const test::TemporaryFolder shaders;
@@ -127,7 +128,7 @@ TEST_CASE("report page: a planted bug is named, and its items are listed with th
 }
 
 TEST_CASE("report page: of a trace, by check or by report, with its step tables and command lines") {
-    if (!test::have_osmesa())
+    if (!test::have_software_gl())
         return;
     const Setting setting;
     const test::TemporaryFolder shaders;
@@ -135,8 +136,8 @@ TEST_CASE("report page: of a trace, by check or by report, with its step tables 
     const std::string trace = (setting.input.path() / "run.h5").string();
     test::Surroundings surroundings;
     surroundings.environment = {{"LOCKSTEP_DATA", setting.data.path().string()}};
-    REQUIRE(run_lockstep({"record", setting.scene, "--gl", "osmesa", "--shaders", shaders.path(), "--frames", "8",
-                          "--cdt", "-o", trace})
+    REQUIRE(run_lockstep({"record", setting.scene, "--gl", test::software_gl(), "--shaders", shaders.path(), "--frames",
+                          "8", "--cdt", "-o", trace})
                 .status == 0);
     CHECK(run_lockstep({"check", "--trace", trace, "--report", setting.folder, "--quiet"}, surroundings).status == 1);
     const nlohmann::json checked = setting.head();
@@ -157,7 +158,7 @@ TEST_CASE("report page: of a trace, by check or by report, with its step tables 
 }
 
 TEST_CASE("report page: tells of the study that lies beside it; what is no study is refused before the run") {
-    if (!test::have_osmesa())
+    if (!test::have_software_gl())
         return;
     const Setting setting;
     fs::create_directory(setting.folder);
@@ -175,7 +176,7 @@ TEST_CASE("report page: tells of the study that lies beside it; what is no study
 }
 
 TEST_CASE("report page: a capsule that cannot be made is told on standard error, on the page and in JSON") {
-    if (!test::have_osmesa())
+    if (!test::have_software_gl())
         return;
     const Setting setting;
     const test::TemporaryFolder shaders;

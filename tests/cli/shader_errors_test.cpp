@@ -20,9 +20,9 @@ namespace {
 std::string refusal_of(const test::TemporaryFolder& shaders) {
     const test::TemporaryFolder folder;
     const auto scene = folder.write("scene.json", test::small_scene).string();
-    const test::Outcome outcome = run_lockstep({"check", scene, "--frames", "3", "--gl", "osmesa", "--shaders",
-                                                shaders.path(), "--json", folder.path() / "report.json", "--hashes",
-                                                folder.path() / "hashes", "--images", folder.path() / "images"});
+    const test::Outcome outcome = run_lockstep(
+        {"check", scene, "--frames", "3", "--gl", test::software_gl(), "--shaders", shaders.path(), "--json",
+         folder.path() / "report.json", "--hashes", folder.path() / "hashes", "--images", folder.path() / "images"});
     CHECK(test::names_in(folder.path()) == std::vector<std::string>{"scene.json"});
     return refusal(outcome);
 }
@@ -33,7 +33,7 @@ const test::Surroundings no_gl{
 } // namespace
 
 TEST_CASE("shader_errors: a shader that does not compile is told with file, line and the compiler's words") {
-    if (!test::have_osmesa())
+    if (!test::have_software_gl())
         return;
     const test::TemporaryFolder shaders;
     const auto file =
@@ -42,7 +42,7 @@ TEST_CASE("shader_errors: a shader that does not compile is told with file, line
 }
 
 TEST_CASE("shader_errors: an error in an included file is told there") {
-    if (!test::have_osmesa())
+    if (!test::have_software_gl())
         return;
     const test::TemporaryFolder shaders;
     test::plant(shaders, "collision_code.glsl", "vec3 decode_position(vec4 texel) {",
@@ -52,7 +52,7 @@ TEST_CASE("shader_errors: an error in an included file is told there") {
 }
 
 TEST_CASE("shader_errors: a line of 40,000 characters is read like any other, in a right shader and in a wrong one") {
-    if (!test::have_osmesa())
+    if (!test::have_software_gl())
         return;
     const test::TemporaryFolder folder, shaders;
     const auto scene = folder.write("scene.json", test::small_scene).string();
@@ -63,7 +63,8 @@ TEST_CASE("shader_errors: a line of 40,000 characters is read like any other, in
                 terms += " + 0.25";
             return terms;
         }() + "; uniform float u_Tick;");
-    const auto outcome = run_lockstep({"check", scene, "--frames", "3", "--gl", "osmesa", "--shaders", shaders.path()});
+    const auto outcome =
+        run_lockstep({"check", scene, "--frames", "3", "--gl", test::software_gl(), "--shaders", shaders.path()});
     CHECK(outcome.status == 0);
     const std::string name(50'000, 'x');
     test::plant(shaders, "collision_pass.frag", "void main() {", "void main() { " + name + ";");
@@ -71,7 +72,7 @@ TEST_CASE("shader_errors: a line of 40,000 characters is read like any other, in
 }
 
 TEST_CASE("shader_errors: a missing captured output is named") {
-    if (!test::have_osmesa())
+    if (!test::have_software_gl())
         return;
     const test::TemporaryFolder shaders;
     test::plant(shaders, "collision_pass.geom", "out float out_CollideTime;", "out float out_CollideTiem;");
@@ -84,7 +85,7 @@ TEST_CASE("shader_errors: a missing captured output is named") {
 }
 
 TEST_CASE("shader_errors: a misspelt uniform or attribute is told where it is declared, with what may be meant") {
-    if (!test::have_osmesa())
+    if (!test::have_software_gl())
         return;
     const test::TemporaryFolder shaders;
     const std::string file = "shader " + (shaders.path() / "collision_pass.vert").string();
@@ -126,7 +127,7 @@ TEST_CASE("shader_errors: a misspelt uniform or attribute is told where it is de
 }
 
 TEST_CASE("shader_errors: particles that are not passed on are no verdict") {
-    if (!test::have_osmesa())
+    if (!test::have_software_gl())
         return;
     const test::TemporaryFolder shaders;
     test::plant(shaders, "collision_pass.geom", "    EmitVertex();\n    EndPrimitive();\n", "");
@@ -136,11 +137,11 @@ TEST_CASE("shader_errors: particles that are not passed on are no verdict") {
 }
 
 TEST_CASE("shader_errors: a shader folder that is not there is named") {
-    if (!test::have_osmesa())
+    if (!test::have_software_gl())
         return;
     const test::TemporaryFolder folder;
     const auto scene = folder.write("scene.json", test::small_scene).string();
-    CHECK(refusal(run_lockstep({"check", scene, "--gl", "osmesa", "--shaders", "/nowhere"})) ==
+    CHECK(refusal(run_lockstep({"check", scene, "--gl", test::software_gl(), "--shaders", "/nowhere"})) ==
           "shader folder /nowhere does not exist");
 }
 
@@ -176,12 +177,12 @@ TEST_CASE("shader_errors: hash and render --side cpu need no GL") {
 }
 
 TEST_CASE("shader_errors: an octree where GL has no compute shaders is refused in one line") {
-    if (!test::have_osmesa())
+    if (!test::have_software_gl())
         return;
     const test::TemporaryFolder folder;
     const auto scene = folder.write("scene.json", test::small_scene).string();
-    const std::vector<std::string> arguments{"check", scene,    "--frames", "3",
-                                             "--gl",  "osmesa", "--set",    "search=octree"};
+    const std::vector<std::string> arguments{"check", scene,          "--frames", "3", "--gl", test::software_gl(),
+                                             "--set", "search=octree"};
     CHECK(run_lockstep(arguments).status == 0);
     CHECK(refusal(run_lockstep(arguments, {{{"GALLIUM_DRIVER", "softpipe"}}, {}, {}, {}})) ==
           "octree_pass: search = octree needs compute shaders and storage buffers, GL 4.3; this context is of an "
@@ -189,12 +190,12 @@ TEST_CASE("shader_errors: an octree where GL has no compute shaders is refused i
 }
 
 TEST_CASE("shader_errors: a shipped shader is named by its place among the shaders, not by the machine's path") {
-    if (!test::have_osmesa())
+    if (!test::have_software_gl())
         return;
     const test::TemporaryFolder data;
     std::filesystem::copy("shaders", data.path() / "shaders", std::filesystem::copy_options::recursive);
     const auto refused = [&] {
-        return refusal(run_lockstep({"check", "data/scenes/lattice.json", "--frames", "1", "--gl", "osmesa"},
+        return refusal(run_lockstep({"check", "data/scenes/lattice.json", "--frames", "1", "--gl", test::software_gl()},
                                     {.environment = {{"LOCKSTEP_DATA", data.path().string()}}}));
     };
     const auto break_shader = [&](const char* name, const std::string& text) {
@@ -210,7 +211,7 @@ TEST_CASE("shader_errors: a shipped shader is named by its place among the shade
 }
 
 TEST_CASE("shader_errors: a storage buffer that nobody binds is refused on a GL that cannot tell of it, too") {
-    if (!test::have_osmesa())
+    if (!test::have_software_gl())
         return;
     const test::TemporaryFolder shaders;
     test::plant(shaders, "collision_pass.frag", "flat in vec3 out_Position;",
@@ -221,9 +222,9 @@ TEST_CASE("shader_errors: a storage buffer that nobody binds is refused on a GL 
     test::plant(shaders, "collision_pass.frag", "encode_position(out_Position)",
                 "encode_position(out_Position + vec3(apart))");
     const auto run = [&](const test::Surroundings& surroundings) {
-        return run_lockstep(
-            {"check", "data/scenes/lattice.json", "--frames", "1", "--gl", "osmesa", "--shaders", shaders.path()},
-            surroundings);
+        return run_lockstep({"check", "data/scenes/lattice.json", "--frames", "1", "--gl", test::software_gl(),
+                             "--shaders", shaders.path()},
+                            surroundings);
     };
     CHECK_THAT(refusal(run({})), Catch::EndsWith("nothing is given for storage buffer Step"));
     const test::Outcome old = run({.environment = {{"MESA_GL_VERSION_OVERRIDE", "4.2"},

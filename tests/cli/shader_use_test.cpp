@@ -32,8 +32,8 @@ void write_own(const test::TemporaryFolder& folder, const std::string& file) {
 
 TEST_CASE("shader use: a folder of which nothing would run is status 2 with the names that would") {
     const test::SceneSetting setting("check");
-    const std::vector<std::string> check{"check", setting.scene, "--frames",  "2",
-                                         "--gl",  "osmesa",      "--shaders", setting.shaders.path()};
+    const std::vector<std::string> check{"check", setting.scene,       "--frames",  "2",
+                                         "--gl",  test::software_gl(), "--shaders", setting.shaders.path()};
     const std::string folder = "shader folder " + setting.shaders.path().string() + ": ";
     SECTION("empty, or without shaders") {
         CHECK_THAT(refusal(run_lockstep(check)),
@@ -56,8 +56,8 @@ TEST_CASE("shader use: a folder of which nothing would run is status 2 with the 
             write_own(setting.shaders, other);
             for (const char* verb : {"check", "explain", "bench", "record", "debug"}) {
                 INFO(verb);
-                std::vector<std::string> arguments{verb,     setting.scene, "--gl",
-                                                   "osmesa", "--shaders",   setting.shaders.path()};
+                std::vector<std::string> arguments{verb,        setting.scene,         "--gl", test::software_gl(),
+                                                   "--shaders", setting.shaders.path()};
                 if (verb == std::string("explain"))
                     arguments = test::joined(arguments, {"--frame", "1", "--particle", "1"});
                 if (verb == std::string("record"))
@@ -68,7 +68,7 @@ TEST_CASE("shader use: a folder of which nothing would run is status 2 with the 
 }
 
 TEST_CASE("shader use: the report has whose stages ran, file by file") {
-    if (!test::have_osmesa())
+    if (!test::have_software_gl())
         return;
     const test::SceneSetting setting("check");
     const std::string json = setting.folder.path() / "report.json";
@@ -100,7 +100,7 @@ TEST_CASE("shader use: the report has whose stages ran, file by file") {
 }
 
 TEST_CASE("shader use: the rendered frame is compared where that is asked for, and the report says where not") {
-    if (!test::have_osmesa())
+    if (!test::have_software_gl())
         return;
     const test::SceneSetting setting("check");
     CHECK_THAT(run_lockstep(setting.command({"--frames", "2"})).out,

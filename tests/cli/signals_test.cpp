@@ -49,9 +49,10 @@ TEST_CASE("signals: a crash leaves no file and no folder either") {
 }
 
 TEST_CASE("signals: a recording that one ends goes away") {
-    if (!test::have_osmesa())
+    if (!test::have_software_gl())
         return;
     const Setting setting;
     for (const int signal : {SIGINT, SIGTERM})
-        setting.ends_by(signal, {"record", "--gl", "osmesa", "--frames", "100000000", "-o", setting.path("run.h5")}, 1);
+        setting.ends_by(
+            signal, {"record", "--gl", test::software_gl(), "--frames", "100000000", "-o", setting.path("run.h5")}, 1);
 }

@@ -86,7 +86,7 @@ TEST_CASE("study: an option that its mode would ignore is refused") {
     refused({scene(), "--seconds", "3"}, "--seconds does not go with SCENE --side cpu");
     refused({scene(), "--counts", "3"}, "--counts does not go with SCENE --side cpu");
     refused({scene(), "--from", "a"}, "--from does not go with SCENE --side cpu");
-    refused({scene(), "--gl", "osmesa"}, "--gl does not go with SCENE --side cpu");
+    refused({scene(), "--gl", test::software_gl()}, "--gl does not go with SCENE --side cpu");
     refused({scene(), "--side", "gpu", "--profile", "nvidia"}, "--profile does not go with SCENE --side gpu");
     refused({"--thesis", "--from", "a", "--counts", "3"}, "--counts does not go with --thesis --from");
     CHECK_THAT(refusal(run_lockstep({"study", "--thesis", "--seconds", "nan"})),
@@ -118,7 +118,7 @@ TEST_CASE("study: a scene of the catalogue that is not there is named") {
 }
 
 TEST_CASE("study: the thesis's tables, measured, and told again from what was written") {
-    if (!test::have_osmesa())
+    if (!test::have_software_gl())
         return;
     const test::TemporaryFolder scenes, output;
     for (const char* name : {"bunny_a", "bunny_b", "dragon_a", "dragon_b", "x_streams"})
@@ -126,7 +126,7 @@ TEST_CASE("study: the thesis's tables, measured, and told again from what was wr
     const auto path = [&](const char* name) { return (output.path() / name).string(); };
     const auto measured =
         run_lockstep({"study", "--thesis", "--scenes", scenes.path().string(), "--counts", "100,200", "--frames", "2",
-                      "--gl", "osmesa", "--json", path("a.json"), "--csv", path("a.csv")});
+                      "--gl", test::software_gl(), "--json", path("a.json"), "--csv", path("a.csv")});
     CHECK(measured.err.empty());
     CHECK(measured.status == 0);
     CHECK(test::names_in(output.path()) == std::vector<std::string>{"a.csv", "a.json"});
@@ -135,15 +135,15 @@ TEST_CASE("study: the thesis's tables, measured, and told again from what was wr
     CHECK_THAT(told.out, Catch::StartsWith("GL ") && Catch::Contains("Figure 5-5"));
     CHECK_THAT(measured.out, Catch::Contains(" 2 ") && Catch::EndsWith(told.out));
 
-    const auto without = run_lockstep(
-        {"study", "--thesis", "--scenes", scenes.path().string(), "--counts", "100", "--frames", "1", "--gl", "osmesa"},
-        {{{"GALLIUM_DRIVER", "softpipe"}}});
+    const auto without = run_lockstep({"study", "--thesis", "--scenes", scenes.path().string(), "--counts", "100",
+                                       "--frames", "1", "--gl", test::software_gl()},
+                                      {{{"GALLIUM_DRIVER", "softpipe"}}});
     CHECK(without.status == 0);
     CHECK_THAT(without.out, Catch::StartsWith("no octree: it needs compute shaders, GL 4.3; this context is 3.3"));
 }
 
 TEST_CASE("study: the GL side, and the collision cameras") {
-    if (!test::have_osmesa())
+    if (!test::have_software_gl())
         return;
     const auto table = [&](std::vector<std::string> more) {
         more.insert(more.begin(), {"study", scene(), "--frames", "4"});
@@ -151,7 +151,7 @@ TEST_CASE("study: the GL side, and the collision cameras") {
         CHECK(outcome.status == 0);
         return outcome.out;
     };
-    CHECK(table({"--side", "gpu", "--gl", "osmesa"}) == table({"--profile", "llvmpipe"}));
+    CHECK(table({"--side", "gpu", "--gl", test::software_gl()}) == table({"--profile", "llvmpipe"}));
     const std::string cameras = table({"--cameras"});
     CHECK_THAT(cameras, Catch::StartsWith("| collision camera |") &&
                             Catch::Contains("\n| fixed behind | 0.00 | stands |") && Catch::Contains("\nHoles: "));
@@ -176,9 +176,9 @@ TEST_CASE("study: the remedies' table, with and without GL") {
     CHECK(test::names_in(output.path()) == std::vector<std::string>{"remedies.json"});
     CHECK_THAT(refusal(run_lockstep({"study", "--remedies", "--json", "/nowhere/a.json"})),
                Catch::Contains("/nowhere"));
-    if (!test::have_osmesa())
+    if (!test::have_software_gl())
         return;
-    const auto cost = run_lockstep({"study", "--remedies", "--particles", "3000", "--gl", "osmesa"});
+    const auto cost = run_lockstep({"study", "--remedies", "--particles", "3000", "--gl", test::software_gl()});
     CHECK(cost.status == 0);
     CHECK_THAT(cost.out, Catch::Contains("AGREE") && !Catch::Contains("DIFFER"));
 }

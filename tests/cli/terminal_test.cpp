@@ -23,11 +23,11 @@ const std::string bar = "check [";
 } // namespace
 
 TEST_CASE("terminal: a bar on a terminal, wiped at the end; none in a pipe, none when quiet") {
-    if (!test::have_osmesa() || !test::have_terminal())
+    if (!test::have_software_gl() || !test::have_terminal())
         return;
     const test::TemporaryFolder folder;
     const std::vector<std::string> check{
-        "check", folder.write("scene.json", test::small_scene).string(), "--frames", "5", "--gl", "osmesa"};
+        "check", folder.write("scene.json", test::small_scene).string(), "--frames", "5", "--gl", test::software_gl()};
     std::vector<std::string> quiet = check;
     quiet.emplace_back("--quiet");
 
@@ -41,15 +41,15 @@ TEST_CASE("terminal: a bar on a terminal, wiped at the end; none in a pipe, none
 }
 
 TEST_CASE("terminal: the bar keeps to one line, however narrow") {
-    if (!test::have_osmesa() || !test::have_terminal())
+    if (!test::have_software_gl() || !test::have_terminal())
         return;
     const test::TemporaryFolder folder;
     for (const unsigned short columns : std::array<unsigned short, 4>{120, 30, 12, 2}) {
         CAPTURE(columns);
         const std::string shown =
-            run_lockstep_on_terminal(
-                {"check", folder.write("scene.json", test::small_scene).string(), "--frames", "20", "--gl", "osmesa"},
-                "", "", columns)
+            run_lockstep_on_terminal({"check", folder.write("scene.json", test::small_scene).string(), "--frames", "20",
+                                      "--gl", test::software_gl()},
+                                     "", "", columns)
                 .out;
         const std::string wipe = "\r\x1b[K";
         std::size_t bars = 0;
@@ -65,13 +65,13 @@ TEST_CASE("terminal: the bar keeps to one line, however narrow") {
 }
 
 TEST_CASE("terminal: Ctrl-C ends with a verdict on the frames done so far, marked as partial, and status 130") {
-    if (!test::have_osmesa() || !test::have_terminal())
+    if (!test::have_software_gl() || !test::have_terminal())
         return;
     const test::TemporaryFolder folder;
     const test::TemporaryFolder shaders;
     std::vector<std::string> check{"check",    folder.write("scene.json", test::small_scene).string(),
                                    "--frames", "100000000",
-                                   "--gl",     "osmesa",
+                                   "--gl",     test::software_gl(),
                                    "--json",   folder.path() / "report.json"};
     const auto report = [&] { return nlohmann::json::parse(std::ifstream(folder.path() / "report.json")); };
     SECTION("agreed so far") {

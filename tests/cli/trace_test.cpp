@@ -25,9 +25,10 @@ struct Setting {
     std::string file = (folder.path() / "run.h5").string();
 
     [[nodiscard]] test::Outcome record(const std::vector<std::string>& options = {}) const {
-        return run_lockstep(test::joined(test::joined({"record", scene, "--gl", "osmesa", "-o", file, "--frames", "6"},
-                                                      test::shader_options(shaders)),
-                                         options));
+        return run_lockstep(
+            test::joined(test::joined({"record", scene, "--gl", test::software_gl(), "-o", file, "--frames", "6"},
+                                      test::shader_options(shaders)),
+                         options));
     }
     [[nodiscard]] test::Outcome check(std::vector<std::string> options = {}) const {
         std::vector<std::string> arguments{"check", "--trace", file};
@@ -35,8 +36,8 @@ struct Setting {
         return run_lockstep(arguments);
     }
     [[nodiscard]] test::Outcome check_live() const {
-        return run_lockstep(
-            test::joined({"check", scene, "--gl", "osmesa", "--frames", "6"}, test::shader_options(shaders)));
+        return run_lockstep(test::joined({"check", scene, "--gl", test::software_gl(), "--frames", "6"},
+                                         test::shader_options(shaders)));
     }
 };
 
@@ -54,7 +55,7 @@ std::string lines(const std::string& report, const std::vector<std::string>& wor
 } // namespace
 
 TEST_CASE("record: what was recorded here is checked there, with the verdict of a live check") {
-    if (!test::have_osmesa())
+    if (!test::have_software_gl())
         return;
     const Setting setting;
     const test::Outcome recorded = setting.record({"--cdt"});
@@ -76,7 +77,7 @@ TEST_CASE("record: what was recorded here is checked there, with the verdict of 
 }
 
 TEST_CASE("record: a planted bug is found in the trace as it is live") {
-    if (!test::have_osmesa())
+    if (!test::have_software_gl())
         return;
     const Setting setting;
     test::plant(setting.shaders, "collision_pass.vert", "v_Speed = product(a_Speed, u_SpeedFactor);",
@@ -99,7 +100,7 @@ TEST_CASE("record: a planted bug is found in the trace as it is live") {
 }
 
 TEST_CASE("check trace: takes frames, mode, legal and files, and no option of a run here") {
-    if (!test::have_osmesa())
+    if (!test::have_software_gl())
         return;
     const Setting setting;
     REQUIRE(setting.record().status == 0);
@@ -115,7 +116,7 @@ TEST_CASE("check trace: takes frames, mode, legal and files, and no option of a 
     for (const std::vector<std::string>& option : std::vector<std::vector<std::string>>{{"--particles", "5"},
                                                                                         {"--preset", "paper"},
                                                                                         {"--set", "tick=1"},
-                                                                                        {"--gl", "osmesa"},
+                                                                                        {"--gl", test::software_gl()},
                                                                                         {"--shaders", "."},
                                                                                         {"--images", "pictures"}})
         CHECK_THAT(refusal(setting.check(option)), Contains(option.front() + " goes with a scene that is run here"));
@@ -136,19 +137,20 @@ TEST_CASE("check trace: what is no trace, or was damaged, is refused in a line")
 }
 
 TEST_CASE("record: what cannot be written is told before the run, and nothing is left") {
-    if (!test::have_osmesa())
+    if (!test::have_software_gl())
         return;
     const Setting setting;
-    CHECK_THAT(refusal(run_lockstep({"record", setting.scene, "--gl", "osmesa", "-o", "/dev/null"})),
+    CHECK_THAT(refusal(run_lockstep({"record", setting.scene, "--gl", test::software_gl(), "-o", "/dev/null"})),
                Contains("/dev/null: cannot be written: a trace is a regular file"));
-    CHECK_THAT(refusal(run_lockstep({"record", setting.scene, "--gl", "osmesa", "-o", setting.folder.path()})),
-               Contains("it names a folder"));
+    CHECK_THAT(
+        refusal(run_lockstep({"record", setting.scene, "--gl", test::software_gl(), "-o", setting.folder.path()})),
+        Contains("it names a folder"));
     CHECK_THAT(refusal(run_lockstep({"record", setting.scene})), Contains("output is required"));
     CHECK(test::names_in(setting.folder.path()) == std::vector<std::string>{"scene.json"});
 }
 
 TEST_CASE("record: a GPU that gives two answers is not recorded") {
-    if (!test::have_osmesa())
+    if (!test::have_software_gl())
         return;
     const Setting setting;
     test::plant(setting.shaders, "collision_pass.vert", "#version 330 core\n",
@@ -160,7 +162,7 @@ TEST_CASE("record: a GPU that gives two answers is not recorded") {
 }
 
 TEST_CASE("explain trace: the first divergence step by step, the GPU's values where they were recorded") {
-    if (!test::have_osmesa())
+    if (!test::have_software_gl())
         return;
     const Setting setting;
     test::plant(setting.shaders, "collision_pass.vert", "v_Speed = product(a_Speed, u_SpeedFactor);",
@@ -189,13 +191,13 @@ TEST_CASE("explain trace: the first divergence step by step, the GPU's values wh
     CHECK_THAT(
         refusal(run_lockstep({"explain", setting.scene, "--trace", setting.file, "--frame", "1", "--particle", "0"})),
         Contains("explain: a scene does not go with --trace"));
-    CHECK_THAT(refusal(run_lockstep(
-                   {"explain", "--trace", setting.file, "--gl", "osmesa", "--frame", "1", "--particle", "0"})),
+    CHECK_THAT(refusal(run_lockstep({"explain", "--trace", setting.file, "--gl", test::software_gl(), "--frame", "1",
+                                     "--particle", "0"})),
                Contains("explain: --gl goes with a scene that is run here"));
 }
 
 TEST_CASE("explain trace: the reference's steps are those of a live run, with the CDT recorded or not, at any frame") {
-    if (!test::have_osmesa())
+    if (!test::have_software_gl())
         return;
     const Setting setting;
     // What the particle started from, and the reference's two columns of what it looked at.
@@ -211,7 +213,7 @@ TEST_CASE("explain trace: the reference's steps are those of a live run, with th
         for (const char* frame : {"0", "1", "2", "5"}) {
             CAPTURE(options, frame);
             const std::vector<std::string> at{"--frame", frame, "--particle", "4"};
-            std::vector<std::string> live{"explain", setting.scene, "--gl", "osmesa"};
+            std::vector<std::string> live{"explain", setting.scene, "--gl", test::software_gl()};
             std::vector<std::string> recorded{"explain", "--trace", setting.file};
             live.insert(live.end(), at.begin(), at.end());
             recorded.insert(recorded.end(), at.begin(), at.end());
@@ -223,7 +225,7 @@ TEST_CASE("explain trace: the reference's steps are those of a live run, with th
 }
 
 TEST_CASE("trace: a file's name that forges a verdict or steers the terminal is shown, not obeyed") {
-    if (!test::have_osmesa())
+    if (!test::have_software_gl())
         return;
     Setting setting;
     REQUIRE(setting.record().status == 0);
@@ -244,7 +246,7 @@ TEST_CASE("trace: a file's name that forges a verdict or steers the terminal is 
 }
 
 TEST_CASE("record: on a full disk one line tells so, at whatever byte, and nothing is left") {
-    if (!test::have_osmesa())
+    if (!test::have_software_gl())
         return;
     const Setting setting;
     for (const std::size_t bytes : {100U, 3'000U, 30'000U, 60'000U, 90'000U}) {
@@ -252,14 +254,15 @@ TEST_CASE("record: on a full disk one line tells so, at whatever byte, and nothi
         test::Surroundings disk;
         disk.largest_file = bytes;
         disk.environment = {{"MESA_SHADER_CACHE_DISABLE", "true"}};
-        CHECK(refusal(run_lockstep({"record", setting.scene, "--gl", "osmesa", "-o", setting.file, "--frames", "8"},
-                                   disk)) == setting.file + ": cannot be written: File too large");
+        CHECK(refusal(run_lockstep(
+                  {"record", setting.scene, "--gl", test::software_gl(), "-o", setting.file, "--frames", "8"}, disk)) ==
+              setting.file + ": cannot be written: File too large");
         CHECK(test::names_in(setting.folder.path()) == std::vector<std::string>{"scene.json"});
     }
 }
 
 TEST_CASE("record: the same run is the same file, byte by byte, for any number of threads and at any time") {
-    if (!test::have_osmesa())
+    if (!test::have_software_gl())
         return;
     const Setting setting;
     const auto recorded = [&](const char* threads) {

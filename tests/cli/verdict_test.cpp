@@ -44,16 +44,16 @@ struct Setting {
     std::filesystem::path report = folder.path() / "report.json";
 
     [[nodiscard]] test::Outcome check(const std::vector<std::string>& options) const {
-        return run_lockstep(test::joined(
-            test::joined({"check", scene, "--gl", "osmesa", "--json", report}, test::shader_options(shaders)),
-            options));
+        return run_lockstep(test::joined(test::joined({"check", scene, "--gl", test::software_gl(), "--json", report},
+                                                      test::shader_options(shaders)),
+                                         options));
     }
 };
 
 } // namespace
 
 TEST_CASE("verdict: both sides agree, status 0, and the report says on what") {
-    if (!test::have_osmesa())
+    if (!test::have_software_gl())
         return;
     const Setting setting;
     const test::Outcome outcome = setting.check({"--frames", "6"});
@@ -72,7 +72,7 @@ TEST_CASE("verdict: both sides agree, status 0, and the report says on what") {
 }
 
 TEST_CASE("verdict: a planted difference is status 1, and the line that repeats it repeats it") {
-    if (!test::have_osmesa())
+    if (!test::have_software_gl())
         return;
     const Setting setting;
     test::plant(setting.shaders, "collision_pass.vert", "v_Speed = ls_length(temp);",
@@ -96,11 +96,12 @@ TEST_CASE("verdict: a planted difference is status 1, and the line that repeats 
 }
 
 TEST_CASE("verdict: points that come from no geometry stage are placed as the driver places such points") {
-    if (!test::have_osmesa())
+    if (!test::have_software_gl())
         return;
-    const test::Outcome outcome = run_lockstep(
-        {"check", "data/scenes/x_streams.json", "--frames", "6", "--preset", "paper", "--set", "perspective_divide=off",
-         "--set", "raster_position=before_step", "--shaders", "data/examples/thesis_listing", "--gl", "osmesa"});
+    const test::Outcome outcome =
+        run_lockstep({"check", "data/scenes/x_streams.json", "--frames", "6", "--preset", "paper", "--set",
+                      "perspective_divide=off", "--set", "raster_position=before_step", "--shaders",
+                      "data/examples/thesis_listing", "--gl", test::software_gl()});
     CHECK(outcome.status == 0);
     CHECK_THAT(outcome.out, !Catch::Contains("DIVERGENT"));
 }
@@ -121,7 +122,7 @@ TEST_CASE("verdict: a shader that gives two answers to one frame is NONDETERMINI
 }
 
 TEST_CASE("verdict: free mode shows how a difference grows") {
-    if (!test::have_osmesa())
+    if (!test::have_software_gl())
         return;
     const Setting setting;
     test::plant(setting.shaders, "collision_pass.vert", "v_Speed = product(a_Speed, u_SpeedFactor);",
@@ -137,7 +138,7 @@ TEST_CASE("verdict: free mode shows how a difference grows") {
 }
 
 TEST_CASE("verdict: quiet leaves the exit status to tell it") {
-    if (!test::have_osmesa())
+    if (!test::have_software_gl())
         return;
     const Setting setting;
     test::Outcome outcome = setting.check({"--frames", "2", "--quiet"});
@@ -165,7 +166,7 @@ TEST_CASE("verdict: hash prints one line, the same for any number of threads, an
         CHECK((last.empty() || outcome.out == last));
         last = outcome.out;
     }
-    if (!test::have_osmesa())
+    if (!test::have_software_gl())
         return;
     const std::string exact = run_lockstep({"hash", setting.scene, "--frames", "6", "--preset", "exact"}).out;
     CHECK_THAT(setting.check({"--frames", "6", "--preset", "exact"}).out,
@@ -173,21 +174,22 @@ TEST_CASE("verdict: hash prints one line, the same for any number of threads, an
 }
 
 TEST_CASE("verdict: both sides render, and bench tells a verdict a row") {
-    if (!test::have_osmesa())
+    if (!test::have_software_gl())
         return;
     const Setting setting;
     const auto picture = setting.folder.path() / "frame.png";
-    CHECK(run_lockstep({"render", setting.scene, "--side", "gpu", "--gl", "osmesa", "-o", picture}).status == 0);
+    CHECK(run_lockstep({"render", setting.scene, "--side", "gpu", "--gl", test::software_gl(), "-o", picture}).status ==
+          0);
     CHECK(std::filesystem::file_size(picture) > 100);
     const test::Outcome bench = run_lockstep(
-        {"bench", setting.scene, "--gl", "osmesa", "--frames", "2", "--counts", "100,200", "--radius", "1"});
+        {"bench", setting.scene, "--gl", test::software_gl(), "--frames", "2", "--counts", "100,200", "--radius", "1"});
     CHECK(bench.status == 0);
     CHECK_THAT(bench.out,
                Catch::Matches("(.|\n)*  1 +100 .* [0-9a-f]{16} AGREE\n +1 +200 .* [0-9a-f]{16} AGREE\n(.|\n)*"));
 }
 
 TEST_CASE("verdict: a run in which nothing collided says so, and fails where hits are required") {
-    if (!test::have_osmesa())
+    if (!test::have_software_gl())
         return;
     const Setting setting;
     test::Outcome outcome = setting.check({"--frames", "3", "--particles", "1"});
@@ -202,19 +204,19 @@ TEST_CASE("verdict: a run in which nothing collided says so, and fails where hit
 }
 
 TEST_CASE("verdict: a run that draws nothing says so") {
-    if (!test::have_osmesa())
+    if (!test::have_software_gl())
         return;
     const test::TemporaryFolder folder;
     const std::string scene = folder.write("scene.json", R"({
       "image": [64, 48], "render": [40, 30],
       "emitters": [{ "count": 30, "min": [900, 900, 900], "max": [901, 901, 901] }]
     })");
-    const test::Outcome outcome = run_lockstep({"check", scene, "--gl", "osmesa", "--frames", "3"});
+    const test::Outcome outcome = run_lockstep({"check", scene, "--gl", test::software_gl(), "--frames", "3"});
     CHECK_THAT(outcome.out, Catch::Contains("AGREE, but nothing collided, and nothing was drawn into the CDT: every"));
 }
 
 TEST_CASE("verdict: every search is judged; free runs are compared, and say so") {
-    if (!test::have_osmesa())
+    if (!test::have_software_gl())
         return;
     const Setting setting;
     for (const char* search : {"search=cdt", "search=octree", "cdt_layers=2"}) {
@@ -228,11 +230,12 @@ TEST_CASE("verdict: every search is judged; free runs are compared, and say so")
 }
 
 TEST_CASE("verdict: bench has check's words and status") {
-    if (!test::have_osmesa())
+    if (!test::have_software_gl())
         return;
     const Setting setting;
     const auto bench = [&](std::vector<std::string> options) {
-        std::vector<std::string> arguments{"bench", setting.scene, "--gl", "osmesa", "--frames", "3", "--radius", "1"};
+        std::vector<std::string> arguments{"bench",    setting.scene, "--gl",     test::software_gl(),
+                                           "--frames", "3",           "--radius", "1"};
         arguments.insert(arguments.end(), options.begin(), options.end());
         return run_lockstep(arguments);
     };

@@ -21,7 +21,15 @@ inline bool has_osmesa_library() {
     }
 }
 
-/// The context, or a skip with the reason: `const auto context = open_context("osmesa"); if (!context) return;`
+/// Mesa's GL without a display or a GPU: "osmesa", or "egl" where the machine has no OSMesa and need not have one. For
+/// tests that are not about the library itself.
+inline const std::string& software_gl() {
+    static const std::string name =
+        has_osmesa_library() || std::getenv("LOCKSTEP_REQUIRE_OSMESA") != nullptr ? "osmesa" : "egl";
+    return name;
+}
+
+/// The context, or a skip with the reason: `const auto context = open_context("egl"); if (!context) return;`
 inline std::optional<Context> open_context(const std::string& name = "auto") {
     try {
         return Context(parse_context_request(name));

@@ -89,7 +89,7 @@ struct Child {
 Child probe_in_child(const std::string& environment) {
     const test::TemporaryFolder folder;
     const std::string file = (folder.path() / "probe.json").string();
-    const Run ended = run(environment, "probe --gl osmesa --json '" + file + "'");
+    const Run ended = run(environment, fmt::format("probe --gl {} --json '{}'", test::software_gl(), file));
     INFO(environment << ": " << ended.told);
     REQUIRE(ended.status == 0);
     const auto json = nlohmann::json::parse(std::ifstream(file));
@@ -113,7 +113,7 @@ TEST_CASE("probe: llvmpipe measures as known, on every context") {
 }
 
 TEST_CASE("probe: tells sequences apart") {
-    const auto context = open_context("osmesa");
+    const auto context = open_context(test::software_gl());
     if (!context)
         return;
     const ProbeResult result = probe(*context);
@@ -136,7 +136,7 @@ TEST_CASE("probe: tells sequences apart") {
 }
 
 TEST_CASE("probe: llvmpipe's rows and profile are the same for every vector width and processor") {
-    const auto context = open_context("osmesa");
+    const auto context = open_context(test::software_gl());
     if (!context || !is_llvmpipe(context->describe()))
         return;
     const Child native = probe_in_child("LOCKSTEP=1");
@@ -158,7 +158,7 @@ TEST_CASE("probe: llvmpipe's rows and profile are the same for every vector widt
 }
 
 TEST_CASE("probe: a driver that rounds otherwise is told from llvmpipe") {
-    const auto context = open_context("osmesa");
+    const auto context = open_context(test::software_gl());
     if (!context || !is_llvmpipe(context->describe()))
         return;
     const Child child = probe_in_child("GALLIUM_DRIVER=softpipe");
@@ -167,11 +167,11 @@ TEST_CASE("probe: a driver that rounds otherwise is told from llvmpipe") {
 }
 
 TEST_CASE("probe: a shader language without precise is an error") {
-    const auto context = open_context("osmesa");
+    const auto context = open_context(test::software_gl());
     if (!context || !is_llvmpipe(context->describe()))
         return;
-    const Run ended =
-        run("MESA_GL_VERSION_OVERRIDE=3.3 MESA_EXTENSION_OVERRIDE=-GL_ARB_gpu_shader5", "probe --gl osmesa");
+    const Run ended = run("MESA_GL_VERSION_OVERRIDE=3.3 MESA_EXTENSION_OVERRIDE=-GL_ARB_gpu_shader5",
+                          "probe --gl " + test::software_gl());
     CHECK(ended.status == 2);
     CHECK(ended.told == "lockstep: probe: the context's GLSL has no `precise`; GL 4.0 or GL_ARB_gpu_shader5 has");
 }

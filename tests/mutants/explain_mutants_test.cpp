@@ -121,7 +121,7 @@ std::string first_row(const test::Mutant& mutant, const std::vector<test::TrialS
 } // namespace
 
 TEST_CASE("explain mutants: the first row that differs is the mutated operation") {
-    const auto context = test::open_llvmpipe("osmesa");
+    const auto context = test::open_llvmpipe();
     if (!context)
         return;
     const std::vector<test::Mutant> catalogue = test::whole_catalogue();

@@ -55,7 +55,7 @@ TEST_CASE("mutants: each text stands in the shipped shader as often as the catal
 }
 
 TEST_CASE("mutants: a few of the catalogue are found and named, and the shipped shaders are not") {
-    const auto context = open_llvmpipe("osmesa");
+    const auto context = open_llvmpipe();
     if (!context)
         return;
     constexpr std::string_view names[] = {"crowd",  "exact",        "halves", "lattice",    "octree",

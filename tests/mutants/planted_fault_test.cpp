@@ -36,7 +36,7 @@ double seconds_to_answer(const CheckReport& report) {
 } // namespace
 
 TEST_CASE("planted faults: 100 in the GPU's state, each located to the frame, the particle and the field") {
-    const auto context = test::open_llvmpipe("osmesa");
+    const auto context = test::open_llvmpipe();
     if (!context)
         return;
     const Scene scene = load_scene("tests/mutants/scenes/crowd.json");
@@ -75,7 +75,7 @@ TEST_CASE("planted faults: 100 in the GPU's state, each located to the frame, th
 }
 
 TEST_CASE("planted faults: one in 50,000 particles is located in at most 5 seconds beyond the run itself") {
-    const auto context = test::open_llvmpipe("osmesa");
+    const auto context = test::open_llvmpipe();
     if (!context)
         return;
     const Scene scene = load_scene("data/scenes/lattice.json");

@@ -99,7 +99,7 @@ Told told_by(const Artefact& artefact) {
 } // namespace
 
 TEST_CASE("report mutants: page and capsule alone name the planted bug, 10 of 10, and the operation where it shows") {
-    const auto context = test::open_llvmpipe("osmesa");
+    const auto context = test::open_llvmpipe();
     if (!context)
         return;
     const std::vector<test::Mutant> catalogue = test::whole_catalogue();

@@ -6,6 +6,7 @@
 
 #include <lockstep/lockstep.hpp>
 
+#include "tests/gpu/any_context.hpp"
 #include "tests/package/reference_engine.hpp"
 #include "tests/package/shell.hpp"
 #include "tests/planted_shader.hpp"
@@ -123,7 +124,7 @@ TEST_CASE("gl: LOCKSTEP_GL is asked for where the caller asks for none") {
 }
 
 TEST_CASE("user shaders: a folder of which nothing runs is refused; without one lockstep's own run, and agree") {
-    const Gl gl("osmesa");
+    const Gl gl(test::software_gl());
     if (!gl)
         return test::skip(gl.missing());
     const test::TemporaryFolder folder;
@@ -138,7 +139,7 @@ TEST_CASE("user shaders: a folder of which nothing runs is refused; without one 
 }
 
 TEST_CASE("user shaders: what runs beside what does not, where that is allowed") {
-    const Gl gl("osmesa");
+    const Gl gl(test::software_gl());
     if (!gl)
         return test::skip(gl.missing());
     const test::TemporaryFolder folder;
@@ -153,7 +154,7 @@ TEST_CASE("user shaders: what runs beside what does not, where that is allowed")
 }
 
 TEST_CASE("user shaders: a planted bug is found, and the last line of the report finds it again") {
-    const Gl gl("osmesa");
+    const Gl gl(test::software_gl());
     if (!gl)
         return test::skip(gl.missing());
     const test::TemporaryFolder folder;
@@ -164,7 +165,7 @@ TEST_CASE("user shaders: a planted bug is found, and the last line of the report
     CHECK(result.report().verdict == Verdict::divergent);
     const std::string command = repeat_command(result);
     CHECK_THAT(command, StartsWith("lockstep check " + scene.origin + " --frames ") &&
-                            EndsWith(" --gl osmesa --shaders " + folder.path().string()));
+                            EndsWith(" --gl " + test::software_gl() + " --shaders " + folder.path().string()));
     const test::ShellOutcome again = test::run_in_shell(command);
     CHECK(again.status == 1);
     CHECK_THAT(again.out, Contains("verdict   DIVERGENT from frame " + std::to_string(*result.report().first_frame)));
@@ -172,7 +173,7 @@ TEST_CASE("user shaders: a planted bug is found, and the last line of the report
 }
 
 TEST_CASE("user shaders: a scene changed in code is not what the program would load") {
-    const Gl gl("osmesa");
+    const Gl gl(test::software_gl());
     if (!gl)
         return test::skip(gl.missing());
     const test::TemporaryFolder folder;
@@ -187,7 +188,7 @@ TEST_CASE("user shaders: a scene changed in code is not what the program would l
 }
 
 TEST_CASE("user shaders: what the compiler says comes with file and line") {
-    const Gl gl("osmesa");
+    const Gl gl(test::software_gl());
     if (!gl)
         return test::skip(gl.missing());
     const test::TemporaryFolder folder;
@@ -201,7 +202,7 @@ TEST_CASE("match_reference: with render the last frame is compared, too, and an 
     ReferenceEngine engine(scene);
     CHECK_THROWS_WITH(match_reference(engine, scene, {.frames = 2, .render = true}),
                       Contains("an engine of its own draws no frame"));
-    const Gl gl("osmesa");
+    const Gl gl(test::software_gl());
     if (!gl)
         return test::skip(gl.missing());
     const test::TemporaryFolder right, wrong;

@@ -89,7 +89,7 @@ Scene odd_scene() {
 } // namespace
 
 TEST_CASE("collision pass twin: every value of every switch leaves the same bits") {
-    const auto context = test::open_llvmpipe("osmesa");
+    const auto context = test::open_llvmpipe();
     if (!context)
         return;
     const Scene scene = crowded_scene();
@@ -116,7 +116,7 @@ TEST_CASE("collision pass twin: every value of every switch leaves the same bits
 }
 
 TEST_CASE("collision pass twin: switches in any combination leave the same bits") {
-    const auto context = test::open_llvmpipe("osmesa");
+    const auto context = test::open_llvmpipe();
     if (!context)
         return;
     std::mt19937 random(11);
@@ -135,7 +135,7 @@ TEST_CASE("collision pass twin: switches in any combination leave the same bits"
 }
 
 TEST_CASE("collision pass twin: every format at every radius leaves the same codes") {
-    const auto context = test::open_llvmpipe("osmesa");
+    const auto context = test::open_llvmpipe();
     if (!context)
         return;
     for (const char* base : presets)
@@ -151,7 +151,7 @@ TEST_CASE("collision pass twin: every format at every radius leaves the same cod
 }
 
 TEST_CASE("collision pass twin: images of any shape and size leave the same bits") {
-    const auto context = test::open_llvmpipe("osmesa");
+    const auto context = test::open_llvmpipe();
     if (!context)
         return;
     for (const auto& [width, height] :
@@ -163,7 +163,7 @@ TEST_CASE("collision pass twin: images of any shape and size leave the same bits
 }
 
 TEST_CASE("collision pass twin: any number of particles leaves the same bits") {
-    const auto context = test::open_llvmpipe("osmesa");
+    const auto context = test::open_llvmpipe();
     if (!context)
         return;
     for (const std::size_t count : {1U, 2U, 3U, 31U, 4097U})
@@ -174,7 +174,7 @@ TEST_CASE("collision pass twin: any number of particles leaves the same bits") {
 }
 
 TEST_CASE("collision pass twin: particles outside the image and behind the camera leave the same bits") {
-    const auto context = test::open_llvmpipe("osmesa");
+    const auto context = test::open_llvmpipe();
     if (!context)
         return;
     for (const char* base : presets) {
@@ -193,7 +193,7 @@ TEST_CASE("collision pass twin: particles outside the image and behind the camer
 }
 
 TEST_CASE("collision pass twin: NaN, infinite, subnormal and huge states leave the same bits") {
-    const auto context = test::open_llvmpipe("osmesa");
+    const auto context = test::open_llvmpipe();
     if (!context)
         return;
     for (const char* base : presets)
@@ -208,7 +208,7 @@ TEST_CASE("collision pass twin: NaN, infinite, subnormal and huge states leave t
 }
 
 TEST_CASE("collision pass twin: constants at their ends leave the same bits") {
-    const auto context = test::open_llvmpipe("osmesa");
+    const auto context = test::open_llvmpipe();
     if (!context)
         return;
     for (const char* base : presets)
@@ -227,7 +227,7 @@ TEST_CASE("collision pass twin: constants at their ends leave the same bits") {
 }
 
 TEST_CASE("collision pass twin: a fixed, an offset and a moving camera leave the same bits") {
-    const auto context = test::open_llvmpipe("osmesa");
+    const auto context = test::open_llvmpipe();
     if (!context)
         return;
     for (const char* base : presets) {
@@ -247,7 +247,7 @@ TEST_CASE("collision pass twin: a fixed, an offset and a moving camera leave the
 }
 
 TEST_CASE("collision pass twin: left to themselves, both sides stay together") {
-    const auto context = test::open_llvmpipe("osmesa");
+    const auto context = test::open_llvmpipe();
     if (!context)
         return;
     for (const char* base : presets) {

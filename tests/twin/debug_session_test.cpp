@@ -46,7 +46,7 @@ std::string label(const std::string& row) { return row.substr(2, row.find("  ", 
 } // namespace
 
 TEST_CASE("debug_session: a command that cannot be done says why and changes nothing") {
-    const auto context = test::open_llvmpipe("osmesa");
+    const auto context = test::open_llvmpipe();
     if (!context)
         return;
     const test::TemporaryFolder shaders;
@@ -93,7 +93,7 @@ TEST_CASE("debug_session: a command that cannot be done says why and changes not
 }
 
 TEST_CASE("debug_session: the table ends where it ends") {
-    const auto context = test::open_llvmpipe("osmesa");
+    const auto context = test::open_llvmpipe();
     if (!context)
         return;
     const test::TemporaryFolder shaders;
@@ -106,7 +106,7 @@ TEST_CASE("debug_session: the table ends where it ends") {
 }
 
 TEST_CASE("debug_session: list names what differs, at most twenty") {
-    const auto context = test::open_llvmpipe("osmesa");
+    const auto context = test::open_llvmpipe();
     if (!context)
         return;
     const test::TemporaryFolder shaders;
@@ -124,7 +124,7 @@ TEST_CASE("debug_session: list names what differs, at most twenty") {
 }
 
 TEST_CASE("debug_session: next goes from one divergent particle to the next, and on to the next frame") {
-    const auto context = test::open_llvmpipe("osmesa");
+    const auto context = test::open_llvmpipe();
     if (!context)
         return;
     const test::TemporaryFolder shaders;
@@ -141,7 +141,7 @@ TEST_CASE("debug_session: next goes from one divergent particle to the next, and
 }
 
 TEST_CASE("debug_session: set changes both sides and keeps the place") {
-    const auto context = test::open_llvmpipe("osmesa");
+    const auto context = test::open_llvmpipe();
     if (!context)
         return;
     const test::TemporaryFolder shaders;

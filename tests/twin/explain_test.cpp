@@ -53,7 +53,7 @@ std::optional<StepTable> first_divergent(FrameRun& run) {
 } // namespace
 
 TEST_CASE("explain: the trace build changes no output, and every row of a right shader is the reference's") {
-    const auto context = test::open_llvmpipe("osmesa");
+    const auto context = test::open_llvmpipe();
     if (!context)
         return;
     for (const char* name : {"corrected", "paper", "exact"})
@@ -87,7 +87,7 @@ TEST_CASE("explain: the trace build changes no output, and every row of a right 
 }
 
 TEST_CASE("explain: outputs of a foreign shader are shown under their names") {
-    const auto context = test::open_llvmpipe("osmesa");
+    const auto context = test::open_llvmpipe();
     if (!context)
         return;
     const test::TemporaryFolder shaders;
@@ -117,7 +117,7 @@ TEST_CASE("explain: outputs of a foreign shader are shown under their names") {
 }
 
 TEST_CASE("explain: a shader that traces nothing is judged by what it hands on") {
-    const auto context = test::open_llvmpipe("osmesa");
+    const auto context = test::open_llvmpipe();
     if (!context)
         return;
     const test::TemporaryFolder shaders;
@@ -143,7 +143,7 @@ TEST_CASE("explain: a shader that traces nothing is judged by what it hands on")
 }
 
 TEST_CASE("explain: a trace build that does something else is told") {
-    const auto context = test::open_llvmpipe("osmesa");
+    const auto context = test::open_llvmpipe();
     if (!context)
         return;
     const test::TemporaryFolder shaders;
@@ -155,7 +155,7 @@ TEST_CASE("explain: a trace build that does something else is told") {
 }
 
 TEST_CASE("explain: a texel tells who wanted it and who won it") {
-    const auto context = test::open_llvmpipe("osmesa");
+    const auto context = test::open_llvmpipe();
     if (!context)
         return;
     FrameRun run = run_of(busy_scene());
@@ -180,7 +180,7 @@ TEST_CASE("explain: a texel tells who wanted it and who won it") {
 }
 
 TEST_CASE("explain: the picture shows both sides' picks") {
-    const auto context = test::open_llvmpipe("osmesa");
+    const auto context = test::open_llvmpipe();
     if (!context)
         return;
     const test::TemporaryFolder shaders;
@@ -198,7 +198,7 @@ TEST_CASE("explain: the picture shows both sides' picks") {
 }
 
 TEST_CASE("explain: more outputs than one draw can capture are captured by several") {
-    const auto context = test::open_llvmpipe("osmesa");
+    const auto context = test::open_llvmpipe();
     if (!context)
         return;
     const test::TemporaryFolder shaders;
@@ -226,7 +226,7 @@ TEST_CASE("explain: more outputs than one draw can capture are captured by sever
 }
 
 TEST_CASE("explain: an output that cannot be captured is named") {
-    const auto context = test::open_llvmpipe("osmesa");
+    const auto context = test::open_llvmpipe();
     if (!context)
         return;
     const test::TemporaryFolder shaders;

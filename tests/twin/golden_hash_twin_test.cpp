@@ -13,7 +13,7 @@
 using namespace lockstep;
 
 TEST_CASE("golden hash twin: the shaders come to it by themselves") {
-    const auto context = test::open_llvmpipe("osmesa");
+    const auto context = test::open_llvmpipe();
     if (!context)
         return;
     if (const std::string missing = test::scenes_without_mesh(); !missing.empty())

@@ -60,7 +60,7 @@ template <class Check> void for_each_combination(const Check& check) {
 } // namespace
 
 TEST_CASE("layered collision pass twin: every combination of remedies leaves the same bits") {
-    const auto context = test::open_llvmpipe("osmesa");
+    const auto context = test::open_llvmpipe();
     if (!context)
         return;
     for_each_combination([](const char* base, const Settings& settings) {
@@ -71,7 +71,7 @@ TEST_CASE("layered collision pass twin: every combination of remedies leaves the
 }
 
 TEST_CASE("layered collision pass twin: every number of layers, with every other switch, leaves the same bits") {
-    const auto context = test::open_llvmpipe("osmesa");
+    const auto context = test::open_llvmpipe();
     if (!context)
         return;
     std::mt19937 random(3);
@@ -96,7 +96,7 @@ TEST_CASE("layered collision pass twin: every number of layers, with every other
 }
 
 TEST_CASE("layered collision pass twin: particles at one depth in one texel leave the same layers") {
-    const auto context = test::open_llvmpipe("osmesa");
+    const auto context = test::open_llvmpipe();
     if (!context)
         return;
     for_each_combination([](const char* base, const Settings& settings) {
@@ -113,7 +113,7 @@ TEST_CASE("layered collision pass twin: particles at one depth in one texel leav
 }
 
 TEST_CASE("layered collision pass twin: images of any shape and size leave the same bits") {
-    const auto context = test::open_llvmpipe("osmesa");
+    const auto context = test::open_llvmpipe();
     if (!context)
         return;
     for (const auto& [width, height] : {std::pair{1, 1}, {1, 200}, {203, 1}, {97, 31}, {640, 360}})
@@ -124,7 +124,7 @@ TEST_CASE("layered collision pass twin: images of any shape and size leave the s
 }
 
 TEST_CASE("layered collision pass twin: odd states and places leave the same bits") {
-    const auto context = test::open_llvmpipe("osmesa");
+    const auto context = test::open_llvmpipe();
     if (!context)
         return;
     using Limits = std::numeric_limits<float>;
@@ -158,7 +158,7 @@ TEST_CASE("layered collision pass twin: odd states and places leave the same bit
 }
 
 TEST_CASE("layered collision pass twin: moving, fixed and offset cameras leave the same bits") {
-    const auto context = test::open_llvmpipe("osmesa");
+    const auto context = test::open_llvmpipe();
     if (!context)
         return;
     for_each_combination([](const char* base, const Settings& settings) {
@@ -174,7 +174,7 @@ TEST_CASE("layered collision pass twin: moving, fixed and offset cameras leave t
 }
 
 TEST_CASE("layered collision pass twin: left to themselves, both sides stay together") {
-    const auto context = test::open_llvmpipe("osmesa");
+    const auto context = test::open_llvmpipe();
     if (!context)
         return;
     for_each_combination([](const char* base, const Settings& settings) {

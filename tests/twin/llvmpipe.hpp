@@ -1,5 +1,4 @@
 #pragma once
-#include <cstdlib>
 #include <filesystem>
 #include <optional>
 #include <string>
@@ -16,20 +15,19 @@ inline ProbeResult& probed_llvmpipe() {
 }
 
 /// What llvmpipe computes here, for passes of `shaders`: the named profile where it still is as that was measured (Mesa
-/// 22.3), else its own.
+/// 22.3), else its own. The named one too where the current context is not the one that was probed, but another
+/// driver's.
 inline Profile llvmpipe_profile(const std::filesystem::path& shaders = {}) {
-    if (probed_llvmpipe().rows.empty())
+    const ContextInfo current = query_context_info({});
+    const ContextInfo& probed = probed_llvmpipe().context;
+    if (current.renderer != probed.renderer || current.version != probed.version)
         return named_profile("llvmpipe");
     const Profile measured = measured_profile(probed_llvmpipe(), shaders);
     return measured.name == "llvmpipe" ? named_profile("llvmpipe") : measured;
 }
 
-/// The context if Mesa's llvmpipe is behind it; else a skip. EGL's instead of OSMesa's where the machine has
-/// no OSMesa and is not said to.
-inline std::optional<Context> open_llvmpipe(const std::string& wanted) {
-    const bool without_osmesa =
-        wanted == "osmesa" && !has_osmesa_library() && std::getenv("LOCKSTEP_REQUIRE_OSMESA") == nullptr;
-    const std::string name = without_osmesa ? "egl" : wanted;
+/// The context if Mesa's llvmpipe is behind it; else a skip.
+inline std::optional<Context> open_llvmpipe(const std::string& name = software_gl()) {
     std::optional<Context> context = open_context(name);
     if (!context)
         return context;

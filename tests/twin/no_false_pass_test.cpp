@@ -15,7 +15,7 @@ using test::check_twins;
 using test::crowded_scene;
 
 TEST_CASE("no false pass: particles that are not passed on are an error, none or some of them") {
-    const auto context = test::open_context("osmesa");
+    const auto context = test::open_llvmpipe();
     if (!context)
         return;
     const test::TemporaryFolder shaders;
@@ -44,7 +44,7 @@ TEST_CASE("no false pass: particles that are not passed on are an error, none or
 TEST_CASE("no false pass: a shader that answers twice in two ways is nondeterministic") {
     if (!test::offers_shader_clock())
         return;
-    const auto context = test::open_context("osmesa");
+    const auto context = test::open_llvmpipe();
     const test::TemporaryFolder shaders;
     test::plant(shaders, "collision_pass.vert", "#version 330 core\n",
                 "#version 330 core\n#extension GL_ARB_shader_clock : require\n");
@@ -65,7 +65,7 @@ TEST_CASE("no false pass: a shader that answers twice in two ways is nondetermin
 }
 
 TEST_CASE("no false pass: an image that is neither cleared nor drawn is an error") {
-    const auto context = test::open_context("osmesa");
+    const auto context = test::open_llvmpipe();
     if (!context)
         return;
     gl::Enable(GL_SCISSOR_TEST);
@@ -82,7 +82,7 @@ TEST_CASE("no false pass: an image that is neither cleared nor drawn is an error
 }
 
 TEST_CASE("no false pass: a record that was not written is an error that names the particle") {
-    const auto context = test::open_context("osmesa");
+    const auto context = test::open_llvmpipe();
     if (!context)
         return;
     const float canary = std::bit_cast<float>(std::uint32_t{0xca7ca7ca});
@@ -107,7 +107,7 @@ TEST_CASE("no false pass: a record that was not written is an error that names t
 }
 
 TEST_CASE("no false pass: the canary is laid, and every frame writes over it") {
-    const auto context = test::open_context("osmesa");
+    const auto context = test::open_llvmpipe();
     if (!context)
         return;
     const Scene scene = crowded_scene();
@@ -122,7 +122,7 @@ TEST_CASE("no false pass: the canary is laid, and every frame writes over it") {
 }
 
 TEST_CASE("no false pass: a GL error ends the run") {
-    const auto context = test::open_context("osmesa");
+    const auto context = test::open_llvmpipe();
     if (!context)
         return;
     const Scene scene = crowded_scene(10);
@@ -134,7 +134,7 @@ TEST_CASE("no false pass: a GL error ends the run") {
 }
 
 TEST_CASE("no false pass: a run that compared nothing is an error") {
-    const auto context = test::open_context("osmesa");
+    const auto context = test::open_llvmpipe();
     if (!context)
         return;
     const std::atomic<bool> stop{true};
@@ -163,7 +163,7 @@ std::string refusal(const test::TemporaryFolder& shaders, const Switches& switch
 } // namespace
 
 TEST_CASE("no false pass: a block that nobody binds is an error with its name") {
-    const auto context = test::open_context("osmesa");
+    const auto context = test::open_llvmpipe();
     if (!context)
         return;
     const test::TemporaryFolder shaders;
@@ -193,7 +193,7 @@ TEST_CASE("no false pass: a geometry stage's input that the vertex stage does no
 }
 
 TEST_CASE("no false pass: a fragment stage's input that no stage writes is an error with its name") {
-    const auto context = test::open_context("osmesa");
+    const auto context = test::open_llvmpipe();
     if (!context)
         return;
     const test::TemporaryFolder shaders;
@@ -204,7 +204,7 @@ TEST_CASE("no false pass: a fragment stage's input that no stage writes is an er
 }
 
 TEST_CASE("no false pass: a fragment stage that writes no output 0 is an error") {
-    const auto context = test::open_context("osmesa");
+    const auto context = test::open_llvmpipe();
     if (!context)
         return;
     const test::TemporaryFolder shaders;
@@ -225,7 +225,7 @@ TEST_CASE("no false pass: a fragment stage that writes no output 0 is an error")
 }
 
 TEST_CASE("no false pass: an output named like a captured one that nobody captures is an error") {
-    const auto context = test::open_context("osmesa");
+    const auto context = test::open_llvmpipe();
     if (!context)
         return;
     const test::TemporaryFolder shaders;
@@ -241,7 +241,7 @@ TEST_CASE("no false pass: an output named like a captured one that nobody captur
 }
 
 TEST_CASE("no false pass: the layered passes, too, are refused uniforms and attributes that nobody sets") {
-    const auto context = test::open_context("osmesa");
+    const auto context = test::open_llvmpipe();
     if (!context)
         return;
     const test::TemporaryFolder shaders;

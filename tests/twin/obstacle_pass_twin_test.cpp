@@ -158,7 +158,7 @@ void check_exact(const char* backend) {
 } // namespace
 
 TEST_CASE("obstacle pass twin: random triangles leave the same bits in every format") {
-    const auto context = test::open_llvmpipe("osmesa");
+    const auto context = test::open_llvmpipe();
     if (!context)
         return;
     test::RandomScenes scenes(1);
@@ -172,7 +172,7 @@ TEST_CASE("obstacle pass twin: random triangles leave the same bits in every for
 }
 
 TEST_CASE("obstacle pass twin: triangles across every clip plane leave the same bits") {
-    const auto context = test::open_llvmpipe("osmesa");
+    const auto context = test::open_llvmpipe();
     if (!context)
         return;
     test::RandomScenes scenes(2);
@@ -195,7 +195,7 @@ TEST_CASE("obstacle pass twin: the same bits through EGL") {
 }
 
 TEST_CASE("obstacle pass twin: tiny triangles leave the same bits") {
-    const auto context = test::open_llvmpipe("osmesa");
+    const auto context = test::open_llvmpipe();
     if (!context)
         return;
     test::RandomScenes scenes(3);
@@ -205,7 +205,7 @@ TEST_CASE("obstacle pass twin: tiny triangles leave the same bits") {
 }
 
 TEST_CASE("obstacle pass twin: pixel centres on sides and corners are decided alike") {
-    const auto context = test::open_llvmpipe("osmesa");
+    const auto context = test::open_llvmpipe();
     if (!context)
         return;
     test::RandomScenes scenes(4);
@@ -220,7 +220,7 @@ TEST_CASE("obstacle pass twin: pixel centres on sides and corners are decided al
 }
 
 TEST_CASE("obstacle pass twin: vertices leave the same bits in every format") {
-    const auto context = test::open_llvmpipe("osmesa");
+    const auto context = test::open_llvmpipe();
     if (!context)
         return;
     test::RandomScenes scenes(5);
@@ -234,7 +234,7 @@ TEST_CASE("obstacle pass twin: vertices leave the same bits in every format") {
 }
 
 TEST_CASE("obstacle pass twin: vertices a rounding outside the clip volume are not drawn") {
-    const auto context = test::open_llvmpipe("osmesa");
+    const auto context = test::open_llvmpipe();
     if (!context)
         return;
     // Snapped, they would lie on the border and belong to the last pixel.
@@ -249,7 +249,7 @@ TEST_CASE("obstacle pass twin: vertices a rounding outside the clip volume are n
 }
 
 TEST_CASE("obstacle pass twin: off, and no obstacles, leave the image as it was") {
-    const auto context = test::open_llvmpipe("osmesa");
+    const auto context = test::open_llvmpipe();
     if (!context)
         return;
     FrameParams params = perspective(64, 64);
@@ -260,7 +260,7 @@ TEST_CASE("obstacle pass twin: off, and no obstacles, leave the image as it was"
 }
 
 TEST_CASE("obstacle pass twin: a fill rule the driver does not have is found, at sides only") {
-    const auto context = test::open_llvmpipe("osmesa");
+    const auto context = test::open_llvmpipe();
     if (!context)
         return;
     FrameParams params;

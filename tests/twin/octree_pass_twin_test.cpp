@@ -22,7 +22,7 @@ namespace {
 constexpr std::array presets{"paper", "corrected", "exact"};
 
 /// The context if it is llvmpipe's and has compute shaders; else a skip.
-std::optional<Context> open_compute(const std::string& name = "osmesa") {
+std::optional<Context> open_compute(const std::string& name = test::software_gl()) {
     std::optional<Context> context = test::open_llvmpipe(name);
     if (!context || context->describe().compute)
         return context;

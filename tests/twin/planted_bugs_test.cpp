@@ -161,7 +161,7 @@ bool fits(When when, int frame, int first_hit) {
 } // namespace
 
 TEST_CASE("planted bugs: each is found, in the frame in which it first shows, by its name") {
-    const auto context = test::open_llvmpipe("osmesa");
+    const auto context = test::open_llvmpipe();
     if (!context)
         return;
     const Scene scene = approaching_scene();
@@ -188,7 +188,7 @@ TEST_CASE("planted bugs: each is found, in the frame in which it first shows, by
 }
 
 TEST_CASE("planted bugs: with none, the same run agrees") {
-    const auto context = test::open_llvmpipe("osmesa");
+    const auto context = test::open_llvmpipe();
     if (!context)
         return;
     const CheckReport report = test::check_twins(approaching_scene(), frames);

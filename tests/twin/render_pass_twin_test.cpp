@@ -77,7 +77,7 @@ void check_exact(const char* backend) {
 } // namespace
 
 TEST_CASE("render pass twin: the background is the same in every pixel") {
-    const auto context = test::open_llvmpipe("osmesa");
+    const auto context = test::open_llvmpipe();
     if (!context)
         return;
     CHECK(differences({}, {}, view(800, 800, 0.01F)) == 0);
@@ -85,7 +85,7 @@ TEST_CASE("render pass twin: the background is the same in every pixel") {
 }
 
 TEST_CASE("render pass twin: particles and obstacles leave the same pixels") {
-    const auto context = test::open_llvmpipe("osmesa");
+    const auto context = test::open_llvmpipe();
     if (!context)
         return;
     test::RandomScenes scenes(1);
@@ -114,7 +114,7 @@ TEST_CASE("render pass twin: exact arithmetic leaves the same pixels, on EGL dev
 }
 
 TEST_CASE("render pass twin: billboards and triangles across every clip plane leave the same pixels") {
-    const auto context = test::open_llvmpipe("osmesa");
+    const auto context = test::open_llvmpipe();
     if (!context)
         return;
     test::RandomScenes scenes(2);
@@ -126,7 +126,7 @@ TEST_CASE("render pass twin: billboards and triangles across every clip plane le
 }
 
 TEST_CASE("render pass twin: particles without a place draw nothing on either side") {
-    const auto context = test::open_llvmpipe("osmesa");
+    const auto context = test::open_llvmpipe();
     if (!context)
         return;
     Particles particles = test::RandomScenes(3).particles(8, 1.0F);
@@ -141,7 +141,7 @@ TEST_CASE("render pass twin: particles without a place draw nothing on either si
 }
 
 TEST_CASE("render pass twin: NaN and infinite states are coloured alike") {
-    const auto context = test::open_llvmpipe("osmesa");
+    const auto context = test::open_llvmpipe();
     if (!context)
         return;
     Particles particles = test::RandomScenes(4).particles(4, 0.5F);
@@ -153,7 +153,7 @@ TEST_CASE("render pass twin: NaN and infinite states are coloured alike") {
 }
 
 TEST_CASE("render pass: an image GL cannot make is told with its limits", "[render_pass]") {
-    const auto context = test::open_llvmpipe("osmesa");
+    const auto context = test::open_llvmpipe();
     if (!context)
         return;
     CHECK_THROWS_WITH(RenderPass(Switches{}, {}, 0, 10),

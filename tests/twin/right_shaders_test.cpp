@@ -50,7 +50,7 @@ std::vector<std::filesystem::path> files_in(const char* folder) {
 } // namespace
 
 TEST_CASE("right shaders: no collision pass that is right in another style is divergent") {
-    const auto context = test::open_llvmpipe("osmesa");
+    const auto context = test::open_llvmpipe();
     if (!context)
         return;
     const std::vector<std::filesystem::path> files = files_in("tests/right_shaders");

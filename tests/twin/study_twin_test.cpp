@@ -8,7 +8,7 @@
 using namespace lockstep;
 
 TEST_CASE("study twin: both sides give the same study, number for number") {
-    const auto context = test::open_llvmpipe("osmesa");
+    const auto context = test::open_llvmpipe();
     if (!context)
         return;
     for (const char* base : {"paper", "corrected", "exact"}) {

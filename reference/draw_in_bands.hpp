@@ -25,6 +25,7 @@ template <class Rows, class Draw> void draw_in_bands(std::size_t count, int widt
         for (int band = std::max(touched.first, 0) / band_rows; band * band_rows <= last; ++band)
             members[static_cast<std::size_t>(band)].push_back(static_cast<std::uint32_t>(i));
     }
+    const FlushSubnormals keep(false); // for threads that start here, and outlive this
 #pragma omp parallel
     {
         const FlushSubnormals guard(profile.flush_subnormals);

@@ -7,15 +7,15 @@
 namespace lockstep {
 
 /// While it lives, this thread treats subnormal operands as zero and flushes subnormal results to zero, as every GL
-/// driver measured does; plain C++ keeps them. Each thread of a parallel loop needs its own.
+/// driver measured does, or keeps them, as plain C++ does, whatever held before. Each thread of a parallel loop needs
+/// its own: a thread starts as the one that made it was just then.
 class FlushSubnormals {
   public:
     explicit FlushSubnormals(bool flush) : FlushSubnormals(flush, flush) {}
     /// Where the processor cannot tell the two apart (aarch64), both are as `operands` says.
     FlushSubnormals(bool operands, bool results) : saved_(read()) {
         const std::uint64_t bits = (operands ? operand_bits : 0U) | (results ? result_bits : 0U);
-        if (bits != 0)
-            write(saved_ | bits);
+        write((saved_ & ~(operand_bits | result_bits)) | bits);
     }
     ~FlushSubnormals() { write(saved_); }
     FlushSubnormals(const FlushSubnormals&) = delete;

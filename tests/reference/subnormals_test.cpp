@@ -5,6 +5,7 @@
 
 #include <omp.h>
 
+#include "reference/obstacle_pass.hpp"
 #include "reference/subnormals.hpp"
 
 using namespace lockstep;
@@ -36,16 +37,19 @@ TEST_CASE("subnormals: operands and results are zero while the guard lives, and 
     CHECK(subnormal * big > 0.0F);
 }
 
-TEST_CASE("subnormals: a guard told not to flush keeps them, one inside another restores the outer") {
+TEST_CASE("subnormals: one guard inside another says what holds, and restores the outer") {
     const FlushSubnormals keep(false);
     CHECK(subnormal * big > 0.0F);
-    const FlushSubnormals outer(true);
+    float inside, after;
     {
-        const FlushSubnormals inner(false);
-        const float still = subnormal * big;
-        CHECK(still == 0.0F);
+        const FlushSubnormals outer(true);
+        {
+            const FlushSubnormals inner(false);
+            inside = subnormal * big;
+        }
+        after = subnormal * big;
     }
-    const float after = subnormal * big;
+    CHECK(inside > 0.0F);
     CHECK(after == 0.0F);
 }
 
@@ -65,4 +69,22 @@ TEST_CASE("subnormals: a guard holds for its own thread only") {
         else
             CHECK(open[thread] > 0.0F);
     }
+}
+
+TEST_CASE("subnormals: threads that start while obstacles are drawn keep them afterwards") {
+    Mesh triangle{{{-1.0F, -1.0F, 0.0F}, {1.0F, -1.0F, 0.0F}, {0.0F, 1.0F, 0.0F}}, {0, 1, 2}};
+    FrameParams params;
+    params.width = params.height = 64;
+    CollisionImage cdt(64, 64);
+    DepthImage depth(64, 64, 1.0F);
+    constexpr int threads = 9; // more than any test before this one had
+    const int usual = omp_get_max_threads();
+    omp_set_num_threads(threads);
+    obstacle_pass(triangle, params, Profile{}, cdt, depth);
+    std::vector<float> products(threads, -1.0F);
+#pragma omp parallel num_threads(threads)
+    products[static_cast<std::size_t>(omp_get_thread_num())] = subnormal * big;
+    omp_set_num_threads(usual);
+    for (const float product : products)
+        CHECK(product > 0.0F);
 }

@@ -63,7 +63,7 @@ int run(const std::vector<std::string>& only, const std::string& gl, const std::
 
 int main(int argc, char** argv) {
     std::vector<std::string> only;
-    std::string gl = test::software_gl();
+    std::string gl = "osmesa";
     std::filesystem::path json, markdown;
     std::string commit, pass;
     Verb program{"lockstep_mutants", "Runs the catalogue of mutants, from the root of the source tree"};

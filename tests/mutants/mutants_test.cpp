@@ -80,7 +80,7 @@ TEST_CASE("mutants: a few of the catalogue are found and named, and the shipped 
 }
 
 TEST_CASE("mutants: what is drawn rightly of particles that diverge has no cause of its own") {
-    const auto context = open_llvmpipe("osmesa");
+    const auto context = open_llvmpipe();
     if (!context)
         return;
     constexpr std::string_view names[] = {"layers"};

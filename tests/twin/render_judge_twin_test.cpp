@@ -155,7 +155,7 @@ std::vector<Mutant> mutants() {
 } // namespace
 
 TEST_CASE("render judge: mutants of the render shaders are divergent, with their cause") {
-    const auto context = test::open_llvmpipe("osmesa");
+    const auto context = test::open_llvmpipe();
     if (!context)
         return;
     const Frame frame = crowded_frame();
@@ -180,7 +180,7 @@ TEST_CASE("render judge: mutants of the render shaders are divergent, with their
 }
 
 TEST_CASE("render judge: faults of a host are divergent, with their cause") {
-    const auto context = test::open_llvmpipe("osmesa");
+    const auto context = test::open_llvmpipe();
     if (!context)
         return;
     const Frame right = crowded_frame();
@@ -211,7 +211,7 @@ TEST_CASE("render judge: faults of a host are divergent, with their cause") {
 }
 
 TEST_CASE("render judge: the shipped shaders agree, and a driver that rounds otherwise is legal") {
-    const auto context = test::open_llvmpipe("osmesa");
+    const auto context = test::open_llvmpipe();
     if (!context)
         return;
     const Frame frame = crowded_frame();

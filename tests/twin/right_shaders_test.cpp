@@ -80,7 +80,7 @@ TEST_CASE("right shaders: no collision pass that is right in another style is di
 }
 
 TEST_CASE("right shaders: no search by octree or in layers that is right in another style is divergent") {
-    const auto context = test::open_llvmpipe("osmesa");
+    const auto context = test::open_llvmpipe();
     if (!context)
         return;
     const std::vector<std::filesystem::path> files = files_in("tests/right_searches");

@@ -214,6 +214,7 @@ TEST_CASE("match_reference: with render the last frame is compared, too, and an 
         CHECK(match_reference(shaders, scene, {.frames = 4}).passed());
         const MatchResult result = match_reference(shaders, scene, {.frames = 4, .render = true});
         CHECK(result.passed() == (folder == &right));
-        CHECK_THAT(result.text(), Contains(folder == &right ? "render    AGREE: every one of" : "render    DIVERGENT: "));
+        CHECK_THAT(result.text(),
+                   Contains(folder == &right ? "render    AGREE: every one of" : "render    DIVERGENT: "));
     }
 }

@@ -2,10 +2,10 @@
 
 #include <algorithm>
 #include <bit>
-#include <cstdint>
 
 #include <fmt/format.h>
 
+#include "gpu/canary.hpp"
 #include "gpu/check.hpp"
 #include "reference/model/collision_state.hpp"
 #include "reference/model/error.hpp"
@@ -14,15 +14,12 @@
 namespace lockstep {
 namespace {
 
-/// -4.2e6 or so in every float; a position, speed or time of a real run never has exactly these bits.
-constexpr std::uint32_t canary = 0xca7ca7ca;
-
 /// The stored code of a texel that nobody writes. Every half and every byte may be part of a position; with this alpha,
 /// neither that of a cleared texel nor of a drawn one, they are none.
 glm::vec4 canary_texel(CdtFormat format) {
     switch (format) {
     case CdtFormat::rgba32f:
-        return glm::vec4(std::bit_cast<float>(canary));
+        return glm::vec4(std::bit_cast<float>(canary_word));
     case CdtFormat::rgba16f:
         return glm::vec4(-12.96875F); // 0xca7c
     case CdtFormat::rgba8:
@@ -121,7 +118,7 @@ void GpuSimulation::read(CollisionImage& cdt) const {
 bool GpuSimulation::holds(const Particles& particles) const { return particles_[current_].holds(particles); }
 
 void GpuSimulation::lay_canary() {
-    particles_[1 - current_].fill(canary);
+    particles_[1 - current_].fill(canary_word);
     const auto fill = [](auto& target) {
         CollisionImage image;
         target.read(image);
@@ -135,7 +132,7 @@ void GpuSimulation::lay_canary() {
 }
 
 void GpuSimulation::find_canary(const Particles& particles, const CollisionImage& cdt, int frame) const {
-    if (const std::size_t i = find_word(view(particles), canary); i < particles.size())
+    if (const std::size_t i = find_word(view(particles), canary_word); i < particles.size())
         throw Error(fmt::format("frame {}: the GPU did not write particle {}: its record still holds what was laid "
                                 "there before the draw",
                                 frame, i));

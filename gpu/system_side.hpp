@@ -2,6 +2,7 @@
 #include <cstddef>
 #include <vector>
 
+#include "gpu/canary.hpp"
 #include "gpu/captured_vertex.hpp"
 #include "gpu/gpu_side.hpp"
 #include "reference/model/system_state.hpp"
@@ -41,8 +42,5 @@ class SystemSide {
     /// What the last pass told of one item on its way: outputs by name, in order; empty where it tells nothing.
     virtual std::vector<CapturedVertex> trace(std::size_t pass, int frame, std::size_t item);
 };
-
-/// The word that lay_canary() leaves.
-inline constexpr std::uint32_t canary_word = 0xca7ca7ca;
 
 } // namespace lockstep

@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "crosscheck/judge/compare.hpp"
+#include "crosscheck/judge/item_sample.hpp"
 #include "reference/collision_pass.hpp"
 #include "reference/model/same_bits.hpp"
 #include "reference/model/ulp.hpp"
@@ -21,24 +22,6 @@ constexpr std::size_t pair_sample = 48;
 constexpr std::size_t pairs_kept = 8;
 constexpr std::size_t whole_kept = 8;
 constexpr std::ptrdiff_t parts_kept = 8;
-
-/// At most `count` of them, evenly spread.
-std::vector<std::size_t> sample(const std::vector<std::size_t>& all, std::size_t count) {
-    if (all.size() <= count)
-        return all;
-    std::vector<std::size_t> some(count);
-    for (std::size_t i = 0; i < count; ++i)
-        some[i] = all[i * all.size() / count];
-    return some;
-}
-
-std::vector<std::size_t> divergent(const std::vector<ItemVerdict>& verdicts) {
-    std::vector<std::size_t> indices;
-    for (const ItemVerdict& verdict : verdicts)
-        if (verdict.kind == DifferenceClass::divergent)
-            indices.push_back(verdict.index);
-    return indices;
-}
 
 Deviations together(const TriedCause& cause) {
     Deviations set;
@@ -243,18 +226,6 @@ void contradict_by_steps(std::vector<TriedCause>& causes, std::size_t divergent,
     }
 }
 
-/// At most trial_items particles that do not differ.
-std::vector<std::size_t> agreeing_particles(const JudgedFrame& frame, const FrameVerdicts& verdicts) {
-    std::vector<std::size_t> equal;
-    for (std::size_t i = 0, next = 0; i < frame.gpu.size(); ++i) {
-        if (next < verdicts.particles.size() && verdicts.particles[next].index == i)
-            ++next;
-        else
-            equal.push_back(i);
-    }
-    return sample(equal, CauseFinder::trial_items);
-}
-
 /// The best few.
 std::vector<TriedCause> best_of(std::vector<TriedCause> causes, std::size_t count) {
     std::stable_sort(causes.begin(), causes.end(), before);
@@ -328,8 +299,8 @@ void CauseFinder::hold_against(Trial& trial, const std::vector<std::size_t>& div
 }
 
 void CauseFinder::try_on_particles(const JudgedFrame& frame, const FrameVerdicts& verdicts, const FrameInputs& inputs) {
-    const std::vector<std::size_t> equal = agreeing_particles(frame, verdicts);
-    const std::vector<std::size_t> wrong = divergent(verdicts.particles);
+    const std::vector<std::size_t> equal = agreeing_items(frame.gpu.size(), verdicts.particles, trial_items);
+    const std::vector<std::size_t> wrong = divergent_items(verdicts.particles);
     const auto count = [&](std::vector<TriedCause>& causes, const std::vector<std::size_t>& items) {
         count_particles(causes, frame, inputs, items, equal);
         contradict_by_drawing(causes, items.size(), frame, inputs);
@@ -364,11 +335,11 @@ void CauseFinder::try_on_texels(const JudgedFrame& frame, const FrameVerdicts& v
     std::vector<ItemVerdict> drawn_wrong;
     std::copy_if(verdicts.texels.begin(), verdicts.texels.end(), std::back_inserter(drawn_wrong),
                  [](const ItemVerdict& verdict) { return !verdict.follows_particle; });
-    const std::vector<std::size_t> wrong = divergent(drawn_wrong);
+    const std::vector<std::size_t> wrong = divergent_items(drawn_wrong);
     if (wrong.empty())
         return;
     const TexelTrials trials(frame, inputs);
-    const std::vector<std::size_t> equal = agreeing_particles(frame, verdicts);
+    const std::vector<std::size_t> equal = agreeing_items(frame.gpu.size(), verdicts.particles, trial_items);
     const auto count = [&](std::vector<TriedCause>& causes, const std::vector<std::size_t>& items) {
         trials.count(causes, items);
         contradict_by_steps(causes, items.size(), frame, inputs, equal);

@@ -1,7 +1,6 @@
 #include "crosscheck/judge/check.hpp"
 
 #include <algorithm>
-#include <chrono>
 #include <utility>
 
 #include <fmt/format.h>
@@ -14,6 +13,7 @@
 #include "crosscheck/judge/power.hpp"
 #include "crosscheck/judge/side_state.hpp"
 #include "crosscheck/judge/step_judge.hpp"
+#include "crosscheck/judge/stopwatch.hpp"
 #include "gpu/gpu_side.hpp"
 #include "reference/collision/collision_mistakes.hpp"
 #include "reference/collision/step_pass.hpp"
@@ -25,19 +25,6 @@
 
 namespace lockstep {
 namespace {
-
-/// Adds the time until it dies to a sum.
-class Stopwatch {
-  public:
-    explicit Stopwatch(double& seconds) : seconds_(seconds) {}
-    ~Stopwatch() { seconds_ += std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count(); }
-    Stopwatch(const Stopwatch&) = delete;
-    Stopwatch& operator=(const Stopwatch&) = delete;
-
-  private:
-    double& seconds_;
-    std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
-};
 
 /// State of one side after a frame.
 struct State {
@@ -141,7 +128,7 @@ class RunJudge {
     /// Tries on a frame's own states which mistakes would have shown: in all of the first frames, then in some.
     void measure_power(const RunFrame& f) {
         constexpr int first_frames = 8;
-        if (f.number >= first_frames && f.number % first_frames != 0)
+        if ((f.number >= first_frames && f.number % first_frames != 0) || power_.has_seen_all())
             return;
         std::vector<std::size_t> hits;
         const float hit = scene_.constants.collision_time;
@@ -242,6 +229,8 @@ std::vector<std::string> untried(const CheckReport& report, const Scene& scene) 
     return all;
 }
 
+} // namespace
+
 Verdict verdict_on(const CheckReport& report) {
     if (report.total.agree())
         return Verdict::agree;
@@ -251,8 +240,6 @@ Verdict verdict_on(const CheckReport& report) {
         return Verdict::divergent;
     return report.verdicts->total(DifferenceClass::undefined) > 0 ? Verdict::undefined : Verdict::legal;
 }
-
-} // namespace
 
 void add_rendered(CheckReport& report, RenderVerdict rendered) {
     const Verdict frame = rendered.count(DifferenceClass::divergent) > 0   ? Verdict::divergent

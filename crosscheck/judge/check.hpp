@@ -97,6 +97,9 @@ struct PassRules {
     return fits && !report.partial() && !(rules.require_hits && report.hits == 0);
 }
 
+/// What the counts of a run come to.
+[[nodiscard]] Verdict verdict_on(const CheckReport& report);
+
 /// Takes up the verdict on a rendered frame of the run: the run's is the worse of both.
 void add_rendered(CheckReport& report, RenderVerdict rendered);
 

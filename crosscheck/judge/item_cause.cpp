@@ -8,27 +8,11 @@
 
 #include <fmt/format.h>
 
-#include "crosscheck/judge/compare.hpp"
+#include "crosscheck/judge/item_sample.hpp"
+#include "reference/parallel_blocks.hpp"
 
 namespace lockstep {
 namespace {
-
-std::vector<std::size_t> sample(const std::vector<std::size_t>& all, std::size_t count) {
-    if (all.size() <= count)
-        return all;
-    std::vector<std::size_t> some(count);
-    for (std::size_t i = 0; i < count; ++i)
-        some[i] = all[i * all.size() / count];
-    return some;
-}
-
-std::vector<std::size_t> divergent_of(const std::vector<ItemVerdict>& verdicts) {
-    std::vector<std::size_t> items;
-    for (const ItemVerdict& verdict : verdicts)
-        if (verdict.kind == DifferenceClass::divergent)
-            items.push_back(verdict.index);
-    return items;
-}
 
 /// As few at the front as one likes come from everywhere.
 std::vector<std::size_t> spread(const std::vector<std::size_t>& all) {
@@ -39,18 +23,6 @@ std::vector<std::size_t> spread(const std::vector<std::size_t>& all) {
         for (std::size_t i = first; i < all.size(); i += stride)
             some.push_back(all[i]);
     return some;
-}
-
-std::vector<std::size_t> agreeing_of(const JudgedPass& pass, const std::vector<ItemVerdict>& verdicts,
-                                     std::size_t most) {
-    std::vector<std::size_t> items;
-    for (std::size_t i = 0, next = 0; i < pass.gpu.count(); ++i) {
-        if (next < verdicts.size() && verdicts[next].index == i)
-            ++next;
-        else
-            items.push_back(i);
-    }
-    return sample(items, most);
 }
 
 /// The same bits but for the sign of zero, which depends on how a mistake was written down.
@@ -124,18 +96,16 @@ bool ItemCauseFinder::hold(Hypothesis& hypothesis, const Trial& trial, std::int6
 /// explained, or one that agrees contradicts.
 void ItemCauseFinder::try_all(const Trial& trial) {
     constexpr std::size_t few = 4, most_promising = 8;
-    const auto n = static_cast<std::ptrdiff_t>(tried_.size());
     const std::span items(trial.divergent.data(), std::min(few, trial.divergent.size()));
     std::vector<std::size_t> promise(tried_.size());
-#pragma omp parallel for schedule(dynamic)
-    for (std::ptrdiff_t h = 0; h < n; ++h) {
+    parallel_blocks(static_cast<std::ptrdiff_t>(tried_.size()), [&](std::ptrdiff_t h) {
         const auto at = static_cast<std::size_t>(h);
         for (const std::size_t item : items)
             if (explains(tried_[at], trial, item))
                 ++promise[at];
             else if (tried_[at].named == nullptr)
                 break;
-    }
+    });
     std::vector<std::size_t> order(tried_.size());
     std::iota(order.begin(), order.end(), std::size_t{0});
     std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) {
@@ -143,11 +113,10 @@ void ItemCauseFinder::try_all(const Trial& trial) {
     });
     std::vector<char> kept(tried_.size());
     const auto hold_from = [&](std::size_t from, std::size_t to, std::int64_t at_least) {
-#pragma omp parallel for schedule(dynamic)
-        for (std::ptrdiff_t i = static_cast<std::ptrdiff_t>(from); i < static_cast<std::ptrdiff_t>(to); ++i) {
-            const std::size_t h = order[static_cast<std::size_t>(i)];
+        parallel_blocks(static_cast<std::ptrdiff_t>(to - from), [&](std::ptrdiff_t i) {
+            const std::size_t h = order[from + static_cast<std::size_t>(i)];
             kept[h] = hold(tried_[h], trial, at_least) ? 1 : 0;
-        }
+        });
     };
     const std::size_t first = std::min(most_promising, order.size());
     hold_from(0, first, std::numeric_limits<std::int64_t>::min());
@@ -164,7 +133,7 @@ void ItemCauseFinder::try_all(const Trial& trial) {
 }
 
 void ItemCauseFinder::add(const JudgedPass& pass, const std::vector<ItemVerdict>& verdicts) {
-    const std::vector<std::size_t> divergent = divergent_of(verdicts);
+    const std::vector<std::size_t> divergent = divergent_items(verdicts);
     if (divergent.empty())
         return;
     const bool first = frames_ == 0, later = frames_ >= trial_frames;
@@ -172,7 +141,7 @@ void ItemCauseFinder::add(const JudgedPass& pass, const std::vector<ItemVerdict>
         return;
     const std::size_t most = later ? later_items : trial_items;
     const std::vector<std::size_t> items = spread(sample(divergent, most)),
-                                   agreeing = spread(agreeing_of(pass, verdicts, most));
+                                   agreeing = spread(agreeing_items(pass.gpu.count(), verdicts, most));
     const auto part = [&](std::size_t from, std::size_t to) {
         const auto of = [&](const std::vector<std::size_t>& all) {
             return std::span(all).subspan(std::min(from, all.size()),

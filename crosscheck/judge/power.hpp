@@ -20,6 +20,9 @@ class PowerMeter {
     /// A frame's pass, as the reference made it. `telling`: items that are worth a try more than others.
     void add(const JudgedPass& pass, const std::vector<std::size_t>& telling);
 
+    /// Whether all mistakes of the passes that were seen have shown: more frames tell nothing more of these.
+    [[nodiscard]] bool has_seen_all() const;
+
     /// Of the mistakes of passes that were seen.
     [[nodiscard]] PowerSummary summary() const;
 

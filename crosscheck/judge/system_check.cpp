@@ -1,6 +1,5 @@
 #include "crosscheck/judge/system_check.hpp"
 
-#include <chrono>
 #include <utility>
 
 #include <fmt/format.h>
@@ -9,25 +8,13 @@
 #include "crosscheck/judge/item_judge.hpp"
 #include "crosscheck/judge/item_table.hpp"
 #include "crosscheck/judge/power.hpp"
+#include "crosscheck/judge/stopwatch.hpp"
 #include "gpu/system_side.hpp"
 #include "reference/model/error.hpp"
 #include "reference/model/state_hash.hpp"
 
 namespace lockstep {
 namespace {
-
-/// Adds the time until it dies to a sum.
-class Stopwatch {
-  public:
-    explicit Stopwatch(double& seconds) : seconds_(seconds) {}
-    ~Stopwatch() { seconds_ += std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count(); }
-    Stopwatch(const Stopwatch&) = delete;
-    Stopwatch& operator=(const Stopwatch&) = delete;
-
-  private:
-    double& seconds_;
-    std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
-};
 
 void check_system(const System& system) {
     if (system.passes.empty())
@@ -94,16 +81,6 @@ std::vector<std::string> untried(const CheckReport& report, std::uint64_t change
     if (nan > 0 && 2 * nan >= compared)
         all.emplace_back(fmt::format("{} of {} values are NaN, of which any equals any other", nan, compared));
     return all;
-}
-
-Verdict verdict_on(const CheckReport& report) {
-    if (report.total.agree())
-        return Verdict::agree;
-    if (!report.verdicts)
-        return Verdict::differ;
-    if (report.verdicts->total(DifferenceClass::divergent) > 0)
-        return Verdict::divergent;
-    return report.verdicts->total(DifferenceClass::undefined) > 0 ? Verdict::undefined : Verdict::legal;
 }
 
 /// A pass writes its own buffer and no other.

@@ -26,13 +26,6 @@ using nlohmann::json;
 
 constexpr std::int64_t version = 1;
 
-std::vector<std::uint32_t> words_of(const View& state, std::size_t item) {
-    std::vector<std::uint32_t> words;
-    for (const Component& c : components(state.about()))
-        words.push_back(state.value(c.field, item, c.component).bits);
-    return words;
-}
-
 void set_words(SystemState& state, std::uint8_t resource, std::size_t item, const std::vector<std::uint32_t>& words) {
     std::size_t at = 0;
     for (const Component& c : components(state.schema().resources[resource]))
@@ -83,7 +76,7 @@ json state_json(const SystemState& state, const std::set<ItemId>& items) {
     json list = json::array();
     for (const ItemId& id : items)
         list.push_back(
-            {state.schema().resources[id.resource].name, id.item, words_text(words_of(state[id.resource], id.item))});
+            {state.schema().resources[id.resource].name, id.item, words_text(item_words(state[id.resource], id.item))});
     return list;
 }
 
@@ -91,7 +84,7 @@ std::set<ItemId> items_that_hold(const SystemState& state) {
     std::set<ItemId> items;
     for (std::uint8_t r = 0; r < state.schema().resources.size(); ++r)
         for (std::size_t i = 0; i < state.extent(r).count(); ++i) {
-            const auto words = words_of(state[r], i);
+            const auto words = item_words(state[r], i);
             if (std::any_of(words.begin(), words.end(), [](std::uint32_t word) { return word != 0; }))
                 items.insert({r, i});
         }
@@ -179,8 +172,8 @@ ItemCapsule cut_item_capsule(SystemRun& run, std::size_t item, const std::string
     std::set<ItemId> read = items_read(judged, item);
     read.insert({resource, item});
     for (const ItemId& id : read)
-        set_words(capsule.before, id.resource, id.item, words_of(judged.before[id.resource], id.item));
-    set_words(capsule.gpu, resource, item, words_of(judged.gpu, item));
+        set_words(capsule.before, id.resource, id.item, item_words(judged.before[id.resource], id.item));
+    set_words(capsule.gpu, resource, item, item_words(judged.gpu, item));
     const std::string of_run = explain_item(judged, item, capsule.told, NumberFormat::hexadecimal);
     if (item_capsule_text(capsule, run.system(), NumberFormat::hexadecimal) != of_run)
         throw Error(fmt::format("{} {} in frame {}: its capsule would be judged otherwise than the run; its twin reads "

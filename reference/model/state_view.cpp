@@ -30,4 +30,11 @@ std::vector<Component> components(const Resource& resource) {
     return all;
 }
 
+std::vector<std::uint32_t> item_words(const View& state, std::size_t item) {
+    std::vector<std::uint32_t> words;
+    for (const Component& c : components(state.about()))
+        words.push_back(state.value(c.field, item, c.component).bits);
+    return words;
+}
+
 } // namespace lockstep

@@ -64,6 +64,9 @@ struct Component {
 /// All of an item's, in the order of its fields.
 std::vector<Component> components(const Resource& resource);
 
+/// The item's words, in that order.
+std::vector<std::uint32_t> item_words(const View& state, std::size_t item);
+
 namespace state_view {
 
 template <class Element> auto bytes(std::vector<Element>& values) {

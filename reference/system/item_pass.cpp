@@ -7,10 +7,10 @@
 
 namespace lockstep {
 
-bool ItemOutcome::contains(const View& state, std::size_t item) const {
+bool ItemOutcome::contains(std::span<const std::uint32_t> words, const Resource& about) const {
     std::size_t at = 0;
-    for (const Component c : components(state.about())) {
-        const Value value = state.value(c.field, item, c.component);
+    for (const Component c : components(about)) {
+        const Value value{about.fields[c.field].scalar, words[at]};
         const Interval& legal = values[at++];
         const bool fits = value.scalar == Scalar::float32
                               ? legal.contains(value.real())

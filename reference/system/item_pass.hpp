@@ -40,7 +40,11 @@ struct ItemOutcome {
     Undefined undefined = Undefined::none;
 
     /// Whether the item has these values, all of them.
-    [[nodiscard]] bool contains(const View& state, std::size_t item) const;
+    [[nodiscard]] bool contains(const View& state, std::size_t item) const {
+        return contains(item_words(state, item), state.about());
+    }
+    /// The same of an item's words, component by component.
+    [[nodiscard]] bool contains(std::span<const std::uint32_t> words, const Resource& about) const;
 };
 
 /// Values that a shader's output told of an item's step, in the order in which it came by them.

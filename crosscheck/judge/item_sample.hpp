@@ -1,0 +1,18 @@
+#pragma once
+#include <cstddef>
+#include <vector>
+
+#include "crosscheck/judge/item_verdict.hpp"
+
+namespace lockstep {
+
+/// At most `count` of them, evenly spread.
+std::vector<std::size_t> sample(const std::vector<std::size_t>& all, std::size_t count);
+
+/// Those that no legal run explains, by index.
+std::vector<std::size_t> divergent_items(const std::vector<ItemVerdict>& verdicts);
+
+/// At most `most` of `count` items, of those that have no verdict: they do not differ.
+std::vector<std::size_t> agreeing_items(std::size_t count, const std::vector<ItemVerdict>& verdicts, std::size_t most);
+
+} // namespace lockstep

@@ -162,7 +162,7 @@ std::vector<ShaderSource> GlSystem::Parts::sources(const GlPass& pass, bool trac
     ShaderDefines defines = arithmetic_defines(arithmetic);
     if (traced)
         defines.emplace_back("LOCKSTEP_TRACE", "1");
-    return load_stages(shader_folders(shaders), pass.name, std::array{pass.stage}, defines);
+    return load_stages(shader_folders(shaders, schema->system), pass.name, std::array{pass.stage}, defines);
 }
 
 void GlSystem::upload(const SystemView& state) {

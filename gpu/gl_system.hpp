@@ -17,7 +17,7 @@
 
 #include "gpu/shader_source.hpp"
 #include "gpu/system_side.hpp"
-#include "reference/model/switches.hpp"
+#include "reference/model/collision/switches.hpp"
 
 namespace lockstep {
 

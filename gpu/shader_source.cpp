@@ -226,14 +226,17 @@ std::string_view extension(Stage stage) {
 ShadersReadOnce::ShadersReadOnce() { seen = std::make_unique<Seen>(); }
 ShadersReadOnce::~ShadersReadOnce() { seen.reset(); }
 
-ShaderFolders shader_folders(const fs::path& user) {
+ShaderFolders shader_folders(const fs::path& user, std::string_view system) {
     ShaderFolders folders;
     if (!user.empty()) {
         if (!is_folder(user))
             throw Error(fmt::format("shader folder {} does not exist", user.string()));
         folders.push_back(user);
     }
-    folders.push_back(built_in_shaders());
+    const fs::path shared = built_in_shaders();
+    if (!system.empty() && is_folder(shared / system))
+        folders.push_back(shared / system);
+    folders.push_back(shared);
     return folders;
 }
 

@@ -7,7 +7,7 @@
 #include <utility>
 #include <vector>
 
-#include "reference/model/switches.hpp"
+#include "reference/model/collision/switches.hpp"
 
 namespace lockstep {
 
@@ -20,9 +20,9 @@ std::string_view extension(Stage stage);
 /// Folders a shader file is looked for in, in this order.
 using ShaderFolders = std::vector<std::filesystem::path>;
 
-/// `user` (--shaders DIR), if given, then the built-in folder (data_folder.hpp).
-/// Throws Error if `user` is no folder, or there is no built-in one.
-ShaderFolders shader_folders(const std::filesystem::path& user = {});
+/// `user` (--shaders DIR), if given, then the built-in folder of `system`, if it has one, then the one that all systems
+/// share (data_folder.hpp). Throws Error if `user` is no folder, or there is no built-in one.
+ShaderFolders shader_folders(const std::filesystem::path& user = {}, std::string_view system = {});
 
 /// Preprocessor definitions, name and value.
 using ShaderDefines = std::vector<std::pair<std::string, std::string>>;

@@ -10,7 +10,7 @@
 #include "reference/arithmetic.hpp"
 #include "reference/interval.hpp"
 #include "reference/known_operations.hpp"
-#include "reference/model/scene.hpp"
+#include "reference/model/collision/scene.hpp"
 #include "reference/portable.hpp"
 
 namespace lockstep {

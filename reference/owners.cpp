@@ -2,8 +2,8 @@
 
 #include <cstddef>
 
-#include "reference/collision_pass.hpp"
-#include "reference/obstacle_pass.hpp"
+#include "reference/collision/collision_pass.hpp"
+#include "reference/collision/obstacle_pass.hpp"
 
 namespace lockstep {
 namespace {

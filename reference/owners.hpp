@@ -3,11 +3,11 @@
 #include <span>
 #include <vector>
 
+#include "reference/model/collision/particles.hpp"
+#include "reference/model/collision/scene.hpp"
 #include "reference/model/image.hpp"
 #include "reference/model/mesh.hpp"
-#include "reference/model/particles.hpp"
 #include "reference/model/profile.hpp"
-#include "reference/model/scene.hpp"
 
 namespace lockstep {
 

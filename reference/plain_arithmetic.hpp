@@ -1,7 +1,7 @@
 #pragma once
 #include "reference/arithmetic.hpp"
+#include "reference/model/collision/switches.hpp"
 #include "reference/model/profile.hpp"
-#include "reference/model/switches.hpp"
 #include "reference/portable.hpp"
 
 namespace lockstep {

@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
 # Writes data/golden/SCENE.json: the reference's state hash of every shipped scene. They change only when the algorithm
-# or a scene does; tests/reference/golden_hash_test.cpp holds them.
+# or a scene does; tests/collision/golden_hash_test.cpp holds them.
 # Usage: scripts/golden_hashes.sh LOCKSTEP [SCENE.json ...]
 set -euo pipefail
 cd "$(dirname "$0")/.."

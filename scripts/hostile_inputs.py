@@ -145,7 +145,7 @@ class Cases:
         (folder / "scene.json").write_text(scene)
         (folder / "mine").mkdir()
         name = rng.choice(["collision_pass.vert", "collision_pass.frag", "collision_pass.geom"])
-        text = (root / "shaders" / name).read_text()
+        text = (root / "shaders/collision" / name).read_text()
         change = rng.randrange(4)
         if change == 0:
             data = changed_bytes(rng, text.encode())

@@ -96,7 +96,7 @@ TEST_CASE("include borders: every source keeps them") {
 
 TEST_CASE("include borders: a crossing is seen, with its line") {
     using Strings = std::vector<std::string>;
-    CHECK(crossings("gpu/a.cpp", "\n#include \"reference/collision_pass.hpp\"\n") ==
+    CHECK(crossings("gpu/a.cpp", "\n#include \"reference/collision/collision_pass.hpp\"\n") ==
           Strings{"gpu/a.cpp:2: gpu/ shares only the model with its twin"});
     CHECK(crossings("gpu/a.cpp", "#include \"reference/model/image.hpp\"\n#include <GL/glcorearb.h>\n").empty());
     CHECK(crossings("gpu/a.cpp", "#include \"crosscheck/judge/compare.hpp\"\n").size() == 1);

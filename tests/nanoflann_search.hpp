@@ -6,7 +6,7 @@
 #include <glm/vec3.hpp>
 #include <nanoflann.hpp>
 
-#include "reference/neighbours.hpp"
+#include "reference/collision/neighbours.hpp"
 
 namespace lockstep::test {
 

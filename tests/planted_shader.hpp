@@ -6,6 +6,7 @@
 
 #include <catch2/catch.hpp>
 
+#include "tests/shipped_shaders.hpp"
 #include "tests/temporary_folder.hpp"
 
 namespace lockstep::test {
@@ -15,7 +16,7 @@ namespace lockstep::test {
 inline void plant(const TemporaryFolder& folder, const std::string& file, const std::string& text,
                   const std::string& replacement) {
     const bool planted = std::filesystem::exists(folder.path() / file);
-    std::ifstream stream((planted ? folder.path() : std::filesystem::path("shaders")) / file, std::ios::binary);
+    std::ifstream stream((planted ? folder.path() : shipped_shaders(file)) / file, std::ios::binary);
     std::string shader{std::istreambuf_iterator<char>(stream), {}};
     INFO("shader " << file << ": " << text);
     const std::size_t place = shader.find(text);

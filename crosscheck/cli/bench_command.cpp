@@ -16,10 +16,10 @@
 #include "crosscheck/scene/scene_constants.hpp"
 #include "crosscheck/scene/scene_file.hpp"
 #include "crosscheck/study/statistics.hpp"
+#include "gpu/collision/simulation.hpp"
 #include "gpu/context.hpp"
-#include "gpu/simulation.hpp"
+#include "reference/model/collision/layered_cdt.hpp"
 #include "reference/model/error.hpp"
-#include "reference/model/layered_cdt.hpp"
 #include "reference/model/state_hash.hpp"
 
 namespace lockstep {

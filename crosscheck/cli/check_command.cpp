@@ -34,11 +34,11 @@
 #include "crosscheck/report/report.hpp"
 #include "crosscheck/scene/profiles.hpp"
 #include "crosscheck/scene/run_text.hpp"
+#include "gpu/collision/simulation.hpp"
 #include "gpu/context.hpp"
-#include "gpu/simulation.hpp"
-#include "reference/model/collision_state.hpp"
+#include "reference/model/collision/collision_state.hpp"
+#include "reference/model/collision/layered_cdt.hpp"
 #include "reference/model/error.hpp"
-#include "reference/model/layered_cdt.hpp"
 
 namespace lockstep {
 namespace {

@@ -4,7 +4,7 @@
 #include <fmt/ranges.h>
 
 #include "crosscheck/files/shell_words.hpp"
-#include "reference/model/switches.hpp"
+#include "reference/model/collision/switches.hpp"
 
 namespace lockstep {
 namespace {

@@ -6,10 +6,10 @@
 #include "crosscheck/cli/commands.hpp"
 #include "crosscheck/cli/option_values.hpp"
 #include "crosscheck/cli/run_options.hpp"
-#include "reference/model/collision_state.hpp"
+#include "reference/collision/simulation.hpp"
+#include "reference/model/collision/collision_state.hpp"
 #include "reference/model/profile.hpp"
 #include "reference/model/state_hash.hpp"
-#include "reference/simulation.hpp"
 
 namespace lockstep {
 namespace {

@@ -14,11 +14,11 @@
 #include "crosscheck/report/progress.hpp"
 #include "crosscheck/report/verdict_text.hpp"
 #include "crosscheck/scene/profiles.hpp"
+#include "gpu/collision/simulation.hpp"
 #include "gpu/context.hpp"
-#include "gpu/simulation.hpp"
-#include "reference/model/collision_state.hpp"
+#include "reference/model/collision/collision_state.hpp"
+#include "reference/model/collision/layered_cdt.hpp"
 #include "reference/model/error.hpp"
-#include "reference/model/layered_cdt.hpp"
 
 namespace lockstep {
 namespace {

@@ -11,11 +11,11 @@
 #include "crosscheck/report/frame_images.hpp"
 #include "crosscheck/report/progress.hpp"
 #include "crosscheck/scene/profiles.hpp"
+#include "gpu/collision/simulation.hpp"
 #include "gpu/context.hpp"
-#include "gpu/simulation.hpp"
+#include "reference/collision/render_pass.hpp"
+#include "reference/collision/simulation.hpp"
 #include "reference/model/error.hpp"
-#include "reference/render_pass.hpp"
-#include "reference/simulation.hpp"
 
 namespace lockstep {
 namespace {

@@ -7,8 +7,8 @@
 
 #include "crosscheck/cli/verb.hpp"
 #include "crosscheck/files/output_files.hpp"
-#include "gpu/shader_use.hpp"
-#include "reference/model/scene.hpp"
+#include "gpu/collision/shader_use.hpp"
+#include "reference/model/collision/scene.hpp"
 
 namespace lockstep {
 

@@ -29,9 +29,9 @@
 #include "crosscheck/study/study.hpp"
 #include "crosscheck/study/study_pictures.hpp"
 #include "crosscheck/study/study_report.hpp"
+#include "gpu/collision/simulation.hpp"
 #include "gpu/context.hpp"
 #include "gpu/data_folder.hpp"
-#include "gpu/simulation.hpp"
 #include "reference/model/error.hpp"
 #include "reference/model/profile.hpp"
 

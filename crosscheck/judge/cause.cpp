@@ -8,10 +8,10 @@
 
 #include "crosscheck/judge/compare.hpp"
 #include "crosscheck/judge/item_sample.hpp"
-#include "reference/collision_pass.hpp"
+#include "reference/collision/collision_pass.hpp"
+#include "reference/collision/obstacle_pass.hpp"
 #include "reference/model/same_bits.hpp"
 #include "reference/model/ulp.hpp"
-#include "reference/obstacle_pass.hpp"
 
 namespace lockstep {
 namespace {

@@ -6,8 +6,8 @@
 
 #include "crosscheck/judge/cause_findings.hpp"
 #include "crosscheck/judge/verdict.hpp"
-#include "reference/deviating_pass.hpp"
-#include "reference/deviation.hpp"
+#include "reference/collision/deviating_pass.hpp"
+#include "reference/collision/deviation.hpp"
 
 namespace lockstep {
 
@@ -17,8 +17,8 @@ struct TriedCause {
     std::uint64_t explained = 0, contradicted = 0; ///< as Cause has them
 };
 
-/// Looks for the named deviation (reference/deviation.hpp) that explains divergence: each alone, then in pairs, on the
-/// first frames with divergence; what explains all there is held against the frames that follow.
+/// Looks for the named deviation (reference/collision/deviation.hpp) that explains divergence: each alone, then in
+/// pairs, on the first frames with divergence; what explains all there is held against the frames that follow.
 class CauseFinder {
   public:
     static constexpr int trial_frames = 4;

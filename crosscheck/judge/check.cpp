@@ -14,14 +14,14 @@
 #include "crosscheck/judge/side_state.hpp"
 #include "crosscheck/judge/step_judge.hpp"
 #include "crosscheck/judge/stopwatch.hpp"
-#include "gpu/gpu_side.hpp"
+#include "gpu/collision/gpu_side.hpp"
 #include "reference/collision/collision_mistakes.hpp"
+#include "reference/collision/simulation.hpp"
 #include "reference/collision/step_pass.hpp"
-#include "reference/model/collision_state.hpp"
+#include "reference/model/collision/collision_state.hpp"
+#include "reference/model/collision/layered_cdt.hpp"
 #include "reference/model/error.hpp"
-#include "reference/model/layered_cdt.hpp"
 #include "reference/model/state_hash.hpp"
-#include "reference/simulation.hpp"
 
 namespace lockstep {
 namespace {

@@ -13,8 +13,8 @@
 #include "crosscheck/judge/verdict.hpp"
 #include "crosscheck/judge/verdict_summary.hpp"
 #include "reference/known_operations.hpp"
+#include "reference/model/collision/scene.hpp"
 #include "reference/model/profile.hpp"
-#include "reference/model/scene.hpp"
 
 namespace lockstep {
 

@@ -10,12 +10,12 @@
 #include <fmt/format.h>
 
 #include "reference/arithmetic.hpp"
-#include "reference/collision_code.hpp"
-#include "reference/collision_pass.hpp"
-#include "reference/legal_texels.hpp"
-#include "reference/model/collision_state.hpp"
+#include "reference/collision/collision_code.hpp"
+#include "reference/collision/collision_pass.hpp"
+#include "reference/collision/legal_texels.hpp"
+#include "reference/collision/step_trace.hpp"
+#include "reference/model/collision/collision_state.hpp"
 #include "reference/model/same_bits.hpp"
-#include "reference/step_trace.hpp"
 
 namespace lockstep {
 namespace {

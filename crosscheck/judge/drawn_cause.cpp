@@ -6,9 +6,9 @@
 #include <tuple>
 
 #include "crosscheck/judge/step_judge.hpp"
-#include "reference/collision_code.hpp"
-#include "reference/layered_collision_pass.hpp"
-#include "reference/model/layered_cdt.hpp"
+#include "reference/collision/collision_code.hpp"
+#include "reference/collision/layered_collision_pass.hpp"
+#include "reference/model/collision/layered_cdt.hpp"
 #include "reference/model/same_bits.hpp"
 
 namespace lockstep {

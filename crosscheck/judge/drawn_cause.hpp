@@ -8,9 +8,9 @@
 
 namespace lockstep {
 
-/// Looks for the mistake in drawing a CDT of several planes (reference/model/layered_cdt.hpp) that explains the texels
-/// which diverged: a plane that is not cleared, a layer that is not drawn, and such. What each mistake leaves in a
-/// texel follows from what the reference draws of the GPU's own particles.
+/// Looks for the mistake in drawing a CDT of several planes (reference/model/collision/layered_cdt.hpp) that explains
+/// the texels which diverged: a plane that is not cleared, a layer that is not drawn, and such. What each mistake
+/// leaves in a texel follows from what the reference draws of the GPU's own particles.
 class DrawnCauseFinder {
   public:
     static constexpr int trial_frames = 4;

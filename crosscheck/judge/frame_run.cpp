@@ -3,9 +3,9 @@
 #include <utility>
 
 #include "crosscheck/judge/side_state.hpp"
+#include "reference/collision/obstacle_pass.hpp"
 #include "reference/collision/step_pass.hpp"
-#include "reference/model/layered_cdt.hpp"
-#include "reference/obstacle_pass.hpp"
+#include "reference/model/collision/layered_cdt.hpp"
 
 namespace lockstep {
 FrameRun::FrameRun(Scene scene, Profile profile, const KnownOperations& known, const std::filesystem::path& shaders)

@@ -5,8 +5,8 @@
 #include <optional>
 
 #include "crosscheck/judge/verdict.hpp"
-#include "gpu/simulation.hpp"
-#include "reference/simulation.hpp"
+#include "gpu/collision/simulation.hpp"
+#include "reference/collision/simulation.hpp"
 
 namespace lockstep {
 

@@ -5,8 +5,8 @@
 
 #include <fmt/format.h>
 
+#include "reference/collision/render/legal_pixels.hpp"
 #include "reference/model/error.hpp"
-#include "reference/render/legal_pixels.hpp"
 
 namespace lockstep {
 namespace {

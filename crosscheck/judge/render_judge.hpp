@@ -6,11 +6,11 @@
 #include <vector>
 
 #include "crosscheck/judge/item_verdict.hpp"
+#include "reference/collision/render/mistakes.hpp"
+#include "reference/collision/render_pass.hpp"
 #include "reference/known_operations.hpp"
 #include "reference/model/image.hpp"
 #include "reference/model/profile.hpp"
-#include "reference/render/mistakes.hpp"
-#include "reference/render_pass.hpp"
 
 namespace lockstep {
 

@@ -1,8 +1,8 @@
 #pragma once
 #include <string>
 
-#include "gpu/gpu_side.hpp"
-#include "reference/model/scene.hpp"
+#include "gpu/collision/gpu_side.hpp"
+#include "reference/model/collision/scene.hpp"
 
 namespace lockstep {
 

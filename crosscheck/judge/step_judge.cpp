@@ -5,8 +5,8 @@
 
 #include "crosscheck/judge/compare.hpp"
 #include "crosscheck/judge/item_judge.hpp"
-#include "reference/legal_texels.hpp"
-#include "reference/model/layered_cdt.hpp"
+#include "reference/collision/legal_texels.hpp"
+#include "reference/model/collision/layered_cdt.hpp"
 #include "reference/model/same_bits.hpp"
 
 namespace lockstep {

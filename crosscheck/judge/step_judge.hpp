@@ -8,7 +8,7 @@
 #include "crosscheck/judge/verdict.hpp"
 #include "crosscheck/judge/verdict_summary.hpp"
 #include "reference/collision/step_pass.hpp"
-#include "reference/model/collision_state.hpp"
+#include "reference/model/collision/collision_state.hpp"
 
 namespace lockstep {
 

@@ -9,7 +9,7 @@
 
 #include "crosscheck/judge/frame_run.hpp"
 #include "crosscheck/judge/step_row.hpp"
-#include "reference/step_trace.hpp"
+#include "reference/collision/step_trace.hpp"
 
 namespace lockstep {
 

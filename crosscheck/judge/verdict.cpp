@@ -11,15 +11,15 @@
 #include "crosscheck/judge/compare.hpp"
 #include "crosscheck/judge/item_judge.hpp"
 #include "crosscheck/judge/step_judge.hpp"
+#include "reference/collision/collision_pass.hpp"
+#include "reference/collision/layered_collision_pass.hpp"
+#include "reference/collision/legal_texels.hpp"
+#include "reference/collision/obstacle_pass.hpp"
 #include "reference/collision/sites.hpp"
-#include "reference/collision_pass.hpp"
-#include "reference/layered_collision_pass.hpp"
-#include "reference/legal_texels.hpp"
-#include "reference/model/collision_state.hpp"
-#include "reference/model/layered_cdt.hpp"
+#include "reference/collision/step_trace.hpp"
+#include "reference/model/collision/collision_state.hpp"
+#include "reference/model/collision/layered_cdt.hpp"
 #include "reference/model/same_bits.hpp"
-#include "reference/obstacle_pass.hpp"
-#include "reference/step_trace.hpp"
 
 namespace lockstep {
 namespace {

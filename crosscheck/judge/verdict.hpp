@@ -3,13 +3,13 @@
 #include <vector>
 
 #include "crosscheck/judge/item_verdict.hpp"
+#include "reference/collision/legal_outcomes.hpp"
 #include "reference/known_operations.hpp"
-#include "reference/legal_outcomes.hpp"
+#include "reference/model/collision/particles.hpp"
+#include "reference/model/collision/scene.hpp"
 #include "reference/model/image.hpp"
 #include "reference/model/mesh.hpp"
-#include "reference/model/particles.hpp"
 #include "reference/model/profile.hpp"
-#include "reference/model/scene.hpp"
 
 namespace lockstep {
 

@@ -1,7 +1,7 @@
 #include <fmt/format.h>
 
 #include "crosscheck/files/shell_words.hpp"
-#include "gpu/simulation.hpp"
+#include "gpu/collision/simulation.hpp"
 #include "lockstep/lockstep.hpp"
 
 namespace lockstep {

@@ -8,12 +8,12 @@
 
 #include "crosscheck/judge/step_table.hpp"
 #include "crosscheck/scene/profiles.hpp"
+#include "reference/collision/octree/octree_leaves.hpp"
 #include "reference/collision/step_pass.hpp"
-#include "reference/model/collision_state.hpp"
+#include "reference/model/collision/collision_state.hpp"
+#include "reference/model/collision/layered_cdt.hpp"
 #include "reference/model/error.hpp"
-#include "reference/model/layered_cdt.hpp"
 #include "reference/model/same_bits.hpp"
-#include "reference/octree/octree_leaves.hpp"
 
 namespace lockstep {
 namespace {

@@ -7,12 +7,12 @@
 
 #include "crosscheck/judge/verdict.hpp"
 #include "crosscheck/report/explain_text.hpp"
-#include "gpu/collision_trace.hpp"
+#include "gpu/collision/collision_trace.hpp"
 #include "reference/known_operations.hpp"
+#include "reference/model/collision/particles.hpp"
+#include "reference/model/collision/scene.hpp"
 #include "reference/model/image.hpp"
-#include "reference/model/particles.hpp"
 #include "reference/model/profile.hpp"
-#include "reference/model/scene.hpp"
 
 namespace lockstep {
 

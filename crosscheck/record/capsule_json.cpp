@@ -16,9 +16,9 @@
 #include "crosscheck/record/capsule_parts.hpp"
 #include "crosscheck/scene/profile_json.hpp"
 #include "crosscheck/scene/scene_settings.hpp"
-#include "reference/model/collision_state.hpp"
+#include "reference/model/collision/collision_state.hpp"
+#include "reference/model/collision/layered_cdt.hpp"
 #include "reference/model/error.hpp"
-#include "reference/model/layered_cdt.hpp"
 
 namespace lockstep {
 namespace {

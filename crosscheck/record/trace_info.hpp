@@ -5,8 +5,8 @@
 
 #include "crosscheck/judge/legal.hpp"
 #include "reference/known_operations.hpp"
+#include "reference/model/collision/scene.hpp"
 #include "reference/model/profile.hpp"
-#include "reference/model/scene.hpp"
 
 namespace lockstep {
 

@@ -17,9 +17,9 @@
 #include "crosscheck/scene/scene_file.hpp"
 #include "crosscheck/scene/scene_obstacles.hpp"
 #include "crosscheck/scene/scene_settings.hpp"
-#include "reference/model/collision_state.hpp"
+#include "reference/model/collision/collision_state.hpp"
+#include "reference/model/collision/layered_cdt.hpp"
 #include "reference/model/error.hpp"
-#include "reference/model/layered_cdt.hpp"
 
 namespace lockstep {
 namespace {

@@ -5,8 +5,8 @@
 #include <vector>
 
 #include "crosscheck/record/trace_info.hpp"
+#include "reference/model/collision/particles.hpp"
 #include "reference/model/image.hpp"
-#include "reference/model/particles.hpp"
 
 namespace lockstep {
 

@@ -26,7 +26,7 @@
 #include "crosscheck/record/syscall_fence.hpp"
 #include "crosscheck/record/trace_file.hpp"
 #include "crosscheck/record/trace_messages.hpp"
-#include "reference/model/collision_state.hpp"
+#include "reference/model/collision/collision_state.hpp"
 #include "reference/model/error.hpp"
 
 namespace lockstep {

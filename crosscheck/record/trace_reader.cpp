@@ -13,8 +13,8 @@
 #include "crosscheck/record/seal.hpp"
 #include "crosscheck/record/trace_messages.hpp"
 #include "crosscheck/record/trace_process.hpp"
+#include "reference/model/collision/layered_cdt.hpp"
 #include "reference/model/error.hpp"
-#include "reference/model/layered_cdt.hpp"
 
 namespace lockstep {
 namespace {

@@ -1,6 +1,6 @@
 #pragma once
 #include "crosscheck/record/trace_reader.hpp"
-#include "gpu/gpu_side.hpp"
+#include "gpu/collision/gpu_side.hpp"
 
 namespace lockstep {
 

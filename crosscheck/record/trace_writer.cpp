@@ -13,9 +13,9 @@
 #include "crosscheck/record/seal.hpp"
 #include "crosscheck/scene/profile_json.hpp"
 #include "crosscheck/scene/scene_settings.hpp"
-#include "reference/model/collision_state.hpp"
+#include "reference/model/collision/collision_state.hpp"
+#include "reference/model/collision/layered_cdt.hpp"
 #include "reference/model/error.hpp"
-#include "reference/model/layered_cdt.hpp"
 
 namespace lockstep {
 namespace {

@@ -4,8 +4,8 @@
 
 #include "crosscheck/files/atomic_file.hpp"
 #include "crosscheck/record/trace_info.hpp"
+#include "reference/model/collision/particles.hpp"
 #include "reference/model/image.hpp"
-#include "reference/model/particles.hpp"
 
 namespace lockstep {
 

@@ -10,7 +10,7 @@
 
 #include "crosscheck/report/places.hpp"
 #include "crosscheck/report/verdict_text.hpp"
-#include "reference/model/collision_state.hpp"
+#include "reference/model/collision/collision_state.hpp"
 #include "reference/model/error.hpp"
 
 namespace lockstep {

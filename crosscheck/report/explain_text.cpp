@@ -13,7 +13,7 @@
 #include "crosscheck/report/value_text.hpp"
 #include "crosscheck/report/verdict_text.hpp"
 #include "reference/collision/step_pass.hpp"
-#include "reference/model/collision_state.hpp"
+#include "reference/model/collision/collision_state.hpp"
 #include "reference/model/same_bits.hpp"
 
 namespace lockstep {

@@ -5,8 +5,8 @@
 
 #include "crosscheck/files/png.hpp"
 #include "crosscheck/report/pictures.hpp"
-#include "gpu/render_pass.hpp"
-#include "reference/render_pass.hpp"
+#include "gpu/collision/render_pass.hpp"
+#include "reference/collision/render_pass.hpp"
 
 namespace lockstep {
 

@@ -2,7 +2,7 @@
 
 #include <fmt/format.h>
 
-#include "reference/model/collision_state.hpp"
+#include "reference/model/collision/collision_state.hpp"
 #include "reference/model/state_hash.hpp"
 
 namespace lockstep {

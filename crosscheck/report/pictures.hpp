@@ -1,6 +1,6 @@
 #pragma once
+#include "reference/model/collision/scene.hpp"
 #include "reference/model/image.hpp"
-#include "reference/model/scene.hpp"
 
 namespace lockstep {
 

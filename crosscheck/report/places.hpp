@@ -4,7 +4,7 @@
 #include <string_view>
 
 #include "crosscheck/judge/verdict_summary.hpp"
-#include "reference/model/scene.hpp"
+#include "reference/model/collision/scene.hpp"
 
 namespace lockstep {
 

@@ -9,6 +9,7 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include "gpu/collision/collision_shaders.hpp"
 #include "gpu/probe/root_tables.hpp"
 #include "gpu/shader_source.hpp"
 #include "gpu/shader_words.hpp"
@@ -197,14 +198,14 @@ std::optional<bool> found(const ProbeResult& result, std::string_view row, std::
 
 bool has_geometry_stage(const std::filesystem::path& shaders) {
     constexpr std::array stages{Stage::geometry};
-    return !load_stages(shader_folders(shaders), "collision_pass", stages).empty();
+    return !load_stages(collision_shaders(shaders), "collision_pass", stages).empty();
 }
 
 /// Whether the fragment stage of a pass calls the encoder (collision_code.glsl), so that a driver has nothing to round.
 bool encodes(const std::filesystem::path& shaders, std::string_view pass) {
     if (shaders.empty())
         return true;
-    const ShaderSource stage = load_stage(shader_folders(shaders), pass, Stage::fragment);
+    const ShaderSource stage = load_stage(collision_shaders(shaders), pass, Stage::fragment);
     ShaderWords words(stage.text);
     while (words.next()) {
         const std::size_t file = stage.origins.at(words.line() - 1).file;

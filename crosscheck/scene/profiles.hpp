@@ -3,8 +3,8 @@
 #include <string>
 
 #include "gpu/probe.hpp"
+#include "reference/model/collision/switches.hpp"
 #include "reference/model/profile.hpp"
-#include "reference/model/switches.hpp"
 
 namespace lockstep {
 

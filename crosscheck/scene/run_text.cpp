@@ -3,8 +3,8 @@
 #include <fmt/format.h>
 
 #include "crosscheck/files/shell_words.hpp"
-#include "reference/model/octree.hpp"
-#include "reference/model/switches.hpp"
+#include "reference/model/collision/octree.hpp"
+#include "reference/model/collision/switches.hpp"
 
 namespace lockstep {
 

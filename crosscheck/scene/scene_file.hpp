@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "reference/model/scene.hpp"
+#include "reference/model/collision/scene.hpp"
 
 namespace lockstep {
 

@@ -8,8 +8,8 @@
 #include <glm/geometric.hpp>
 
 #include "crosscheck/scene/scene_constants.hpp"
+#include "reference/model/collision/layered_cdt.hpp"
 #include "reference/model/error.hpp"
-#include "reference/model/layered_cdt.hpp"
 #include "reference/model/near_name.hpp"
 
 namespace lockstep {

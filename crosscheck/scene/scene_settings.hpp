@@ -8,7 +8,7 @@
 #include <nlohmann/json.hpp>
 
 #include "crosscheck/files/json_reader.hpp"
-#include "reference/model/scene.hpp"
+#include "reference/model/collision/scene.hpp"
 
 namespace lockstep {
 

@@ -5,9 +5,9 @@
 #include <string_view>
 #include <vector>
 
+#include "reference/collision/search_study.hpp"
+#include "reference/model/collision/scene.hpp"
 #include "reference/model/profile.hpp"
-#include "reference/model/scene.hpp"
-#include "reference/search_study.hpp"
 
 namespace lockstep {
 

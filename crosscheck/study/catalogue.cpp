@@ -11,10 +11,10 @@
 
 #include "crosscheck/scene/scene_file.hpp"
 #include "crosscheck/study/study.hpp"
-#include "reference/collision_pass.hpp"
+#include "reference/collision/collision_pass.hpp"
+#include "reference/collision/render_pass.hpp"
+#include "reference/collision/simulation.hpp"
 #include "reference/model/error.hpp"
-#include "reference/render_pass.hpp"
-#include "reference/simulation.hpp"
 
 namespace lockstep {
 namespace {

@@ -10,8 +10,8 @@
 #include "crosscheck/study/catalogue.hpp"
 #include "crosscheck/study/study.hpp"
 #include "crosscheck/study/study_pictures.hpp"
+#include "reference/collision/render_pass.hpp"
 #include "reference/model/error.hpp"
-#include "reference/render_pass.hpp"
 
 namespace lockstep {
 namespace {

@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "reference/search_study.hpp"
+#include "reference/collision/search_study.hpp"
 
 namespace lockstep {
 

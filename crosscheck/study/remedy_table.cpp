@@ -11,10 +11,10 @@
 #include "crosscheck/scene/scene_file.hpp"
 #include "crosscheck/study/statistics.hpp"
 #include "crosscheck/study/study.hpp"
-#include "gpu/simulation.hpp"
-#include "reference/model/layered_cdt.hpp"
+#include "gpu/collision/simulation.hpp"
+#include "reference/collision/simulation.hpp"
+#include "reference/model/collision/layered_cdt.hpp"
 #include "reference/model/random.hpp"
-#include "reference/simulation.hpp"
 
 namespace lockstep {
 namespace {

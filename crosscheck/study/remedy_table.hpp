@@ -10,8 +10,8 @@
 
 #include <nlohmann/json_fwd.hpp>
 
+#include "reference/collision/search_study.hpp"
 #include "reference/model/profile.hpp"
-#include "reference/search_study.hpp"
 
 namespace lockstep {
 

@@ -2,11 +2,11 @@
 
 #include <algorithm>
 
-#include "gpu/simulation.hpp"
-#include "reference/collision_pass.hpp"
-#include "reference/layered_collision_pass.hpp"
-#include "reference/obstacle_pass.hpp"
-#include "reference/simulation.hpp"
+#include "gpu/collision/simulation.hpp"
+#include "reference/collision/collision_pass.hpp"
+#include "reference/collision/layered_collision_pass.hpp"
+#include "reference/collision/obstacle_pass.hpp"
+#include "reference/collision/simulation.hpp"
 
 namespace lockstep {
 

@@ -6,7 +6,7 @@
 #include <fmt/format.h>
 
 #include "crosscheck/study/gnuplot.hpp"
-#include "reference/collision_pass.hpp"
+#include "reference/collision/collision_pass.hpp"
 
 namespace lockstep {
 namespace {

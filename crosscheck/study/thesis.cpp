@@ -8,8 +8,8 @@
 
 #include "crosscheck/scene/scene_file.hpp"
 #include "crosscheck/study/study.hpp"
-#include "gpu/simulation.hpp"
-#include "reference/octree_pass.hpp"
+#include "gpu/collision/simulation.hpp"
+#include "reference/collision/octree_pass.hpp"
 
 namespace lockstep {
 namespace {

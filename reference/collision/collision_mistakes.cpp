@@ -4,8 +4,8 @@
 #include <array>
 
 #include "reference/collision/layered_twin.hpp"
+#include "reference/collision/octree/octree_twin.hpp"
 #include "reference/collision/sites.hpp"
-#include "reference/octree/octree_twin.hpp"
 
 namespace lockstep {
 namespace {

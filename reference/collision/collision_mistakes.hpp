@@ -4,7 +4,7 @@
 #include <span>
 #include <string_view>
 
-#include "reference/deviation.hpp"
+#include "reference/collision/deviation.hpp"
 #include "reference/readings/mistake.hpp"
 
 namespace lockstep {

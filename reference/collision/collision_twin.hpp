@@ -50,7 +50,7 @@ template <class R> class BaseTexelTwin {
 };
 
 /// One particle's step, as the listing reads (thesis, Fig. 3-3), over a reading `R`. Twin of
-/// shaders/collision_pass.vert.
+/// shaders/collision/collision_pass.vert.
 template <class R> class CollisionTwin {
     using Real = typename R::Real;
     using Int = typename R::Int;

@@ -3,10 +3,10 @@
 #include <cmath>
 #include <optional>
 
+#include "reference/collision/collision_code.hpp"
 #include "reference/collision/particle_twin.hpp"
-#include "reference/collision_code.hpp"
+#include "reference/model/collision/layered_cdt.hpp"
 #include "reference/model/image.hpp"
-#include "reference/model/layered_cdt.hpp"
 #include "reference/readings/values.hpp"
 
 namespace lockstep {
@@ -47,8 +47,9 @@ inline constexpr Site after_wall{"velocity after the obstacle"};
 inline constexpr Site stands_still{"stands still"};
 } // namespace site
 
-/// One particle's step with the remedies (reference/model/layered_cdt.hpp), over a reading `R`: everything stored in
-/// its windows, in all layers of each collision camera's CDT. Twin of shaders/layered_collision_pass.vert.
+/// One particle's step with the remedies (reference/model/collision/layered_cdt.hpp), over a reading `R`: everything
+/// stored in its windows, in all layers of each collision camera's CDT. Twin of
+/// shaders/collision/layered_collision_pass.vert.
 template <class R> class LayeredTwin {
     using Real = typename R::Real;
     using Int = typename R::Int;

@@ -1,7 +1,7 @@
 #pragma once
 #include "reference/collision/sites.hpp"
-#include "reference/model/particles.hpp"
-#include "reference/model/scene.hpp"
+#include "reference/model/collision/particles.hpp"
+#include "reference/model/collision/scene.hpp"
 #include "reference/readings/vector.hpp"
 
 namespace lockstep {

@@ -5,10 +5,10 @@
 
 #include "reference/collision/collision_twin.hpp"
 #include "reference/collision/layered_twin.hpp"
-#include "reference/model/collision_state.hpp"
-#include "reference/model/layered_cdt.hpp"
-#include "reference/octree/octree_leaves.hpp"
-#include "reference/octree/octree_twin.hpp"
+#include "reference/collision/octree/octree_leaves.hpp"
+#include "reference/collision/octree/octree_twin.hpp"
+#include "reference/model/collision/collision_state.hpp"
+#include "reference/model/collision/layered_cdt.hpp"
 #include "reference/system/item_twin.hpp"
 
 namespace lockstep {

@@ -1,10 +1,10 @@
 #pragma once
 #include <memory>
 
+#include "reference/model/collision/particles.hpp"
+#include "reference/model/collision/scene.hpp"
 #include "reference/model/image.hpp"
 #include "reference/model/mesh.hpp"
-#include "reference/model/particles.hpp"
-#include "reference/model/scene.hpp"
 #include "reference/system/item_pass.hpp"
 
 namespace lockstep {

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "reference/model/box.hpp"
-#include "reference/model/particles.hpp"
+#include "reference/model/collision/particles.hpp"
 
 namespace lockstep {
 

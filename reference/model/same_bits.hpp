@@ -2,7 +2,7 @@
 #include <glm/vec3.hpp>
 #include <glm/vec4.hpp>
 
-#include "reference/model/particles.hpp"
+#include "reference/model/collision/particles.hpp"
 #include "reference/model/ulp.hpp"
 
 namespace lockstep {

@@ -9,8 +9,8 @@
 
 #include "reference/interval.hpp"
 #include "reference/known_operations.hpp"
+#include "reference/model/collision/switches.hpp"
 #include "reference/model/profile.hpp"
-#include "reference/model/switches.hpp"
 #include "reference/model/system_state.hpp"
 #include "reference/readings/mistake.hpp"
 #include "reference/readings/recording.hpp"

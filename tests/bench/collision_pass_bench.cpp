@@ -8,9 +8,9 @@
 
 #include <fmt/format.h>
 
-#include "reference/collision_pass.hpp"
-#include "reference/collision_pass_fast.hpp"
-#include "reference/model/collision_state.hpp"
+#include "reference/collision/collision_pass.hpp"
+#include "reference/collision/collision_pass_fast.hpp"
+#include "reference/model/collision/collision_state.hpp"
 #include "reference/model/emitters.hpp"
 #include "reference/model/state_hash.hpp"
 

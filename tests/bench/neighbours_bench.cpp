@@ -12,7 +12,7 @@
 
 #include <fmt/format.h>
 
-#include "reference/neighbours.hpp"
+#include "reference/collision/neighbours.hpp"
 #include "tests/nanoflann_search.hpp"
 
 namespace {

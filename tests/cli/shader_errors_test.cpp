@@ -199,14 +199,14 @@ TEST_CASE("shader_errors: a shipped shader is named by its place among the shade
                                     {.environment = {{"LOCKSTEP_DATA", data.path().string()}}}));
     };
     const auto break_shader = [&](const char* name, const std::string& text) {
-        std::ofstream(data.path() / "shaders" / name, std::ios::app) << text;
+        std::ofstream(data.path() / "shaders/collision" / name, std::ios::app) << text;
     };
     break_shader("collision_code.glsl", "nonsense;\n");
-    CHECK_THAT(refused(), Catch::StartsWith("shader shaders/collision_code.glsl:"));
+    CHECK_THAT(refused(), Catch::StartsWith("shader shaders/collision/collision_code.glsl:"));
     break_shader("collision_code.glsl", "#include \"gone.glsl\"\n");
     const std::string missing = refused();
-    CHECK_THAT(missing, Catch::StartsWith("shader shaders/collision_code.glsl:") &&
-                            Catch::Contains("no shader file gone.glsl in shaders/"));
+    CHECK_THAT(missing, Catch::StartsWith("shader shaders/collision/collision_code.glsl:") &&
+                            Catch::Contains("no shader file gone.glsl in shaders/collision or shaders/"));
     CHECK_THAT(missing, !Catch::Contains(data.path().string()));
 }
 

@@ -23,7 +23,7 @@ const std::string possible = " would not run in this scene with these switches; 
 
 /// A shader that is not the shipped one, and computes the same.
 void write_own(const test::TemporaryFolder& folder, const std::string& file) {
-    std::ifstream stream("shaders/" + file);
+    std::ifstream stream("shaders/collision/" + file);
     const std::string text{std::istreambuf_iterator<char>(stream), {}};
     folder.write(file, text + "// Mine.\n");
 }
@@ -85,8 +85,8 @@ TEST_CASE("shader use: the report has whose stages ran, file by file") {
     const std::string own = setting.shaders.path().string();
     write_own(setting.shaders, "collision_pass.frag");
     write_own(setting.shaders, "clip_volume.glsl");
-    std::filesystem::copy_file("shaders/collision_pass.vert", own + "/collision_pass.vert");
-    std::filesystem::copy_file("shaders/octree_pass.comp", own + "/octree_pass.comp");
+    std::filesystem::copy_file("shaders/collision/collision_pass.vert", own + "/collision_pass.vert");
+    std::filesystem::copy_file("shaders/collision/octree_pass.comp", own + "/octree_pass.comp");
     CHECK(shaders_line({"--json", json}) ==
           "foreign: " + own + "/collision_pass.vert (as shipped), " + own + "/clip_volume.glsl, " + own +
               "/collision_pass.frag; shipped: collision_pass.geom, obstacle_pass.vert, obstacle_pass.geom, "

@@ -3,8 +3,8 @@
 #include <catch2/catch.hpp>
 
 #include "gpu/check.hpp"
+#include "gpu/collision/particle_buffer.hpp"
 #include "gpu/declaration.hpp"
-#include "gpu/particle_buffer.hpp"
 #include "gpu/program.hpp"
 #include "tests/gpu/any_context.hpp"
 #include "tests/temporary_folder.hpp"
@@ -332,14 +332,14 @@ TEST_CASE("program: every built-in shader links with every switch") {
     const auto context = open_context();
     if (!context)
         return;
-    const ShaderFolders folders = shader_folders();
-    for (const auto& entry : std::filesystem::directory_iterator(folders.back())) {
+    const ShaderFolders folders = shader_folders({}, "collision");
+    for (const auto& entry : std::filesystem::directory_iterator(folders.front())) {
         if (entry.path().extension() != ".vert")
             continue;
         const std::string name = entry.path().stem().string();
         std::vector<Stage> stages{Stage::vertex};
         for (const Stage stage : {Stage::geometry, Stage::fragment})
-            if (std::filesystem::exists(folders.back() / (name + std::string(extension(stage)))))
+            if (std::filesystem::exists(folders.front() / (name + std::string(extension(stage)))))
                 stages.push_back(stage);
         const std::vector<Capture> captures = particle_records().captures();
         const std::span<const Capture> captured(captures);

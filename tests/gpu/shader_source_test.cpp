@@ -150,7 +150,10 @@ TEST_CASE("shader source: GLSL of other kinds and of older days is told as that"
 TEST_CASE("shader folders: the user's first, then LOCKSTEP_DATA or the source tree") {
     const TemporaryFolder user;
     CHECK(shader_folders(user.path()).front() == user.path());
-    CHECK(fs::is_regular_file(shader_folders().front() / "collision_pass.vert"));
+    CHECK(fs::is_regular_file(shader_folders().front() / "arithmetic.glsl"));
+    CHECK(shader_folders(user.path(), "collision") ==
+          ShaderFolders{user.path(), shader_folders().front() / "collision", shader_folders().front()});
+    CHECK(shader_folders({}, "no_such_system") == shader_folders());
     CHECK_THROWS_WITH(shader_folders("/no/such/folder"), "shader folder /no/such/folder does not exist");
     const TemporaryFolder data;
     setenv("LOCKSTEP_DATA", data.path().c_str(), 1);

@@ -10,9 +10,10 @@
 #include "crosscheck/files/json_reader.hpp"
 #include "crosscheck/judge/drawn_cause.hpp"
 #include "reference/collision/collision_mistakes.hpp"
-#include "reference/deviation.hpp"
+#include "reference/collision/deviation.hpp"
 #include "reference/model/error.hpp"
 #include "tests/mutants/host_faults.hpp"
+#include "tests/shipped_shaders.hpp"
 
 namespace lockstep::test {
 namespace {
@@ -72,7 +73,7 @@ Mutant read_mutant(const JsonValue& json, const std::string& pass) {
                            }));
     if (!mutant.cause.empty() && !is_other &&
         std::none_of(table.begin(), table.end(), [&](const DeviationInfo& info) { return info.name == mutant.cause; }))
-        json.at("cause").fail("reference/deviation.hpp has no such deviation");
+        json.at("cause").fail("reference/collision/deviation.hpp has no such deviation");
     return mutant;
 }
 
@@ -140,10 +141,10 @@ std::vector<Mutant> on_driver(std::vector<Mutant> catalogue, const Profile& prof
 void plant(const Mutant& mutant, const TemporaryFolder& folder) {
     for (const Edit& edit : mutant.edits) {
         const bool planted = std::filesystem::exists(folder.path() / edit.file);
-        std::string shader = content((planted ? folder.path() : std::filesystem::path("shaders")) / edit.file);
+        std::string shader = content((planted ? folder.path() : shipped_shaders(edit.file)) / edit.file);
         if (const int found = replace_each(shader, edit); found != edit.times)
-            throw Error(fmt::format("mutant {}: the text to replace stands {} times in shaders/{}, not {}", mutant.name,
-                                    found, edit.file, edit.times));
+            throw Error(fmt::format("mutant {}: the text to replace stands {} times in {}, not {}", mutant.name, found,
+                                    edit.file, edit.times));
         folder.write(edit.file, shader);
     }
 }

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <cstdlib>
 
-#include "reference/model/collision_state.hpp"
+#include "reference/model/collision/collision_state.hpp"
 #include "reference/model/state_hash.hpp"
 
 namespace lockstep::test {

@@ -2,8 +2,8 @@
 #include <array>
 #include <string_view>
 
+#include "reference/model/collision/particles.hpp"
 #include "reference/model/image.hpp"
-#include "reference/model/particles.hpp"
 
 namespace lockstep::test {
 

@@ -8,10 +8,10 @@
 #include <fmt/ranges.h>
 
 #include "crosscheck/judge/step_table.hpp"
+#include "tests/collision/twin/llvmpipe.hpp"
 #include "tests/mutants/catalogue.hpp"
 #include "tests/mutants/trial.hpp"
 #include "tests/temporary_folder.hpp"
-#include "tests/twin/llvmpipe.hpp"
 
 using namespace lockstep;
 

@@ -3,11 +3,11 @@
 
 #include <catch2/catch.hpp>
 
-#include "gpu/simulation.hpp"
-#include "reference/deviation.hpp"
+#include "gpu/collision/simulation.hpp"
+#include "reference/collision/deviation.hpp"
 #include "reference/model/error.hpp"
+#include "tests/collision/twin/llvmpipe.hpp"
 #include "tests/mutants/score.hpp"
-#include "tests/twin/llvmpipe.hpp"
 
 using namespace lockstep;
 using namespace lockstep::test;
@@ -135,7 +135,7 @@ TEST_CASE("mutants: a catalogue that is wrong is an error that says where") {
     CHECK_THROWS_WITH(read(R"([{ "name": "a", "fault": "none_such" }])"),
                       file + ": /0/fault: host_faults.cpp has no such fault");
     CHECK_THROWS_WITH(read(R"([{ "name": "a", "fault": "tick_doubled", "cause": "none_such" }])"),
-                      file + ": /0/cause: reference/deviation.hpp has no such deviation");
+                      file + ": /0/cause: reference/collision/deviation.hpp has no such deviation");
     CHECK_THROWS_WITH(read(R"([{ "name": "a", "fault": "tick_doubled", "sums": "x+y" }])"),
                       file + ": /0/sums: reference/model/profile.hpp has no such order");
     CHECK_THROWS_WITH(read(R"([{ "name": "a", "fault": "tick_doubled" }, { "name": "a", "fault": "tick_halved" }])"),

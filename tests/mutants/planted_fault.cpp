@@ -3,8 +3,8 @@
 #include <bit>
 #include <cstdint>
 
+#include "gpu/collision/particle_buffer.hpp"
 #include "gpu/gl.hpp"
-#include "gpu/particle_buffer.hpp"
 
 namespace lockstep::test {
 namespace {

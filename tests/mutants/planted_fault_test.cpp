@@ -6,11 +6,11 @@
 
 #include "crosscheck/judge/check.hpp"
 #include "crosscheck/scene/scene_file.hpp"
-#include "gpu/simulation.hpp"
-#include "reference/model/collision_state.hpp"
+#include "gpu/collision/simulation.hpp"
+#include "reference/model/collision/collision_state.hpp"
 #include "reference/model/same_bits.hpp"
+#include "tests/collision/twin/llvmpipe.hpp"
 #include "tests/mutants/planted_fault.hpp"
-#include "tests/twin/llvmpipe.hpp"
 
 using namespace lockstep;
 

@@ -14,11 +14,11 @@
 #include "crosscheck/report/page/explained.hpp"
 #include "crosscheck/report/page/report_page.hpp"
 #include "crosscheck/report/page/template.hpp"
-#include "gpu/simulation.hpp"
+#include "gpu/collision/simulation.hpp"
+#include "tests/collision/twin/llvmpipe.hpp"
 #include "tests/mutants/catalogue.hpp"
 #include "tests/mutants/trial.hpp"
 #include "tests/temporary_folder.hpp"
-#include "tests/twin/llvmpipe.hpp"
 
 using namespace lockstep;
 

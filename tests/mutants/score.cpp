@@ -146,12 +146,12 @@ std::string score_markdown(const Score& score) {
         fmt::format("\nThe other rules compare the end of the same GPU runs with that of the reference's own run from "
                     "the same start; a mutant counts as found if any scene shows it. `-`: the run had no end to "
                     "compare, since the host noticed an error.\n\n");
-    text +=
-        fmt::format("Cause: of the mutants that are a hypothesis (`reference/deviation.hpp`), {} are named first; {} "
-                    "are said to be explained by something else. False alarms, on {} equivalent mutants and the "
-                    "shipped shaders: {}.\n\n",
-                    of(score.named(), score.hypotheses()), score.wrongly_named(),
-                    score.outcomes.size() - score.wanted(), score.false_alarms());
+    text += fmt::format(
+        "Cause: of the mutants that are a hypothesis (`reference/collision/deviation.hpp`), {} are named first; {} "
+        "are said to be explained by something else. False alarms, on {} equivalent mutants and the "
+        "shipped shaders: {}.\n\n",
+        of(score.named(), score.hypotheses()), score.wrongly_named(), score.outcomes.size() - score.wanted(),
+        score.false_alarms());
     text +=
         "## Found\n\nThe first scene that finds a mutant, and what explains everything there (equals side by side). x: "
         "found by that rule.\n\n| mutant | in | verdict | scene, frame | cause |";

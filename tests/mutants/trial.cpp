@@ -5,11 +5,11 @@
 
 #include "crosscheck/report/report.hpp"
 #include "crosscheck/scene/scene_file.hpp"
-#include "gpu/simulation.hpp"
+#include "gpu/collision/simulation.hpp"
+#include "reference/collision/render_pass.hpp"
+#include "reference/collision/simulation.hpp"
+#include "reference/model/collision/layered_cdt.hpp"
 #include "reference/model/error.hpp"
-#include "reference/model/layered_cdt.hpp"
-#include "reference/render_pass.hpp"
-#include "reference/simulation.hpp"
 #include "tests/mutants/host_faults.hpp"
 
 namespace lockstep::test {

@@ -10,7 +10,7 @@
 #include <vector>
 
 #include "crosscheck/judge/check.hpp"
-#include "gpu/render_pass.hpp"
+#include "gpu/collision/render_pass.hpp"
 #include "tests/mutants/catalogue.hpp"
 #include "tests/mutants/common_rules.hpp"
 

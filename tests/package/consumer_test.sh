@@ -66,6 +66,6 @@ ends_with 2 build/grains check --frame 30
 says 'there is no option --frame; there are --frames'
 
 # The shaders are the package's.
-echo 'not GLSL' >>prefix/share/lockstep/shaders/collision_pass.frag
+echo 'not GLSL' >>prefix/share/lockstep/shaders/collision/collision_pass.frag
 ends_with 8 ctest --test-dir build -V
-says 'shader shaders/collision_pass.frag:'
+says 'shader shaders/collision/collision_pass.frag:'

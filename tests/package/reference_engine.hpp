@@ -3,8 +3,8 @@
 #include <string>
 #include <utility>
 
-#include "gpu/gpu_side.hpp"
-#include "reference/simulation.hpp"
+#include "gpu/collision/gpu_side.hpp"
+#include "reference/collision/simulation.hpp"
 
 namespace lockstep::test {
 

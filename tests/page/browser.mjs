@@ -45,7 +45,7 @@ export function writeScene(folder, changes = {}, name = "scene.json") {
 
 // A folder of shaders with the collision pass changed: pairs of what stands there and what is to.
 export function plantedShader(folder, ...changes) {
-  let text = readFileSync("shaders/collision_pass.vert", "utf8");
+  let text = readFileSync("shaders/collision/collision_pass.vert", "utf8");
   for (const [from, to] of changes) {
     if (!text.includes(from)) throw new Error(`collision_pass.vert has no '${from}'`);
     text = text.replace(from, to);

@@ -4,7 +4,7 @@
 #include <limits>
 
 #include "crosscheck/judge/compare.hpp"
-#include "reference/model/collision_state.hpp"
+#include "reference/model/collision/collision_state.hpp"
 #include "reference/model/ulp.hpp"
 
 using namespace lockstep;

@@ -7,13 +7,13 @@
 #include <nlohmann/json.hpp>
 
 #include "crosscheck/scene/profiles.hpp"
-#include "reference/collision_pass.hpp"
+#include "reference/collision/collision_pass.hpp"
+#include "reference/collision/legal_outcomes.hpp"
+#include "reference/collision/legal_texels.hpp"
+#include "reference/collision/octree_pass.hpp"
 #include "reference/known_operations.hpp"
-#include "reference/legal_outcomes.hpp"
-#include "reference/legal_texels.hpp"
-#include "reference/octree_pass.hpp"
 #include "reference/with_arithmetic.hpp"
-#include "tests/reference/collision_scenes.hpp"
+#include "tests/collision/collision_scenes.hpp"
 
 using namespace lockstep;
 using namespace lockstep::test;

@@ -7,7 +7,7 @@
 #include <glm/geometric.hpp>
 #include <omp.h>
 
-#include "reference/model/collision_state.hpp"
+#include "reference/model/collision/collision_state.hpp"
 #include "reference/model/emitters.hpp"
 #include "reference/model/state_hash.hpp"
 

@@ -1,7 +1,7 @@
 #include <catch2/catch.hpp>
 
-#include "reference/collision_pass.hpp"
-#include "reference/model/scene.hpp"
+#include "reference/collision/collision_pass.hpp"
+#include "reference/model/collision/scene.hpp"
 
 using namespace lockstep;
 

@@ -13,11 +13,11 @@
 #include "crosscheck/judge/check.hpp"
 #include "crosscheck/report/page/blob.hpp"
 #include "crosscheck/report/page/report_page.hpp"
-#include "gpu/gpu_side.hpp"
-#include "reference/model/collision_state.hpp"
-#include "reference/model/layered_cdt.hpp"
-#include "reference/simulation.hpp"
-#include "tests/reference/collision_scenes.hpp"
+#include "gpu/collision/gpu_side.hpp"
+#include "reference/collision/simulation.hpp"
+#include "reference/model/collision/collision_state.hpp"
+#include "reference/model/collision/layered_cdt.hpp"
+#include "tests/collision/collision_scenes.hpp"
 
 using namespace lockstep;
 

@@ -5,7 +5,7 @@
 #include <fmt/format.h>
 
 #include "crosscheck/scene/scene_file.hpp"
-#include "reference/model/collision_state.hpp"
+#include "reference/model/collision/collision_state.hpp"
 #include "reference/model/error.hpp"
 #include "reference/model/state_hash.hpp"
 #include "tests/temporary_folder.hpp"

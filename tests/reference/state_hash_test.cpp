@@ -3,7 +3,7 @@
 #include <cmath>
 #include <limits>
 
-#include "reference/model/collision_state.hpp"
+#include "reference/model/collision/collision_state.hpp"
 #include "reference/model/state_hash.hpp"
 
 using namespace lockstep;

@@ -5,7 +5,7 @@
 
 #include <omp.h>
 
-#include "reference/obstacle_pass.hpp"
+#include "reference/collision/obstacle_pass.hpp"
 #include "reference/subnormals.hpp"
 
 using namespace lockstep;

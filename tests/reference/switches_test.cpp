@@ -1,7 +1,7 @@
 #include <catch2/catch.hpp>
 
+#include "reference/model/collision/switches.hpp"
 #include "reference/model/error.hpp"
-#include "reference/model/switches.hpp"
 
 using namespace lockstep;
 

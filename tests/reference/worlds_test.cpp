@@ -8,8 +8,8 @@
 #include "reference/readings/worlds.hpp"
 
 #include "reference/arithmetic.hpp"
-#include "reference/legal_outcomes.hpp"
-#include "tests/reference/collision_scenes.hpp"
+#include "reference/collision/legal_outcomes.hpp"
+#include "tests/collision/collision_scenes.hpp"
 
 using namespace lockstep;
 using namespace lockstep::test;

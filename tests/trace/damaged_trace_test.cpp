@@ -15,7 +15,7 @@
 #include "crosscheck/judge/check.hpp"
 #include "crosscheck/record/seal.hpp"
 #include "crosscheck/record/trace_side.hpp"
-#include "reference/model/collision_state.hpp"
+#include "reference/model/collision/collision_state.hpp"
 #include "reference/model/error.hpp"
 #include "reference/model/state_hash.hpp"
 #include "tests/temporary_folder.hpp"

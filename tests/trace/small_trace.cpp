@@ -6,8 +6,8 @@
 #include "crosscheck/record/seal.hpp"
 #include "crosscheck/record/trace_writer.hpp"
 #include "crosscheck/scene/scene_file.hpp"
+#include "reference/collision/simulation.hpp"
 #include "reference/model/error.hpp"
-#include "reference/simulation.hpp"
 #include "tests/temporary_folder.hpp"
 
 namespace lockstep::test {

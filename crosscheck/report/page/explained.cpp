@@ -9,7 +9,7 @@
 #include "crosscheck/judge/step_table.hpp"
 #include "crosscheck/report/explain_text.hpp"
 #include "crosscheck/report/value_text.hpp"
-#include "reference/model/collision_state.hpp"
+#include "reference/model/collision/collision_state.hpp"
 
 namespace lockstep {
 namespace {

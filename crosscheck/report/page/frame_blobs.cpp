@@ -8,9 +8,9 @@
 #include <span>
 #include <unordered_map>
 
-#include "reference/collision_code.hpp"
-#include "reference/model/collision_state.hpp"
-#include "reference/model/layered_cdt.hpp"
+#include "reference/collision/collision_code.hpp"
+#include "reference/model/collision/collision_state.hpp"
+#include "reference/model/collision/layered_cdt.hpp"
 #include "reference/model/same_bits.hpp"
 
 namespace lockstep {

@@ -4,7 +4,7 @@
 #include <bit>
 
 #include "crosscheck/report/pictures.hpp"
-#include "reference/model/collision_state.hpp"
+#include "reference/model/collision/collision_state.hpp"
 
 namespace lockstep {
 namespace {

@@ -13,12 +13,12 @@
 #include <fmt/format.h>
 
 #include "crosscheck/scene/scene_settings.hpp"
-#include "gpu/particle_buffer.hpp"
+#include "gpu/collision/particle_buffer.hpp"
 #include "gpu/shader_source.hpp"
-#include "reference/model/collision_state.hpp"
-#include "reference/model/layered_cdt.hpp"
+#include "reference/collision/simulation.hpp"
+#include "reference/model/collision/collision_state.hpp"
+#include "reference/model/collision/layered_cdt.hpp"
 #include "reference/model/state_hash.hpp"
-#include "reference/simulation.hpp"
 
 namespace lockstep {
 namespace {

@@ -4,8 +4,8 @@
 #include <nlohmann/json.hpp>
 
 #include "crosscheck/report/page/blob.hpp"
+#include "reference/model/collision/scene.hpp"
 #include "reference/model/profile.hpp"
-#include "reference/model/scene.hpp"
 
 namespace lockstep {
 

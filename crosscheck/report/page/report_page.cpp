@@ -9,7 +9,7 @@
 #include "crosscheck/report/page/live_scene.hpp"
 #include "crosscheck/report/page/template.hpp"
 #include "crosscheck/scene/schema_json.hpp"
-#include "reference/model/layered_cdt.hpp"
+#include "reference/model/collision/layered_cdt.hpp"
 
 namespace lockstep {
 namespace {

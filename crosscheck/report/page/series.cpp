@@ -5,7 +5,7 @@
 
 #include <nlohmann/json.hpp>
 
-#include "reference/model/collision_state.hpp"
+#include "reference/model/collision/collision_state.hpp"
 
 namespace lockstep {
 

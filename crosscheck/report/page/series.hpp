@@ -9,7 +9,7 @@
 #include "crosscheck/judge/check.hpp"
 #include "crosscheck/judge/compare.hpp"
 #include "crosscheck/judge/verdict.hpp"
-#include "reference/simulation.hpp"
+#include "reference/collision/simulation.hpp"
 
 namespace lockstep {
 

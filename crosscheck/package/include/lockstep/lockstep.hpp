@@ -24,10 +24,10 @@
 #include "crosscheck/judge/legal.hpp"
 #include "crosscheck/report/report.hpp"
 #include "crosscheck/scene/scene_file.hpp"
+#include "gpu/collision/gpu_side.hpp"
 #include "gpu/context.hpp"
 #include "gpu/data_folder.hpp"
-#include "gpu/gpu_side.hpp"
-#include "reference/model/collision_state.hpp"
+#include "reference/model/collision/collision_state.hpp"
 #include "reference/model/error.hpp"
 
 namespace lockstep {

@@ -2,7 +2,7 @@ import { meshArray, particleArray } from "./attributes.js";
 import { matrix } from "./live_scene.js";
 import { Program } from "./program.js";
 
-// The rendered frame (shaders/render_*), drawn to the canvas, in the order of gpu/render_pass.cpp.
+// The rendered frame (shaders/collision/render_*), drawn to the canvas, in the order of gpu/collision/render_pass.cpp.
 export class RenderPass {
   constructor(gl, files, scene, definitions, buffers) {
     Object.assign(this, { gl, scene });

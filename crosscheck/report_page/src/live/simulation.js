@@ -65,7 +65,7 @@ class CollisionTexture {
   }
 }
 
-// The frames of a scene (live_scene.js) under one of its runs, in the order of passes of gpu/simulation.cpp.
+// The frames of a scene (live_scene.js) under one of its runs, in the order of passes of gpu/collision/simulation.cpp.
 export class Simulation {
   constructor(gl, files, scene, run) {
     Object.assign(this, { gl, scene, run });

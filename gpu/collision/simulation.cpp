@@ -1,0 +1,147 @@
+#include "gpu/collision/simulation.hpp"
+
+#include <algorithm>
+#include <bit>
+
+#include <fmt/format.h>
+
+#include "gpu/canary.hpp"
+#include "gpu/check.hpp"
+#include "reference/model/collision/collision_state.hpp"
+#include "reference/model/collision/layered_cdt.hpp"
+#include "reference/model/error.hpp"
+
+namespace lockstep {
+namespace {
+
+/// The stored code of a texel that nobody writes. Every half and every byte may be part of a position; with this alpha,
+/// neither that of a cleared texel nor of a drawn one, they are none.
+glm::vec4 canary_texel(CdtFormat format) {
+    switch (format) {
+    case CdtFormat::rgba32f:
+        return glm::vec4(std::bit_cast<float>(canary_word));
+    case CdtFormat::rgba16f:
+        return glm::vec4(-12.96875F); // 0xca7c
+    case CdtFormat::rgba8:
+        break;
+    }
+    return {0xca, 0x7c, 0xa7, 0x5a};
+}
+
+} // namespace
+
+GpuSimulation::GpuSimulation(const Scene& scene, const std::filesystem::path& shaders)
+    : switches_(scene.switches), shaders_(shaders), obstacles_(scene.obstacles),
+      obstacle_pass_(scene.switches, shaders),
+      collision_pass_(scene.switches, shaders), particles_{ParticleBuffer(scene.start.size()),
+                                                           ParticleBuffer(scene.start.size())},
+      cdts_{CollisionTexture(scene.width, scene.height, scene.switches.cdt_format),
+            CollisionTexture(scene.width, scene.height, scene.switches.cdt_format)},
+      layered_(layered(scene, shaders)) {
+    if (scene.switches.search == Search::octree)
+        octree_pass_.emplace(scene, shaders);
+    upload(scene.start, empty_cdt(scene));
+}
+
+std::optional<GpuSimulation::Layered> GpuSimulation::layered(const Scene& scene, const std::filesystem::path& shaders) {
+    if (!has_remedies(scene.switches))
+        return {};
+    const auto cdt = [&] {
+        return LayeredTexture(scene.width, scene.height, cdt_planes(scene.switches), scene.switches.cdt_format);
+    };
+    return Layered{{scene.switches, shaders, scene.width, scene.height}, {cdt(), cdt()}};
+}
+
+void GpuSimulation::upload(const Particles& particles, const CollisionImage& cdt) {
+    particles_[current_].upload(particles);
+    if (layered_)
+        layered_->cdts[current_].upload(cdt);
+    else
+        cdts_[current_].upload(cdt);
+}
+
+void GpuSimulation::step(const FrameParams& params) {
+    run_frame(params, current_, 1 - current_);
+    current_ = 1 - current_;
+}
+
+void GpuSimulation::repeat_step(const FrameParams& params) { run_frame(params, 1 - current_, current_); }
+
+void GpuSimulation::run_frame(const FrameParams& params, std::size_t from, std::size_t to) {
+    if (octree_pass_)
+        octree_pass_->refresh(particles_[from]);
+    {
+        const RunningQuery timing(GL_TIME_ELAPSED, timer_);
+        run_passes(params, from, to);
+    }
+    gl::Finish();
+    GLuint64 nanoseconds = 0;
+    gl::GetQueryObjectui64v(timer_.id(), GL_QUERY_RESULT, &nanoseconds);
+    frame_seconds_ = static_cast<double>(nanoseconds) * 1e-9;
+    verify_written();
+}
+
+void GpuSimulation::run_passes(const FrameParams& params, std::size_t from, std::size_t to) {
+    if (layered_)
+        return layered_->pass.run(params, obstacles_, obstacle_pass_, particles_[from], particles_[to],
+                                  layered_->cdts[from], layered_->cdts[to]);
+    cdts_[to].clear();
+    if (octree_pass_)
+        return octree_pass_->run(params, particles_[from], particles_[to]);
+    cdts_[to].bind_target();
+    obstacle_pass_.run(obstacles_, params);
+    collision_pass_.run(params, particles_[from], particles_[to], cdts_[from], cdts_[to]);
+}
+
+StepCapture GpuSimulation::trace(const FrameParams& params, std::size_t particle) {
+    if (!trace_)
+        trace_.emplace(switches_, shaders_, params.width, params.height);
+    return trace_->run(params, particles_[1 - current_], particle, cdts_[1 - current_]);
+}
+
+void GpuSimulation::verify_written() const {
+    if (layered_)
+        layered_->pass.verify_written(particles_[0].size());
+    else if (!octree_pass_)
+        collision_pass_.verify_written(particles_[0].size());
+}
+
+void GpuSimulation::read(Particles& particles) const { particles_[current_].read(particles); }
+
+void GpuSimulation::read(CollisionImage& cdt) const {
+    if (layered_)
+        layered_->cdts[current_].read(cdt);
+    else
+        cdts_[current_].read(cdt);
+}
+
+bool GpuSimulation::holds(const Particles& particles) const { return particles_[current_].holds(particles); }
+
+void GpuSimulation::lay_canary() {
+    particles_[1 - current_].fill(canary_word);
+    const auto fill = [](auto& target) {
+        CollisionImage image;
+        target.read(image);
+        std::fill(image.texels.begin(), image.texels.end(), canary_texel(target.format()));
+        target.upload(image);
+    };
+    if (layered_)
+        fill(layered_->cdts[1 - current_]);
+    else
+        fill(cdts_[1 - current_]);
+}
+
+void GpuSimulation::find_canary(const Particles& particles, const CollisionImage& cdt, int frame) const {
+    if (const std::size_t i = find_word(view(particles), canary_word); i < particles.size())
+        throw Error(fmt::format("frame {}: the GPU did not write particle {}: its record still holds what was laid "
+                                "there before the draw",
+                                frame, i));
+    const glm::vec4 unwritten = canary_texel(switches_.cdt_format);
+    for (int y = 0; y < cdt.height; ++y)
+        for (int x = 0; x < cdt.width; ++x)
+            if (cdt.at(x, y) == unwritten)
+                throw Error(
+                    fmt::format("frame {}: the GPU neither cleared nor drew texel ({}, {}) of the CDT", frame, x, y));
+}
+
+} // namespace lockstep

@@ -1,0 +1,15 @@
+#pragma once
+#include "reference/collision/collision_pass.hpp"
+
+namespace lockstep {
+
+/// The collision pass, faster: the bits of collision_pass.hpp for every switch, profile and thread count, any NaN
+/// counting as any other. Same arguments, same answers; collision_pass.hpp is the one to read.
+
+void update_particles_fast(const Particles& before, const CollisionImage& cdt, const FrameParams& params,
+                           const Profile& profile, Particles& after);
+
+void rasterise_particles_fast(const Particles& before, const Particles& after, const FrameParams& params,
+                              const Profile& profile, CollisionImage& cdt, DepthImage& depth);
+
+} // namespace lockstep

@@ -1,0 +1,328 @@
+#include "reference/collision/deviating_pass.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <optional>
+#include <type_traits>
+#include <utility>
+
+#include "reference/collision/collision_code.hpp"
+#include "reference/collision/collision_mistakes.hpp"
+#include "reference/collision/collision_pass.hpp"
+#include "reference/collision/collision_twin.hpp"
+#include "reference/plain_arithmetic.hpp"
+#include "reference/readings/mistaken.hpp"
+#include "reference/subnormals.hpp"
+#include "reference/window.hpp"
+
+namespace lockstep {
+namespace {
+
+using enum Deviation;
+
+FrameParams stored_as(FrameParams params, CdtFormat format) {
+    params.switches.cdt_format = format;
+    return params;
+}
+
+/// The exact preset's arithmetic, its sums from either end.
+class PortableEitherWay : public Portable {
+  public:
+    explicit PortableEitherWay(bool right_to_left) : right_to_left_(right_to_left) {}
+    [[nodiscard]] float dot(glm::vec3 a, glm::vec3 b) const {
+        if (!right_to_left_)
+            return Portable::dot(a, b);
+        return add(multiply(a.x, b.x), add(multiply(a.y, b.y), multiply(a.z, b.z)));
+    }
+    [[nodiscard]] float length(glm::vec3 v) const { return sqrt(dot(v, v)); }
+    [[nodiscard]] glm::vec3 normalize(glm::vec3 v) const {
+        return right_to_left_ ? scale(v, inverse_sqrt(dot(v, v))) : Portable::normalize(v);
+    }
+
+  private:
+    bool right_to_left_;
+};
+
+/// The arithmetic a step is made with: the profile's, or a deviating one.
+template <class Pass> decltype(auto) with_deviating_arithmetic(const Profile& profile, const Switches& switches,
+                                                               const Deviations& deviations, Pass&& pass) {
+    const auto fused_or_not = [&](auto fp) {
+        return deviations.has(products_fused) ? pass(FusedProducts(fp)) : pass(fp);
+    };
+    if (switches.arithmetic == ArithmeticSwitch::exact || deviations.has(portable_arithmetic))
+        return fused_or_not(PortableEitherWay(deviations.has(sums_right_to_left)));
+    // The driver's tables come with its own orders of sums.
+    const auto in_order = [](DotOrder order) { return PlainArithmetic(order, order, order, nullptr); };
+    if (deviations.has(sums_fused))
+        return fused_or_not(in_order(DotOrder::fused_chain));
+    if (deviations.has(sums_right_to_left))
+        return fused_or_not(in_order(DotOrder::right_to_left));
+    if (deviations.has(sums_left_to_right))
+        return fused_or_not(in_order(DotOrder::left_to_right));
+    return fused_or_not(
+        PlainArithmetic(profile.dot, profile.length_order(), profile.normalize_order(), profile.roots.get()));
+}
+
+const CollisionImage& read_cdt(const FrameInputs& inputs, const Deviations& deviations) {
+    if (deviations.has(stale_cdt) && inputs.earlier_cdt != nullptr)
+        return *inputs.earlier_cdt;
+    if (deviations.has(current_frame_cdt) && inputs.drawn_cdt != nullptr)
+        return *inputs.drawn_cdt;
+    return *inputs.cdt;
+}
+
+/// The step's mistakes, and what the host mixes up.
+class MadeMistakes {
+  public:
+    MadeMistakes(const FrameInputs& inputs, const Deviations& deviations) : params_(*inputs.params) {
+        for (const Deviation deviation : deviations) {
+            if (const auto mistake = step_mistake(deviation))
+                add(*mistake);
+            if (deviation == half_cdt || deviation == unorm8_cdt)
+                add_coarse(deviation == half_cdt ? CdtFormat::rgba16f : CdtFormat::rgba8);
+        }
+        if (deviations.has(matrix_of_earlier_frame) && inputs.earlier_params != nullptr) {
+            mixed_up_.emplace(*inputs.params);
+            mixed_up_->collision_proj_view = inputs.earlier_params->collision_proj_view;
+        }
+    }
+    MadeMistakes(const MadeMistakes&) = delete;
+    MadeMistakes& operator=(const MadeMistakes&) = delete;
+
+    [[nodiscard]] std::span<const Mistake> mistakes() const { return {mistakes_.data(), count_}; }
+    [[nodiscard]] const FrameParams& params() const { return mixed_up_ ? *mixed_up_ : params_; }
+
+  private:
+    void add(const Mistake& mistake) {
+        if (count_ < mistakes_.size())
+            mistakes_[count_++] = mistake;
+    }
+    void add_coarse(CdtFormat format) {
+        coarse_.emplace(stored_as(params_, format));
+        add({.site = site::stored_position.id,
+             .change = Change::spoiled,
+             .spoil = store_and_read,
+             .context = &*coarse_});
+    }
+    static void store_and_read(std::span<float> position, const void* code) {
+        const auto& coarse = *static_cast<const CollisionCode*>(code);
+        const glm::vec3 read = coarse.decode(coarse.encode({position[0], position[1], position[2]}));
+        for (std::size_t c = 0; c < 3; ++c)
+            position[c] = read[static_cast<int>(c)];
+    }
+
+    const FrameParams& params_;
+    std::optional<FrameParams> mixed_up_;
+    std::optional<CollisionCode> coarse_;
+    std::array<Mistake, Deviations::most> mistakes_;
+    std::size_t count_ = 0;
+};
+
+template <class R>
+ParticleState step(R& reading, const CollisionImage& cdt, const FrameParams& params, const ParticleState& before) {
+    const auto v = CollisionTwin(reading, cdt, params)(before);
+    return {floats(v.position), floats(v.direction), static_cast<float>(v.speed), static_cast<float>(v.collide_time)};
+}
+
+/// The point drawn for `position`.
+template <class A> class DeviatingPoint {
+  public:
+    DeviatingPoint(A fp, const FrameParams& params, const MadeMistakes& made, const Deviations& deviations,
+                   const RasterRules& rules)
+        : fp_(fp), params_(params), deviations_(deviations), rules_(rules), reading_(fp, made.mistakes()),
+          image_(reading_, made.params()) {
+        if (has(point_viewport_swapped))
+            std::swap(viewport_width_, viewport_height_);
+        if (has(point_on_upper_pixel))
+            rules_.point_edge_to_lower = !rules_.point_edge_to_lower;
+        if (has(point_half_pixel_up))
+            shift_ = 1.0F;
+        if (has(point_half_pixel_down))
+            shift_ = -1.0F;
+    }
+
+    [[nodiscard]] PointFragment operator()(glm::vec3 position) {
+        const auto projected = image_.clip({position.x, position.y, position.z});
+        glm::vec4 clip(as_float(projected.x), as_float(projected.y), as_float(projected.z), as_float(projected.w));
+        if (has(point_without_divide))
+            clip.w = 1.0F;
+        if (has(point_y_flipped))
+            clip.y = -clip.y;
+        if (shift_ != 0.0F) {
+            clip.x += clip.w * (shift_ / static_cast<float>(params_.width));
+            clip.y += clip.w * (shift_ / static_cast<float>(params_.height));
+        }
+        return std::is_base_of_v<Portable, A> ? placed(clip) : rasterised(clip);
+    }
+
+  private:
+    using Reading = Mistaken<A>;
+    static float as_float(const typename Reading::Real& x) { return static_cast<float>(x); }
+    [[nodiscard]] bool has(Deviation deviation) const { return deviations_.has(deviation); }
+
+    [[nodiscard]] PointFragment placed(glm::vec4 clip) const {
+        const auto texel = image_.base_texel(image_.image_position({clip.x, clip.y, clip.z, clip.w}));
+        const float depth = (fp_.divide(clip.z, clip.w) + 1.0F) * 0.5F;
+        if (!texel || !(clip.w > 0.0F) || !(depth >= 0.0F) || !(depth <= 1.0F))
+            return {};
+        return {texel->x, texel->y, std::floor(depth * 0x1p24F) * 0x1p-24F};
+    }
+
+    [[nodiscard]] PointFragment rasterised(glm::vec4 clip) const {
+        if (!in_clip_volume(clip))
+            return {};
+        const WindowPosition window = window_position(clip, viewport_width_, viewport_height_, rules_);
+        const int x = point_pixel(snap_point(window.x, rules_), rules_);
+        const int y = point_pixel(snap_point(window.y, rules_), rules_);
+        if (x < 0 || y < 0 || x >= params_.width || y >= params_.height)
+            return {};
+        return {x, y, rules_.depth_by_driver_reciprocal ? clip.z * fp_.reciprocal(clip.w) * 0.5F + 0.5F : window.z};
+    }
+
+    A fp_;
+    const FrameParams& params_;
+    const Deviations& deviations_;
+    RasterRules rules_;
+    Reading reading_;
+    BaseTexelTwin<Reading> image_;
+    int viewport_width_ = params_.width;
+    int viewport_height_ = params_.height;
+    float shift_ = 0.0F; ///< half pixels
+};
+
+class DepthTest {
+  public:
+    explicit DepthTest(const Deviations& deviations)
+        : greater_(deviations.has(depth_greater)), always_(deviations.has(depth_not_tested)),
+          equal_(deviations.has(depth_equal_passes)) {}
+    [[nodiscard]] bool passes(float depth, float stored) const {
+        if (always_)
+            return true;
+        if (greater_)
+            return depth > stored;
+        return equal_ ? depth <= stored : depth < stored;
+    }
+
+  private:
+    bool greater_, always_, equal_;
+};
+
+const std::vector<glm::vec3>& drawn_positions(const FrameInputs& inputs, const Particles& after,
+                                              const Deviations& deviations) {
+    const bool updated = inputs.params->switches.raster_position == RasterPosition::updated
+                             ? !deviations.has(point_of_position_before)
+                             : deviations.has(point_of_position_after);
+    return updated ? after.position : inputs.before->position;
+}
+
+/// What the frame before left in the depth buffer.
+void draw_earlier_depth(const FrameInputs& inputs, const Profile& profile, const DepthImage& obstacles_depth,
+                        DepthImage& depth) {
+    depth = obstacles_depth;
+    for (const glm::vec3 position : inputs.before->position) {
+        const PointFragment point = point_fragment(position, *inputs.earlier_params, profile);
+        if (point.x >= 0)
+            depth.at(point.x, point.y) = std::min(depth.at(point.x, point.y), point.depth);
+    }
+}
+
+/// What the particles are drawn onto.
+void prepare(const FrameInputs& inputs, const Profile& profile, const Deviations& deviations,
+             const CollisionImage& obstacles_cdt, const DepthImage& obstacles_depth, CollisionImage& cdt,
+             DepthImage& depth) {
+    cdt =
+        deviations.has(obstacles_not_drawn) ? CollisionImage(obstacles_cdt.width, obstacles_cdt.height) : obstacles_cdt;
+    depth = deviations.has(obstacles_not_drawn) || deviations.has(obstacles_never_hide)
+                ? DepthImage(obstacles_depth.width, obstacles_depth.height, 1.0F)
+                : obstacles_depth;
+    if (deviations.has(cdt_not_cleared) && inputs.earlier_cdt != nullptr)
+        for (std::size_t i = 0; i < cdt.texels.size(); ++i)
+            if (cdt.texels[i].a == 0.0F)
+                cdt.texels[i] = inputs.earlier_cdt->texels[i];
+    if (deviations.has(depth_not_cleared) && inputs.earlier_params != nullptr) {
+        draw_earlier_depth(inputs, profile, obstacles_depth, depth);
+        for (std::size_t i = 0; i < cdt.texels.size(); ++i)
+            if (!(obstacles_depth.texels[i] < depth.texels[i]))
+                cdt.texels[i] = glm::vec4(0.0F);
+    }
+}
+
+} // namespace
+
+ParticleState deviating_step(const FrameInputs& inputs, std::size_t i, const Profile& profile,
+                             const Deviations& deviations) {
+    const FlushSubnormals guard(profile.flush_subnormals && !deviations.has(subnormals_kept));
+    const bool earlier = deviations.has(buffers_not_swapped) && inputs.earlier != nullptr;
+    const ParticleState before = (earlier ? *inputs.earlier : *inputs.before)[i];
+    if (deviations.has(state_passed_through))
+        return before;
+    const MadeMistakes made(inputs, deviations);
+    return with_deviating_arithmetic(profile, inputs.params->switches, deviations, [&]<class A>(A fp) {
+        Mistaken<A> reading(fp, made.mistakes());
+        return step(reading, read_cdt(inputs, deviations), made.params(), before);
+    });
+}
+
+ParticleState mistaken_step(const FrameInputs& inputs, std::size_t i, const Profile& profile,
+                            std::span<const Mistake> mistakes) {
+    const FlushSubnormals guard(profile.flush_subnormals);
+    return with_deviating_arithmetic(profile, inputs.params->switches, {}, [&]<class A>(A fp) {
+        Mistaken<A> reading(fp, mistakes);
+        return step(reading, *inputs.cdt, *inputs.params, (*inputs.before)[i]);
+    });
+}
+
+std::vector<SeenSite> step_sites(const FrameInputs& inputs, std::span<const std::size_t> particles,
+                                 const Profile& profile) {
+    const FlushSubnormals guard(profile.flush_subnormals);
+    return with_deviating_arithmetic(profile, inputs.params->switches, {}, [&]<class A>(A fp) {
+        Mistaken<A> reading(fp, {});
+        reading.look_at_sites();
+        for (const std::size_t i : particles)
+            step(reading, *inputs.cdt, *inputs.params, (*inputs.before)[i]);
+        return std::vector(reading.sites().begin(), reading.sites().end());
+    });
+}
+
+void deviating_draw(const FrameInputs& inputs, const Particles& after, const Profile& profile,
+                    const Deviations& deviations, const CollisionImage& obstacles_cdt,
+                    const DepthImage& obstacles_depth, CollisionImage& cdt) {
+    const FlushSubnormals guard(profile.flush_subnormals);
+    DepthImage depth;
+    prepare(inputs, profile, deviations, obstacles_cdt, obstacles_depth, cdt, depth);
+    const CollisionCode code(*inputs.params);
+    const bool is_coarse = deviations.has(half_cdt) || deviations.has(unorm8_cdt);
+    const CollisionCode coarse(
+        stored_as(*inputs.params, deviations.has(half_cdt) ? CdtFormat::rgba16f : CdtFormat::rgba8));
+    const auto stored_code = [&](glm::vec3 position) {
+        return code.encode(is_coarse ? coarse.decode(coarse.encode(position)) : position);
+    };
+    if (is_coarse)
+        for (glm::vec4& texel : cdt.texels)
+            if (texel.a != 0.0F)
+                texel = stored_code(code.decode(texel));
+    if (deviations.has(cdt_not_drawn))
+        return;
+    const std::vector<glm::vec3>& positions = drawn_positions(inputs, after, deviations);
+    const std::vector<glm::vec3>& stored = deviations.has(stores_direction)         ? after.direction
+                                           : deviations.has(stores_position_before) ? inputs.before->position
+                                                                                    : after.position;
+    const DepthTest test(deviations);
+    const MadeMistakes made(inputs, deviations);
+    with_deviating_arithmetic(profile, inputs.params->switches, deviations, [&](auto fp) {
+        DeviatingPoint fragment(fp, *inputs.params, made, deviations, profile.raster);
+        for (std::size_t i = 0; i < positions.size(); ++i) {
+            const PointFragment point = fragment(positions[i]);
+            if (!cdt.contains(point.x, point.y) || !test.passes(point.depth, depth.at(point.x, point.y)))
+                continue;
+            depth.at(point.x, point.y) = point.depth;
+            glm::vec4& texel = cdt.at(point.x, point.y);
+            texel = stored_code(stored[i]);
+            if (deviations.has(alpha_missing))
+                texel.a = 0.0F;
+        }
+    });
+}
+
+} // namespace lockstep

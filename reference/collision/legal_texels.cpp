@@ -1,0 +1,330 @@
+#include "reference/collision/legal_texels.hpp"
+
+#include <algorithm>
+#include <array>
+#include <bit>
+#include <cmath>
+#include <cstdint>
+
+#include "reference/collision/collision_code.hpp"
+#include "reference/collision/collision_pass.hpp"
+#include "reference/legal_triangles.hpp"
+#include "reference/model/same_bits.hpp"
+#include "reference/subnormals.hpp"
+#include "reference/triangle_interpolation.hpp"
+#include "reference/triangle_raster.hpp"
+#include "reference/window.hpp"
+#include "reference/with_arithmetic.hpp"
+
+namespace lockstep {
+namespace {
+
+using Kind = TexelOwner::Kind;
+
+double middle(Interval v) { return (v.low + v.high) * 0.5; }
+
+/// The texels asked for, by their place in the image.
+class Wanted {
+  public:
+    Wanted(int width, int height, std::span<const std::size_t> texels) : slots_(width, height, -1) {
+        for (std::size_t i = 0; i < texels.size(); ++i)
+            slots_.texels[texels[i]] = static_cast<std::int32_t>(i);
+    }
+    [[nodiscard]] int slot(int x, int y) const { return slots_.contains(x, y) ? slots_.at(x, y) : -1; }
+    /// Whether this texel or one of the eight around it is asked for.
+    [[nodiscard]] bool near(int x, int y) const {
+        for (int dy = -1; dy <= 1; ++dy)
+            for (int dx = -1; dx <= 1; ++dx)
+                if (slot(x + dx, y + dy) >= 0)
+                    return true;
+        return false;
+    }
+
+  private:
+    Image<std::int32_t> slots_;
+};
+
+/// Pixels of one axis that a point may cover.
+struct PixelRange {
+    int first = 0, last = -1;
+    double edge_margin = 0.0; ///< 1/256 pixel
+
+    [[nodiscard]] bool one_answer() const { return first == last; }
+};
+
+/// A number for what lies at these places.
+std::uint64_t place_of(float x, float y) {
+    return std::uint64_t{std::bit_cast<std::uint32_t>(x)} << 32U | std::bit_cast<std::uint32_t>(y);
+}
+
+/// A point's square of side 1 covers the centres inside; which of two on its border is open, unless it is known.
+PixelRange pixels_of(Interval window, const KnownRaster& known, const RasterRules& rules) {
+    const double centre = middle(window);
+    const double margin = std::abs(centre - std::round(centre)) * 256.0;
+    if (!known.point_grid) {
+        const double low = window.low - grid_step(known);
+        const double high = window.high + grid_step(known);
+        return {static_cast<int>(std::ceil(low)) - 1, static_cast<int>(std::floor(high)), margin};
+    }
+    RasterRules lower = rules, upper = rules;
+    if (!known.point_edges) {
+        lower.point_edge_to_lower = true;
+        upper.point_edge_to_lower = false;
+    }
+    const auto place = [&](double x, const RasterRules& edge) {
+        return point_pixel(snap_point(static_cast<float>(x), rules), edge);
+    };
+    return {place(window.low, lower), place(window.high, upper), margin};
+}
+
+enum class InVolume { no, maybe, yes };
+
+InVolume in_clip_volume(const std::array<Interval, 4>& clip) {
+    const Interval w = clip[3];
+    if (w.any || !(w.high > 0.0))
+        return InVolume::no;
+    InVolume result = w.low > 0.0 ? InVolume::yes : InVolume::maybe;
+    for (std::size_t c = 0; c < 3; ++c) {
+        if (clip[c].any)
+            return InVolume::no;
+        const double least = clip[c].contains_zero() ? 0.0 : std::min(std::abs(clip[c].low), std::abs(clip[c].high));
+        const double most = std::max(std::abs(clip[c].low), std::abs(clip[c].high));
+        if (least > w.high)
+            return InVolume::no;
+        if (most > w.low)
+            result = InVolume::maybe;
+    }
+    return result;
+}
+
+/// Collects the candidates of every wanted texel, in drawing order.
+template <class A> class Candidates {
+  public:
+    Candidates(A fp, const FrameParams& params, const Profile& profile, const KnownOperations& known,
+               std::span<const std::size_t> texels)
+        : fp_(fp), params_(params), profile_(profile), converts_(known.converts), code_(params),
+          arithmetic_(fp, known, profile.other_orders), wanted_(params.width, params.height, texels),
+          candidates_(texels.size()) {}
+
+    void add_point(Kind kind, std::size_t index, glm::vec3 drawn_at, glm::vec3 stored) {
+        const PointFragment reference = point_fragment(drawn_at, params_, profile_);
+        const bool drawn = reference.x >= 0;
+        if (drawn && !wanted_.near(reference.x, reference.y))
+            return;
+        TexelOwner owner{.kind = kind, .index = index, .code = code_.encode(stored)};
+        owner.reference_depth = reference.depth;
+        if (kind == Kind::particle ? converts_.particles : converts_.vertices)
+            owner.code_range = code_.driver_codes(stored, stored);
+        if (known().points || known().raster.points()) {
+            owner.is_reference = true;
+            owner.depth = reference.depth;
+            if (drawn)
+                add(owner, reference.x, reference.y);
+            return;
+        }
+        const auto clip = arithmetic_.transform(params_.collision_proj_view, arithmetic_.read(drawn_at));
+        const InVolume inside = in_clip_volume(clip);
+        if (inside == InVolume::no || clip[3].contains_zero())
+            return;
+        const bool clip_known = clip[0].is_point() && clip[1].is_point() && clip[2].is_point() && clip[3].is_point();
+        const bool window_known = known().raster.point_window && clip_known;
+        WindowPosition window;
+        if (clip_known)
+            window = window_position({clip[0].as_float(), clip[1].as_float(), clip[2].as_float(), clip[3].as_float()},
+                                     params_.width, params_.height, profile_.raster);
+        const double half_width = params_.width * 0.5;
+        const double half_height = params_.height * 0.5;
+        const auto along = [&](const Interval& coordinate, float followed, double half) {
+            const Interval place = window_known
+                                       ? Interval(followed)
+                                       : window_coordinate(coordinate, clip[3], half, half,
+                                                           window_accuracy(known().raster.point_window_accurate));
+            return pixels_of(place, known().raster, profile_.raster);
+        };
+        const PixelRange columns = along(clip[0], window.x, half_width);
+        const PixelRange rows = along(clip[1], window.y, half_height);
+        owner.depth = known().raster.point_depth && drawn
+                          ? Interval(reference.depth)
+                          : window_coordinate(clip[2], clip[3], 0.5, 0.5, gl_window_accuracy);
+        owner.place = place_of(window.x, window.y);
+        if (clip[2].is_point() && clip[3].is_point() && known().raster.equal_depth)
+            owner.clip_zw = glm::vec2(clip[2].as_float(), clip[3].as_float());
+        owner.sure = inside == InVolume::yes && columns.one_answer() && rows.one_answer();
+        owner.may_be_clipped = inside != InVolume::yes;
+        owner.reach = {columns.first, rows.first, columns.last + 1, rows.last + 1};
+        owner.edge_margin = HUGE_VAL;
+        if (!columns.one_answer())
+            owner.edge_margin = columns.edge_margin;
+        if (!rows.one_answer())
+            owner.edge_margin = std::min(owner.edge_margin, rows.edge_margin);
+        for (int y = rows.first; y <= rows.last; ++y)
+            for (int x = columns.first; x <= columns.last; ++x) {
+                owner.is_reference = x == reference.x && y == reference.y;
+                owner.drawn_by_reference = owner.is_reference;
+                owner.shift = drawn ? glm::dvec2(x - reference.x, y - reference.y) : glm::dvec2(0.0);
+                add(owner, x, y);
+            }
+    }
+
+    void add_triangles(const Mesh& obstacles) {
+        std::vector<glm::vec4> clip(obstacles.positions.size());
+        std::transform(obstacles.positions.begin(), obstacles.positions.end(), clip.begin(),
+                       [&](glm::vec3 p) { return fp_.transform(params_.collision_proj_view, p); });
+        const LegalTriangles triangles(clip, obstacles.indices, params_.width, params_.height, profile_.raster,
+                                       known().raster, known().points);
+        triangles.for_each([&](int x, int y) { return wanted_.slot(x, y) >= 0; },
+                           [&](const LegalCover& cover) {
+                               add_fragment(obstacles, clip, cover.triangle, cover.rules, cover.x, cover.y,
+                                            cover.covered, cover.sure);
+                           });
+    }
+
+    std::vector<std::vector<TexelOwner>> take() { return std::move(candidates_); }
+
+  private:
+    void add(const TexelOwner& owner, int x, int y) {
+        if (const int slot = wanted_.slot(x, y); slot >= 0)
+            candidates_[static_cast<std::size_t>(slot)].push_back(owner);
+    }
+
+    void add_fragment(const Mesh& obstacles, const std::vector<glm::vec4>& clip, const RasterTriangle& triangle,
+                      const RasterRules& rules, int x, int y, bool covered, bool sure) {
+        const std::uint32_t* index = &obstacles.indices[std::size_t{triangle.primitive} * 3];
+        const std::array<glm::vec4, 3> corners{clip[index[0]], clip[index[1]], clip[index[2]]};
+        const std::array<glm::vec3, 3> positions{obstacles.positions[index[0]], obstacles.positions[index[1]],
+                                                 obstacles.positions[index[2]]};
+        const TriangleInterpolation interpolation(fp_, corners, params_.width, params_.height);
+        const auto weights = interpolation.weights(x, y);
+        TexelOwner owner{.kind = Kind::obstacle, .index = triangle.primitive};
+        const glm::vec3 position = interpolation.mix(fp_, positions, weights);
+        owner.code = code_.encode(position);
+        owner.reference_depth = interpolation.depth(weights);
+        owner.depth = owner.reference_depth;
+        glm::vec3 bound(0.0F);
+        if (!arithmetic_.known().interpolation) {
+            for (int k = 0; k < 3; ++k)
+                bound[k] = interpolation_bound(positions[0][k], positions[1][k], positions[2][k]);
+            owner.code_range = {code_.encode(position - bound), code_.encode(position + bound)};
+            const double error = depth_bound(corners);
+            owner.depth = {owner.reference_depth - error, owner.reference_depth + error};
+        }
+        if (converts_.triangles)
+            owner.code_range = code_.driver_codes(position - bound, position + bound);
+        owner.is_reference = covered && rules == profile_.raster;
+        owner.sure = sure;
+        const NearestSide side = nearest_side(triangle, x, y, rules);
+        owner.edge_margin = sure ? HUGE_VAL : std::ldexp(side.distance, 8 - rules.subpixel_bits);
+        owner.shift = covered ? -side.outward : side.outward;
+        owner.is_side = true;
+        owner.drawn_by_reference = covered;
+        owner.place = std::uint64_t{triangle.primitive} << 32U | static_cast<std::uint32_t>(y * params_.width + x);
+        add(owner, x, y);
+    }
+
+    [[nodiscard]] const KnownOperations& known() const { return arithmetic_.known(); }
+
+    A fp_;
+    const FrameParams& params_;
+    const Profile& profile_;
+    DriverConverts converts_;
+    CollisionCode code_;
+    LegalArithmetic<A> arithmetic_;
+    Wanted wanted_;
+    std::vector<std::vector<TexelOwner>> candidates_;
+};
+
+/// What a depth test LESS may leave of the candidates, in drawing order: an equally deep earlier one stays, if that is
+/// known.
+LegalTexel settle(std::vector<TexelOwner>& candidates, bool first_stays) {
+    TexelOwner* reference = nullptr;
+    for (TexelOwner& candidate : candidates) {
+        const bool wins =
+            candidate.is_reference && (reference == nullptr || candidate.reference_depth < reference->reference_depth);
+        candidate.is_reference = false;
+        if (wins)
+            reference = &candidate;
+    }
+    if (reference != nullptr)
+        reference->is_reference = true;
+
+    LegalTexel texel;
+    for (const TexelOwner& candidate : candidates) {
+        const bool hidden = std::any_of(candidates.begin(), candidates.end(), [&](const TexelOwner& other) {
+            if (&other == &candidate || !other.sure)
+                return false;
+            if (other.clip_zw && other.clip_zw == candidate.clip_zw)
+                return &other < &candidate;
+            return first_stays && &other < &candidate ? other.depth.high <= candidate.depth.low
+                                                      : other.depth.high < candidate.depth.low;
+        });
+        if (!hidden)
+            texel.owners.push_back(candidate);
+    }
+    if (std::none_of(candidates.begin(), candidates.end(), [](const TexelOwner& c) { return c.sure; }))
+        texel.owners.push_back({.is_reference = reference == nullptr});
+    return texel;
+}
+
+} // namespace
+
+bool TexelOwner::stores(glm::vec4 texel) const {
+    if (same_bits(code, texel))
+        return true;
+    if (!code_range)
+        return false;
+    const auto& [low, high] = *code_range;
+    for (int c = 0; c < 4; ++c)
+        if (!same_bits(code[c], texel[c]) && !(low[c] <= texel[c] && texel[c] <= high[c]))
+            return false;
+    return true;
+}
+
+const TexelOwner* LegalTexel::owner_of(glm::vec4 texel) const {
+    const TexelOwner* found = nullptr;
+    for (const TexelOwner& owner : owners)
+        if (owner.stores(texel) && (found == nullptr || owner.is_reference))
+            found = &owner;
+    return found;
+}
+
+std::vector<Tie> LegalTexel::ties(const TexelOwner& owner) const {
+    std::vector<Tie> ties;
+    if (owner.is_reference)
+        return ties;
+    const auto reference =
+        std::find_if(owners.begin(), owners.end(), [](const TexelOwner& other) { return other.is_reference; });
+    double edge = owner.sure ? HUGE_VAL : owner.edge_margin;
+    if (reference != owners.end() && !reference->sure)
+        edge = std::min(edge, reference->edge_margin);
+    if (edge < HUGE_VAL)
+        ties.push_back({point_edge_tie, edge});
+    else if (reference != owners.end())
+        ties.push_back({depth_tie, std::abs(middle(owner.depth) - middle(reference->depth))});
+    return ties;
+}
+
+std::vector<LegalTexel> legal_texels(const Mesh& obstacles, const Particles& before, const Particles& after,
+                                     const FrameParams& params, const Profile& profile, const KnownOperations& known,
+                                     std::span<const std::size_t> texels) {
+    const FlushSubnormals guard(known.subnormals && profile.flush_subnormals);
+    const auto& positions =
+        params.switches.raster_position == RasterPosition::updated ? after.position : before.position;
+    std::vector<std::vector<TexelOwner>> candidates = with_arithmetic(profile, params.switches, [&](auto fp) {
+        Candidates all(fp, params, profile, known, texels);
+        if (params.switches.obstacles_in_cdt == ObstaclesInCdt::triangles)
+            all.add_triangles(obstacles);
+        if (params.switches.obstacles_in_cdt == ObstaclesInCdt::vertices)
+            for (std::size_t i = 0; i < obstacles.positions.size(); ++i)
+                all.add_point(Kind::obstacle, i, obstacles.positions[i], obstacles.positions[i]);
+        for (std::size_t i = 0; i < positions.size(); ++i)
+            all.add_point(Kind::particle, i, positions[i], after.position[i]);
+        return all.take();
+    });
+    std::vector<LegalTexel> legal;
+    legal.reserve(candidates.size());
+    for (std::vector<TexelOwner>& of_texel : candidates)
+        legal.push_back(settle(of_texel, known.points || known.raster.equal_depth));
+    return legal;
+}
+
+} // namespace lockstep

@@ -1,0 +1,214 @@
+#pragma once
+#include <cstddef>
+#include <span>
+#include <string_view>
+
+#include "reference/collision/render/sites.hpp"
+#include "reference/collision/render_pass.hpp"
+#include "reference/model/collision/particles.hpp"
+#include "reference/model/collision/scene.hpp"
+#include "reference/model/mesh.hpp"
+#include "reference/model/profile.hpp"
+#include "reference/triangle_interpolation.hpp"
+
+namespace lockstep {
+
+/// Mistakes that a render shader or its host may make; the reference can make them too, to see whether one explains
+/// what a GPU drew. The order in which they are told: first those that say what is seen.
+enum class RenderMistake {
+    frame_not_drawn,
+    sprites_not_drawn,
+    obstacles_not_drawn,
+    background_not_drawn,
+    only_background_drawn,
+    sprites_half_size,
+    sprites_twice_size,
+    quads_half_size,
+    radius_halved,
+    radius_doubled,
+    sprites_square,
+    sprites_square_and_flat,
+    y_flipped,
+    x_flipped,
+    x_and_y_swapped,
+    depth_not_tested,
+    depth_reversed,
+    depth_equal_passes,
+    sphere_is_flat_in_depth,
+    sphere_reversed_in_depth,
+    normal_flipped,
+    normal_x_flipped,
+    normal_y_flipped,
+    normal_z_flipped,
+    half_pixel_off,
+    colour_swapped,
+    sprite_colour_swapped,
+    alpha_missing,
+    sprite_alpha_missing,
+    colour_of_speed_missing,
+    colour_of_collision_missing,
+    speed_not_halved,
+    sphere_unlit,
+    gleam_missing,
+    glow_missing,
+    background_flipped,
+    background_black,
+    obstacles_unlit,
+    obstacles_lit_from_one_side,
+    obstacle_normal_flipped,
+    view_transposed,
+    projection_transposed,
+    width_and_height_swapped,
+    sprite_width_and_height_swapped,
+    view_of_earlier_frame,
+    state_of_earlier_frame,
+};
+inline constexpr std::size_t render_mistake_count = static_cast<std::size_t>(RenderMistake::state_of_earlier_frame) + 1;
+
+struct RenderMistakeInfo {
+    RenderMistake mistake;
+    std::string_view name;
+    std::string_view meaning;
+};
+
+/// All of them, in that order.
+std::span<const RenderMistakeInfo> render_mistakes();
+
+/// What a frame is drawn of. Refers to all of it.
+struct RenderInputs {
+    const Particles& particles;
+    const Mesh& obstacles;
+    const FrameParams& params;
+    const Particles* earlier = nullptr;          ///< of the frame before; null: not known
+    const FrameParams* earlier_params = nullptr; ///< likewise
+};
+
+/// What a mistake makes of the inputs.
+class MistakenInputs {
+  public:
+    MistakenInputs(const RenderInputs& inputs, RenderMistake mistake);
+
+    [[nodiscard]] const Particles& particles() const { return *particles_; }
+    [[nodiscard]] const Mesh& obstacles() const { return *obstacles_; }
+    [[nodiscard]] const FrameParams& params() const { return params_; }
+
+  private:
+    const Particles* particles_;
+    const Mesh* obstacles_;
+    FrameParams params_;
+};
+
+/// What it makes of the pass's sites.
+class MistakenSites : public RightSites {
+  public:
+    explicit MistakenSites(RenderMistake mistake) : mistake_(mistake) {}
+
+    template <class Real> [[nodiscard]] Real background_up(Real up) const {
+        return is(RenderMistake::background_flipped) ? Real(1.0F) - up : up;
+    }
+    template <class Vec3> [[nodiscard]] Vec3 background_color(Vec3 color) const {
+        return is(RenderMistake::background_black) ? Vec3{0.0F, 0.0F, 0.0F} : color;
+    }
+    template <class Vec3> [[nodiscard]] Vec3 corner_normal(Vec3 turned, Vec3 as_wound) const {
+        if (is(RenderMistake::obstacles_lit_from_one_side))
+            return as_wound;
+        return is(RenderMistake::obstacle_normal_flipped) ? -turned : turned;
+    }
+    template <class Real> [[nodiscard]] Real obstacle_lambert(Real lambert) const {
+        return is(RenderMistake::obstacles_unlit) ? Real(1.0F) : lambert;
+    }
+    [[nodiscard]] float corner_radius(float radius) const {
+        const bool half = is(RenderMistake::sprites_half_size), twice = is(RenderMistake::sprites_twice_size);
+        return half ? radius * 0.5F : twice ? radius * 2.0F : radius;
+    }
+    template <class Billboard> [[nodiscard]] Billboard quad(Billboard square) const {
+        if (!is(RenderMistake::quads_half_size))
+            return square;
+        const auto x = (square.high.x - square.low.x) * 0.25F, y = (square.high.y - square.low.y) * 0.25F;
+        square.low.x = square.low.x + x;
+        square.low.y = square.low.y + y;
+        square.high.x = square.high.x - x;
+        square.high.y = square.high.y - y;
+        return square;
+    }
+    [[nodiscard]] glm::ivec2 size(int width, int height, bool of_particle) const {
+        const bool swapped = is(RenderMistake::width_and_height_swapped) ||
+                             (of_particle && is(RenderMistake::sprite_width_and_height_swapped));
+        return swapped ? glm::ivec2(height, width) : glm::ivec2(width, height);
+    }
+    [[nodiscard]] float pixel_centre() const { return is(RenderMistake::half_pixel_off) ? 0.0F : 0.5F; }
+    template <class Bool> [[nodiscard]] Bool in_disc(Bool inside) const {
+        if (!is_square())
+            return inside;
+        if constexpr (requires { inside.yes; })
+            return {true, false};
+        else
+            return true;
+    }
+    template <class Real> [[nodiscard]] Real under_root(Real rest) const {
+        return is(RenderMistake::sprites_square_and_flat) ? clamp_to(rest, 1.0F) : rest;
+    }
+    template <class Vec3> [[nodiscard]] Vec3 sphere_normal(Vec3 n) const {
+        const bool all = is(RenderMistake::normal_flipped);
+        return {all || is(RenderMistake::normal_x_flipped) ? -n.x : n.x,
+                all || is(RenderMistake::normal_y_flipped) ? -n.y : n.y,
+                all || is(RenderMistake::normal_z_flipped) ? -n.z : n.z};
+    }
+    template <class Real> [[nodiscard]] Real towards_camera(Real normal_z) const {
+        if (is(RenderMistake::sphere_is_flat_in_depth))
+            return Real(0.0F);
+        return is(RenderMistake::sphere_reversed_in_depth) ? -normal_z : normal_z;
+    }
+    template <class Real> [[nodiscard]] Real fast(Real share) const {
+        if (is(RenderMistake::speed_not_halved))
+            return clamp_to(share * 2.0F, 1.0F);
+        return is(RenderMistake::colour_of_speed_missing) ? Real(0.0F) : share;
+    }
+    template <class Real> [[nodiscard]] Real heat(Real share) const {
+        return is(RenderMistake::colour_of_collision_missing) ? Real(0.0F) : share;
+    }
+    template <class Real> [[nodiscard]] Real lambert(Real share) const {
+        return is(RenderMistake::sphere_unlit) ? Real(1.0F) : share;
+    }
+    template <class Real> [[nodiscard]] Real gleam(Real light) const {
+        return is(RenderMistake::gleam_missing) ? Real(0.0F) : light;
+    }
+    template <class Real> [[nodiscard]] Real glow(Real lit, Real glow) const {
+        return is(RenderMistake::glow_missing) ? lit : glow;
+    }
+    [[nodiscard]] DepthTest depth_test() const {
+        if (is(RenderMistake::depth_not_tested))
+            return DepthTest::always;
+        if (is(RenderMistake::depth_equal_passes))
+            return DepthTest::less_or_equal;
+        return is(RenderMistake::depth_reversed) ? DepthTest::greater : DepthTest::less;
+    }
+    [[nodiscard]] Rgba8 stored(Rgba8 c, bool of_particle) const {
+        if (is(RenderMistake::alpha_missing) || (of_particle && is(RenderMistake::sprite_alpha_missing)))
+            c.a = 0;
+        const bool swapped =
+            is(RenderMistake::colour_swapped) || (of_particle && is(RenderMistake::sprite_colour_swapped));
+        return swapped ? Rgba8{c.b, c.g, c.r, c.a} : c;
+    }
+    [[nodiscard]] bool draws_background() const {
+        return !is(RenderMistake::background_not_drawn) && !is(RenderMistake::frame_not_drawn);
+    }
+    [[nodiscard]] glm::ivec2 source(int x, int y, int width, int height) const {
+        if (is(RenderMistake::x_and_y_swapped))
+            return {y % width, x % height};
+        return {is(RenderMistake::x_flipped) ? width - 1 - x : x, is(RenderMistake::y_flipped) ? height - 1 - y : y};
+    }
+
+  private:
+    [[nodiscard]] bool is(RenderMistake mistake) const { return mistake_ == mistake; }
+    [[nodiscard]] bool is_square() const {
+        return is(RenderMistake::sprites_square) || is(RenderMistake::sprites_square_and_flat);
+    }
+
+    RenderMistake mistake_;
+};
+
+/// The frame that the reference draws with that mistake.
+ColorImage mistaken_render_pass(const RenderInputs& inputs, const Profile& profile, RenderMistake mistake);
+
+} // namespace lockstep

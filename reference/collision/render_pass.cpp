@@ -1,0 +1,34 @@
+#include "reference/collision/render_pass.hpp"
+
+#include "reference/collision/render/drawing.hpp"
+#include "reference/subnormals.hpp"
+#include "reference/with_arithmetic.hpp"
+
+namespace lockstep {
+
+RenderedFrame render_with_owners(const Particles& particles, const Mesh& obstacles, const FrameParams& params,
+                                 const Profile& profile) {
+    const FlushSubnormals guard(profile.flush_subnormals);
+    return with_arithmetic(profile, params.switches, [&](auto fp) {
+        RenderDrawing drawing(fp, RightSites(), params, profile);
+        drawing.draw_background();
+        drawing.draw_obstacles(obstacles);
+        drawing.draw_particles(particles);
+        return drawing.take();
+    });
+}
+
+ColorImage render_pass(const Particles& particles, const Mesh& obstacles, const FrameParams& params,
+                       const Profile& profile) {
+    return render_with_owners(particles, obstacles, params, profile).color;
+}
+
+Billboard particle_billboard(glm::vec3 position, const FrameParams& params, const Profile& profile) {
+    const FlushSubnormals guard(profile.flush_subnormals);
+    return with_arithmetic(profile, params.switches, [&](auto fp) {
+        const RenderDrawing drawing(fp, RightSites(), params, profile);
+        return drawing.billboard(drawing.to_view(position));
+    });
+}
+
+} // namespace lockstep

@@ -1,0 +1,53 @@
+#include "reference/collision/simulation.hpp"
+
+#include <algorithm>
+#include <utility>
+
+#include "reference/collision/collision_pass_fast.hpp"
+#include "reference/collision/layered_collision_pass.hpp"
+#include "reference/collision/obstacle_pass.hpp"
+#include "reference/collision/octree_pass.hpp"
+#include "reference/readings/exact_floats.hpp"
+
+namespace lockstep {
+
+ReferenceSimulation::ReferenceSimulation(const Scene& scene, Profile profile)
+    : obstacles_(scene.obstacles), profile_(std::move(profile)), after_(scene.start), cdt_before_(empty_cdt(scene)),
+      cdt_after_(empty_cdt(scene)), depth_(scene.width, scene.height, 1.0F) {
+    require_two_roundings();
+}
+
+void ReferenceSimulation::step_from(const Particles& before, const CollisionImage& cdt, const FrameParams& params) {
+    if (has_remedies(params.switches)) {
+        update_particles_layered(before, cdt, params, profile_, after_);
+    } else if (params.switches.search == Search::octree) {
+        octree_pass(before, obstacles_, params, profile_, after_);
+    } else {
+        update_particles_fast(before, cdt, params, profile_, after_);
+    }
+    draw(before, after_, params, cdt_after_);
+}
+
+void ReferenceSimulation::draw(const Particles& before, const Particles& after, const FrameParams& params,
+                               CollisionImage& cdt) {
+    if (has_remedies(params.switches))
+        return draw_layered_cdt(after, obstacles_, params, profile_, cdt);
+    clear(cdt);
+    if (params.switches.search == Search::octree)
+        return;
+    obstacle_pass(obstacles_, params, profile_, cdt, depth_);
+    rasterise_particles_fast(before, after, params, profile_, cdt, depth_);
+}
+
+void ReferenceSimulation::step(const FrameParams& params) {
+    std::swap(before_, after_);
+    std::swap(cdt_before_, cdt_after_);
+    step_from(before_, cdt_before_, params);
+}
+
+void ReferenceSimulation::clear(CollisionImage& cdt) {
+    std::fill(cdt.texels.begin(), cdt.texels.end(), glm::vec4(0.0F));
+    std::fill(depth_.texels.begin(), depth_.texels.end(), 1.0F);
+}
+
+} // namespace lockstep

@@ -1,0 +1,38 @@
+#pragma once
+#include "reference/model/collision/particles.hpp"
+#include "reference/model/collision/scene.hpp"
+#include "reference/model/image.hpp"
+#include "reference/model/profile.hpp"
+
+namespace lockstep {
+
+/// The reference side of a run: whole frames, one after the other. Holds the scratch that a frame needs, so that a
+/// long run allocates nothing. Twin of gpu/collision/simulation.hpp.
+class ReferenceSimulation {
+  public:
+    ReferenceSimulation(const Scene& scene, Profile profile);
+
+    /// One frame from a given state: clear, obstacles, collision pass, or with remedies the layered one; with search =
+    /// octree the octree pass and a CDT that stays empty. The answer is in particles() and cdt().
+    void step_from(const Particles& before, const CollisionImage& cdt, const FrameParams& params);
+
+    /// One frame from where the last one ended.
+    void step(const FrameParams& params);
+
+    /// The CDT that a step from `before` to `after` draws, whoever made it. particles() and cdt() stay.
+    void draw(const Particles& before, const Particles& after, const FrameParams& params, CollisionImage& cdt);
+
+    [[nodiscard]] const Particles& particles() const { return after_; }
+    [[nodiscard]] const CollisionImage& cdt() const { return cdt_after_; }
+
+  private:
+    void clear(CollisionImage& cdt);
+
+    const Mesh& obstacles_;
+    Profile profile_;
+    Particles before_, after_;
+    CollisionImage cdt_before_, cdt_after_;
+    DepthImage depth_;
+};
+
+} // namespace lockstep

@@ -1,0 +1,48 @@
+#include "reference/collision/stored_positions.hpp"
+
+#include <algorithm>
+#include <limits>
+
+#include "reference/collision/collision_code.hpp"
+
+namespace lockstep {
+namespace {
+
+constexpr float nowhere = std::numeric_limits<float>::quiet_NaN();
+
+} // namespace
+
+StoredPositions stored_positions(const CollisionImage& cdt, const FrameParams& params, int margin, int overrun) {
+    const CollisionCode code(params);
+    const bool phantom = params.switches.empty_texel == EmptyTexel::phantom;
+    StoredPositions stored;
+    stored.stride = cdt.width + 2 * margin;
+    stored.origin = margin * stored.stride + margin;
+    const auto size = static_cast<std::size_t>((cdt.height + 2 * margin) * stored.stride + overrun);
+    stored.x.resize(size);
+    stored.y.resize(size);
+    stored.z.resize(size);
+#pragma omp parallel for schedule(static)
+    for (int ty = -margin; ty < cdt.height + margin; ++ty) {
+        float* x = stored.x.data() + stored.index(0, ty);
+        float* y = stored.y.data() + stored.index(0, ty);
+        float* z = stored.z.data() + stored.index(0, ty);
+        if (ty < 0 || ty >= cdt.height) {
+            std::fill(x - margin, x + cdt.width + margin, nowhere);
+            continue;
+        }
+        std::fill(x - margin, x, nowhere);
+        std::fill(x + cdt.width, x + cdt.width + margin, nowhere);
+        const glm::vec4* texel = &cdt.at(0, ty);
+        for (int tx = 0; tx < cdt.width; ++tx) {
+            const glm::vec3 position = code.decode(texel[tx]);
+            const bool held = phantom || texel[tx].a != 0.0F;
+            x[tx] = held ? position.x : nowhere;
+            y[tx] = position.y;
+            z[tx] = position.z;
+        }
+    }
+    return stored;
+}
+
+} // namespace lockstep

@@ -1,0 +1,64 @@
+#include "reference/model/collision/layered_cdt.hpp"
+
+#include <algorithm>
+#include <array>
+#include <string_view>
+
+#include <fmt/format.h>
+#include <glm/geometric.hpp>
+
+#include "reference/model/error.hpp"
+
+namespace lockstep {
+
+CdtPlanes cdt_planes(const Switches& switches) {
+    return {switches.cdt_layers, switches.cdt_cameras, switches.response == Response::mutual};
+}
+
+bool has_remedies(const Switches& switches) {
+    return switches.cdt_layers > 1 || switches.cdt_cameras > 1 || switches.search_window != SearchWindow::texels ||
+           switches.response != Response::single;
+}
+
+bool chooses_pass(std::string_view switch_name) {
+    return switch_name == "search" ||
+           std::find(remedy_switches.begin(), remedy_switches.end(), switch_name) != remedy_switches.end();
+}
+
+void check_remedies(const Switches& switches) {
+    if (!has_remedies(switches))
+        return;
+    constexpr std::array<std::string_view, 6> corrected{"perspective_divide", "base_texel",    "self_position",
+                                                        "empty_texel",        "zero_distance", "raster_position"};
+    for (const std::string_view name : corrected) {
+        const std::string value = switch_value(switches, name);
+        const std::string needed = switch_value(Switches{}, name);
+        if (value != needed)
+            throw Error(fmt::format("switch {}: cdt_layers, cdt_cameras, search_window and response need {}, not {}",
+                                    name, needed, value));
+    }
+    if (switches.search == Search::octree)
+        throw Error("switch search: cdt_layers, cdt_cameras, search_window and response need cdt, not octree");
+    if (switches.response == Response::mutual && switches.cdt_format == CdtFormat::rgba8)
+        throw Error("switch cdt_format: response = mutual stores velocities and needs rgba32f or rgba16f, not rgba8");
+    if (switches.response == Response::mutual && switches.cdt_cameras > 1)
+        throw Error("switch cdt_cameras: response = mutual needs 1; what two cameras see would count twice");
+}
+
+int cdt_height(const Scene& scene) {
+    check_remedies(scene.switches);
+    return scene.height * (has_remedies(scene.switches) ? cdt_planes(scene.switches).count() : 1);
+}
+
+CollisionImage empty_cdt(const Scene& scene) { return {scene.width, cdt_height(scene)}; }
+
+glm::vec3 projected_reach(const glm::mat4& proj_view, const FrameParams& params) {
+    const glm::dmat4 m(proj_view);
+    const auto row = [&](int r) { return glm::dvec3(m[0][r], m[1][r], m[2][r]); };
+    const auto steepest = [&](int r) { return std::max(glm::length(row(r) - row(3)), glm::length(row(r) + row(3))); };
+    const glm::dvec3 texels(0.5 * params.width * steepest(0), 0.5 * params.height * steepest(1),
+                            glm::length(row(3)) * (1.0 + 0x1p-10));
+    return glm::vec3(texels * static_cast<double>(params.constants.collision_range));
+}
+
+} // namespace lockstep

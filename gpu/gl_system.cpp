@@ -19,15 +19,6 @@
 namespace lockstep {
 namespace {
 
-/// Of all switches the one that arithmetic.glsl asks for.
-ShaderDefines arithmetic_defines(ArithmeticSwitch arithmetic) {
-    Switches switches;
-    switches.arithmetic = arithmetic;
-    ShaderDefines defines = switch_defines(switches);
-    std::erase_if(defines, [](const auto& define) { return !define.first.starts_with("ARITHMETIC"); });
-    return defines;
-}
-
 std::string block_name(const Resource& resource, bool after) {
     return shader_name(resource.name) + (after ? "After" : "Before");
 }

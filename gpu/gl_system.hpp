@@ -17,7 +17,7 @@
 
 #include "gpu/shader_source.hpp"
 #include "gpu/system_side.hpp"
-#include "reference/model/collision/switches.hpp"
+#include "reference/model/arithmetic_switch.hpp"
 
 namespace lockstep {
 

@@ -1,6 +1,7 @@
 #include "gpu/shader_source.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cctype>
 #include <charconv>
 #include <fstream>
@@ -240,17 +241,18 @@ ShaderFolders shader_folders(const fs::path& user, std::string_view system) {
     return folders;
 }
 
-ShaderDefines switch_defines(const Switches& switches) {
+ShaderDefines choice_defines(std::string_view name, std::span<const std::string_view> values, std::size_t chosen) {
     ShaderDefines defines;
-    for (const SwitchInfo& info : switch_table()) {
-        if (info.values.empty())
-            continue;
-        const std::string name = upper(info.name);
-        for (std::size_t i = 0; i < info.values.size(); ++i)
-            defines.emplace_back(fmt::format("{}_{}", name, upper(info.values[i])), std::to_string(i));
-        defines.emplace_back(name, fmt::format("{}_{}", name, upper(switch_value(switches, info.name))));
-    }
+    const std::string word = upper(name);
+    for (std::size_t i = 0; i < values.size(); ++i)
+        defines.emplace_back(fmt::format("{}_{}", word, upper(values[i])), std::to_string(i));
+    defines.emplace_back(word, fmt::format("{}_{}", word, upper(values[chosen])));
     return defines;
+}
+
+ShaderDefines arithmetic_defines(ArithmeticSwitch arithmetic) {
+    static constexpr std::array<std::string_view, 2> values{"plain", "exact"};
+    return choice_defines("arithmetic", values, static_cast<std::size_t>(arithmetic));
 }
 
 ShaderSource load_stage(const ShaderFolders& folders, std::string_view name, Stage stage,

@@ -7,7 +7,7 @@
 #include <utility>
 #include <vector>
 
-#include "reference/model/collision/switches.hpp"
+#include "reference/model/arithmetic_switch.hpp"
 
 namespace lockstep {
 
@@ -27,9 +27,12 @@ ShaderFolders shader_folders(const std::filesystem::path& user = {}, std::string
 /// Preprocessor definitions, name and value.
 using ShaderDefines = std::vector<std::pair<std::string, std::string>>;
 
-/// For every switch with named values: a number for each value and the one that is set, in upper case:
+/// A choice among named values: a number for each value and the one that is chosen, in upper case:
 /// BASE_TEXEL_TRUNCATE 0, BASE_TEXEL_FLOOR 1, BASE_TEXEL BASE_TEXEL_FLOOR.
-ShaderDefines switch_defines(const Switches& switches);
+ShaderDefines choice_defines(std::string_view name, std::span<const std::string_view> values, std::size_t chosen);
+
+/// What arithmetic.glsl asks for.
+ShaderDefines arithmetic_defines(ArithmeticSwitch arithmetic);
 
 /// One stage, ready to compile: definitions inserted after #version and `#include "file.glsl"` lines replaced by the
 /// file (as in C, also where an #if excludes it).

@@ -4,7 +4,7 @@
 
 #include "gpu/canary.hpp"
 #include "gpu/captured_vertex.hpp"
-#include "gpu/collision/gpu_side.hpp"
+#include "gpu/side_description.hpp"
 #include "reference/model/system_state.hpp"
 
 namespace lockstep {

@@ -1,6 +1,6 @@
 #pragma once
 #include "reference/arithmetic.hpp"
-#include "reference/model/collision/switches.hpp"
+#include "reference/model/arithmetic_switch.hpp"
 #include "reference/model/profile.hpp"
 #include "reference/portable.hpp"
 
@@ -12,8 +12,8 @@ using PlainArithmetic = OwnOrders;
 
 /// As with_arithmetic, with two types for all: PlainArithmetic and Portable.
 template <class Pass>
-decltype(auto) with_plain_arithmetic(const Profile& profile, const Switches& switches, Pass&& pass) {
-    if (switches.arithmetic == ArithmeticSwitch::exact)
+decltype(auto) with_plain_arithmetic(const Profile& profile, ArithmeticSwitch arithmetic, Pass&& pass) {
+    if (arithmetic == ArithmeticSwitch::exact)
         return pass(Portable{});
     return pass(PlainArithmetic(profile.dot, profile.length_order(), profile.normalize_order(), profile.roots.get()));
 }

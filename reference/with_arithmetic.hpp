@@ -1,6 +1,6 @@
 #pragma once
 #include "reference/arithmetic.hpp"
-#include "reference/model/collision/switches.hpp"
+#include "reference/model/arithmetic_switch.hpp"
 #include "reference/model/profile.hpp"
 #include "reference/portable.hpp"
 
@@ -14,8 +14,8 @@ inline bool has_fast_orders(const Profile& profile) {
 
 /// Calls `pass` with the arithmetic that a profile and the `arithmetic` switch name. It may refer to the profile's own
 /// tables, and be copied to any number of threads.
-template <class Pass> decltype(auto) with_arithmetic(const Profile& profile, const Switches& switches, Pass&& pass) {
-    if (switches.arithmetic == ArithmeticSwitch::exact)
+template <class Pass> decltype(auto) with_arithmetic(const Profile& profile, ArithmeticSwitch arithmetic, Pass&& pass) {
+    if (arithmetic == ArithmeticSwitch::exact)
         return pass(Portable{});
     if (!has_fast_orders(profile))
         return pass(OwnOrders(profile.dot, profile.length_order(), profile.normalize_order(), profile.roots.get()));

@@ -4,6 +4,7 @@
 #include <fstream>
 #include <optional>
 #include <regex>
+#include <set>
 #include <sstream>
 #include <string>
 #include <vector>
@@ -30,6 +31,16 @@ std::optional<std::size_t> job_of(const std::string& file) {
     return {};
 }
 
+/// The system in whose folder a file of both sides lies; nothing of what is every system's.
+std::optional<std::string> system_of(const std::string& file) {
+    static const std::regex folder("(?:reference/model|reference|gpu)/([a-z_]+)/.*");
+    static const std::set<std::string> machinery{"model", "readings", "system", "probe"};
+    std::smatch match;
+    if (!std::regex_match(file, match, folder) || machinery.contains(match[1].str()))
+        return {};
+    return match[1].str();
+}
+
 /// Why `file` may not include `header`; empty if it may.
 std::string forbidden(const std::string& file, const std::string& header) {
     if (!file.starts_with("gpu/") && starts_with_any(header, {"GL/", "EGL/", "GLES", "KHR/", "OpenGL/", "glbinding/"}))
@@ -45,6 +56,9 @@ std::string forbidden(const std::string& file, const std::string& header) {
         return "gpu/ shares only the model with its twin";
     if (file.starts_with("gpu/") && starts_with_any(header, {"crosscheck/", "tests/"}))
         return "gpu/ knows nothing of its users";
+    if (const auto system = system_of(header);
+        system && system_of(file) != system && starts_with_any(file, {"reference/", "gpu/"}))
+        return "only the system's own folders know " + *system;
     if (file.starts_with("crosscheck/") && header.starts_with("tests/"))
         return "only tests include tests";
     const auto job = job_of(file), used = job_of(header);
@@ -107,6 +121,10 @@ TEST_CASE("include borders: a crossing is seen, with its line") {
     CHECK(crossings("crosscheck/judge/a.cpp", "#include \"crosscheck/report/report.hpp\"\n") ==
           Strings{"crosscheck/judge/a.cpp:1: judge knows nothing of report"});
     CHECK(crossings("crosscheck/report/a.cpp", "#include \"crosscheck/judge/check.hpp\"\n").empty());
+    CHECK(crossings("reference/readings/a.hpp", "#include \"reference/model/collision/scene.hpp\"\n") ==
+          Strings{"reference/readings/a.hpp:1: only the system's own folders know collision"});
+    CHECK(crossings("gpu/dust/a.hpp", "#include \"gpu/collision/octree.hpp\"\n").size() == 1);
+    CHECK(crossings("gpu/collision/a.hpp", "#include \"reference/model/collision/octree.hpp\"\n").empty());
     CHECK(crossings("tests/gpu/a.cpp", "#include <GL/gl.h>\n").size() == 1);
     CHECK(crossings("crosscheck/cli/main.cpp", "#include <CLI/CLI.hpp>\n").size() == 1);
     CHECK(crossings("crosscheck/a.cpp", "const char* text = \"#version 330 core\";\n") ==

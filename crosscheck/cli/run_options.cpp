@@ -11,6 +11,7 @@
 #include "crosscheck/files/threads.hpp"
 #include "crosscheck/scene/run_text.hpp"
 #include "crosscheck/scene/scene_file.hpp"
+#include "gpu/collision/collision_shaders.hpp"
 #include "gpu/data_folder.hpp"
 #include "reference/model/error.hpp"
 #include "reference/model/near_name.hpp"

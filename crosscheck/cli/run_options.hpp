@@ -7,7 +7,7 @@
 
 #include "crosscheck/cli/verb.hpp"
 #include "crosscheck/files/output_files.hpp"
-#include "gpu/collision/shader_use.hpp"
+#include "gpu/shader_use.hpp"
 #include "reference/model/collision/scene.hpp"
 
 namespace lockstep {

@@ -11,6 +11,7 @@
 #include "crosscheck/judge/item_table.hpp"
 #include "crosscheck/judge/step_judge.hpp"
 #include "reference/collision/collision_code.hpp"
+#include "reference/collision/decoded_terms.hpp"
 #include "reference/collision/legal_outcomes.hpp"
 #include "reference/collision/legal_texels.hpp"
 #include "reference/collision/step_pass.hpp"
@@ -771,7 +772,7 @@ StepTable step_table(FrameRun& run, std::size_t particle) {
         table.frame = run.frame();
         return table;
     }
-    StepTable table = with_arithmetic(run.profile(), run.scene().switches, [&](auto fp) {
+    StepTable table = with_arithmetic(run.profile(), run.scene().switches.arithmetic, [&](auto fp) {
         return TableBuilder(fp, run.judged(), particle, run.capture(particle), &run)();
     });
     table.frame = run.frame();
@@ -788,7 +789,7 @@ StepTable step_table(const JudgedFrame& frame, std::size_t particle, const StepC
             frame, [&](const JudgedPass& pass) { return item_rows(pass, particle, told_by_state(pass, particle)); });
         return table;
     }
-    return with_arithmetic(frame.profile, frame.params.switches,
+    return with_arithmetic(frame.profile, frame.params.switches.arithmetic,
                            [&](auto fp) { return TableBuilder(fp, frame, particle, capture, nullptr)(); });
 }
 

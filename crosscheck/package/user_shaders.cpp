@@ -1,6 +1,7 @@
 #include <fmt/format.h>
 
 #include "crosscheck/files/shell_words.hpp"
+#include "gpu/collision/collision_shaders.hpp"
 #include "gpu/collision/simulation.hpp"
 #include "lockstep/lockstep.hpp"
 

@@ -6,7 +6,7 @@
 #include <nlohmann/json_fwd.hpp>
 
 #include "crosscheck/judge/check.hpp"
-#include "gpu/collision/shader_use.hpp"
+#include "gpu/shader_use.hpp"
 
 namespace lockstep {
 

@@ -10,7 +10,7 @@
 #include "crosscheck/scene/run_text.hpp"
 #include "crosscheck/scene/scene_obstacles.hpp"
 #include "crosscheck/scene/scene_settings.hpp"
-#include "reference/model/emitters.hpp"
+#include "reference/model/collision/emitters.hpp"
 #include "reference/model/error.hpp"
 
 namespace lockstep {

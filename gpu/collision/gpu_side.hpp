@@ -1,23 +1,10 @@
 #pragma once
-#include <optional>
-#include <string>
-
-#include "gpu/collision/shader_use.hpp"
+#include "gpu/side_description.hpp"
 #include "reference/model/collision/particles.hpp"
 #include "reference/model/collision/scene.hpp"
 #include "reference/model/image.hpp"
-#include "reference/model/profile.hpp"
 
 namespace lockstep {
-
-/// What a side tells of itself.
-struct SideDescription {
-    std::string name = "an engine of its own"; ///< what it runs on, one line: renderer, version, context
-    Profile profile;                           ///< its driver's arithmetic, which the reference follows
-    /// The options with which `lockstep check` runs it again ("--shaders mine"); not set: the program cannot.
-    std::optional<std::string> arguments;
-    std::optional<ShaderUse> shaders; ///< whose shaders it runs; not set: not lockstep's and not told
-};
 
 /// Whatever computes the frames that a check holds against the reference: GpuSimulation runs them on GL, a trace gives
 /// back what was recorded, and an engine of one's own is another by deriving from this.

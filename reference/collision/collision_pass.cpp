@@ -81,7 +81,7 @@ void update_particles(const Particles& before, const CollisionImage& cdt, const 
                       const Profile& profile, Particles& after) {
     assert(&before != &after && cdt.width == params.width && cdt.height == params.height);
     after.resize(before.size());
-    with_arithmetic(profile, params.switches,
+    with_arithmetic(profile, params.switches.arithmetic,
                     [&](auto fp) { update(fp, before, cdt, params, profile.flush_subnormals, after); });
 }
 
@@ -90,7 +90,7 @@ void rasterise_particles(const Particles& before, const Particles& after, const 
     const auto& positions =
         params.switches.raster_position == RasterPosition::updated ? after.position : before.position;
     const CollisionCode code(params);
-    with_arithmetic(profile, params.switches, [&](auto fp) {
+    with_arithmetic(profile, params.switches.arithmetic, [&](auto fp) {
         const FlushSubnormals guard(profile.flush_subnormals);
         for (std::size_t i = 0; i < positions.size(); ++i) {
             const PointFragment point = fragment(fp, positions[i], params, profile.raster);
@@ -104,13 +104,13 @@ void rasterise_particles(const Particles& before, const Particles& after, const 
 
 PointFragment point_fragment(glm::vec3 position, const FrameParams& params, const Profile& profile) {
     const FlushSubnormals guard(profile.flush_subnormals);
-    return with_arithmetic(profile, params.switches,
+    return with_arithmetic(profile, params.switches.arithmetic,
                            [&](auto fp) { return fragment(fp, position, params, profile.raster); });
 }
 
 BaseTexelIndex base_texel(glm::vec3 position, const FrameParams& params, const Profile& profile) {
     const FlushSubnormals guard(profile.flush_subnormals);
-    return with_arithmetic(profile, params.switches, [&](auto fp) {
+    return with_arithmetic(profile, params.switches.arithmetic, [&](auto fp) {
         return base_texel(fp, fp.transform(params.collision_proj_view, position), params);
     });
 }
@@ -120,7 +120,7 @@ std::vector<std::int32_t> collision_texels(std::span<const glm::vec3> positions,
     assert(cdt.width == params.width && cdt.height == params.height);
     std::vector<std::int32_t> texels(positions.size());
     const auto count = static_cast<std::ptrdiff_t>(positions.size());
-    with_arithmetic(profile, params.switches, [&]<class A>(A fp) {
+    with_arithmetic(profile, params.switches.arithmetic, [&]<class A>(A fp) {
 #pragma omp parallel
         {
             const FlushSubnormals guard(profile.flush_subnormals);

@@ -157,7 +157,7 @@ void rasterise_particles_fast(const Particles& before, const Particles& after, c
         return rasterise_particles(before, after, params, profile, cdt, depth);
     const auto& positions =
         params.switches.raster_position == RasterPosition::updated ? after.position : before.position;
-    with_arithmetic(profile, params.switches, [&]<class A>(A fp) {
+    with_arithmetic(profile, params.switches.arithmetic, [&]<class A>(A fp) {
         if constexpr (!std::is_same_v<A, DriverRoots> && !std::is_same_v<A, OwnOrders>)
             rasterise(fp, positions, after.position, params, profile, cdt, depth);
     });

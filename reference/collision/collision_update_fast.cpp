@@ -250,7 +250,7 @@ void update_particles_fast(const Particles& before, const CollisionImage& cdt, c
     assert(&before != &after && cdt.width == params.width && cdt.height == params.height);
     after.resize(before.size());
     const StoredPositions stored = stored_positions(cdt, params, radius, 3);
-    with_arithmetic(profile, params.switches, [&]<class A>(A fp) {
+    with_arithmetic(profile, params.switches.arithmetic, [&]<class A>(A fp) {
         if constexpr (!std::is_same_v<A, DriverRoots> && !std::is_same_v<A, OwnOrders>)
             update(fp, {before, stored, params, after}, profile.flush_subnormals);
     });

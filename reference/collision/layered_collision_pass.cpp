@@ -91,7 +91,7 @@ void update_particles_layered(const Particles& before, const CollisionImage& cdt
     assert(cdt.height == params.height * cdt_planes(params.switches).count());
     after.resize(before.size());
     const auto count = static_cast<std::ptrdiff_t>(before.size());
-    with_arithmetic(profile, params.switches, [&]<class A>(A fp) {
+    with_arithmetic(profile, params.switches.arithmetic, [&]<class A>(A fp) {
 #pragma omp parallel
         {
             const FlushSubnormals guard(profile.flush_subnormals);
@@ -120,7 +120,7 @@ void draw_layered_cdt(const Particles& particles, const Mesh& obstacles, const F
         DepthImage depth(params.width, params.height, 1.0F);
         obstacle_pass(obstacles, seen_by(params, camera), profile, walls, depth);
         std::copy(walls.texels.begin(), walls.texels.end(), plane(cdt, planes.obstacles(camera), params));
-        with_arithmetic(profile, params.switches, [&](auto fp) {
+        with_arithmetic(profile, params.switches.arithmetic, [&](auto fp) {
             const ParticleStep step(fp, params);
             const FlushSubnormals guard(profile.flush_subnormals);
             const std::size_t texels = walls.texels.size() * static_cast<std::size_t>(planes.layers);
@@ -144,7 +144,7 @@ LayeredOwners draw_layered_owners(const Particles& particles, const FrameParams&
     const CdtPlanes planes = cdt_planes(params.switches);
     LayeredOwners owners{Image<std::int32_t>(params.width, params.height * planes.positions(), empty_owner), {}};
     for (int camera = 0; camera < planes.cameras; ++camera)
-        with_arithmetic(profile, params.switches, [&](auto fp) {
+        with_arithmetic(profile, params.switches.arithmetic, [&](auto fp) {
             const auto placed = place(fp, particles.position, collision_proj_view(params, camera), params, profile);
             for (const PointFragment& point : placed)
                 owners.drawn.push_back(point.x < 0 ? no_texel : point.y * params.width + point.x);

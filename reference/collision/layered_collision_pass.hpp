@@ -2,13 +2,13 @@
 #include <cstdint>
 #include <vector>
 
+#include "reference/collision/owners.hpp"
 #include "reference/model/collision/layered_cdt.hpp"
 #include "reference/model/collision/particles.hpp"
 #include "reference/model/collision/scene.hpp"
 #include "reference/model/image.hpp"
 #include "reference/model/mesh.hpp"
 #include "reference/model/profile.hpp"
-#include "reference/owners.hpp"
 
 namespace lockstep {
 

@@ -148,7 +148,7 @@ template <class A> class LayeredQuestions {
 SearchStudy study_layered_search(const Particles& particles, const CollisionImage& cdt, const LayeredOwners& owners,
                                  const Truth& truth, const FrameParams& params, const Profile& profile) {
     const Inputs in{particles, cdt, owners, truth, params, profile};
-    SearchStudy result = with_arithmetic(profile, params.switches, [&](auto fp) {
+    SearchStudy result = with_arithmetic(profile, params.switches.arithmetic, [&](auto fp) {
         return count_search(LayeredQuestions(fp, in), particles.size(), truth, params, profile);
     });
     std::vector<bool> owns(particles.size());

@@ -96,7 +96,7 @@ std::vector<LegalOutcome> legal_outcomes(const ParticleState& before, const Coll
                                          const KnownOperations& known, const ParticleState* observed) {
     const FlushSubnormals guard(known.subnormals && profile.flush_subnormals);
     std::vector<LegalOutcome> outcomes;
-    with_plain_arithmetic(profile, params.switches, [&]<class A>(A fp) {
+    with_plain_arithmetic(profile, params.switches.arithmetic, [&]<class A>(A fp) {
         Worlds<A> worlds(fp, known, profile.other_orders);
         if (observed != nullptr) {
             worlds.tell(site::direction.output, {&observed->direction.x, 3});

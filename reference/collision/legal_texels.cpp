@@ -309,17 +309,18 @@ std::vector<LegalTexel> legal_texels(const Mesh& obstacles, const Particles& bef
     const FlushSubnormals guard(known.subnormals && profile.flush_subnormals);
     const auto& positions =
         params.switches.raster_position == RasterPosition::updated ? after.position : before.position;
-    std::vector<std::vector<TexelOwner>> candidates = with_arithmetic(profile, params.switches, [&](auto fp) {
-        Candidates all(fp, params, profile, known, texels);
-        if (params.switches.obstacles_in_cdt == ObstaclesInCdt::triangles)
-            all.add_triangles(obstacles);
-        if (params.switches.obstacles_in_cdt == ObstaclesInCdt::vertices)
-            for (std::size_t i = 0; i < obstacles.positions.size(); ++i)
-                all.add_point(Kind::obstacle, i, obstacles.positions[i], obstacles.positions[i]);
-        for (std::size_t i = 0; i < positions.size(); ++i)
-            all.add_point(Kind::particle, i, positions[i], after.position[i]);
-        return all.take();
-    });
+    std::vector<std::vector<TexelOwner>> candidates =
+        with_arithmetic(profile, params.switches.arithmetic, [&](auto fp) {
+            Candidates all(fp, params, profile, known, texels);
+            if (params.switches.obstacles_in_cdt == ObstaclesInCdt::triangles)
+                all.add_triangles(obstacles);
+            if (params.switches.obstacles_in_cdt == ObstaclesInCdt::vertices)
+                for (std::size_t i = 0; i < obstacles.positions.size(); ++i)
+                    all.add_point(Kind::obstacle, i, obstacles.positions[i], obstacles.positions[i]);
+            for (std::size_t i = 0; i < positions.size(); ++i)
+                all.add_point(Kind::particle, i, positions[i], after.position[i]);
+            return all.take();
+        });
     std::vector<LegalTexel> legal;
     legal.reserve(candidates.size());
     for (std::vector<TexelOwner>& of_texel : candidates)

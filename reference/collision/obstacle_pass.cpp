@@ -71,17 +71,17 @@ void obstacle_pass(const Mesh& obstacles, const FrameParams& params, const Profi
     case ObstaclesInCdt::off:
         return;
     case ObstaclesInCdt::vertices:
-        return with_arithmetic(profile, params.switches,
+        return with_arithmetic(profile, params.switches.arithmetic,
                                [&](auto fp) { draw_obstacle_vertices(fp, obstacles, params, profile, cdt, depth); });
     case ObstaclesInCdt::triangles:
-        return with_arithmetic(profile, params.switches,
+        return with_arithmetic(profile, params.switches.arithmetic,
                                [&](auto fp) { draw_obstacle_triangles(fp, obstacles, params, profile, cdt, depth); });
     }
 }
 
 double obstacle_edge_distance(const Mesh& obstacles, const FrameParams& params, const Profile& profile, int x, int y) {
     const FlushSubnormals guard(profile.flush_subnormals);
-    return with_arithmetic(profile, params.switches, [&](auto fp) {
+    return with_arithmetic(profile, params.switches.arithmetic, [&](auto fp) {
         double nearest = HUGE_VAL;
         for (const RasterTriangle& triangle :
              assemble_triangles(project(fp, obstacles, params.collision_proj_view), obstacles.indices, params.width,

@@ -30,7 +30,7 @@ void octree_pass(const Particles& before, const Mesh& obstacles, const FramePara
     assert(&before != &after);
     after.resize(before.size());
     const OctreeLeaves leaves = fill_leaves(before.position, obstacles, params);
-    with_arithmetic(profile, params.switches, [&]<class A>(A fp) {
+    with_arithmetic(profile, params.switches.arithmetic, [&]<class A>(A fp) {
         for_each_particle(before.size(), profile, [&](std::size_t i) {
             Values<A> values(fp);
             const OctreeTwin step(values, params);
@@ -45,7 +45,7 @@ std::vector<std::int32_t> octree_partners(std::span<const glm::vec3> positions, 
                                           const FrameParams& params, const Profile& profile) {
     const OctreeLeaves leaves = fill_leaves(positions, obstacles, params);
     std::vector<std::int32_t> partners(positions.size());
-    with_arithmetic(profile, params.switches, [&]<class A>(A fp) {
+    with_arithmetic(profile, params.switches.arithmetic, [&]<class A>(A fp) {
         for_each_particle(positions.size(), profile, [&](std::size_t i) {
             Values<A> values(fp);
             const OctreeTwin step(values, params);

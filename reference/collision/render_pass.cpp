@@ -9,7 +9,7 @@ namespace lockstep {
 RenderedFrame render_with_owners(const Particles& particles, const Mesh& obstacles, const FrameParams& params,
                                  const Profile& profile) {
     const FlushSubnormals guard(profile.flush_subnormals);
-    return with_arithmetic(profile, params.switches, [&](auto fp) {
+    return with_arithmetic(profile, params.switches.arithmetic, [&](auto fp) {
         RenderDrawing drawing(fp, RightSites(), params, profile);
         drawing.draw_background();
         drawing.draw_obstacles(obstacles);
@@ -25,7 +25,7 @@ ColorImage render_pass(const Particles& particles, const Mesh& obstacles, const 
 
 Billboard particle_billboard(glm::vec3 position, const FrameParams& params, const Profile& profile) {
     const FlushSubnormals guard(profile.flush_subnormals);
-    return with_arithmetic(profile, params.switches, [&](auto fp) {
+    return with_arithmetic(profile, params.switches.arithmetic, [&](auto fp) {
         const RenderDrawing drawing(fp, RightSites(), params, profile);
         return drawing.billboard(drawing.to_view(position));
     });

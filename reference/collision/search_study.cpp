@@ -232,7 +232,7 @@ SearchStudy study_search(const Particles& particles, const CollisionImage& cdt, 
     assert(owners.drawn.size() == particles.size() && truth.nearest.particle.size() == particles.size());
     assert(cdt.width == params.width && cdt.height == params.height);
     const Inputs in{particles, cdt, owners, truth, params, profile};
-    SearchStudy result = with_arithmetic(profile, params.switches, [&](auto fp) {
+    SearchStudy result = with_arithmetic(profile, params.switches.arithmetic, [&](auto fp) {
         return count_search(CdtQuestions(fp, in), particles.size(), truth, params, profile);
     });
     SearchCounts& n = result.counts;

@@ -8,11 +8,11 @@
 
 #include "reference/collision/layered_collision_pass.hpp"
 #include "reference/collision/neighbours.hpp"
+#include "reference/collision/owners.hpp"
 #include "reference/model/collision/particles.hpp"
 #include "reference/model/collision/scene.hpp"
 #include "reference/model/image.hpp"
 #include "reference/model/profile.hpp"
-#include "reference/owners.hpp"
 
 namespace lockstep {
 

@@ -100,7 +100,7 @@ StepTrace trace_step(const ParticleState& before, const CollisionImage& cdt, con
     StepTrace trace;
     trace.before = before;
     const FlushSubnormals guard(profile.flush_subnormals);
-    with_plain_arithmetic(profile, params.switches, [&]<class A>(A fp) {
+    with_plain_arithmetic(profile, params.switches.arithmetic, [&]<class A>(A fp) {
         Recording<A> reading(fp);
         const auto v = CollisionTwin(reading, cdt, params)(before);
         trace.after = {floats(v.position), floats(v.direction), static_cast<float>(v.speed),
@@ -113,7 +113,7 @@ StepTrace trace_step(const ParticleState& before, const CollisionImage& cdt, con
         trace.base = base_texel(before.position, params, profile);
     const glm::vec3 drawn =
         params.switches.raster_position == RasterPosition::updated ? trace.after.position : before.position;
-    trace.raster_clip = with_plain_arithmetic(profile, params.switches,
+    trace.raster_clip = with_plain_arithmetic(profile, params.switches.arithmetic,
                                               [&](auto fp) { return fp.transform(params.collision_proj_view, drawn); });
     trace.point_position = point_position(trace.raster_clip, params);
     trace.window = point_window(trace.point_position, params, profile.raster);

@@ -2,7 +2,6 @@
 #include <glm/vec3.hpp>
 #include <glm/vec4.hpp>
 
-#include "reference/model/collision/particles.hpp"
 #include "reference/model/ulp.hpp"
 
 namespace lockstep {
@@ -12,9 +11,5 @@ inline bool same_bits(glm::vec3 a, glm::vec3 b) {
     return same_bits(a.x, b.x) && same_bits(a.y, b.y) && same_bits(a.z, b.z);
 }
 inline bool same_bits(glm::vec4 a, glm::vec4 b) { return same_bits(glm::vec3(a), glm::vec3(b)) && same_bits(a.w, b.w); }
-inline bool same_bits(const ParticleState& a, const ParticleState& b) {
-    return same_bits(a.position, b.position) && same_bits(a.direction, b.direction) && same_bits(a.speed, b.speed) &&
-           same_bits(a.collide_time, b.collide_time);
-}
 
 } // namespace lockstep

@@ -9,7 +9,7 @@
 
 #include "reference/interval.hpp"
 #include "reference/known_operations.hpp"
-#include "reference/model/collision/switches.hpp"
+#include "reference/model/arithmetic_switch.hpp"
 #include "reference/model/profile.hpp"
 #include "reference/model/system_state.hpp"
 #include "reference/readings/mistake.hpp"

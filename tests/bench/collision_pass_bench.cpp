@@ -11,7 +11,7 @@
 #include "reference/collision/collision_pass.hpp"
 #include "reference/collision/collision_pass_fast.hpp"
 #include "reference/model/collision/collision_state.hpp"
-#include "reference/model/emitters.hpp"
+#include "reference/model/collision/emitters.hpp"
 #include "reference/model/state_hash.hpp"
 
 namespace {

@@ -20,7 +20,7 @@ Particles twin_steps(const RandomScene& scene, const Profile& profile) {
     Particles after;
     after.resize(scene.particles.size());
     const FlushSubnormals guard(profile.flush_subnormals);
-    with_arithmetic(profile, scene.params.switches, [&]<class A>(A fp) {
+    with_arithmetic(profile, scene.params.switches.arithmetic, [&]<class A>(A fp) {
         Values<A> values(fp);
         const CollisionTwin twin(values, scene.cdt, scene.params);
         for (std::size_t i = 0; i < after.size(); ++i) {

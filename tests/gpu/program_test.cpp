@@ -3,6 +3,7 @@
 #include <catch2/catch.hpp>
 
 #include "gpu/check.hpp"
+#include "gpu/collision/collision_shaders.hpp"
 #include "gpu/collision/particle_buffer.hpp"
 #include "gpu/declaration.hpp"
 #include "gpu/program.hpp"

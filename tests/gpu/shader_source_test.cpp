@@ -5,6 +5,7 @@
 
 #include <fmt/format.h>
 
+#include "gpu/collision/collision_shaders.hpp"
 #include "gpu/shader_log.hpp"
 #include "gpu/shader_source.hpp"
 #include "gpu/shaders_read_once.hpp"

@@ -73,7 +73,7 @@ TEST_CASE("arithmetic: a profile names its policy") {
     const auto name = [](DotOrder order) {
         Profile profile;
         profile.dot = order;
-        return with_arithmetic(profile, Switches{}, []<class A>(A) {
+        return with_arithmetic(profile, ArithmeticSwitch::plain, []<class A>(A) {
             return std::is_same_v<A, Strict> ? 0 : std::is_same_v<A, RightToLeft> ? 1 : 2;
         });
     };
@@ -90,7 +90,7 @@ TEST_CASE("arithmetic: a driver's tables belong to the value, not to the program
     };
     const Profile a = of_one(1.0F), b = of_one(0.75F);
     const auto reciprocal = [](auto fp) { return fp.divide(1.0F, 1.0F); };
-    CHECK(with_arithmetic(a, Switches{}, [&](auto fp) {
-              return with_arithmetic(b, Switches{}, reciprocal) + reciprocal(fp);
+    CHECK(with_arithmetic(a, ArithmeticSwitch::plain, [&](auto fp) {
+              return with_arithmetic(b, ArithmeticSwitch::plain, reciprocal) + reciprocal(fp);
           }) == 1.75F);
 }

@@ -114,7 +114,7 @@ TEST_CASE("drivers: length and normalize have orders of their own") {
     CHECK(profile.length_order() == DotOrder::fused_from_z);
     CHECK(profile.normalize_order() == DotOrder::middle_last);
     const glm::vec3 v{9181.0F / 4096.0F, 7089.0F / 4096.0F, 4141.0F / 4096.0F};
-    with_arithmetic(profile, Switches{}, [&](auto fp) {
+    with_arithmetic(profile, ArithmeticSwitch::plain, [&](auto fp) {
         CHECK(fp.dot(v, v) == dot_in(DotOrder::left_to_right, v, v));
         CHECK(fp.length(v) == std::sqrt(dot_in(DotOrder::fused_from_z, v, v)));
         CHECK(fp.normalize(v).x == v.x * (1.0F / std::sqrt(dot_in(DotOrder::middle_last, v, v))));

@@ -8,7 +8,7 @@
 #include <omp.h>
 
 #include "reference/model/collision/collision_state.hpp"
-#include "reference/model/emitters.hpp"
+#include "reference/model/collision/emitters.hpp"
 #include "reference/model/state_hash.hpp"
 
 using namespace lockstep;

@@ -5,8 +5,8 @@
 
 #include "crosscheck/judge/check.hpp"
 #include "crosscheck/report/page/blob.hpp"
+#include "reference/collision/owners.hpp"
 #include "reference/model/box.hpp"
-#include "reference/owners.hpp"
 
 namespace lockstep {
 

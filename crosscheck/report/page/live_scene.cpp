@@ -13,6 +13,7 @@
 #include <fmt/format.h>
 
 #include "crosscheck/scene/scene_settings.hpp"
+#include "gpu/collision/collision_shaders.hpp"
 #include "gpu/collision/particle_buffer.hpp"
 #include "gpu/shader_source.hpp"
 #include "reference/collision/simulation.hpp"

@@ -109,7 +109,7 @@ ColorImage mistaken_render_pass(const RenderInputs& inputs, const Profile& profi
     const MistakenInputs mistaken(inputs, mistake);
     const MistakenSites sites(mistake);
     const int width = inputs.params.render_width, height = inputs.params.render_height;
-    const ColorImage drawn = with_plain_arithmetic(profile, inputs.params.switches, [&](auto fp) {
+    const ColorImage drawn = with_plain_arithmetic(profile, inputs.params.switches.arithmetic, [&](auto fp) {
         RenderDrawing drawing(fp, sites, mistaken.params(), profile);
         if (sites.draws_background())
             drawing.draw_background();

@@ -4,6 +4,8 @@
 
 #include <glm/vec3.hpp>
 
+#include "reference/model/same_bits.hpp"
+
 namespace lockstep {
 
 /// State of one particle.
@@ -13,6 +15,12 @@ struct ParticleState {
     float speed = 0.0F;
     float collide_time = 0.0F;
 };
+
+/// The same bits, or both NaN, in every component.
+inline bool same_bits(const ParticleState& a, const ParticleState& b) {
+    return same_bits(a.position, b.position) && same_bits(a.direction, b.direction) && same_bits(a.speed, b.speed) &&
+           same_bits(a.collide_time, b.collide_time);
+}
 
 /// State of all particles, one array a field; index i is particle i on both sides (spec, "State of a particle").
 struct Particles {

@@ -3,6 +3,8 @@
 #include <string>
 #include <string_view>
 
+#include "reference/model/arithmetic_switch.hpp"
+
 namespace lockstep {
 
 /// Where the thesis's listing (Fig. 3-3) and its text disagree or are silent, both readings can be chosen
@@ -28,9 +30,6 @@ enum class ObstaclesInCdt { off, vertices, triangles };
 /// Which position the point is rasterised at: the text projects the updated one, the listing writes gl_Position
 /// once, from the position before the step.
 enum class RasterPosition { before_step, updated };
-/// plain: GLSL's own length, normalize, division and matrix product. exact: shaders/portable.glsl, the same bits on
-/// every driver.
-enum class ArithmeticSwitch { plain, exact };
 
 /// Beyond the thesis (layered_cdt.hpp): with any of cdt_layers, search_window, cdt_cameras and response off its first
 /// value, the layered collision pass takes the collision pass's place.

@@ -12,6 +12,7 @@
 #include <fmt/format.h>
 
 #include "gpu/check.hpp"
+#include "gpu/collision/collision_shaders.hpp"
 #include "gpu/object.hpp"
 #include "gpu/program.hpp"
 #include "tests/gpu/any_context.hpp"

@@ -1,9 +1,11 @@
 #pragma once
 #include <filesystem>
+#include <span>
 #include <string>
+#include <string_view>
 #include <vector>
 
-#include "reference/model/collision/scene.hpp"
+#include "gpu/shader_source.hpp"
 
 namespace lockstep {
 
@@ -21,9 +23,15 @@ struct ShaderUse {
     std::vector<std::string> unused; ///< shaders in the user's folder that do not, by name
 };
 
-/// Which shaders run in a scene, of `user` (--shaders DIR; empty: none) and the shipped ones. `rendered`: the rendered
-/// frame is drawn, too. Throws Error like load_stages.
-ShaderUse shader_use(const Scene& scene, const std::filesystem::path& user, bool rendered = false);
+/// A pass by the name that its files begin with, and its stages.
+struct PassStages {
+    std::string name;
+    std::vector<Stage> stages;
+};
+
+/// Which shaders run in `passes`, of `user` (--shaders DIR; empty: none) and the shipped ones of `system`. Throws Error
+/// like load_stages.
+ShaderUse shader_use(std::string_view system, std::span<const PassStages> passes, const std::filesystem::path& user);
 
 /// Throws Error unless something of `user` runs, and, but where `allow_unused`, all that is a shader there: a misspelt
 /// file or one of another pass would leave the shipped shader in its place, and that agrees.

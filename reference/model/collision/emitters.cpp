@@ -1,4 +1,4 @@
-#include "reference/model/emitters.hpp"
+#include "reference/model/collision/emitters.hpp"
 
 #include <cmath>
 

@@ -1,4 +1,4 @@
-#include "reference/owners.hpp"
+#include "reference/collision/owners.hpp"
 
 #include <cstddef>
 

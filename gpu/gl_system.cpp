@@ -23,28 +23,68 @@ std::string block_name(const Resource& resource, bool after) {
     return shader_name(resource.name) + (after ? "After" : "Before");
 }
 
-/// Binds the program's storage blocks by name: resource r before at 2 r, after at 2 r + 1. Returns the resources.
-std::vector<std::uint8_t> bind_blocks(const Program& program, const Schema& schema) {
+/// The fields of a buffer that lie in one GL buffer: all of them in two copies, or those of a block, changed in place.
+struct Storage {
+    RecordLayout layout;
+    std::string block; ///< empty: BufferBefore and BufferAfter
+};
+
+/// The storages of a schema, buffer by buffer.
+std::vector<Storage> storages_of(const Schema& schema) {
+    std::vector<Storage> all;
+    for (std::uint8_t r = 0; r < schema.resources.size(); ++r) {
+        const Resource& resource = schema.resources[r];
+        if (resource.dimensions != 1)
+            throw Error(fmt::format("{}: '{}' is an image; GlSystem has buffers alone", schema.system, resource.name));
+        const std::size_t first = all.size();
+        for (std::uint8_t f = 0; f < resource.fields.size(); ++f) {
+            const auto known = std::find_if(all.begin() + static_cast<std::ptrdiff_t>(first), all.end(),
+                                            [&](const Storage& s) { return s.block == resource.fields[f].block; });
+            Storage& storage =
+                known != all.end() ? *known : all.emplace_back(Storage{{&schema, r, {}}, resource.fields[f].block});
+            storage.layout.members.push_back({f, shader_name(resource.fields[f].name)});
+        }
+    }
+    return all;
+}
+
+/// A storage block of a program, at the binding point of its place among them.
+struct Bound {
+    enum class Kind : std::uint8_t { before, after, in_place, data };
+    Kind kind;
+    std::size_t storage = 0; ///< its number
+    std::string name;        ///< of data
+};
+
+/// Every storage block of the program, by name. Throws Error for one that nothing is given for.
+std::vector<Bound> bind_blocks(const Program& program, const Schema& schema, const std::vector<Storage>& storages,
+                               const GlPass& pass) {
     GLint count = 0;
     gl::GetProgramInterfaceiv(program.id(), GL_SHADER_STORAGE_BLOCK, GL_ACTIVE_RESOURCES, &count);
-    std::vector<std::uint8_t> bound;
-    GLint known = 0;
+    std::vector<Bound> bound;
     std::vector<std::string> names;
-    for (std::uint8_t r = 0; r < schema.resources.size(); ++r)
-        for (const bool after : {false, true}) {
-            names.push_back(block_name(schema.resources[r], after));
-            const GLuint block =
-                gl::GetProgramResourceIndex(program.id(), GL_SHADER_STORAGE_BLOCK, names.back().c_str());
-            if (block == GL_INVALID_INDEX)
-                continue;
-            gl::ShaderStorageBlockBinding(program.id(), block, 2U * r + (after ? 1U : 0U));
-            ++known;
-            if (bound.empty() || bound.back() != r)
-                bound.push_back(r);
+    const auto look = [&](const std::string& name, const Bound& what) {
+        names.push_back(name);
+        const GLuint block = gl::GetProgramResourceIndex(program.id(), GL_SHADER_STORAGE_BLOCK, name.c_str());
+        if (block == GL_INVALID_INDEX)
+            return;
+        gl::ShaderStorageBlockBinding(program.id(), block, static_cast<GLuint>(bound.size()));
+        bound.push_back(what);
+    };
+    for (std::size_t s = 0; s < storages.size(); ++s) {
+        const Resource& resource = schema.resources[storages[s].layout.resource];
+        if (storages[s].block.empty()) {
+            look(block_name(resource, false), {Bound::Kind::before, s, {}});
+            look(block_name(resource, true), {Bound::Kind::after, s, {}});
+        } else {
+            look(storages[s].block, {Bound::Kind::in_place, s, {}});
         }
-    if (known != count)
+    }
+    for (const auto& [name, words] : pass.data)
+        look(name, {Bound::Kind::data, 0, name});
+    if (static_cast<GLint>(bound.size()) != count)
         throw Error(fmt::format("{}: nothing is given for {} of its storage buffers; the names are {}", program.name(),
-                                count - known, fmt::join(names, ", ")));
+                                count - static_cast<GLint>(bound.size()), fmt::join(names, ", ")));
     return bound;
 }
 
@@ -53,6 +93,12 @@ void check_stage(const GlPass& pass, const Schema& schema) {
         throw Error(fmt::format("{}: a pass is a vertex or a compute shader", pass.name));
     if (pass.resource >= schema.resources.size())
         throw Error(fmt::format("{}: {} has no buffer {}", pass.name, schema.system, pass.resource));
+    const bool in_place = !schema.resources[pass.resource].fields.front().block.empty();
+    if (pass.stage == Stage::vertex && in_place)
+        throw Error(fmt::format("{}: {} has storage blocks, which a vertex shader cannot change", pass.name,
+                                schema.resources[pass.resource].title));
+    if (pass.stage == Stage::vertex && !pass.data.empty())
+        throw Error(fmt::format("{}: a vertex shader has no storage blocks", pass.name));
 }
 
 void set_uniforms(const Program& program, const GlPass& pass, std::size_t items, int frame) {
@@ -102,140 +148,226 @@ struct GlSystem::Parts {
     struct Linked {
         GlPass pass;
         Program program;
-        std::vector<std::uint8_t> bound; ///< of a compute pass: the resources it has blocks of
-        std::optional<std::vector<VertexCapture>> traced;
+        std::vector<Bound> bound;            ///< of a compute pass
+        std::vector<std::uint8_t> resources; ///< that it writes
+        std::size_t invocations = 1;         ///< of a group
+        std::optional<std::vector<VertexCapture>> traced = {};
     };
     const Schema* schema;
     std::filesystem::path shaders;
     ArithmeticSwitch arithmetic;
-    std::vector<RecordLayout> layouts; ///< one a buffer
-    std::vector<Linked> passes;
-    std::vector<std::vector<RecordBuffer>> buffers; ///< two a buffer
-    std::vector<std::size_t> current;               ///< which of the two the next pass reads
+    std::vector<Storage> storages;
+    std::vector<std::optional<Linked>> passes;      ///< none: its dispatch is that of the one before
+    std::vector<std::vector<RecordBuffer>> buffers; ///< two a storage
+    std::vector<std::size_t> current;               ///< of each buffer, which of the two the next pass reads
     SmallestTarget target = {};                     ///< of vertex passes
 
+    /// What the pass runs in a frame; null where there is nothing.
+    [[nodiscard]] const Linked* running(std::size_t pass, int frame) const;
     void run(const Linked& linked, int frame);
+    void draw(const Linked& linked);
+    void dispatch(const Linked& linked, int frame);
     [[nodiscard]] std::vector<ShaderSource> sources(const GlPass& pass, bool traced) const;
-    [[nodiscard]] RecordBuffer& from(std::uint8_t resource) { return buffers[resource][current[resource]]; }
-    [[nodiscard]] RecordBuffer& to(std::uint8_t resource) { return buffers[resource][1 - current[resource]]; }
+    [[nodiscard]] std::size_t first_storage(std::uint8_t resource) const;
+    [[nodiscard]] RecordBuffer& from(std::size_t storage) {
+        return buffers[storage][current[storages[storage].layout.resource]];
+    }
+    [[nodiscard]] RecordBuffer& to(std::size_t storage) {
+        return buffers[storage][1 - current[storages[storage].layout.resource]];
+    }
 };
 
 GlSystem::~GlSystem() = default;
 
 GlSystem::GlSystem(const Schema& schema, std::vector<GlPass> passes, std::filesystem::path shaders,
                    ArithmeticSwitch arithmetic)
-    : parts_(new Parts{
-          &schema, std::move(shaders), arithmetic, {}, {}, {}, std::vector<std::size_t>(schema.resources.size()), {}}) {
-    for (std::uint8_t r = 0; r < schema.resources.size(); ++r) {
-        const Resource& resource = schema.resources[r];
-        if (resource.dimensions != 1)
-            throw Error(fmt::format("{}: '{}' is an image; GlSystem has buffers alone", schema.system, resource.name));
-        RecordLayout& layout = parts_->layouts.emplace_back(RecordLayout{&schema, r, {}});
-        for (std::uint8_t f = 0; f < resource.fields.size(); ++f)
-            layout.members.push_back({f, shader_name(resource.fields[f].name)});
-    }
+    : parts_(new Parts{&schema,
+                       std::move(shaders),
+                       arithmetic,
+                       storages_of(schema),
+                       {},
+                       {},
+                       std::vector<std::size_t>(schema.resources.size())}) {
+    Parts::Linked* last = nullptr;
+    parts_->passes.reserve(passes.size());
     for (GlPass& pass : passes) {
         check_stage(pass, schema);
+        if (pass.continues) {
+            if (last == nullptr)
+                throw Error(fmt::format("{}: continues the pass before, and is the first", pass.name));
+            last->resources.push_back(pass.resource);
+            parts_->passes.emplace_back();
+            continue;
+        }
+        const bool compute = pass.stage == Stage::compute;
         const std::vector<ShaderSource> stages = parts_->sources(pass, false);
         const std::vector<Capture> captures =
-            pass.stage == Stage::vertex ? parts_->layouts[pass.resource].captures() : std::vector<Capture>{};
+            compute ? std::vector<Capture>{} : parts_->storages[parts_->first_storage(pass.resource)].layout.captures();
         Program program(pass.name, stages, captures);
-        if (pass.stage == Stage::vertex)
+        if (!compute)
             check_nothing_lost(stages, captures);
-        std::vector<std::uint8_t> bound;
-        if (pass.stage == Stage::compute)
-            bound = bind_blocks(program, schema);
-        parts_->passes.push_back({std::move(pass), std::move(program), std::move(bound), {}});
+        std::vector<Bound> bound;
+        std::array<GLint, 3> group{1, 1, 1};
+        if (compute) {
+            bound = bind_blocks(program, schema, parts_->storages, pass);
+            gl::GetProgramiv(program.id(), GL_COMPUTE_WORK_GROUP_SIZE, group.data());
+        }
+        const std::uint8_t resource = pass.resource;
+        const auto invocations = static_cast<std::size_t>(group[0]) * static_cast<std::size_t>(group[1]) *
+                                 static_cast<std::size_t>(group[2]);
+        parts_->passes.emplace_back(
+            Parts::Linked{std::move(pass), std::move(program), std::move(bound), {resource}, invocations});
+        last = &*parts_->passes.back();
     }
+}
+
+std::size_t GlSystem::Parts::first_storage(std::uint8_t resource) const {
+    std::size_t s = 0;
+    while (storages[s].layout.resource != resource)
+        ++s;
+    return s;
+}
+
+const GlSystem::Parts::Linked* GlSystem::Parts::running(std::size_t pass, int frame) const {
+    const std::optional<Linked>& linked = passes.at(pass);
+    return linked && (!linked->pass.runs || linked->pass.runs(frame)) ? &*linked : nullptr;
 }
 
 std::vector<ShaderSource> GlSystem::Parts::sources(const GlPass& pass, bool traced) const {
     ShaderDefines defines = arithmetic_defines(arithmetic);
+    defines.insert(defines.end(), pass.defines.begin(), pass.defines.end());
     if (traced)
         defines.emplace_back("LOCKSTEP_TRACE", "1");
     return load_stages(shader_folders(shaders, schema->system), pass.name, std::array{pass.stage}, defines);
 }
 
 void GlSystem::upload(const SystemView& state) {
+    std::size_t spare = 0; // records behind those that are changed in place: what a last group could write
+    for (const auto& linked : parts_->passes)
+        spare = std::max(spare, linked ? linked->invocations : 0);
     parts_->buffers.clear();
-    for (std::uint8_t r = 0; r < parts_->layouts.size(); ++r) {
+    for (const Storage& storage : parts_->storages) {
+        const std::uint8_t r = storage.layout.resource;
         std::vector<RecordBuffer>& two = parts_->buffers.emplace_back();
-        for (int i = 0; i < 2; ++i)
-            two.emplace_back(parts_->layouts[r], state[r].count());
+        for (int i = 0; i < 2; ++i) {
+            two.emplace_back(storage.layout, state[r].count(), storage.block.empty() ? 0 : spare);
+            two.back().fill_spare(canary_word);
+        }
         parts_->current[r] = 0;
-        parts_->from(r).upload(state[r]);
+        two[0].upload(state[r]);
     }
+}
+
+void GlSystem::Parts::draw(const Linked& linked) {
+    const std::size_t storage = first_storage(linked.pass.resource);
+    const RecordBuffer& source = from(storage);
+    const GlVertexArray vertices = vertex_array(source, linked.program);
+    linked.program.check_interface();
+    const GlQuery written;
+    linked.program.use();
+    gl::BindVertexArray(vertices.id());
+    target.bind();
+    to(storage).bind_capture();
+    gl::Enable(GL_RASTERIZER_DISCARD);
+    gl::BeginQuery(GL_TRANSFORM_FEEDBACK_PRIMITIVES_WRITTEN, written.id());
+    gl::BeginTransformFeedback(GL_POINTS);
+    gl::DrawArrays(GL_POINTS, 0, static_cast<GLsizei>(source.size()));
+    gl::EndTransformFeedback();
+    gl::EndQuery(GL_TRANSFORM_FEEDBACK_PRIMITIVES_WRITTEN);
+    gl::Disable(GL_RASTERIZER_DISCARD);
+    gl::BindBufferBase(GL_TRANSFORM_FEEDBACK_BUFFER, 0, 0);
+    gl::BindVertexArray(0);
+    GLuint points = 0;
+    gl::GetQueryObjectuiv(written.id(), GL_QUERY_RESULT, &points);
+    if (points != source.size())
+        throw Error(
+            fmt::format("{}: transform feedback wrote {} of {} items", linked.pass.name, points, source.size()));
+}
+
+void GlSystem::Parts::dispatch(const Linked& linked, int frame) {
+    using Kind = Bound::Kind;
+    linked.program.check_interface();
+    for (std::size_t s = 0; s < storages.size(); ++s)
+        if (!storages[s].block.empty() &&
+            std::count(linked.resources.begin(), linked.resources.end(), storages[s].layout.resource) > 0)
+            to(s).copy(from(s));
+    std::vector<GlBuffer> given; // lives until the dispatch is done
+    for (std::size_t b = 0; b < linked.bound.size(); ++b) {
+        const Bound& bound = linked.bound[b];
+        GLuint buffer = 0;
+        if (bound.kind == Kind::data) {
+            std::vector<float> floats = linked.pass.data.at(bound.name)(frame);
+            floats.resize(std::max<std::size_t>(floats.size(), 1));
+            buffer = given.emplace_back().id();
+            gl::BindBuffer(GL_COPY_READ_BUFFER, buffer);
+            gl::BufferData(GL_COPY_READ_BUFFER, static_cast<GLsizeiptr>(floats.size() * sizeof(float)), floats.data(),
+                           GL_STREAM_DRAW);
+        } else {
+            const std::uint8_t resource = storages[bound.storage].layout.resource;
+            const bool written = std::count(linked.resources.begin(), linked.resources.end(), resource) > 0;
+            const bool after = bound.kind == Kind::after || (bound.kind == Kind::in_place && written);
+            buffer = (after ? to(bound.storage) : from(bound.storage)).id();
+        }
+        gl::BindBufferBase(GL_SHADER_STORAGE_BUFFER, static_cast<GLuint>(b), buffer);
+    }
+    const std::size_t items = from(first_storage(linked.pass.resource)).size();
+    linked.program.use();
+    gl::DispatchCompute(static_cast<GLuint>((items + linked.invocations - 1) / linked.invocations), 1, 1);
+    gl::MemoryBarrier(GL_BUFFER_UPDATE_BARRIER_BIT | GL_CLIENT_MAPPED_BUFFER_BARRIER_BIT |
+                      GL_VERTEX_ATTRIB_ARRAY_BARRIER_BIT | GL_SHADER_STORAGE_BARRIER_BIT);
+    gl::Finish();
 }
 
 void GlSystem::Parts::run(const Linked& linked, int frame) {
-    const GlPass& pass = linked.pass;
-    const RecordBuffer& source = from(pass.resource);
-    RecordBuffer& written_to = to(pass.resource);
-    set_uniforms(linked.program, pass, source.size(), frame);
-    if (pass.stage == Stage::vertex) {
-        const GlVertexArray vertices = vertex_array(source, linked.program);
-        linked.program.check_interface();
-        const GlQuery written;
-        linked.program.use();
-        gl::BindVertexArray(vertices.id());
-        target.bind();
-        written_to.bind_capture();
-        gl::Enable(GL_RASTERIZER_DISCARD);
-        gl::BeginQuery(GL_TRANSFORM_FEEDBACK_PRIMITIVES_WRITTEN, written.id());
-        gl::BeginTransformFeedback(GL_POINTS);
-        gl::DrawArrays(GL_POINTS, 0, static_cast<GLsizei>(source.size()));
-        gl::EndTransformFeedback();
-        gl::EndQuery(GL_TRANSFORM_FEEDBACK_PRIMITIVES_WRITTEN);
-        gl::Disable(GL_RASTERIZER_DISCARD);
-        gl::BindBufferBase(GL_TRANSFORM_FEEDBACK_BUFFER, 0, 0);
-        gl::BindVertexArray(0);
-        GLuint points = 0;
-        gl::GetQueryObjectuiv(written.id(), GL_QUERY_RESULT, &points);
-        if (points != source.size())
-            throw Error(fmt::format("{}: transform feedback wrote {} of {} items", pass.name, points, source.size()));
-    } else {
-        linked.program.check_interface();
-        linked.program.use();
-        for (const std::uint8_t r : linked.bound) {
-            gl::BindBufferBase(GL_SHADER_STORAGE_BUFFER, 2U * r, from(r).id());
-            gl::BindBufferBase(GL_SHADER_STORAGE_BUFFER, 2U * r + 1U, to(r).id());
-        }
-        std::array<GLint, 3> group{1, 1, 1};
-        gl::GetProgramiv(linked.program.id(), GL_COMPUTE_WORK_GROUP_SIZE, group.data());
-        const auto invocations = static_cast<std::size_t>(group[0]) * static_cast<std::size_t>(group[1]) *
-                                 static_cast<std::size_t>(group[2]);
-        gl::DispatchCompute(static_cast<GLuint>((source.size() + invocations - 1) / invocations), 1, 1);
-        gl::MemoryBarrier(GL_BUFFER_UPDATE_BARRIER_BIT | GL_CLIENT_MAPPED_BUFFER_BARRIER_BIT |
-                          GL_VERTEX_ATTRIB_ARRAY_BARRIER_BIT | GL_SHADER_STORAGE_BARRIER_BIT);
-    }
+    set_uniforms(linked.program, linked.pass, from(first_storage(linked.pass.resource)).size(), frame);
+    if (linked.pass.stage == Stage::vertex)
+        draw(linked);
+    else
+        dispatch(linked, frame);
     gl::UseProgram(0);
     gl::Finish();
-    check_gl(pass.name);
+    check_gl(linked.pass.name);
+    for (std::size_t s = 0; s < storages.size(); ++s)
+        for (const RecordBuffer& buffer : buffers[s])
+            if (!buffer.spare_holds(canary_word))
+                throw Error(
+                    fmt::format("frame {}: {} wrote behind the {} {}s of {}; right is to return from item {} on", frame,
+                                linked.pass.name, buffer.size(), storages[s].layout.about().item, storages[s].block,
+                                buffer.size()));
 }
 
 void GlSystem::step(std::size_t pass, int frame) {
-    const Parts::Linked& linked = parts_->passes.at(pass);
-    parts_->run(linked, frame);
-    parts_->current[linked.pass.resource] = 1 - parts_->current[linked.pass.resource];
+    const Parts::Linked* linked = parts_->running(pass, frame);
+    if (linked == nullptr)
+        return;
+    parts_->run(*linked, frame);
+    for (const std::uint8_t r : linked->resources)
+        parts_->current[r] = 1 - parts_->current[r];
 }
 
 void GlSystem::repeat_step(std::size_t pass, int frame) {
-    std::size_t& current = parts_->current[parts_->passes.at(pass).pass.resource];
-    current = 1 - current;
+    if (const Parts::Linked* linked = parts_->running(pass, frame); linked != nullptr)
+        for (const std::uint8_t r : linked->resources)
+            parts_->current[r] = 1 - parts_->current[r];
     step(pass, frame);
 }
 
-void GlSystem::lay_canary(std::size_t pass) { parts_->to(parts_->passes.at(pass).pass.resource).fill(canary_word); }
+void GlSystem::lay_canary(std::size_t pass) {
+    if (const std::optional<Parts::Linked>& linked = parts_->passes.at(pass))
+        for (std::size_t s = 0; s < parts_->storages.size(); ++s)
+            if (parts_->storages[s].layout.resource == linked->pass.resource)
+                parts_->to(s).fill(canary_word);
+}
 
 void GlSystem::read(SystemState& state) const {
-    for (std::uint8_t r = 0; r < parts_->layouts.size(); ++r)
-        parts_->buffers[r][parts_->current[r]].read(state[r]);
+    for (std::size_t s = 0; s < parts_->storages.size(); ++s)
+        parts_->from(s).read(state[parts_->storages[s].layout.resource]);
 }
 
 std::vector<CapturedVertex> GlSystem::trace(std::size_t pass, int frame, std::size_t item) {
-    Parts::Linked& linked = parts_->passes.at(pass);
-    if (linked.pass.stage != Stage::vertex)
+    if (parts_->running(pass, frame) == nullptr || parts_->passes[pass]->pass.stage != Stage::vertex)
         return {};
+    Parts::Linked& linked = *parts_->passes[pass];
     if (!linked.traced) {
         const std::vector<ShaderSource> stages = parts_->sources(linked.pass, true);
         const std::vector<Capture> outputs = outputs_with("trace_", stages);
@@ -243,7 +375,7 @@ std::vector<CapturedVertex> GlSystem::trace(std::size_t pass, int frame, std::si
                                         : vertex_captures("trace build of " + linked.pass.name, stages, outputs);
     }
     // What the pass wrote is what it read the last time.
-    const RecordBuffer& source = parts_->to(linked.pass.resource);
+    const RecordBuffer& source = parts_->to(parts_->first_storage(linked.pass.resource));
     CapturedVertex all;
     parts_->target.bind();
     gl::Enable(GL_RASTERIZER_DISCARD);

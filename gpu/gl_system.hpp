@@ -29,13 +29,20 @@ using Uniforms = std::map<std::string, UniformValue>;
 ///
 /// NAME.vert: attributes a_Field and captured outputs out_Field of each field, `collide_time` being a_CollideTime.
 /// NAME.comp: storage blocks BufferBefore and BufferAfter of each buffer, `grains` being GrainsBefore, an item a record
-/// of its fields in the schema's order without gaps (a struct of scalars; a vec3 would leave one).
+/// of its fields in the schema's order without gaps (a struct of scalars; a vec3 would leave one). A buffer whose
+/// fields have blocks of their own (Field::block) is changed in place, in a copy of what the pass before left; behind
+/// its records lie as many as a group has, which nobody may write.
 struct GlPass {
     std::string name;
     Stage stage = Stage::vertex; ///< or compute
     std::uint8_t resource = 0;
     /// What its uniforms are in a frame; u_ItemCount is set by itself. May be empty.
     std::function<Uniforms(int frame)> uniforms = {};
+    /// Of a compute pass: its other storage blocks by name, and what they hold in a frame, float after float.
+    std::map<std::string, std::function<std::vector<float>(int frame)>> data = {};
+    ShaderDefines defines = {};               ///< besides those of the arithmetic
+    std::function<bool(int frame)> runs = {}; ///< as ItemPass::runs; empty: in every frame
+    bool continues = false; ///< the dispatch of the pass before wrote this buffer as well; there is no shader
 };
 
 /// The GPU side of a system whose state is buffers, in the current context: each pass reads the state that the one

@@ -134,9 +134,11 @@ GLenum gl_type(const Field& field) {
     return types[static_cast<std::size_t>(field.scalar)][field.components - 1];
 }
 
-RecordBuffer::RecordBuffer(const RecordLayout& layout, std::size_t count) : layout_(&layout), count_(count) {
+RecordBuffer::RecordBuffer(const RecordLayout& layout, std::size_t count, std::size_t spare)
+    : layout_(&layout), count_(count), spare_(spare) {
     gl::BindBuffer(GL_COPY_READ_BUFFER, buffer_.id());
-    gl::BufferData(GL_COPY_READ_BUFFER, static_cast<GLsizeiptr>(count * layout.bytes()), nullptr, GL_DYNAMIC_COPY);
+    gl::BufferData(GL_COPY_READ_BUFFER, static_cast<GLsizeiptr>((count + spare) * layout.bytes()), nullptr,
+                   GL_DYNAMIC_COPY);
     check_gl(fmt::format("buffer of {} {}s", count, layout.about().item));
 }
 
@@ -184,6 +186,36 @@ void RecordBuffer::fill(std::uint32_t pattern) {
         return;
     with_mapped<std::uint32_t>(
         *this, overwrite, [&](std::uint32_t* words) { std::fill_n(words, count_ * layout_->bytes() / word, pattern); });
+}
+
+void RecordBuffer::copy(const RecordBuffer& other) {
+    assert(other.count_ == count_ && other.layout_->bytes() == layout_->bytes());
+    gl::BindBuffer(GL_COPY_READ_BUFFER, other.id());
+    gl::BindBuffer(GL_COPY_WRITE_BUFFER, id());
+    gl::CopyBufferSubData(GL_COPY_READ_BUFFER, GL_COPY_WRITE_BUFFER, 0, 0,
+                          static_cast<GLsizeiptr>(count_ * layout_->bytes()));
+}
+
+void RecordBuffer::fill_spare(std::uint32_t pattern) {
+    const std::vector<std::uint32_t> words(spare_ * layout_->bytes() / word, pattern);
+    gl::BindBuffer(GL_COPY_READ_BUFFER, id());
+    gl::BufferSubData(GL_COPY_READ_BUFFER, static_cast<GLintptr>(count_ * layout_->bytes()),
+                      static_cast<GLsizeiptr>(words.size() * word), words.data());
+}
+
+bool RecordBuffer::spare_holds(std::uint32_t pattern) const {
+    if (spare_ == 0)
+        return true;
+    gl::BindBuffer(GL_COPY_READ_BUFFER, id());
+    const auto* const words = static_cast<const std::uint32_t*>(
+        gl::MapBufferRange(GL_COPY_READ_BUFFER, static_cast<GLintptr>(count_ * layout_->bytes()),
+                           static_cast<GLsizeiptr>(spare_ * layout_->bytes()), GL_MAP_READ_BIT));
+    if (words == nullptr)
+        throw Error(fmt::format("{} buffer: GL cannot map it", layout_->about().item));
+    const std::size_t count = spare_ * layout_->bytes() / word;
+    const bool same = std::all_of(words, words + count, [&](std::uint32_t one) { return one == pattern; });
+    gl::UnmapBuffer(GL_COPY_READ_BUFFER);
+    return same;
 }
 
 void RecordBuffer::bind_capture() const { gl::BindBufferBase(GL_TRANSFORM_FEEDBACK_BUFFER, 0, id()); }

@@ -35,8 +35,9 @@ GLenum gl_type(const Field& field);
 /// `count` records in GL memory; record i at byte i * layout.bytes(). Contents are undefined at first.
 class RecordBuffer {
   public:
-    /// `layout` outlives this. Throws Error if GL has not the memory.
-    RecordBuffer(const RecordLayout& layout, std::size_t count);
+    /// `layout` outlives this. `spare` records more lie behind, for what is written there in error. Throws Error if GL
+    /// has not the memory.
+    RecordBuffer(const RecordLayout& layout, std::size_t count, std::size_t spare = 0);
 
     [[nodiscard]] std::size_t size() const { return count_; }
     [[nodiscard]] GLuint id() const { return buffer_.id(); }
@@ -52,13 +53,20 @@ class RecordBuffer {
     /// Every 32-bit word becomes `word`: what a pass did not write then shows.
     void fill(std::uint32_t word);
 
+    /// The same records as `other`, of its layout and size. The spare ones stay.
+    void copy(const RecordBuffer& other);
+
+    /// Every word of the spare records becomes `word`, and whether they all still are.
+    void fill_spare(std::uint32_t word);
+    [[nodiscard]] bool spare_holds(std::uint32_t word) const;
+
     /// Binds the buffer as what transform feedback writes to.
     void bind_capture() const;
 
   private:
     GlBuffer buffer_;
     const RecordLayout* layout_;
-    std::size_t count_;
+    std::size_t count_, spare_;
 };
 
 /// Feeds a_Position and so on of `program` from `buffer`. Throws Error if one has a wrong type.

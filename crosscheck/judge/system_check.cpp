@@ -1,5 +1,6 @@
 #include "crosscheck/judge/system_check.hpp"
 
+#include <set>
 #include <utility>
 
 #include <fmt/format.h>
@@ -83,11 +84,23 @@ std::vector<std::string> untried(const CheckReport& report, std::uint64_t change
     return all;
 }
 
-/// A pass writes its own buffer and no other.
-void expect_untouched(const System& system, const ItemPass& pass, const SystemState& before, const SystemState& now,
+/// The passes of one dispatch: `first`, and those that continue it.
+std::size_t end_of_dispatch(const System& system, std::size_t first) {
+    std::size_t end = first + 1;
+    while (end < system.passes.size() && system.passes[end]->continues())
+        ++end;
+    return end;
+}
+
+/// A dispatch writes the buffers of its passes and no other.
+void expect_untouched(const System& system, std::size_t first, const SystemState& before, const SystemState& now,
                       int frame) {
+    const ItemPass& pass = *system.passes[first];
+    std::set<std::uint8_t> written;
+    for (std::size_t p = first; p < end_of_dispatch(system, first); ++p)
+        written.insert(system.passes[p]->resource());
     for (std::uint8_t r = 0; r < system.schema.resources.size(); ++r) {
-        if (r == pass.resource())
+        if (written.contains(r))
             continue;
         const auto changed = differing_items(before[r], now[r]);
         if (!changed.empty())
@@ -102,6 +115,14 @@ void find_canary(const System& system, const ItemPass& pass, const SystemState& 
     if (const std::size_t item = find_word(view, canary_word); item < view.count())
         throw Error(fmt::format("frame {}: {} did not write {} {}: its record still holds what was laid there before",
                                 frame, pass.name(), system.schema.resources[pass.resource()].item, item));
+}
+
+/// What the GPU left, but for the buffers of passes that continue `pass`: they were not judged yet.
+SystemState left_by(const System& system, std::size_t pass, const SystemState& before, const SystemState& now) {
+    SystemState left = now;
+    for (std::size_t p = pass + 1; p < end_of_dispatch(system, pass); ++p)
+        left.take(system.passes[p]->resource(), before);
+    return left;
 }
 
 } // namespace
@@ -130,19 +151,21 @@ CheckReport check(const System& system, SystemSide& gpu, const CheckOptions& opt
         FrameTimes times;
         for (std::size_t p = 0; p < system.passes.size(); ++p) {
             const ItemPass& pass = *system.passes[p];
+            if (!pass.runs(frame))
+                continue;
             const std::uint8_t r = pass.resource();
-            const bool repeat = frame < options.repeated_frames && gpu.repeats();
+            const bool repeat = frame < options.repeated_frames && gpu.repeats() && !pass.continues();
             if (repeat)
                 gpu.lay_canary(p);
-            {
-                const Stopwatch watch(times.gpu);
-                gpu.step(p, frame);
-            }
-            {
+            if (!pass.continues()) {
+                {
+                    const Stopwatch watch(times.gpu);
+                    gpu.step(p, frame);
+                }
                 const Stopwatch watch(times.readback);
                 gpu.read(now);
+                expect_untouched(system, p, before, now, frame);
             }
-            expect_untouched(system, pass, before, now, frame);
             if (repeat) {
                 find_canary(system, pass, now, frame);
                 SystemState again = now;
@@ -210,7 +233,7 @@ CheckReport check(const System& system, SystemSide& gpu, const CheckOptions& opt
             }
             earlier[p] = judged ? before : reference;
             reference = std::move(made);
-            before = now;
+            before = left_by(system, p, before, now);
         }
         report.times.push_back(times);
         report.frames = frame + 1;
@@ -248,7 +271,9 @@ SystemRun::SystemRun(const System& system, SystemSide& gpu, const KnownOperation
         for (std::size_t p = 0; p < system.passes.size(); ++p) {
             if (f == frame && p > pass)
                 break;
-            before_ = now_;
+            if (!system.passes[p]->runs(f))
+                continue;
+            before_ = p > 0 ? left_by(system, p - 1, before_, now_) : now_;
             gpu.step(p, f);
             gpu.read(now_);
             if (p == pass && f + 1 == frame) {

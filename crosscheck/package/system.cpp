@@ -29,6 +29,10 @@ std::vector<GlPass> of_twins(std::vector<GlPass> passes, const System& system) {
         if (gl.resource != twin.resource())
             throw Error(fmt::format("{}: {}: its GlPass is of buffer {}, its twin of buffer {}", name, gl.name,
                                     gl.resource, twin.resource()));
+        if (gl.continues != twin.continues())
+            throw Error(fmt::format("{}: {}: its GlPass {} the pass before, its twin {}", name, gl.name,
+                                    gl.continues ? "continues" : "does not continue",
+                                    twin.continues() ? "does" : "does not"));
         if ((gl.stage == Stage::compute) != compute)
             throw Error(fmt::format("{}: {}: its GlPass is a {} shader, its twin's stage is {}", name, gl.name,
                                     stage_name(gl.stage == Stage::compute), stage_name(compute)));

@@ -51,6 +51,20 @@ class Checker {
                              resource.name, resource.fields.size(), resource.counted ? " and is counted" : ""));
         for (const Field& field : resource.fields)
             check(field);
+        check_blocks(resource);
+    }
+
+    void check_blocks(const Resource& resource) {
+        std::set<std::string> own;
+        for (const Field& field : resource.fields) {
+            if (field.block.empty() != resource.fields.front().block.empty())
+                fail(fmt::format("'{}': some fields have a storage block and others none; right is all or none",
+                                 resource.name));
+            if (!field.block.empty() && own.insert(field.block).second)
+                name(blocks_, "storage block", field.block);
+        }
+        if (!own.empty() && resource.dimensions > 1)
+            fail(fmt::format("image '{}' has a storage block; right is none", resource.name));
     }
 
     void check(const Field& field) {
@@ -75,7 +89,7 @@ class Checker {
     }
 
     const Schema& schema_;
-    std::set<std::string> resources_, fields_;
+    std::set<std::string> resources_, fields_, blocks_;
 };
 
 } // namespace

@@ -27,6 +27,9 @@ struct Field {
     int components = 1;              ///< 1 to 4
     std::string unit = {};           ///< empty: none
     std::vector<Packed> packed = {}; ///< of a single uint32 that holds several values
+    /// The storage block that compute shaders find it in, and change in place; the fields of one block are a record.
+    /// Empty: the resource has two copies, one to read and one to write.
+    std::string block = {};
 };
 
 /// A buffer of items, one after the other, or an image of texels. Storage is a struct of arrays: all values of a field

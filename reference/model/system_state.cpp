@@ -81,6 +81,11 @@ SystemView SystemState::view() const {
     return all;
 }
 
+void SystemState::take(std::uint8_t resource, const SystemState& other) {
+    for (std::uint8_t f = 0; f < schema_->resources[resource].fields.size(); ++f)
+        columns_[schema_->column({resource, f})] = other.columns_[other.schema_->column({resource, f})];
+}
+
 bool SystemState::is_of(const Schema& schema) const {
     if (schema_ == &schema || schema_ == nullptr || schema_->resources.size() != schema.resources.size())
         return schema_ == &schema;

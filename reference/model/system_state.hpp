@@ -89,6 +89,9 @@ class SystemState {
     [[nodiscard]] View operator[](std::uint8_t resource) const;
     [[nodiscard]] SystemView view() const;
 
+    /// What `other`, a state of the same schema and extents, has of a resource.
+    void take(std::uint8_t resource, const SystemState& other);
+
     // Throw OutsideState.
     void set(FieldId field, std::size_t item, float value, int component = 0);
     void set(FieldId field, std::size_t item, std::int32_t value, int component = 0);

@@ -23,6 +23,8 @@ bool ItemOutcome::contains(std::span<const std::uint32_t> words, const Resource&
 }
 
 void run_pass(const ItemPass& pass, const PassInput& in, const Profile& profile, const WritableView& after) {
+    if (!pass.runs(in.frame))
+        return;
     constexpr std::size_t block = 1024;
     const auto blocks = static_cast<std::ptrdiff_t>((after.count() + block - 1) / block);
     parallel_blocks(blocks, [&](std::ptrdiff_t b) {

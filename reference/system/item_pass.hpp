@@ -73,6 +73,12 @@ class ItemPass {
     [[nodiscard]] virtual std::uint8_t resource() const = 0; ///< the buffer whose items it makes
     [[nodiscard]] virtual PassStage stage() const = 0;
 
+    /// Whether the pass is there in a frame; what it writes stays as it is where not.
+    [[nodiscard]] virtual bool runs(int /*frame*/) const { return true; }
+    /// Whether its shader ran with the pass before: one dispatch may write several buffers, with a twin for each. It
+    /// reads what the passes before it left, and its own buffer as it was before the dispatch.
+    [[nodiscard]] virtual bool continues() const { return false; }
+
     /// The output by which the twin's sites know a field of the buffer.
     [[nodiscard]] virtual std::string_view output(const Resource& about, std::uint8_t field) const = 0;
 

@@ -1,6 +1,7 @@
 #pragma once
 #include <bit>
 #include <concepts>
+#include <functional>
 #include <memory>
 #include <span>
 #include <string>
@@ -65,6 +66,8 @@ struct ItemPassOptions {
     ArithmeticSwitch arithmetic = ArithmeticSwitch::plain; ///< exact: as shaders/portable.glsl computes
     /// The outputs by which the twin's sites know the fields, in their order; empty: their names.
     std::vector<std::string> outputs = {};
+    std::function<bool(int frame)> runs = {}; ///< empty: in every frame
+    bool continues = false;                   ///< ItemPass::continues
 };
 
 /// A twin as an ItemPass: `twin(r, in, item)`, a template over the reading R& r (values.hpp), pure, returning a struct
@@ -78,6 +81,8 @@ template <class Twin> class ItemTwin final : public ItemPass {
     [[nodiscard]] std::string_view name() const override { return options_.name; }
     [[nodiscard]] std::uint8_t resource() const override { return options_.resource; }
     [[nodiscard]] PassStage stage() const override { return options_.stage; }
+    [[nodiscard]] bool runs(int frame) const override { return !options_.runs || options_.runs(frame); }
+    [[nodiscard]] bool continues() const override { return options_.continues; }
 
     [[nodiscard]] std::string_view output(const Resource& about, std::uint8_t field) const override {
         return field < options_.outputs.size() ? options_.outputs[field] : about.fields[field].name;

@@ -1,0 +1,29 @@
+#include "crosscheck/dust/mistakes.hpp"
+
+#include "reference/dust/sites.hpp"
+
+namespace lockstep::dust {
+
+const std::vector<NamedMistake>& mistakes() {
+    static const std::vector<NamedMistake> all{
+        {"gravity_missing", "gravity is not added", "update", mistake_at(site::gravity, Change::zero)},
+        {"drag_missing", "the air does not resist", "update", mistake_at(site::drag, Change::zero)},
+        {"drag_reversed", "the air pushes along", "update", mistake_at(site::drag, Change::negated)},
+        {"elasticity_missing", "a bounce loses nothing", "update", mistake_at(site::elasticity, Change::one)},
+        {"radius_missing", "grains are points", "update", mistake_at(site::radius, Change::zero)},
+        {"radius_doubled", "the radius is the whole scale", "update", mistake_at(site::radius, Change::doubled)},
+        {"cone_ignored", "the vacuum pulls from all around", "vacuum_up", mistake_at(site::in_cone, Change::always)},
+        {"range_ignored", "the vacuum has no range", "vacuum_up", mistake_at(site::in_range, Change::always)},
+        {"suction_reversed", "the vacuum blows", "vacuum_up", mistake_at(site::force, Change::negated)},
+        {"never_dies", "nothing dies in the mouth", "vacuum_up", mistake_at(site::alive, Change::one)},
+        {"wind_reversed", "the wind sucks", "blow_wind", mistake_at(site::force, Change::negated)},
+        {"wind_everywhere", "the wind has no cone", "blow_wind", mistake_at(site::in_cone, Change::always)},
+        {"blast_everywhere", "the blast has no range", "explode", mistake_at(site::in_range, Change::always)},
+        {"blast_not_fading", "the blast is as strong at its rim", "explode", mistake_at(site::share, Change::one)},
+        {"emitted_all", "every dead grain comes back at once", "emit", mistake_at(site::is_lucky, Change::always)},
+        {"emitted_none", "no grain comes back", "emit", mistake_at(site::is_lucky, Change::never)},
+    };
+    return all;
+}
+
+} // namespace lockstep::dust

@@ -1,0 +1,12 @@
+#pragma once
+#include <vector>
+
+#include "gpu/gl_system.hpp"
+#include "reference/model/dust/host.hpp"
+
+namespace lockstep::dust {
+
+/// The kernels on GL and what the host hands them, in the order of a frame; each with the pass that its count is.
+std::vector<GlPass> passes(const HostPtr& host);
+
+} // namespace lockstep::dust

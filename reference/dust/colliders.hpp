@@ -1,0 +1,235 @@
+#pragma once
+#include "reference/dust/grain.hpp"
+#include "reference/model/dust/host.hpp"
+
+/// What grains bounce off. Twin of shaders/dust/colliders.glsl.
+namespace lockstep::dust {
+
+template <class R> struct Movement { typename R::Vec3 current, next, velocity; };
+
+/// Cuts a movement at the contact; the rest is mirrored and shortened, the velocity mirrored and slowed down as a
+/// whole.
+template <class R> class ColliderTwin {
+    using Real = typename R::Real;
+    using Vec3 = typename R::Vec3;
+    using Axis = Real Vec3::*;
+
+  public:
+    ColliderTwin(R& reading, const Host& host)
+        : r(reading), host_(host), switches_(host.switches()), radius_(r.uniform(site::radius, host.radius())),
+          elasticity_(r.uniform(site::elasticity, host.settings().elasticity)) {}
+
+    /// The list's spheres, then its boxes: the first that is hit, or, without one_hit, each.
+    void list(Movement<R>& m) const {
+        bool hit = false;
+        const bool one = switches_.one_hit == OffOn::on;
+        for (const int k : r.range(site::spheres, 0, static_cast<int>(host_.spheres().size()) - 1))
+            if (!(one && hit))
+                hit = sphere(host_.spheres()[static_cast<std::size_t>(k)], m) || hit;
+        for (const int k : r.range(site::boxes, 0, static_cast<int>(host_.boxes().size()) - 1))
+            if (!(one && hit))
+                hit = box(host_.boxes()[static_cast<std::size_t>(k)], m) || hit;
+    }
+
+    void world(Movement<R>& m) const {
+        switch (switches_.world) {
+        case World::none:
+            return;
+        case World::floor_clamp:
+            if (!r.decide(site::above_y, m.next.y > 0.0F))
+                m.next.y = 0.0F;
+            return;
+        case World::floor_radius:
+            if (!r.decide(site::above_y, m.next.y > radius_))
+                m.next.y = radius_;
+            return;
+        case World::floor_bounce:
+            if (r.decide(site::below_floor, m.next.y < radius_))
+                wall(m, &Vec3::y, radius_, m.current.y <= radius_, false);
+            return;
+        case World::box:
+            return walls(m);
+        }
+    }
+
+  private:
+    bool sphere(const ColliderMatrices& collider, Movement<R>& m) const {
+        const Vec3 centre = r.uniform(site::sphere_centre, glm::vec3(collider.local_to_world[3]));
+        const Real reach = radius_ + r.uniform(site::sphere_radius, collider.scale.x) * 0.5F;
+        const Real sqr_reach = reach * reach;
+        const Real d2 = r.note(site::sqr_dist, squared(m.next - centre));
+        const bool touches = switches_.sphere_touch == SphereTouch::less
+                                 ? r.decide(site::touches_sphere, d2 < sqr_reach)
+                                 : r.decide(site::touches_sphere, d2 <= sqr_reach);
+        if (!touches)
+            return false;
+        const Vec3 n = r.note(site::movement_unit, r.normalize(site::movement_unit, m.next - m.current));
+        const Vec3 a = centre - m.current;
+        const Real q = r.note(site::closest, r.dot(site::closest, a, n));
+        const Real h = r.note(site::missed, squared(a) - q * q);
+        Real chord = sqr_reach - h;
+        if (switches_.root_clamp == OffOn::on && r.decide(site::grazes, chord < 0.0F))
+            chord = 0.0F;
+        const Real g = r.note(site::root, r.sqrt(site::root, chord));
+        const Vec3 contact = r.note(site::contact, m.current + n * (q - g));
+        const Vec3 normal = r.note(site::normal, divided(r, site::normal, contact - centre, reach));
+        m.next = r.note(site::landed, contact + reflected(site::into, m.next - contact, normal) * elasticity_);
+        m.velocity = r.note(site::bounced, reflected(site::speed_into, m.velocity, normal) * elasticity_);
+        return true;
+    }
+
+    /// i - (2 i.n) n
+    Vec3 reflected(At place, const Vec3& i, const Vec3& n) const {
+        const Real twice = r.note(place, r.dot(place, i, n)) * 2.0F;
+        return i - n * twice;
+    }
+
+    bool box(const ColliderMatrices& collider, Movement<R>& m) const {
+        return switches_.box_kind == BoxKind::aabb ? aabb(collider, m) : obb(collider, m);
+    }
+
+    bool aabb(const ColliderMatrices& collider, Movement<R>& m) const {
+        const glm::vec3 centre(collider.local_to_world[3]);
+        const Vec3 min = r.uniform(site::box_min, centre - collider.scale * 0.5F);
+        const Vec3 max = r.uniform(site::box_max, centre + collider.scale * 0.5F);
+        const Vec3 lo = less(min, radius_), hi = more(max, radius_);
+        if (switches_.box_detect == BoxDetect::boxed) {
+            if (r.decide(site::touches_box, m.next.x < lo.x || m.next.x > hi.x || m.next.y < lo.y || m.next.y > hi.y ||
+                                                m.next.z < lo.z || m.next.z > hi.z))
+                return false;
+        } else {
+            const Vec3 nearest{clamped(m.next.x, min.x, max.x), clamped(m.next.y, min.y, max.y),
+                               clamped(m.next.z, min.z, max.z)};
+            if (!r.decide(site::touches_box, r.note(site::sqr_dist, squared(m.next - nearest)) <= radius_ * radius_))
+                return false;
+        }
+        answer(m, lo, hi);
+        return true;
+    }
+
+    bool obb(const ColliderMatrices& collider, Movement<R>& m) const {
+        const glm::mat4 to_local = r.uniform(site::world_to_local, collider.world_to_local);
+        const glm::mat4 to_world = r.uniform(site::local_to_world, collider.local_to_world);
+        const Vec3 scale = r.uniform(site::sphere_radius, collider.scale);
+        const Vec3 rho = r.note(site::half_grain, Vec3{r.divide(site::half_grain, radius_, scale.x),
+                                                       r.divide(site::half_grain, radius_, scale.y),
+                                                       r.divide(site::half_grain, radius_, scale.z)});
+        Movement<R> local;
+        local.next = r.note(site::next_in_box, place(to_local, m.next));
+        const Vec3 above = local.next + rho, below = local.next - rho;
+        if (r.decide(site::touches_box, above.x < -0.5F || below.x > 0.5F || above.y < -0.5F || below.y > 0.5F ||
+                                            above.z < -0.5F || below.z > 0.5F))
+            return false;
+        local.current = r.note(site::current_in_box, place(to_local, m.current));
+        local.velocity = r.note(site::speed_in_box, direction(to_local, m.velocity));
+        answer(local, {-0.5F - rho.x, -0.5F - rho.y, -0.5F - rho.z}, more(rho, 0.5F));
+        m.next = r.note(site::landed, place(to_world, local.next));
+        m.velocity = r.note(site::bounced, direction(to_world, local.velocity));
+        return true;
+    }
+
+    /// The first face, x before y before z, that the ray enters the grown box by.
+    void answer(Movement<R>& m, const Vec3& lo, const Vec3& hi) const {
+        const Vec3 ray = r.note(site::movement, m.next - m.current);
+        Vec3 contact = on_face(site::heads_up_x, site::time_of_x, &Vec3::x, m.current, ray, lo, hi);
+        Axis axis = nullptr;
+        if (r.decide(site::face_x, contact.y >= lo.y && contact.y <= hi.y && contact.z >= lo.z && contact.z <= hi.z)) {
+            axis = &Vec3::x;
+        } else {
+            contact = on_face(site::heads_up_y, site::time_of_y, &Vec3::y, m.current, ray, lo, hi);
+            if (r.decide(site::face_y,
+                         contact.x >= lo.x && contact.x <= hi.x && contact.z >= lo.z && contact.z <= hi.z)) {
+                axis = &Vec3::y;
+            } else {
+                contact = on_face(site::heads_up_z, site::time_of_z, &Vec3::z, m.current, ray, lo, hi);
+                if (r.decide(site::face_z,
+                             contact.x >= lo.x && contact.x <= hi.x && contact.y >= lo.y && contact.y <= hi.y))
+                    axis = &Vec3::z;
+            }
+        }
+        contact = r.note(site::contact, contact);
+        const Real length = r.note(site::length_of_movement, r.length(site::length_of_movement, ray));
+        const Real in = r.note(site::way_in, r.length(site::way_in, contact - m.current));
+        const Real out = r.note(site::way_out, r.divide(site::way_out, (length - in) * elasticity_, length));
+        m.next = r.note(site::landed, contact + mirrored(axis, ray) * out);
+        m.velocity = r.note(site::bounced, mirrored(axis, m.velocity) * elasticity_);
+    }
+
+    Vec3 on_face(At heads_up, At time, Axis axis, const Vec3& current, const Vec3& ray, const Vec3& lo,
+                 const Vec3& hi) const {
+        const Real plane = r.decide(heads_up, ray.*axis >= 0.0F) ? lo.*axis : hi.*axis;
+        Vec3 along = ray;
+        if (switches_.plane_cast == PlaneCast::normalized)
+            along = r.note(site::movement_unit, r.normalize(site::movement_unit, ray));
+        const Real t = r.note(time, r.divide(time, plane - current.*axis, along.*axis));
+        Vec3 contact = current + along * t;
+        contact.*axis = plane;
+        return contact;
+    }
+
+    void walls(Movement<R>& m) const {
+        const Vec3 lo = more(r.uniform(site::world_min, host_.settings().world.min), radius_);
+        const Vec3 hi = less(r.uniform(site::world_max, host_.settings().world.max), radius_);
+        if (r.decide(site::above_x, m.next.x > hi.x))
+            return wall(m, &Vec3::x, hi.x, m.current.x > hi.x, true);
+        if (r.decide(site::below_x, m.next.x < lo.x))
+            return wall(m, &Vec3::x, lo.x, m.current.x < lo.x, false);
+        if (r.decide(site::above_y, m.next.y > hi.y))
+            return wall(m, &Vec3::y, hi.y, m.current.y > hi.y, true);
+        if (r.decide(site::below_y, m.next.y < lo.y))
+            return wall(m, &Vec3::y, lo.y, m.current.y < lo.y, false);
+        if (r.decide(site::above_z, m.next.z > hi.z))
+            return wall(m, &Vec3::z, hi.z, m.current.z > hi.z, true);
+        if (r.decide(site::below_z, m.next.z < lo.z))
+            return wall(m, &Vec3::z, lo.z, m.current.z < lo.z, false);
+    }
+
+    /// A plane that the movement crosses from inside, or started beyond: then it ends on it, and nothing bounces.
+    template <class Condition>
+    void wall(Movement<R>& m, Axis axis, const Real& limit, const Condition& beyond, bool is_upper) const {
+        if (r.decide(site::started_beyond, beyond)) {
+            m.next.*axis = limit;
+            if (switches_.clamp_velocity == OffOn::on) {
+                const Real speed = m.velocity.*axis;
+                m.velocity.*axis = is_upper ? r.min(speed, 0.0F) : r.max(speed, 0.0F);
+            }
+            return;
+        }
+        const Vec3 ray = r.note(site::movement, m.next - m.current);
+        const Vec3 n = r.note(site::movement_unit, r.normalize(site::movement_unit, ray));
+        const Real d = r.note(site::to_wall, r.divide(site::to_wall, limit - m.current.*axis, n.*axis));
+        const Vec3 contact = r.note(site::contact, m.current + n * d);
+        const Real length = r.note(site::length_of_movement, r.length(site::length_of_movement, ray));
+        const Real in = r.note(site::way_in, r.length(site::way_in, m.current - contact));
+        const Real out = r.note(site::way_out, r.divide(site::way_out, (length - in) * elasticity_, length));
+        m.next = r.note(site::landed, contact + mirrored(axis, ray) * out);
+        m.velocity = r.note(site::bounced, mirrored(axis, m.velocity) * elasticity_);
+    }
+
+    static Vec3 mirrored(Axis axis, Vec3 v) {
+        if (axis != nullptr)
+            v.*axis = -(v.*axis);
+        return v;
+    }
+    static Vec3 more(const Vec3& v, const Real& s) { return {v.x + s, v.y + s, v.z + s}; }
+    static Vec3 less(const Vec3& v, const Real& s) { return {v.x - s, v.y - s, v.z - s}; }
+    Real clamped(const Real& x, const Real& low, const Real& high) const { return r.min(r.max(x, low), high); }
+
+    /// m (v, 1), each operation rounded.
+    static Vec3 place(const glm::mat4& m, const Vec3& v) {
+        const Vec3 turned = direction(m, v);
+        return {turned.x + m[3][0], turned.y + m[3][1], turned.z + m[3][2]};
+    }
+    /// m (v, 0)
+    static Vec3 direction(const glm::mat4& m, const Vec3& v) {
+        const auto row = [&](int k) { return (v.x * m[0][k] + v.y * m[1][k]) + v.z * m[2][k]; };
+        return {row(0), row(1), row(2)};
+    }
+
+    R& r;
+    const Host& host_;
+    const Switches& switches_;
+    Real radius_, elasticity_;
+};
+
+} // namespace lockstep::dust

@@ -1,0 +1,29 @@
+#pragma once
+#include <cstddef>
+#include <tuple>
+
+#include "reference/dust/sites.hpp"
+#include "reference/model/dust/schema.hpp"
+#include "reference/system/item_pass.hpp"
+
+namespace lockstep::dust {
+
+/// After every kernel the count is the number of grains that are alive.
+struct CountTwin {
+    template <class R> struct Count {
+        typename R::Int number{};
+        auto fields() const { return std::tie(number); }
+    };
+
+    template <class R> Count<R> operator()(R& r, const PassInput& in, std::size_t item) const {
+        const int before = in.before.integer(field::alive_number, item);
+        int living = 0;
+        for (std::size_t i = 0; i < in.before[grain_buffer].count(); ++i)
+            living += in.before.integer(field::alive, i);
+        const auto change =
+            r.note(site::change, typename R::Int(r.note(site::living, typename R::Int(living)) - before));
+        return {r.note(site::count, typename R::Int(change + before))};
+    }
+};
+
+} // namespace lockstep::dust

@@ -1,0 +1,17 @@
+#include "reference/dust/emit_twin.hpp"
+#include "reference/dust/passes.hpp"
+#include "reference/model/dust/frame_order.hpp"
+#include "reference/system/item_twin.hpp"
+
+namespace lockstep::dust {
+
+std::unique_ptr<ItemPass> emit_pass(const HostPtr& host) {
+    return item_pass({.name = "emit",
+                      .resource = grain_buffer,
+                      .stage = PassStage::compute,
+                      .arithmetic = host->settings().arithmetic,
+                      .runs = [host](int frame) { return runs(*host, {"emit"}, frame); }},
+                     EmitTwin{host});
+}
+
+} // namespace lockstep::dust

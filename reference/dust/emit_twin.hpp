@@ -1,0 +1,65 @@
+#pragma once
+#include "reference/dust/random.hpp"
+
+namespace lockstep::dust {
+
+/// Gives a dead grain one chance in a hundred to come out of the emitter. Twin of shaders/dust/emit.comp.
+struct EmitTwin {
+    HostPtr host;
+
+    template <class R> Grain<R> operator()(R& r, const PassInput& in, std::size_t item) const {
+        using Real = typename R::Real;
+        using Vec3 = typename R::Vec3;
+        const auto i = static_cast<std::uint32_t>(item);
+        Grain<R> grain = grain_before(r, in, item);
+        if (is_alive(r, grain))
+            return grain;
+        const FrameValues values = host->at(in.frame);
+        const bool integer = host->switches().random == Random::integer;
+        const std::uint32_t seed = host->settings().seed;
+        const RandomTwin<R> random(r);
+        const Real f = R::real(i);
+        const Real chance =
+            integer ? random.unit(integer_random(i, Stream::chance, static_cast<std::uint32_t>(in.frame), seed))
+                    : random.r11(r.divide(site::seed, f + r.uniform(site::time, values.time), 79238.288F));
+        if (!r.decide(site::is_lucky, r.note(site::chance, chance) <= 0.01F))
+            return grain;
+        Real x{}, y{}, rho{}, tangent{};
+        if (integer) {
+            const glm::vec2 direction = host->directions()[integer_random(i, Stream::angle, 0, seed) >> 20U];
+            x = r.uniform(site::direction_of_table, direction.x);
+            y = r.uniform(site::direction_of_table, direction.y);
+            rho = random.unit(integer_random(i, Stream::radius, 0, seed));
+            tangent = r.uniform(site::emitter_tangent, values.tangent);
+        } else {
+            const Real s = r.note(site::seed, r.divide(site::seed, f, 82801.277F));
+            const Real turn = r.note(site::angle, lerp(Real(-6.28318530F), Real(6.28318530F), random.r11(s)));
+            x = random.cosine(turn);
+            y = random.sine(turn);
+            rho = random.second(s);
+            const Real angle = r.uniform(site::emitter_angle, values.angle_rad);
+            tangent = r.note(site::tangent, r.divide(site::tangent, random.sine(angle), random.cosine(angle)));
+        }
+        if (host->switches().emit_even == OffOn::on)
+            rho = r.sqrt(site::share_of_radius, rho);
+        rho = r.note(site::share_of_radius, rho);
+        const Vec3 local = r.note(site::local, Vec3{x * rho * tangent, y * rho * tangent, 1.0F});
+        const glm::mat4 m = r.uniform(site::controller_matrix, values.controller_matrix);
+        const auto row = [&](int k) { return (local.x * m[0][k] + local.y * m[1][k]) + local.z * m[2][k]; };
+        const Vec3 direction = r.note(site::emitted, Vec3{row(0), row(1), row(2)});
+        const float force = values.tool == nullptr ? 0.0F : values.tool->force;
+        const float distance = values.tool == nullptr ? 0.0F : values.tool->distance;
+        grain.velocity = direction * r.uniform(site::emitter_force, force);
+        if (host->switches().emit_speed == EmitSpeed::force) {
+            const Vec3 thrust = r.note(site::force, grain.velocity * r.uniform(site::emitter_dist, distance));
+            grain.velocity = divided(r, site::acceleration, thrust, r.uniform(site::mass, host->settings().mass)) *
+                             r.uniform(site::impulse_dt, values.tool_dt);
+        }
+        grain.velocity = r.note(site::velocity, grain.velocity);
+        grain.position = r.note(site::position, r.uniform(site::controller_pos, values.controller_pos));
+        grain.alive = r.note(site::alive, typename R::Int(1));
+        return grain;
+    }
+};
+
+} // namespace lockstep::dust

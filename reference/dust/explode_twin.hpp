@@ -1,0 +1,34 @@
+#pragma once
+#include "reference/dust/grain.hpp"
+#include "reference/model/dust/host.hpp"
+
+namespace lockstep::dust {
+
+/// A ball of the cannon blows grains away from where it hit. Twin of shaders/dust/explode.comp.
+struct ExplodeTwin {
+    HostPtr host;
+    std::size_t ball = 0; ///< which of the frame's
+
+    template <class R> Grain<R> operator()(R& r, const PassInput& in, std::size_t item) const {
+        Grain<R> grain = grain_before(r, in, item);
+        const Explosion* explosion = host->explosion(in.frame, ball);
+        if (explosion == nullptr || !is_alive(r, grain))
+            return grain;
+        const auto way =
+            r.note(site::from_mouth, grain.position - r.uniform(site::explosion_position, explosion->position));
+        const auto d2 = r.note(site::sqr_dist, squared(way));
+        const auto range = r.uniform(site::explosion_sqr_range, explosion->sqr_range);
+        if (!r.decide(site::in_range, d2 < range))
+            return grain;
+        const auto share = r.note(site::share, 1.0F - r.divide(site::share, d2, range));
+        const auto f = r.note(site::blast, share * r.uniform(site::explosion_force, explosion->force));
+        const auto n = r.note(site::blast_direction, r.normalize(site::blast_direction, way));
+        const auto a =
+            divided(r, site::acceleration, r.note(site::force, n * f), r.uniform(site::mass, host->settings().mass));
+        grain.velocity =
+            r.note(site::velocity, grain.velocity + a * r.uniform(site::impulse_dt, host->at(in.frame).explosion_dt));
+        return grain;
+    }
+};
+
+} // namespace lockstep::dust

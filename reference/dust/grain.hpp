@@ -1,0 +1,38 @@
+#pragma once
+#include <cstddef>
+#include <tuple>
+
+#include "reference/dust/sites.hpp"
+#include "reference/model/dust/schema.hpp"
+#include "reference/system/item_pass.hpp"
+
+namespace lockstep::dust {
+
+template <class R> struct Grain {
+    typename R::Vec3 position;
+    typename R::Int alive{};
+    typename R::Vec3 velocity, colour;
+    auto fields() const { return std::tie(position, alive, velocity, colour); }
+};
+
+/// A grain as a kernel finds it.
+template <class R> Grain<R> grain_before(R& r, const PassInput& in, std::size_t item) {
+    return {r.read(site::before, in.before.vec3(field::position, item)),
+            r.uniform(site::alive_before, in.before.integer(field::alive, item)),
+            r.read(site::speed, in.before.vec3(field::velocity, item)),
+            r.read(site::colour_before, in.before.vec3(field::colour, item))};
+}
+
+template <class R> bool is_alive(R& r, const Grain<R>& grain) { return r.decide(site::is_alive, grain.alive == 1); }
+
+/// (x x + y y) + z z
+template <class Vec> auto squared(const Vec& v) { return (v.x * v.x + v.y * v.y) + v.z * v.z; }
+
+/// a + t (b - a)
+template <class T, class S> T lerp(const T& a, const T& b, const S& t) { return a + (b - a) * t; }
+
+template <class R> typename R::Vec3 divided(R& r, At place, const typename R::Vec3& v, const typename R::Real& by) {
+    return {r.divide(place, v.x, by), r.divide(place, v.y, by), r.divide(place, v.z, by)};
+}
+
+} // namespace lockstep::dust

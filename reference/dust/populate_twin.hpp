@@ -1,0 +1,51 @@
+#pragma once
+#include "reference/dust/random.hpp"
+
+namespace lockstep::dust {
+
+/// Places a grain in the spawn box, alive. Twin of shaders/dust/populate.comp.
+struct PopulateTwin {
+    HostPtr host;
+
+    template <class R> Grain<R> operator()(R& r, const PassInput& in, std::size_t item) const {
+        using Real = typename R::Real;
+        const auto i = static_cast<std::uint32_t>(item);
+        const RandomTwin<R> random(r);
+        const auto min = r.uniform(site::spawn_min, host->settings().spawn.min);
+        const auto max = r.uniform(site::spawn_max, host->settings().spawn.max);
+        Grain<R> grain = grain_before(r, in, item);
+        const Real f = R::real(i);
+        const Real width = max.x - min.x;
+        typename R::Vec3 at;
+        Real shade{};
+        if (host->switches().random == Random::integer) {
+            const auto number = [&](Stream stream) {
+                return random.unit(integer_random(i, stream, 0, host->settings().seed));
+            };
+            at = {number(Stream::position_x), number(Stream::position_y), number(Stream::position_z)};
+            shade = number(Stream::colour);
+        } else {
+            const Real row = r.note(site::row, r.divide(site::row, f, width));
+            const Real step = r.note(site::step_of_row, f - width * r.floor(row));
+            if (host->switches().populate == Populate::uv) {
+                const Real x = r.divide(site::seed, step, width), y = r.divide(site::seed, row, width);
+                at = {random.h1(x, y), random.h1(x + 7.219F, y + 7.219F), random.h1(x + 79.714F, y + 79.714F)};
+            } else {
+                const Real s = r.note(site::seed, r.divide(site::seed, f, width * width));
+                at = {random.r11(s), random.second(s), random.third(s)};
+            }
+            shade = random.r21(step, row);
+        }
+        grain.position = {lerp(min.x, max.x, at.x), lerp(min.y, max.y, at.y), lerp(min.z, max.z, at.z)};
+        if (host->switches().populate == Populate::plane)
+            grain.position.y = min.y;
+        grain.position = r.note(site::position, grain.position);
+        grain.alive = r.note(site::alive, typename R::Int(1));
+        shade = r.note(site::shade, shade);
+        grain.colour = r.note(site::colour, lerp(r.uniform(site::colour_a, host->settings().colour_a),
+                                                 r.uniform(site::colour_b, host->settings().colour_b), shade));
+        return grain;
+    }
+};
+
+} // namespace lockstep::dust

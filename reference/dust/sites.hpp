@@ -1,0 +1,85 @@
+#pragma once
+#include "reference/readings/site.hpp"
+
+/// The places of the dust kernels' twins. What names a field is known to the shaders by that name.
+namespace lockstep::dust::site {
+
+// A grain, before and after.
+inline constexpr Site before{"position before"}, speed{"velocity before"}, alive_before{"alive before"};
+inline constexpr Site colour_before{"colour before"}, is_alive{"grain is alive"};
+inline constexpr Site position{"position", "position", "m"}, velocity{"velocity", "velocity", "m/s"};
+inline constexpr Site alive{"alive", "alive"}, colour{"colour", "colour"};
+
+// Uniforms, by their names.
+inline constexpr Site radius{"radius"}, dt{"deltaTime"}, time{"time"}, gravity{"gravity"};
+inline constexpr Site air_resistance{"airResistance"}, mass{"mass"}, elasticity{"elasticity"};
+inline constexpr Site spawn_min{"spawnBoundsMin"}, spawn_max{"spawnBoundsMax"};
+inline constexpr Site world_min{"worldBoundsMin"}, world_max{"worldBoundsMax"};
+inline constexpr Site controller_pos{"controllerPos"}, controller_forward{"controllerForward"};
+inline constexpr Site controller_matrix{"controllerMatrix"};
+inline constexpr Site cleaner_sqr_force{"cleanerSqrForce"}, cleaner_sqr_dist{"cleanerSqrDist"};
+inline constexpr Site cleaner_threshold{"cleanerDotThreshold"}, cleaner_sqr_death{"cleanerSqrDeathRange"};
+inline constexpr Site cleaner_force{"cleanerForce"};
+inline constexpr Site emitter_force{"emitterForce"}, emitter_dist{"emitterDist"}, emitter_angle{"emitterAngleRad"};
+inline constexpr Site emitter_tangent{"emitterTangent"};
+inline constexpr Site blower_sqr_force{"blowerSqrForce"}, blower_sqr_dist{"blowerSqrDist"};
+inline constexpr Site blower_threshold{"blowerDotThreshold"};
+inline constexpr Site explosion_position{"explosionPosition"}, explosion_sqr_range{"explosionSqrRange"};
+inline constexpr Site explosion_force{"explosionForce"}, impulse_dt{"impulseDeltaTime"};
+inline constexpr Site colour_a{"dustColorA"}, colour_b{"dustColorB"};
+
+// Random numbers.
+inline constexpr Site phase{"sine's argument"}, octant{"sine's octant"}, sine{"sine"}, cosine{"cosine"};
+inline constexpr Site below_zero{"sine's argument is negative"}, random{"random number"}, tangent{"tangent"};
+inline constexpr Site seed{"seed"}, row{"row"}, step_of_row{"place in its row"}, shade{"colour's share"};
+inline constexpr Site angle{"angle"}, share_of_radius{"share of the radius"}, chance{"chance"};
+inline constexpr Site direction_of_table{"direction of the table"};
+
+// The tool's cone.
+inline constexpr Site to_mouth{"way to the mouth"}, from_mouth{"way from the mouth"};
+inline constexpr Site sqr_dist{"squared distance"}, in_range{"in range", {}, "m2"};
+inline constexpr Site to_mouth_unit{"direction to the mouth"}, from_mouth_unit{"direction from the mouth"};
+inline constexpr Site along{"cosine to the axis"}, in_cone{"in the cone"};
+inline constexpr Site pull{"pull"}, force{"force"}, distance{"distance"}, acceleration{"acceleration"};
+inline constexpr Site forecast{"forecast"}, mouth_to_forecast{"way from the mouth to the forecast"};
+inline constexpr Site current_direction{"direction of the grain"}, next_direction{"direction of the forecast"};
+inline constexpr Site current_along{"grain's cosine"}, next_along{"forecast's cosine"};
+inline constexpr Site was_in_cone{"grain was in the cone"}, left_cone{"forecast is outside the cone"};
+inline constexpr Site near_mouth{"forecast is in the death range", {}, "m2"}, behind{"forecast is behind the mouth"};
+inline constexpr Site dies_at_once{"in the death range", {}, "m2"}, overshot{"beyond the mouth"};
+inline constexpr Site share{"share of the way"}, too_short{"way is too short"}, length{"length of the way"};
+
+// The emitter and blasts.
+inline constexpr Site is_lucky{"comes back"}, local{"direction in the emitter"}, emitted{"direction emitted"};
+inline constexpr Site blast{"blast"}, blast_direction{"direction of the blast"};
+
+// Update.
+inline constexpr Site sucked{"sucked velocity"}, fall{"velocity of the fall"}, next{"next position"};
+inline constexpr Site drag{"drag"};
+inline constexpr Site movement{"movement"}, movement_unit{"direction of the movement"};
+inline constexpr Site length_of_movement{"length of the movement"}, way_in{"way to the contact"};
+inline constexpr Site contact{"contact"}, way_out{"share of the way out"}, mirrored{"mirrored movement"};
+inline constexpr Site bounced{"velocity after a bounce"}, landed{"position after a bounce"};
+inline constexpr Site spheres{"spheres"}, boxes{"boxes"};
+inline constexpr Site sphere_centre{"sphere's centre"}, sphere_radius{"sphere's radius"};
+inline constexpr Site touches_sphere{"touches the sphere", {}, "m2"}, closest{"nearest of the ray"};
+inline constexpr Site missed{"squared distance of the ray"}, root{"half chord"}, grazes{"ray misses the sphere"};
+inline constexpr Site normal{"normal"}, into{"movement into the sphere"}, speed_into{"speed into the sphere"};
+inline constexpr Site box_min{"box's least corner"}, box_max{"box's greatest corner"};
+inline constexpr Site touches_box{"touches the box", {}, "m"}, half_grain{"grain's radius in the box"};
+inline constexpr Site world_to_local{"worldToLocal"}, local_to_world{"localToWorld"};
+inline constexpr Site next_in_box{"next position in the box"}, current_in_box{"position in the box"};
+inline constexpr Site speed_in_box{"velocity in the box"};
+inline constexpr Site face_x{"enters by an x face"}, face_y{"enters by a y face"}, face_z{"enters by a z face"};
+inline constexpr Site heads_up_x{"moves up x"}, heads_up_y{"moves up y"}, heads_up_z{"moves up z"};
+inline constexpr Site time_of_x{"x face's share"}, time_of_y{"y face's share"}, time_of_z{"z face's share"};
+inline constexpr Site above_x{"beyond the +x wall", {}, "m"}, below_x{"beyond the -x wall", {}, "m"};
+inline constexpr Site above_y{"beyond the +y wall", {}, "m"}, below_y{"beyond the -y wall", {}, "m"};
+inline constexpr Site above_z{"beyond the +z wall", {}, "m"}, below_z{"beyond the -z wall", {}, "m"};
+inline constexpr Site started_beyond{"started beyond the wall", {}, "m"}, to_wall{"way along the ray"};
+inline constexpr Site below_floor{"below the floor", {}, "m"};
+
+// The count.
+inline constexpr Site living{"living grains"}, change{"change of the count"}, count{"count", "alive_number"};
+
+} // namespace lockstep::dust::site

@@ -1,0 +1,17 @@
+#include "reference/dust/passes.hpp"
+#include "reference/dust/update_twin.hpp"
+#include "reference/model/dust/frame_order.hpp"
+#include "reference/system/item_twin.hpp"
+
+namespace lockstep::dust {
+
+std::unique_ptr<ItemPass> update_pass(const HostPtr& host) {
+    return item_pass({.name = "update",
+                      .resource = grain_buffer,
+                      .stage = PassStage::compute,
+                      .arithmetic = host->settings().arithmetic,
+                      .runs = [host](int frame) { return runs(*host, {"update"}, frame); }},
+                     UpdateTwin{host});
+}
+
+} // namespace lockstep::dust

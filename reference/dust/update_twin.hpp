@@ -1,0 +1,59 @@
+#pragma once
+#include "reference/dust/colliders.hpp"
+#include "reference/dust/cone.hpp"
+
+namespace lockstep::dust {
+
+/// A frame of flight: gravity, drag, colliders. Twin of shaders/dust/update.comp.
+struct UpdateTwin {
+    HostPtr host;
+
+    template <class R> Grain<R> operator()(R& r, const PassInput& in, std::size_t item) const {
+        using Vec3 = typename R::Vec3;
+        const Settings& settings = host->settings();
+        const Switches& switches = host->switches();
+        Grain<R> grain = grain_before(r, in, item);
+        if (!is_alive(r, grain))
+            return grain;
+        const FrameValues values = host->at(in.frame);
+        const bool sucks = switches.suction == Suction::force_in_update && host->is_on(Tool::Kind::vacuum, in.frame);
+        const ConeTwin<R> cone(r, *host, values);
+        const auto dt = r.uniform(site::dt, values.dt);
+
+        Vec3 a{};
+        bool sucked = false;
+        if (sucks)
+            if (const auto force = cone.force(grain.position)) {
+                a = r.note(site::acceleration,
+                           divided(r, site::acceleration, *force, r.uniform(site::mass, settings.mass)));
+                sucked = true;
+            }
+        a = a + r.uniform(site::gravity, settings.gravity);
+        const auto resistance = r.uniform(site::air_resistance, settings.air_resistance);
+        if (switches.drag_implicit == OffOn::on) {
+            grain.velocity = divided(r, site::drag, grain.velocity + a * dt, 1.0F + resistance * dt);
+        } else {
+            Vec3 drag = grain.velocity * resistance;
+            if (switches.drag == Drag::by_mass)
+                drag = divided(r, site::drag, drag, r.uniform(site::mass, settings.mass));
+            grain.velocity = grain.velocity + (a - r.note(site::drag, drag)) * dt;
+        }
+        grain.velocity = r.note(site::fall, grain.velocity);
+
+        Movement<R> m{grain.position, r.note(site::next, grain.position + grain.velocity * dt), grain.velocity};
+        const ColliderTwin<R> colliders(r, *host);
+        if (switches.world_order == WorldOrder::first)
+            colliders.world(m);
+        colliders.list(m);
+        if (switches.world_order == WorldOrder::last)
+            colliders.world(m);
+        if (sucked && cone.kills(grain.position, m.next))
+            grain.alive = 0;
+        grain.velocity = r.note(site::velocity, m.velocity);
+        grain.position = r.note(site::position, m.next);
+        grain.alive = r.note(site::alive, grain.alive);
+        return grain;
+    }
+};
+
+} // namespace lockstep::dust

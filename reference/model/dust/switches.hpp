@@ -1,0 +1,101 @@
+#pragma once
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+namespace lockstep::dust {
+
+// What the source leaves open, says twice, or changes from one version to the next. Values in the order of their names.
+enum class Random { sin, sin_portable, integer };
+enum class Populate { plane, uv, line };
+enum class KernelOrder { update_first, tools_first };
+enum class Suction { lerp, step, cone_step, force_in_update, force_kernel };
+enum class DeathRange { unset, set };
+enum class BlowFalloff { distance, square };
+enum class ImpulseDt { frame, constant, constant_but_wind };
+enum class EmitSpeed { direct, force };
+enum class World { none, floor_clamp, floor_radius, floor_bounce, box };
+enum class WorldOrder { first, last };
+enum class SphereTouch { less, less_equal };
+enum class BoxKind { aabb, obb };
+enum class BoxDetect { rounded, boxed };
+enum class PlaneCast { ratio, normalized };
+enum class Drag { free, by_mass };
+enum class LastCollider { zeros, none };
+enum class OffOn { off, on };
+enum class Unit { glsl, engine };
+enum class SideExit { kill, keep };
+
+/// The preset `corrected`.
+struct Switches {
+    Random random = Random::sin_portable;
+    Populate populate = Populate::line;
+    KernelOrder kernel_order = KernelOrder::tools_first;
+    Suction suction = Suction::force_kernel;
+    DeathRange death_range = DeathRange::set;
+    BlowFalloff blow_falloff = BlowFalloff::distance;
+    ImpulseDt impulse_dt = ImpulseDt::constant_but_wind;
+    EmitSpeed emit_speed = EmitSpeed::force;
+    World world = World::box;
+    WorldOrder world_order = WorldOrder::last;
+    OffOn one_hit = OffOn::on;
+    SphereTouch sphere_touch = SphereTouch::less_equal;
+    BoxKind box_kind = BoxKind::obb;
+    BoxDetect box_detect = BoxDetect::boxed;
+    PlaneCast plane_cast = PlaneCast::ratio;
+    Drag drag = Drag::free;
+    LastCollider last_collider = LastCollider::none;
+    float radius_of_scale = 0.5F;
+    Unit unit = Unit::glsl; ///< of suction by steps: `engine` is 0 below a length of 1e-5, and divides
+
+    // Remedies, off in every preset.
+    OffOn clamp_velocity = OffOn::off; ///< where a wall stops a grain, its velocity out of the world becomes 0
+    OffOn root_clamp = OffOn::off;     ///< no root of a negative number where a ray grazes a sphere
+    SideExit side_exit = SideExit::kill;
+    OffOn emit_even = OffOn::off;     ///< the emitter's disc is filled evenly
+    OffOn drag_implicit = OffOn::off; ///< v / (1 + c dt)
+
+    bool operator==(const Switches&) const = default;
+};
+
+/// Calls `visit(name, value, {names of the values})` for every switch of named values.
+template <class S, class Visit> void for_each_switch(S& s, const Visit& visit) {
+    using Names = std::vector<std::string_view>;
+    const Names off_on{"off", "on"};
+    visit("random", s.random, Names{"sin", "sin_portable", "integer"});
+    visit("populate", s.populate, Names{"plane", "uv", "line"});
+    visit("kernel_order", s.kernel_order, Names{"update_first", "tools_first"});
+    visit("suction", s.suction, Names{"lerp", "step", "cone_step", "force_in_update", "force_kernel"});
+    visit("death_range", s.death_range, Names{"unset", "set"});
+    visit("blow_falloff", s.blow_falloff, Names{"distance", "square"});
+    visit("impulse_dt", s.impulse_dt, Names{"frame", "constant", "constant_but_wind"});
+    visit("emit_speed", s.emit_speed, Names{"direct", "force"});
+    visit("world", s.world, Names{"none", "floor_clamp", "floor_radius", "floor_bounce", "box"});
+    visit("world_order", s.world_order, Names{"first", "last"});
+    visit("one_hit", s.one_hit, off_on);
+    visit("sphere_touch", s.sphere_touch, Names{"less", "less_equal"});
+    visit("box_kind", s.box_kind, Names{"aabb", "obb"});
+    visit("box_detect", s.box_detect, Names{"rounded", "boxed"});
+    visit("plane_cast", s.plane_cast, Names{"ratio", "normalized"});
+    visit("drag", s.drag, Names{"free", "by_mass"});
+    visit("last_collider", s.last_collider, Names{"zeros", "none"});
+    visit("unit", s.unit, Names{"glsl", "engine"});
+    visit("clamp_velocity", s.clamp_velocity, off_on);
+    visit("root_clamp", s.root_clamp, off_on);
+    visit("side_exit", s.side_exit, Names{"kill", "keep"});
+    visit("emit_even", s.emit_even, off_on);
+    visit("drag_implicit", s.drag_implicit, off_on);
+}
+
+/// For shaders, of every switch: RANDOM_SIN 0 and so on for its values, and RANDOM for the one that is set.
+std::vector<std::pair<std::string, std::string>> defines(const Switches& switches);
+
+/// paper, corrected or exact. Throws Error naming them for any other name.
+Switches preset(std::string_view name);
+
+/// What a version of the source had: s1, s2_lerp, s2_step, s2_gpu, s3 to s17, sRE and sTS, on top of `switches`. Throws
+/// Error naming them for any other name.
+Switches stage(std::string_view name, Switches switches);
+
+} // namespace lockstep::dust

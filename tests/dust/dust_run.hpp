@@ -1,0 +1,42 @@
+#pragma once
+#include <memory>
+#include <string>
+#include <utility>
+
+#include <lockstep/catch.hpp>
+#include <lockstep/system.hpp>
+
+#include "crosscheck/dust/system.hpp"
+#include "gpu/dust/passes.hpp"
+#include "reference/model/dust/schema.hpp"
+
+namespace lockstep::test {
+
+inline const Gl& gl() {
+    static const Gl one;
+    return one;
+}
+
+inline dust::HostPtr host_of(dust::Settings settings) {
+    return std::make_shared<const dust::Host>(std::move(settings));
+}
+
+inline dust::Settings in_exact(dust::Settings settings) {
+    settings.arithmetic = ArithmeticSwitch::exact;
+    settings.switches.random = dust::Random::integer;
+    return settings;
+}
+
+/// A run of settings on both sides.
+inline CheckReport run_dust(const dust::Settings& settings, int frames, CheckMode mode = CheckMode::resync,
+                            const std::string& shaders = "shaders/dust") {
+    const dust::HostPtr host = host_of(settings);
+    const System system = dust::system(host);
+    GlSystemSide side(gl(), system, dust::passes(host), shaders, settings.arithmetic);
+    CheckOptions options;
+    options.frames = frames;
+    options.mode = mode;
+    return check(system, side, options);
+}
+
+} // namespace lockstep::test

@@ -1,0 +1,122 @@
+#include "tests/dust/dust_run.hpp"
+
+using namespace lockstep;
+using namespace lockstep::test;
+namespace dust = lockstep::dust;
+
+namespace {
+
+/// Few grains in a room with everything in it.
+dust::Settings room(std::size_t count = 4000) {
+    dust::Settings s;
+    s.count = count;
+    s.spawn = {{-20.0F, 0.0F, -20.0F}, {20.0F, 20.0F, 20.0F}};
+    s.world = {{-20.0F, 0.0F, -20.0F}, {20.0F, 20.0F, 20.0F}};
+    return s;
+}
+
+/// Both arithmetics: not a bit differs.
+void expect_agreement(const dust::Settings& settings, int frames) {
+    for (const dust::Settings& s : {settings, in_exact(settings)}) {
+        const CheckReport report = run_dust(s, frames);
+        INFO(report_text(report, {}));
+        CHECK(report.verdict == Verdict::agree);
+        CHECK(report.untried.empty());
+        const CheckReport free = run_dust(s, frames, CheckMode::free);
+        CHECK(free.verdict == Verdict::agree);
+    }
+}
+
+} // namespace
+
+TEST_CASE("dust: grains fall, bounce off the walls and lie, as their twins do") {
+    if (!gl())
+        return skip(gl().missing());
+    expect_agreement(room(), 90);
+}
+
+TEST_CASE("dust: spheres and turned boxes, hit and started in, overlapping too") {
+    if (!gl())
+        return skip(gl().missing());
+    dust::Settings s = room();
+    s.colliders = {{.position = {0.0F, 2.5F, 0.0F}, .radius = 5.0F},
+                   {.position = {4.0F, 3.0F, 0.0F}, .radius = 3.0F},
+                   {.sphere = false, .position = {-10.0F, 3.0F, 0.0F}, .scale = {4, 1, 2}, .rotate = {30, 20, 45}},
+                   {.sphere = false, .position = {10.0F, 6.0F, 8.0F}, .scale = {6, 2, 9}, .rotate = {0, 70, 0}}};
+    s.switches.one_hit = GENERATE(dust::OffOn::on, dust::OffOn::off);
+    expect_agreement(s, 60);
+}
+
+TEST_CASE("dust: axis-aligned boxes, by both ways to find a touch and to cast on a face") {
+    if (!gl())
+        return skip(gl().missing());
+    dust::Settings s = room();
+    s.switches.box_kind = dust::BoxKind::aabb;
+    s.switches.box_detect = GENERATE(dust::BoxDetect::rounded, dust::BoxDetect::boxed);
+    s.switches.plane_cast = GENERATE(dust::PlaneCast::ratio, dust::PlaneCast::normalized);
+    s.colliders = {{.sphere = false, .position = {0.0F, 3.0F, 0.0F}, .scale = {8, 4, 6}},
+                   {.sphere = false, .position = {10.0F, 6.0F, 8.0F}, .scale = {6, 2, 9}}};
+    expect_agreement(s, 60);
+}
+
+TEST_CASE("dust: the vacuum, the emitter and the wind one after the other, and the count all along") {
+    if (!gl())
+        return skip(gl().missing());
+    using Kind = dust::Tool::Kind;
+    dust::Settings s = room();
+    s.controller = {{0, {0.0F, 2.0F, 0.0F}, {0.0F, 0.1F, 1.0F}}, {90, {5.0F, 8.0F, -5.0F}, {1.0F, 0.2F, 1.0F}}};
+    s.tools = {{.kind = Kind::vacuum, .from = 0, .to = 50, .force = 30.0F, .range = 25.0F},
+               {.kind = Kind::emit, .from = 50, .to = 80, .force = 50.0F, .angle = 30.0F, .distance = 10.0F},
+               {.kind = Kind::wind, .from = 80, .to = 110, .force = 20.0F, .range = 25.0F}};
+    s.switches.kernel_order = GENERATE(dust::KernelOrder::tools_first, dust::KernelOrder::update_first);
+    expect_agreement(s, 120);
+}
+
+TEST_CASE("dust: balls of the cannon explode on colliders and walls") {
+    if (!gl())
+        return skip(gl().missing());
+    dust::Settings s = room();
+    s.colliders = {{.position = {0.0F, 5.0F, 8.0F}, .radius = 3.0F}};
+    for (int k = 0; k < 4; ++k)
+        s.cannon.push_back(
+            {.frame = 10 * k, .position = {0.0F, 5.0F, -10.0F}, .forward = {0.1F * static_cast<float>(k), 0.2F, 1.0F}});
+    expect_agreement(s, 120);
+}
+
+TEST_CASE("dust: every version of the source agrees with its twins") {
+    if (!gl())
+        return skip(gl().missing());
+    using Kind = dust::Tool::Kind;
+    const std::string stage = GENERATE("s1", "s2_lerp", "s2_step", "s2_gpu", "s3", "s4", "s5", "s6", "s7", "s8", "s9",
+                                       "s10", "sRE", "s11", "s12", "s13", "s14", "s15", "s16", "sTS", "s17");
+    dust::Settings s = room();
+    s.switches = dust::stage(stage, s.switches);
+    s.tools = {{.kind = Kind::vacuum, .from = 0, .to = 30, .force = 10.0F, .range = 15.0F},
+               {.kind = Kind::emit, .from = 30, .to = 50, .force = 20.0F, .angle = 30.0F, .distance = 2.0F}};
+    s.colliders = {{.position = {0.0F, 2.5F, 0.0F}, .radius = 5.0F},
+                   {.sphere = false, .position = {-10.0F, 3.0F, 0.0F}, .scale = {4, 1, 2}}};
+    INFO(stage);
+    expect_agreement(s, 60);
+}
+
+TEST_CASE("dust: remedies agree with their twins") {
+    if (!gl())
+        return skip(gl().missing());
+    using Kind = dust::Tool::Kind;
+    dust::Settings s = room();
+    s.switches.clamp_velocity = s.switches.root_clamp = dust::OffOn::on;
+    s.switches.side_exit = dust::SideExit::keep;
+    s.switches.emit_even = s.switches.drag_implicit = dust::OffOn::on;
+    s.switches.drag = dust::Drag::by_mass;
+    s.mass = 1.5F;
+    s.tools = {{.kind = Kind::vacuum, .from = 0, .to = 30, .force = 30.0F, .range = 15.0F},
+               {.kind = Kind::emit, .from = 30, .to = 50, .force = 20.0F, .angle = 30.0F, .distance = 2.0F}};
+    s.colliders = {{.position = {0.0F, 2.5F, 0.0F}, .radius = 5.0F}};
+    expect_agreement(s, 60);
+}
+
+TEST_CASE("dust: the last group's idle threads write nothing") {
+    if (!gl())
+        return skip(gl().missing());
+    expect_agreement(room(GENERATE(std::size_t{1}, std::size_t{63}, std::size_t{64}, std::size_t{65})), 10);
+}

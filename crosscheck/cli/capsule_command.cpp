@@ -9,6 +9,7 @@
 #include "crosscheck/cli/judging_options.hpp"
 #include "crosscheck/cli/option_values.hpp"
 #include "crosscheck/cli/run_options.hpp"
+#include "crosscheck/cli/system_verbs.hpp"
 #include "crosscheck/files/plain_text.hpp"
 #include "crosscheck/files/threads.hpp"
 #include "crosscheck/judge/frame_run.hpp"
@@ -26,7 +27,8 @@ struct Options {
     RunOptions run;
     std::filesystem::path trace, output, capsule;
     int frame = 0;
-    std::string particle;
+    std::optional<std::string> particle, item;
+    std::string pass;
     Legal legal = Legal::measured;
     bool hexadecimal = false;
 };
@@ -37,7 +39,7 @@ int status_of(const Capsule& capsule) {
 }
 
 Capsule cut_from(FrameRun& run, const Options& options, const std::string& renderer, const std::string& settings) {
-    const std::size_t particle = particle_named(options.particle, run.scene());
+    const std::size_t particle = particle_named(*options.particle, run.scene());
     run.go_to(options.frame);
     return cut_capsule(run.judged(), {run.scene(), renderer, settings, options.frame, particle, run.capture(particle)});
 }
@@ -64,6 +66,15 @@ Capsule cut_recorded(const Options& options) {
 
 int cut(const Options& options, const Call& call) {
     check_scene_or_trace(call, options.run, options.trace);
+    if (const RegisteredSystem* system = options.trace.empty() ? system_of_scene(options.run.scene) : nullptr) {
+        if (!options.item || options.particle)
+            throw Error(fmt::format("capsule cut: of a scene of system {}, --item I is needed", name_of(*system)));
+        return cut_system(*system, options.run, {options.frame, options.pass, *options.item, options.legal, false},
+                          options.output);
+    }
+    if (!options.particle || options.item || !options.pass.empty())
+        throw Error(fmt::format("capsule cut: of a scene of system {}, --particle I is needed, and no --item or --pass",
+                                default_system));
     OutputFiles files;
     protect_inputs(options.run, files);
     files.protect(options.trace);
@@ -75,6 +86,8 @@ int cut(const Options& options, const Call& call) {
 }
 
 int show(const Options& options) {
+    if (const std::optional<int> status = show_system(options.capsule, options.hexadecimal))
+        return *status;
     const Capsule capsule = load_capsule(options.capsule);
     fmt::print("{}", plain_text(capsule_text(capsule,
                                              options.hexadecimal ? NumberFormat::hexadecimal : NumberFormat::decimal)));
@@ -91,7 +104,9 @@ Verb capsule_command() {
     add_trace_option(cut_verb, options->trace);
     cut_verb.add(
         required(integer_option("--frame", "F", {0, most_frames}, options->frame, "the frame, counted from 0")));
-    cut_verb.add(required(text_option("--particle", "I", options->particle, "the particle")));
+    cut_verb.add(text_option("--particle", "I", options->particle, "the particle"));
+    cut_verb.add(text_option("--item", "I", options->item, "the item, of a scene of another system"));
+    cut_verb.add(text_option("--pass", "NAME", options->pass, "of which pass, there; else the first"));
     cut_verb.add(required(path_option("-o,--output", "FILE", options->output, "the capsule, JSON, at most 100 kB")));
     add_legal_option(cut_verb, options->legal);
     cut_verb.footer = "Exit status: 0 the particle agrees or is legal, 1 it is not, 2 could not run.\n"

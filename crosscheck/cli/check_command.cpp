@@ -13,6 +13,7 @@
 #include "crosscheck/cli/judging_options.hpp"
 #include "crosscheck/cli/option_values.hpp"
 #include "crosscheck/cli/run_options.hpp"
+#include "crosscheck/cli/system_verbs.hpp"
 #include "crosscheck/files/json_text.hpp"
 #include "crosscheck/files/output_files.hpp"
 #include "crosscheck/files/plain_text.hpp"
@@ -387,6 +388,11 @@ Verb check_command() {
     verb.run = [options](const Call& call) {
         check_scene_or_trace(call, options->run, options->trace);
         options->frames_given = call.has("--frames");
+        if (const RegisteredSystem* system = options->trace.empty() ? system_of_scene(options->run.scene) : nullptr) {
+            check_options(call, fmt::format("a scene of system {}", name_of(*system)), system_check_options());
+            return check_system(*system, options->run,
+                                {options->mode, options->legal, options->rules, options->json, options->quiet});
+        }
         return options->trace.empty() ? run_scene(*options) : run_trace(*options);
     };
     return verb;

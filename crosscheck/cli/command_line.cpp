@@ -27,9 +27,9 @@ void add_option(CLI::App& app, const Option& option) {
     };
     CLI::Option* added = app.add_option(option.name, keep, option.description);
     added->type_name(option.value)->required(option.required);
-    if (option.values != Values::one)
+    if (option.values != GivenValues::one)
         added->expected(CLI::detail::expected_max_vector_size)->allow_extra_args(is_argument(option));
-    if (option.values == Values::list)
+    if (option.values == GivenValues::list)
         added->delimiter(',');
 }
 

@@ -9,6 +9,7 @@
 #include "crosscheck/cli/judging_options.hpp"
 #include "crosscheck/cli/option_values.hpp"
 #include "crosscheck/cli/run_options.hpp"
+#include "crosscheck/cli/system_verbs.hpp"
 #include "crosscheck/files/plain_text.hpp"
 #include "crosscheck/files/threads.hpp"
 #include "crosscheck/judge/frame_run.hpp"
@@ -26,7 +27,8 @@ struct Options {
     RunOptions run;
     int frame = 0;
     std::filesystem::path trace; ///< instead of a scene and GL
-    std::optional<std::string> particle, texel;
+    std::optional<std::string> particle, texel, item;
+    std::string pass;
     Legal legal = Legal::measured;
     bool hexadecimal = false;
 };
@@ -71,6 +73,16 @@ void explain_trace(const Options& options) {
 }
 
 int run(const Options& options, const Call& call) {
+    if (const RegisteredSystem* system = options.trace.empty() ? system_of_scene(options.run.scene) : nullptr) {
+        if (!options.item || options.particle || options.texel)
+            throw Error(fmt::format("explain: of a scene of system {}, --item I is needed", name_of(*system)));
+        return explain_system(*system, options.run,
+                              {options.frame, options.pass, *options.item, options.legal, options.hexadecimal});
+    }
+    if (options.item || !options.pass.empty())
+        throw Error(fmt::format("explain: --item and --pass do not go with a scene of system {}; --particle and "
+                                "--texel do",
+                                default_system));
     if (options.particle.has_value() == options.texel.has_value())
         throw Error("explain: either --particle I or --texel X,Y is needed");
     check_scene_or_trace(call, options.run, options.trace);
@@ -93,6 +105,8 @@ Verb explain_command() {
     verb.add(text_option("--particle", "I", options->particle, "the particle"));
     verb.add(
         text_option("--texel", "X,Y", options->texel, "the texel of the CDT, column and row from the bottom left"));
+    verb.add(text_option("--item", "I", options->item, "the item, of a scene of another system"));
+    verb.add(text_option("--pass", "NAME", options->pass, "of which pass, there; else the first"));
     add_legal_option(verb, options->legal);
     verb.add(flag("--hex", options->hexadecimal, "hexadecimal floats instead of decimal ones"));
     verb.footer = "Exit status: 0 told, 2 could not run.\n"

@@ -6,6 +6,7 @@
 #include "crosscheck/cli/commands.hpp"
 #include "crosscheck/cli/option_values.hpp"
 #include "crosscheck/cli/run_options.hpp"
+#include "crosscheck/cli/system_verbs.hpp"
 #include "reference/collision/simulation.hpp"
 #include "reference/model/collision/collision_state.hpp"
 #include "reference/model/profile.hpp"
@@ -21,6 +22,8 @@ struct Options {
 };
 
 int run(const Options& options) {
+    if (const RegisteredSystem* system = system_of_scene(options.run.scene))
+        return hash_system(*system, options.run, options.profile, options.every);
     const Scene scene = load(options.run);
     ReferenceSimulation reference(scene, named_profile(options.profile));
     for (int frame = 0; frame < options.run.frames; ++frame) {

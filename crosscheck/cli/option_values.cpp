@@ -49,7 +49,7 @@ template <class Integer> Option some_integers(std::string name, std::string valu
         target.clear();
         return read(texts, range, target);
     };
-    return {std::move(name), std::move(value), std::move(description), keep, Values::list};
+    return {std::move(name), std::move(value), std::move(description), keep, GivenValues::list};
 }
 
 template <class Target> Option one_text(std::string name, std::string value, Target& target, std::string description) {
@@ -83,7 +83,7 @@ Option texts_option(std::string name, std::string value, std::vector<std::string
         target.assign(texts.begin(), texts.end());
         return std::string();
     };
-    return {std::move(name), std::move(value), std::move(description), keep, Values::repeated};
+    return {std::move(name), std::move(value), std::move(description), keep, GivenValues::repeated};
 }
 
 Option path_option(std::string name, std::string value, std::filesystem::path& target, std::string description) {

@@ -7,6 +7,7 @@
 #include <fmt/format.h>
 
 #include "crosscheck/cli/option_values.hpp"
+#include "crosscheck/cli/systems.hpp"
 #include "crosscheck/files/shell_words.hpp"
 #include "crosscheck/files/threads.hpp"
 #include "crosscheck/scene/run_text.hpp"
@@ -31,7 +32,8 @@ std::filesystem::path near_scene(const std::filesystem::path& folder, const std:
     return name.empty() ? "" : folder / (name + ".json");
 }
 
-/// Throws Error where no file is named so; says which is, beside it or among the scenes that come with lockstep.
+} // namespace
+
 void check_scene_exists(const std::filesystem::path& scene) {
     std::error_code error;
     if (std::filesystem::status(scene, error).type() != std::filesystem::file_type::not_found)
@@ -42,8 +44,6 @@ void check_scene_exists(const std::filesystem::path& scene) {
     throw Error(fmt::format("{}: cannot be read: {}{}", scene.string(), std::strerror(ENOENT),
                             meant.empty() ? "" : fmt::format("; did you mean {}?", meant.string())));
 }
-
-} // namespace
 
 void add_scene_options(Verb& verb, RunOptions& options, SceneArgument scene) {
     verb.add(path_option("scene", "SCENE", options.scene, "scene file, data/scenes/*.json"));
@@ -87,6 +87,10 @@ void check_scene_or_trace(const Call& call, const RunOptions& options, const std
 
 Scene load(const RunOptions& options) {
     check_scene_exists(options.scene);
+    if (const RegisteredSystem* system = system_of_scene(options.scene))
+        throw Error(fmt::format("{}: is a scene of system {}, which check, explain, hash and capsule run; this takes "
+                                "one of system {}",
+                                options.scene.string(), name_of(*system), default_system));
     start_threads(options.threads);
     return load_scene(options.scene, {options.particles, options.preset, options.set});
 }

@@ -39,6 +39,9 @@ void add_gl_options(Verb& verb, RunOptions& options);
 void add_trace_option(Verb& verb, std::filesystem::path& trace);
 void check_scene_or_trace(const Call& call, const RunOptions& options, const std::filesystem::path& trace);
 
+/// Throws Error where no file is named so; says which is, beside it or among the scenes that come with lockstep.
+void check_scene_exists(const std::filesystem::path& scene);
+
 /// Loads the scene and sets the thread count.
 Scene load(const RunOptions& options);
 

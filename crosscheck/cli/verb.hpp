@@ -10,7 +10,7 @@ namespace lockstep {
 
 /// How often a value is given: once; several times, `--set a=1 --set b=2`, or of an argument `a b`; or as a list,
 /// `--counts 1,2`.
-enum class Values { one, repeated, list };
+enum class GivenValues { one, repeated, list };
 
 /// An option, a flag or an argument of a verb, as data. option_values.hpp makes them.
 struct Option {
@@ -19,7 +19,7 @@ struct Option {
     std::string description; ///< for help and the manual
     /// Keeps the values given, at least one, of a flag none. Returns what is wrong with them, or nothing.
     std::function<std::string(std::span<const std::string> values)> keep;
-    Values values = Values::one;
+    GivenValues values = GivenValues::one;
     bool required = false;
 };
 

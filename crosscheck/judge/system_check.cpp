@@ -309,4 +309,18 @@ std::vector<ToldValue> SystemRun::told(std::size_t item) {
     return told;
 }
 
+ReferenceRun::ReferenceRun(const System& system, Profile profile)
+    : system_(system), profile_(std::move(profile)), state_(system.start) {
+    check_system(system);
+}
+
+void ReferenceRun::step(int frame) {
+    for (const auto& pass : system_.passes) {
+        const SystemState before = state_;
+        run_pass(*pass, {before.view(), frame}, profile_, state_[pass->resource()]);
+    }
+}
+
+std::uint64_t ReferenceRun::hash() const { return hash_of(state_); }
+
 } // namespace lockstep

@@ -12,6 +12,23 @@ class SystemSide;
 /// compared.
 CheckReport check(const System& system, SystemSide& gpu, const CheckOptions& options);
 
+/// The reference alone, from the start. Needs no GL.
+class ReferenceRun {
+  public:
+    /// `system` outlives this. Throws Error as check() does for a system that cannot be run.
+    ReferenceRun(const System& system, Profile profile);
+    /// Frame `frame`; frames come in order, from 0.
+    void step(int frame);
+    [[nodiscard]] const SystemState& state() const { return state_; }
+    /// Of all buffers and images.
+    [[nodiscard]] std::uint64_t hash() const;
+
+  private:
+    const System& system_;
+    Profile profile_;
+    SystemState state_;
+};
+
 /// What a run of both sides came to in one pass of one frame, for a look into it.
 class SystemRun {
   public:

@@ -214,7 +214,10 @@ std::string item_capsule_file(const ItemCapsule& capsule, const System& system) 
 
 ItemCapsule load_item_capsule(const std::filesystem::path& file, const System& system) {
     const json document = read_json(file);
-    const JsonValue value(document, file.string());
+    return read_item_capsule(JsonValue(document, file.string()), system);
+}
+
+ItemCapsule read_item_capsule(const JsonValue& value, const System& system) {
     if (!value.find("lockstep_item_capsule"))
         value.fail("no capsule of an item: the key \"lockstep_item_capsule\" is missing");
     static_cast<void>(value.at("lockstep_item_capsule").integer(version, version));

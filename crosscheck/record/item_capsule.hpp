@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "crosscheck/files/json_reader.hpp"
 #include "crosscheck/judge/item_verdict.hpp"
 #include "crosscheck/judge/system_check.hpp"
 #include "crosscheck/report/value_text.hpp"
@@ -32,6 +33,7 @@ std::string item_capsule_file(const ItemCapsule& capsule, const System& system);
 
 /// Throws Error naming the key and what it may be, and for a capsule of another system.
 ItemCapsule load_item_capsule(const std::filesystem::path& file, const System& system);
+ItemCapsule read_item_capsule(const JsonValue& capsule, const System& system);
 
 /// What explain_item says of the run's item.
 std::string item_capsule_text(const ItemCapsule& capsule, const System& system,

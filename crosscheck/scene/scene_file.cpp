@@ -69,6 +69,8 @@ Scene load_scene(const std::filesystem::path& file, const SceneOptions& options)
 
     const nlohmann::json document = read_json(file);
     const JsonValue json(document, file.string());
+    if (const auto system = json.find("system"))
+        static_cast<void>(system->choice({"collision"}));
     json.check_keys(scene_keys);
     Scene scene;
     scene.name = plain_line(file.stem().string());

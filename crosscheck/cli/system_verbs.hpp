@@ -1,0 +1,46 @@
+#pragma once
+#include <filesystem>
+#include <optional>
+#include <span>
+#include <string>
+#include <string_view>
+
+#include "crosscheck/cli/run_options.hpp"
+#include "crosscheck/cli/systems.hpp"
+#include "crosscheck/judge/check.hpp"
+#include "crosscheck/judge/legal.hpp"
+
+namespace lockstep {
+
+/// What `lockstep check` is asked of a scene of a registered system.
+struct SystemCheck {
+    CheckMode mode = CheckMode::resync;
+    Legal legal = Legal::measured;
+    PassRules rules;
+    std::filesystem::path json;
+    bool quiet = false;
+};
+
+/// One item of one pass.
+struct SystemItem {
+    int frame = 0;
+    std::string pass; ///< by name, or by number; empty: the first
+    std::string item; ///< its number
+    Legal legal = Legal::measured;
+    bool hexadecimal = false;
+};
+
+/// The options of `lockstep check` that such a scene has.
+std::span<const std::string_view> system_check_options();
+
+// The verbs for a scene of a registered system. Each returns the exit status, or throws Error.
+int check_system(const RegisteredSystem& system, const RunOptions& run, const SystemCheck& asked);
+int explain_system(const RegisteredSystem& system, const RunOptions& run, const SystemItem& item);
+int hash_system(const RegisteredSystem& system, const RunOptions& run, const std::string& profile, bool every);
+int cut_system(const RegisteredSystem& system, const RunOptions& run, const SystemItem& item,
+               const std::filesystem::path& output);
+
+/// Shows a capsule that cut_system wrote; nothing if `file` is no such capsule.
+std::optional<int> show_system(const std::filesystem::path& file, bool hexadecimal);
+
+} // namespace lockstep

@@ -1,0 +1,28 @@
+#pragma once
+#include <filesystem>
+#include <span>
+#include <string>
+
+#include <string_view>
+
+namespace lockstep {
+
+class JsonValue;
+struct RegisteredSystem;
+
+/// The system that a scene without "system" is of. It has a state and verbs of its own.
+inline constexpr std::string_view default_system = "collision";
+
+/// Every other that scene files may name.
+std::span<const RegisteredSystem> registered_systems();
+
+std::string_view name_of(const RegisteredSystem& system);
+
+/// The registered system of a scene file; null where it is the default one's. Throws Error, with the names there are,
+/// where it is of none. A file that cannot be read twice, a pipe, is the default system's.
+const RegisteredSystem* system_of_scene(const std::filesystem::path& file);
+
+/// The same of a scene that was read.
+const RegisteredSystem* system_of_scene(const JsonValue& scene);
+
+} // namespace lockstep

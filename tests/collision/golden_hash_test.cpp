@@ -7,7 +7,6 @@
 #include "reference/model/collision/collision_state.hpp"
 #include "reference/model/state_hash.hpp"
 #include "tests/golden.hpp"
-#include "tests/skip.hpp"
 
 using namespace lockstep;
 using test::Golden;
@@ -25,15 +24,8 @@ std::optional<std::string> hash_of(const Golden& golden) {
     return hash_text(state_hash(reference.particles(), reference.cdt()));
 }
 
-/// A scene whose mesh is missing has proved nothing.
-void skip_missing_meshes() {
-    const std::string missing = test::scenes_without_mesh();
-    if (!missing.empty())
-        test::skip(missing, "LOCKSTEP_REQUIRE_MESHES");
-}
-
 void check(const Golden& golden) {
-    INFO(fmt::format("{}, {}, {}; if it was meant to change, scripts/golden_hashes.sh", golden.scene, golden.preset,
+    INFO(fmt::format("{}, {}, {}; if it was meant to change, scripts/golden_hashes.py", golden.scene, golden.preset,
                      golden.profile));
     if (const auto hash = hash_of(golden))
         CHECK(*hash == golden.hash);
@@ -46,14 +38,14 @@ TEST_CASE("golden hash: every shipped scene has its own") {
 }
 
 TEST_CASE("golden hash: every preset comes to it", "[levels]") {
-    skip_missing_meshes();
+    test::skip_missing_meshes();
     for (const Golden& golden : test::golden_hashes())
         if (golden.profile == (golden.preset == "paper" ? "llvmpipe" : "strict"))
             check(golden);
 }
 
 TEST_CASE("golden hash: one for every order of sums, which the exact preset does not depend on") {
-    skip_missing_meshes();
+    test::skip_missing_meshes();
     for (const Golden& golden : test::golden_hashes()) {
         if (golden.profile == (golden.preset == "paper" ? "strict" : "llvmpipe"))
             check(golden);
@@ -64,7 +56,7 @@ TEST_CASE("golden hash: one for every order of sums, which the exact preset does
 }
 
 TEST_CASE("golden hash: the same for 1, 2 and 4 threads") {
-    skip_missing_meshes();
+    test::skip_missing_meshes();
     const int before = omp_get_max_threads();
     for (const int threads : {1, 2, 4}) {
         omp_set_num_threads(threads);

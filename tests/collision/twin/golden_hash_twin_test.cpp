@@ -16,8 +16,7 @@ TEST_CASE("golden hash twin: the shaders come to it by themselves") {
     const auto context = test::open_llvmpipe();
     if (!context)
         return;
-    if (const std::string missing = test::scenes_without_mesh(); !missing.empty())
-        test::skip(missing, "LOCKSTEP_REQUIRE_MESHES");
+    test::skip_missing_meshes();
     for (const test::Golden& golden : test::golden_hashes()) {
         const std::optional<Scene> scene = golden.profile == "llvmpipe" ? golden.load() : std::nullopt;
         if (!scene)

@@ -7,8 +7,8 @@
 #include <glm/mat4x4.hpp>
 #include <glm/vec3.hpp>
 
+#include "reference/model/arithmetic_switch.hpp"
 #include "reference/model/dust/switches.hpp"
-#include "reference/model/switches.hpp"
 
 namespace lockstep::dust {
 

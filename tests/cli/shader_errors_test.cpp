@@ -7,6 +7,7 @@
 
 #include "tests/cli/cli_checks.hpp"
 #include "tests/planted_shader.hpp"
+#include "tests/skip.hpp"
 #include "tests/temporary_folder.hpp"
 
 using namespace lockstep;
@@ -230,5 +231,7 @@ TEST_CASE("shader_errors: a storage buffer that nobody binds is refused on a GL 
     const test::Outcome old = run({.environment = {{"MESA_GL_VERSION_OVERRIDE", "4.2"},
                                                    {"MESA_EXTENSION_OVERRIDE", "-GL_ARB_program_interface_query"}}});
     CHECK(old.status == 2); // Mesa says on standard output what it leaves out
+    if ((old.out + old.err).find("cannot be disabled") != std::string::npos)
+        return test::skip("this Mesa does not leave out GL_ARB_program_interface_query when asked to", "");
     CHECK_THAT(old.err, Catch::Contains("nothing is given for storage buffer Step, and this GL is too old to tell"));
 }

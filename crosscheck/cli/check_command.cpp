@@ -13,6 +13,7 @@
 #include "crosscheck/cli/judging_options.hpp"
 #include "crosscheck/cli/option_values.hpp"
 #include "crosscheck/cli/run_options.hpp"
+#include "crosscheck/cli/stress_check.hpp"
 #include "crosscheck/cli/system_verbs.hpp"
 #include "crosscheck/files/json_text.hpp"
 #include "crosscheck/files/output_files.hpp"
@@ -53,6 +54,8 @@ struct Options {
     Legal legal = Legal::measured;
     PassRules rules;
     bool render = false;
+    bool stress = false; ///< the stress scenes instead of one
+    bool power = false;  ///< list the mistakes that would have shown
     bool quiet = false;
 };
 
@@ -248,6 +251,7 @@ int check_and_tell(const Options& options, OutputFiles& files, const Checked& ch
         return status_interrupted;
     }
     CheckReport& report = *compared;
+    ask_power(report, options.rules.power_at_least);
 
     if (render)
         judge_last(options, checked, earlier, report);
@@ -255,7 +259,8 @@ int check_and_tell(const Options& options, OutputFiles& files, const Checked& ch
     if (!options.quiet) {
         if (report.partial())
             fmt::print("interrupted after {} of {} frames\n", report.frames, options.run.frames);
-        fmt::print("{}", plain_text(report_text(report, run)));
+        fmt::print("{}{}", plain_text(report_text(report, run)),
+                   options.power ? power_text(report.power) : std::string());
         std::fflush(stdout);
     }
     if (collector) {
@@ -338,6 +343,20 @@ int run_trace(Options options) {
 
 } // namespace
 
+namespace {
+
+void check_stress_options(const Call& call, const Options& options) {
+    static constexpr std::array<std::string_view, 16> allowed{
+        "--stress",       "--frames", "--preset",          "--set",          "--threads",        "--gl",    "--shaders",
+        "--allow-unused", "--legal",  "--allow-undefined", "--require-hits", "--power-at-least", "--power", "--json",
+        "--quiet",        "--help"};
+    if (!options.run.scene.empty())
+        throw Error("check: a scene does not go with --stress, which brings its own");
+    check_options(call, "--stress", allowed);
+}
+
+} // namespace
+
 Verb report_command() {
     auto options = std::make_shared<Options>();
     options->report = ".";
@@ -379,19 +398,29 @@ Verb check_command() {
     verb.add(path_option("--report", "DIR", options->report,
                          "write report.html, a page that opens in any browser; with what study.json there says"));
     verb.add(flag("--render", options->render, "judge the rendered frame, too, the last one"));
+    verb.add(flag("--power", options->power, "list which mistakes the run would have shown, and why not the others"));
+    verb.add(flag("--stress", options->stress,
+                  "instead of a scene: all of data/scenes/stress, small ones in which mistakes show"));
     verb.add(flag("--quiet", options->quiet, "no report, only the exit status"));
     verb.footer =
         "Exit status: 0 every bit agrees, or what differs is legal (rounding, ties); 1 divergent, undefined "
-        "without --allow-undefined, any difference in free mode, or no hit with --require-hits; 2 could not run; "
+        "without --allow-undefined, any difference in free mode, no hit with --require-hits, or less power than "
+        "--power-at-least; 2 could not run; "
         "130 ended by Ctrl-C, with a verdict on the frames before.\n"
         "Example: lockstep check data/scenes/lattice.json --frames 100 --preset paper";
     verb.run = [options](const Call& call) {
+        if (options->stress) {
+            check_stress_options(call, *options);
+            return check_stress(
+                {options->run, options->legal, options->rules, options->json, options->power, options->quiet});
+        }
         check_scene_or_trace(call, options->run, options->trace);
         options->frames_given = call.has("--frames");
         if (const RegisteredSystem* system = options->trace.empty() ? system_of_scene(options->run.scene) : nullptr) {
             check_options(call, fmt::format("a scene of system {}", name_of(*system)), system_check_options());
-            return check_system(*system, options->run,
-                                {options->mode, options->legal, options->rules, options->json, options->quiet});
+            return check_system(
+                *system, options->run,
+                {options->mode, options->legal, options->rules, options->json, options->power, options->quiet});
         }
         return options->trace.empty() ? run_scene(*options) : run_trace(*options);
     };

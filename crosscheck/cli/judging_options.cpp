@@ -14,6 +14,8 @@ void add_legal_option(Verb& verb, Legal& legal) {
 void add_pass_options(Verb& verb, PassRules& rules) {
     verb.add(flag("--allow-undefined", rules.allow_undefined, "do not fail on what rests on what GL leaves open"));
     verb.add(flag("--require-hits", rules.require_hits, "fail where nothing collided, so that little was tried"));
+    verb.add(share_option("--power-at-least", rules.power_at_least,
+                          "fail where the run would have shown fewer of the mistakes with names: 95%, 0.95"));
 }
 
 } // namespace lockstep

@@ -7,7 +7,7 @@ namespace lockstep {
 
 void add_legal_option(Verb& verb, Legal& legal);
 
-/// --allow-undefined and --require-hits.
+/// --allow-undefined, --require-hits and --power-at-least.
 void add_pass_options(Verb& verb, PassRules& rules);
 
 } // namespace lockstep

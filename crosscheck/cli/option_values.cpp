@@ -129,6 +129,22 @@ Option seconds_option(std::string name, double& target, std::string description)
     return {std::move(name), "S", std::move(description), keep};
 }
 
+Option share_option(std::string name, double& target, std::string description) {
+    const auto keep = [&target](Texts texts) {
+        std::string text = texts.front();
+        const bool percent = text.ends_with('%');
+        if (percent)
+            text.pop_back();
+        const std::optional<double> value = number<double>(text);
+        const double most = percent ? 100.0 : 1.0;
+        if (!value || !(*value >= 0.0 && *value <= most))
+            return fmt::format("'{}' is not a share, as 95% or 0.95", texts.front());
+        target = *value / most;
+        return std::string();
+    };
+    return {std::move(name), "SHARE", std::move(description), keep};
+}
+
 Option named_option(std::string name, std::vector<std::string> choices, std::function<void(std::size_t)> choose,
                     std::string description) {
     std::string value = fmt::format("{}", fmt::join(choices, "|"));

@@ -40,6 +40,9 @@ Option integers_option(std::string name, std::string value, IntegerRange range, 
 /// A time that ends: seconds above 0.
 Option seconds_option(std::string name, double& target, std::string description);
 
+/// A share: "95%" or "0.95".
+Option share_option(std::string name, double& target, std::string description);
+
 /// One of a few names, given to `choose` by its place among them.
 Option named_option(std::string name, std::vector<std::string> choices, std::function<void(std::size_t)> choose,
                     std::string description);

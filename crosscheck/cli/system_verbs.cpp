@@ -140,9 +140,10 @@ int status_of(const ItemCapsule& capsule, const System& system) {
 } // namespace
 
 std::span<const std::string_view> system_check_options() {
-    static constexpr std::array<std::string_view, 13> options{
-        "scene",    "--particles",    "--preset", "--set",   "--threads",         "--gl",   "--shaders",
-        "--frames", "--allow-unused", "--mode",   "--legal", "--allow-undefined", "--quiet"};
+    static constexpr std::array<std::string_view, 15> options{
+        "--power",        "--power-at-least", "scene",   "--particles",       "--preset",
+        "--set",          "--threads",        "--gl",    "--shaders",         "--frames",
+        "--allow-unused", "--mode",           "--legal", "--allow-undefined", "--quiet"};
     return options;
 }
 
@@ -161,7 +162,8 @@ int check_system(const RegisteredSystem& system, const RunOptions& run, const Sy
     options.mode = asked.mode;
     options.frames = run.frames;
     options.known = known_operations(asked.legal, side.describe().profile);
-    const CheckReport report = run_both(twins, side, options, asked.quiet);
+    CheckReport report = run_both(twins, side, options, asked.quiet);
+    ask_power(report, asked.rules.power_at_least);
 
     const int frames = report.first_frame ? *report.first_frame + 1 : report.frames;
     RunDescription about = describe_run(twins, side.describe(), options, check_line(run, asked, frames));
@@ -177,7 +179,8 @@ int check_system(const RegisteredSystem& system, const RunOptions& run, const Sy
     if (!asked.quiet) {
         if (report.partial())
             fmt::print("interrupted after {} of {} frames\n", report.frames, run.frames);
-        fmt::print("{}", plain_text(report_text(report, about)));
+        fmt::print("{}{}", plain_text(report_text(report, about)),
+                   asked.power ? power_text(report.power) : std::string());
     }
     if (!asked.json.empty())
         files.write(asked.json, json_text(report_json(report, about)));

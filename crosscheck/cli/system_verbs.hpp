@@ -18,6 +18,7 @@ struct SystemCheck {
     Legal legal = Legal::measured;
     PassRules rules;
     std::filesystem::path json;
+    bool power = false; ///< list the mistakes that would have shown
     bool quiet = false;
 };
 

@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 
 #include "crosscheck/judge/cause.hpp"
+#include "crosscheck/judge/collision_power.hpp"
 #include "crosscheck/judge/diagnosis.hpp"
 #include "crosscheck/judge/drawn_cause.hpp"
 #include "crosscheck/judge/item_cause.hpp"
@@ -104,7 +105,7 @@ class RunJudge {
     /// `has_cdt`: texels are judged too.
     RunJudge(const Scene& scene, const Profile& profile, const KnownOperations& known, bool has_cdt)
         : scene_(scene), profile_(profile), known_(known), has_cdt_(has_cdt), named_(named_mistakes()),
-          step_causes_(named_), power_(named_) {
+          step_causes_(named_), listing_power_(scene, profile, known), power_(named_) {
         summary_.judges_leans = can_judge_leans(known, profile);
     }
 
@@ -125,8 +126,14 @@ class RunJudge {
         return verdicts;
     }
 
-    /// Tries on a frame's own states which mistakes would have shown: in all of the first frames, then in some.
+    /// Tries on a frame's own states which mistakes would have shown.
     void measure_power(const RunFrame& f) {
+        if (is_listing(scene_.switches)) {
+            const FrameParams earlier_params = frame_params(scene_, std::max(f.number - 1, 0));
+            FrameInputs inputs = frame_inputs(f, earlier_params);
+            inputs.drawn_cdt = &f.reference.cdt();
+            return listing_power_.add({f.number, inputs, f.reference.particles()});
+        }
         constexpr int first_frames = 8;
         if ((f.number >= first_frames && f.number % first_frames != 0) || power_.has_seen_all())
             return;
@@ -141,7 +148,9 @@ class RunJudge {
         const View reference = view(f.reference.particles());
         power_.add({*pass, profile_, known_, f.number, before, reference, reference}, hits);
     }
-    [[nodiscard]] PowerSummary power() const { return power_.summary(); }
+    [[nodiscard]] PowerSummary power() const {
+        return is_listing(scene_.switches) ? listing_power_.summary() : power_.summary();
+    }
 
     /// By which what diverges is legal, where that is judged by what was measured.
     [[nodiscard]] std::optional<Legal> wider_rule() const { return hint_.rule(); }
@@ -178,22 +187,27 @@ class RunJudge {
                 drawn_causes_.add(judged, f.earlier != nullptr ? &f.earlier->cdt : nullptr, verdicts.texels);
             return with_step_pass(judged, [&](const JudgedPass& pass) { step_causes_.add(pass, verdicts.particles); });
         }
+        const FrameParams earlier_params = frame_params(scene_, std::max(f.number - 1, 0));
+        causes_.add(judged, verdicts, frame_inputs(f, earlier_params));
+    }
+
+    static FrameInputs frame_inputs(const RunFrame& f, const FrameParams& earlier_params) {
         FrameInputs inputs{
             .before = &f.before.particles, .cdt = &f.before.cdt, .params = &f.params, .drawn_cdt = &f.gpu.cdt};
-        const FrameParams earlier_params = frame_params(scene_, std::max(f.number - 1, 0));
         if (f.earlier != nullptr) {
             inputs.earlier = &f.earlier->particles;
             inputs.earlier_cdt = &f.earlier->cdt;
             inputs.earlier_params = &earlier_params;
         }
-        causes_.add(judged, verdicts, inputs);
+        return inputs;
     }
 
     /// The catalogue's mistakes of the step, in any pass that makes it.
-    static std::vector<NamedMistake> named_mistakes() {
+    [[nodiscard]] std::vector<NamedMistake> named_mistakes() const {
         std::vector<NamedMistake> named;
         for (const DeviationInfo& info : deviation_table())
-            if (const auto mistake = step_mistake(info.deviation))
+            if (const auto mistake = step_mistake(info.deviation);
+                mistake && !is_no_mistake(info.deviation, scene_.switches, profile_))
                 for (const char* pass : {"collision_pass", "octree_pass", "layered_collision_pass"})
                     if (has_site(pass, mistake->site))
                         named.push_back({std::string(info.name), std::string(info.meaning), pass, *mistake});
@@ -212,6 +226,7 @@ class RunJudge {
     std::vector<NamedMistake> named_;
     ItemCauseFinder step_causes_;
     DrawnCauseFinder drawn_causes_;
+    CollisionPower listing_power_;
     PowerMeter power_;
 };
 
@@ -239,6 +254,17 @@ Verdict verdict_on(const CheckReport& report) {
     if (report.verdicts->total(DifferenceClass::divergent) > 0)
         return Verdict::divergent;
     return report.verdicts->total(DifferenceClass::undefined) > 0 ? Verdict::undefined : Verdict::legal;
+}
+
+void ask_power(CheckReport& report, double at_least) {
+    if (at_least <= 0.0 || report.verdict == Verdict::nondeterministic)
+        return;
+    if (!report.verdicts)
+        throw Error("power: what is not judged step by step shows no mistakes; right is mode resync");
+    if (report.power.share() < at_least && report.verdict != Verdict::divergent)
+        report.untried.emplace_back(fmt::format("{} of {} mistakes would have shown ({:.1f} %; asked for are {:.4g} %)",
+                                                report.power.seen(), report.power.mistakes.size(),
+                                                100.0 * report.power.share(), 100.0 * at_least));
 }
 
 void add_rendered(CheckReport& report, RenderVerdict rendered) {

@@ -88,17 +88,23 @@ struct CheckReport {
 /// What passes besides agree and legal, and what does not although they do.
 struct PassRules {
     bool allow_undefined = false;
-    bool require_hits = false; ///< a run in which nothing collided fails
+    bool require_hits = false;   ///< a run in which nothing collided fails
+    double power_at_least = 0.0; ///< one that would have shown a smaller share of the mistakes with names, too
 };
 
 [[nodiscard]] inline bool passes(const CheckReport& report, const PassRules& rules = {}) {
     const bool fits = report.verdict == Verdict::agree || report.verdict == Verdict::legal ||
                       (report.verdict == Verdict::undefined && rules.allow_undefined);
-    return fits && !report.partial() && !(rules.require_hits && report.hits == 0);
+    return fits && !report.partial() && !(rules.require_hits && report.hits == 0) &&
+           report.power.share() >= rules.power_at_least;
 }
 
 /// What the counts of a run come to.
 [[nodiscard]] Verdict verdict_on(const CheckReport& report);
+
+/// Where the run shows a smaller share of the mistakes than is asked for, its verdict says so. Throws Error in free
+/// mode, which judges no step.
+void ask_power(CheckReport& report, double at_least);
 
 /// Takes up the verdict on a rendered frame of the run: the run's is the worse of both.
 void add_rendered(CheckReport& report, RenderVerdict rendered);

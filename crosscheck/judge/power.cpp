@@ -2,56 +2,90 @@
 
 #include <algorithm>
 #include <array>
-#include <cstdint>
 
 #include "crosscheck/judge/item_sample.hpp"
 #include "reference/parallel_blocks.hpp"
 
 namespace lockstep {
 
+MistakenItem judge_mistaken(const JudgedPass& p, std::size_t item, std::span<const std::uint32_t> words) {
+    const Resource& about = p.reference.about();
+    bool same = true;
+    std::size_t at = 0;
+    for (const Component& c : components(about))
+        same = same && same_bits(Value{about.fields[c.field].scalar, words[at++]},
+                                 p.reference.value(c.field, item, c.component));
+    if (same)
+        return MistakenItem::same;
+    const auto outcomes = p.pass.outcomes(p.input(), item, p.profile, p.known, nullptr);
+    const bool legal = std::any_of(outcomes.begin(), outcomes.end(),
+                                   [&](const ItemOutcome& outcome) { return outcome.contains(words, about); });
+    return legal ? MistakenItem::legal : MistakenItem::divergent;
+}
+
+std::vector<std::size_t> items_to_try(const JudgedPass& p, const std::vector<std::size_t>& telling, std::size_t most) {
+    std::vector<std::size_t> items = sample(telling, most / 2);
+    const std::size_t count = p.reference.count(), others = std::min(most - items.size(), count);
+    for (std::size_t i = 0; i < others; ++i)
+        items.push_back((i * count / others + static_cast<std::size_t>(p.frame) * 7) % count);
+    return items;
+}
+
 void PowerMeter::add(const JudgedPass& p, const std::vector<std::size_t>& telling) {
-    if (std::find(passes_.begin(), passes_.end(), p.pass.name()) == passes_.end())
-        passes_.emplace_back(p.pass.name());
     std::vector<std::size_t> unseen;
     for (std::size_t m = 0; m < named_.size(); ++m)
-        if (!seen_[m] && named_[m].pass == p.pass.name())
-            unseen.push_back(m);
-    const std::size_t count = p.reference.count();
-    if (unseen.empty() || count == 0)
+        if (named_[m].pass == p.pass.name()) {
+            tried_[m].passed = true;
+            if (tried_[m].first_frame < 0)
+                unseen.push_back(m);
+        }
+    if (unseen.empty() || p.reference.count() == 0)
         return;
-    std::vector<std::size_t> items = sample(telling, tried_a_frame / 2);
-    for (std::size_t i = 0; i < tried_a_frame / 2; ++i) // others in every frame
-        items.push_back((i * count / (tried_a_frame / 2) + static_cast<std::size_t>(p.frame) * 7) % count);
-    const Resource& about = p.reference.about();
-    std::vector<char> shown(unseen.size());
+    const std::vector<std::size_t> items = items_to_try(p, telling, tried_a_frame);
+    std::vector<std::vector<SeenSite>> sites(items.size());
+    parallel_blocks(static_cast<std::ptrdiff_t>(items.size()), [&](std::ptrdiff_t i) {
+        const auto at = static_cast<std::size_t>(i);
+        sites[at] = p.pass.sites(p.input(), items[at], p.profile);
+    });
+    std::set<std::uint32_t> reached;
+    for (const std::vector<SeenSite>& of_item : sites)
+        for (const SeenSite& seen : of_item)
+            reached.insert(seen.site->id);
     parallel_blocks(static_cast<std::ptrdiff_t>(unseen.size()), [&](std::ptrdiff_t u) {
-        const std::array made{named_[unseen[static_cast<std::size_t>(u)]].mistake};
+        const std::size_t m = unseen[static_cast<std::size_t>(u)];
+        const std::array made{named_[m].mistake};
+        tried_[m].reached = tried_[m].reached || reached.contains(made[0].site);
         for (const std::size_t item : items) {
-            const std::vector<std::uint32_t> words = p.pass.mistaken(p.input(), item, p.profile, made);
-            if (words == item_words(p.reference, item))
-                continue;
-            const auto outcomes = p.pass.outcomes(p.input(), item, p.profile, p.known, nullptr);
-            if (std::none_of(outcomes.begin(), outcomes.end(),
-                             [&](const ItemOutcome& o) { return o.contains(words, about); })) {
-                shown[static_cast<std::size_t>(u)] = 1;
+            const MistakenItem is = judge_mistaken(p, item, p.pass.mistaken(p.input(), item, p.profile, made));
+            tried_[m].changes = tried_[m].changes || is != MistakenItem::same;
+            if (is == MistakenItem::divergent) {
+                tried_[m].first_frame = p.frame;
                 break;
             }
         }
     });
-    for (std::size_t u = 0; u < unseen.size(); ++u)
-        seen_[unseen[u]] = shown[u] != 0;
 }
 
-bool PowerMeter::has_seen_all() const { return !passes_.empty() && summary().unseen.empty(); }
+bool PowerMeter::has_seen_all() const {
+    const PowerSummary now = summary();
+    return !now.mistakes.empty() && now.seen() == now.mistakes.size();
+}
 
 PowerSummary PowerMeter::summary() const {
     PowerSummary summary;
     for (std::size_t m = 0; m < named_.size(); ++m) {
-        if (std::find(passes_.begin(), passes_.end(), named_[m].pass) == passes_.end())
+        const Tried& tried = tried_[m];
+        if (!tried.passed)
             continue;
-        ++summary.mistakes;
-        if (!seen_[m])
-            summary.unseen.push_back(named_[m].name);
+        PowerSummary::Mistake& mistake = summary.mistakes.emplace_back();
+        mistake.name = named_[m].name;
+        mistake.meaning = named_[m].meaning;
+        if (tried.first_frame >= 0)
+            mistake.first_frame = tried.first_frame;
+        else
+            mistake.why_not = tried.changes   ? "what it changes is legal, too"
+                              : tried.reached ? "it changes nothing in these states"
+                                              : "nothing that was tried came to where it is made";
     }
     return summary;
 }

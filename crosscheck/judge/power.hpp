@@ -1,6 +1,8 @@
 #pragma once
 #include <cstddef>
-#include <string>
+#include <cstdint>
+#include <set>
+#include <span>
 #include <vector>
 
 #include "crosscheck/judge/power_summary.hpp"
@@ -10,12 +12,12 @@ namespace lockstep {
 
 /// Makes each named mistake in the twin of a pass, on items of the frames as they were. A mistake would have shown
 /// where what it makes of an item lies in no legal outcome. Each frame a few items are tried, first of those that
-/// decided otherwise than most, and of a mistake that has shown none.
+/// decided otherwise than most, and of a mistake that has not shown yet.
 class PowerMeter {
   public:
     static constexpr std::size_t tried_a_frame = 48;
 
-    explicit PowerMeter(const std::vector<NamedMistake>& named) : named_(named), seen_(named.size()) {}
+    explicit PowerMeter(const std::vector<NamedMistake>& named) : named_(named), tried_(named.size()) {}
 
     /// A frame's pass, as the reference made it. `telling`: items that are worth a try more than others.
     void add(const JudgedPass& pass, const std::vector<std::size_t>& telling);
@@ -27,9 +29,23 @@ class PowerMeter {
     [[nodiscard]] PowerSummary summary() const;
 
   private:
+    /// What became of a mistake.
+    struct Tried {
+        bool passed = false; ///< its pass was run
+        bool reached = false, changes = false;
+        int first_frame = -1;
+    };
+
     const std::vector<NamedMistake>& named_;
-    std::vector<bool> seen_;
-    std::vector<std::string> passes_;
+    std::vector<Tried> tried_;
 };
+
+/// How an item's words, made with a mistake, stand to what the item may legally become.
+enum class MistakenItem : std::uint8_t { same, legal, divergent };
+MistakenItem judge_mistaken(const JudgedPass& pass, std::size_t item, std::span<const std::uint32_t> words);
+
+/// At most `most` items, half of them of `telling`, the others from everywhere, others in every frame.
+std::vector<std::size_t> items_to_try(const JudgedPass& pass, const std::vector<std::size_t>& telling,
+                                      std::size_t most);
 
 } // namespace lockstep

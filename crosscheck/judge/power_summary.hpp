@@ -1,5 +1,8 @@
 #pragma once
+#include <algorithm>
 #include <cstddef>
+#include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -8,10 +11,27 @@ namespace lockstep {
 /// How much a run proved: of the mistakes that have names, those that would have shown in the states that it really
 /// had.
 struct PowerSummary {
-    std::size_t mistakes = 0;
-    std::vector<std::string> unseen; ///< that no item tried would have shown, in the table's order
+    struct Mistake {
+        std::string name, meaning;
+        std::optional<int> first_frame = {}; ///< in which it would have shown
+        std::string why_not = {};            ///< else; "no hit had two in range"
+    };
+    /// Something in which mistakes show, and how often the run had it.
+    struct Situation {
+        std::string name; ///< "hits with two in range"
+        std::uint64_t count = 0;
+    };
+    std::vector<Mistake> mistakes; ///< those that would be mistakes with the run's switches
+    std::vector<Situation> situations;
 
-    [[nodiscard]] std::size_t seen() const { return mistakes - unseen.size(); }
+    [[nodiscard]] std::size_t seen() const {
+        return static_cast<std::size_t>(std::count_if(mistakes.begin(), mistakes.end(),
+                                                      [](const Mistake& m) { return m.first_frame.has_value(); }));
+    }
+    /// 0 to 1; 0 where nothing was tried.
+    [[nodiscard]] double share() const {
+        return mistakes.empty() ? 0.0 : static_cast<double>(seen()) / static_cast<double>(mistakes.size());
+    }
 };
 
 } // namespace lockstep

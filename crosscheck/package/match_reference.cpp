@@ -29,6 +29,10 @@ std::vector<std::string> own_arguments() {
     return words;
 }
 
+PassRules rules(const MatchOptions& options) {
+    return {options.allow_undefined, options.require_hits, options.power_at_least};
+}
+
 /// The lines that lead back to what differs.
 class CommandLines {
   public:
@@ -41,8 +45,7 @@ class CommandLines {
         const int frames = report.first_frame ? *report.first_frame + 1 : report.frames;
         return fmt::format("lockstep check {} --frames {}{}{}{}{}{}", scene_.origin, frames, *side_.arguments,
                            options_.mode == CheckMode::free ? " --mode free" : "", legal_option_text(options_.legal),
-                           options_.render ? " --render" : "",
-                           pass_options_text({options_.allow_undefined, options_.require_hits}));
+                           options_.render ? " --render" : "", pass_options_text(rules(options_)));
     }
 
     [[nodiscard]] std::string explain(const CheckReport& report) const {
@@ -83,6 +86,8 @@ MatchResult match_reference(GpuSide& gpu, const Scene& scene, const MatchOptions
     const auto* shaders = dynamic_cast<const UserShaders*>(&gpu);
     if (options.render && shaders == nullptr)
         throw Error("render: an engine of its own draws no frame that could be compared; UserShaders do");
+    if (!(options.power_at_least >= 0.0 && options.power_at_least <= 1.0))
+        throw Error(fmt::format("power_at_least({}): a share is from 0 to 1, as 0.95", options.power_at_least));
     const SideDescription side = gpu.describe();
     CheckOptions check_options;
     check_options.mode = options.mode;
@@ -90,6 +95,7 @@ MatchResult match_reference(GpuSide& gpu, const Scene& scene, const MatchOptions
     check_options.known = known_operations(options.legal, side.profile);
     CheckReport report = check(scene, side.profile, gpu, check_options);
 
+    ask_power(report, options.power_at_least);
     const CommandLines commands(scene, side, options);
     RunDescription run{fmt::format("{} ({})", scene.name, scene.origin.empty() ? "made in code" : scene.origin),
                        side.name,
@@ -107,7 +113,7 @@ MatchResult match_reference(GpuSide& gpu, const Scene& scene, const MatchOptions
         add_rendered(report, judge_rendered(last, nullptr, scene, report.frames - 1, side.profile, *check_options.known,
                                             shaders->folder()));
     }
-    const bool passed = passes(report, {options.allow_undefined, options.require_hits});
+    const bool passed = passes(report, rules(options));
     return {std::move(report), std::move(run), passed};
 }
 

@@ -58,7 +58,8 @@ MatchResult match_system(SystemSide& gpu, const System& system, const MatchOptio
     CheckReport report = check(system, gpu, check_options);
     RunDescription run =
         describe_run(system, side, check_options, options.repeat.empty() ? this_program({}) : options.repeat);
-    const bool passed = passes(report, {options.allow_undefined, false});
+    ask_power(report, options.power_at_least);
+    const bool passed = passes(report, {options.allow_undefined, false, options.power_at_least});
     return {std::move(report), std::move(run), passed};
 }
 

@@ -262,8 +262,9 @@ std::string render_line(const CheckReport& report, const RunDescription& run) {
 }
 
 std::string pass_options_text(const PassRules& rules) {
-    return fmt::format("{}{}", rules.allow_undefined ? " --allow-undefined" : "",
-                       rules.require_hits ? " --require-hits" : "");
+    return fmt::format("{}{}{}", rules.allow_undefined ? " --allow-undefined" : "",
+                       rules.require_hits ? " --require-hits" : "",
+                       rules.power_at_least > 0.0 ? fmt::format(" --power-at-least {}", rules.power_at_least) : "");
 }
 
 std::string verdict_words(const CheckReport& r) {
@@ -277,19 +278,78 @@ std::string verdict_words(const CheckReport& r) {
 
 namespace {
 
-/// "71 of 77 mistakes would have shown; not: a, b, c and 3 more".
-std::string power_line(const PowerSummary& power) {
-    constexpr std::size_t most_named = 4;
-    std::string text =
-        fmt::format("{} of {} named mistakes in the step would have shown", power.seen(), power.mistakes);
-    for (std::size_t i = 0; i < std::min(power.unseen.size(), most_named); ++i)
-        text += fmt::format("{}{}", i == 0 ? "; not: " : ", ", power.unseen[i]);
-    if (power.unseen.size() > most_named)
-        text += fmt::format(" and {} more", power.unseen.size() - most_named);
+/// "not: last_row_skipped, last_column_skipped (nothing collided)": a line a reason, all of them.
+std::vector<std::string> unseen_by_reason(const PowerSummary& power) {
+    std::vector<std::pair<std::string, std::string>> names; // by reason, in the order in which they come
+    for (const PowerSummary::Mistake& mistake : power.mistakes) {
+        if (mistake.first_frame)
+            continue;
+        const auto known =
+            std::find_if(names.begin(), names.end(), [&](const auto& entry) { return entry.first == mistake.why_not; });
+        if (known == names.end())
+            names.emplace_back(mistake.why_not, mistake.name);
+        else
+            known->second += ", " + mistake.name;
+    }
+    std::vector<std::string> lines;
+    for (const auto& [reason, of] : names)
+        lines.push_back(fmt::format("not: {} ({})", of, reason));
+    return lines;
+}
+
+/// "hits 1,200; hits with two in range 31".
+std::string situations_text(const PowerSummary& power) {
+    std::string text;
+    for (const PowerSummary::Situation& situation : power.situations)
+        text += fmt::format("{}{} {}", text.empty() ? "" : "; ", situation.name, grouped(situation.count));
     return text;
 }
 
 } // namespace
+
+std::string power_words(const PowerSummary& power) {
+    return fmt::format("{} of {} mistakes with names would have shown", power.seen(), power.mistakes.size());
+}
+
+std::string power_line(const PowerSummary& power) {
+    constexpr std::size_t most_named = 4;
+    std::string text = power_words(power);
+    std::size_t named = 0;
+    for (const PowerSummary::Mistake& mistake : power.mistakes)
+        if (!mistake.first_frame && named++ < most_named)
+            text += fmt::format("{}{} ({})", named == 1 ? "; not: " : ", ", mistake.name, mistake.why_not);
+    if (named > most_named)
+        text += fmt::format(" and {} more (--power lists them)", named - most_named);
+    return text;
+}
+
+nlohmann::json power_json(const PowerSummary& power) {
+    nlohmann::json unseen = nlohmann::json::array(), list = nlohmann::json::array(),
+                   situations = nlohmann::json::object();
+    for (const PowerSummary::Mistake& mistake : power.mistakes) {
+        nlohmann::json entry{{"name", mistake.name}, {"meaning", mistake.meaning}};
+        if (mistake.first_frame) {
+            entry["frame"] = *mistake.first_frame;
+        } else {
+            entry["why_not"] = mistake.why_not;
+            unseen.push_back(mistake.name);
+        }
+        list.push_back(std::move(entry));
+    }
+    for (const PowerSummary::Situation& situation : power.situations)
+        situations[situation.name] = situation.count;
+    return {{"mistakes", power.mistakes.size()}, {"seen", power.seen()},    {"share", power.share()},
+            {"unseen", std::move(unseen)},       {"list", std::move(list)}, {"situations", std::move(situations)}};
+}
+
+std::string power_text(const PowerSummary& power) {
+    std::string text = fmt::format("\n  {:<34} {:>11}\n", "mistake", "shows first");
+    for (const PowerSummary::Mistake& mistake : power.mistakes)
+        text += mistake.first_frame ? fmt::format("  {:<34} {:>11}  {}\n", mistake.name,
+                                                  fmt::format("frame {}", *mistake.first_frame), mistake.meaning)
+                                    : fmt::format("  {:<34} {:>11}  {}\n", mistake.name, "not", mistake.why_not);
+    return text;
+}
 
 std::string report_text(const CheckReport& r, const RunDescription& run) {
     std::string out;
@@ -311,8 +371,14 @@ std::string report_text(const CheckReport& r, const RunDescription& run) {
         line("hash", r.reference_hash == r.gpu_hash
                          ? fmt::format("{} on both sides after the last frame", hash_text(r.gpu_hash))
                          : fmt::format("reference {}, GPU {}", hash_text(r.reference_hash), hash_text(r.gpu_hash)));
-    if (r.power.mistakes > 0)
-        line("power", power_line(r.power));
+    if (!r.power.mistakes.empty()) {
+        const bool proves = r.verdict != Verdict::divergent; // else one mistake is enough to read about
+        line("power", proves ? power_words(r.power) : power_line(r.power));
+        if (!r.power.situations.empty())
+            line("", situations_text(r.power));
+        for (const std::string& reason : proves ? unseen_by_reason(r.power) : std::vector<std::string>())
+            line("", reason);
+    }
     line("render", render_line(r, run));
     if (r.rendered)
         for (const std::string& detail : render_details(*r.rendered))
@@ -413,7 +479,7 @@ nlohmann::json report_json(const CheckReport& r, const RunDescription& run) {
                 {"verdict_line", verdict_line(r)},
                 {"partial", r.partial()},
                 {"judged", r.verdicts.has_value()},
-                {"power", {{"mistakes", r.power.mistakes}, {"seen", r.power.seen()}, {"unseen", r.power.unseen}}},
+                {"power", power_json(r.power)},
                 {"legal_by", r.wider_rule ? json(legal_option_text(*r.wider_rule).substr(1)) : json()},
                 {"untried", r.untried},
                 {"scene", run.scene},

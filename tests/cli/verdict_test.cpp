@@ -203,6 +203,47 @@ TEST_CASE("verdict: a run in which nothing collided says so, and fails where hit
     CHECK(json_of(setting.report)["untried"].empty());
 }
 
+TEST_CASE("verdict: a run says which mistakes it would have shown, and fails where more is asked for") {
+    if (!test::have_software_gl())
+        return;
+    const Setting setting;
+    test::Outcome outcome = setting.check({"--frames", "6", "--power"});
+    CHECK(outcome.status == 0);
+    CHECK_THAT(outcome.out, Catch::Contains("\npower     ") &&
+                                Catch::Contains("mistakes with names would have shown") &&
+                                Catch::Contains("\n          hits ") && Catch::Contains("range_included"));
+    const nlohmann::json power = json_of(setting.report)["power"];
+    const auto seen = power["seen"].get<std::size_t>(), all = power["mistakes"].get<std::size_t>();
+    REQUIRE(seen > all / 2);
+    REQUIRE(seen < all);
+    CHECK(power["list"].size() == all);
+    CHECK(power["unseen"].size() == all - seen);
+    CHECK(power["share"].get<double>() == Approx(static_cast<double>(seen) / static_cast<double>(all)));
+    CHECK(setting.check({"--frames", "6", "--power-at-least", "50%"}).status == 0);
+    outcome = setting.check({"--frames", "6", "--power-at-least", "0.999"});
+    CHECK(outcome.status == 1);
+    CHECK_THAT(outcome.out, Catch::Contains("verdict   AGREE, but ") && Catch::Contains("asked for are 99.9 %"));
+    outcome = setting.check({"--frames", "6", "--power-at-least", "95"});
+    CHECK(outcome.status == 2);
+    CHECK_THAT(outcome.err, Catch::Contains("'95' is not a share, as 95% or 0.95"));
+    CHECK(setting.check({"--frames", "6", "--power-at-least", "95%", "--mode", "free"}).status == 2);
+}
+
+TEST_CASE("verdict: the stress scenes together show 99 of 100 mistakes, and each passes with the shipped shaders") {
+    if (!test::have_software_gl())
+        return;
+    const std::string preset = GENERATE("corrected", "paper", "exact");
+    const test::TemporaryFolder folder;
+    const std::string json = (folder.path() / "stress.json").string();
+    const test::Outcome outcome = run_lockstep({"check", "--stress", "--preset", preset, "--gl", test::software_gl(),
+                                                "--power-at-least", "99%", "--json", json});
+    INFO(outcome.out << outcome.err);
+    CHECK(outcome.status == 0);
+    CHECK_THAT(outcome.out, Catch::Contains("verdict   all 5 scenes pass"));
+    CHECK(json_of(json)["scenes"].size() == 5);
+    CHECK(run_lockstep({"check", "--stress", "--trace", "run.h5"}).status == 2);
+}
+
 TEST_CASE("verdict: a run that draws nothing says so") {
     if (!test::have_software_gl())
         return;

@@ -85,9 +85,20 @@ TEST_CASE("match_reference: where nothing collides, requiring hits fails") {
     CHECK_FALSE(match_reference(again, scene, {.frames = 4, .require_hits = true}).passed());
 }
 
+TEST_CASE("match_reference: where too few mistakes would have shown, a test that asks for more fails") {
+    const Scene scene = streams();
+    ReferenceEngine engine(scene), again(scene);
+    CHECK(match_reference(engine, scene, {.frames = 4, .power_at_least = 0.2}).passed());
+    const MatchResult result = match_reference(again, scene, {.frames = 4, .power_at_least = 0.95});
+    CHECK_FALSE(result.passed());
+    CHECK_THAT(result.text(), Contains("last_found_instead_of_nearest") && Contains("asked for are 95 %"));
+}
+
 TEST_CASE("match_reference: what would prove nothing is an error") {
     const Scene scene = streams();
     ReferenceEngine engine(scene);
+    CHECK_THROWS_WITH(match_reference(engine, scene, {.frames = 4, .power_at_least = 95}),
+                      "power_at_least(95): a share is from 0 to 1, as 0.95");
     CHECK_THROWS_WITH(match_reference(engine, scene, {.frames = 0}),
                       "x_streams: nothing was compared: 0 frames of 300 particles");
 }

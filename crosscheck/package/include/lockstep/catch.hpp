@@ -74,6 +74,10 @@ class MatchesReference : public CatchMatcher<GpuSide> {
         options_.require_hits = true;
         return *this;
     }
+    MatchesReference& power_at_least(double share) {
+        options_.power_at_least = share;
+        return *this;
+    }
 
     /// CHECK_THAT hands the side over as const, and it has to run: it is not to be a constant.
     bool match(const GpuSide& gpu) const override {
@@ -85,7 +89,8 @@ class MatchesReference : public CatchMatcher<GpuSide> {
             {"renderer", result.run().context},
             {"profile", result.run().profile},
             {"shaders", result.run().shaders ? shaders_text(*result.run().shaders) : result.run().shaders_untold},
-            {"verdict", verdict_words(result.report())}};
+            {"verdict", verdict_words(result.report())},
+            {"power", power_words(result.report().power)}};
         test_notes().repeat = broken_repeat(text_);
         return result.passed();
     }

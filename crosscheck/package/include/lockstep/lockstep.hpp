@@ -109,6 +109,7 @@ struct MatchOptions {
     Legal legal = Legal::measured;
     bool allow_undefined = false; ///< pass what rests on what GL leaves open
     bool require_hits = false;    ///< fail a run in which nothing collided
+    double power_at_least = 0.0;  ///< fail a run that would have shown a smaller share of the mistakes with names
     /// Draw the last frame on both sides, too, and judge it; for UserShaders alone.
     bool render = false;
     /// The command that repeats it where `lockstep check` cannot, for an engine or a scene made in code; empty: this

@@ -1,0 +1,141 @@
+#include "reference/collision/situations.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "reference/collision/collision_code.hpp"
+#include "reference/collision/collision_twin.hpp"
+#include "reference/parallel_blocks.hpp"
+#include "reference/plain_arithmetic.hpp"
+#include "reference/subnormals.hpp"
+#include "reference/with_arithmetic.hpp"
+
+namespace lockstep {
+namespace {
+
+constexpr std::size_t place(Situation situation) { return static_cast<std::size_t>(situation); }
+
+/// Looks at particles one by one.
+template <class A> class Observer {
+  public:
+    Observer(A fp, const Particles& before, const CollisionImage& cdt, const FrameParams& params,
+             const Particles& after)
+        : fp_(fp), before_(before), cdt_(cdt), params_(params), after_(after), values_(fp), image_(values_, params),
+          code_(params) {}
+
+    void look(std::size_t i, bool closely, Situations& found) {
+        const glm::vec3 position = before_.position[i];
+        if (std::isnan(position.x) || std::isnan(position.y) || std::isnan(position.z))
+            note(Situation::not_a_number, i, found);
+        const auto clip = image_.clip({position.x, position.y, position.z});
+        if (static_cast<float>(clip.w) <= 0.0F)
+            note(Situation::behind_camera, i, found);
+        const float time = before_.collide_time[i];
+        const bool searches = time < 0.0F;
+        const bool hit = searches && after_.collide_time[i] == params_.constants.collision_time;
+        if (hit)
+            note(Situation::hit, i, found);
+        const auto p = image_.image_position(clip);
+        const auto x = static_cast<float>(p.x), y = static_cast<float>(p.y);
+        if (searches && (between(x) || between(y)))
+            note(Situation::left_of_image, i, found);
+        const auto base = image_.base_texel(p);
+        if (!base)
+            return;
+        const int reach = params_.constants.texel_collide_range;
+        if (searches && (base->x < reach || base->y < reach || base->x + reach >= params_.width ||
+                         base->y + reach >= params_.height))
+            note(Situation::at_border, i, found);
+        if (hit || closely)
+            look_around(i, {base->x, base->y}, searches, hit, found);
+    }
+
+  private:
+    static bool between(float x) { return x > -1.0F && x < 0.0F; }
+
+    [[nodiscard]] bool holds_particle(const glm::vec4& texel) const {
+        return params_.switches.empty_texel == EmptyTexel::phantom || texel.a != 0.0F;
+    }
+
+    void look_around(std::size_t i, const glm::ivec2& base, bool searches, bool hit, Situations& found) const {
+        glm::vec3 own = before_.position[i];
+        if (params_.switches.self_position == SelfPosition::texel) {
+            const glm::vec4& texel = cdt_.at(base.x, base.y);
+            if (!holds_particle(texel))
+                return;
+            own = code_.decode(texel);
+        }
+        const float range = params_.constants.collision_range;
+        const bool zero_hits = params_.switches.zero_distance == ZeroDistance::hit;
+        const int reach = params_.constants.texel_collide_range;
+        int in_range = 0, nearest = 0, at_range = 0, at_zero = 0;
+        float least = range;
+        for (int y = std::max(base.y - reach, 0); y <= std::min(base.y + reach, params_.height - 1); ++y)
+            for (int x = std::max(base.x - reach, 0); x <= std::min(base.x + reach, params_.width - 1); ++x) {
+                const glm::vec4& texel = cdt_.at(x, y);
+                if ((x == base.x && y == base.y) || !holds_particle(texel))
+                    continue;
+                const float distance = fp_.length(own - code_.decode(texel));
+                at_range += distance == range ? 1 : 0;
+                at_zero += distance == 0.0F ? 1 : 0;
+                if (!(range > distance) || (!zero_hits && distance == 0.0F))
+                    continue;
+                ++in_range;
+                nearest = distance < least ? 1 : nearest + (distance == least ? 1 : 0);
+                least = std::min(least, distance);
+            }
+        if (hit && in_range > 1)
+            note(Situation::two_in_range, i, found);
+        if (hit && nearest > 1)
+            note(Situation::equally_near, i, found);
+        if (searches && at_range > 0)
+            note(Situation::at_range, i, found);
+        if (searches && at_zero > 0)
+            note(Situation::at_no_distance, i, found);
+        if (!searches && in_range > 0)
+            note(before_.collide_time[i] > 0.0F ? Situation::waiting : Situation::timer_at_zero, i, found);
+    }
+
+    static void note(Situation situation, std::size_t i, Situations& found) {
+        ++found.count[place(situation)];
+        std::vector<std::size_t>& some = found.some[place(situation)];
+        if (some.size() < Situations::kept)
+            some.push_back(i);
+    }
+
+    A fp_;
+    const Particles& before_;
+    const CollisionImage& cdt_;
+    const FrameParams& params_;
+    const Particles& after_;
+    Values<A> values_;
+    BaseTexelTwin<Values<A>> image_;
+    CollisionCode code_;
+};
+
+} // namespace
+
+Situations situations_of(const Particles& before, const CollisionImage& cdt, const FrameParams& params,
+                         const Profile& profile, const Particles& after, std::size_t looked_at) {
+    constexpr std::size_t block = 4096;
+    const std::size_t n = before.size(), stride = std::max<std::size_t>(1, n / std::max<std::size_t>(looked_at, 1));
+    std::vector<Situations> parts((n + block - 1) / block);
+    with_arithmetic(profile, params.switches.arithmetic, [&](auto fp) {
+        parallel_blocks(static_cast<std::ptrdiff_t>(parts.size()), [&](std::ptrdiff_t b) {
+            const FlushSubnormals guard(profile.flush_subnormals);
+            Observer observer(fp, before, cdt, params, after);
+            const std::size_t first = static_cast<std::size_t>(b) * block;
+            for (std::size_t i = first; i < std::min(first + block, n); ++i)
+                observer.look(i, i % stride == 0, parts[static_cast<std::size_t>(b)]);
+        });
+    });
+    Situations all;
+    for (const Situations& part : parts)
+        for (std::size_t s = 0; s < situation_count; ++s) {
+            all.count[s] += part.count[s];
+            all.some[s].insert(all.some[s].end(), part.some[s].begin(), part.some[s].end());
+        }
+    return all;
+}
+
+} // namespace lockstep

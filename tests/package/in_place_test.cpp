@@ -2,6 +2,7 @@
 #include <sstream>
 #include <string>
 
+#include <catch2/catch.hpp>
 #include <lockstep/catch.hpp>
 #include <lockstep/system.hpp>
 

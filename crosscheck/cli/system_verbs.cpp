@@ -59,8 +59,8 @@ ReadScene read_scene(const RegisteredSystem& system, const RunOptions& run) {
 ShaderUse shaders_of(const SystemScene& scene, const RunOptions& run) {
     std::vector<PassStages> stages;
     for (const GlPass& pass : scene.passes)
-        if (std::none_of(stages.begin(), stages.end(),
-                         [&](const PassStages& known) { return known.name == pass.name; }))
+        if (!pass.continues && std::none_of(stages.begin(), stages.end(),
+                                            [&](const PassStages& known) { return known.name == pass.name; }))
             stages.push_back({pass.name, {pass.stage}});
     ShaderUse use = shader_use(scene.system.schema.system, stages, run.shaders);
     check_shader_use(use, run.shaders, run.allow_unused);

@@ -8,6 +8,7 @@
 #include <fmt/ranges.h>
 #include <nlohmann/json.hpp>
 
+#include "crosscheck/dust/system.hpp"
 #include "crosscheck/files/json_reader.hpp"
 #include "crosscheck/files/plain_text.hpp"
 #include "crosscheck/judge/registered_system.hpp"
@@ -17,7 +18,9 @@ namespace lockstep {
 namespace {
 
 // One line a system.
-const std::vector<RegisteredSystem> registered{};
+const std::vector<RegisteredSystem> registered{
+    {"dust", "grains that tools, balls and colliders move, by compute shaders", dust::load},
+};
 
 } // namespace
 

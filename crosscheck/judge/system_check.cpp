@@ -1,5 +1,6 @@
 #include "crosscheck/judge/system_check.hpp"
 
+#include <optional>
 #include <set>
 #include <utility>
 
@@ -141,7 +142,7 @@ CheckReport check(const System& system, SystemSide& gpu, const CheckOptions& opt
     for (std::size_t p = 0; p < system.passes.size(); ++p)
         causes.emplace_back(system.mistakes);
     PowerMeter power(system.mistakes);
-    std::vector<SystemState> earlier(system.passes.size()); // what each pass started from, a frame ago
+    std::vector<std::optional<SystemState>> earlier(system.passes.size()); // what each pass last started from
     SystemState before = system.start, now = system.start, reference = system.start;
     std::uint64_t changed = 0;
     gpu.upload(before.view());
@@ -208,10 +209,10 @@ CheckReport check(const System& system, SystemSide& gpu, const CheckOptions& opt
             }
             if (judged && comparison.differing(r) > 0) {
                 const Stopwatch watch(times.judge);
-                const SystemView earlier_view = frame > 0 ? earlier[p].view() : SystemView();
+                const SystemView earlier_view = earlier[p] ? earlier[p]->view() : SystemView();
                 const View reference_view = std::as_const(made)[r], gpu_view = std::as_const(now)[r];
                 const JudgedPass one{pass, profile,        known,    frame,
-                                     from, reference_view, gpu_view, frame > 0 ? &earlier_view : nullptr};
+                                     from, reference_view, gpu_view, earlier[p] ? &earlier_view : nullptr};
                 const std::vector<ItemVerdict> verdicts = judge_items(one);
                 const std::uint64_t divergent_before = summary.total(DifferenceClass::divergent);
                 summary.add(frame, r, verdicts);

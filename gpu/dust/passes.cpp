@@ -79,6 +79,15 @@ Uniforms uniforms(const Host& host, Kernel kernel, int frame) {
     return all;
 }
 
+ShaderDefines defines(const Switches& switches) {
+    ShaderDefines all;
+    for_each_switch(switches, [&](std::string_view name, auto value, const std::vector<std::string_view>& names) {
+        const ShaderDefines one = choice_defines(name, names, static_cast<std::size_t>(value));
+        all.insert(all.end(), one.begin(), one.end());
+    });
+    return all;
+}
+
 } // namespace
 
 std::vector<GlPass> passes(const HostPtr& host) {

@@ -1,7 +1,6 @@
 #include "reference/model/dust/switches.hpp"
 
 #include <array>
-#include <cctype>
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -11,29 +10,12 @@
 namespace lockstep::dust {
 namespace {
 
-std::string upper(std::string_view name) {
-    std::string text;
-    for (const char c : name)
-        text += static_cast<char>(std::toupper(static_cast<unsigned char>(c)));
-    return text;
-}
-
 /// The versions in the order in which the source comes to them.
 constexpr std::array<std::string_view, 20> stages{"s1",  "s2_lerp", "s2_step", "s2_gpu", "s3",  "s4",  "s5",
                                                   "s6",  "s7",      "s8",      "s9",     "s10", "sRE", "s11",
                                                   "s12", "s13",     "s14",     "s15",    "s16", "s17"};
 
 } // namespace
-
-std::vector<std::pair<std::string, std::string>> defines(const Switches& switches) {
-    std::vector<std::pair<std::string, std::string>> all;
-    for_each_switch(switches, [&](std::string_view name, auto value, const std::vector<std::string_view>& names) {
-        for (std::size_t i = 0; i < names.size(); ++i)
-            all.emplace_back(upper(name) + "_" + upper(names[i]), fmt::format("{}", i));
-        all.emplace_back(upper(name), upper(name) + "_" + upper(names[static_cast<std::size_t>(value)]));
-    });
-    return all;
-}
 
 Switches preset(std::string_view name) {
     Switches s;

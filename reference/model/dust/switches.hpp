@@ -1,7 +1,5 @@
 #pragma once
-#include <string>
 #include <string_view>
-#include <utility>
 #include <vector>
 
 namespace lockstep::dust {
@@ -87,9 +85,6 @@ template <class S, class Visit> void for_each_switch(S& s, const Visit& visit) {
     visit("emit_even", s.emit_even, off_on);
     visit("drag_implicit", s.drag_implicit, off_on);
 }
-
-/// For shaders, of every switch: RANDOM_SIN 0 and so on for its values, and RANDOM for the one that is set.
-std::vector<std::pair<std::string, std::string>> defines(const Switches& switches);
 
 /// paper, corrected or exact. Throws Error naming them for any other name.
 Switches preset(std::string_view name);

@@ -53,7 +53,8 @@ struct Options {
     std::filesystem::path json, images, hashes, report;
     Legal legal = Legal::measured;
     PassRules rules;
-    bool render = false;
+    bool no_render = false;
+    bool render = false; ///< asked for by name: then one without particles proves too little
     bool stress = false; ///< the stress scenes instead of one
     bool power = false;  ///< list the mistakes that would have shown
     bool quiet = false;
@@ -66,7 +67,7 @@ std::string repeat_line(const Options& options, int frames) {
     if (options.mode == CheckMode::free)
         line += " --mode free";
     line += legal_option_text(options.legal);
-    return line + pass_options_text(options.rules) + (options.render ? " --render" : "");
+    return line + pass_options_text(options.rules) + (options.no_render ? " --no-render" : "");
 }
 
 std::string explain_line(const Options& options, const Place& place, int width) {
@@ -192,10 +193,10 @@ RunDescription description(const Options& options, const Checked& checked, const
             checked.notes,
             checked.shaders,
             checked.recorded_shaders.empty() ? "not in the recording" : "recorded: " + checked.recorded_shaders,
-            checked.shaders ? " (--render compares it)" : ": no picture is in a recording"};
+            checked.shaders ? " (--no-render)" : ": no picture is in a recording"};
 }
 
-bool is_rendered(const Options& options) { return options.render || !options.images.empty(); }
+bool is_rendered(const Options& options) { return !options.no_render; }
 
 /// Judges the last frame's picture. `earlier`: the particles of the frame before; none where they were not kept.
 void judge_last(const Options& options, const Checked& checked, const Particles& earlier, CheckReport& report) {
@@ -397,7 +398,8 @@ Verb check_command() {
                          "write CDT and rendered frame of both sides, and their difference, as PNG"));
     verb.add(path_option("--report", "DIR", options->report,
                          "write report.html, a page that opens in any browser; with what study.json there says"));
-    verb.add(flag("--render", options->render, "judge the rendered frame, too, the last one"));
+    verb.add(flag("--no-render", options->no_render, "do not judge the rendered frame, the last one's picture"));
+    verb.add(flag("--render", options->render, "judge it, and say so where no particle is in it"));
     verb.add(flag("--power", options->power, "list which mistakes the run would have shown, and why not the others"));
     verb.add(flag("--stress", options->stress,
                   "instead of a scene: all of data/scenes/stress, small ones in which mistakes show"));

@@ -140,10 +140,12 @@ int status_of(const ItemCapsule& capsule, const System& system) {
 } // namespace
 
 std::span<const std::string_view> system_check_options() {
-    static constexpr std::array<std::string_view, 15> options{
-        "--power",        "--power-at-least", "scene",   "--particles",       "--preset",
-        "--set",          "--threads",        "--gl",    "--shaders",         "--frames",
-        "--allow-unused", "--mode",           "--legal", "--allow-undefined", "--quiet"};
+    static constexpr std::array<std::string_view, 16> options{"--power",   "--power-at-least", "--json",
+                                                              "scene",     "--particles",      "--preset",
+                                                              "--set",     "--threads",        "--gl",
+                                                              "--shaders", "--frames",         "--allow-unused",
+                                                              "--mode",    "--legal",          "--allow-undefined",
+                                                              "--quiet"};
     return options;
 }
 

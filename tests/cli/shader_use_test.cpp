@@ -19,7 +19,9 @@ namespace {
 
 const std::string possible = " would not run in this scene with these switches; what can is collision_pass.vert, "
                              "collision_pass.geom, collision_pass.frag, obstacle_pass.vert, obstacle_pass.geom, "
-                             "obstacle_pass.frag, and files they include";
+                             "obstacle_pass.frag, render_background.vert, render_background.frag, "
+                             "render_obstacles.vert, render_obstacles.geom, render_obstacles.frag, render_pass.vert, "
+                             "render_pass.geom, render_pass.frag, and files they include";
 
 /// A shader that is not the shipped one, and computes the same.
 void write_own(const test::TemporaryFolder& folder, const std::string& file) {
@@ -99,20 +101,20 @@ TEST_CASE("shader use: the report has whose stages ran, file by file") {
     CHECK_THAT(shaders_line({"--allow-unused"}), Catch::EndsWith("; not run: obstacle_vertices.vert"));
 }
 
-TEST_CASE("shader use: the rendered frame is compared where that is asked for, and the report says where not") {
+TEST_CASE("shader use: the rendered frame is compared, and the report says where not") {
     if (!test::have_software_gl())
         return;
     const test::SceneSetting setting("check");
-    CHECK_THAT(run_lockstep(setting.command({"--frames", "2"})).out,
-               Contains("\nrender    the rendered frame was not compared (--render compares it)\n"));
-    test::Outcome outcome = run_lockstep(setting.command({"--frames", "4", "--render"}));
+    CHECK_THAT(run_lockstep(setting.command({"--frames", "2", "--no-render"})).out,
+               Contains("\nrender    the rendered frame was not compared (--no-render)\n"));
+    test::Outcome outcome = run_lockstep(setting.command({"--frames", "4"}));
     CHECK(outcome.status == 0);
     CHECK_THAT(outcome.out,
                Contains("\nrender    AGREE: every one of 1,200 pixels of frame 3, 1 of which show particles\n"));
     CHECK_THAT(run_lockstep(setting.command({"--frames", "2", "--render"})).out,
                Contains("verdict   AGREE, but the rendered frame shows no particle: "));
     test::plant(setting.shaders, "render_pass.frag", "void main() {", "void main() { if (true) discard;");
-    outcome = run_lockstep(setting.command({"--frames", "4", "--render"}));
+    outcome = run_lockstep(setting.command({"--frames", "4"}));
     CHECK(outcome.status == 1);
     CHECK_THAT(outcome.out,
                Contains("\nrender    DIVERGENT: 1 of 1,200 pixels of frame 3, 1 of which show particles; "

@@ -105,6 +105,7 @@ void protect_inputs(const RunOptions& options, OutputFiles& files) {
 
 ShaderUse shaders_to_run(const RunOptions& options, const Scene& scene, bool rendered) {
     ShaderUse use = shader_use(scene, options.shaders, rendered);
+    use.unused = shader_use(scene, options.shaders, true).unused; // what draws the picture is not misspelt
     check_shader_use(use, options.shaders, options.allow_unused);
     return use;
 }

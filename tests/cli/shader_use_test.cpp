@@ -17,11 +17,13 @@ using test::run_lockstep;
 
 namespace {
 
-const std::string possible = " would not run in this scene with these switches; what can is collision_pass.vert, "
-                             "collision_pass.geom, collision_pass.frag, obstacle_pass.vert, obstacle_pass.geom, "
-                             "obstacle_pass.frag, render_background.vert, render_background.frag, "
-                             "render_obstacles.vert, render_obstacles.geom, render_obstacles.frag, render_pass.vert, "
-                             "render_pass.geom, render_pass.frag, and files they include";
+const std::string not_run = " would not run in this scene with these switches; what can is ";
+const std::string state = "collision_pass.vert, collision_pass.geom, collision_pass.frag, obstacle_pass.vert, "
+                          "obstacle_pass.geom, obstacle_pass.frag";
+const std::string picture = ", render_background.vert, render_background.frag, render_obstacles.vert, "
+                            "render_obstacles.geom, render_obstacles.frag, render_pass.vert, render_pass.geom, "
+                            "render_pass.frag";
+const std::string possible = not_run + state + picture + ", and files they include";
 
 /// A shader that is not the shipped one, and computes the same.
 void write_own(const test::TemporaryFolder& folder, const std::string& file) {
@@ -53,7 +55,7 @@ TEST_CASE("shader use: a folder of which nothing would run is status 2 with the 
             CHECK(refusal(run_lockstep(check)) ==
                   folder + misspelt + possible + "; --allow-unused lets others lie there");
         }
-    for (const char* other : {"octree_pass.comp", "obstacle_vertices.vert", "layered_cdt.frag", "render_pass.frag"})
+    for (const char* other : {"octree_pass.comp", "obstacle_vertices.vert", "layered_cdt.frag"})
         SECTION(other) {
             write_own(setting.shaders, other);
             for (const char* verb : {"check", "explain", "bench", "record", "debug"}) {
@@ -64,9 +66,23 @@ TEST_CASE("shader use: a folder of which nothing would run is status 2 with the 
                     arguments = test::joined(arguments, {"--frame", "1", "--particle", "1"});
                 if (verb == std::string("record"))
                     arguments = test::joined(arguments, {"-o", setting.folder.path() / "run.h5"});
-                CHECK(refusal(run_lockstep(arguments)) == folder + other + possible);
+                CHECK(refusal(run_lockstep(arguments)) == folder + other + not_run + state +
+                                                              (verb == std::string("check") ? picture : "") +
+                                                              ", and files they include");
             }
         }
+    SECTION("what draws the picture lies beside the step that is explained") {
+        write_own(setting.shaders, "render_pass.frag");
+        const std::vector<std::string> explain{
+            "explain", setting.scene,      "--frame", "1", "--particle", "1", "--shaders", setting.shaders.path(),
+            "--gl",    test::software_gl()};
+        CHECK(refusal(run_lockstep(explain)) == folder.substr(0, folder.size() - 1) +
+                                                    " nothing in it would run in this scene with these switches; what "
+                                                    "can is " +
+                                                    state + ", and files they include");
+        write_own(setting.shaders, "collision_pass.vert");
+        CHECK(run_lockstep(explain).status == 0);
+    }
 }
 
 TEST_CASE("shader use: the report has whose stages ran, file by file") {
@@ -82,8 +98,7 @@ TEST_CASE("shader use: the report has whose stages ran, file by file") {
         REQUIRE(place != std::string::npos);
         return outcome.out.substr(place + 11, outcome.out.find('\n', place + 1) - place - 11);
     };
-    CHECK(shaders_line({}) == "shipped: collision_pass.vert, collision_pass.geom, collision_pass.frag, "
-                              "obstacle_pass.vert, obstacle_pass.geom, obstacle_pass.frag");
+    CHECK(shaders_line({}) == "shipped: " + state + picture);
     const std::string own = setting.shaders.path().string();
     write_own(setting.shaders, "collision_pass.frag");
     write_own(setting.shaders, "clip_volume.glsl");
@@ -92,7 +107,8 @@ TEST_CASE("shader use: the report has whose stages ran, file by file") {
     CHECK(shaders_line({"--json", json}) ==
           "foreign: " + own + "/collision_pass.vert (as shipped), " + own + "/clip_volume.glsl, " + own +
               "/collision_pass.frag; shipped: collision_pass.geom, obstacle_pass.vert, obstacle_pass.geom, "
-              "obstacle_pass.frag");
+              "obstacle_pass.frag" +
+              picture);
     std::ifstream stream(json);
     const nlohmann::json files = nlohmann::json::parse(stream)["shaders"]["files"];
     CHECK(files[0]["file"] == "collision_pass.vert");

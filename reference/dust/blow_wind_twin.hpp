@@ -28,7 +28,7 @@ struct BlowWindTwin {
                            : r.note(site::distance, r.sqrt(site::distance, d2));
         const auto push =
             r.note(site::pull, r.divide(site::pull, r.uniform(site::blower_sqr_force, values.sqr_force), d));
-        const auto force = r.note(site::force, (n * push) * k);
+        const auto force = r.note(site::force, (n * push) * r.note(site::force_along, k));
         const auto a = divided(r, site::acceleration, force, r.uniform(site::mass, host->settings().mass));
         grain.velocity = r.note(site::velocity, grain.velocity + a * r.uniform(site::impulse_dt, values.wind_dt));
         return grain;

@@ -22,7 +22,7 @@ template <class R> class ColliderTwin {
     /// The list's spheres, then its boxes: the first that is hit, or, without one_hit, each.
     void list(Movement<R>& m) const {
         bool hit = false;
-        const bool one = switches_.one_hit == OffOn::on;
+        const bool one = r.setting(site::one_hit, switches_.one_hit == OffOn::on);
         for (const int k : r.range(site::spheres, 0, static_cast<int>(host_.spheres().size()) - 1))
             if (!(one && hit))
                 hit = sphere(host_.spheres()[static_cast<std::size_t>(k)], m) || hit;
@@ -36,11 +36,11 @@ template <class R> class ColliderTwin {
         case World::none:
             return;
         case World::floor_clamp:
-            if (!r.decide(site::above_y, m.next.y > 0.0F))
+            if (!r.decide(site::above_floor, m.next.y > 0.0F))
                 m.next.y = 0.0F;
             return;
         case World::floor_radius:
-            if (!r.decide(site::above_y, m.next.y > radius_))
+            if (!r.decide(site::above_floor, m.next.y > radius_))
                 m.next.y = radius_;
             return;
         case World::floor_bounce:
@@ -55,7 +55,8 @@ template <class R> class ColliderTwin {
   private:
     bool sphere(const ColliderMatrices& collider, Movement<R>& m) const {
         const Vec3 centre = r.uniform(site::sphere_centre, glm::vec3(collider.local_to_world[3]));
-        const Real reach = radius_ + r.uniform(site::sphere_radius, collider.scale.x) * 0.5F;
+        const Real half = r.note(site::sphere_half, r.uniform(site::sphere_radius, collider.scale.x) * 0.5F);
+        const Real reach = r.note(site::reach, radius_ + half);
         const Real sqr_reach = reach * reach;
         const Real d2 = r.note(site::sqr_dist, squared(m.next - centre));
         const bool touches = switches_.sphere_touch == SphereTouch::less
@@ -66,15 +67,17 @@ template <class R> class ColliderTwin {
         const Vec3 n = r.note(site::movement_unit, r.normalize(site::movement_unit, m.next - m.current));
         const Vec3 a = centre - m.current;
         const Real q = r.note(site::closest, r.dot(site::closest, a, n));
-        const Real h = r.note(site::missed, squared(a) - q * q);
+        const Real h = r.note(site::missed, squared(a) - r.note(site::closest_squared, q * q));
         Real chord = sqr_reach - h;
         if (switches_.root_clamp == OffOn::on && r.decide(site::grazes, chord < 0.0F))
             chord = 0.0F;
         const Real g = r.note(site::root, r.sqrt(site::root, chord));
         const Vec3 contact = r.note(site::contact, m.current + n * (q - g));
         const Vec3 normal = r.note(site::normal, divided(r, site::normal, contact - centre, reach));
-        m.next = r.note(site::landed, contact + reflected(site::into, m.next - contact, normal) * elasticity_);
-        m.velocity = r.note(site::bounced, reflected(site::speed_into, m.velocity, normal) * elasticity_);
+        m.next = r.note(site::landed, contact + reflected(site::into, m.next - contact, normal) *
+                                                    r.note(site::sphere_path_kept, elasticity_));
+        m.velocity = r.note(site::bounced, reflected(site::speed_into, m.velocity, normal) *
+                                               r.note(site::sphere_speed_kept, elasticity_));
         return true;
     }
 
@@ -89,18 +92,19 @@ template <class R> class ColliderTwin {
     }
 
     bool aabb(const ColliderMatrices& collider, Movement<R>& m) const {
-        const glm::vec3 centre(collider.local_to_world[3]);
-        const Vec3 min = r.uniform(site::box_min, centre - collider.scale * 0.5F);
-        const Vec3 max = r.uniform(site::box_max, centre + collider.scale * 0.5F);
+        const Vec3 centre = r.uniform(site::box_centre, glm::vec3(collider.local_to_world[3]));
+        const Vec3 half = r.note(site::half_box, r.uniform(site::box_scale, collider.scale) * 0.5F);
+        const Vec3 min = r.note(site::box_min, centre - half), max = r.note(site::box_max, centre + half);
         const Vec3 lo = less(min, radius_), hi = more(max, radius_);
         if (switches_.box_detect == BoxDetect::boxed) {
-            if (r.decide(site::touches_box, m.next.x < lo.x || m.next.x > hi.x || m.next.y < lo.y || m.next.y > hi.y ||
-                                                m.next.z < lo.z || m.next.z > hi.z))
+            if (r.decide(site::misses_box, m.next.x < lo.x || m.next.x > hi.x || m.next.y < lo.y || m.next.y > hi.y ||
+                                               m.next.z < lo.z || m.next.z > hi.z))
                 return false;
         } else {
             const Vec3 nearest{clamped(m.next.x, min.x, max.x), clamped(m.next.y, min.y, max.y),
                                clamped(m.next.z, min.z, max.z)};
-            if (!r.decide(site::touches_box, r.note(site::sqr_dist, squared(m.next - nearest)) <= radius_ * radius_))
+            if (!r.decide(site::touches_box, r.note(site::sqr_dist, squared(m.next - nearest)) <=
+                                                 r.note(site::sqr_radius, radius_ * radius_)))
                 return false;
         }
         answer(m, lo, hi);
@@ -110,17 +114,18 @@ template <class R> class ColliderTwin {
     bool obb(const ColliderMatrices& collider, Movement<R>& m) const {
         const glm::mat4 to_local = r.uniform(site::world_to_local, collider.world_to_local);
         const glm::mat4 to_world = r.uniform(site::local_to_world, collider.local_to_world);
-        const Vec3 scale = r.uniform(site::sphere_radius, collider.scale);
+        const Vec3 scale = r.uniform(site::box_scale, collider.scale);
         const Vec3 rho = r.note(site::half_grain, Vec3{r.divide(site::half_grain, radius_, scale.x),
                                                        r.divide(site::half_grain, radius_, scale.y),
                                                        r.divide(site::half_grain, radius_, scale.z)});
         Movement<R> local;
-        local.next = r.note(site::next_in_box, place(to_local, m.next));
-        const Vec3 above = local.next + rho, below = local.next - rho;
-        if (r.decide(site::touches_box, above.x < -0.5F || below.x > 0.5F || above.y < -0.5F || below.y > 0.5F ||
-                                            above.z < -0.5F || below.z > 0.5F))
-            return false;
         local.current = r.note(site::current_in_box, place(to_local, m.current));
+        local.next = r.note(site::next_in_box, place(to_local, m.next));
+        const Vec3 margin = r.note(site::touch_margin, rho);
+        const Vec3 above = local.next + margin, below = local.next - margin;
+        if (r.decide(site::misses_box, above.x < -0.5F || below.x > 0.5F || above.y < -0.5F || below.y > 0.5F ||
+                                           above.z < -0.5F || below.z > 0.5F))
+            return false;
         local.velocity = r.note(site::speed_in_box, direction(to_local, m.velocity));
         answer(local, {-0.5F - rho.x, -0.5F - rho.y, -0.5F - rho.z}, more(rho, 0.5F));
         m.next = r.note(site::landed, place(to_world, local.next));
@@ -131,17 +136,18 @@ template <class R> class ColliderTwin {
     /// The first face, x before y before z, that the ray enters the grown box by.
     void answer(Movement<R>& m, const Vec3& lo, const Vec3& hi) const {
         const Vec3 ray = r.note(site::movement, m.next - m.current);
-        Vec3 contact = on_face(site::heads_up_x, site::time_of_x, &Vec3::x, m.current, ray, lo, hi);
+        r.note(site::speed_before_box, m.velocity);
+        Vec3 contact = on_face(&Vec3::x, m.current, ray, lo, hi);
         Axis axis = nullptr;
         if (r.decide(site::face_x, contact.y >= lo.y && contact.y <= hi.y && contact.z >= lo.z && contact.z <= hi.z)) {
             axis = &Vec3::x;
         } else {
-            contact = on_face(site::heads_up_y, site::time_of_y, &Vec3::y, m.current, ray, lo, hi);
+            contact = on_face(&Vec3::y, m.current, ray, lo, hi);
             if (r.decide(site::face_y,
                          contact.x >= lo.x && contact.x <= hi.x && contact.z >= lo.z && contact.z <= hi.z)) {
                 axis = &Vec3::y;
             } else {
-                contact = on_face(site::heads_up_z, site::time_of_z, &Vec3::z, m.current, ray, lo, hi);
+                contact = on_face(&Vec3::z, m.current, ray, lo, hi);
                 if (r.decide(site::face_z,
                              contact.x >= lo.x && contact.x <= hi.x && contact.y >= lo.y && contact.y <= hi.y))
                     axis = &Vec3::z;
@@ -150,37 +156,39 @@ template <class R> class ColliderTwin {
         contact = r.note(site::contact, contact);
         const Real length = r.note(site::length_of_movement, r.length(site::length_of_movement, ray));
         const Real in = r.note(site::way_in, r.length(site::way_in, contact - m.current));
-        const Real out = r.note(site::way_out, r.divide(site::way_out, (length - in) * elasticity_, length));
-        m.next = r.note(site::landed, contact + mirrored(axis, ray) * out);
-        m.velocity = r.note(site::bounced, mirrored(axis, m.velocity) * elasticity_);
+        const Real out = r.note(
+            site::way_out, r.divide(site::way_out, (length - in) * r.note(site::box_path_kept, elasticity_), length));
+        m.next = r.note(site::answered, contact + mirrored(axis, ray) * out);
+        m.velocity = r.note(site::speed_answered, r.note(site::box_mirrored, mirrored(axis, m.velocity)) *
+                                                      r.note(site::box_speed_kept, elasticity_));
     }
 
-    Vec3 on_face(At heads_up, At time, Axis axis, const Vec3& current, const Vec3& ray, const Vec3& lo,
-                 const Vec3& hi) const {
-        const Real plane = r.decide(heads_up, ray.*axis >= 0.0F) ? lo.*axis : hi.*axis;
+    Vec3 on_face(Axis axis, const Vec3& current, const Vec3& ray, const Vec3& lo, const Vec3& hi) const {
+        const Real plane = r.decide(site::heads_up, ray.*axis >= 0.0F) ? lo.*axis : hi.*axis;
         Vec3 along = ray;
         if (switches_.plane_cast == PlaneCast::normalized)
             along = r.note(site::movement_unit, r.normalize(site::movement_unit, ray));
-        const Real t = r.note(time, r.divide(time, plane - current.*axis, along.*axis));
+        const Real t = r.note(site::time_of_face, r.divide(site::time_of_face, plane - current.*axis, along.*axis));
         Vec3 contact = current + along * t;
         contact.*axis = plane;
         return contact;
     }
 
     void walls(Movement<R>& m) const {
-        const Vec3 lo = more(r.uniform(site::world_min, host_.settings().world.min), radius_);
-        const Vec3 hi = less(r.uniform(site::world_max, host_.settings().world.max), radius_);
-        if (r.decide(site::above_x, m.next.x > hi.x))
+        const Real margin = r.note(site::wall_margin, radius_);
+        const Vec3 lo = more(r.uniform(site::world_min, host_.settings().world.min), margin);
+        const Vec3 hi = less(r.uniform(site::world_max, host_.settings().world.max), margin);
+        if (r.decide(site::above_wall, m.next.x > hi.x))
             return wall(m, &Vec3::x, hi.x, m.current.x > hi.x, true);
-        if (r.decide(site::below_x, m.next.x < lo.x))
+        if (r.decide(site::below_wall, m.next.x < lo.x))
             return wall(m, &Vec3::x, lo.x, m.current.x < lo.x, false);
-        if (r.decide(site::above_y, m.next.y > hi.y))
+        if (r.decide(site::above_wall, m.next.y > hi.y))
             return wall(m, &Vec3::y, hi.y, m.current.y > hi.y, true);
-        if (r.decide(site::below_y, m.next.y < lo.y))
+        if (r.decide(site::below_wall, m.next.y < lo.y))
             return wall(m, &Vec3::y, lo.y, m.current.y < lo.y, false);
-        if (r.decide(site::above_z, m.next.z > hi.z))
+        if (r.decide(site::above_wall, m.next.z > hi.z))
             return wall(m, &Vec3::z, hi.z, m.current.z > hi.z, true);
-        if (r.decide(site::below_z, m.next.z < lo.z))
+        if (r.decide(site::below_wall, m.next.z < lo.z))
             return wall(m, &Vec3::z, lo.z, m.current.z < lo.z, false);
     }
 
@@ -201,9 +209,10 @@ template <class R> class ColliderTwin {
         const Vec3 contact = r.note(site::contact, m.current + n * d);
         const Real length = r.note(site::length_of_movement, r.length(site::length_of_movement, ray));
         const Real in = r.note(site::way_in, r.length(site::way_in, m.current - contact));
-        const Real out = r.note(site::way_out, r.divide(site::way_out, (length - in) * elasticity_, length));
+        const Real out = r.note(
+            site::way_out, r.divide(site::way_out, (length - in) * r.note(site::wall_path_kept, elasticity_), length));
         m.next = r.note(site::landed, contact + mirrored(axis, ray) * out);
-        m.velocity = r.note(site::bounced, mirrored(axis, m.velocity) * elasticity_);
+        m.velocity = r.note(site::bounced, mirrored(axis, m.velocity) * r.note(site::wall_speed_kept, elasticity_));
     }
 
     static Vec3 mirrored(Axis axis, Vec3 v) {

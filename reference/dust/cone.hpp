@@ -30,7 +30,8 @@ template <class R> class ConeTwin {
         const Real k = r.note(site::along, r.dot(site::along, axis_, -n));
         if (!r.decide(site::in_cone, k > threshold_))
             return {};
-        return r.note(site::force, (n * r.note(site::pull, r.divide(site::pull, sqr_force_, d2))) * k);
+        return r.note(site::force,
+                      (n * r.note(site::pull, r.divide(site::pull, sqr_force_, d2))) * r.note(site::force_along, k));
     }
 
     /// Whether a grain that was pulled is in the mouth, or out of the cone, at `next`.

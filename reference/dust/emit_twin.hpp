@@ -16,7 +16,8 @@ struct EmitTwin {
             return grain;
         const FrameValues values = host->at(in.frame);
         const bool integer = host->switches().random == Random::integer;
-        const std::uint32_t seed = host->settings().seed;
+        const auto seed = static_cast<std::uint32_t>(
+            static_cast<int>(r.uniform(site::random_seed, static_cast<int>(host->settings().seed))));
         const RandomTwin<R> random(r);
         const Real f = R::real(i);
         const Real chance =
@@ -40,10 +41,11 @@ struct EmitTwin {
             const Real angle = r.uniform(site::emitter_angle, values.angle_rad);
             tangent = r.note(site::tangent, r.divide(site::tangent, random.sine(angle), random.cosine(angle)));
         }
+        const typename R::Vec2 circle = r.note(site::circle, typename R::Vec2{x, y});
         if (host->switches().emit_even == OffOn::on)
             rho = r.sqrt(site::share_of_radius, rho);
         rho = r.note(site::share_of_radius, rho);
-        const Vec3 local = r.note(site::local, Vec3{x * rho * tangent, y * rho * tangent, 1.0F});
+        const Vec3 local = r.note(site::local, Vec3{circle.x * rho * tangent, circle.y * rho * tangent, 1.0F});
         const glm::mat4 m = r.uniform(site::controller_matrix, values.controller_matrix);
         const auto row = [&](int k) { return (local.x * m[0][k] + local.y * m[1][k]) + local.z * m[2][k]; };
         const Vec3 direction = r.note(site::emitted, Vec3{row(0), row(1), row(2)});

@@ -19,9 +19,9 @@ struct PopulateTwin {
         typename R::Vec3 at;
         Real shade{};
         if (host->switches().random == Random::integer) {
-            const auto number = [&](Stream stream) {
-                return random.unit(integer_random(i, stream, 0, host->settings().seed));
-            };
+            const auto seed = static_cast<std::uint32_t>(
+                static_cast<int>(r.uniform(site::random_seed, static_cast<int>(host->settings().seed))));
+            const auto number = [&](Stream stream) { return random.unit(integer_random(i, stream, 0, seed)); };
             at = {number(Stream::position_x), number(Stream::position_y), number(Stream::position_z)};
             shade = number(Stream::colour);
         } else {
@@ -36,6 +36,7 @@ struct PopulateTwin {
             }
             shade = random.r21(step, row);
         }
+        at = r.note(site::triple, at);
         grain.position = {lerp(min.x, max.x, at.x), lerp(min.y, max.y, at.y), lerp(min.z, max.z, at.z)};
         if (host->switches().populate == Populate::plane)
             grain.position.y = min.y;

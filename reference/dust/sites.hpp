@@ -31,6 +31,7 @@ inline constexpr Site colour_a{"dustColorA"}, colour_b{"dustColorB"};
 // Random numbers.
 inline constexpr Site phase{"sine's argument"}, octant{"sine's octant"}, sine{"sine"}, cosine{"cosine"};
 inline constexpr Site below_zero{"sine's argument is negative"}, random{"random number"}, tangent{"tangent"};
+inline constexpr Site random_seed{"seed of the run"}, triple{"three numbers"}, circle{"direction on the circle"};
 inline constexpr Site seed{"seed"}, row{"row"}, step_of_row{"place in its row"}, shade{"colour's share"};
 inline constexpr Site angle{"angle"}, share_of_radius{"share of the radius"}, chance{"chance"};
 inline constexpr Site direction_of_table{"direction of the table"};
@@ -40,6 +41,7 @@ inline constexpr Site to_mouth{"way to the mouth"}, from_mouth{"way from the mou
 inline constexpr Site sqr_dist{"squared distance"}, in_range{"in range", {}, "m2"};
 inline constexpr Site to_mouth_unit{"direction to the mouth"}, from_mouth_unit{"direction from the mouth"};
 inline constexpr Site along{"cosine to the axis"}, in_cone{"in the cone"};
+inline constexpr Site force_along{"cosine in the force"}, impulse{"impulse"}, pulled{"velocity pulled"};
 inline constexpr Site pull{"pull"}, force{"force"}, distance{"distance"}, acceleration{"acceleration"};
 inline constexpr Site forecast{"forecast"}, mouth_to_forecast{"way from the mouth to the forecast"};
 inline constexpr Site current_direction{"direction of the grain"}, next_direction{"direction of the forecast"};
@@ -55,7 +57,7 @@ inline constexpr Site blast{"blast"}, blast_direction{"direction of the blast"};
 
 // Update.
 inline constexpr Site sucked{"sucked velocity"}, fall{"velocity of the fall"}, next{"next position"};
-inline constexpr Site drag{"drag"};
+inline constexpr Site drag{"drag"}, mover{"velocity that moves"}, way_of_frame{"way of the frame"};
 inline constexpr Site movement{"movement"}, movement_unit{"direction of the movement"};
 inline constexpr Site length_of_movement{"length of the movement"}, way_in{"way to the contact"};
 inline constexpr Site contact{"contact"}, way_out{"share of the way out"}, mirrored{"mirrored movement"};
@@ -66,16 +68,26 @@ inline constexpr Site touches_sphere{"touches the sphere", {}, "m2"}, closest{"n
 inline constexpr Site missed{"squared distance of the ray"}, root{"half chord"}, grazes{"ray misses the sphere"};
 inline constexpr Site normal{"normal"}, into{"movement into the sphere"}, speed_into{"speed into the sphere"};
 inline constexpr Site box_min{"box's least corner"}, box_max{"box's greatest corner"};
-inline constexpr Site touches_box{"touches the box", {}, "m"}, half_grain{"grain's radius in the box"};
+inline constexpr Site touches_box{"touches the box", {}, "m2"}, misses_box{"misses the box", {}, "m"};
+inline constexpr Site box_scale{"box's sides"}, half_box{"half of the box's sides"}, box_centre{"box's centre"};
+inline constexpr Site sqr_radius{"radius squared"}, touch_margin{"margin of the touch"};
+inline constexpr Site speed_before_box{"velocity before the box"}, answered{"position at the box"};
+inline constexpr Site speed_answered{"velocity at the box"}, box_mirrored{"mirrored velocity"};
+inline constexpr Site sphere_half{"sphere's own radius"}, reach{"reach of the sphere"};
+inline constexpr Site closest_squared{"nearest of the ray squared"};
+inline constexpr Site sphere_path_kept{"path kept by the sphere"}, sphere_speed_kept{"speed kept by the sphere"};
+inline constexpr Site box_path_kept{"path kept by the box"}, box_speed_kept{"speed kept by the box"};
+inline constexpr Site wall_path_kept{"path kept by the wall"}, wall_speed_kept{"speed kept by the wall"};
+inline constexpr Site has_colliders{"colliders are looked at"}, has_world{"the world is looked at"};
+inline constexpr Site one_hit{"one hit a frame"};
+inline constexpr Site half_grain{"grain's radius in the box"};
 inline constexpr Site world_to_local{"worldToLocal"}, local_to_world{"localToWorld"};
 inline constexpr Site next_in_box{"next position in the box"}, current_in_box{"position in the box"};
 inline constexpr Site speed_in_box{"velocity in the box"};
+inline constexpr Site heads_up{"moves up the axis"}, time_of_face{"share of the way to the face"};
 inline constexpr Site face_x{"enters by an x face"}, face_y{"enters by a y face"}, face_z{"enters by a z face"};
-inline constexpr Site heads_up_x{"moves up x"}, heads_up_y{"moves up y"}, heads_up_z{"moves up z"};
-inline constexpr Site time_of_x{"x face's share"}, time_of_y{"y face's share"}, time_of_z{"z face's share"};
-inline constexpr Site above_x{"beyond the +x wall", {}, "m"}, below_x{"beyond the -x wall", {}, "m"};
-inline constexpr Site above_y{"beyond the +y wall", {}, "m"}, below_y{"beyond the -y wall", {}, "m"};
-inline constexpr Site above_z{"beyond the +z wall", {}, "m"}, below_z{"beyond the -z wall", {}, "m"};
+inline constexpr Site above_wall{"beyond an upper wall", {}, "m"}, below_wall{"beyond a lower wall", {}, "m"};
+inline constexpr Site wall_margin{"wall's margin"}, above_floor{"above the floor", {}, "m"};
 inline constexpr Site started_beyond{"started beyond the wall", {}, "m"}, to_wall{"way along the ray"};
 inline constexpr Site below_floor{"below the floor", {}, "m"};
 

@@ -40,12 +40,17 @@ struct UpdateTwin {
         }
         grain.velocity = r.note(site::fall, grain.velocity);
 
-        Movement<R> m{grain.position, r.note(site::next, grain.position + grain.velocity * dt), grain.velocity};
+        Movement<R> m{
+            grain.position,
+            r.note(site::next, grain.position + r.note(site::way_of_frame, r.note(site::mover, grain.velocity) * dt)),
+            grain.velocity};
         const ColliderTwin<R> colliders(r, *host);
-        if (switches.world_order == WorldOrder::first)
+        const bool has_world = r.setting(site::has_world, true);
+        if (has_world && switches.world_order == WorldOrder::first)
             colliders.world(m);
-        colliders.list(m);
-        if (switches.world_order == WorldOrder::last)
+        if (r.setting(site::has_colliders, true))
+            colliders.list(m);
+        if (has_world && switches.world_order == WorldOrder::last)
             colliders.world(m);
         if (sucked && cone.kills(grain.position, m.next))
             grain.alive = 0;

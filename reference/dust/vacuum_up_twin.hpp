@@ -31,7 +31,7 @@ struct VacuumUpTwin {
         const auto dt = r.uniform(site::dt, values.dt);
         const auto a = r.note(site::acceleration,
                               divided(r, site::acceleration, *force, r.uniform(site::mass, host->settings().mass)));
-        grain.velocity = grain.velocity + a * dt;
+        grain.velocity = r.note(site::pulled, grain.velocity + r.note(site::impulse, a * dt));
         const auto next = r.note(site::forecast, grain.position + grain.velocity * dt);
         if (cone.kills(grain.position, next))
             grain.alive = 0;

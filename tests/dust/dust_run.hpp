@@ -3,6 +3,8 @@
 #include <string>
 #include <utility>
 
+#include <catch2/catch.hpp>
+
 #include <lockstep/catch.hpp>
 #include <lockstep/system.hpp>
 

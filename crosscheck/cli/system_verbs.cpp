@@ -85,12 +85,14 @@ std::optional<std::size_t> number(std::string_view text) {
     return status == std::errc{} && end == text.data() + text.size() ? std::optional(value) : std::nullopt;
 }
 
-std::size_t pass_named(const std::string& name, const System& system) {
-    if (name.empty())
-        return 0;
+/// The first that runs in the frame where none is named.
+std::size_t pass_named(const std::string& name, const System& system, int frame) {
     std::vector<std::string> names;
-    for (const auto& pass : system.passes)
+    for (const auto& pass : system.passes) {
+        if (name.empty() && pass->runs(frame))
+            return names.size();
         names.emplace_back(pass->name());
+    }
     if (const auto found = std::find(names.begin(), names.end(), name); found != names.end())
         return static_cast<std::size_t>(found - names.begin());
     if (const auto place = number(name); place && *place < names.size())
@@ -194,7 +196,7 @@ int check_system(const RegisteredSystem& system, const RunOptions& run, const Sy
 
 int explain_system(const RegisteredSystem& system, const RunOptions& run, const SystemItem& item) {
     const ReadScene read = read_scene(system, run);
-    const std::size_t pass = pass_named(item.pass, read.scene.system);
+    const std::size_t pass = pass_named(item.pass, read.scene.system, item.frame);
     const std::size_t index = item_named(item.item, read.scene, pass);
     static_cast<void>(shaders_of(read.scene, run));
     const Gl gl = open_gl(run);
@@ -222,7 +224,7 @@ int cut_system(const RegisteredSystem& system, const RunOptions& run, const Syst
                const std::filesystem::path& output) {
     const ReadScene read = read_scene(system, run);
     const System& twins = read.scene.system;
-    const std::size_t pass = pass_named(item.pass, twins);
+    const std::size_t pass = pass_named(item.pass, twins, item.frame);
     const std::size_t index = item_named(item.item, read.scene, pass);
     OutputFiles files;
     files.protect(run.scene);

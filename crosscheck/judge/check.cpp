@@ -284,6 +284,7 @@ CheckReport check(const Scene& scene, const Profile& profile, GpuSide& gpu, cons
         throw Error(fmt::format("{}: its start has {}", scene.name, problem));
     CheckReport report;
     report.schema = collision_schema();
+    report.counts_hits = true;
     report.particles = scene.start.size();
     report.frames_asked = options.frames;
     ReferenceSimulation reference(scene, profile);

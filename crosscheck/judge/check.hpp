@@ -71,6 +71,7 @@ struct CheckReport {
     /// What diverges is legal by this rule, as far as was tried: the shader may be right and round otherwise.
     std::optional<Legal> wider_rule = {};
     std::optional<VerdictSummary> verdicts; ///< resync mode, search = cdt, no remedies
+    bool counts_hits = false;               ///< whether the next two are known
     std::uint64_t hits = 0;                 ///< particle-frames in which the reference found a collision
     std::uint64_t drawn_texels = 0;         ///< texels written by the reference, summed over frames
     std::uint64_t reference_hash = 0;

@@ -267,6 +267,9 @@ SystemRun::SystemRun(const System& system, SystemSide& gpu, const KnownOperation
     check_system(system);
     if (pass >= system.passes.size())
         throw Error(fmt::format("{} has no pass {}; it has 0 to {}", system.name, pass, system.passes.size() - 1));
+    if (!system.passes[pass]->runs(frame))
+        throw Error(
+            fmt::format("{}: pass {} does not run in frame {}", system.name, system.passes[pass]->name(), frame));
     gpu.upload(system.start.view());
     for (int f = 0; f <= frame; ++f)
         for (std::size_t p = 0; p < system.passes.size(); ++p) {

@@ -48,9 +48,12 @@ std::string explain_item(const JudgedPass& pass, std::size_t item, std::span<con
     const Resource& about = pass.gpu.about();
     std::string text = fmt::format("{} {} in frame {}, pass {}\n", about.item, item, pass.frame, pass.pass.name());
     const std::vector<StepRow> rows = item_rows(pass, item, told);
-    text.append("\n").append(head_text(pass.profile));
+    std::size_t width = narrowest_label;
     for (const StepRow& row : rows)
-        text += row_text(row, format);
+        width = std::max(width, row.label.size());
+    text.append("\n").append(head_text(pass.profile, width));
+    for (const StepRow& row : rows)
+        text += row_text(row, format, width);
     text += "\n";
     if (same_item(pass.reference, pass.gpu, item))
         return text + "verdict   every bit agrees\n";
@@ -82,6 +85,7 @@ RunDescription describe_run(const System& system, const SideDescription& side, c
     run.settings = system.settings.empty() ? "none" : system.settings;
     run.mode = options.mode == CheckMode::free ? "free" : "resync";
     run.width = 1;
+    run.draws = false;
     run.repeat = repeat;
     run.shaders = side.shaders;
     std::string passes;

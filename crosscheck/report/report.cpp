@@ -360,8 +360,9 @@ std::string report_text(const CheckReport& r, const RunDescription& run) {
     line("GL", run.context);
     line("shaders", shaders_line(run));
     line("profile", run.profile);
-    line("compared", fmt::format("{}; {} hits, {} texels drawn, {} NaN", compared_text(r), grouped(r.hits),
-                                 grouped(r.drawn_texels), grouped(nan_count(r.total))));
+    const std::string hits = fmt::format("{} hits, {} texels drawn, ", grouped(r.hits), grouped(r.drawn_texels));
+    line("compared",
+         fmt::format("{}; {}{} NaN", compared_text(r), r.counts_hits ? hits : "", grouped(nan_count(r.total))));
     const FrameTimes seconds = total_times(r);
     line("time",
          fmt::format("GL frames {:.2f} s, readback {:.2f} s, reference {:.2f} s, comparison {:.2f} s, "
@@ -379,7 +380,8 @@ std::string report_text(const CheckReport& r, const RunDescription& run) {
         for (const std::string& reason : proves ? unseen_by_reason(r.power) : std::vector<std::string>())
             line("", reason);
     }
-    line("render", render_line(r, run));
+    if (r.rendered || run.draws)
+        line("render", render_line(r, run));
     if (r.rendered)
         for (const std::string& detail : render_details(*r.rendered))
             line("", detail);

@@ -24,6 +24,7 @@ struct RunDescription {
     std::optional<ShaderUse> shaders = {}; ///< whose ran; not set: shaders_untold says why that is not known
     std::string shaders_untold = "an engine's own, of which nothing is known";
     std::string render_hint = {}; ///< how the rendered frame would be compared, where it was not
+    bool draws = true;            ///< a picture for people, which can be compared
 };
 
 /// "AGREE", "LEGAL", ...

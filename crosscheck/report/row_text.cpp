@@ -20,10 +20,10 @@ std::string ulp_text(const StepRow& row) {
     return ulp == INT64_MAX ? "NaN" : fmt::format("{}", ulp);
 }
 
-std::string line(std::string_view mark, std::string_view label, std::string_view strict, std::string_view reference,
-                 std::string_view gpu, std::string_view ulp, std::string_view verdict) {
-    std::string text =
-        fmt::format("{:1} {:<25} {:<24} {:<24} {:<24} {:>10}  {}", mark, label, strict, reference, gpu, ulp, verdict);
+std::string line(std::size_t width, std::string_view mark, std::string_view label, std::string_view strict,
+                 std::string_view reference, std::string_view gpu, std::string_view ulp, std::string_view verdict) {
+    std::string text = fmt::format("{:1} {:<{}} {:<24} {:<24} {:<24} {:>10}  {}", mark, label, width, strict, reference,
+                                   gpu, ulp, verdict);
     text.erase(text.find_last_not_of(' ') + 1);
     return text + "\n";
 }
@@ -34,13 +34,15 @@ std::string number_text(float value, NumberFormat format) {
     return format == NumberFormat::hexadecimal ? fmt::format("{:a}", value) : fmt::format("{:.9g}", value);
 }
 
-std::string row_text(const StepRow& row, NumberFormat format) {
-    return line(row.differs() ? ">" : "", row.label, cell_text(row.strict, format), cell_text(row.reference, format),
-                cell_text(row.gpu, format), ulp_text(row), row_verdict_names[static_cast<std::size_t>(row.verdict)]);
+std::string row_text(const StepRow& row, NumberFormat format, std::size_t label_width) {
+    return line(label_width, row.differs() ? ">" : "", row.label, cell_text(row.strict, format),
+                cell_text(row.reference, format), cell_text(row.gpu, format), ulp_text(row),
+                row_verdict_names[static_cast<std::size_t>(row.verdict)]);
 }
 
-std::string head_text(const Profile& profile) {
-    return line("", "step", "reference (strict)", fmt::format("reference ({})", profile.name), "GPU", "ULP", "verdict");
+std::string head_text(const Profile& profile, std::size_t label_width) {
+    return line(label_width, "", "step", "reference (strict)", fmt::format("reference ({})", profile.name), "GPU",
+                "ULP", "verdict");
 }
 
 } // namespace lockstep

@@ -1,0 +1,121 @@
+#include <fstream>
+#include <iterator>
+
+#include <catch2/catch.hpp>
+
+#include "tests/cli/cli_checks.hpp"
+#include "tests/cli/run_program.hpp"
+#include "tests/temporary_folder.hpp"
+
+using namespace lockstep;
+using Catch::Contains;
+using test::refusal;
+using test::run_lockstep;
+
+namespace {
+
+const std::string scene = "data/scenes/dust/physics.json";
+
+std::vector<std::string> on_gl(std::vector<std::string> words) {
+    return test::joined(std::move(words), {"--gl", test::software_gl()});
+}
+
+/// The shipped update without gravity, in a folder.
+void plant(const test::TemporaryFolder& folder) {
+    std::ifstream stream("shaders/dust/update.comp");
+    std::string text{std::istreambuf_iterator<char>(stream), {}};
+    const std::string right = "    a = add(a, gravity);\n";
+    const std::size_t place = text.find(right);
+    REQUIRE(place != std::string::npos);
+    folder.write("update.comp", text.replace(place, right.size(), "    a = add(a, mul(gravity, 0.0));\n"));
+}
+
+} // namespace
+
+TEST_CASE("systems: a scene names its system, and one that there is not is told with those there are") {
+    const test::TemporaryFolder folder;
+    const auto told = [&](const std::string& text) {
+        return refusal(run_lockstep({"hash", folder.write("scene.json", text).string()}));
+    };
+    const std::string file = (folder.path() / "scene.json").string();
+    CHECK(told(R"({"system": "dusty"})") ==
+          file + ": /system: 'dusty' is no system; there are collision, dust; did you mean dust?");
+    CHECK_THAT(told(R"({"system": 3})"), Catch::StartsWith(file + ": /system: 3 is not a text"));
+    CHECK_THAT(told(R"({"system": "collision"})"), Contains("emitters"));
+}
+
+TEST_CASE("systems: verbs of the collision system refuse another's scene and name those that run it") {
+    for (const char* verb : {"debug", "render", "bench", "record", "study"}) {
+        INFO(verb);
+        CHECK_THAT(refusal(run_lockstep({verb, scene})) + " ",
+                   Contains("is a scene of system dust, which check, explain, hash and capsule run") ||
+                       Contains("-o") || Contains("--output"));
+    }
+    CHECK(refusal(run_lockstep({"check", scene, "--report", "page"})) ==
+          "check: --report does not go with a scene of system dust");
+    CHECK(refusal(run_lockstep({"explain", scene, "--frame", "1", "--particle", "2"})) ==
+          "explain: of a scene of system dust, --item I is needed");
+}
+
+TEST_CASE("systems: hash is of the reference alone, the same for any number of threads") {
+    const std::vector<std::string> words{"hash", scene, "--particles", "500", "--frames", "20"};
+    const test::Outcome one = run_lockstep(test::joined(words, {"--threads", "1"}));
+    CHECK(one.status == 0);
+    CHECK(one.out == run_lockstep(test::joined(words, {"--threads", "2"})).out);
+    CHECK(one.out.starts_with("19 "));
+}
+
+TEST_CASE("systems: check agrees on the shipped kernels and names a planted mistake, with a line that explains it") {
+    if (!test::have_software_gl())
+        return;
+    const std::vector<std::string> check = on_gl({"check", scene, "--particles", "500", "--frames", "20"});
+    const test::Outcome right = run_lockstep(check);
+    CHECK(right.status == 0);
+    CHECK_THAT(right.out, Contains("verdict   AGREE: every bit of 500 grains") && !Contains("\nrender "));
+    const test::TemporaryFolder mine;
+    plant(mine);
+    const test::Outcome wrong = run_lockstep(test::joined(check, {"--shaders", mine.path()}));
+    CHECK(wrong.status == 1);
+    CHECK_THAT(wrong.out, Contains("gravity_missing") && Contains("verdict   DIVERGENT from frame 0 on") &&
+                              Contains("lockstep explain " + scene + " --frame 0 --pass update --item 0 ") &&
+                              Contains("foreign: " + (mine.path() / "update.comp").string()));
+    mine.write("updat.comp", "#version 430 core\nvoid main() {}\n");
+    CHECK_THAT(refusal(run_lockstep(test::joined(check, {"--shaders", mine.path()}))),
+               Contains("updat.comp would not run in this scene"));
+}
+
+TEST_CASE("systems: explain shows one item's step in a pass that runs") {
+    if (!test::have_software_gl())
+        return;
+    const auto explain = [](const std::vector<std::string>& more) {
+        return run_lockstep(
+            test::joined(on_gl({"explain", scene, "--particles", "500", "--frame", "5", "--item", "3"}), more));
+    };
+    const test::Outcome shown = explain({});
+    CHECK(shown.status == 0);
+    CHECK_THAT(shown.out, Contains("grain 3 in frame 5, pass update") && Contains("every bit agrees"));
+    CHECK(refusal(explain({"--pass", "populate"})) == "physics: pass populate does not run in frame 5");
+    CHECK_THAT(refusal(explain({"--pass", "updte"})), Catch::EndsWith("did you mean update?"));
+}
+
+TEST_CASE("systems: a capsule repeats its verdict without the scene's file and without GL") {
+    if (!test::have_software_gl())
+        return;
+    const test::TemporaryFolder mine, folder;
+    plant(mine);
+    const std::string file = (folder.path() / "grain.json").string();
+    const test::Outcome cut =
+        run_lockstep(on_gl({"capsule", "cut", scene, "--particles", "500", "--frame", "4", "--item", "3", "--pass",
+                            "update", "--shaders", mine.path(), "-o", file}));
+    CHECK(cut.err.empty());
+    CHECK(cut.status == 1);
+    const test::Outcome shown = run_lockstep({"capsule", "show", file});
+    CHECK(shown.status == 1);
+    CHECK_THAT(shown.out, Contains("grain 3 in frame 4, pass update") && Contains("verdict   divergent"));
+    std::ifstream stream(file);
+    std::string text{std::istreambuf_iterator<char>(stream), {}};
+    const std::size_t name = text.find("\"system\":\"dust\"");
+    REQUIRE(name != std::string::npos);
+    folder.write("other.json", text.replace(text.rfind("\"system\":\"dust\""), 15, "\"system\":\"sand\""));
+    CHECK_THAT(refusal(run_lockstep({"capsule", "show", (folder.path() / "other.json").string()})), Contains("sand"));
+}

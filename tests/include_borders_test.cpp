@@ -1,5 +1,6 @@
 #include <catch2/catch.hpp>
 
+#include <algorithm>
 #include <filesystem>
 #include <fstream>
 #include <optional>
@@ -41,6 +42,19 @@ std::optional<std::string> system_of(const std::string& file) {
     return match[1].str();
 }
 
+/// The file that names the systems there are.
+const std::string registration = "crosscheck/cli/systems.cpp";
+
+/// The system in whose folder a file lies, of those with one in crosscheck/ that puts both of its sides together.
+std::optional<std::string> registered_system_of(const std::string& file) {
+    static const std::regex folder("(?:crosscheck|gpu|reference/model|reference)/([a-z_]+)/.*");
+    std::smatch match;
+    if (!std::regex_match(file, match, folder) || !fs::is_directory("crosscheck/" + match[1].str()) ||
+        std::find(jobs.begin(), jobs.end(), match[1].str()) != jobs.end())
+        return {};
+    return match[1].str();
+}
+
 /// Why `file` may not include `header`; empty if it may.
 std::string forbidden(const std::string& file, const std::string& header) {
     if (!file.starts_with("gpu/") && starts_with_any(header, {"GL/", "EGL/", "GLES", "KHR/", "OpenGL/", "glbinding/"}))
@@ -59,6 +73,9 @@ std::string forbidden(const std::string& file, const std::string& header) {
     if (const auto system = system_of(header);
         system && system_of(file) != system && starts_with_any(file, {"reference/", "gpu/"}))
         return "only the system's own folders know " + *system;
+    if (const auto system = registered_system_of(header);
+        system && registered_system_of(file) != system && file.starts_with("crosscheck/") && file != registration)
+        return "only " + registration + " knows " + *system;
     if (file.starts_with("crosscheck/") && header.starts_with("tests/"))
         return "only tests include tests";
     const auto job = job_of(file), used = job_of(header);
@@ -121,6 +138,11 @@ TEST_CASE("include borders: a crossing is seen, with its line") {
     CHECK(crossings("crosscheck/judge/a.cpp", "#include \"crosscheck/report/report.hpp\"\n") ==
           Strings{"crosscheck/judge/a.cpp:1: judge knows nothing of report"});
     CHECK(crossings("crosscheck/report/a.cpp", "#include \"crosscheck/judge/check.hpp\"\n").empty());
+    CHECK(crossings("crosscheck/judge/a.cpp", "#include \"crosscheck/dust/system.hpp\"\n") ==
+          Strings{"crosscheck/judge/a.cpp:1: only crosscheck/cli/systems.cpp knows dust"});
+    CHECK(crossings("crosscheck/report/a.cpp", "#include \"reference/model/dust/settings.hpp\"\n").size() == 1);
+    CHECK(crossings("crosscheck/dust/a.cpp", "#include \"gpu/dust/passes.hpp\"\n").empty());
+    CHECK(crossings("crosscheck/cli/systems.cpp", "#include \"crosscheck/dust/system.hpp\"\n").empty());
     CHECK(crossings("reference/readings/a.hpp", "#include \"reference/model/collision/scene.hpp\"\n") ==
           Strings{"reference/readings/a.hpp:1: only the system's own folders know collision"});
     CHECK(crossings("gpu/dust/a.hpp", "#include \"gpu/collision/octree.hpp\"\n").size() == 1);

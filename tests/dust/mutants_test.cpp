@@ -1,0 +1,297 @@
+#include <algorithm>
+#include <cstdlib>
+#include <cstring>
+#include <fstream>
+#include <iostream>
+#include <set>
+#include <sstream>
+#include <string>
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+#include <nlohmann/json.hpp>
+
+#include "reference/dust/sites.hpp"
+#include "tests/dust/dust_run.hpp"
+#include "tests/temporary_folder.hpp"
+
+using namespace lockstep;
+using namespace lockstep::test;
+namespace dust = lockstep::dust;
+
+namespace {
+
+/// A change of a kernel's text.
+struct Mutant {
+    std::string name, file, text, replacement;
+    int times = 1;
+    std::string cause;      ///< as a report names it; empty: no one change of the twin is the same
+    std::string equivalent; ///< why it is as right as the original in these runs; empty: it is to be found
+};
+
+std::vector<Mutant> catalogue() {
+    std::ifstream stream("tests/dust/mutants.json");
+    std::vector<Mutant> all;
+    for (const nlohmann::json& one : nlohmann::json::parse(stream))
+        all.push_back({one.at("name"), one.at("file"), one.at("text"), one.at("replacement"), one.value("times", 1),
+                       one.value("cause", ""), one.value("equivalent", "")});
+    return all;
+}
+
+std::string read(const std::filesystem::path& file) {
+    std::ostringstream text;
+    text << std::ifstream(file).rdbuf();
+    return text.str();
+}
+
+/// How often a text stands in another.
+int occurrences(const std::string& in, const std::string& text) {
+    int count = 0;
+    for (std::size_t at = in.find(text); at != std::string::npos; at = in.find(text, at + text.size()))
+        ++count;
+    return count;
+}
+
+/// The mutant's shaders in a folder of their own.
+void plant(const Mutant& mutant, const TemporaryFolder& folder) {
+    for (const auto& entry : std::filesystem::directory_iterator("shaders/dust")) {
+        std::string text = read(entry.path());
+        if (entry.path().filename() == mutant.file)
+            for (std::size_t at = text.find(mutant.text); at != std::string::npos;
+                 at = text.find(mutant.text, at + mutant.replacement.size()))
+                text.replace(at, mutant.text.size(), mutant.replacement);
+        std::ofstream(folder.path() / entry.path().filename()) << text;
+    }
+}
+
+/// Two rooms in which every kernel has something to do: turned boxes in one, axis-aligned ones in the other.
+dust::Settings room(bool aabb) {
+    using Kind = dust::Tool::Kind;
+    dust::Settings s;
+    s.count = 4000;
+    s.mass = 1.25F;
+    s.scale = 0.6F;
+    s.switches.random = dust::Random::integer;
+    s.gravity = {0.5F, -9.8F, 0.25F};
+    s.colour_b = {0.5F, 0.75F, 1.0F};
+    s.spawn = {{-14.0F, 1.0F, -12.0F}, {13.0F, 14.0F, 12.0F}};
+    s.world = {{-15.0F, 0.0F, -15.0F}, {15.0F, 15.0F, 14.0F}};
+    s.controller = {{0, {0.0F, 6.0F, -5.0F}, {0.1F, 0.1F, 1.0F}}, {60, {3.0F, 6.0F, -2.0F}, {0.5F, -0.2F, 1.0F}}};
+    s.tools = {{.kind = Kind::vacuum, .from = 2, .to = 22, .force = 40.0F, .range = 16.0F, .death_range = 3.0F},
+               {.kind = Kind::emit, .from = 22, .to = 34, .force = 30.0F, .angle = 30.0F, .distance = 3.0F},
+               {.kind = Kind::wind, .from = 34, .to = 44, .force = 30.0F, .range = 12.0F, .angle = 40.0F}};
+    for (const int frame : {0, 12, 30})
+        s.cannon.push_back(
+            {.frame = frame, .position = {0.0F, 8.0F, -6.0F}, .speed = 120.0F, .range = 14.0F, .force = 4000.0F});
+    s.colliders = {{.position = {4.0F, 4.0F, 2.0F}, .radius = 3.0F},
+                   {.position = {6.0F, 3.0F, 3.0F}, .radius = 2.5F},
+                   {.sphere = false, .position = {-8.0F, 4.0F, -4.0F}, .scale = {6, 2, 4}, .rotate = {20, 10, 30}},
+                   {.sphere = false, .position = {-6.0F, 5.0F, -6.0F}, .scale = {3, 5, 7}, .rotate = {0, 40, 15}},
+                   {.sphere = false, .position = {7.0F, 5.0F, -3.0F}, .scale = {5, 5, 5}, .rotate = {5, 0, 0}}};
+    if (aabb) {
+        s.switches.box_kind = dust::BoxKind::aabb;
+        s.switches.box_detect = dust::BoxDetect::rounded;
+    }
+    return s;
+}
+
+/// All die at once, and come back in twos and threes of a group of lanes.
+dust::Settings nursery() {
+    dust::Settings s = room(false);
+    s.count = 20'000;
+    s.cannon.clear();
+    s.tools[0].angle = 90.0F;
+    s.tools[0].range = s.tools[0].death_range = 1000.0F;
+    s.tools[0].to = 6;
+    s.tools[1].from = 6;
+    return s;
+}
+
+constexpr int frames = 50;
+
+struct Outcome {
+    std::string verdict = "AGREE";
+    std::vector<std::string> causes; ///< that explain everything, the likeliest first
+
+    [[nodiscard]] bool found() const { return verdict != "AGREE" && verdict != "LEGAL"; }
+};
+
+Outcome run_of(const std::string& shaders, const dust::Settings& settings) {
+    Outcome outcome;
+    try {
+        const CheckReport report = run_dust(settings, frames, CheckMode::resync, shaders);
+        outcome.verdict = report.verdict == Verdict::agree       ? "AGREE"
+                          : report.verdict == Verdict::legal     ? "LEGAL"
+                          : report.verdict == Verdict::divergent ? "DIVERGENT"
+                                                                 : "OTHER";
+        if (!report.verdicts)
+            return outcome;
+        for (const CauseFindings& found : report.verdicts->causes)
+            for (const Cause& cause : found.best) {
+                if (found.explains_all())
+                    outcome.causes.push_back(cause.name());
+                else if (std::getenv("LOCKSTEP_DUST_PARTS") != nullptr)
+                    outcome.causes.push_back(fmt::format("({} {}/{} -{})", cause.name(), cause.explained,
+                                                         found.divergent, cause.contradicted));
+            }
+    } catch (const Error& error) {
+        outcome.verdict = std::string("ERROR ") + error.what();
+    }
+    return outcome;
+}
+
+Outcome run_of(const Mutant& mutant) {
+    const TemporaryFolder folder;
+    plant(mutant, folder);
+    Outcome outcome;
+    for (const dust::Settings& settings : {room(false), room(true), nursery()})
+        if (!outcome.found())
+            outcome = run_of(folder.path().string(), settings);
+    return outcome;
+}
+
+bool is_named(const Mutant& mutant, const Outcome& outcome) {
+    return std::find(outcome.causes.begin(), outcome.causes.end(), mutant.cause) != outcome.causes.end();
+}
+
+} // namespace
+
+TEST_CASE("dust mutants: each text stands in the shipped kernel as often as the catalogue says") {
+    std::set<std::string> names;
+    for (const Mutant& mutant : catalogue()) {
+        INFO(mutant.name);
+        CHECK(occurrences(read("shaders/dust/" + mutant.file), mutant.text) == mutant.times);
+        CHECK(names.insert(mutant.name).second);
+    }
+    CHECK(names.size() >= 60);
+}
+
+TEST_CASE("dust mutants: some of each kernel are found and named, and the shipped kernels are not") {
+    if (!gl())
+        return skip(gl().missing());
+    for (const dust::Settings& settings : {room(false), room(true), nursery()})
+        CHECK(run_of("shaders/dust", settings).verdict == "AGREE");
+    const std::set<std::string> few{"stride_16_read",   "death_not_counted",     "death_not_atomic", "spawned_dead",
+                                    "cone_ignored",     "suction_reversed",      "emitted_all",      "wind_reversed",
+                                    "blast_not_fading", "gravity_missing",       "drag_reversed",    "sphere_far_side",
+                                    "faces_turned",     "box_velocity_as_point", "wall_path_uncut"};
+    std::size_t run = 0;
+    for (const Mutant& mutant : catalogue()) {
+        if (!few.contains(mutant.name))
+            continue;
+        ++run;
+        const Outcome outcome = run_of(mutant);
+        INFO(mutant.name << ": " << outcome.verdict);
+        CHECK(outcome.found());
+        CHECK((mutant.cause.empty() || is_named(mutant, outcome)));
+    }
+    CHECK(run == few.size());
+}
+
+/// All of them, as a table: lockstep_tests_dust "[mutants]"
+TEST_CASE("dust mutants: the whole catalogue", "[.][mutants]") {
+    if (!gl())
+        return skip(gl().missing());
+    std::size_t wanted = 0, found = 0, to_name = 0, named = 0, false_alarms = 0;
+    const char* only = std::getenv("LOCKSTEP_DUST_MUTANT");
+    for (const Mutant& mutant : catalogue()) {
+        if (only != nullptr && mutant.name.find(only) == std::string::npos)
+            continue;
+        const Outcome outcome = run_of(mutant);
+        const bool is_wanted = mutant.equivalent.empty();
+        wanted += is_wanted ? 1 : 0;
+        found += is_wanted && outcome.found() ? 1 : 0;
+        false_alarms += !is_wanted && outcome.found() ? 1 : 0;
+        to_name += is_wanted && !mutant.cause.empty() ? 1 : 0;
+        named += is_wanted && !mutant.cause.empty() && is_named(mutant, outcome) ? 1 : 0;
+        std::cout << fmt::format("{:36} {:9} {}{}\n", mutant.name, outcome.verdict.substr(0, 90),
+                                 fmt::join(outcome.causes, " | "),
+                                 mutant.cause.empty() || is_named(mutant, outcome) ? "" : "   WANTED " + mutant.cause)
+                  << std::flush;
+        CHECK((outcome.found() || !is_wanted));
+    }
+    std::cout << fmt::format("{} of {} found, {} of {} named, {} false alarms\n", found, wanted, named, to_name,
+                             false_alarms);
+}
+
+namespace {
+
+/// A pass of which the reference makes a mistake.
+class WrongTwin : public ItemPass {
+  public:
+    WrongTwin(std::unique_ptr<ItemPass> right, Mistake mistake) : right_(std::move(right)), mistake_(mistake) {}
+
+    [[nodiscard]] std::string_view name() const override { return right_->name(); }
+    [[nodiscard]] std::uint8_t resource() const override { return right_->resource(); }
+    [[nodiscard]] PassStage stage() const override { return right_->stage(); }
+    [[nodiscard]] bool runs(int frame) const override { return right_->runs(frame); }
+    [[nodiscard]] bool continues() const override { return right_->continues(); }
+    [[nodiscard]] std::string_view output(const Resource& about, std::uint8_t field) const override {
+        return right_->output(about, field);
+    }
+    void run(const PassInput& in, const Profile& profile, std::size_t first, std::size_t last,
+             const WritableView& after) const override {
+        const std::vector<Component> parts = components(after.about());
+        for (std::size_t item = first; item < last; ++item) {
+            const std::vector<std::uint32_t> words = right_->mistaken(in, item, profile, std::span(&mistake_, 1));
+            for (std::size_t w = 0; w < words.size(); ++w) {
+                const auto stride = static_cast<std::size_t>(after.fields()[parts[w].field].components);
+                const std::size_t word = item * stride + static_cast<std::size_t>(parts[w].component);
+                std::memcpy(after.columns[parts[w].field] + word * sizeof words[w], &words[w], sizeof words[w]);
+            }
+        }
+    }
+    [[nodiscard]] std::vector<ItemOutcome> outcomes(const PassInput& in, std::size_t item, const Profile& profile,
+                                                    const KnownOperations& known, const View* observed) const override {
+        return right_->outcomes(in, item, profile, known, observed);
+    }
+    [[nodiscard]] std::vector<RecordedRow> record(const PassInput& in, std::size_t item,
+                                                  const Profile& profile) const override {
+        return right_->record(in, item, profile);
+    }
+    [[nodiscard]] FollowedStep follow(const PassInput& in, std::size_t item, const Profile& profile,
+                                      const KnownOperations& known, std::span<const ToldValue> told) const override {
+        return right_->follow(in, item, profile, known, told);
+    }
+    [[nodiscard]] std::vector<SeenSite> sites(const PassInput& in, std::size_t item,
+                                              const Profile& profile) const override {
+        return right_->sites(in, item, profile);
+    }
+    [[nodiscard]] std::vector<std::uint32_t> mistaken(const PassInput& in, std::size_t item, const Profile& profile,
+                                                      std::span<const Mistake> made) const override {
+        return right_->mistaken(in, item, profile, made);
+    }
+
+  private:
+    std::unique_ptr<ItemPass> right_;
+    Mistake mistake_;
+};
+
+} // namespace
+
+TEST_CASE("dust mutants: a mistake in any kernel's twin, with the shader right, is found as well") {
+    if (!gl())
+        return skip(gl().missing());
+    const dust::HostPtr host = host_of(room(false));
+    std::set<std::string> kernels;
+    for (const auto& pass : dust::system(host).passes)
+        kernels.insert(std::string(pass->name()));
+    CHECK(kernels.size() == 12);
+    for (const std::string& kernel : kernels) {
+        INFO(kernel);
+        System system = dust::system(host);
+        for (auto& pass : system.passes)
+            if (pass->name() == kernel) {
+                const bool is_count = pass->resource() == dust::count_buffer;
+                pass = std::make_unique<WrongTwin>(
+                    std::move(pass), is_count               ? mistake_at(dust::site::count, Change::one_more)
+                                     : kernel == "populate" ? mistake_at(dust::site::position, Change::negated)
+                                                            : mistake_at(dust::site::velocity, Change::negated));
+            }
+        GlSystemSide side(gl(), system, dust::passes(host), "shaders/dust");
+        CheckOptions options;
+        options.frames = frames;
+        options.mode = CheckMode::free;
+        CHECK(check(system, side, options).verdict == Verdict::differ);
+    }
+}

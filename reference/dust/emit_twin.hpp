@@ -18,7 +18,7 @@ struct EmitTwin {
         const bool integer = host->switches().random == Random::integer;
         const auto seed = static_cast<std::uint32_t>(
             static_cast<int>(r.uniform(site::random_seed, static_cast<int>(host->settings().seed))));
-        const RandomTwin<R> random(r);
+        const RandomTwin<R> random(r, host->switches());
         const Real f = R::real(i);
         const Real chance =
             integer ? random.unit(integer_random(i, Stream::chance, static_cast<std::uint32_t>(in.frame), seed))

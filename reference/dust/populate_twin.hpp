@@ -10,7 +10,7 @@ struct PopulateTwin {
     template <class R> Grain<R> operator()(R& r, const PassInput& in, std::size_t item) const {
         using Real = typename R::Real;
         const auto i = static_cast<std::uint32_t>(item);
-        const RandomTwin<R> random(r);
+        const RandomTwin<R> random(r, host->switches());
         const auto min = r.uniform(site::spawn_min, host->settings().spawn.min);
         const auto max = r.uniform(site::spawn_max, host->settings().spawn.max);
         Grain<R> grain = grain_before(r, in, item);

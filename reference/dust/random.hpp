@@ -27,7 +27,7 @@ template <class R> class RandomTwin {
     using Real = typename R::Real;
 
   public:
-    explicit RandomTwin(R& reading) : r(reading) {}
+    RandomTwin(R& reading, const Switches& switches) : r(reading), driver_(switches.random == Random::sin) {}
 
     /// In [0, 1).
     Real unit(std::uint32_t bits) const { return r.note(site::random, r.real(bits >> 8U) * 0x1p-24F); }
@@ -44,16 +44,22 @@ template <class R> class RandomTwin {
 
     Real sine(const Real& x) const {
         const bool negative = r.decide(site::below_zero, x < 0.0F);
-        return r.note(site::sine, signed_part(x, 0, negative));
+        return r.note(site::sine, of_driver(site::sine, signed_part(x, 0, negative)));
     }
-    Real cosine(const Real& x) const { return r.note(site::cosine, signed_part(x, 1, false)); }
+    Real cosine(const Real& x) const { return r.note(site::cosine, of_driver(site::cosine, signed_part(x, 1, false))); }
 
   private:
     static constexpr float rd1 = 7.8671F, rd2 = 3.3419F, rp1 = 2.1759F, rp2 = 4.7921F;
 
+    /// The driver's own sine is any number: GLSL gives it no precision.
+    Real of_driver(At place, const Real& value) const {
+        return driver_ ? r.unspecified(place, value, -1.0F, 1.0F) : value;
+    }
+
     Real hashed(const Real& argument) const {
         const Real a = sine(r.note(site::phase, argument)) * 39482.17593F;
-        return r.note(site::random, a - r.floor(a));
+        const Real share = a - r.floor(a);
+        return r.note(site::random, driver_ ? r.unspecified(site::random, share, 0.0F, 1.0F) : share);
     }
 
     /// Cody and Waite's reduction to an eighth of a turn, then a polynomial; each operation rounded.
@@ -86,6 +92,7 @@ template <class R> class RandomTwin {
     }
 
     R& r;
+    bool driver_;
 };
 
 } // namespace lockstep::dust

@@ -179,6 +179,7 @@ template <class A> class Mistaken {
     static Real max(Real a, Real b) { return static_cast<float>(a) < static_cast<float>(b) ? b : a; }
     static Real abs(Real a) { return std::abs(static_cast<float>(a)); }
     template <class Function> static Real monotone(Real a, const Function& f) { return f(static_cast<float>(a)); }
+    static Real unspecified(At, Real value, float /*lowest*/, float /*highest*/) { return value; }
     static Real floor(Real a) { return std::floor(static_cast<float>(a)); }
     Real dot(At, const Vec3& a, const Vec3& b) const { return fp_.dot(floats(a), floats(b)); }
     Real length(At p, const Vec3& v) {

@@ -84,6 +84,9 @@ template <class A> class Values {
     static Real abs(Real a) { return std::abs(static_cast<float>(a)); }
     /// A function that never falls where its argument rises: rounding to a storage format.
     template <class Function> static Real monotone(Real a, const Function& f) { return f(static_cast<float>(a)); }
+    /// What GLSL gives no precision to, sin and its like: the reference's own value, and what it may legally be, lowest
+    /// to highest.
+    static Real unspecified(At, Real value, float /*lowest*/, float /*highest*/) { return value; }
     static Real floor(Real a) { return std::floor(static_cast<float>(a)); }
     Real dot(At, const Vec3& a, const Vec3& b) const { return fp_.dot(floats(a), floats(b)); }
     Real length(At, const Vec3& v) const { return fp_.length(floats(v)); }

@@ -258,6 +258,9 @@ template <class A> class Worlds {
             return v.any ? v : Interval(double{f(static_cast<float>(v.low))}, double{f(static_cast<float>(v.high))});
         });
     }
+    Real unspecified(At, Real value, float lowest, float highest) {
+        return make({value}, [&](const auto&) { return Interval(double{lowest}, double{highest}); });
+    }
     Real floor(Real a) {
         return make({a}, [&](const auto&) {
             const Interval v = a.set();

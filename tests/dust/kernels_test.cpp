@@ -115,6 +115,26 @@ TEST_CASE("dust: remedies agree with their twins") {
     expect_agreement(s, 60);
 }
 
+TEST_CASE("dust: of the driver's own sine every number is legal, and a wrong kernel is divergent beside it") {
+    if (!gl())
+        return skip(gl().missing());
+    using Kind = dust::Tool::Kind;
+    dust::Settings s = room(1000);
+    s.switches = dust::preset("paper");
+    s.tools = {{.kind = Kind::vacuum, .from = 0, .to = 20, .force = 30.0F, .range = 25.0F}};
+    const CheckReport report = run_dust(s, 60);
+    INFO(report_text(report, {}));
+    CHECK((report.verdict == Verdict::agree || report.verdict == Verdict::legal));
+    CHECK_FALSE(report.total.agree()); // its sine is not the portable one
+    s.gravity.y = -9.0F;
+    const dust::HostPtr right = host_of(s);
+    s.gravity.y = -9.8F;
+    const dust::HostPtr wrong = host_of(s);
+    const System system = dust::system(right);
+    GlSystemSide side(gl(), system, dust::passes(wrong), "shaders/dust");
+    CHECK(check(system, side, {}).verdict == Verdict::divergent);
+}
+
 TEST_CASE("dust: the last group's idle threads write nothing") {
     if (!gl())
         return skip(gl().missing());

@@ -12,6 +12,7 @@
 #include "reference/collision/obstacle_pass.hpp"
 #include "reference/model/same_bits.hpp"
 #include "reference/model/ulp.hpp"
+#include "reference/parallel_blocks.hpp"
 
 namespace lockstep {
 namespace {
@@ -22,6 +23,10 @@ constexpr std::size_t pair_sample = 48;
 constexpr std::size_t pairs_kept = 8;
 constexpr std::size_t whole_kept = 8;
 constexpr std::ptrdiff_t parts_kept = 8;
+constexpr std::size_t most_together = 3;
+constexpr std::size_t alone_sample = 256;
+constexpr std::uint64_t borne_out = 64; ///< items that a cause explains before it is tried with another
+constexpr std::size_t most_drawn = 64;  ///< of more at once, each of which draws a whole image
 
 Deviations together(const TriedCause& cause) {
     Deviations set;
@@ -140,6 +145,21 @@ void count_particles(std::vector<TriedCause>& causes, const JudgedFrame& frame, 
     }
 }
 
+/// How many agreeing particles each contradicts, whatever it explains.
+void contradict_alone(std::vector<TriedCause>& causes, const JudgedFrame& frame, const FrameInputs& inputs,
+                      const std::vector<std::size_t>& agreeing) {
+    const AllowedUlps allowed(frame.profile);
+    parallel_blocks(static_cast<std::ptrdiff_t>(causes.size()), [&](std::ptrdiff_t c) {
+        TriedCause& cause = causes[static_cast<std::size_t>(c)];
+        const Deviations deviations = together(cause);
+        cause.contradicted +=
+            static_cast<std::uint64_t>(std::count_if(agreeing.begin(), agreeing.end(), [&](std::size_t i) {
+                return !alike(deviating_step(inputs, i, frame.profile, deviations), frame.gpu[i],
+                              frame.params.constants.tick, allowed);
+            }));
+    });
+}
+
 /// The same for texels: the whole image is drawn again.
 class TexelTrials {
   public:
@@ -243,9 +263,28 @@ void drop_hopeless(std::vector<TriedCause>& causes, std::uint64_t divergent) {
         causes.erase(failed + parts_kept, causes.end());
 }
 
-void forget_counts(std::vector<TriedCause>& causes) {
-    for (TriedCause& cause : causes)
-        cause.explained = cause.contradicted = 0;
+/// Each with each single that it does not have. `alone`: what contradicted these before.
+std::vector<TriedCause> with_one_more(const std::vector<TriedCause>& causes, const std::vector<TriedCause>& singles,
+                                      const std::array<std::uint64_t, deviation_count>& alone) {
+    std::vector<TriedCause> longer;
+    for (const TriedCause& cause : causes)
+        for (const TriedCause& single : singles) {
+            const Deviation one = single.deviations.front();
+            if (cause.deviations.size() >= most_together ||
+                std::find(cause.deviations.begin(), cause.deviations.end(), one) != cause.deviations.end())
+                continue;
+            TriedCause& more = longer.emplace_back(cause);
+            more.deviations.push_back(one);
+            std::sort(more.deviations.begin(), more.deviations.end());
+            more.contradicted_before += alone[static_cast<std::size_t>(one)];
+            more.contradicted = more.contradicted_before;
+        }
+    std::stable_sort(longer.begin(), longer.end(),
+                     [](const TriedCause& a, const TriedCause& b) { return a.deviations < b.deviations; });
+    longer.erase(std::unique(longer.begin(), longer.end(),
+                             [](const TriedCause& a, const TriedCause& b) { return a.deviations == b.deviations; }),
+                 longer.end());
+    return longer;
 }
 
 } // namespace
@@ -255,37 +294,47 @@ void CauseFinder::add(const JudgedFrame& frame, const FrameVerdicts& verdicts, c
     try_on_texels(frame, verdicts, inputs);
 }
 
-/// `count(causes, divergent)` adds a frame's counts to causes; `pairs()` gives those worth trying.
-template <class Count, class Pairs>
-void CauseFinder::hold_against(Trial& trial, const std::vector<std::size_t>& divergent, std::vector<TriedCause> singles,
-                               const Count& count, const Pairs& pairs) {
+/// `count(causes, divergent)` adds a frame's counts to causes; `pairs()` gives those of the first frame that are worth
+/// trying; `best(causes)` the best few of many, counted.
+template <class Count, class Pairs, class Best>
+void CauseFinder::hold_against(Trial& trial, const std::vector<std::size_t>& divergent,
+                               const std::vector<TriedCause>& singles, const Count& count, const Pairs& pairs,
+                               const Best& best) {
     if (divergent.empty())
         return;
-    const bool first = trial.frames == 0;
-    const bool tries = trial.frames < trial_frames;
+    const bool first = trial.frames == 0, later = trial.frames >= trial_frames;
     ++trial.frames;
-    if (first)
-        trial.causes = std::move(singles);
     const auto whole_ones = [&] {
         std::vector<TriedCause> whole = best_of(trial.causes, whole_kept);
         std::erase_if(whole, [&](const TriedCause& cause) { return !is_whole(cause, trial.divergent); });
         return whole;
     };
-    if (!tries) {
-        std::vector<TriedCause> whole = whole_ones();
-        if (whole.empty())
-            return;
-        count(whole, divergent);
-        trial.divergent += divergent.size();
-        trial.causes = std::move(whole);
+    std::vector<TriedCause> held = first ? std::vector<TriedCause>() : whole_ones();
+    if (later && held.empty())
         return;
-    }
+    if (first)
+        trial.causes = singles;
+    else if (later)
+        trial.causes = held;
     const std::vector<std::size_t> some = sample(divergent, trial_items);
     count(trial.causes, some);
     trial.divergent += some.size();
-    if (first && whole_ones().empty()) {
-        const std::vector<TriedCause> two = pairs();
-        trial.causes.insert(trial.causes.end(), two.begin(), two.end());
+    const std::uint64_t before = trial.divergent - some.size();
+    if (whole_ones().empty() && trial.extensions < trial_frames && (first || (!held.empty() && before >= borne_out))) {
+        ++trial.extensions;
+        /// Adds causes that were counted in this frame, and has them ready for one more.
+        const auto add = [&](std::vector<TriedCause> causes) {
+            trial.causes.insert(trial.causes.end(), causes.begin(), causes.end());
+            for (TriedCause& cause : causes) {
+                cause.explained = before;
+                cause.contradicted = cause.contradicted_before;
+            }
+            held = std::move(causes);
+        };
+        if (first)
+            add(pairs());
+        for (int more = first ? 1 : 0; more < 2 && whole_ones().empty(); ++more)
+            add(best(with_one_more(held, singles, trial.alone)));
     }
     drop_hopeless(trial.causes, trial.divergent);
     std::vector<TriedCause> whole = whole_ones();
@@ -305,29 +354,42 @@ void CauseFinder::try_on_particles(const JudgedFrame& frame, const FrameVerdicts
         count_particles(causes, frame, inputs, items, equal);
         contradict_by_drawing(causes, items.size(), frame, inputs);
     };
-    const auto best_pairs = [&] {
-        std::vector<TriedCause> two = pairs(particles_.causes);
-        // Where one explains nearly all, the other shows in the rest.
-        const Deviations best = together(best_of(particles_.causes, 1).front());
+    // The best of many, by a few items first: among them those that `known` leaves over, where another shows.
+    const auto best_few = [&](std::vector<TriedCause> causes, const TriedCause& known) {
         std::vector<std::size_t> rest;
         for (const std::size_t i : sample(wrong, trial_items))
-            if (!alike(deviating_step(inputs, i, frame.profile, best), frame.gpu[i], frame.params.constants.tick,
-                       AllowedUlps(frame.profile)))
+            if (!alike(deviating_step(inputs, i, frame.profile, together(known)), frame.gpu[i],
+                       frame.params.constants.tick, AllowedUlps(frame.profile)))
                 rest.push_back(i);
         const auto keep_best = [&](std::size_t items, std::size_t kept) {
+            const std::uint64_t before = causes.empty() ? 0 : causes.front().explained;
             std::vector<std::size_t> telling = sample(rest, items);
             const std::vector<std::size_t> others = sample(wrong, items);
             telling.insert(telling.end(), others.begin(), others.end());
-            count_particles(two, frame, inputs, telling, sample(equal, items));
-            two = best_of(std::move(two), kept);
-            forget_counts(two);
+            count_particles(causes, frame, inputs, telling, sample(equal, items));
+            causes = best_of(std::move(causes), kept);
+            for (TriedCause& cause : causes) {
+                cause.explained = before;
+                cause.contradicted = cause.contradicted_before;
+            }
         };
         keep_best(first_pair_sample, first_pairs_kept);
         keep_best(pair_sample, pairs_kept);
-        count(two, sample(wrong, trial_items));
-        return two;
+        count(causes, sample(wrong, trial_items));
+        return causes;
     };
-    hold_against(particles_, wrong, singles(for_steps, false), count, best_pairs);
+    const auto best_pairs = [&] { return best_few(pairs(particles_.causes), best_of(particles_.causes, 1).front()); };
+    const auto best = [&](std::vector<TriedCause> causes) {
+        return causes.empty() ? causes : best_few(std::move(causes), best_of(particles_.causes, 1).front());
+    };
+    const std::vector<TriedCause> all = singles(for_steps, false);
+    hold_against(particles_, wrong, all, count, best_pairs, best);
+    if (wrong.empty() || particles_.frames > trial_frames)
+        return;
+    std::vector<TriedCause> alone = all;
+    contradict_alone(alone, frame, inputs, sample(equal, alone_sample));
+    for (const TriedCause& cause : alone)
+        particles_.alone[static_cast<std::size_t>(cause.deviations.front())] += cause.contradicted;
 }
 
 void CauseFinder::try_on_texels(const JudgedFrame& frame, const FrameVerdicts& verdicts, const FrameInputs& inputs) {
@@ -357,7 +419,13 @@ void CauseFinder::try_on_texels(const JudgedFrame& frame, const FrameVerdicts& v
         return best_of(std::move(two), pairs_kept);
     };
     const bool places_points = frame.params.switches.arithmetic == ArithmeticSwitch::exact;
-    hold_against(texels_, wrong, singles(changes_drawing, places_points), count, best_pairs);
+    const auto best = [&](std::vector<TriedCause> causes) {
+        if (causes.size() > most_drawn)
+            causes.resize(most_drawn);
+        count(causes, sample(wrong, trial_items));
+        return best_of(std::move(causes), pairs_kept);
+    };
+    hold_against(texels_, wrong, singles(changes_drawing, places_points), count, best_pairs, best);
 }
 
 Cause as_cause(const TriedCause& tried) {

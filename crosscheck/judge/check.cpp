@@ -102,10 +102,10 @@ struct RunFrame {
 /// Judges the frames of a resync run that are not bit-equal.
 class RunJudge {
   public:
-    /// `has_cdt`: texels are judged too.
-    RunJudge(const Scene& scene, const Profile& profile, const KnownOperations& known, bool has_cdt)
-        : scene_(scene), profile_(profile), known_(known), has_cdt_(has_cdt), named_(named_mistakes()),
-          step_causes_(named_), listing_power_(scene, profile, known), power_(named_) {
+    /// `has_cdt`: texels are judged too. `causes`: the mistake behind what diverges is looked for.
+    RunJudge(const Scene& scene, const Profile& profile, const KnownOperations& known, bool has_cdt, bool causes)
+        : scene_(scene), profile_(profile), known_(known), has_cdt_(has_cdt), seeks_causes_(causes),
+          named_(named_mistakes()), step_causes_(named_), listing_power_(scene, profile, known), power_(named_) {
         summary_.judges_leans = can_judge_leans(known, profile);
     }
 
@@ -119,7 +119,7 @@ class RunJudge {
         const bool diverges = keep_first(f.number, judged, verdicts);
         summary_.add(f.number, collision::particles, verdicts.particles);
         summary_.add(f.number, collision::cdt, verdicts.texels);
-        if (diverges) {
+        if (diverges && seeks_causes_) {
             seek_causes(f, judged, verdicts);
             hint_.add(judged, verdicts);
         }
@@ -157,14 +157,22 @@ class RunJudge {
 
     [[nodiscard]] VerdictSummary summary() const {
         VerdictSummary summary = summary_;
-        summary.causes[collision::particles] =
-            is_listing(scene_.switches) ? causes_.particles() : step_causes_.findings();
+        summary.causes[collision::particles] = is_listing(scene_.switches)
+                                                   ? simpler(causes_.particles(), step_causes_.findings())
+                                                   : step_causes_.findings();
         summary.causes[collision::cdt] = has_remedies(scene_.switches) ? drawn_causes_.findings() : causes_.texels();
         summary.convict_shift();
         return summary;
     }
 
   private:
+    /// Names come first, then a change at one site without a name; but before several mistakes at once.
+    static CauseFindings simpler(CauseFindings named, CauseFindings unnamed) {
+        const bool one_name = named.explains_all() && named.best.front().mistakes.size() == 1;
+        const bool one_site = unnamed.explains_all() && !unnamed.best.front().has_name;
+        return !one_name && one_site ? unnamed : named;
+    }
+
     /// Whether there are divergent ones among the verdicts, and the first of them kept.
     bool keep_first(int frame, const JudgedFrame& judged, const FrameVerdicts& verdicts) {
         const auto divergent = [](const std::vector<ItemVerdict>& items) {
@@ -189,6 +197,7 @@ class RunJudge {
         }
         const FrameParams earlier_params = frame_params(scene_, std::max(f.number - 1, 0));
         causes_.add(judged, verdicts, frame_inputs(f, earlier_params));
+        with_step_pass(judged, [&](const JudgedPass& pass) { step_causes_.add(pass, verdicts.particles); });
     }
 
     static FrameInputs frame_inputs(const RunFrame& f, const FrameParams& earlier_params) {
@@ -219,7 +228,7 @@ class RunJudge {
     const Scene& scene_;
     const Profile& profile_;
     KnownOperations known_;
-    bool has_cdt_;
+    bool has_cdt_, seeks_causes_;
     VerdictSummary summary_{collision_schema()};
     CauseFinder causes_;
     LegalHint hint_;
@@ -293,7 +302,7 @@ CheckReport check(const Scene& scene, const Profile& profile, GpuSide& gpu, cons
     State earlier = before;
     const bool has_cdt = gpu.has_cdt();
     const bool judged = options.mode == CheckMode::resync;
-    RunJudge judge(scene, profile, options.known.value_or(measured_operations(profile)), has_cdt);
+    RunJudge judge(scene, profile, options.known.value_or(measured_operations(profile)), has_cdt, options.causes);
     gpu.upload(before.particles, before.cdt);
 
     for (int frame = 0; frame < options.frames && !(options.stop != nullptr && *options.stop); ++frame) {

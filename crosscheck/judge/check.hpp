@@ -130,6 +130,7 @@ struct CheckOptions {
     std::function<void(const ComparedFrame&)> on_state;
     /// What legal outcomes are taken from; not set: what the profile's driver was measured to do.
     std::optional<KnownOperations> known;
+    bool causes = true;                      ///< look for the mistake behind what diverges
     const std::atomic<bool>* stop = nullptr; ///< set: end after the frame at hand, with the verdict so far
 };
 

@@ -23,6 +23,7 @@ using enum Deviation;
 constexpr std::size_t looked_at = 16384;     ///< particles of a frame, of those without a hit
 constexpr std::size_t drawn_at_most = 16384; ///< particles, where it does not matter which of two is nearer
 constexpr std::size_t texels_judged = 16;
+constexpr std::size_t steps_a_frame = 3000; ///< that are tried with a mistake
 
 bool among(Deviation deviation, std::initializer_list<Deviation> all) {
     return std::find(all.begin(), all.end(), deviation) != all.end();
@@ -202,7 +203,9 @@ std::vector<Deviation> CollisionPower::unseen(bool of_drawing) const {
     std::vector<Deviation> all;
     for (const DeviationInfo& info : deviation_table()) {
         const Tried& tried = tried_[static_cast<std::size_t>(info.deviation)];
-        if (tried.is_mistake && tried.first_frame < 0 && changes_step(info.deviation) != of_drawing)
+        const bool places_points = scene_.switches.arithmetic == ArithmeticSwitch::exact;
+        const bool wanted = of_drawing ? changes_drawing(info.deviation, places_points) : changes_step(info.deviation);
+        if (tried.is_mistake && tried.first_frame < 0 && wanted)
             all.push_back(info.deviation);
     }
     return all;
@@ -230,11 +233,18 @@ void CollisionPower::try_steps(const PowerFrame& frame, const Situations& found)
     const SystemView before = step_state(step_inputs);
     const View reference = view(frame.after);
     const JudgedPass judged{*pass, profile_, known_, frame.number, before, reference, reference};
+    const std::size_t most = std::max<std::size_t>(steps_a_frame / all.size(), 2 * situation_count);
     std::vector<std::size_t> telling;
+    const auto take = [&](const std::vector<std::size_t>& some, std::size_t count) { // others in every frame
+        for (std::size_t i = 0; i < std::min(count, some.size()); ++i)
+            telling.push_back(
+                some[(i * some.size() / std::min(count, some.size()) + static_cast<std::size_t>(frame.number) * 7) %
+                     some.size()]);
+    };
     for (const std::vector<std::size_t>& some : found.some)
-        for (const std::size_t item : sample(some, 6))
-            telling.push_back(item);
-    const std::vector<std::size_t> items = items_to_try(judged, telling, 2 * std::max<std::size_t>(telling.size(), 16));
+        take(some, most / (2 * situation_count));
+    take(found.some[static_cast<std::size_t>(Situation::search)], most / 4);
+    const std::vector<std::size_t> items = items_to_try(judged, telling, most);
     parallel_blocks(static_cast<std::ptrdiff_t>(all.size()), [&](std::ptrdiff_t d) {
         const Deviation deviation = all[static_cast<std::size_t>(d)];
         Tried& tried = tried_[static_cast<std::size_t>(deviation)];

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 #include <optional>
+#include <utility>
 
 #include <fmt/format.h>
 
@@ -93,6 +94,8 @@ class ParticleDiagnosis {
         wrong.difference =
             difference(collision::collide_time, particle_, 0, reference_.collide_time, gpu_.collide_time);
         const bool gpu_hit = same_bits(gpu_.collide_time, constants.collision_time);
+        if (answers_as(trace_.nearest.has_value())) // the search is right: its end alone is not
+            return wrong_collide_time(std::move(wrong));
         const bool may_hit = std::any_of(outcomes_.begin(), outcomes_.end(), [](const auto& o) { return o.hit; });
         if (gpu_hit && !may_hit) {
             wrong.gpu = "a hit: its collide time was set";
@@ -116,6 +119,22 @@ class ParticleDiagnosis {
             wrong.gpu = "no hit: its collide time was counted";
             return wrong;
         }
+        return wrong_collide_time(std::move(wrong));
+    }
+
+    /// Whether speed and direction are what a hit, or none, leaves; and not the other as well.
+    [[nodiscard]] bool answers_as(bool hit) const {
+        const auto fits = [&](bool as_hit) {
+            return std::any_of(outcomes_.begin(), outcomes_.end(), [&](const LegalOutcome& o) {
+                return o.hit == as_hit && o.undefined == Undefined::none && o.speed.contains(gpu_.speed) &&
+                       lockstep::contains(o.direction, gpu_.direction);
+            });
+        };
+        return fits(hit) && !fits(!hit);
+    }
+
+    [[nodiscard]] WrongStep wrong_collide_time(WrongStep wrong) const {
+        const Constants& constants = frame_.params.constants;
         wrong.step = "collide time";
         wrong.operation = trace_.nearest ? fmt::format("collision time {:a}", constants.collision_time)
                                          : fmt::format("{:a} - tick {:a}", trace_.before.collide_time, constants.tick);

@@ -173,7 +173,8 @@ CauseFindings ItemCauseFinder::findings() const {
         found.best.push_back({{named ? hypothesis.named->name : hypothesis.text},
                               named ? hypothesis.named->meaning : meaning,
                               hypothesis.explained,
-                              hypothesis.contradicted});
+                              hypothesis.contradicted,
+                              named || hypothesis.host != Hypothesis::Host::none});
     }
     return found;
 }

@@ -40,7 +40,12 @@ class ItemCauseFinder {
         std::string text = {}; ///< of one without a name
         std::uint64_t explained = 0, contradicted = 0;
 
-        [[nodiscard]] int rank() const { return named != nullptr ? 0 : host != Host::none ? 1 : 2; }
+        /// Names first, then the host's, then a wrong input, then all else.
+        [[nodiscard]] int rank() const {
+            if (named != nullptr || host != Host::none)
+                return named != nullptr ? 0 : 1;
+            return text.starts_with("u_") ? 2 : 3;
+        }
         [[nodiscard]] std::int64_t balance() const {
             return static_cast<std::int64_t>(explained) - static_cast<std::int64_t>(contradicted);
         }

@@ -24,7 +24,7 @@ MistakenItem judge_mistaken(const JudgedPass& p, std::size_t item, std::span<con
 }
 
 std::vector<std::size_t> items_to_try(const JudgedPass& p, const std::vector<std::size_t>& telling, std::size_t most) {
-    std::vector<std::size_t> items = sample(telling, most / 2);
+    std::vector<std::size_t> items = sample(telling, most - most / 4);
     const std::size_t count = p.reference.count(), others = std::min(most - items.size(), count);
     for (std::size_t i = 0; i < others; ++i)
         items.push_back((i * count / others + static_cast<std::size_t>(p.frame) * 7) % count);

@@ -44,7 +44,7 @@ class PowerMeter {
 enum class MistakenItem : std::uint8_t { same, legal, divergent };
 MistakenItem judge_mistaken(const JudgedPass& pass, std::size_t item, std::span<const std::uint32_t> words);
 
-/// At most `most` items, half of them of `telling`, the others from everywhere, others in every frame.
+/// At most `most` items, three in four of them of `telling`, the others from everywhere, others in every frame.
 std::vector<std::size_t> items_to_try(const JudgedPass& pass, const std::vector<std::size_t>& telling,
                                       std::size_t most);
 

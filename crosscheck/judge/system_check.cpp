@@ -229,7 +229,7 @@ CheckReport check(const System& system, SystemSide& gpu, const CheckOptions& opt
                     first(DifferenceClass::divergent);
                 else if (!summary.first)
                     first(DifferenceClass::undefined);
-                if (diverges)
+                if (diverges && options.causes)
                     causes[p].add(one, verdicts);
             }
             earlier[p] = judged ? before : reference;

@@ -36,23 +36,50 @@ std::string classes_text(const std::array<std::uint64_t, class_names.size()>& co
     return text.empty() ? "none" : text;
 }
 
-std::string cause_text(const CauseFindings& found, std::string_view what) {
-    if (found.best.empty())
-        return fmt::format("no named deviation explains any of {} {}", grouped(found.divergent), what);
-    const Cause& best = found.best.front();
-    std::string text = found.explains_all()
-                           ? fmt::format("all {} {} are explained by {}: {}", grouped(found.divergent), what,
-                                         best.name(), best.meaning)
-                           : fmt::format("{} of {} {} are explained by {}: {}", grouped(best.explained),
-                                         grouped(found.divergent), what, best.name(), best.meaning);
-    if (best.contradicted > 0)
-        text += fmt::format(", which {} that agree contradict", grouped(best.contradicted));
+/// The names of those that explain as much as the first: ", or as well by b, c, or by 4 more".
+std::string equals_text(const CauseFindings& found) {
     constexpr std::size_t most_named = 3;
+    std::string text;
     for (std::size_t i = 1; i < std::min(found.best.size(), most_named); ++i)
         text += fmt::format(", or as well by {}", found.best[i].name());
     if (found.best.size() > most_named)
         text += fmt::format(", or by {} more", found.best.size() - most_named);
     return text;
+}
+
+/// What explains everything, and nothing contradicts. Changes without a name are told where the data leave few of them
+/// over: many changes explain a few particles alone.
+bool is_told(const CauseFindings& found) {
+    constexpr std::size_t enough_items = 8, few_changes = 6;
+    return found.explains_all() &&
+           (found.best.front().has_name || (found.divergent >= enough_items && found.best.size() <= few_changes));
+}
+
+std::string cause_text(const CauseFindings& found, std::string_view what) {
+    if (!is_told(found))
+        return fmt::format("no mistake with a name explains what diverges in the {}", what);
+    const Cause& best = found.best.front();
+    if (!best.has_name)
+        return fmt::format("no mistake with a name; all {} {} are explained by a change at one site of the twin, {}{}",
+                           grouped(found.divergent), what, best.name(), equals_text(found));
+    std::string text =
+        fmt::format("all {} {} are explained by {}: {}", grouped(found.divergent), what, best.name(), best.meaning);
+    if (best.name() != "never_collides")
+        return text + equals_text(found);
+    return found.best.size() == 1
+               ? text
+               : text + fmt::format("; {} other mistakes have the same end here", found.best.size() - 1);
+}
+
+/// What explains a part that is worth a look, and nothing contradicts; else nothing.
+std::string closest_text(const CauseFindings& found, std::string_view what) {
+    if (is_told(found) || found.best.empty())
+        return "";
+    const Cause& best = found.best.front();
+    if (best.contradicted > 0 || 10 * best.explained < found.divergent || !best.has_name)
+        return "";
+    return fmt::format("{} of {} {} are explained by {}: {}{}", grouped(best.explained), grouped(found.divergent), what,
+                       best.name(), best.meaning, equals_text(found));
 }
 
 std::string first_text(const FirstDivergence& first, const Shape& shape) {
@@ -120,9 +147,13 @@ nlohmann::json cause_json(const CauseFindings& found) {
         best.push_back({{"deviations", cause.mistakes},
                         {"meaning", cause.meaning},
                         {"explained", cause.explained},
-                        {"contradicted", cause.contradicted}});
+                        {"contradicted", cause.contradicted},
+                        {"named", cause.has_name}});
     }
-    return {{"divergent", found.divergent}, {"explains_all", found.explains_all()}, {"best", best}};
+    return {{"divergent", found.divergent},
+            {"explains_all", found.explains_all()},
+            {"told", is_told(found)},
+            {"best", best}};
 }
 
 nlohmann::json counts_json(const std::array<std::uint64_t, class_names.size()>& counts) {
@@ -169,6 +200,9 @@ std::string verdict_text(const VerdictSummary& s, const Schema& schema, int widt
             text += line("cause", cause_text(s.causes[r], schema.resources[r].item + "s"));
     if (s.first)
         text += first_text(*s.first, shape);
+    for (std::size_t r = 0; r < s.causes.size(); ++r)
+        if (const std::string closest = closest_text(s.causes[r], schema.resources[r].item + "s"); !closest.empty())
+            text += line("closest", closest);
     return text;
 }
 

@@ -42,6 +42,8 @@ template <class A> class Observer {
         const auto base = image_.base_texel(p);
         if (!base)
             return;
+        if (searches)
+            note(Situation::search, i, found);
         const int reach = params_.constants.texel_collide_range;
         if (searches && (base->x < reach || base->y < reach || base->x + reach >= params_.width ||
                          base->y + reach >= params_.height))

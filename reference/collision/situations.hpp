@@ -14,6 +14,7 @@ namespace lockstep {
 
 /// What a particle may meet in the listing's search, and mistakes show in.
 enum class Situation : std::uint8_t {
+    search, ///< one whose base texel lies in the image
     hit,
     two_in_range,   ///< a hit that had two or more to choose from
     equally_near,   ///< a hit whose nearest are two or more
@@ -30,7 +31,7 @@ inline constexpr std::size_t situation_count = static_cast<std::size_t>(Situatio
 
 /// How many particles of one frame, or several, were in each, and some of the last frame's, by index.
 struct Situations {
-    static constexpr std::size_t kept = 64;
+    static constexpr std::size_t kept = 512; ///< of each block of 4096
     std::array<std::uint64_t, situation_count> count{};
     std::array<std::vector<std::size_t>, situation_count> some;
 

@@ -15,6 +15,11 @@ template <class Condition> std::size_t count(const std::vector<Outcome>& outcome
 
 bool is_wanted(const Outcome& outcome) { return outcome.mutant.equivalent.empty(); }
 
+/// Whether the run's power says something of the mutant: its mistake has a name, and the host did not notice by itself.
+bool is_power_trial(const Outcome& outcome, const Trial& trial) {
+    return is_wanted(outcome) && trial.predicted.has_value() && trial.verdict != "ERROR" && trial.verdict != "PIXELS";
+}
+
 double percent(std::size_t part, std::size_t whole) {
     return whole == 0 ? 100.0 : 100.0 * static_cast<double>(part) / static_cast<double>(whole);
 }
@@ -83,6 +88,14 @@ std::size_t Score::wrongly_named() const {
     return count(outcomes, [](const Outcome& o) { return o.wrongly_named(); });
 }
 
+std::size_t Score::trials(bool predicted, bool found) const {
+    std::size_t sum = 0;
+    for (const Outcome& outcome : outcomes)
+        for (const Trial& trial : outcome.trials)
+            sum += is_power_trial(outcome, trial) && trial.predicted == predicted && trial.killed() == found ? 1 : 0;
+    return sum;
+}
+
 std::size_t Score::false_alarms() const {
     return count(outcomes, [](const Outcome& o) { return !is_wanted(o) && o.killer() != nullptr; }) +
            (unmutated.killer() != nullptr ? 1 : 0);
@@ -121,6 +134,9 @@ std::string score_text(const Score& score) {
                     of(score.killed(), score.wanted()), score.false_alarms(), score.outcomes.size() - score.wanted());
     text += fmt::format("cause         {} named first; {} wrongly named\n", of(score.named(), score.hypotheses()),
                         score.wrongly_named());
+    text += fmt::format(
+        "power         {} found and {} missed that would have shown; {} found and {} missed that could not\n",
+        score.trials(true, true), score.trials(true, false), score.trials(false, true), score.trials(false, false));
     for (std::size_t rule = 0; rule < common_rule_count; ++rule)
         text += fmt::format("{:<14}{} found\n", common_rules()[rule].name,
                             of(score.rejected_by(rule), score.judged_by(rule)));
@@ -153,8 +169,21 @@ std::string score_markdown(const Score& score) {
         of(score.named(), score.hypotheses()), score.wrongly_named(), score.outcomes.size() - score.wanted(),
         score.false_alarms());
     text +=
-        "## Found\n\nThe first scene that finds a mutant, and what explains everything there (equals side by side). x: "
-        "found by that rule.\n\n| mutant | in | verdict | scene, frame | cause |";
+        "## Predicted against found\n\nThe runs of mutants whose mistake has a name: what the line `power` of the same "
+        "run says of that mistake, and whether the verdict found it.\n\n| | found | not found |\n|---|---|---|\n";
+    for (const bool predicted : {true, false})
+        text += fmt::format("| {} | {} | {} |\n", predicted ? "would have shown" : "could not show",
+                            score.trials(predicted, true), score.trials(predicted, false));
+    text += "\n";
+    for (const Outcome& outcome : score.outcomes)
+        for (const Trial& trial : outcome.trials)
+            if (is_power_trial(outcome, trial) && trial.predicted != trial.killed())
+                text += fmt::format("- {} in {}: {}\n", outcome.mutant.name, place(trial),
+                                    trial.killed() ? "found, though the power line says that it could not show"
+                                                   : "not found, though it would have shown");
+    text += "\n## Found\n\nThe first scene that finds a mutant, and what explains everything there (equals side by "
+            "side). x: "
+            "found by that rule.\n\n| mutant | in | verdict | scene, frame | cause |";
     for (const CommonRule& rule : common_rules())
         text += fmt::format(" {} |", rule.name);
     text += "\n|---|---|---|---|---|";
@@ -200,6 +229,8 @@ nlohmann::json trial_json(const Trial& trial) {
         json["frame"] = trial.frame;
     if (!trial.error.empty())
         json["error"] = trial.error;
+    if (trial.predicted)
+        json["predicted"] = *trial.predicted;
     if (!trial.step.empty())
         json["step"] = trial.step;
     if (trial.divergent > 0)

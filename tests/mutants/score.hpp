@@ -24,6 +24,9 @@ struct Score {
     [[nodiscard]] std::size_t hypotheses() const;
     [[nodiscard]] std::size_t named() const;
     [[nodiscard]] std::size_t wrongly_named() const;
+    /// Of the trials of mutants whose mistake has a name, those of which the run's power said that it would show
+    /// (`predicted`), or could not, and that found it or not.
+    [[nodiscard]] std::size_t trials(bool predicted, bool found) const;
     /// Equivalent ones that differ all the same.
     [[nodiscard]] std::size_t false_alarms() const;
 

@@ -31,7 +31,10 @@ bool renders(const Mutant& mutant) {
     });
 }
 
-void note_verdict(Trial& trial, const CheckReport& report) {
+void note_verdict(Trial& trial, const CheckReport& report, const Mutant& mutant) {
+    for (const PowerSummary::Mistake& mistake : report.power.mistakes)
+        if (mistake.name == mutant.cause)
+            trial.predicted = mistake.first_frame.has_value();
     trial.verdict = verdict_name(report.verdict);
     trial.frame = report.first_frame.value_or(-1);
     if (!report.verdicts)
@@ -43,7 +46,8 @@ void note_verdict(Trial& trial, const CheckReport& report) {
         trial.step = verdicts.first->wrong.step;
     }
     const CauseFindings& found = verdicts.causes[verdicts.causes[0].divergent > 0 ? 0 : 1];
-    trial.explained = found.explains_all();
+    // Of the listing, whose mistakes have names, only these are claims.
+    trial.explained = found.explains_all() && (found.best.front().has_name || mutant.pass != "collision_pass");
     for (const Cause& cause : found.best)
         trial.causes.push_back(cause.name());
 }
@@ -134,7 +138,7 @@ Trial run_trial(const Mutant& mutant, TrialScene& trial_scene) {
                     end = {frame.gpu, frame.gpu_cdt, {}};
             };
             try {
-                note_verdict(trial, check(scene, trial_scene.profile(), gpu, options));
+                note_verdict(trial, check(scene, trial_scene.profile(), gpu, options), mutant);
             } catch (const Error& error) {
                 trial.verdict = "ERROR";
                 trial.error = error.what();

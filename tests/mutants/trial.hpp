@@ -56,9 +56,11 @@ struct Trial {
     std::string error;
     int frame = -1; ///< the first that differs; -1: none
     std::uint64_t divergent = 0;
-    bool explained = false;                                   ///< a named deviation explains everything that diverged
-    std::vector<std::string> causes;                          ///< those that explain most, the first one first
-    std::string step;                                         ///< where the first divergent item goes wrong
+    bool explained = false;          ///< a named deviation explains everything that diverged
+    std::vector<std::string> causes; ///< those that explain most, the first one first
+    std::optional<bool>
+        predicted;    ///< the run's power says that the mutant's mistake would have shown; not set: no name
+    std::string step; ///< where the first divergent item goes wrong
     std::array<std::optional<bool>, common_rule_count> rules; ///< accepted; nothing: the run had no end to compare
 
     [[nodiscard]] bool killed() const { return verdict != "AGREE" && verdict != "LEGAL"; }

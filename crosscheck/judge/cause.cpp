@@ -263,6 +263,12 @@ void drop_hopeless(std::vector<TriedCause>& causes, std::uint64_t divergent) {
         causes.erase(failed + parts_kept, causes.end());
 }
 
+/// Whether what explained all `before` items may be tried with one more. Where that only says what is seen, as that
+/// nothing collides, its names are guesses.
+bool is_base(const std::vector<TriedCause>& held, std::uint64_t before) {
+    return !held.empty() && before >= borne_out && std::none_of(held.begin(), held.end(), describes);
+}
+
 /// Each with each single that it does not have. `alone`: what contradicted these before.
 std::vector<TriedCause> with_one_more(const std::vector<TriedCause>& causes, const std::vector<TriedCause>& singles,
                                       const std::array<std::uint64_t, deviation_count>& alone) {
@@ -320,7 +326,7 @@ void CauseFinder::hold_against(Trial& trial, const std::vector<std::size_t>& div
     count(trial.causes, some);
     trial.divergent += some.size();
     const std::uint64_t before = trial.divergent - some.size();
-    if (whole_ones().empty() && trial.extensions < trial_frames && (first || (!held.empty() && before >= borne_out))) {
+    if (whole_ones().empty() && trial.extensions < trial_frames && (first || is_base(held, before))) {
         ++trial.extensions;
         /// Adds causes that were counted in this frame, and has them ready for one more.
         const auto add = [&](std::vector<TriedCause> causes) {

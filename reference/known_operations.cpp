@@ -75,4 +75,14 @@ KnownOperations measured_operations(const Profile& profile) {
     return known;
 }
 
+KnownOperations in_compute_stage(KnownOperations known, const Profile& profile) {
+    known.sums = known.sums && followed(profile, {"compute: a*b+c", "compute: c-a*b"});
+    known.divide = known.divide && followed(profile, {"compute: a/b", "compute: 1/b"});
+    known.square_root =
+        known.square_root && followed(profile, {"compute: sqrt", "compute: inversesqrt", "compute: length"});
+    known.dot = known.dot && followed(profile, {"compute: dot"});
+    known.normalize = known.normalize && followed(profile, {"compute: normalize"});
+    return known;
+}
+
 } // namespace lockstep

@@ -270,6 +270,13 @@ Profile profile_from(const ProbeResult& result) {
     rows.require({"subnormal operand of *", "subnormal operand of +", "subnormal result of +", "subnormal > 0"},
                  profile.flush_subnormals ? "flushed" : "kept");
     rows.require({"subnormal passed on"}, "kept");
+    for (const char* row : {"compute: a/b", "compute: 1/b", "compute: sqrt", "compute: inversesqrt",
+                            "compute: dot(vec3)", "compute: length", "compute: normalize"})
+        if (result.has(row))
+            rows.require({row}, "as in the vertex stage");
+    for (const char* row : {"compute: a*b+c, in functions", "compute: c-a*b, in functions"})
+        if (result.has(row))
+            rows.require({row}, "each rounded");
     if (result.has("compute: subnormal result of *")) {
         profile.compute_flush_subnormals =
             rows.pick<bool>("compute: subnormal result of *", {{"flushed", true}, {"kept", false}});

@@ -3,6 +3,7 @@
 
 #include "gpu/check.hpp"
 #include "gpu/object.hpp"
+#include "gpu/probe/driver_arithmetic.hpp"
 #include "gpu/probe/inputs.hpp"
 #include "gpu/probe/rows.hpp"
 #include "gpu/program.hpp"
@@ -55,9 +56,75 @@ ProbeRow measure_sum(const Program& program, const char* name, const Floats& x, 
                  {{"flushed", if_flushed}, {"flushed to +0", if_unsigned}, {"kept", kept}});
 }
 
+constexpr std::size_t results_each = 11;
+
+/// What shaders/probe/arithmetic.comp makes of each pair, `results_each` floats.
+Floats operations_of(const Vectors& a, const Vectors& b) {
+    const std::array stages{Stage::compute};
+    const Program program("probe/arithmetic", load_stages(shader_folders(), "probe/arithmetic", stages));
+    Floats pairs;
+    for (std::size_t i = 0; i < a.size(); ++i)
+        pairs.insert(pairs.end(), {a[i].x, a[i].y, a[i].z, b[i].x, b[i].y, b[i].z});
+    Floats results(results_each * a.size());
+    const GlBuffer from, to;
+    const auto bytes = [](const Floats& floats) { return static_cast<GLsizeiptr>(floats.size() * sizeof(float)); };
+    gl::BindBufferBase(GL_SHADER_STORAGE_BUFFER, 0, from.id());
+    gl::BufferData(GL_SHADER_STORAGE_BUFFER, bytes(pairs), pairs.data(), GL_STREAM_READ);
+    gl::BindBufferBase(GL_SHADER_STORAGE_BUFFER, 1, to.id());
+    gl::BufferData(GL_SHADER_STORAGE_BUFFER, bytes(results), results.data(), GL_STREAM_READ);
+    program.use();
+    gl::DispatchCompute(static_cast<GLuint>(a.size() / group_size), 1, 1);
+    gl::MemoryBarrier(GL_BUFFER_UPDATE_BARRIER_BIT);
+    gl::GetBufferSubData(GL_SHADER_STORAGE_BUFFER, 0, bytes(results), results.data());
+    for (const GLuint binding : {0U, 1U})
+        gl::BindBufferBase(GL_SHADER_STORAGE_BUFFER, binding, 0);
+    check_gl(program.name());
+    return results;
+}
+
+template <class Read> Floats each_of(const Vectors& vectors, Read read) {
+    Floats values;
+    for (const glm::vec3& v : vectors)
+        values.push_back(read(v));
+    return values;
+}
+
+/// The operations that GLSL leaves open, held against the vertex stage's, whose sequences other rows have.
+void measure_operations(const DriverArithmetic& vertex, Rows& rows) {
+    const Vectors a = random_vectors(inputs, 38, {}), b = random_vectors(inputs, 39, {});
+    const Floats made = operations_of(a, b);
+    const auto row = [&](const char* name, std::size_t first, std::size_t count, const Floats& of_vertex) {
+        Floats values;
+        for (std::size_t i = 0; i < a.size(); ++i)
+            for (std::size_t k = first; k < first + count; ++k)
+                values.push_back(made[results_each * i + k]);
+        rows.push_back(judge(name, values, {{"as in the vertex stage", of_vertex}}));
+    };
+    const auto x = [](glm::vec3 v) { return v.x; };
+    row("compute: a/b", 0, 1, vertex.divide(each_of(a, x), each_of(b, x)));
+    row("compute: 1/b", 1, 1, vertex.reciprocal(each_of(b, [](glm::vec3 v) { return v.y; })));
+    row("compute: sqrt", 2, 1, vertex.sqrt(each_of(a, [](glm::vec3 v) { return std::abs(v.y); })));
+    row("compute: inversesqrt", 3, 1, vertex.inverse_sqrt(each_of(a, [](glm::vec3 v) { return std::abs(v.z); })));
+    row("compute: dot(vec3)", 4, 1, vertex.dot(a, b));
+    row("compute: length", 5, 1, vertex.length(b));
+    row("compute: normalize", 6, 3, vertex.normalize(a));
+    const auto fused = [&](const char* name, std::size_t place, const Floats& rounded, const Floats& once) {
+        Floats values;
+        for (std::size_t i = 0; i < a.size(); ++i)
+            values.push_back(made[results_each * i + place]);
+        rows.push_back(judge(name, values, {{"each rounded", rounded}, {"fused", once}}));
+    };
+    fused("compute: a*b+c, in functions", 9, each_of(a, [](glm::vec3 v) { return v.x * v.y + v.z; }),
+          each_of(a, [](glm::vec3 v) { return std::fma(v.x, v.y, v.z); }));
+    fused("compute: c-a*b, in functions", 10, each_of(b, [](glm::vec3 v) { return v.z - v.x * v.y; }),
+          each_of(b, [](glm::vec3 v) { return std::fma(-v.x, v.y, v.z); }));
+}
+
 } // namespace
 
 void measure_compute_arithmetic(Rows& rows) {
+    const DriverArithmetic vertex(true);
+    measure_operations(vertex, rows);
     const std::array stages{Stage::compute};
     const Program program("probe/product", load_stages(shader_folders(), "probe/product", stages));
     rows.push_back(measure_product(program, "compute: subnormal operand of *", -130, 0x1p60F));

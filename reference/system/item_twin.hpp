@@ -111,7 +111,7 @@ template <class Twin> class ItemTwin final : public ItemPass {
         const FlushSubnormals guard = flush(profile, known.subnormals);
         std::vector<ItemOutcome> found;
         with_arithmetic_of(profile, [&]<class A>(A fp) {
-            Worlds<A> worlds(fp, known, profile.other_orders);
+            Worlds<A> worlds(fp, of_stage(known, profile), profile.other_orders);
             std::vector<std::vector<float>> kept;
             if (observed != nullptr)
                 tell(worlds, *observed, item, kept);
@@ -143,7 +143,7 @@ template <class Twin> class ItemTwin final : public ItemPass {
                                       const KnownOperations& known, std::span<const ToldValue> told) const override {
         const FlushSubnormals guard = flush(profile, known.subnormals);
         return with_arithmetic_of(profile, [&]<class A>(A fp) {
-            Following<A> reading(fp, known, profile.other_orders);
+            Following<A> reading(fp, of_stage(known, profile), profile.other_orders);
             std::map<std::string_view, int> occurrences;
             for (const ToldValue& value : told)
                 reading.tell_in_order(name_id(value.output), occurrences[value.output]++, value.values);
@@ -193,6 +193,12 @@ template <class Twin> class ItemTwin final : public ItemPass {
 
   private:
     [[nodiscard]] const Resource& about(const PassInput& in) const { return in.before[options_.resource].about(); }
+
+    [[nodiscard]] KnownOperations of_stage(const KnownOperations& known, const Profile& profile) const {
+        return options_.stage == PassStage::compute && options_.arithmetic == ArithmeticSwitch::plain
+                   ? in_compute_stage(known, profile)
+                   : known;
+    }
 
     [[nodiscard]] FlushSubnormals flush(const Profile& profile, bool known = true) const {
         if (options_.stage == PassStage::vertex)

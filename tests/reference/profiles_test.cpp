@@ -176,6 +176,27 @@ TEST_CASE("profiles: in the compute stage sums flush subnormals as products do, 
     CHECK(profile_from(result).not_followed.empty());
 }
 
+TEST_CASE("profiles: what the compute stage computes otherwise is open there, and only there") {
+    const auto with = [](const char* row, const char* finding) {
+        ProbeResult result = llvmpipe();
+        result.rows.push_back({row, finding, 1, 1, 0, {}});
+        return profile_from(result);
+    };
+    const Profile same = with("compute: length", "as in the vertex stage");
+    CHECK(same.not_followed.empty());
+    const Profile other = with("compute: length", "none known");
+    CHECK(other.not_followed == std::vector<std::string>{"compute: length"});
+    CHECK(other.name == "llvmpipe");
+    const KnownOperations known = measured_operations(other);
+    CHECK(known.square_root);
+    CHECK_FALSE(in_compute_stage(known, other).square_root);
+    CHECK(in_compute_stage(known, other).divide);
+    CHECK(in_compute_stage(known, same).square_root);
+    const Profile fused = with("compute: a*b+c, in functions", "fused");
+    CHECK(measured_operations(fused).sums);
+    CHECK_FALSE(in_compute_stage(measured_operations(fused), fused).sums);
+}
+
 TEST_CASE("profiles: a chain that divides exactly is neither known one") {
     ProbeResult result = llvmpipe();
     find(result, "dot(vec3)", "fma(z,fma(y,x))");

@@ -18,7 +18,8 @@ void measure_vertex_arithmetic(const DriverArithmetic& plain, std::size_t inputs
 /// The same operations in the fragment stage, as far as the passes have them there.
 void measure_fragment_arithmetic(Rows& rows);
 
-/// The compute stage: what GLSL leaves open, beside the vertex stage, and subnormals in products and sums. The context has one.
+/// The compute stage: what GLSL leaves open, beside the vertex stage, and subnormals in products and sums. The context
+/// has one.
 void measure_compute_arithmetic(Rows& rows);
 
 /// Halves and 8-bit codes, on their way into an image and out of it; texels outside it.

@@ -9,6 +9,7 @@
 #include "gpu/collision/particle_buffer.hpp"
 #include "reference/model/state_hash.hpp"
 #include "tests/gpu/any_context.hpp"
+#include "tests/gpu/one_texel_target.hpp"
 #include "tests/temporary_folder.hpp"
 
 using namespace lockstep;
@@ -164,6 +165,7 @@ void main() {
     gl::BindVertexArray(attributes.id());
     to.bind_capture();
     const GlQuery written;
+    const test::OneTexelTarget target;
     gl::Enable(GL_RASTERIZER_DISCARD);
     gl::BeginQuery(GL_TRANSFORM_FEEDBACK_PRIMITIVES_WRITTEN, written.id());
     gl::BeginTransformFeedback(GL_POINTS);

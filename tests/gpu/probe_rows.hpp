@@ -111,6 +111,7 @@ inline constexpr LaterRow later_rows[] = {
     {"fma", "rounded once", 25, 26},
     {"fma, precise", "rounded once", 25, 26},
     {"compute: subnormal result of *", "flushed", 25, 26},
+    {"compute: subnormal result of +", "flushed", 25, 26},
 };
 
 /// Rows that depend on the processor: with fused multiply-add, or without.

@@ -4,6 +4,7 @@
 #include "gpu/record_buffer.hpp"
 #include "gpu/shader_source.hpp"
 #include "tests/gpu/any_context.hpp"
+#include "tests/gpu/one_texel_target.hpp"
 #include "tests/temporary_folder.hpp"
 
 using namespace lockstep;
@@ -100,6 +101,7 @@ void main() {
     program.use();
     gl::BindVertexArray(attributes.id());
     to.bind_capture();
+    const test::OneTexelTarget target;
     gl::Enable(GL_RASTERIZER_DISCARD);
     gl::BeginTransformFeedback(GL_POINTS);
     gl::DrawArrays(GL_POINTS, 0, 500);

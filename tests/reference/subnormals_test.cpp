@@ -20,8 +20,9 @@ volatile float big = 0x1p60F;
 
 TEST_CASE("subnormals: operands and results are zero while the guard lives, and kept before and after") {
     CHECK(smallest_normal * 0.5F > 0.0F);
-    float result, operand, normal; // looked at without the guard, under which a subnormal equals 0
-    bool negative;
+    // Computed under the guard, and looked at without it: under it a subnormal equals 0.
+    volatile float result, operand, normal;
+    volatile bool negative;
     {
         const FlushSubnormals guard(true);
         result = smallest_normal * 0.5F;
@@ -40,7 +41,7 @@ TEST_CASE("subnormals: operands and results are zero while the guard lives, and 
 TEST_CASE("subnormals: one guard inside another says what holds, and restores the outer") {
     const FlushSubnormals keep(false);
     CHECK(subnormal * big > 0.0F);
-    float inside, after;
+    volatile float inside, after;
     {
         const FlushSubnormals outer(true);
         {

@@ -342,10 +342,6 @@ int run_trace(Options options) {
                            info.shaders});
 }
 
-} // namespace
-
-namespace {
-
 void check_stress_options(const Call& call, const Options& options) {
     static constexpr std::array<std::string_view, 16> allowed{
         "--stress",       "--frames", "--preset",          "--set",          "--threads",        "--gl",    "--shaders",

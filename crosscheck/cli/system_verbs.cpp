@@ -114,14 +114,6 @@ std::size_t item_named(const std::string& text, const SystemScene& scene, std::s
 
 NumberFormat format(bool hexadecimal) { return hexadecimal ? NumberFormat::hexadecimal : NumberFormat::decimal; }
 
-/// The pass that `first`'s step names.
-std::string pass_of(const FirstDivergence& first, const System& system) {
-    for (const auto& pass : system.passes)
-        if (first.wrong.step.starts_with(fmt::format("{}, ", pass->name())))
-            return std::string(pass->name());
-    return {};
-}
-
 std::string check_line(const RunOptions& run, const SystemCheck& asked, int frames) {
     return command_line("check", run, frames) + (asked.mode == CheckMode::free ? " --mode free" : "") +
            legal_option_text(asked.legal) + pass_options_text(asked.rules);
@@ -177,7 +169,7 @@ int check_system(const RegisteredSystem& system, const RunOptions& run, const Sy
         const auto& first = *report.verdicts->first;
         about.explain = command_line("explain", run,
                                      fmt::format("--frame {} --pass {} --item {}", first.place.frame,
-                                                 pass_of(first, twins), first.place.index)) +
+                                                 twins.passes[pass_of(first, twins)]->name(), first.place.index)) +
                         legal_option_text(asked.legal);
     }
     if (!asked.quiet) {

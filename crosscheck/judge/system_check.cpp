@@ -313,6 +313,14 @@ std::vector<ToldValue> SystemRun::told(std::size_t item) {
     return told;
 }
 
+std::size_t pass_of(const FirstDivergence& first, const System& system) {
+    std::size_t pass = 0;
+    for (std::size_t p = 0; p < system.passes.size(); ++p)
+        if (first.wrong.step.starts_with(fmt::format("{}, ", system.passes[p]->name())))
+            pass = p;
+    return pass;
+}
+
 ReferenceRun::ReferenceRun(const System& system, Profile profile)
     : system_(system), profile_(std::move(profile)), state_(system.start) {
     check_system(system);

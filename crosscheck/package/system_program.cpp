@@ -169,10 +169,7 @@ class SystemProgram {
             return;
         }
         const Place& place = report.verdicts->first->place;
-        std::size_t pass = 0;
-        for (std::size_t p = 0; p < system_.passes.size(); ++p)
-            if (report.verdicts->first->wrong.step.starts_with(std::string(system_.passes[p]->name()) + ", "))
-                pass = p;
+        const std::size_t pass = pass_of(*report.verdicts->first, system_);
         SystemRun run(system_, side, known_operations(legal, side.describe().profile), place.frame, pass);
         files.write(path, item_capsule_file(cut_item_capsule(run, place.index, side.describe().name), system_));
         fmt::print("capsule   {} {} of frame {}\n", system_.schema.resources[place.resource].item, place.index,

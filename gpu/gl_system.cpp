@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cctype>
+#include <chrono>
 #include <optional>
 #include <utility>
 
@@ -161,11 +162,15 @@ struct GlSystem::Parts {
     std::vector<std::vector<RecordBuffer>> buffers; ///< two a storage
     std::vector<std::size_t> current;               ///< of each buffer, which of the two the next pass reads
     SmallestTarget target = {};                     ///< of vertex passes
+    GlQuery timer = {};
+    Seconds seconds = {};
 
     /// What the pass runs in a frame; null where there is nothing.
     [[nodiscard]] const Linked* running(std::size_t pass, int frame) const;
     void run(const Linked& linked, int frame);
     void draw(const Linked& linked);
+    /// Runs `work`, a draw or a dispatch, and takes its time.
+    template <class Work> void timed(const Work& work);
     void dispatch(const Linked& linked, int frame);
     [[nodiscard]] std::vector<ShaderSource> sources(const GlPass& pass, bool traced) const;
     [[nodiscard]] std::size_t first_storage(std::uint8_t resource) const;
@@ -258,6 +263,22 @@ void GlSystem::upload(const SystemView& state) {
     }
 }
 
+template <class Work> void GlSystem::Parts::timed(const Work& work) {
+    gl::Finish();
+    const auto start = std::chrono::steady_clock::now();
+    {
+        const RunningQuery timing(GL_TIME_ELAPSED, timer);
+        work();
+    }
+    gl::Finish();
+    seconds.wall = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+    GLuint64 nanoseconds = 0;
+    gl::GetQueryObjectui64v(timer.id(), GL_QUERY_RESULT, &nanoseconds);
+    seconds.timer = static_cast<double>(nanoseconds) * 1e-9;
+}
+
+GlSystem::Seconds GlSystem::seconds() const { return parts_->seconds; }
+
 void GlSystem::Parts::draw(const Linked& linked) {
     const std::size_t storage = first_storage(linked.pass.resource);
     const RecordBuffer& source = from(storage);
@@ -271,7 +292,7 @@ void GlSystem::Parts::draw(const Linked& linked) {
     gl::Enable(GL_RASTERIZER_DISCARD);
     gl::BeginQuery(GL_TRANSFORM_FEEDBACK_PRIMITIVES_WRITTEN, written.id());
     gl::BeginTransformFeedback(GL_POINTS);
-    gl::DrawArrays(GL_POINTS, 0, static_cast<GLsizei>(source.size()));
+    timed([&] { gl::DrawArrays(GL_POINTS, 0, static_cast<GLsizei>(source.size())); });
     gl::EndTransformFeedback();
     gl::EndQuery(GL_TRANSFORM_FEEDBACK_PRIMITIVES_WRITTEN);
     gl::Disable(GL_RASTERIZER_DISCARD);
@@ -312,7 +333,8 @@ void GlSystem::Parts::dispatch(const Linked& linked, int frame) {
     }
     const std::size_t items = from(first_storage(linked.pass.resource)).size();
     linked.program.use();
-    gl::DispatchCompute(static_cast<GLuint>((items + linked.invocations - 1) / linked.invocations), 1, 1);
+    timed(
+        [&] { gl::DispatchCompute(static_cast<GLuint>((items + linked.invocations - 1) / linked.invocations), 1, 1); });
     gl::MemoryBarrier(GL_BUFFER_UPDATE_BARRIER_BIT | GL_CLIENT_MAPPED_BUFFER_BARRIER_BIT |
                       GL_VERTEX_ATTRIB_ARRAY_BARRIER_BIT | GL_SHADER_STORAGE_BARRIER_BIT);
     gl::Finish();

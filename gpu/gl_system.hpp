@@ -64,6 +64,13 @@ class GlSystem final : public SystemSide {
     void lay_canary(std::size_t pass) override;
     void repeat_step(std::size_t pass, int frame) override;
 
+    /// Seconds that the last step's draw or dispatch took, nothing else with it: to glFinish, and by the GPU's own
+    /// clock (GL_TIME_ELAPSED).
+    struct Seconds {
+        double wall = 0.0, timer = 0.0;
+    };
+    [[nodiscard]] Seconds seconds() const;
+
     /// Of a vertex pass: its outputs named trace_*, from the same files with LOCKSTEP_TRACE defined.
     std::vector<CapturedVertex> trace(std::size_t pass, int frame, std::size_t item) override;
 

@@ -322,15 +322,23 @@ std::size_t pass_of(const FirstDivergence& first, const System& system) {
 }
 
 ReferenceRun::ReferenceRun(const System& system, Profile profile)
-    : system_(system), profile_(std::move(profile)), state_(system.start) {
+    : system_(system), profile_(std::move(profile)), state_(system.start), next_(system.start) {
     check_system(system);
 }
 
 void ReferenceRun::step(int frame) {
-    for (const auto& pass : system_.passes) {
-        const SystemState before = state_;
-        run_pass(*pass, {before.view(), frame}, profile_, state_[pass->resource()]);
-    }
+    for (std::size_t p = 0; p < system_.passes.size(); ++p)
+        step_pass(p, frame);
+}
+
+void ReferenceRun::step_pass(std::size_t pass, int frame) {
+    const ItemPass& one = *system_.passes[pass];
+    if (!one.runs(frame))
+        return;
+    if (one.in_place())
+        return run_pass(one, {state_.view(), frame}, profile_, state_[one.resource()]);
+    run_pass(one, {state_.view(), frame}, profile_, next_[one.resource()]);
+    state_.swap(one.resource(), next_);
 }
 
 std::uint64_t ReferenceRun::hash() const { return hash_of(state_); }

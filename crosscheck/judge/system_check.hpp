@@ -22,6 +22,8 @@ class ReferenceRun {
     ReferenceRun(const System& system, Profile profile);
     /// Frame `frame`; frames come in order, from 0.
     void step(int frame);
+    /// One pass of it; passes come in order.
+    void step_pass(std::size_t pass, int frame);
     [[nodiscard]] const SystemState& state() const { return state_; }
     /// Of all buffers and images.
     [[nodiscard]] std::uint64_t hash() const;
@@ -29,7 +31,7 @@ class ReferenceRun {
   private:
     const System& system_;
     Profile profile_;
-    SystemState state_;
+    SystemState state_, next_;
 };
 
 /// What a run of both sides came to in one pass of one frame, for a look into it.

@@ -10,7 +10,8 @@ std::unique_ptr<ItemPass> blow_wind_pass(const HostPtr& host) {
                       .resource = grain_buffer,
                       .stage = PassStage::compute,
                       .arithmetic = host->settings().arithmetic,
-                      .runs = [host](int frame) { return runs(*host, {"blow_wind"}, frame); }},
+                      .runs = [host](int frame) { return runs(*host, {"blow_wind"}, frame); },
+                      .in_place = true},
                      BlowWindTwin{host});
 }
 

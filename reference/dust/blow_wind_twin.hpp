@@ -7,12 +7,14 @@ namespace lockstep::dust {
 /// A cone of wind. Twin of shaders/dust/blow_wind.comp.
 struct BlowWindTwin {
     HostPtr host;
+    FrameValues values = {}; ///< of the frame
+
+    [[nodiscard]] BlowWindTwin at(int frame) const { return {host, host->at(frame)}; }
 
     template <class R> Grain<R> operator()(R& r, const PassInput& in, std::size_t item) const {
         Grain<R> grain = grain_before(r, in, item);
         if (!is_alive(r, grain))
             return grain;
-        const FrameValues values = host->at(in.frame);
         const auto way =
             r.note(site::from_mouth, grain.position - r.uniform(site::controller_pos, values.controller_pos));
         const auto d2 = r.note(site::sqr_dist, squared(way));

@@ -17,9 +17,7 @@ struct CountTwin {
 
     template <class R> Count<R> operator()(R& r, const PassInput& in, std::size_t item) const {
         const int before = in.before.integer(field::alive_number, item);
-        int living = 0;
-        for (std::size_t i = 0; i < in.before[grain_buffer].count(); ++i)
-            living += in.before.integer(field::alive, i);
+        const auto living = static_cast<int>(in.before.total(field::alive));
         const auto change =
             r.note(site::change, typename R::Int(r.note(site::living, typename R::Int(living)) - before));
         return {r.note(site::count, typename R::Int(change + before))};

@@ -10,7 +10,8 @@ std::unique_ptr<ItemPass> emit_pass(const HostPtr& host) {
                       .resource = grain_buffer,
                       .stage = PassStage::compute,
                       .arithmetic = host->settings().arithmetic,
-                      .runs = [host](int frame) { return runs(*host, {"emit"}, frame); }},
+                      .runs = [host](int frame) { return runs(*host, {"emit"}, frame); },
+                      .in_place = true},
                      EmitTwin{host});
 }
 

@@ -6,6 +6,9 @@ namespace lockstep::dust {
 /// Gives a dead grain one chance in a hundred to come out of the emitter. Twin of shaders/dust/emit.comp.
 struct EmitTwin {
     HostPtr host;
+    FrameValues values = {}; ///< of the frame
+
+    [[nodiscard]] EmitTwin at(int frame) const { return {host, host->at(frame)}; }
 
     template <class R> Grain<R> operator()(R& r, const PassInput& in, std::size_t item) const {
         using Real = typename R::Real;
@@ -14,7 +17,6 @@ struct EmitTwin {
         Grain<R> grain = grain_before(r, in, item);
         if (is_alive(r, grain))
             return grain;
-        const FrameValues values = host->at(in.frame);
         const bool integer = host->switches().random == Random::integer;
         const auto seed = static_cast<std::uint32_t>(
             static_cast<int>(r.uniform(site::random_seed, static_cast<int>(host->settings().seed))));

@@ -13,7 +13,8 @@ std::unique_ptr<ItemPass> explode_pass(const HostPtr& host, std::size_t ball) {
                       .runs =
                           [host, ball](int frame) {
                               return runs(*host, {"explode", ball}, frame);
-                          }},
+                          },
+                      .in_place = true},
                      ExplodeTwin{host, ball});
 }
 

@@ -8,10 +8,15 @@ namespace lockstep::dust {
 struct ExplodeTwin {
     HostPtr host;
     std::size_t ball = 0; ///< which of the frame's
+    FrameValues values = {};
+    const Explosion* explosion = nullptr; ///< of the frame
+
+    [[nodiscard]] ExplodeTwin at(int frame) const {
+        return {host, ball, host->at(frame), host->explosion(frame, ball)};
+    }
 
     template <class R> Grain<R> operator()(R& r, const PassInput& in, std::size_t item) const {
         Grain<R> grain = grain_before(r, in, item);
-        const Explosion* explosion = host->explosion(in.frame, ball);
         if (explosion == nullptr || !is_alive(r, grain))
             return grain;
         const auto way =
@@ -25,8 +30,7 @@ struct ExplodeTwin {
         const auto n = r.note(site::blast_direction, r.normalize(site::blast_direction, way));
         const auto a =
             divided(r, site::acceleration, r.note(site::force, n * f), r.uniform(site::mass, host->settings().mass));
-        grain.velocity =
-            r.note(site::velocity, grain.velocity + a * r.uniform(site::impulse_dt, host->at(in.frame).explosion_dt));
+        grain.velocity = r.note(site::velocity, grain.velocity + a * r.uniform(site::impulse_dt, values.explosion_dt));
         return grain;
     }
 };

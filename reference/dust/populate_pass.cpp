@@ -10,7 +10,8 @@ std::unique_ptr<ItemPass> populate_pass(const HostPtr& host) {
                       .resource = grain_buffer,
                       .stage = PassStage::compute,
                       .arithmetic = host->settings().arithmetic,
-                      .runs = [host](int frame) { return runs(*host, {"populate"}, frame); }},
+                      .runs = [host](int frame) { return runs(*host, {"populate"}, frame); },
+                      .in_place = true},
                      PopulateTwin{host});
 }
 

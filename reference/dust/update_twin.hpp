@@ -7,6 +7,9 @@ namespace lockstep::dust {
 /// A frame of flight: gravity, drag, colliders. Twin of shaders/dust/update.comp.
 struct UpdateTwin {
     HostPtr host;
+    FrameValues values = {}; ///< of the frame
+
+    [[nodiscard]] UpdateTwin at(int frame) const { return {host, host->at(frame)}; }
 
     template <class R> Grain<R> operator()(R& r, const PassInput& in, std::size_t item) const {
         using Vec3 = typename R::Vec3;
@@ -15,8 +18,8 @@ struct UpdateTwin {
         Grain<R> grain = grain_before(r, in, item);
         if (!is_alive(r, grain))
             return grain;
-        const FrameValues values = host->at(in.frame);
-        const bool sucks = switches.suction == Suction::force_in_update && host->is_on(Tool::Kind::vacuum, in.frame);
+        const bool sucks = switches.suction == Suction::force_in_update && values.tool != nullptr &&
+                           values.tool->kind == Tool::Kind::vacuum;
         const ConeTwin<R> cone(r, *host, values);
         const auto dt = r.uniform(site::dt, values.dt);
 

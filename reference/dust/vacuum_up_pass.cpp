@@ -10,7 +10,8 @@ std::unique_ptr<ItemPass> vacuum_up_pass(const HostPtr& host) {
                       .resource = grain_buffer,
                       .stage = PassStage::compute,
                       .arithmetic = host->settings().arithmetic,
-                      .runs = [host](int frame) { return runs(*host, {"vacuum_up"}, frame); }},
+                      .runs = [host](int frame) { return runs(*host, {"vacuum_up"}, frame); },
+                      .in_place = true},
                      VacuumUpTwin{host});
 }
 

@@ -6,17 +6,19 @@ namespace lockstep::dust {
 /// Pulls what is in the cone to the mouth, where it dies. Twin of shaders/dust/vacuum_up.comp.
 struct VacuumUpTwin {
     HostPtr host;
+    FrameValues values = {}; ///< of the frame
+
+    [[nodiscard]] VacuumUpTwin at(int frame) const { return {host, host->at(frame)}; }
 
     template <class R> Grain<R> operator()(R& r, const PassInput& in, std::size_t item) const {
         Grain<R> grain = grain_before(r, in, item);
         if (!is_alive(r, grain))
             return grain;
-        const FrameValues values = host->at(in.frame);
         const ConeTwin<R> cone(r, *host, values);
         if (host->switches().suction == Suction::force_kernel)
-            pull(r, grain, cone, values);
+            pull(r, grain, cone);
         else
-            step(r, grain, cone, values);
+            step(r, grain, cone);
         grain.velocity = r.note(site::velocity, grain.velocity);
         grain.position = r.note(site::position, grain.position);
         grain.alive = r.note(site::alive, grain.alive);
@@ -24,7 +26,7 @@ struct VacuumUpTwin {
     }
 
   private:
-    template <class R> void pull(R& r, Grain<R>& grain, const ConeTwin<R>& cone, const FrameValues& values) const {
+    template <class R> void pull(R& r, Grain<R>& grain, const ConeTwin<R>& cone) const {
         const auto force = cone.force(grain.position);
         if (!force)
             return;
@@ -38,7 +40,7 @@ struct VacuumUpTwin {
     }
 
     /// The versions that move positions, not velocities.
-    template <class R> void step(R& r, Grain<R>& grain, const ConeTwin<R>& cone, const FrameValues& values) const {
+    template <class R> void step(R& r, Grain<R>& grain, const ConeTwin<R>& cone) const {
         using Real = typename R::Real;
         const Suction suction = host->switches().suction;
         const auto way = r.note(site::to_mouth, cone.mouth() - grain.position);

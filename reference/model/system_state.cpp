@@ -49,6 +49,33 @@ void SystemView::throw_outside(FieldId field, std::size_t item, int component) c
                      field.resource < resources.size() ? resources[field.resource].count() : 0, field, item, component);
 }
 
+void SystemView::throw_first_outside(FieldId field, std::size_t item, int components) const {
+    int first = 0;
+    while (first + 1 < components && has(field, item, first))
+        ++first;
+    throw_outside(field, item, first);
+}
+
+std::uint32_t SystemView::total(FieldId field, int component) const {
+    const std::size_t items = field.resource < resources.size() ? resources[field.resource].count() : 0;
+    if (items == 0)
+        return 0;
+    if (!has(field, items - 1, component))
+        throw_outside(field, items - 1, component);
+    for (std::size_t i = 0; read != nullptr && i < items; ++i)
+        read->insert({field.resource, i});
+    const View& view = resources[field.resource];
+    const auto stride = static_cast<std::size_t>(view.fields()[field.field].components);
+    const std::byte* words = view.columns[field.field] + static_cast<std::size_t>(component) * sizeof(std::uint32_t);
+    std::uint32_t sum = 0;
+    for (std::size_t i = 0; i < items; ++i) {
+        std::uint32_t word = 0;
+        std::memcpy(&word, words + i * stride * sizeof word, sizeof word);
+        sum += word;
+    }
+    return sum;
+}
+
 SystemState::SystemState(const Schema& schema, std::vector<Extent> extents)
     : schema_(&schema), extents_(std::move(extents)) {
     if (extents_.size() != schema.resources.size())
@@ -84,6 +111,11 @@ SystemView SystemState::view() const {
 void SystemState::take(std::uint8_t resource, const SystemState& other) {
     for (std::uint8_t f = 0; f < schema_->resources[resource].fields.size(); ++f)
         columns_[schema_->column({resource, f})] = other.columns_[other.schema_->column({resource, f})];
+}
+
+void SystemState::swap(std::uint8_t resource, SystemState& other) {
+    for (std::uint8_t f = 0; f < schema_->resources[resource].fields.size(); ++f)
+        columns_[schema_->column({resource, f})].swap(other.columns_[other.schema_->column({resource, f})]);
 }
 
 bool SystemState::is_of(const Schema& schema) const {

@@ -2,6 +2,7 @@
 #include <compare>
 #include <cstddef>
 #include <cstdint>
+#include <cstring>
 #include <set>
 #include <string_view>
 #include <vector>
@@ -52,15 +53,12 @@ struct SystemView {
     [[nodiscard]] std::uint32_t word(FieldId field, std::size_t item, int component = 0) const {
         return value(field, item, component).bits;
     }
-    [[nodiscard]] glm::vec2 vec2(FieldId field, std::size_t item) const {
-        return {real(field, item, 0), real(field, item, 1)};
-    }
-    [[nodiscard]] glm::vec3 vec3(FieldId field, std::size_t item) const {
-        return {real(field, item, 0), real(field, item, 1), real(field, item, 2)};
-    }
-    [[nodiscard]] glm::vec4 vec4(FieldId field, std::size_t item) const {
-        return {real(field, item, 0), real(field, item, 1), real(field, item, 2), real(field, item, 3)};
-    }
+    [[nodiscard]] glm::vec2 vec2(FieldId field, std::size_t item) const { return vector<glm::vec2>(field, item); }
+    [[nodiscard]] glm::vec3 vec3(FieldId field, std::size_t item) const { return vector<glm::vec3>(field, item); }
+    [[nodiscard]] glm::vec4 vec4(FieldId field, std::size_t item) const { return vector<glm::vec4>(field, item); }
+
+    /// The sum of a component over all items, modulo 2^32.
+    [[nodiscard]] std::uint32_t total(FieldId field, int component = 0) const;
 
   private:
     [[nodiscard]] bool has(FieldId field, std::size_t item, int component) const {
@@ -70,6 +68,21 @@ struct SystemView {
         return field.field < view.columns.size() && item < view.count() && component >= 0 &&
                component < view.fields()[field.field].components;
     }
+    template <class Vector> [[nodiscard]] Vector vector(FieldId field, std::size_t item) const {
+        constexpr int length = Vector::length();
+        if (!has(field, item, length - 1))
+            throw_first_outside(field, item, length);
+        if (read != nullptr)
+            read->insert({field.resource, item});
+        const View& view = resources[field.resource];
+        Vector found;
+        std::memcpy(&found,
+                    view.columns[field.field] +
+                        item * static_cast<std::size_t>(view.fields()[field.field].components) * sizeof(float),
+                    sizeof found);
+        return found;
+    }
+    [[noreturn]] void throw_first_outside(FieldId field, std::size_t item, int components) const;
     [[noreturn]] void throw_outside(FieldId field, std::size_t item, int component) const;
 };
 
@@ -91,6 +104,8 @@ class SystemState {
 
     /// What `other`, a state of the same schema and extents, has of a resource.
     void take(std::uint8_t resource, const SystemState& other);
+    /// The same, both ways and without a copy. Views of the resource then show the other's.
+    void swap(std::uint8_t resource, SystemState& other);
 
     // Throw OutsideState.
     void set(FieldId field, std::size_t item, float value, int component = 0);

@@ -79,6 +79,10 @@ class ItemPass {
     /// reads what the passes before it left, and its own buffer as it was before the dispatch.
     [[nodiscard]] virtual bool continues() const { return false; }
 
+    /// Whether an item of its buffer follows from no other of that buffer: then `after` may be the state that `in`
+    /// reads.
+    [[nodiscard]] virtual bool in_place() const { return false; }
+
     /// The output by which the twin's sites know a field of the buffer.
     [[nodiscard]] virtual std::string_view output(const Resource& about, std::uint8_t field) const = 0;
 

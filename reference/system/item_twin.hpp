@@ -31,6 +31,16 @@ template <class State, class Visit> void for_each_number(const State& state, con
         visit(state);
 }
 
+/// How many numbers a struct has.
+template <class State> constexpr std::size_t numbers_in() {
+    if constexpr (requires(const State& state) { state.fields(); })
+        return []<class... Parts>(std::type_identity<std::tuple<Parts...>>) {
+            return (std::size_t{0} + ... + numbers_in<std::remove_cvref_t<Parts>>());
+        }(std::type_identity<decltype(std::declval<const State&>().fields())>{});
+    else
+        return 1;
+}
+
 template <class Number> std::uint32_t word_of(const Number& x) {
     if constexpr (std::is_same_v<Number, std::uint32_t>)
         return x;
@@ -50,6 +60,29 @@ template <class Number> Interval set_of(const Number& x) {
 /// A word of which no item of all such words is right: the greatest float, less its last bit.
 inline constexpr std::uint32_t nothing_reads_so = 0x7f7ffffe;
 
+/// A twin may have `at(frame)`, which returns the twin of one frame: what depends on that alone is then made once, not
+/// for every item.
+template <class Twin> decltype(auto) in_frame(const Twin& twin, int frame) {
+    if constexpr (requires { twin.at(frame); })
+        return twin.at(frame);
+    else
+        return (twin);
+}
+
+/// Where the words of items lie, one after the other: word w of an item at column w.
+struct WordColumn {
+    std::byte* first;
+    std::size_t stride; ///< bytes from item to item
+};
+
+inline std::vector<WordColumn> word_columns(const WritableView& state) {
+    std::vector<WordColumn> all;
+    for (const Component& c : components(state.about()))
+        all.push_back({state.columns[c.field] + static_cast<std::size_t>(c.component) * sizeof(std::uint32_t),
+                       static_cast<std::size_t>(state.fields()[c.field].components) * sizeof(std::uint32_t)});
+    return all;
+}
+
 inline void check_size(std::string_view pass, const Resource& about, std::size_t words) {
     if (words * sizeof(std::uint32_t) != item_bytes(about))
         throw Error(std::string(pass) + ": its twin gives " + std::to_string(words) + " numbers; a " + about.item +
@@ -68,10 +101,17 @@ struct ItemPassOptions {
     std::vector<std::string> outputs = {};
     std::function<bool(int frame)> runs = {}; ///< empty: in every frame
     bool continues = false;                   ///< ItemPass::continues
+    bool in_place = false;                    ///< ItemPass::in_place
+    /// A faster way to the twin's bits, held to them by a test: makes those of items first to last, the last excluded,
+    /// that it can, and puts the others into `left`. Empty: the twin makes all.
+    std::function<void(const PassInput& in, const Profile& profile, std::size_t first, std::size_t last,
+                       const WritableView& after, std::vector<std::size_t>& left)>
+        fast = {};
 };
 
 /// A twin as an ItemPass: `twin(r, in, item)`, a template over the reading R& r (values.hpp), pure, returning a struct
-/// whose fields() are those of the buffer's items, in order.
+/// whose fields() are those of the buffer's items, in order. `twin.at(frame)`, where there is one, is called in its
+/// place (in_frame).
 template <class Twin> class ItemTwin final : public ItemPass {
   public:
     ItemTwin(ItemPassOptions options, Twin twin) : options_(std::move(options)), twin_(std::move(twin)) {
@@ -83,6 +123,7 @@ template <class Twin> class ItemTwin final : public ItemPass {
     [[nodiscard]] PassStage stage() const override { return options_.stage; }
     [[nodiscard]] bool runs(int frame) const override { return !options_.runs || options_.runs(frame); }
     [[nodiscard]] bool continues() const override { return options_.continues; }
+    [[nodiscard]] bool in_place() const override { return options_.in_place; }
 
     [[nodiscard]] std::string_view output(const Resource& about, std::uint8_t field) const override {
         return field < options_.outputs.size() ? options_.outputs[field] : about.fields[field].name;
@@ -91,18 +132,30 @@ template <class Twin> class ItemTwin final : public ItemPass {
     void run(const PassInput& in, const Profile& profile, std::size_t first, std::size_t last,
              const WritableView& after) const override {
         const FlushSubnormals guard = flush(profile);
-        const std::vector<Component> parts = components(after.about());
+        const std::vector<item_twin::WordColumn> columns = item_twin::word_columns(after);
+        const auto& twin = item_twin::in_frame(twin_, in.frame);
         with_arithmetic_of(profile, [&]<class A>(A fp) {
-            for (std::size_t item = first; item < last; ++item) {
-                Values<A> values(fp);
-                const std::vector<std::uint32_t> words = words_of(twin_(values, in, item), after.about());
-                for (std::size_t w = 0; w < words.size(); ++w) {
-                    const auto stride = static_cast<std::size_t>(after.fields()[parts[w].field].components);
-                    std::memcpy(after.columns[parts[w].field] +
-                                    (item * stride + static_cast<std::size_t>(parts[w].component)) * sizeof words[w],
-                                &words[w], sizeof words[w]);
-                }
+            Values<A> values(fp);
+            using State = decltype(twin(values, in, first));
+            item_twin::check_size(options_.name, after.about(), item_twin::numbers_in<State>());
+            const auto make = [&](std::size_t item) {
+                const State state = twin(values, in, item);
+                const item_twin::WordColumn* column = columns.data();
+                item_twin::for_each_number(state, [&](const auto& x) {
+                    const std::uint32_t word = item_twin::word_of(x);
+                    std::memcpy(column->first + item * column->stride, &word, sizeof word);
+                    ++column;
+                });
+            };
+            if (options_.fast) {
+                std::vector<std::size_t> left;
+                options_.fast(in, profile, first, last, after, left);
+                for (const std::size_t item : left)
+                    make(item);
+                return;
             }
+            for (std::size_t item = first; item < last; ++item)
+                make(item);
         });
     }
 
@@ -110,12 +163,13 @@ template <class Twin> class ItemTwin final : public ItemPass {
                                                     const KnownOperations& known, const View* observed) const override {
         const FlushSubnormals guard = flush(profile, known.subnormals);
         std::vector<ItemOutcome> found;
+        const auto& twin = item_twin::in_frame(twin_, in.frame);
         with_arithmetic_of(profile, [&]<class A>(A fp) {
             Worlds<A> worlds(fp, of_stage(known, profile), profile.other_orders);
             std::vector<std::vector<float>> kept;
             if (observed != nullptr)
                 tell(worlds, *observed, item, kept);
-            worlds.run([&] { return twin_(worlds, in, item); },
+            worlds.run([&] { return twin(worlds, in, item); },
                        [&](const auto* state, std::span<const Fork> forks, Undefined undefined) {
                            ItemOutcome outcome{.values = {}, .open = open_sites(forks), .undefined = undefined};
                            if (state != nullptr)
@@ -132,9 +186,10 @@ template <class Twin> class ItemTwin final : public ItemPass {
     [[nodiscard]] std::vector<RecordedRow> record(const PassInput& in, std::size_t item,
                                                   const Profile& profile) const override {
         const FlushSubnormals guard = flush(profile);
+        const auto& twin = item_twin::in_frame(twin_, in.frame);
         return with_arithmetic_of(profile, [&]<class A>(A fp) {
             Recording<A> reading(fp);
-            twin_(reading, in, item);
+            twin(reading, in, item);
             return reading.rows();
         });
     }
@@ -142,6 +197,7 @@ template <class Twin> class ItemTwin final : public ItemPass {
     [[nodiscard]] FollowedStep follow(const PassInput& in, std::size_t item, const Profile& profile,
                                       const KnownOperations& known, std::span<const ToldValue> told) const override {
         const FlushSubnormals guard = flush(profile, known.subnormals);
+        const auto& twin = item_twin::in_frame(twin_, in.frame);
         return with_arithmetic_of(profile, [&]<class A>(A fp) {
             Following<A> reading(fp, of_stage(known, profile), profile.other_orders);
             std::map<std::string_view, int> occurrences;
@@ -152,7 +208,7 @@ template <class Twin> class ItemTwin final : public ItemPass {
             reading.run(
                 [&] {
                     reading.start_run();
-                    return twin_(reading, in, item);
+                    return twin(reading, in, item);
                 },
                 [&](const auto* /*state*/, std::span<const Fork> forks, Undefined undefined) {
                     const auto wrong =
@@ -170,10 +226,11 @@ template <class Twin> class ItemTwin final : public ItemPass {
     [[nodiscard]] std::vector<SeenSite> sites(const PassInput& in, std::size_t item,
                                               const Profile& profile) const override {
         const FlushSubnormals guard = flush(profile);
+        const auto& twin = item_twin::in_frame(twin_, in.frame);
         return with_arithmetic_of(profile, [&]<class A>(A fp) {
             Mistaken<A> reading(fp, {});
             reading.look_at_sites();
-            twin_(reading, in, item);
+            twin(reading, in, item);
             return std::vector<SeenSite>(reading.sites().begin(), reading.sites().end());
         });
     }
@@ -181,10 +238,11 @@ template <class Twin> class ItemTwin final : public ItemPass {
     [[nodiscard]] std::vector<std::uint32_t> mistaken(const PassInput& in, std::size_t item, const Profile& profile,
                                                       std::span<const Mistake> made) const override {
         const FlushSubnormals guard = flush(profile);
+        const auto& twin = item_twin::in_frame(twin_, in.frame);
         return with_arithmetic_of(profile, [&]<class A>(A fp) {
             try {
                 Mistaken<A> reading(fp, made);
-                return words_of(twin_(reading, in, item), about(in));
+                return words_of(twin(reading, in, item), about(in));
             } catch (const OutsideState&) { // a mistaken index: what a shader reads there is open
                 return std::vector<std::uint32_t>(components(about(in)).size(), item_twin::nothing_reads_so);
             }

@@ -1,0 +1,181 @@
+#include "reference/dust/update_fast.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cstdint>
+#include <cstring>
+#include <limits>
+
+#include "reference/model/dust/schema.hpp"
+#include "reference/readings/number.hpp"
+#include "reference/vector_loops.hpp"
+
+namespace lockstep::dust {
+namespace {
+
+constexpr float infinity = std::numeric_limits<float>::infinity();
+
+/// Sixteen grains' vectors, one after the other: all axes fly alike.
+constexpr std::size_t row = 48;
+constexpr std::size_t words = 3 * block_size;
+using Row = std::array<float, row>;
+
+/// What is the same for all grains of a frame.
+struct Flight {
+    Row acceleration, low, high; ///< a grain between low and high, both excluded, comes to no wall
+    float resistance = 0.0F, dt = 0.0F;
+};
+
+struct Sphere {
+    float x = 0.0F, y = 0.0F, z = 0.0F, sqr_reach = 0.0F;
+};
+
+struct Block {
+    alignas(64) std::array<float, words> position, velocity, next;
+    std::array<std::uint32_t, words> at_wall;
+    std::array<std::uint32_t, block_size> touches; ///< a collider
+    std::array<std::int32_t, block_size> alive;
+};
+
+Row of_axes(const std::array<float, 3>& axes) {
+    Row all{};
+    for (std::size_t k = 0; k < row; ++k)
+        all[k] = axes[k % 3];
+    return all;
+}
+
+template <class Number> Flight flight_of(const Host& host, const FrameValues& values) {
+    const Settings& s = host.settings();
+    std::array<float, 3> a{}, low{-infinity, -infinity, -infinity}, high{infinity, infinity, infinity};
+    for (int k = 0; k < 3; ++k) {
+        const auto axis = static_cast<std::size_t>(k);
+        a[axis] = static_cast<float>(Number(0.0F) + Number(s.gravity[k]));
+        if (host.switches().world != World::box)
+            continue;
+        low[axis] = static_cast<float>(Number(s.world.min[k]) + Number(host.radius()));
+        high[axis] = static_cast<float>(Number(s.world.max[k]) - Number(host.radius()));
+    }
+    if (host.switches().world == World::floor_clamp)
+        low[1] = 0.0F;
+    else if (host.switches().world == World::floor_radius || host.switches().world == World::floor_bounce)
+        low[1] = host.radius();
+    return {of_axes(a), of_axes(low), of_axes(high), s.air_resistance, values.dt};
+}
+
+template <class Number> Sphere sphere_of(const Host& host, const ColliderMatrices& collider) {
+    const Number reach = Number(host.radius()) + Number(collider.scale.x) * Number(0.5F);
+    const glm::vec4& centre = collider.local_to_world[3];
+    return {centre.x, centre.y, centre.z, static_cast<float>(reach * reach)};
+}
+
+template <class Number> void fly(Block& block, const Flight& flight) {
+    const Number resistance = flight.resistance, dt = flight.dt;
+    for (std::size_t first = 0; first < words; first += row) {
+        LOCKSTEP_VECTOR_LOOP
+        for (std::size_t k = 0; k < row; ++k) {
+            const Number before = block.velocity[first + k];
+            const Number velocity = before + (Number(flight.acceleration[k]) - before * resistance) * dt;
+            const auto next = static_cast<float>(Number(block.position[first + k]) + velocity * dt);
+            block.velocity[first + k] = static_cast<float>(velocity);
+            block.next[first + k] = next;
+            block.at_wall[first + k] = 1U - (static_cast<std::uint32_t>(next > flight.low[k]) &
+                                             static_cast<std::uint32_t>(next < flight.high[k]));
+        }
+    }
+}
+
+template <class Number> void meet(Block& block, const Sphere& sphere) {
+    LOCKSTEP_VECTOR_LOOP
+    for (std::size_t i = 0; i < block_size; ++i) {
+        const Number x = Number(block.next[3 * i]) - Number(sphere.x),
+                     y = Number(block.next[3 * i + 1]) - Number(sphere.y);
+        const Number z = Number(block.next[3 * i + 2]) - Number(sphere.z);
+        const auto d2 = static_cast<float>((x * x + y * y) + z * z);
+        block.touches[i] |= 1U - static_cast<std::uint32_t>(d2 > sphere.sqr_reach);
+    }
+}
+
+LOCKSTEP_VECTOR_CLONES void fly_plain(Block& block, const Flight& flight) { fly<float>(block, flight); }
+LOCKSTEP_VECTOR_CLONES void fly_exact(Block& block, const Flight& flight) {
+    fly<FlushingNumber<Portable>>(block, flight);
+}
+LOCKSTEP_VECTOR_CLONES void meet_plain(Block& block, const Sphere& sphere) { meet<float>(block, sphere); }
+LOCKSTEP_VECTOR_CLONES void meet_exact(Block& block, const Sphere& sphere) {
+    meet<FlushingNumber<Portable>>(block, sphere);
+}
+
+template <std::size_t size> void flush(std::array<float, size>& values) {
+    for (float& x : values)
+        x = Portable::flush(x);
+}
+
+/// Where a field's words of a grain lie.
+template <class Byte> Byte* place(const BasicView<Byte>& view, FieldId field, std::size_t grain) {
+    return view.columns[field.field] +
+           grain * static_cast<std::size_t>(view.fields()[field.field].components) * sizeof(float);
+}
+
+/// Grains first to last of the block, the last excluded, are those of the state from `to` on.
+void store(const Block& block, std::size_t first, std::size_t last, const View& before, const WritableView& after,
+           std::size_t to, bool exact) {
+    const std::size_t bytes = 3 * (last - first) * sizeof(float);
+    std::memcpy(place(after, field::position, to), block.next.data() + 3 * first, bytes);
+    std::memcpy(place(after, field::velocity, to), block.velocity.data() + 3 * first, bytes);
+    std::byte* colour = place(after, field::colour, to);
+    if (exact) {
+        std::array<float, words> flushed{};
+        std::memcpy(flushed.data(), place(before, field::colour, to), bytes);
+        flush(flushed);
+        std::memcpy(colour, flushed.data(), bytes);
+    } else if (const std::byte* kept = place(before, field::colour, to); kept != colour) {
+        std::memcpy(colour, kept, bytes);
+    }
+    std::memcpy(place(after, field::alive, to), block.alive.data() + first, (last - first) * sizeof(std::int32_t));
+}
+
+} // namespace
+
+bool has_update_fast(const Host& host) {
+    const Switches& s = host.switches();
+    return s.drag == Drag::free && s.drag_implicit == OffOn::off && s.suction != Suction::force_in_update &&
+           host.boxes().empty();
+}
+
+void update_fast(const Host& host, const PassInput& in, std::size_t first, std::size_t last, const WritableView& after,
+                 std::vector<std::size_t>& left) {
+    const bool exact = host.settings().arithmetic == ArithmeticSwitch::exact;
+    const FrameValues values = host.at(in.frame);
+    const Flight flight = exact ? flight_of<FlushingNumber<Portable>>(host, values) : flight_of<float>(host, values);
+    const View& before = in.before[grain_buffer];
+    Block block{};
+    for (; first < last; first += block_size) {
+        const std::size_t count = std::min(block_size, last - first), bytes = 3 * count * sizeof(float);
+        std::memcpy(block.position.data(), place(before, field::position, first), bytes);
+        std::memcpy(block.velocity.data(), place(before, field::velocity, first), bytes);
+        std::memcpy(block.alive.data(), place(before, field::alive, first), count * sizeof(std::int32_t));
+        if (exact) {
+            flush(block.position);
+            flush(block.velocity);
+        }
+        exact ? fly_exact(block, flight) : fly_plain(block, flight);
+        block.touches.fill(0);
+        for (const ColliderMatrices& one : host.spheres())
+            exact ? meet_exact(block, sphere_of<FlushingNumber<Portable>>(host, one))
+                  : meet_plain(block, sphere_of<float>(host, one));
+        std::size_t stored = 0;
+        for (std::size_t i = 0; i <= count; ++i) {
+            const bool flies =
+                i < count && block.alive[i] == 1 &&
+                (block.touches[i] | block.at_wall[3 * i] | block.at_wall[3 * i + 1] | block.at_wall[3 * i + 2]) == 0;
+            if (flies)
+                continue;
+            if (stored < i)
+                store(block, stored, i, before, after, first + stored, exact);
+            stored = i + 1;
+            if (i < count)
+                left.push_back(first + i);
+        }
+    }
+}
+
+} // namespace lockstep::dust

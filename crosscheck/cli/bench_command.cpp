@@ -10,6 +10,7 @@
 #include "crosscheck/cli/judging_options.hpp"
 #include "crosscheck/cli/option_values.hpp"
 #include "crosscheck/cli/run_options.hpp"
+#include "crosscheck/cli/system_verbs.hpp"
 #include "crosscheck/judge/check.hpp"
 #include "crosscheck/report/report.hpp"
 #include "crosscheck/scene/profiles.hpp"
@@ -94,6 +95,9 @@ std::size_t peak_bytes() {
 }
 
 int run(const Options& options) {
+    check_scene_exists(options.run.scene);
+    if (const RegisteredSystem* system = system_of_scene(options.run.scene))
+        return bench_system(*system, options.run, {options.counts, options.warm_up, options.legal, options.rules});
     static_cast<void>(
         shaders_to_run(options.run, load(options.run))); // says what is wrong with the scene before the table begins
     const Context context(parse_context_request(options.run.gl));
@@ -151,6 +155,8 @@ Verb bench_command() {
     verb.run = [options](const Call& call) {
         if (call.has("--particles"))
             throw Error("bench: --particles does not go with it; --counts N,... names how many");
+        if (call.has("--radius") && system_of_scene(options->run.scene) != nullptr)
+            throw Error("bench: --radius goes with scenes of system collision");
         return run(*options);
     };
     return verb;

@@ -11,20 +11,17 @@
 #include <nlohmann/json.hpp>
 
 #include "crosscheck/cli/commands.hpp"
+#include "crosscheck/cli/system_run.hpp"
 #include "crosscheck/files/json_text.hpp"
 #include "crosscheck/files/plain_text.hpp"
 #include "crosscheck/files/shell_words.hpp"
 #include "crosscheck/files/signals.hpp"
-#include "crosscheck/files/threads.hpp"
-#include "crosscheck/judge/registered_system.hpp"
 #include "crosscheck/judge/system_check.hpp"
 #include "crosscheck/record/capsule.hpp"
 #include "crosscheck/record/item_capsule.hpp"
 #include "crosscheck/report/item_text.hpp"
 #include "crosscheck/report/progress.hpp"
 #include "crosscheck/scene/profiles.hpp"
-#include "gpu/shader_use.hpp"
-#include "lockstep/system.hpp"
 #include "reference/model/error.hpp"
 #include "reference/model/near_name.hpp"
 #include "reference/model/state_hash.hpp"
@@ -35,48 +32,6 @@ namespace {
 using nlohmann::json;
 
 constexpr int capsule_version = 1;
-
-/// A scene file, read once.
-struct ReadScene {
-    std::string file;
-    json document;
-    SystemScene scene;
-};
-
-SystemScene made(const RegisteredSystem& system, const json& document, const std::string& file,
-                 const SceneOptions& options) {
-    const std::string name = plain_line(std::filesystem::path(file).stem().string());
-    return system.load(JsonValue(document, file), name, options);
-}
-
-ReadScene read_scene(const RegisteredSystem& system, const RunOptions& run) {
-    start_threads(run.threads);
-    json document = read_json(run.scene);
-    SystemScene scene = made(system, document, run.scene.string(), {run.particles, run.preset, run.set});
-    return {run.scene.string(), std::move(document), std::move(scene)};
-}
-
-ShaderUse shaders_of(const SystemScene& scene, const RunOptions& run) {
-    std::vector<PassStages> stages;
-    for (const GlPass& pass : scene.passes)
-        if (!pass.continues && std::none_of(stages.begin(), stages.end(),
-                                            [&](const PassStages& known) { return known.name == pass.name; }))
-            stages.push_back({pass.name, {pass.stage}});
-    ShaderUse use = shader_use(scene.system.schema.system, stages, run.shaders);
-    check_shader_use(use, run.shaders, run.allow_unused);
-    return use;
-}
-
-Gl open_gl(const RunOptions& run) {
-    Gl gl(run.gl);
-    if (!gl)
-        throw Error(gl.missing());
-    return gl;
-}
-
-GlSystemSide side_of(const Gl& gl, const SystemScene& scene, const RunOptions& run) {
-    return {gl, scene.system, scene.passes, run.shaders.string(), scene.arithmetic};
-}
 
 /// A whole number that is all of a word.
 std::optional<std::size_t> number(std::string_view text) {

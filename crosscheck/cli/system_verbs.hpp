@@ -4,6 +4,7 @@
 #include <span>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "crosscheck/cli/run_options.hpp"
 #include "crosscheck/cli/systems.hpp"
@@ -31,6 +32,14 @@ struct SystemItem {
     bool hexadecimal = false;
 };
 
+/// What `lockstep bench` is asked of one.
+struct SystemBench {
+    std::vector<std::size_t> counts;
+    int warm_up = 0;
+    Legal legal = Legal::measured;
+    PassRules rules;
+};
+
 /// The options of `lockstep check` that such a scene has.
 std::span<const std::string_view> system_check_options();
 
@@ -38,6 +47,7 @@ std::span<const std::string_view> system_check_options();
 int check_system(const RegisteredSystem& system, const RunOptions& run, const SystemCheck& asked);
 int explain_system(const RegisteredSystem& system, const RunOptions& run, const SystemItem& item);
 int hash_system(const RegisteredSystem& system, const RunOptions& run, const std::string& profile, bool every);
+int bench_system(const RegisteredSystem& system, const RunOptions& run, const SystemBench& asked);
 int cut_system(const RegisteredSystem& system, const RunOptions& run, const SystemItem& item,
                const std::filesystem::path& output);
 

@@ -45,10 +45,10 @@ TEST_CASE("systems: a scene names its system, and one that there is not is told 
 }
 
 TEST_CASE("systems: verbs of the collision system refuse another's scene and name those that run it") {
-    for (const char* verb : {"debug", "render", "bench", "record", "study"}) {
+    for (const char* verb : {"debug", "render", "record", "study"}) {
         INFO(verb);
         CHECK_THAT(refusal(run_lockstep({verb, scene})) + " ",
-                   Contains("is a scene of system dust, which check, explain, hash and capsule run") ||
+                   Contains("is a scene of system dust, which bench, capsule, check, explain and hash run") ||
                        Contains("-o") || Contains("--output"));
     }
     CHECK(refusal(run_lockstep({"check", scene, "--report", "page"})) ==
@@ -63,6 +63,19 @@ TEST_CASE("systems: hash is of the reference alone, the same for any number of t
     CHECK(one.status == 0);
     CHECK(one.out == run_lockstep(test::joined(words, {"--threads", "2"})).out);
     CHECK(one.out.starts_with("19 "));
+}
+
+TEST_CASE("systems: bench has a row a pass that runs, and a frame's with its hash and verdict") {
+    if (!test::have_software_gl())
+        return;
+    const test::Outcome bench = run_lockstep(
+        {"bench", scene, "--counts", "100,300", "--frames", "3", "--warm-up", "1", "--gl", test::software_gl()});
+    CHECK(bench.status == 0);
+    for (const char* row : {"      100 update ", "      300 update_count ", "      300 frame "})
+        CHECK_THAT(bench.out, Contains(row));
+    CHECK_THAT(bench.out, Contains(" AGREE\n"));
+    CHECK(refusal(run_lockstep({"bench", scene, "--radius", "2"})) ==
+          "bench: --radius goes with scenes of system collision");
 }
 
 TEST_CASE("systems: check agrees on the shipped kernels and names a planted mistake, with a line that explains it") {

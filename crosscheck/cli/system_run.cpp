@@ -1,0 +1,44 @@
+#include "crosscheck/cli/system_run.hpp"
+
+#include <algorithm>
+#include <utility>
+#include <vector>
+
+#include "crosscheck/files/json_reader.hpp"
+#include "crosscheck/files/plain_text.hpp"
+#include "crosscheck/files/threads.hpp"
+#include "reference/model/error.hpp"
+
+namespace lockstep {
+
+ReadScene read_scene(const RegisteredSystem& system, const RunOptions& run) {
+    start_threads(run.threads);
+    nlohmann::json document = read_json(run.scene);
+    const std::string file = run.scene.string(), name = plain_line(run.scene.stem().string());
+    SystemScene scene = system.load(JsonValue(document, file), name, {run.particles, run.preset, run.set});
+    return {file, std::move(document), std::move(scene)};
+}
+
+ShaderUse shaders_of(const SystemScene& scene, const RunOptions& run) {
+    std::vector<PassStages> stages;
+    for (const GlPass& pass : scene.passes)
+        if (!pass.continues && std::none_of(stages.begin(), stages.end(),
+                                            [&](const PassStages& known) { return known.name == pass.name; }))
+            stages.push_back({pass.name, {pass.stage}});
+    ShaderUse use = shader_use(scene.system.schema.system, stages, run.shaders);
+    check_shader_use(use, run.shaders, run.allow_unused);
+    return use;
+}
+
+Gl open_gl(const RunOptions& run) {
+    Gl gl(run.gl);
+    if (!gl)
+        throw Error(gl.missing());
+    return gl;
+}
+
+GlSystemSide side_of(const Gl& gl, const SystemScene& scene, const RunOptions& run) {
+    return {gl, scene.system, scene.passes, run.shaders.string(), scene.arithmetic};
+}
+
+} // namespace lockstep

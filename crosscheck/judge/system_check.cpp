@@ -308,7 +308,7 @@ std::vector<ToldValue> SystemRun::told(std::size_t item) {
                 value.values.push_back(output.is_float ? output.number(c) : static_cast<float>(output.integer(c)));
             told.push_back(std::move(value));
         }
-    const std::vector<ToldValue> written = told_by_state(judged(), item);
+    const std::vector<ToldValue> written = told_by_state(judged().pass, gpu_view_, item);
     told.insert(told.end(), written.begin(), written.end());
     return told;
 }

@@ -8,6 +8,7 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include "crosscheck/judge/texel_table.hpp"
 #include "crosscheck/report/places.hpp"
 #include "crosscheck/report/verdict_text.hpp"
 #include "reference/model/collision/collision_state.hpp"

@@ -27,8 +27,9 @@ template <class R> class BaseTexelTwin {
     [[nodiscard]] Vec2 image_position(const Vec4& clip) const {
         Vec2 p{clip.x, clip.y};
         if (r.setting(site::perspective_divide, params_.switches.perspective_divide == PerspectiveDivide::on))
-            p = {r.divide(site::ndc, clip.x, clip.w), r.divide(site::ndc, clip.y, clip.w)};
-        p = r.note(site::ndc, p);
+            p = r.note(site::ndc, Vec2{r.divide(site::ndc, clip.x, clip.w), r.divide(site::ndc, clip.y, clip.w)});
+        else
+            p = r.note(site::not_divided, p);
         p = r.note(site::texture_coordinate, (p + 1.0F) * r.uniform(site::half, 0.5F));
         const Texel image = size();
         return r.note(site::image_position, p * r.note(site::scale, Vec2{r.real(image.x), r.real(image.y)}));

@@ -25,6 +25,7 @@ inline constexpr Site box_step{"u_CdtBoxStep"};
 inline constexpr Site clip{"clip", "trace_clip"};
 inline constexpr Site perspective_divide{"perspective divide"};
 inline constexpr Site ndc{"clip / w", "trace_ndc"};
+inline constexpr Site not_divided{"not divided", "trace_ndc"};
 inline constexpr Site texture_coordinate{"texture coordinate", "trace_texture_coordinate"};
 inline constexpr Site scale{"scale"};
 inline constexpr Site image_position{"image position", "trace_image_position"};

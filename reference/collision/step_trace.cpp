@@ -35,7 +35,7 @@ void fill_in(StepTrace& trace, const RecordedRow& row, bool zero_is_hit) {
     const glm::vec3 vector(v[0], v[1], v[2]);
     if (is(site::clip))
         trace.clip = {v[0], v[1], v[2], v[3]};
-    else if (is(site::ndc))
+    else if (is(site::ndc) || is(site::not_divided))
         trace.ndc = vector;
     else if (is(site::texture_coordinate))
         trace.texture_coordinate = vector;

@@ -19,6 +19,7 @@ struct RecordedRow {
         fetch,    ///< texel x and y, and whether it lies inside
         texel,    ///< what was fetched
         offer,    ///< to a choice: its key, and whether it was the best so far
+        choice,   ///< made: whether of anything
     };
     const Site* site = nullptr;
     Kind kind = Kind::value;
@@ -27,10 +28,10 @@ struct RecordedRow {
     std::source_location where = {};
 };
 
-/// A named value or decision of a run, and what the GPU told of it.
+/// What a run came by, and what the GPU told of it. An offer has but one value, whether it is the best so far.
 struct ReadingRow {
     const Site* site = nullptr;
-    int occurrence = 0; ///< how often the site came before
+    RecordedRow::Kind kind = RecordedRow::Kind::value;
     int size = 0;
     std::array<Interval, 4> legal{}; ///< by what was told before
     std::array<float, 4> told{};
@@ -88,6 +89,11 @@ template <class A> class Recording : public Values<A> {
             const bool best = this->offered(condition, key, payload);
             reading_.decide(place, condition);
             reading_.add(place_, Kind::offer, {static_cast<float>(key), best ? 1.0F : 0.0F});
+        }
+        [[nodiscard]] const std::optional<Payload>& take() const {
+            const std::optional<Payload>& found = Base::template Least<Payload>::take();
+            reading_.add(place_, Kind::choice, {found ? 1.0F : 0.0F});
+            return found;
         }
 
       private:

@@ -51,6 +51,7 @@ struct ItemOutcome {
 struct ToldValue {
     std::string output;
     std::vector<float> values;
+    int turn = -1; ///< of a loop over texels, as the shader counts; -1: told of the whole step
 };
 
 /// A legal run's rows, and where it ends. Of several runs the one in which the fewest values are not legal.

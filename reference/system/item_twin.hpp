@@ -202,7 +202,10 @@ template <class Twin> class ItemTwin final : public ItemPass {
             Following<A> reading(fp, of_stage(known, profile), profile.other_orders);
             std::map<std::string_view, int> occurrences;
             for (const ToldValue& value : told)
-                reading.tell_in_order(name_id(value.output), occurrences[value.output]++, value.values);
+                if (value.turn < 0)
+                    reading.tell_in_order(name_id(value.output), occurrences[value.output]++, value.values);
+                else
+                    reading.tell_in_turn(name_id(value.output), value.turn, value.values);
             FollowedStep best;
             std::size_t fewest = SIZE_MAX;
             reading.run(

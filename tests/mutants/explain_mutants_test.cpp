@@ -8,6 +8,7 @@
 #include <fmt/ranges.h>
 
 #include "crosscheck/judge/step_table.hpp"
+#include "crosscheck/judge/texel_table.hpp"
 #include "tests/collision/twin/llvmpipe.hpp"
 #include "tests/mutants/catalogue.hpp"
 #include "tests/mutants/trial.hpp"
@@ -31,7 +32,7 @@ constexpr Expectation expectations[] = {
     {"y_flipped", "image position.y"},
     {"half_texel_up", "base texel"},
     {"rounds_to_nearest", "base texel"},
-    {"collide_time_zero_searches", "searches"},
+    {"collide_time_zero_searches", "search"},
     {"own_position_from_texel", "own position."},
     {"own_position_one_ulp", "own position."},
     {"apart_added", "apart ("},

@@ -7,6 +7,7 @@
 
 #include "crosscheck/judge/neighbourhood.hpp"
 #include "crosscheck/judge/step_table.hpp"
+#include "crosscheck/judge/texel_table.hpp"
 #include "crosscheck/report/explain_text.hpp"
 #include "crosscheck/report/value_text.hpp"
 #include "reference/model/collision/collision_state.hpp"

@@ -7,6 +7,7 @@
 
 #include "crosscheck/judge/frame_run.hpp"
 #include "crosscheck/judge/step_table.hpp"
+#include "crosscheck/judge/texel_table.hpp"
 #include "crosscheck/report/explain_text.hpp"
 #include "reference/model/same_bits.hpp"
 #include "tests/collision/twin/llvmpipe.hpp"

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cstdlib>
 #include <cstring>
+#include <exception>
 #include <string_view>
 
 #include <fmt/format.h>
@@ -40,7 +41,7 @@ Id::Id(hid_t id, Close close, const std::string& what) : id_(id), close_(close) 
 }
 
 Id::~Id() {
-    if (id_ >= 0)
+    if (id_ >= 0 && std::uncaught_exceptions() == 0)
         close_(id_);
 }
 

@@ -9,7 +9,8 @@
 
 namespace lockstep::hdf5 {
 
-/// An open HDF5 object; closed when it dies.
+/// An open HDF5 object; closed when it dies, but not on the way of an exception: some builds of the library end the
+/// program where a file is closed that could not be written.
 class Id {
   public:
     using Close = herr_t (*)(hid_t);

@@ -203,7 +203,8 @@ TEST_CASE("arguments: help ends with 0, and every verb has its own") {
         const test::Outcome outcome = run_lockstep(arguments);
         CAPTURE(verb);
         CHECK(outcome.status == 0);
-        CHECK_THAT(outcome.out, Catch::Contains(fmt::format("Usage: lockstep{}{}", *verb ? " " : "", verb)));
+        // "Usage: lockstep check", or with CLI11 from 2.4 on "lockstep check" on a line of its own.
+        CHECK_THAT(outcome.out, Catch::Contains(fmt::format("lockstep{}{} [OPTIONS]", *verb ? " " : "", verb)));
         CHECK(outcome.err.empty());
     }
 }

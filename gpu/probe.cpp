@@ -39,9 +39,12 @@ ProbeResult probe(const Context& context, const ProbeOptions& options) {
         throw Error("probe: the context's GLSL has no `precise`; GL 4.0 or GL_ARB_gpu_shader5 has");
     const probing::DriverArithmetic plain(false);
     probing::measure_vertex_arithmetic(plain, options.inputs, result.rows);
+    probing::measure_chains(result.rows);
     probing::measure_fragment_arithmetic(result.rows);
-    if (result.context.compute)
+    if (result.context.compute) {
         probing::measure_compute_arithmetic(result.rows);
+        probing::measure_compute_chains(result.rows);
+    }
     probing::measure_storage(result.rows);
     probing::measure_order(result.rows);
     probing::measure_snapping(result.rows);

@@ -23,6 +23,7 @@ constexpr std::array sums{std::string_view("mat4*vec4"), std::string_view("x*x+y
                           std::string_view("x*a+x*b"), std::string_view("cross")};
 constexpr std::array others{
     std::string_view("fragment a*b+c"), std::string_view("dot(vec3)"),  std::string_view("length"),
+    std::string_view("v*s*t"),          std::string_view("v*s/t"),      std::string_view("v/s*t"),
     std::string_view("normalize"),      std::string_view("subnormal"),  std::string_view("compute:"),
     std::string_view("points:"),        std::string_view("triangles:"), std::string_view("equal depth")};
 
@@ -70,6 +71,7 @@ KnownOperations measured_operations(const Profile& profile) {
     known.dot = followed(profile, {"dot(vec3)"});
     known.normalize = (tables || errors.normalize == 0) && followed(profile, {"normalize"});
     known.subnormals = followed(profile, {"subnormal"});
+    known.factors_reordered = !followed(profile, {"v*s*t", "v*s/t", "v/s*t"});
     known.raster = measured_raster(profile);
     known.points = known.raster.points() && known.raster.triangles();
     return known;
@@ -77,10 +79,13 @@ KnownOperations measured_operations(const Profile& profile) {
 
 KnownOperations in_compute_stage(KnownOperations known, const Profile& profile) {
     known.sums = known.sums && followed(profile, {"compute: a*b+c", "compute: c-a*b"});
+    known.factors_reordered =
+        known.factors_reordered || !followed(profile, {"compute: v*s*t", "compute: v*s/t", "compute: v/s*t"});
     known.divide = known.divide && followed(profile, {"compute: a/b", "compute: 1/b"});
     known.square_root =
         known.square_root && followed(profile, {"compute: sqrt", "compute: inversesqrt", "compute: length"});
     known.dot = known.dot && followed(profile, {"compute: dot"});
+    known.subnormals = known.subnormals && followed(profile, {"compute: subnormal"});
     known.normalize = known.normalize && followed(profile, {"compute: normalize"});
     return known;
 }

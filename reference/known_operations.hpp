@@ -36,11 +36,12 @@ struct KnownOperations {
     bool square_root = false; ///< and length, of a dot product that is known
     bool dot = false;         ///< its order and fusing, to those of the profile
     bool normalize = false;
-    bool subnormals = false;      ///< whether they are flushed
-    bool points = false;          ///< where a point lands, what a triangle covers, and how deep: all of it
-    KnownRaster raster = {};      ///< and its parts
-    bool interpolation = false;   ///< + - * / in the fragment stage, of a triangle's corners
-    DriverConverts converts = {}; ///< what is stored as the driver rounds it
+    bool subnormals = false;        ///< whether they are flushed
+    bool points = false;            ///< where a point lands, what a triangle covers, and how deep: all of it
+    KnownRaster raster = {};        ///< and its parts
+    bool interpolation = false;     ///< + - * / in the fragment stage, of a triangle's corners
+    DriverConverts converts = {};   ///< what is stored as the driver rounds it
+    bool factors_reordered = false; ///< a product of products may be taken in another order, in spite of `precise`
 
     static constexpr KnownOperations all() {
         return {true, true, true, true, true, true, true, KnownRaster::all(), true};

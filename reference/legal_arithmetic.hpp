@@ -82,6 +82,12 @@ template <class A> class LegalArithmetic {
         return result;
     }
 
+    /// Where factors may be taken in another order: x * y of rounded products, against any other order of their
+    /// factors, which has as many roundings. Each rounding is 2^-24; those of this product, of the other, and of the
+    /// one within.
+    [[nodiscard]] Interval product_of_products(Interval a, Interval b) const { return in_another_order(product(a, b)); }
+    [[nodiscard]] Interval quotient_of_products(Interval a, Interval b) const { return in_another_order(divide(a, b)); }
+
     [[nodiscard]] Interval3 sum(const Interval3& a, const Interval3& b) const {
         return {sum(a[0], b[0]), sum(a[1], b[1]), sum(a[2], b[2])};
     }
@@ -199,6 +205,12 @@ template <class A> class LegalArithmetic {
         if (low != low || high != high)
             return own_rules ? Interval(low) : Interval::anything();
         return {double{low}, double{high}};
+    }
+
+    /// Roundings in a chain of factors that an order has and another has not, in ULP of the result.
+    static constexpr double another_order = 3.0;
+    [[nodiscard]] Interval in_another_order(Interval v) const {
+        return v.any ? v : interval::to_floats(flushed(interval::widen(v, another_order)));
     }
 
     [[nodiscard]] Interval flushed(Interval v) const { return known_.subnormals ? v : interval::maybe_flushed(v); }

@@ -20,6 +20,7 @@ constexpr std::size_t inverse_sqrts = std::size_t{1} << 24U;
 
 constexpr std::pair<std::string_view, bool KnownOperations::*> known_table[] = {
     {"sums", &KnownOperations::sums},
+    {"factors_reordered", &KnownOperations::factors_reordered},
     {"divide", &KnownOperations::divide},
     {"square_root", &KnownOperations::square_root},
     {"dot", &KnownOperations::dot},

@@ -277,6 +277,10 @@ Profile profile_from(const ProbeResult& result) {
     for (const char* row : {"compute: a*b+c, in functions", "compute: c-a*b, in functions"})
         if (result.has(row))
             rows.require({row}, "each rounded");
+    for (const char* stage : {"", "compute: "})
+        for (const char* chain : {"v*s*t", "v*s/t", "v/s*t"})
+            if (const std::string row = fmt::format("{}{}, in functions", stage, chain); result.has(row))
+                rows.require({row.c_str()}, "as written");
     if (result.has("compute: subnormal result of *")) {
         profile.compute_flush_subnormals =
             rows.pick<bool>("compute: subnormal result of *", {{"flushed", true}, {"kept", false}});
@@ -287,6 +291,8 @@ Profile profile_from(const ProbeResult& result) {
             rows.pick<bool>("compute: subnormal operand of *", {{"flushed", true}, {"kept", false}});
         if (result.has("compute: subnormal operand of +"))
             rows.require({"compute: subnormal operand of +"}, profile.compute_flush_subnormals ? "flushed" : "kept");
+        if (result.has("compute: subnormal < 0"))
+            rows.require({"compute: subnormal < 0"}, profile.compute_flush_subnormals ? "flushed" : "kept");
         if (results != profile.compute_flush_subnormals)
             profile.compute_flush_results = results;
     }

@@ -14,14 +14,16 @@ namespace {
 constexpr std::size_t inputs = 1024;
 constexpr std::size_t group_size = 64; // local_size_x of the shader
 
-/// x * operand, or where `adds` x + operand.
-Floats computed(const Program& program, const Floats& x, float operand, bool adds) {
+/// What the shader makes of x and the operand: u_What.
+enum class Made { product, sum, below };
+
+Floats computed(const Program& program, const Floats& x, float operand, Made what) {
     const GlBuffer values;
     const auto bytes = static_cast<GLsizeiptr>(x.size() * sizeof(float));
     gl::BindBufferBase(GL_SHADER_STORAGE_BUFFER, 0, values.id());
     gl::BufferData(GL_SHADER_STORAGE_BUFFER, bytes, x.data(), GL_STREAM_READ);
     program.set("u_Operand", operand);
-    program.set("u_Adds", adds ? 1 : 0);
+    program.set("u_What", static_cast<int>(what));
     gl::DispatchCompute(static_cast<GLuint>(x.size() / group_size), 1, 1);
     gl::MemoryBarrier(GL_BUFFER_UPDATE_BARRIER_BIT);
     Floats result(x.size());
@@ -39,7 +41,7 @@ ProbeRow measure_product(const Program& program, const char* name, int exponent,
         flushed.push_back(std::copysign(0.0F, value));
         if_unsigned.push_back(0.0F);
     }
-    return judge(name, computed(program, x, factor, false),
+    return judge(name, computed(program, x, factor, Made::product),
                  {{"flushed", flushed}, {"flushed to +0", if_unsigned}, {"kept", kept}});
 }
 
@@ -52,8 +54,16 @@ ProbeRow measure_sum(const Program& program, const char* name, const Floats& x, 
         if_flushed.push_back(flushed(value));
         if_unsigned.push_back(if_flushed.back() + 0.0F);
     }
-    return judge(name, computed(program, x, addend, true),
+    return judge(name, computed(program, x, addend, Made::sum),
                  {{"flushed", if_flushed}, {"flushed to +0", if_unsigned}, {"kept", kept}});
+}
+
+ProbeRow measure_comparison(const Program& program, const char* name) {
+    const Floats x = random_floats(inputs, 40, {-135, -130, true});
+    Floats kept;
+    for (const float value : x)
+        kept.push_back(value < 0.0F ? 1.0F : 0.0F);
+    return judge(name, computed(program, x, 0.0F, Made::below), {{"flushed", Floats(inputs, 0.0F)}, {"kept", kept}});
 }
 
 constexpr std::size_t results_each = 11;
@@ -135,6 +145,7 @@ void measure_compute_arithmetic(Rows& rows) {
     rows.push_back(measure_sum(program, "compute: subnormal result of +",
                                random_floats(inputs, 37, {-125, -124, false}), -0x1.8p-125F,
                                [](float x) { return std::copysign(0.0F, x - 0x1.8p-125F); }));
+    rows.push_back(measure_comparison(program, "compute: subnormal < 0"));
 }
 
 } // namespace lockstep::probing

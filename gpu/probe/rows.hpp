@@ -22,6 +22,11 @@ void measure_fragment_arithmetic(Rows& rows);
 /// has one.
 void measure_compute_arithmetic(Rows& rows);
 
+/// Products of products in functions: whether each is rounded as it is written. In the vertex stage; in the compute
+/// stage, which the context then has.
+void measure_chains(Rows& rows);
+void measure_compute_chains(Rows& rows);
+
 /// Halves and 8-bit codes, on their way into an image and out of it; texels outside it.
 void measure_storage(Rows& rows);
 

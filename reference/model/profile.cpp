@@ -17,10 +17,12 @@ std::span<const std::string_view> dot_order_names() {
 
 namespace {
 
-/// The rows not followed of the stages that draw; what the compute stage does otherwise has no part in a name.
+/// The rows not followed of the stages that draw; what the compute stage does otherwise has no part in a name, nor what
+/// becomes of functions.
 std::vector<std::string> drawing_rows(const Profile& profile) {
     std::vector<std::string> rows = profile.not_followed;
-    std::erase_if(rows, [](const std::string& row) { return row.starts_with("compute:"); });
+    std::erase_if(
+        rows, [](const std::string& row) { return row.starts_with("compute:") || row.ends_with(", in functions"); });
     return rows;
 }
 

@@ -64,7 +64,7 @@ template <class A> class Worlds {
 
         friend Real operator+(Real a, Real b) { return added(a, b); }
         friend Real operator-(Real a, Real b) { return subtracted(a, b); }
-        friend Real operator*(Real a, Real b) { return multiplied(a, b); }
+        friend Real operator*(Real a, Real b) { return chained(a, b); }
         friend Real operator-(Real a) { return negated(a); }
 
       private:
@@ -88,10 +88,23 @@ template <class A> class Worlds {
                 return *product;
             return run_of(a, b)->make({a, b}, [&](const auto& fp) { return fp.product(a.set(), b.set()); });
         }
+        /// Where the order of factors is open, a product remembers that it is one.
+        static Real chained(Real a, Real b) {
+            Worlds* run = run_of(a, b);
+            if (run == nullptr || !run->known().factors_reordered)
+                return multiplied(a, b);
+            Real product =
+                a.of_factors_ || b.of_factors_
+                    ? run->make({a, b}, [&](const auto& fp) { return fp.product_of_products(a.set(), b.set()); })
+                    : multiplied(a, b);
+            product.of_factors_ = true;
+            return product;
+        }
         static Real negated(Real a) {
-            if (a.is_float())
-                return Real(a.run_, static_cast<float>(-NumberOf<A>(a.point_)));
-            return a.run_->make({a}, [&](const auto&) { return interval::negate(a.set()); });
+            Real result = a.is_float() ? Real(a.run_, static_cast<float>(-NumberOf<A>(a.point_)))
+                                       : a.run_->make({a}, [&](const auto&) { return interval::negate(a.set()); });
+            result.of_factors_ = a.of_factors_;
+            return result;
         }
         /// The one float that an operation of two gives.
         template <class Operation> static std::optional<Real> of_floats(Real a, Real b, const Operation& operation) {
@@ -108,6 +121,7 @@ template <class A> class Worlds {
         Worlds* run_ = nullptr; ///< null: a number of the program's own
         std::uint32_t id_ = no_id;
         float point_ = 0.0F;
+        bool of_factors_ = false; ///< a product or quotient, where the order of factors is open
     };
 
     using Int = int; ///< in each run there is one value
@@ -223,11 +237,13 @@ template <class A> class Worlds {
     }
     // Where one float is known to come of floats, it needs no set.
     Real divide(At, Real a, Real b) {
-        if (known().divide && a.is_float() && b.is_float())
-            if (const float quotient = fp_.divide(a.point_, b.point_); is_sure(quotient))
-                return Real(this, quotient);
-        return make(
-            {a, b}, [&](const auto& fp) { return fp.divide(a.set(), b.set()); }, Undefined::unbounded);
+        Real quotient = !known().factors_reordered || !(a.of_factors_ || b.of_factors_)
+                            ? divided(a, b)
+                            : make(
+                                  {a, b}, [&](const auto& fp) { return fp.quotient_of_products(a.set(), b.set()); },
+                                  Undefined::unbounded);
+        quotient.of_factors_ = known().factors_reordered;
+        return quotient;
     }
     Real sqrt(At, Real a) {
         if (known().square_root && a.is_float())
@@ -445,6 +461,13 @@ template <class A> class Worlds {
     static bool are_floats(const Vec3& v) { return v.x.is_float() && v.y.is_float() && v.z.is_float(); }
     static glm::vec3 points(const Vec3& v) { return {v.x.point_, v.y.point_, v.z.point_}; }
 
+    Real divided(Real a, Real b) {
+        if (known().divide && a.is_float() && b.is_float())
+            if (const float quotient = fp_.divide(a.point_, b.point_); is_sure(quotient))
+                return Real(this, quotient);
+        return make(
+            {a, b}, [&](const auto& fp) { return fp.divide(a.set(), b.set()); }, Undefined::unbounded);
+    }
     /// min and max: exact, but GL leaves open what they make of NaN.
     template <class Pick> Real ordered(Real a, Real b, const Pick& pick) {
         return make({a, b}, [&](const auto&) {

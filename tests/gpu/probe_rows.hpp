@@ -65,10 +65,17 @@ inline constexpr ExpectedRow llvmpipe_rows[] = {
     {"compute: normalize", "as in the vertex stage"},
     {"compute: a*b+c, in functions", "each rounded"},
     {"compute: c-a*b, in functions", "each rounded"},
+    {"v*s*t, in functions", "as written"},
+    {"v*s/t, in functions", "as written"},
+    {"v/s*t, in functions", "as written"},
+    {"compute: v*s*t, in functions", "as written"},
+    {"compute: v*s/t, in functions", "as written"},
+    {"compute: v/s*t, in functions", "as written"},
     {"compute: subnormal operand of *", "kept"},
     {"compute: subnormal result of *", "kept"},
     {"compute: subnormal operand of +", "kept"},
     {"compute: subnormal result of +", "kept"},
+    {"compute: subnormal < 0", "kept"},
     {"float to half", "truncate"},
     {"float to subnormal half", "truncate"},
     {"float above the largest half", "largest"},
@@ -112,6 +119,7 @@ inline constexpr LaterRow later_rows[] = {
     {"fma, precise", "rounded once", 25, 26},
     {"compute: subnormal result of *", "flushed", 25, 26},
     {"compute: subnormal result of +", "flushed", 25, 26},
+    {"compute: subnormal < 0", "flushed", 25, 26},
 };
 
 /// Rows that depend on the processor: with fused multiply-add, or without.

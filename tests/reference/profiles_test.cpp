@@ -197,6 +197,37 @@ TEST_CASE("profiles: what the compute stage computes otherwise is open there, an
     CHECK_FALSE(in_compute_stage(measured_operations(fused), fused).sums);
 }
 
+TEST_CASE("profiles: a compute stage that compares subnormals otherwise than it computes leaves them open there") {
+    ProbeResult result = llvmpipe();
+    for (const char* name : {"compute: subnormal operand of *", "compute: subnormal result of *"})
+        result.rows.push_back({name, "kept", 1, 1, 0, {{"flushed", 0, 0}, {"kept", 1, 0}}});
+    result.rows.push_back({"compute: subnormal < 0", "kept", 1, 1, 0, {}});
+    const Profile same = profile_from(result);
+    CHECK(in_compute_stage(measured_operations(same), same).subnormals);
+    result.rows.back().finding = "flushed";
+    const Profile other = profile_from(result);
+    CHECK(other.not_followed == std::vector<std::string>{"compute: subnormal < 0"});
+    CHECK(measured_operations(other).subnormals);
+    CHECK_FALSE(in_compute_stage(measured_operations(other), other).subnormals);
+}
+
+TEST_CASE("profiles: a stage that takes factors in another order has that open, and the compute stage with it") {
+    const auto with = [](const char* row, const char* finding) {
+        ProbeResult result = llvmpipe();
+        result.rows.push_back({row, finding, 1, 1, 0, {}});
+        return profile_from(result);
+    };
+    CHECK_FALSE(measured_operations(with("v*s*t, in functions", "as written")).factors_reordered);
+    const Profile vertex = with("v*s*t, in functions", "v*(s*t)");
+    CHECK(vertex.name == "llvmpipe");
+    CHECK(measured_operations(vertex).factors_reordered);
+    CHECK(measured_operations(vertex).sums);
+    CHECK(in_compute_stage(measured_operations(vertex), vertex).factors_reordered);
+    const Profile compute = with("compute: v*s/t, in functions", "none known");
+    CHECK_FALSE(measured_operations(compute).factors_reordered);
+    CHECK(in_compute_stage(measured_operations(compute), compute).factors_reordered);
+}
+
 TEST_CASE("profiles: a chain that divides exactly is neither known one") {
     ProbeResult result = llvmpipe();
     find(result, "dot(vec3)", "fma(z,fma(y,x))");

@@ -2,6 +2,7 @@
 
 #include <chrono>
 #include <cmath>
+#include <random>
 #include <set>
 #include <string>
 
@@ -52,6 +53,41 @@ template <class Twin> std::vector<Ended> run(Reading& reading, const Twin& twin)
 Reading::Real open_one(Reading& r) { return r.length(length_of, r.read(x, glm::vec3(0.6F, 0.8F, 0.0F))); }
 
 } // namespace
+
+TEST_CASE(
+    "worlds: where factors may be taken in another order, every order is legal, and a single product is one float") {
+    KnownOperations known = KnownOperations::all();
+    known.factors_reordered = true;
+    std::mt19937 random(11);
+    std::uniform_real_distribution<float> mantissa(1.0F, 2.0F);
+    int wider = 0;
+    for (int i = 0; i < 20'000; ++i) {
+        const float v = mantissa(random), s = -mantissa(random), t = mantissa(random);
+        Reading r(Strict(), known);
+        const auto ends = run(r, [&] {
+            const Reading::Real once = r.read(x, v) * r.read(y, s);
+            return State{-once * r.read(y, t), r.divide(x, once, r.read(y, t))};
+        });
+        REQUIRE(ends.size() == 1);
+        CHECK(ends[0].a.contains(-(v * s) * t));
+        CHECK(ends[0].a.contains(-v * (s * t)));
+        CHECK(ends[0].a.contains(-(v * t) * s));
+        CHECK(ends[0].b.contains((v * s) / t));
+        CHECK(ends[0].b.contains(v * (s / t)));
+        CHECK(ends[0].b.contains((v / t) * s));
+        CHECK(ends[0].b.contains(v * (s * (1.0F / t))));
+        CHECK(ends[0].a.high - ends[0].a.low <= 9.0 * interval::ulp(ends[0].a.high));
+        wider += v * (s * t) != (v * s) * t ? 1 : 0;
+    }
+    CHECK(wider > 1'000);
+    Reading r(Strict(), known);
+    const auto single = run(r, [&] {
+        const Reading::Real product = r.read(x, 1.1F) * r.read(y, 1.3F);
+        return State{product + r.read(x, 0.7F), product};
+    });
+    CHECK(single[0].a.is_point());
+    CHECK(single[0].b.is_point());
+}
 
 TEST_CASE("worlds: an answer holds for every copy of what was asked, and is taken back for the other way") {
     Reading r(Strict(), {});

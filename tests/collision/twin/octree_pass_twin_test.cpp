@@ -157,7 +157,11 @@ TEST_CASE("octree pass twin: NaN, infinite, subnormal and huge states leave the 
                     scene.start.collide_time[i] = odd[k];
             }
         INFO(base);
-        const CheckReport report = check_agree(scene);
+        // Some compute stages compare subnormals otherwise than they compute with them: then either is legal.
+        const Profile profile = test::llvmpipe_profile();
+        const bool open = !in_compute_stage(measured_operations(profile), profile).subnormals;
+        const CheckReport report = open ? test::check_twins(scene) : check_agree(scene);
+        CHECK(report.verdict <= (open ? Verdict::legal : Verdict::agree));
         CHECK(report.total[collision::position].nan > 0);
         CHECK(report.hits > 0);
     }

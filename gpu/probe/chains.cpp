@@ -1,0 +1,115 @@
+#include <array>
+#include <string>
+
+#include "gpu/check.hpp"
+#include "gpu/object.hpp"
+#include "gpu/probe/driver_arithmetic.hpp"
+#include "gpu/probe/rows.hpp"
+#include "gpu/program.hpp"
+
+namespace lockstep::probing {
+namespace {
+
+constexpr std::size_t inputs = 1024;
+constexpr std::size_t group_size = 64; // local_size_x of the shader
+
+struct Chains {
+    Floats scaled_twice, scaled_and_divided, divided_and_scaled; ///< three floats an input
+};
+
+/// Vectors and two factors each, a factor as often as the vector has components.
+struct Inputs {
+    Vectors v = random_vectors(inputs, 44, {});
+    Floats s = random_floats(inputs, 45, {}), t = random_floats(inputs, 46, {});
+    [[nodiscard]] static Floats thrice(const Floats& x) {
+        Floats values;
+        for (const float value : x)
+            values.insert(values.end(), {value, value, value});
+        return values;
+    }
+};
+
+Chains in_vertex_stage(const Inputs& in) {
+    const VertexStage stage("probe/chains", {}, {{"a_Vector", 3}, {"a_Factors", 2}},
+                            {{"out_ScaledTwice", GL_FLOAT_VEC3},
+                             {"out_ScaledAndDivided", GL_FLOAT_VEC3},
+                             {"out_DividedAndScaled", GL_FLOAT_VEC3}});
+    const Floats vectors = flat(in.v);
+    Floats factors;
+    for (std::size_t i = 0; i < inputs; ++i)
+        factors.insert(factors.end(), {in.s[i], in.t[i]});
+    const auto run = [&](std::string_view output) {
+        return stage.run(inputs, {{"a_Vector", 3, vectors.data()}, {"a_Factors", 2, factors.data()}}, output);
+    };
+    return {run("out_ScaledTwice"), run("out_ScaledAndDivided"), run("out_DividedAndScaled")};
+}
+
+Chains in_compute_stage(const Inputs& in) {
+    const std::array stages{Stage::compute};
+    const Program program("probe/chains", load_stages(shader_folders(), "probe/chains", stages));
+    Floats given;
+    for (std::size_t i = 0; i < inputs; ++i)
+        given.insert(given.end(), {in.v[i].x, in.v[i].y, in.v[i].z, in.s[i], in.t[i]});
+    Floats results(9 * inputs);
+    const GlBuffer from, to;
+    const auto bytes = [](const Floats& floats) { return static_cast<GLsizeiptr>(floats.size() * sizeof(float)); };
+    gl::BindBufferBase(GL_SHADER_STORAGE_BUFFER, 0, from.id());
+    gl::BufferData(GL_SHADER_STORAGE_BUFFER, bytes(given), given.data(), GL_STREAM_READ);
+    gl::BindBufferBase(GL_SHADER_STORAGE_BUFFER, 1, to.id());
+    gl::BufferData(GL_SHADER_STORAGE_BUFFER, bytes(results), results.data(), GL_STREAM_READ);
+    program.use();
+    gl::DispatchCompute(static_cast<GLuint>(inputs / group_size), 1, 1);
+    gl::MemoryBarrier(GL_BUFFER_UPDATE_BARRIER_BIT);
+    gl::GetBufferSubData(GL_SHADER_STORAGE_BUFFER, 0, bytes(results), results.data());
+    for (const GLuint binding : {0U, 1U})
+        gl::BindBufferBase(GL_SHADER_STORAGE_BUFFER, binding, 0);
+    check_gl(program.name());
+    Chains chains;
+    for (std::size_t i = 0; i < results.size(); ++i)
+        (i % 9 < 3   ? chains.scaled_twice
+         : i % 9 < 6 ? chains.scaled_and_divided
+                     : chains.divided_and_scaled)
+            .push_back(results[i]);
+    return chains;
+}
+
+Floats products(const Floats& a, const Floats& b) {
+    Floats values;
+    for (std::size_t i = 0; i < a.size(); ++i)
+        values.push_back(a[i] * b[i]);
+    return values;
+}
+
+void judge_chains(const std::string& stage, const Chains& made, const Inputs& in, const DriverArithmetic& gl,
+                  Rows& rows) {
+    const Floats v = flat(in.v), s = Inputs::thrice(in.s), t = Inputs::thrice(in.t);
+    rows.push_back(judge(stage + "v*s*t, in functions", made.scaled_twice,
+                         {{"as written", products(products(v, s), t)},
+                          {"v*(s*t)", products(v, products(s, t))},
+                          {"(v*t)*s", products(products(v, t), s)}}));
+    rows.push_back(judge(stage + "v*s/t, in functions", made.scaled_and_divided,
+                         {{"as written", gl.divide(products(v, s), t)},
+                          {"v*(s/t)", products(v, gl.divide(s, t))},
+                          {"(v/t)*s", products(gl.divide(v, t), s)}}));
+    rows.push_back(judge(stage + "v/s*t, in functions", made.divided_and_scaled,
+                         {{"as written", products(gl.divide(v, s), t)},
+                          {"v*(t/s)", products(v, gl.divide(t, s))},
+                          {"v*((1/s)*t)", products(v, products(gl.reciprocal(s), t))},
+                          {"(v*t)/s", gl.divide(products(v, t), s)}}));
+}
+
+} // namespace
+
+void measure_chains(Rows& rows) {
+    const Inputs in;
+    const DriverArithmetic gl(true);
+    judge_chains("", in_vertex_stage(in), in, gl, rows);
+}
+
+void measure_compute_chains(Rows& rows) {
+    const Inputs in;
+    const DriverArithmetic gl(true);
+    judge_chains("compute: ", in_compute_stage(in), in, gl, rows);
+}
+
+} // namespace lockstep::probing

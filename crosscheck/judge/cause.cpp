@@ -8,6 +8,7 @@
 
 #include "crosscheck/judge/compare.hpp"
 #include "crosscheck/judge/item_sample.hpp"
+#include "crosscheck/judge/rounding_only.hpp"
 #include "reference/collision/collision_pass.hpp"
 #include "reference/collision/obstacle_pass.hpp"
 #include "reference/model/same_bits.hpp"
@@ -246,6 +247,49 @@ void contradict_by_steps(std::vector<TriedCause>& causes, std::size_t divergent,
     }
 }
 
+bool differ_by_rounding(const ParticleState& a, const ParticleState& b, const ParticleState& before) {
+    const auto same = [](const glm::vec3& x, const glm::vec3& y, const glm::vec3& z) {
+        return lockstep::differ_by_rounding(std::span(&x.x, 3), std::span(&y.x, 3), std::span(&z.x, 3));
+    };
+    const auto same_number = [](const float& x, const float& y, const float& z) {
+        return lockstep::differ_by_rounding(std::span(&x, 1), std::span(&y, 1), std::span(&z, 1));
+    };
+    return same(a.position, b.position, before.position) && same(a.direction, b.direction, before.direction) &&
+           same_number(a.speed, b.speed, before.speed) &&
+           same_number(a.collide_time, b.collide_time, before.collide_time);
+}
+
+bool is_about_rounding(Deviation deviation) {
+    return deviation >= Deviation::sums_left_to_right && deviation <= Deviation::subnormals_kept;
+}
+
+/// Leaves out what changes the states at hand by rounding alone, as gravity that is next to nothing does: that it has
+/// the GPU's bits says nothing.
+void drop_what_only_rounds(std::vector<TriedCause>& causes, const JudgedFrame& frame, const FrameInputs& inputs,
+                           const std::vector<std::size_t>& items) {
+    std::vector<char> only_rounds(causes.size());
+    parallel_blocks(static_cast<std::ptrdiff_t>(causes.size()), [&](std::ptrdiff_t c) {
+        const auto at = static_cast<std::size_t>(c);
+        if (is_about_rounding(causes[at].deviations.front()))
+            return;
+        const Deviations deviations = together(causes[at]);
+        bool changes = false;
+        for (const std::size_t i : items) {
+            const ParticleState made = deviating_step(inputs, i, frame.profile, deviations);
+            const ParticleState right = frame.reference[i];
+            if (!differ_by_rounding(made, right, frame.before[i]))
+                return;
+            changes = changes || !alike(made, right, frame.params.constants.tick, AllowedUlps(frame.profile));
+        }
+        only_rounds[at] = changes ? 1 : 0;
+    });
+    std::vector<TriedCause> telling;
+    for (std::size_t c = 0; c < causes.size(); ++c)
+        if (only_rounds[c] == 0)
+            telling.push_back(causes[c]);
+    causes = std::move(telling);
+}
+
 /// The best few.
 std::vector<TriedCause> best_of(std::vector<TriedCause> causes, std::size_t count) {
     std::stable_sort(causes.begin(), causes.end(), before);
@@ -389,7 +433,14 @@ void CauseFinder::try_on_particles(const JudgedFrame& frame, const FrameVerdicts
         return causes.empty() ? causes : best_few(std::move(causes), best_of(particles_.causes, 1).front());
     };
     const std::vector<TriedCause> all = singles(for_steps, false);
-    hold_against(particles_, wrong, all, count, best_pairs, best);
+    std::vector<TriedCause> telling = all;
+    if (!wrong.empty() && particles_.frames < trial_frames) {
+        std::vector<std::size_t> some = sample(wrong, alone_sample);
+        const std::vector<std::size_t> others = sample(equal, alone_sample);
+        some.insert(some.end(), others.begin(), others.end());
+        drop_what_only_rounds(telling, frame, inputs, some);
+    }
+    hold_against(particles_, wrong, telling, count, best_pairs, best);
     if (wrong.empty() || particles_.frames > trial_frames)
         return;
     std::vector<TriedCause> alone = all;

@@ -1,6 +1,7 @@
 #include "crosscheck/judge/item_cause.hpp"
 
 #include <algorithm>
+#include <array>
 #include <limits>
 #include <numeric>
 #include <span>
@@ -9,6 +10,7 @@
 #include <fmt/format.h>
 
 #include "crosscheck/judge/item_sample.hpp"
+#include "crosscheck/judge/rounding_only.hpp"
 #include "reference/parallel_blocks.hpp"
 
 namespace lockstep {
@@ -31,6 +33,28 @@ bool alike(Value a, Value b) {
 }
 
 } // namespace
+
+/// Whether the GPU's item is the reference's but for rounding, in every field.
+bool ItemCauseFinder::Trial::is_off_by_rounding(std::size_t item) const {
+    const View& before = pass.before[pass.pass.resource()];
+    for (std::size_t from = 0, to = 0; from < parts.size(); from = to) {
+        std::array<std::vector<float>, 3> field;
+        for (to = from; to < parts.size() && parts[to].field == parts[from].field; ++to) {
+            const auto at = [&](const View& view) { return view.value(parts[to].field, item, parts[to].component); };
+            if (at(pass.gpu).scalar != Scalar::float32) {
+                if (!same_bits(at(pass.gpu), at(pass.reference)))
+                    return false;
+                continue;
+            }
+            field[0].push_back(at(pass.gpu).real());
+            field[1].push_back(at(pass.reference).real());
+            field[2].push_back(at(before).real());
+        }
+        if (!differ_by_rounding(field[0], field[1], field[2]))
+            return false;
+    }
+    return true;
+}
 
 bool ItemCauseFinder::explains(const Hypothesis& hypothesis, const Trial& trial, std::size_t item) {
     using Host = Hypothesis::Host;
@@ -80,7 +104,10 @@ bool ItemCauseFinder::hold(Hypothesis& hypothesis, const Trial& trial, std::int6
     for (const std::size_t item : trial.divergent) {
         if (hypothesis.balance() + left-- < at_least)
             return false;
-        hypothesis.explained += explains(hypothesis, trial, item) ? 1 : 0;
+        if (!explains(hypothesis, trial, item))
+            continue;
+        ++hypothesis.explained;
+        hypothesis.telling += trial.is_off_by_rounding(item) ? 0 : 1;
     }
     if (hypothesis.explained == before)
         return true;
@@ -164,6 +191,8 @@ CauseFindings ItemCauseFinder::findings() const {
     for (const Hypothesis& hypothesis : tried_) {
         if (hypothesis.explained != tried_.front().explained || hypothesis.contradicted != tried_.front().contradicted)
             break;
+        if (hypothesis.telling == 0)
+            continue;
         const bool named = hypothesis.named != nullptr;
         std::string meaning = "a change of the twin at one site";
         if (hypothesis.host == Hypothesis::Host::unwritten)

@@ -39,6 +39,7 @@ class ItemCauseFinder {
         const NamedMistake* named = nullptr;
         std::string text = {}; ///< of one without a name
         std::uint64_t explained = 0, contradicted = 0;
+        std::uint64_t telling = 0; ///< of those explained, which are off by more than rounding
 
         /// Names first, then the host's, then a wrong input, then all else.
         [[nodiscard]] int rank() const {
@@ -55,6 +56,7 @@ class ItemCauseFinder {
         const JudgedPass& pass;
         std::vector<Component> parts;
         std::span<const std::size_t> divergent, agreeing;
+        [[nodiscard]] bool is_off_by_rounding(std::size_t item) const;
     };
     [[nodiscard]] std::vector<Hypothesis> hypotheses(const JudgedPass& pass,
                                                      const std::vector<std::size_t>& items) const;

@@ -390,7 +390,7 @@ std::string report_text(const CheckReport& r, const RunDescription& run) {
     line("verdict", verdict_line(r));
     if (r.total.agree())
         return r.state_verdict ? out + fmt::format("\nrepeat    {}\n", run.repeat) : out;
-    if (r.verdict == Verdict::divergent && r.wider_rule)
+    if (r.verdict == Verdict::divergent && r.wider_rule && !(r.verdicts && tells_cause(*r.verdicts)))
         line("hint",
              fmt::format(
                  "none of those that were tried is wrong by{}: a right shader that writes the same in another way "

@@ -68,7 +68,9 @@ std::string cause_text(const CauseFindings& found, std::string_view what) {
         return text + equals_text(found);
     return found.best.size() == 1
                ? text
-               : text + fmt::format("; {} other mistakes have the same end here", found.best.size() - 1);
+               : text + (found.best.size() == 2
+                             ? std::string("; 1 other mistake has the same end here")
+                             : fmt::format("; {} other mistakes have the same end here", found.best.size() - 1));
 }
 
 /// What explains a part that is worth a look, and nothing contradicts; else nothing.
@@ -98,7 +100,10 @@ std::string first_text(const FirstDivergence& first, const Shape& shape) {
 }
 
 /// The name of a shift: of one that ties convict, or of what all points and sides beyond rounding have in common.
+/// Nothing where a mistake explains what was drawn.
 std::string shift_name(const VerdictSummary& s) {
+    if (std::any_of(s.causes.begin() + (s.causes.empty() ? 0 : 1), s.causes.end(), is_told))
+        return "";
     if (const std::string name = s.convicted_shift(); !name.empty())
         return name;
     return s.total(DifferenceClass::divergent) == 0
@@ -164,6 +169,8 @@ nlohmann::json counts_json(const std::array<std::uint64_t, class_names.size()>& 
 }
 
 } // namespace
+
+bool tells_cause(const VerdictSummary& s) { return std::any_of(s.causes.begin(), s.causes.end(), is_told); }
 
 std::string grouped(std::uint64_t value) {
     std::string digits = std::to_string(value);

@@ -11,6 +11,9 @@ namespace lockstep {
 /// 4812 as "4,812".
 std::string grouped(std::uint64_t value);
 
+/// Whether a cause is told of anything: what explains all of a buffer's or image's divergence, and nothing contradicts.
+bool tells_cause(const VerdictSummary& summary);
+
 /// The lines of a report about verdicts: classes, ties, cause, first divergence. `width`: of images, texels.
 std::string verdict_text(const VerdictSummary& summary, const Schema& schema, int width);
 

@@ -150,6 +150,7 @@
     X(BindImageTexture, 4, 2, "GL_ARB_shader_image_load_store")                                                        \
     X(MemoryBarrier, 4, 2, "GL_ARB_shader_image_load_store")                                                           \
     X(TexStorage2D, 4, 2, "GL_ARB_texture_storage")                                                                    \
+    X(DrawElementsIndirect, 4, 0, "GL_ARB_draw_indirect")                                                              \
     X(DispatchCompute, 4, 3, "GL_ARB_compute_shader")                                                                  \
     X(ClearBufferData, 4, 3, "GL_ARB_clear_buffer_object")                                                             \
     X(GetProgramInterfaceiv, 4, 3, "GL_ARB_program_interface_query")                                                   \

@@ -98,6 +98,9 @@ void check_stage(const GlPass& pass, const Schema& schema) {
     if (pass.stage == Stage::vertex && in_place)
         throw Error(fmt::format("{}: {} has storage blocks, which a vertex shader cannot change", pass.name,
                                 schema.resources[pass.resource].title));
+    if (pass.instances_of && (pass.stage != Stage::vertex || *pass.instances_of >= schema.resources.size()))
+        throw Error(
+            fmt::format("{}: instances are those of a buffer of {}, for a vertex shader", pass.name, schema.system));
     if (pass.stage == Stage::vertex && !pass.data.empty())
         throw Error(fmt::format("{}: a vertex shader has no storage blocks", pass.name));
 }
@@ -172,7 +175,12 @@ struct GlSystem::Parts {
     /// Runs `work`, a draw or a dispatch, and takes its time.
     template <class Work> void timed(const Work& work);
     void dispatch(const Linked& linked, int frame);
-    [[nodiscard]] std::vector<ShaderSource> sources(const GlPass& pass, bool traced) const;
+    [[nodiscard]] std::vector<ShaderSource> sources(const GlPass& pass, std::span<const Stage> stages,
+                                                    bool traced) const;
+    /// What a program of the pass reads: an item a vertex, or an instance.
+    [[nodiscard]] GlVertexArray inputs(const GlPass& pass, const Program& program);
+    [[nodiscard]] std::size_t items(std::uint8_t resource) { return from(first_storage(resource)).size(); }
+    [[nodiscard]] ColorImage picture(const Linked& linked, int frame, const GlPicture& how);
     [[nodiscard]] std::size_t first_storage(std::uint8_t resource) const;
     [[nodiscard]] RecordBuffer& from(std::size_t storage) {
         return buffers[storage][current[storages[storage].layout.resource]];
@@ -205,7 +213,7 @@ GlSystem::GlSystem(const Schema& schema, std::vector<GlPass> passes, std::filesy
             continue;
         }
         const bool compute = pass.stage == Stage::compute;
-        const std::vector<ShaderSource> stages = parts_->sources(pass, false);
+        const std::vector<ShaderSource> stages = parts_->sources(pass, std::array{pass.stage}, false);
         const std::vector<Capture> captures =
             compute ? std::vector<Capture>{} : parts_->storages[parts_->first_storage(pass.resource)].layout.captures();
         Program program(pass.name, stages, captures);
@@ -238,12 +246,13 @@ const GlSystem::Parts::Linked* GlSystem::Parts::running(std::size_t pass, int fr
     return linked && (!linked->pass.runs || linked->pass.runs(frame)) ? &*linked : nullptr;
 }
 
-std::vector<ShaderSource> GlSystem::Parts::sources(const GlPass& pass, bool traced) const {
+std::vector<ShaderSource> GlSystem::Parts::sources(const GlPass& pass, std::span<const Stage> stages,
+                                                   bool traced) const {
     ShaderDefines defines = arithmetic_defines(arithmetic);
     defines.insert(defines.end(), pass.defines.begin(), pass.defines.end());
     if (traced)
         defines.emplace_back("LOCKSTEP_TRACE", "1");
-    return load_stages(shader_folders(shaders, schema->system), pass.name, std::array{pass.stage}, defines);
+    return load_stages(shader_folders(shaders, schema->system), pass.name, stages, defines);
 }
 
 void GlSystem::upload(const SystemView& state) {
@@ -279,20 +288,36 @@ template <class Work> void GlSystem::Parts::timed(const Work& work) {
 
 GlSystem::Seconds GlSystem::seconds() const { return parts_->seconds; }
 
+GlVertexArray GlSystem::Parts::inputs(const GlPass& pass, const Program& program) {
+    if (!pass.instances_of)
+        return vertex_array(from(first_storage(pass.resource)), program);
+    std::vector<const RecordBuffer*> read;
+    for (std::size_t s = 0; s < storages.size(); ++s)
+        if (storages[s].layout.resource == *pass.instances_of)
+            read.push_back(&from(s));
+    return instance_array(read, program);
+}
+
 void GlSystem::Parts::draw(const Linked& linked) {
-    const std::size_t storage = first_storage(linked.pass.resource);
-    const RecordBuffer& source = from(storage);
-    const GlVertexArray vertices = vertex_array(source, linked.program);
+    const GlPass& pass = linked.pass;
+    const std::size_t vertices = items(pass.resource), instances = pass.instances_of ? items(*pass.instances_of) : 1;
+    if (instances == 0 || vertices % instances != 0)
+        throw Error(fmt::format("{}: {} {} are no even share of {} instances", pass.name, vertices,
+                                schema->resources[pass.resource].name, instances));
+    const GlVertexArray inputs_of = inputs(pass, linked.program);
     linked.program.check_interface();
     const GlQuery written;
     linked.program.use();
-    gl::BindVertexArray(vertices.id());
+    gl::BindVertexArray(inputs_of.id());
     target.bind();
-    to(storage).bind_capture();
+    to(first_storage(pass.resource)).bind_capture();
     gl::Enable(GL_RASTERIZER_DISCARD);
     gl::BeginQuery(GL_TRANSFORM_FEEDBACK_PRIMITIVES_WRITTEN, written.id());
     gl::BeginTransformFeedback(GL_POINTS);
-    timed([&] { gl::DrawArrays(GL_POINTS, 0, static_cast<GLsizei>(source.size())); });
+    timed([&] {
+        gl::DrawArraysInstanced(GL_POINTS, 0, static_cast<GLsizei>(vertices / instances),
+                                static_cast<GLsizei>(instances));
+    });
     gl::EndTransformFeedback();
     gl::EndQuery(GL_TRANSFORM_FEEDBACK_PRIMITIVES_WRITTEN);
     gl::Disable(GL_RASTERIZER_DISCARD);
@@ -300,9 +325,55 @@ void GlSystem::Parts::draw(const Linked& linked) {
     gl::BindVertexArray(0);
     GLuint points = 0;
     gl::GetQueryObjectuiv(written.id(), GL_QUERY_RESULT, &points);
-    if (points != source.size())
-        throw Error(
-            fmt::format("{}: transform feedback wrote {} of {} items", linked.pass.name, points, source.size()));
+    if (points != vertices)
+        throw Error(fmt::format("{}: transform feedback wrote {} of {} items", pass.name, points, vertices));
+}
+
+ColorImage GlSystem::Parts::picture(const Linked& linked, int frame, const GlPicture& how) {
+    const GlPass& pass = linked.pass;
+    const Program program(pass.name, sources(pass, std::array{Stage::vertex, Stage::fragment}, false));
+    const GlTexture color;
+    allocate_texture(color.id(), {GL_RGBA8, GL_RGBA, GL_UNSIGNED_BYTE}, how.width, how.height);
+    const GlFramebuffer framebuffer;
+    gl::BindFramebuffer(GL_FRAMEBUFFER, framebuffer.id());
+    gl::FramebufferTexture2D(GL_FRAMEBUFFER, GL_COLOR_ATTACHMENT0, GL_TEXTURE_2D, color.id(), 0);
+    check_framebuffer(GL_FRAMEBUFFER, fmt::format("picture of {} x {} pixels", how.width, how.height));
+    gl::Viewport(0, 0, how.width, how.height);
+    const std::array background{static_cast<float>(how.background.r) / 255.0F,
+                                static_cast<float>(how.background.g) / 255.0F,
+                                static_cast<float>(how.background.b) / 255.0F, 1.0F};
+    gl::ClearBufferfv(GL_COLOR, 0, background.data());
+    gl::Enable(GL_BLEND);
+    gl::BlendFunc(GL_SRC_ALPHA, GL_ONE_MINUS_SRC_ALPHA);
+    set_uniforms(program, pass, items(pass.resource), frame);
+    const GlVertexArray vertices = inputs(pass, program);
+    program.check_interface();
+    program.use();
+    gl::BindVertexArray(vertices.id());
+    const GlBuffer indices, call;
+    gl::BindBuffer(GL_ELEMENT_ARRAY_BUFFER, indices.id());
+    gl::BufferData(GL_ELEMENT_ARRAY_BUFFER, static_cast<GLsizeiptr>(how.indices.size() * sizeof(std::uint32_t)),
+                   how.indices.data(), GL_STATIC_DRAW);
+    const std::array<std::uint32_t, 5> arguments{static_cast<std::uint32_t>(how.indices.size()),
+                                                 static_cast<std::uint32_t>(items(pass.instances_of.value())), 0, 0, 0};
+    gl::BindBuffer(GL_DRAW_INDIRECT_BUFFER, call.id());
+    gl::BufferData(GL_DRAW_INDIRECT_BUFFER, sizeof arguments, arguments.data(), GL_STATIC_DRAW);
+    timed([&] { gl::DrawElementsIndirect(GL_TRIANGLES, GL_UNSIGNED_INT, nullptr); });
+    gl::Disable(GL_BLEND);
+    gl::BindVertexArray(0);
+    gl::UseProgram(0);
+    ColorImage image(how.width, how.height);
+    gl::BindTexture(GL_TEXTURE_2D, color.id());
+    gl::GetTexImage(GL_TEXTURE_2D, 0, GL_RGBA, GL_UNSIGNED_BYTE, image.texels.data());
+    check_gl(pass.name + ", picture");
+    return image;
+}
+
+ColorImage GlSystem::picture(std::size_t pass, int frame, const GlPicture& how) {
+    const Parts::Linked* linked = parts_->running(pass, frame);
+    if (linked == nullptr || !linked->pass.instances_of)
+        throw Error(fmt::format("pass {} draws nothing in frame {}", pass, frame));
+    return parts_->picture(*linked, frame, how);
 }
 
 void GlSystem::Parts::dispatch(const Linked& linked, int frame) {
@@ -387,11 +458,12 @@ void GlSystem::read(SystemState& state) const {
 }
 
 std::vector<CapturedVertex> GlSystem::trace(std::size_t pass, int frame, std::size_t item) {
-    if (parts_->running(pass, frame) == nullptr || parts_->passes[pass]->pass.stage != Stage::vertex)
+    if (parts_->running(pass, frame) == nullptr || parts_->passes[pass]->pass.stage != Stage::vertex ||
+        parts_->passes[pass]->pass.instances_of)
         return {};
     Parts::Linked& linked = *parts_->passes[pass];
     if (!linked.traced) {
-        const std::vector<ShaderSource> stages = parts_->sources(linked.pass, true);
+        const std::vector<ShaderSource> stages = parts_->sources(linked.pass, std::array{linked.pass.stage}, true);
         const std::vector<Capture> outputs = outputs_with("trace_", stages);
         linked.traced = outputs.empty() ? std::vector<VertexCapture>{}
                                         : vertex_captures("trace build of " + linked.pass.name, stages, outputs);

@@ -5,6 +5,7 @@
 #include <functional>
 #include <map>
 #include <memory>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <variant>
@@ -18,6 +19,7 @@
 #include "gpu/shader_source.hpp"
 #include "gpu/system_side.hpp"
 #include "reference/model/arithmetic_switch.hpp"
+#include "reference/model/image.hpp"
 
 namespace lockstep {
 
@@ -43,6 +45,17 @@ struct GlPass {
     ShaderDefines defines = {};               ///< besides those of the arithmetic
     std::function<bool(int frame)> runs = {}; ///< as ItemPass::runs; empty: in every frame
     bool continues = false; ///< the dispatch of the pass before wrote this buffer as well; there is no shader
+    /// Of a vertex pass that draws: the buffer of which each item is an instance, with its fields as attributes. An
+    /// item of `resource` is then a vertex of an instance (gl_VertexID), as many a one as divide evenly.
+    std::optional<std::uint8_t> instances_of = {};
+};
+
+/// How a vertex pass of instances is drawn with NAME.frag: over one colour, triangles in the order of the instances,
+/// blended by GL_SRC_ALPHA, GL_ONE_MINUS_SRC_ALPHA, by one indirect call.
+struct GlPicture {
+    int width = 960, height = 540;
+    Rgba8 background;
+    std::vector<std::uint32_t> indices; ///< of an instance's vertices, three a triangle
 };
 
 /// The GPU side of a system whose state is buffers, in the current context: each pass reads the state that the one
@@ -70,6 +83,9 @@ class GlSystem final : public SystemSide {
         double wall = 0.0, timer = 0.0;
     };
     [[nodiscard]] Seconds seconds() const;
+
+    /// What a pass of instances draws from the state as it is.
+    [[nodiscard]] ColorImage picture(std::size_t pass, int frame, const GlPicture& how);
 
     /// Of a vertex pass: its outputs named trace_*, from the same files with LOCKSTEP_TRACE defined.
     std::vector<CapturedVertex> trace(std::size_t pass, int frame, std::size_t item) override;

@@ -220,9 +220,10 @@ bool RecordBuffer::spare_holds(std::uint32_t pattern) const {
 
 void RecordBuffer::bind_capture() const { gl::BindBufferBase(GL_TRANSFORM_FEEDBACK_BUFFER, 0, id()); }
 
-GlVertexArray vertex_array(const RecordBuffer& buffer, const Program& program) {
-    GlVertexArray array;
-    gl::BindVertexArray(array.id());
+namespace {
+
+/// Into the vertex array that is bound. `divisor`: 0 a vertex a record, 1 an instance.
+void feed(const RecordBuffer& buffer, const Program& program, GLuint divisor) {
     gl::BindBuffer(GL_ARRAY_BUFFER, buffer.id());
     const RecordLayout& layout = buffer.layout();
     const auto stride = static_cast<GLsizei>(layout.bytes());
@@ -241,7 +242,25 @@ GlVertexArray vertex_array(const RecordBuffer& buffer, const Program& program) {
         else
             gl::VertexAttribIPointer(location, field.components,
                                      field.scalar == Scalar::int32 ? GL_INT : GL_UNSIGNED_INT, stride, start);
+        gl::VertexAttribDivisor(location, divisor);
     }
+}
+
+} // namespace
+
+GlVertexArray vertex_array(const RecordBuffer& buffer, const Program& program) {
+    GlVertexArray array;
+    gl::BindVertexArray(array.id());
+    feed(buffer, program, 0);
+    gl::BindVertexArray(0);
+    return array;
+}
+
+GlVertexArray instance_array(std::span<const RecordBuffer* const> buffers, const Program& program) {
+    GlVertexArray array;
+    gl::BindVertexArray(array.id());
+    for (const RecordBuffer* const buffer : buffers)
+        feed(*buffer, program, 1);
     gl::BindVertexArray(0);
     return array;
 }

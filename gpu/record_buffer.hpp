@@ -1,6 +1,7 @@
 #pragma once
 #include <cstddef>
 #include <cstdint>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -71,5 +72,7 @@ class RecordBuffer {
 
 /// Feeds a_Position and so on of `program` from `buffer`. Throws Error if one has a wrong type.
 GlVertexArray vertex_array(const RecordBuffer& buffer, const Program& program);
+/// The same from several buffers, a record an instance.
+GlVertexArray instance_array(std::span<const RecordBuffer* const> buffers, const Program& program);
 
 } // namespace lockstep

@@ -1,21 +1,40 @@
 #pragma once
+#include <functional>
 #include <string>
 #include <string_view>
 #include <vector>
+
+#include <glm/mat4x4.hpp>
 
 #include "crosscheck/files/json_reader.hpp"
 #include "crosscheck/judge/system.hpp"
 #include "crosscheck/scene/scene_file.hpp"
 #include "gpu/gl_system.hpp"
 #include "reference/model/arithmetic_switch.hpp"
+#include "reference/model/image.hpp"
+#include "reference/model/overlay_line.hpp"
 
 namespace lockstep {
+
+/// How a frame's state is drawn: a pass of its own, the vertex stage, which makes a buffer of the system below from the
+/// state and is judged as any other, and what becomes a picture of it.
+struct SystemPicture {
+    System system; ///< starts from the state
+    std::vector<GlPass> passes;
+    GlPicture how; ///< no indices: nothing is drawn
+    /// The reference's picture of what its vertex stage put out.
+    std::function<ColorImage(const SystemView& drawn)> image;
+    glm::mat4 to_clip{1.0F};
+    std::vector<OverlayLine> overlay;
+};
 
 /// What a scene file of a registered system comes to, on both sides.
 struct SystemScene {
     System system;              ///< the twins; its `settings` are what a report says of switches
     std::vector<GlPass> passes; ///< the shaders, in the twins' order
     ArithmeticSwitch arithmetic = ArithmeticSwitch::plain;
+    /// Of a frame's end. Empty: the system has no pictures.
+    std::function<SystemPicture(const SystemState& state, int frame)> picture = {};
 };
 
 /// A system that scene files name: `"system": "dust"`. The verbs know no other thing of it.

@@ -30,6 +30,9 @@ class GlSystemSide final : public SystemSide {
     [[nodiscard]] bool repeats() const override { return true; }
     void lay_canary(std::size_t pass) override { system_.lay_canary(pass); }
     void repeat_step(std::size_t pass, int frame) override { system_.repeat_step(pass, frame); }
+    [[nodiscard]] ColorImage picture(std::size_t pass, int frame, const GlPicture& how) {
+        return system_.picture(pass, frame, how);
+    }
     [[nodiscard]] GlSystem::Seconds seconds() const { return system_.seconds(); }
     std::vector<CapturedVertex> trace(std::size_t pass, int frame, std::size_t item) override {
         return system_.trace(pass, frame, item);

@@ -6,6 +6,7 @@
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
+#include <glm/geometric.hpp>
 
 #include "crosscheck/files/plain_text.hpp"
 #include "reference/model/error.hpp"
@@ -93,6 +94,23 @@ Ball read_ball(const JsonValue& json) {
     return ball;
 }
 
+void read_camera(const JsonValue& json, Camera& camera) {
+    json.check_keys({"eye", "target", "up", "fov_y", "near", "far"});
+    read(json, "eye", camera.eye);
+    read(json, "target", camera.target);
+    read(json, "up", camera.up);
+    read(json, "fov_y", camera.fov_y);
+    read(json, "near", camera.near_plane);
+    read(json, "far", camera.far_plane);
+    const glm::vec3 ahead = camera.target - camera.eye;
+    if (!(glm::length(glm::cross(ahead, camera.up)) > 0.0F))
+        json.fail("looks nowhere: target is eye, or up points along the view");
+    if (!(camera.near_plane > 0.0F && camera.far_plane > camera.near_plane))
+        json.fail("near and far are no planes before it; right is 0 < near < far");
+    if (!(camera.fov_y > 0.0F && camera.fov_y < 180.0F))
+        json.fail("fov_y is not between 0 and 180 degrees");
+}
+
 void read_constants(const JsonValue& json, Settings& settings) {
     json.check_keys({"tick", "timescale", "gravity"});
     read(json, "tick", settings.tick);
@@ -175,6 +193,8 @@ Settings read_scene(const JsonValue& json, const SceneOptions& options) {
     settings.arithmetic = name == "exact" ? ArithmeticSwitch::exact : ArithmeticSwitch::plain;
     if (const auto constants = json.find("constants"))
         read_constants(*constants, settings);
+    if (const auto camera = json.find("camera"))
+        read_camera(*camera, settings.camera);
     const JsonValue dust = json.at("dust");
     if (const auto version = dust.find("stage")) {
         try {

@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 
 #include "crosscheck/dust/mistakes.hpp"
+#include "crosscheck/dust/picture.hpp"
 #include "crosscheck/dust/scene.hpp"
 #include "gpu/dust/passes.hpp"
 #include "reference/dust/passes.hpp"
@@ -48,7 +49,8 @@ System system(const HostPtr& host, const std::string& name) {
 
 SystemScene load(const JsonValue& scene, const std::string& name, const SceneOptions& options) {
     const auto host = std::make_shared<const Host>(read_scene(scene, options));
-    return {system(host, name), passes(host), host->settings().arithmetic};
+    return {system(host, name), passes(host), host->settings().arithmetic,
+            [host](const SystemState& state, int frame) { return picture(host, state, frame); }};
 }
 
 } // namespace lockstep::dust

@@ -112,4 +112,18 @@ std::vector<GlPass> passes(const HostPtr& host) {
     return all;
 }
 
+GlPass draw_gl_pass(const HostPtr& host, const Drawing& drawing) {
+    GlPass pass{.name = "draw", .stage = Stage::vertex, .resource = corner_buffer};
+    pass.instances_of = grain_buffer;
+    pass.defines = defines(host->switches());
+    pass.uniforms = [scale = host->settings().scale, drawing](int) -> Uniforms {
+        return {{"cameraRight", drawing.right},
+                {"cameraUp", drawing.up},
+                {"cameraBack", drawing.back},
+                {"scale", scale},
+                {"viewProjection", drawing.view_projection}};
+    };
+    return pass;
+}
+
 } // namespace lockstep::dust

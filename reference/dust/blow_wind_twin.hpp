@@ -20,6 +20,8 @@ struct BlowWindTwin {
         const auto d2 = r.note(site::sqr_dist, squared(way));
         if (!r.decide(site::in_range, d2 < r.uniform(site::blower_sqr_dist, values.sqr_range)))
             return grain;
+        if (host->switches().safe_direction == OffOn::on && !r.decide(site::no_direction, d2 > 0.0F))
+            return grain;
         const auto n = r.note(site::from_mouth_unit, r.normalize(site::from_mouth_unit, way));
         const auto k =
             r.note(site::along, r.dot(site::along, r.uniform(site::controller_forward, values.controller_forward), n));

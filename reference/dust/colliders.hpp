@@ -64,7 +64,12 @@ template <class R> class ColliderTwin {
                                  : r.decide(site::touches_sphere, d2 <= sqr_reach);
         if (!touches)
             return false;
-        const Vec3 n = r.note(site::movement_unit, r.normalize(site::movement_unit, m.next - m.current));
+        if (switches_.inside == Inside::push_out &&
+            r.decide(site::starts_inside, squared(m.current - centre) < sqr_reach)) {
+            push_out(centre, reach, m);
+            return true;
+        }
+        const Vec3 n = r.note(site::movement_unit, direction_of(r, site::movement_unit, m.next - m.current, switches_));
         const Vec3 a = centre - m.current;
         const Real q = r.note(site::closest, r.dot(site::closest, a, n));
         const Real h = r.note(site::missed, squared(a) - r.note(site::closest_squared, q * q));
@@ -79,6 +84,16 @@ template <class R> class ColliderTwin {
         m.velocity = r.note(site::bounced, reflected(site::speed_into, m.velocity, normal) *
                                                r.note(site::sphere_speed_kept, elasticity_));
         return true;
+    }
+
+    /// To the nearest place of the sphere's surface, on no way further in.
+    void push_out(const Vec3& centre, const Real& reach, Movement<R>& m) const {
+        const Vec3 out = r.note(site::outward, r.normalize(site::outward, m.next - centre));
+        m.next = r.note(site::landed, centre + out * reach);
+        if (r.decide(site::moves_inward,
+                     r.note(site::speed_outward, r.dot(site::speed_outward, m.velocity, out)) < 0.0F))
+            m.velocity = r.note(site::bounced, reflected(site::speed_into, m.velocity, out) *
+                                                   r.note(site::sphere_speed_kept, elasticity_));
     }
 
     /// i - (2 i.n) n
@@ -178,18 +193,18 @@ template <class R> class ColliderTwin {
         const Real margin = r.note(site::wall_margin, radius_);
         const Vec3 lo = more(r.uniform(site::world_min, host_.settings().world.min), margin);
         const Vec3 hi = less(r.uniform(site::world_max, host_.settings().world.max), margin);
-        if (r.decide(site::above_wall, m.next.x > hi.x))
-            return wall(m, &Vec3::x, hi.x, m.current.x > hi.x, true);
-        if (r.decide(site::below_wall, m.next.x < lo.x))
-            return wall(m, &Vec3::x, lo.x, m.current.x < lo.x, false);
-        if (r.decide(site::above_wall, m.next.y > hi.y))
-            return wall(m, &Vec3::y, hi.y, m.current.y > hi.y, true);
-        if (r.decide(site::below_wall, m.next.y < lo.y))
-            return wall(m, &Vec3::y, lo.y, m.current.y < lo.y, false);
-        if (r.decide(site::above_wall, m.next.z > hi.z))
-            return wall(m, &Vec3::z, hi.z, m.current.z > hi.z, true);
-        if (r.decide(site::below_wall, m.next.z < lo.z))
-            return wall(m, &Vec3::z, lo.z, m.current.z < lo.z, false);
+        for (const Axis axis : {&Vec3::x, &Vec3::y, &Vec3::z}) {
+            if (r.decide(site::above_wall, m.next.*axis > hi.*axis)) {
+                wall(m, axis, hi.*axis, m.current.*axis > hi.*axis, true);
+                if (switches_.walls == Walls::first)
+                    return;
+            }
+            if (r.decide(site::below_wall, m.next.*axis < lo.*axis)) {
+                wall(m, axis, lo.*axis, m.current.*axis < lo.*axis, false);
+                if (switches_.walls == Walls::first)
+                    return;
+            }
+        }
     }
 
     /// A plane that the movement crosses from inside, or started beyond: then it ends on it, and nothing bounces.

@@ -18,13 +18,15 @@ template <class R> class ConeTwin {
           threshold_(r.uniform(site::cleaner_threshold, values.threshold)),
           sqr_range_(r.uniform(site::cleaner_sqr_dist, values.sqr_range)),
           sqr_death_(r.uniform(site::cleaner_sqr_death, values.sqr_death_range)),
-          sqr_force_(r.uniform(site::cleaner_sqr_force, values.sqr_force)), side_exit_(host.switches().side_exit) {}
+          sqr_force_(r.uniform(site::cleaner_sqr_force, values.sqr_force)), switches_(host.switches()) {}
 
     /// The force on a grain that the cone has; none on others.
     [[nodiscard]] std::optional<Vec3> force(const Vec3& position) const {
         const Vec3 way = r.note(site::to_mouth, mouth_ - position);
         const Real d2 = r.note(site::sqr_dist, squared(way));
         if (!r.decide(site::in_range, d2 < sqr_range_))
+            return {};
+        if (switches_.safe_direction == OffOn::on && !r.decide(site::no_direction, d2 > 0.0F))
             return {};
         const Vec3 n = r.note(site::to_mouth_unit, r.normalize(site::to_mouth_unit, way));
         const Real k = r.note(site::along, r.dot(site::along, axis_, -n));
@@ -44,7 +46,7 @@ template <class R> class ConeTwin {
             return false;
         const Real along = r.note(site::next_along, r.dot(site::next_along, axis_, c));
         const Real d2 = squared(away);
-        if (side_exit_ == SideExit::keep)
+        if (switches_.side_exit == SideExit::keep)
             return r.decide(site::behind, along < 0.0F) || r.decide(site::near_mouth, d2 < sqr_death_);
         return r.decide(site::left_cone, along < threshold_) || r.decide(site::near_mouth, d2 < sqr_death_);
     }
@@ -60,7 +62,7 @@ template <class R> class ConeTwin {
     R& r;
     Vec3 mouth_, axis_;
     Real threshold_, sqr_range_, sqr_death_, sqr_force_;
-    SideExit side_exit_;
+    const Switches& switches_;
 };
 
 } // namespace lockstep::dust

@@ -27,15 +27,18 @@ struct EmitTwin {
                     : random.r11(r.divide(site::seed, f + r.uniform(site::time, values.time), 79238.288F));
         if (!r.decide(site::is_lucky, r.note(site::chance, chance) <= 0.01F))
             return grain;
+        const bool by_time = host->switches().emit_seed == EmitSeed::index_time;
+        const auto drawn_in = static_cast<std::uint32_t>(by_time ? in.frame : 0);
         Real x{}, y{}, rho{}, tangent{};
         if (integer) {
-            const glm::vec2 direction = host->directions()[integer_random(i, Stream::angle, 0, seed) >> 20U];
+            const glm::vec2 direction = host->directions()[integer_random(i, Stream::angle, drawn_in, seed) >> 20U];
             x = r.uniform(site::direction_of_table, direction.x);
             y = r.uniform(site::direction_of_table, direction.y);
-            rho = random.unit(integer_random(i, Stream::radius, 0, seed));
+            rho = random.unit(integer_random(i, Stream::radius, drawn_in, seed));
             tangent = r.uniform(site::emitter_tangent, values.tangent);
         } else {
-            const Real s = r.note(site::seed, r.divide(site::seed, f, 82801.277F));
+            const Real s = r.note(
+                site::seed, r.divide(site::seed, by_time ? f + r.uniform(site::time, values.time) : f, 82801.277F));
             const Real turn = r.note(site::angle, lerp(Real(-6.28318530F), Real(6.28318530F), random.r11(s)));
             x = random.cosine(turn);
             y = random.sine(turn);

@@ -27,7 +27,7 @@ struct ExplodeTwin {
             return grain;
         const auto share = r.note(site::share, 1.0F - r.divide(site::share, d2, range));
         const auto f = r.note(site::blast, share * r.uniform(site::explosion_force, explosion->force));
-        const auto n = r.note(site::blast_direction, r.normalize(site::blast_direction, way));
+        const auto n = r.note(site::blast_direction, direction_of(r, site::blast_direction, way, host->switches()));
         const auto a =
             divided(r, site::acceleration, r.note(site::force, n * f), r.uniform(site::mass, host->settings().mass));
         grain.velocity = r.note(site::velocity, grain.velocity + a * r.uniform(site::impulse_dt, values.explosion_dt));

@@ -4,6 +4,7 @@
 
 #include "reference/dust/sites.hpp"
 #include "reference/model/dust/schema.hpp"
+#include "reference/model/dust/switches.hpp"
 #include "reference/system/item_pass.hpp"
 
 namespace lockstep::dust {
@@ -33,6 +34,14 @@ template <class T, class S> T lerp(const T& a, const T& b, const S& t) { return 
 
 template <class R> typename R::Vec3 divided(R& r, At place, const typename R::Vec3& v, const typename R::Real& by) {
     return {r.divide(place, v.x, by), r.divide(place, v.y, by), r.divide(place, v.z, by)};
+}
+
+/// The direction of `way`; with safe_direction that of nothing, or of NaN, is 0.
+template <class R>
+typename R::Vec3 direction_of(R& r, At place, const typename R::Vec3& way, const Switches& switches) {
+    if (switches.safe_direction == OffOn::on && !r.decide(site::no_direction, squared(way) > 0.0F))
+        return {};
+    return r.normalize(place, way);
 }
 
 } // namespace lockstep::dust

@@ -26,7 +26,9 @@ struct PopulateTwin {
             shade = number(Stream::colour);
         } else {
             const Real row = r.note(site::row, r.divide(site::row, f, width));
-            const Real step = r.note(site::step_of_row, f - width * r.floor(row));
+            const Real step =
+                r.note(site::step_of_row, host->switches().modulo == Modulo::fmod ? f - width * r.floor(row)
+                                                                                  : (row - r.floor(row)) * width);
             if (host->switches().populate == Populate::uv) {
                 const Real x = r.divide(site::seed, step, width), y = r.divide(site::seed, row, width);
                 at = {random.h1(x, y), random.h1(x + 7.219F, y + 7.219F), random.h1(x + 79.714F, y + 79.714F)};

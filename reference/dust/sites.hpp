@@ -28,6 +28,17 @@ inline constexpr Site explosion_position{"explosionPosition"}, explosion_sqr_ran
 inline constexpr Site explosion_force{"explosionForce"}, impulse_dt{"impulseDeltaTime"};
 inline constexpr Site colour_a{"dustColorA"}, colour_b{"dustColorB"};
 
+// Remedies.
+inline constexpr Site no_direction{"has no direction"}, starts_inside{"started in the sphere", {}, "m2"};
+inline constexpr Site outward{"direction out"}, speed_outward{"speed outward"}, moves_inward{"moves inward"};
+
+// Drawing.
+inline constexpr Site corner_x{"corner's x"}, corner_y{"corner's y"}, corner_z{"corner's z"};
+inline constexpr Site right{"cameraRight"}, up{"cameraUp"}, back{"cameraBack"}, scale{"scale"};
+inline constexpr Site view_projection{"viewProjection"}, turned{"corner, turned"}, world_corner{"corner in the world"};
+inline constexpr Site clip{"clip", "clip"}, tint{"tint", "tint"}, drawn{"drawn", "drawn"};
+inline constexpr Site texel_place{"texel_place", "texel_place"};
+
 // Random numbers.
 inline constexpr Site phase{"sine's argument"}, octant{"sine's octant"}, sine{"sine"}, cosine{"cosine"};
 inline constexpr Site below_zero{"sine's argument is negative"}, random{"random number"}, tangent{"tangent"};

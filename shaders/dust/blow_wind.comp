@@ -15,6 +15,10 @@ void main() {
     float d2 = squared(way);
     if (!(d2 < blowerSqrDist))
         return;
+#if SAFE_DIRECTION == SAFE_DIRECTION_ON
+    if (!(d2 > 0.0))
+        return;
+#endif
     vec3 n = ls_normalize(way);
     float k = ls_dot(controllerForward, n);
     if (!(k > blowerDotThreshold))

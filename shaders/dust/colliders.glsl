@@ -34,7 +34,16 @@ bool sphere(int k, inout Movement m) {
     if (!(d2 <= sqr_reach))
         return false;
 #endif
-    vec3 n = ls_normalize(sub(m.next, m.current));
+#if INSIDE == INSIDE_PUSH_OUT
+    if (squared(sub(m.current, centre)) < sqr_reach) {
+        vec3 outward = ls_normalize(sub(m.next, centre));
+        m.next = add(centre, mul(outward, reach));
+        if (ls_dot(m.velocity, outward) < 0.0)
+            m.velocity = mul(reflected(m.velocity, outward), elasticity);
+        return true;
+    }
+#endif
+    vec3 n = direction_of(sub(m.next, m.current));
     vec3 a = sub(centre, m.current);
     float q = ls_dot(a, n);
     float h = sub(squared(a), mul(q, q));
@@ -161,11 +170,15 @@ void walls(inout Movement m) {
     for (int axis = 0; axis < 3; ++axis) {
         if (m.next[axis] > hi[axis]) {
             wall(m, axis, hi[axis], m.current[axis] > hi[axis], true);
+#if WALLS == WALLS_FIRST
             return;
+#endif
         }
         if (m.next[axis] < lo[axis]) {
             wall(m, axis, lo[axis], m.current[axis] < lo[axis], false);
+#if WALLS == WALLS_FIRST
             return;
+#endif
         }
     }
 }

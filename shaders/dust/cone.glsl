@@ -10,6 +10,10 @@ bool suction_force(vec3 position, out vec3 force) {
     float d2 = squared(way);
     if (!(d2 < cleanerSqrDist))
         return false;
+#if SAFE_DIRECTION == SAFE_DIRECTION_ON
+    if (!(d2 > 0.0))
+        return false;
+#endif
     vec3 n = ls_normalize(way);
     float k = ls_dot(controllerForward, neg(n));
     if (!(k > cleanerDotThreshold))

@@ -53,6 +53,15 @@ vec3 divided(vec3 v, float s) { return vec3(ls_divide(v.x, s), ls_divide(v.y, s)
 
 float squared(vec3 v) { return add(add(mul(v.x, v.x), mul(v.y, v.y)), mul(v.z, v.z)); }
 
+// With safe_direction that of nothing, or of NaN, is 0.
+vec3 direction_of(vec3 way) {
+#if SAFE_DIRECTION == SAFE_DIRECTION_ON
+    if (!(squared(way) > 0.0))
+        return vec3(0.0);
+#endif
+    return ls_normalize(way);
+}
+
 // a + t (b - a)
 float lerp(float a, float b, float t) { return add(a, mul(sub(b, a), t)); }
 vec3 lerp(vec3 a, vec3 b, float t) { return add(a, mul(sub(b, a), t)); }

@@ -24,12 +24,19 @@ void main() {
 #endif
     if (!(chance <= 0.01))
         return;
+#if EMIT_SEED == EMIT_SEED_INDEX_TIME
+    uint drawn_in = frame;
+    float seed_of_ray = add(float(i), time);
+#else
+    uint drawn_in = 0u;
+    float seed_of_ray = float(i);
+#endif
 #if RANDOM == RANDOM_INTEGER
-    vec2 circle = directions[integer_random(i, stream_angle, 0u) >> 20];
-    float rho = unit(integer_random(i, stream_radius, 0u));
+    vec2 circle = directions[integer_random(i, stream_angle, drawn_in) >> 20];
+    float rho = unit(integer_random(i, stream_radius, drawn_in));
     float tangent = emitterTangent;
 #else
-    float s = ls_divide(float(i), 82801.277);
+    float s = ls_divide(seed_of_ray, 82801.277);
     float turn = lerp(-6.28318530, 6.28318530, r11(s));
     vec2 circle = vec2(portable_cosine(turn), portable_sine(turn));
     float rho = second(s);

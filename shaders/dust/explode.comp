@@ -16,6 +16,6 @@ void main() {
     if (!(d2 < explosionSqrRange))
         return;
     float f = mul(sub(1.0, ls_divide(d2, explosionSqrRange)), explosionForce);
-    vec3 blast = mul(ls_normalize(way), f);
+    vec3 blast = mul(direction_of(way), f);
     set_velocity(i, add(velocity_of(i), mul(divided(blast, mass), impulseDeltaTime)));
 }

@@ -23,7 +23,11 @@ void main() {
 #else
     float width = sub(spawnBoundsMax.x, spawnBoundsMin.x);
     float row = ls_divide(float(i), width);
+#if MODULO == MODULO_FMOD
     float step_of_row = sub(float(i), mul(width, floor(row)));
+#else
+    float step_of_row = mul(sub(row, floor(row)), width);
+#endif
 #if POPULATE == POPULATE_UV
     float x = ls_divide(step_of_row, width), y = ls_divide(row, width);
     at = vec3(h1(x, y), h1(add(x, 7.219), add(y, 7.219)), h1(add(x, 79.714), add(y, 79.714)));

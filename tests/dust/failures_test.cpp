@@ -3,6 +3,7 @@
 
 #include <glm/geometric.hpp>
 
+#include "crosscheck/dust/scene.hpp"
 #include "tests/dust/one_grain.hpp"
 
 /// What goes wrong in the source's demo, with its cause and, where there is one, without.
@@ -294,4 +295,118 @@ TEST_CASE("dust failure count: it is the number alive after every kernel, in eve
             }
         CHECK(least < 600);
     }
+}
+
+TEST_CASE("dust failure corner_escape: with all walls answered the grain stays inside") {
+    dust::Settings s = alone();
+    s.elasticity = 1.0F;
+    s.world = {glm::vec3(-50.0F), glm::vec3(50.0F)};
+    s.switches.walls = dust::Walls::all;
+    const Grains grains = after(s, {49.0F, 49.0F, 0.0F}, {120.0F, 120.0F, 0.0F}, {"update"}, 1);
+    CHECK(grains.position().x < 50.0F);
+    CHECK(grains.position().y < 50.0F);
+    CHECK(grains.velocity().y == -120.0F);
+}
+
+TEST_CASE("dust failure zero_ray_nan, explode_centre_nan: without a direction there is no force and no NaN, if asked") {
+    dust::Settings s = alone();
+    s.arithmetic = ArithmeticSwitch::exact;
+    s.switches.safe_direction = dust::OffOn::on;
+    s.colliders = {{.radius = 5.0F}};
+    s.cannon = {{.frame = 0, .position = {}, .speed = 0.0F, .range = 10.0F}};
+    CHECK(after(s, {1.0F, 0.0F, 0.0F}, {}, {"update"}, 3).position() == glm::vec3(1.0F, 0.0F, 0.0F));
+    CHECK(after(s, {}, {}, {"explode"}, 1, 1).velocity() == glm::vec3(0.0F));
+    s.tools = {vacuum()};
+    s.tools[0].angle = 90.0F; // its threshold is below 0
+    CHECK(after(s, {}, {1.0F, 2.0F, 3.0F}, {"vacuum_up"}, 1).velocity() == glm::vec3(1.0F, 2.0F, 3.0F));
+    s.tools[0].kind = dust::Tool::Kind::wind;
+    CHECK(after(s, {}, {1.0F, 2.0F, 3.0F}, {"blow_wind"}, 1).velocity() == glm::vec3(1.0F, 2.0F, 3.0F));
+}
+
+TEST_CASE("dust failure start_inside_sphere: pushed out, a grain goes to the nearest surface, not the farthest") {
+    for (const dust::Inside inside : {dust::Inside::answer, dust::Inside::push_out}) {
+        dust::Settings s = alone();
+        s.elasticity = 0.6F;
+        s.switches.inside = inside;
+        s.colliders = {{.position = {0.0F, 2.5F, 0.0F}, .radius = 5.0F}};
+        const Grains grains = after(s, {1.0F, 2.5F, 0.0F}, {6.0F, 0.0F, 0.0F}, {"update"}, 1);
+        CHECK(grains.position().x == Approx(inside == dust::Inside::push_out ? 5.1F : -8.82F).margin(1e-4));
+        CHECK(grains.velocity().x == Approx(inside == dust::Inside::push_out ? 6.0F : -3.6F));
+        const Grains inward = after(s, {1.0F, 2.5F, 0.0F}, {-6.0F, 0.0F, 0.0F}, {"update"}, 1);
+        CHECK((inward.velocity().x > 0.0F));
+    }
+}
+
+TEST_CASE("dust failure static_spray: a grain always leaves in the same direction, unless time draws it as well") {
+    for (const dust::Random random : {dust::Random::integer, dust::Random::sin_portable})
+        for (const dust::EmitSeed seed : {dust::EmitSeed::index, dust::EmitSeed::index_time}) {
+            dust::Settings s = alone(20'000);
+            s.switches.random = random;
+            s.switches.emit_seed = seed;
+            s.tools = {{.kind = dust::Tool::Kind::emit, .from = 0, .to = 10000, .force = 10.0F, .angle = 30.0F}};
+            std::size_t twice = 0, same = 0;
+            std::vector<glm::vec3> first(s.count, glm::vec3(0.0F));
+            for (const int frame : {3, 700, 1400, 2100}) {
+                Grains grains(host_of(s));
+                for (std::size_t i = 0; i < s.count; ++i)
+                    grains.state.set(dust::field::alive, i, std::int32_t{0});
+                grains.run("emit", frame);
+                for (std::size_t i = 0; i < s.count; ++i) {
+                    if (grains.alive(i) == 0)
+                        continue;
+                    if (first[i] != glm::vec3(0.0F)) {
+                        ++twice;
+                        same += first[i] == grains.velocity(i) ? 1 : 0;
+                    }
+                    first[i] = grains.velocity(i);
+                }
+            }
+            REQUIRE(twice > 0);
+            CHECK((same == twice) == (seed == dust::EmitSeed::index));
+        }
+}
+
+TEST_CASE(
+    "dust: gravity_dir=down takes gravity's height alone, and div_frac puts a grain beside its place in the row") {
+    dust::Settings s = alone(20'000);
+    s.gravity = {3.0F, -9.8F, 1.0F};
+    s.switches.gravity_dir = dust::GravityDir::down;
+    const Grains fallen = after(s, {}, {}, {"update"}, 1);
+    CHECK(fallen.velocity().x == 0.0F);
+    CHECK(fallen.velocity().y < 0.0F);
+    s.spawn = {{-50.0F, 0.0F, -50.0F}, {50.0F, 5.0F, 50.0F}};
+    s.switches.random = dust::Random::sin_portable;
+    std::vector<glm::vec3> shades[2];
+    for (const dust::Modulo modulo : {dust::Modulo::fmod, dust::Modulo::div_frac}) {
+        s.switches.modulo = modulo;
+        Grains grains(host_of(s));
+        grains.run("populate");
+        for (std::size_t i = 0; i < s.count; ++i)
+            shades[modulo == dust::Modulo::fmod ? 0 : 1].push_back(grains.colour(i));
+    }
+    CHECK(shades[0] != shades[1]);
+}
+
+TEST_CASE("dust remedies and readings: the shaders agree with the twins in each") {
+    if (!gl())
+        return;
+    const auto with = [](const auto& change) {
+        dust::Settings s = dust::load_scene("data/scenes/dust/vacuum_and_back.json", {.particles = 1500});
+        s.spawn = {{-10.0F, 0.0F, -10.0F}, {10.0F, 8.0F, 10.0F}};
+        s.world = {{-10.0F, 0.0F, -10.0F}, {10.0F, 8.0F, 10.0F}};
+        s.tools[0].to = 30;
+        s.tools[0].range = 8.0F;
+        s.tools[1].from = 30;
+        s.elasticity = 1.0F;
+        change(s.switches);
+        return run_dust(s, 60);
+    };
+    const CheckReport reports[] = {with([](dust::Switches& s) { s.walls = dust::Walls::all; }),
+                                   with([](dust::Switches& s) { s.inside = dust::Inside::push_out; }),
+                                   with([](dust::Switches& s) { s.safe_direction = dust::OffOn::on; }),
+                                   with([](dust::Switches& s) { s.emit_seed = dust::EmitSeed::index_time; }),
+                                   with([](dust::Switches& s) { s.modulo = dust::Modulo::div_frac; }),
+                                   with([](dust::Switches& s) { s.gravity_dir = dust::GravityDir::down; })};
+    for (const CheckReport& report : reports)
+        CHECK(report.verdict == Verdict::agree);
 }

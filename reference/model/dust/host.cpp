@@ -61,6 +61,8 @@ bool touches(const glm::dvec3& p, const Collider& collider, const ColliderMatric
 
 Host::Host(Settings settings) : settings_(std::move(settings)) {
     check(settings_);
+    if (switches().gravity_dir == GravityDir::down)
+        settings_.gravity = {0.0F, settings_.gravity.y, 0.0F};
     for (const bool sphere : {true, false}) {
         std::vector<ColliderMatrices>& list = sphere ? spheres_ : boxes_;
         bool removed = false;

@@ -8,6 +8,7 @@
 #include <glm/vec3.hpp>
 
 #include "reference/model/arithmetic_switch.hpp"
+#include "reference/model/camera.hpp"
 #include "reference/model/dust/switches.hpp"
 
 namespace lockstep::dust {
@@ -68,6 +69,7 @@ struct Settings {
     std::vector<Tool> tools;
     std::vector<Collider> colliders;
     std::vector<Ball> cannon;
+    Camera camera{.eye = {0.0F, 30.0F, 90.0F}, .target = {0.0F, 10.0F, 0.0F}, .near_plane = 0.5F, .far_plane = 400.0F};
 };
 
 /// 65,535 groups of 64: what every GL has in one dispatch.

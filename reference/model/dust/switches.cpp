@@ -33,6 +33,7 @@ Switches preset(std::string_view name) {
     s.impulse_dt = ImpulseDt::constant;
     s.sphere_touch = SphereTouch::less;
     s.last_collider = LastCollider::zeros;
+    s.draw_bounds = DrawBounds::box;
     s.radius_of_scale = 1.0F;
     return s;
 }
@@ -73,7 +74,10 @@ Switches stage(std::string_view name, Switches s) {
         s.world = World::floor_radius;
     else if (before("s10"))
         s.world = World::floor_bounce;
+    if (before("s6"))
+        s.mesh = Mesh::cube;
     if (before("sRE")) {
+        s.gravity_dir = GravityDir::down;
         s.kernel_order = KernelOrder::update_first;
         s.emit_speed = EmitSpeed::direct;
     }

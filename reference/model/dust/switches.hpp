@@ -24,6 +24,13 @@ enum class LastCollider { zeros, none };
 enum class OffOn { off, on };
 enum class Unit { glsl, engine };
 enum class SideExit { kill, keep };
+enum class Mesh { cube, quad };
+enum class DrawBounds { box, off };
+enum class Modulo { fmod, div_frac };
+enum class GravityDir { down, vector };
+enum class Walls { first, all };
+enum class Inside { answer, push_out };
+enum class EmitSeed { index, index_time };
 
 /// The preset `corrected`.
 struct Switches {
@@ -45,14 +52,22 @@ struct Switches {
     Drag drag = Drag::free;
     LastCollider last_collider = LastCollider::none;
     float radius_of_scale = 0.5F;
+    Modulo modulo = Modulo::fmod; ///< of a grain's place in its row: x - y floor(x / y), or y frac(x / y)
+    GravityDir gravity_dir = GravityDir::vector; ///< down: its y alone
+    DrawBounds draw_bounds = DrawBounds::off;    ///< nothing is drawn where the camera misses a box around the origin
+    Mesh mesh = Mesh::quad;
     Unit unit = Unit::glsl; ///< of suction by steps: `engine` is 0 below a length of 1e-5, and divides
 
     // Remedies, off in every preset.
     OffOn clamp_velocity = OffOn::off; ///< where a wall stops a grain, its velocity out of the world becomes 0
     OffOn root_clamp = OffOn::off;     ///< no root of a negative number where a ray grazes a sphere
     SideExit side_exit = SideExit::kill;
-    OffOn emit_even = OffOn::off;     ///< the emitter's disc is filled evenly
-    OffOn drag_implicit = OffOn::off; ///< v / (1 + c dt)
+    Walls walls = Walls::first;           ///< all: the six limits one after another
+    Inside inside = Inside::answer;       ///< push_out: what starts a frame in a sphere goes to its nearest surface
+    OffOn safe_direction = OffOn::off;    ///< the direction of nothing is 0, and pulls nothing
+    EmitSeed emit_seed = EmitSeed::index; ///< index_time: a grain leaves in another direction each time
+    OffOn emit_even = OffOn::off;         ///< the emitter's disc is filled evenly
+    OffOn drag_implicit = OffOn::off;     ///< v / (1 + c dt)
 
     bool operator==(const Switches&) const = default;
 };
@@ -78,10 +93,18 @@ template <class S, class Visit> void for_each_switch(S& s, const Visit& visit) {
     visit("plane_cast", s.plane_cast, Names{"ratio", "normalized"});
     visit("drag", s.drag, Names{"free", "by_mass"});
     visit("last_collider", s.last_collider, Names{"zeros", "none"});
+    visit("modulo", s.modulo, Names{"fmod", "div_frac"});
+    visit("gravity_dir", s.gravity_dir, Names{"down", "vector"});
+    visit("draw_bounds", s.draw_bounds, Names{"box", "off"});
+    visit("mesh", s.mesh, Names{"cube", "quad"});
     visit("unit", s.unit, Names{"glsl", "engine"});
     visit("clamp_velocity", s.clamp_velocity, off_on);
     visit("root_clamp", s.root_clamp, off_on);
     visit("side_exit", s.side_exit, Names{"kill", "keep"});
+    visit("walls", s.walls, Names{"first", "all"});
+    visit("inside", s.inside, Names{"answer", "push_out"});
+    visit("safe_direction", s.safe_direction, off_on);
+    visit("emit_seed", s.emit_seed, Names{"index", "index_time"});
     visit("emit_even", s.emit_even, off_on);
     visit("drag_implicit", s.drag_implicit, off_on);
 }

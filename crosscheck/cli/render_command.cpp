@@ -6,6 +6,7 @@
 #include "crosscheck/cli/commands.hpp"
 #include "crosscheck/cli/option_values.hpp"
 #include "crosscheck/cli/run_options.hpp"
+#include "crosscheck/cli/system_verbs.hpp"
 #include "crosscheck/files/output_files.hpp"
 #include "crosscheck/files/png.hpp"
 #include "crosscheck/report/frame_images.hpp"
@@ -56,6 +57,10 @@ ColorImage render_gpu(const Scene& scene, const Options& options) {
 }
 
 int run(const Options& options) {
+    check_scene_exists(options.run.scene);
+    if (const RegisteredSystem* system = system_of_scene(options.run.scene))
+        return render_system(*system, options.run,
+                             {options.frame, options.side == Side::gpu, options.profile, options.output});
     const Scene scene = load(options.run);
     OutputFiles files;
     protect_inputs(options.run, files);

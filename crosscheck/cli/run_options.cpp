@@ -88,10 +88,10 @@ void check_scene_or_trace(const Call& call, const RunOptions& options, const std
 Scene load(const RunOptions& options) {
     check_scene_exists(options.scene);
     if (const RegisteredSystem* system = system_of_scene(options.scene))
-        throw Error(
-            fmt::format("{}: is a scene of system {}, which bench, capsule, check, explain and hash run; this takes "
-                        "one of system {}",
-                        options.scene.string(), name_of(*system), default_system));
+        throw Error(fmt::format(
+            "{}: is a scene of system {}, which bench, capsule, check, explain, hash and render run; this takes "
+            "one of system {}",
+            options.scene.string(), name_of(*system), default_system));
     start_threads(options.threads);
     return load_scene(options.scene, {options.particles, options.preset, options.set});
 }

@@ -25,6 +25,9 @@ ShaderUse shaders_of(const SystemScene& scene, const RunOptions& run) {
         if (!pass.continues && std::none_of(stages.begin(), stages.end(),
                                             [&](const PassStages& known) { return known.name == pass.name; }))
             stages.push_back({pass.name, {pass.stage}});
+    if (scene.picture)
+        for (const GlPass& pass : scene.picture(scene.system.start, 0).passes)
+            stages.push_back({pass.name, {pass.stage, Stage::fragment}});
     ShaderUse use = shader_use(scene.system.schema.system, stages, run.shaders);
     check_shader_use(use, run.shaders, run.allow_unused);
     return use;
@@ -35,6 +38,10 @@ Gl open_gl(const RunOptions& run) {
     if (!gl)
         throw Error(gl.missing());
     return gl;
+}
+
+GlSystemSide side_of(const Gl& gl, const SystemPicture& picture, const SystemScene& scene, const RunOptions& run) {
+    return {gl, picture.system, picture.passes, run.shaders.string(), scene.arithmetic};
 }
 
 GlSystemSide side_of(const Gl& gl, const SystemScene& scene, const RunOptions& run) {

@@ -31,4 +31,6 @@ Gl open_gl(const RunOptions& run);
 /// `gl` and `scene` outlive it.
 GlSystemSide side_of(const Gl& gl, const SystemScene& scene, const RunOptions& run);
 
+GlSystemSide side_of(const Gl& gl, const SystemPicture& picture, const SystemScene& scene, const RunOptions& run);
+
 } // namespace lockstep

@@ -82,6 +82,48 @@ CheckReport run_both(const System& system, SystemSide& side, CheckOptions option
     return check(system, side, options);
 }
 
+/// What the last frame draws.
+struct DrawnFrame {
+    std::optional<CheckReport> report;
+    RunDescription about;
+    int frame = 0;
+    std::size_t items = 0;
+};
+
+/// From the state that the GPU's frames left.
+DrawnFrame judge_drawn(const SystemScene& scene, const Gl& gl, const GlSystemSide& side, const RunOptions& run,
+                       const SystemCheck& asked, const CheckReport& report) {
+    if (!scene.picture)
+        return {};
+    SystemState state = scene.system.start;
+    side.read(state);
+    const int frame = report.frames - 1;
+    const SystemPicture picture = scene.picture(state, frame);
+    GlSystemSide drawn = side_of(gl, picture, scene, run);
+    CheckOptions options;
+    options.frames = 1;
+    options.known = known_operations(asked.legal, drawn.describe().profile);
+    RunDescription about =
+        describe_run(picture.system, drawn.describe(), options, check_line(run, asked, report.frames));
+    about.scene = fmt::format("what frame {} of {} draws", frame, scene.system.name);
+    const std::size_t items = picture.system.start.extent(picture.system.passes.front()->resource()).count();
+    return {check(picture.system, drawn, options), std::move(about), frame, items};
+}
+
+/// A frame's picture has little power of its own.
+PassRules drawn_rules(PassRules rules) {
+    rules.power_at_least = 0.0;
+    return rules;
+}
+
+std::string drawn_text(const DrawnFrame& drawn, const PassRules& rules) {
+    const CheckReport& report = *drawn.report;
+    if (!passes(report, drawn_rules(rules)))
+        return "\n" + report_text(report, drawn.about);
+    return fmt::format("drawn     {}: {} {}s that frame {} draws; coverage and blending are not judged\n",
+                       verdict_words(report), drawn.items, report.schema.resources.back().item, drawn.frame);
+}
+
 int status_of(const ItemCapsule& capsule, const System& system) {
     return judge(capsule, system).kind >= DifferenceClass::undefined ? status_differ : status_agree;
 }
@@ -89,12 +131,12 @@ int status_of(const ItemCapsule& capsule, const System& system) {
 } // namespace
 
 std::span<const std::string_view> system_check_options() {
-    static constexpr std::array<std::string_view, 16> options{"--power",   "--power-at-least", "--json",
+    static constexpr std::array<std::string_view, 17> options{"--power",   "--power-at-least", "--json",
                                                               "scene",     "--particles",      "--preset",
                                                               "--set",     "--threads",        "--gl",
                                                               "--shaders", "--frames",         "--allow-unused",
                                                               "--mode",    "--legal",          "--allow-undefined",
-                                                              "--quiet"};
+                                                              "--quiet",   "--no-render"};
     return options;
 }
 
@@ -127,18 +169,28 @@ int check_system(const RegisteredSystem& system, const RunOptions& run, const Sy
                                                  twins.passes[pass_of(first, twins)]->name(), first.place.index)) +
                         legal_option_text(asked.legal);
     }
+    const DrawnFrame drawn =
+        asked.render && !report.partial() ? judge_drawn(read.scene, gl, side, run, asked, report) : DrawnFrame{};
     if (!asked.quiet) {
         if (report.partial())
             fmt::print("interrupted after {} of {} frames\n", report.frames, run.frames);
         fmt::print("{}{}", plain_text(report_text(report, about)),
                    asked.power ? power_text(report.power) : std::string());
+        if (drawn.report)
+            fmt::print("{}", plain_text(drawn_text(drawn, asked.rules)));
     }
-    if (!asked.json.empty())
-        files.write(asked.json, json_text(report_json(report, about)));
+    if (!asked.json.empty()) {
+        json document = report_json(report, about);
+        if (drawn.report)
+            document["drawn"] = report_json(*drawn.report, drawn.about);
+        files.write(asked.json, json_text(document));
+    }
     files.commit();
     if (report.partial())
         return status_interrupted;
-    return passes(report, asked.rules) ? status_agree : status_differ;
+    return passes(report, asked.rules) && (!drawn.report || passes(*drawn.report, drawn_rules(asked.rules)))
+               ? status_agree
+               : status_differ;
 }
 
 int explain_system(const RegisteredSystem& system, const RunOptions& run, const SystemItem& item) {

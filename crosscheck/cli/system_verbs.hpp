@@ -21,6 +21,15 @@ struct SystemCheck {
     std::filesystem::path json;
     bool power = false; ///< list the mistakes that would have shown
     bool quiet = false;
+    bool render = true; ///< what the last frame draws is judged, too
+};
+
+/// What `lockstep render` is asked of one.
+struct SystemRender {
+    int frame = 0;
+    bool gpu = false;
+    std::string profile = "strict"; ///< of the reference
+    std::filesystem::path output;
 };
 
 /// One item of one pass.
@@ -48,6 +57,7 @@ int check_system(const RegisteredSystem& system, const RunOptions& run, const Sy
 int explain_system(const RegisteredSystem& system, const RunOptions& run, const SystemItem& item);
 int hash_system(const RegisteredSystem& system, const RunOptions& run, const std::string& profile, bool every);
 int bench_system(const RegisteredSystem& system, const RunOptions& run, const SystemBench& asked);
+int render_system(const RegisteredSystem& system, const RunOptions& run, const SystemRender& asked);
 int cut_system(const RegisteredSystem& system, const RunOptions& run, const SystemItem& item,
                const std::filesystem::path& output);
 

@@ -1,3 +1,4 @@
+#include <filesystem>
 #include <fstream>
 #include <iterator>
 
@@ -45,10 +46,10 @@ TEST_CASE("systems: a scene names its system, and one that there is not is told 
 }
 
 TEST_CASE("systems: verbs of the collision system refuse another's scene and name those that run it") {
-    for (const char* verb : {"debug", "render", "record", "study"}) {
+    for (const char* verb : {"debug", "record", "study"}) {
         INFO(verb);
         CHECK_THAT(refusal(run_lockstep({verb, scene})) + " ",
-                   Contains("is a scene of system dust, which bench, capsule, check, explain and hash run") ||
+                   Contains("is a scene of system dust, which bench, capsule, check, explain, hash and render run") ||
                        Contains("-o") || Contains("--output"));
     }
     CHECK(refusal(run_lockstep({"check", scene, "--report", "page"})) ==
@@ -63,6 +64,31 @@ TEST_CASE("systems: hash is of the reference alone, the same for any number of t
     CHECK(one.status == 0);
     CHECK(one.out == run_lockstep(test::joined(words, {"--threads", "2"})).out);
     CHECK(one.out.starts_with("19 "));
+}
+
+TEST_CASE("systems: render writes a picture of either side, check judges what the last frame draws") {
+    const test::TemporaryFolder folder;
+    const std::string picture = (folder.path() / "picture.png").string();
+    const std::vector<std::string> render{"render", scene, "--particles", "300", "--frame", "5", "-o", picture};
+    CHECK(run_lockstep(test::joined(render, {"--side", "cpu"})).status == 0);
+    CHECK(std::filesystem::file_size(picture) > 1000);
+    if (!test::have_software_gl())
+        return;
+    CHECK(run_lockstep(test::joined(render, {"--side", "gpu", "--gl", test::software_gl()})).status == 0);
+
+    const std::vector<std::string> check = on_gl({"check", scene, "--particles", "300", "--frames", "5"});
+    CHECK_THAT(run_lockstep(check).out, Contains("drawn     AGREE: 2400 corners that frame 4 draws"));
+    CHECK_THAT(run_lockstep(test::joined(check, {"--no-render"})).out, !Contains("drawn "));
+    const test::TemporaryFolder mine;
+    std::ifstream shipped("shaders/dust/draw.vert");
+    std::string text((std::istreambuf_iterator<char>(shipped)), {});
+    const std::string right = "ls_multiply(turned[axis], scale)";
+    REQUIRE(text.find(right) != std::string::npos);
+    text.replace(text.find(right), right.size(), "turned[axis]");
+    mine.write("draw.vert", text);
+    const test::Outcome wrong = run_lockstep(test::joined(check, {"--shaders", mine.path().string()}));
+    CHECK(wrong.status == 1);
+    CHECK_THAT(wrong.out, Contains("what frame 4 of") && Contains("DIVERGENT") && Contains("scale: one"));
 }
 
 TEST_CASE("systems: bench has a row a pass that runs, and a frame's with its hash and verdict") {

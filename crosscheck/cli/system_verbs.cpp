@@ -166,7 +166,7 @@ int check_system(const RegisteredSystem& system, const RunOptions& run, const Sy
         const auto& first = *report.verdicts->first;
         about.explain = command_line("explain", run,
                                      fmt::format("--frame {} --pass {} --item {}", first.place.frame,
-                                                 twins.passes[pass_of(first, twins)]->name(), first.place.index)) +
+                                                 twins.passes[first.pass]->name(), first.place.index)) +
                         legal_option_text(asked.legal);
     }
     const DrawnFrame drawn =

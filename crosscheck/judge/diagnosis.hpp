@@ -7,7 +7,6 @@
 
 namespace lockstep {
 
-/// Whether it hit, then speed, direction and position.
 WrongStep wrong_step_of_particle(const JudgedFrame& frame, std::size_t particle);
 WrongStep wrong_step_of_texel(const JudgedFrame& frame, std::size_t texel);
 

@@ -4,7 +4,6 @@
 
 #include "crosscheck/judge/item_verdict.hpp"
 #include "crosscheck/judge/system.hpp"
-#include "crosscheck/judge/verdict_summary.hpp"
 
 namespace lockstep {
 
@@ -17,9 +16,5 @@ ItemVerdict judge_item(const JudgedPass& pass, std::size_t item);
 
 /// Verdicts on the items that are not bit-equal, by index.
 std::vector<ItemVerdict> judge_items(const JudgedPass& pass);
-
-/// The first named value of an item's step that no legal run gives, as far as the state alone tells: of the outcome
-/// that comes nearest to what the GPU has.
-WrongStep wrong_step_of_item(const JudgedPass& pass, std::size_t item);
 
 } // namespace lockstep

@@ -118,7 +118,7 @@ class ItemTable {
           followed_(pass.pass.follow(pass.input(), item, pass.profile, pass.known, told)) {
         const Resource& about = pass.gpu.about();
         for (std::size_t f = 0; f < about.fields.size(); ++f)
-            fields_.emplace(pass.pass.output(about, static_cast<std::uint8_t>(f)), about.fields[f].name);
+            fields_.emplace(pass.pass.output(about, static_cast<std::uint8_t>(f)), field_label(about.fields[f]));
         for (const ToldValue& value : told) {
             if (value.turn >= 0)
                 told_turns_[value.turn].values.emplace(value.output, value.values);
@@ -176,9 +176,7 @@ class ItemTable {
     /// Of a field its name, of anything else the site's.
     [[nodiscard]] std::string label_of(const Site& site, int occurrence = 0) const {
         const auto field = fields_.find(site.output);
-        std::string label(field == fields_.end() ? site.label : field->second);
-        if (field != fields_.end())
-            std::replace(label.begin(), label.end(), '_', ' ');
+        const std::string label(field == fields_.end() ? site.label : field->second);
         return occurrence > 0 ? fmt::format("{} [{}]", label, occurrence) : label;
     }
     [[nodiscard]] bool is_shown(const ReadingRow& row, int occurrence) {
@@ -457,6 +455,12 @@ class ItemTable {
 };
 
 } // namespace
+
+std::string field_label(const Field& field) {
+    std::string label = field.name;
+    std::replace(label.begin(), label.end(), '_', ' ');
+    return label;
+}
 
 std::vector<StepRow> item_rows(const JudgedPass& pass, std::size_t item, std::span<const ToldValue> told) {
     return ItemTable(pass, item, told)();

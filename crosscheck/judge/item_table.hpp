@@ -17,4 +17,7 @@ std::vector<StepRow> item_rows(const JudgedPass& pass, std::size_t item, std::sp
 /// What the state that the GPU wrote tells by itself: its fields, by the outputs that the twin knows them by.
 std::vector<ToldValue> told_by_state(const ItemPass& pass, const View& gpu, std::size_t item);
 
+/// "collide time"
+std::string field_label(const Field& field);
+
 } // namespace lockstep

@@ -11,6 +11,7 @@
 #include "crosscheck/judge/item_table.hpp"
 #include "crosscheck/judge/power.hpp"
 #include "crosscheck/judge/stopwatch.hpp"
+#include "crosscheck/judge/wrong_step.hpp"
 #include "gpu/system_side.hpp"
 #include "reference/model/error.hpp"
 #include "reference/model/state_hash.hpp"
@@ -220,8 +221,9 @@ CheckReport check(const System& system, SystemSide& gpu, const CheckOptions& opt
                 const auto first = [&](DifferenceClass kind) {
                     for (const ItemVerdict& verdict : verdicts)
                         if (verdict.kind == kind) {
-                            summary.first = {
-                                {frame, r, verdict.index}, verdict, wrong_step_of_item(one, verdict.index)};
+                            WrongStep wrong = wrong_step_of_item(one, verdict.index);
+                            wrong.step = fmt::format("{}, {}", one.pass.name(), wrong.step);
+                            summary.first = {{frame, r, verdict.index}, verdict, std::move(wrong), p};
                             return;
                         }
                 };
@@ -311,14 +313,6 @@ std::vector<ToldValue> SystemRun::told(std::size_t item) {
     const std::vector<ToldValue> written = told_by_state(judged().pass, gpu_view_, item);
     told.insert(told.end(), written.begin(), written.end());
     return told;
-}
-
-std::size_t pass_of(const FirstDivergence& first, const System& system) {
-    std::size_t pass = 0;
-    for (std::size_t p = 0; p < system.passes.size(); ++p)
-        if (first.wrong.step.starts_with(fmt::format("{}, ", system.passes[p]->name())))
-            pass = p;
-    return pass;
 }
 
 ReferenceRun::ReferenceRun(const System& system, Profile profile)

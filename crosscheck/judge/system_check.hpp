@@ -12,9 +12,6 @@ class SystemSide;
 /// compared.
 CheckReport check(const System& system, SystemSide& gpu, const CheckOptions& options);
 
-/// The place, in the frame's order, of the pass in which a run first diverged; its step begins with the pass's name.
-std::size_t pass_of(const FirstDivergence& first, const System& system);
-
 /// The reference alone, from the start. Needs no GL.
 class ReferenceRun {
   public:

@@ -42,6 +42,7 @@ struct FirstDivergence {
     Place place;
     ItemVerdict verdict;
     WrongStep wrong;
+    std::size_t pass = 0; ///< of a system's, in their order
 };
 
 /// The verdicts of a run.

@@ -169,7 +169,7 @@ class SystemProgram {
             return;
         }
         const Place& place = report.verdicts->first->place;
-        const std::size_t pass = pass_of(*report.verdicts->first, system_);
+        const std::size_t pass = report.verdicts->first->pass;
         SystemRun run(system_, side, known_operations(legal, side.describe().profile), place.frame, pass);
         files.write(path, item_capsule_file(cut_item_capsule(run, place.index, side.describe().name), system_));
         fmt::print("capsule   {} {} of frame {}\n", system_.schema.resources[place.resource].item, place.index,

@@ -10,6 +10,7 @@
 #include "crosscheck/judge/neighbourhood.hpp"
 #include "crosscheck/judge/step_judge.hpp"
 #include "crosscheck/judge/texel_table.hpp"
+#include "crosscheck/judge/wrong_step.hpp"
 #include "crosscheck/report/item_text.hpp"
 #include "crosscheck/report/value_text.hpp"
 #include "crosscheck/report/verdict_text.hpp"

@@ -14,6 +14,7 @@
 
 #include "reference/collision/collision_code.hpp"
 #include "reference/collision/collision_pass.hpp"
+#include "reference/collision/deviating_pass.hpp"
 #include "reference/collision/obstacle_pass.hpp"
 #include "reference/model/collision/collision_state.hpp"
 #include "reference/model/same_bits.hpp"
@@ -100,6 +101,34 @@ TEST_CASE("verdict: faults of one bit, anywhere in the state, are located exactl
         CHECK(same_bits(shown.gpu, component(state, c)));
     }
     CHECK(planted > 900);
+}
+
+TEST_CASE("verdict: a decision that alone explains the state where it is made otherwise is the wrong step") {
+    struct Case {
+        Deviation made;
+        const char *step, *instead;
+    };
+    for (const Case& one : {Case{Deviation::last_found_instead_of_nearest, "nearest", "texel ("},
+                            Case{Deviation::never_collides, "nearest", "none"},
+                            Case{Deviation::collide_time_not_counted, "collide time", ""}}) {
+        Frame frame("corrected");
+        const FrameInputs inputs{
+            .before = &frame.scene.particles, .cdt = &frame.scene.cdt, .params = &frame.scene.params};
+        int differing = 0;
+        for (std::size_t i = 0; i < 1500; ++i) {
+            const ParticleState wrong = deviating_step(inputs, i, frame.profile, one.made);
+            if (same_bits(wrong, frame.reference[i]))
+                continue;
+            frame.gpu.set(i, wrong);
+            const WrongStep step = wrong_step_of_particle(frame.judged(), i);
+            CAPTURE(i, step.operation);
+            CHECK(step.step == one.step);
+            CHECK(step.gpu.starts_with(one.instead));
+            CHECK(step.gpu.empty() == (*one.instead == 0));
+            ++differing;
+        }
+        CHECK(differing > 3);
+    }
 }
 
 TEST_CASE("verdict: faults of one bit in a texel are located exactly") {

@@ -1,0 +1,244 @@
+#include "crosscheck/judge/wrong_step.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <filesystem>
+#include <optional>
+#include <source_location>
+#include <utility>
+#include <vector>
+
+#include <fmt/format.h>
+
+#include "crosscheck/judge/item_table.hpp"
+#include "reference/model/same_bits.hpp"
+#include "reference/model/ulp.hpp"
+
+namespace lockstep {
+namespace {
+
+using Kind = RecordedRow::Kind;
+
+std::string line_of(const std::source_location& where) {
+    return fmt::format("({}:{})", std::filesystem::path(where.file_name()).filename().string(), where.line());
+}
+
+/// How many ULP a value lies outside of what is legal; 0 inside.
+std::int64_t distance_to(const Interval& legal, Value value) {
+    if (value.scalar != Scalar::float32) {
+        const auto x = static_cast<double>(value.integer());
+        return legal.any || (legal.low <= x && x <= legal.high)
+                   ? 0
+                   : static_cast<std::int64_t>(std::max(legal.low - x, x - legal.high));
+    }
+    if (legal.contains(value.real()))
+        return 0;
+    return std::min(ulp_distance(static_cast<float>(legal.low), value.real()),
+                    ulp_distance(static_cast<float>(legal.high), value.real()));
+}
+
+/// A component of the item, its place among all of them, and the line of the twin that named it last.
+struct NamedComponent {
+    Component part;
+    std::size_t place = 0;
+    std::size_t named = 0; ///< how late in the step
+    std::optional<std::source_location> where = {};
+};
+
+/// In the order in which the twin names them: what is named last follows from what is named before.
+std::vector<NamedComponent> in_order_of_step(const JudgedPass& p, std::size_t item) {
+    const Resource& about = p.gpu.about();
+    const std::vector<RecordedRow> rows = p.pass.record(p.input(), item, p.profile);
+    std::vector<NamedComponent> parts;
+    for (const Component c : components(about)) {
+        NamedComponent& part = parts.emplace_back(NamedComponent{c, parts.size()});
+        const std::string_view output = p.pass.output(about, c.field);
+        for (std::size_t r = 0; r < rows.size(); ++r)
+            if (rows[r].site->output == output || rows[r].site->label == output) {
+                part.named = r;
+                part.where = rows[r].where;
+            }
+    }
+    std::stable_sort(parts.begin(), parts.end(),
+                     [](const NamedComponent& a, const NamedComponent& b) { return a.named < b.named; });
+    return parts;
+}
+
+/// Where an item parts from an outcome: the first component outside, and how far.
+struct Parting {
+    std::size_t fitting = 0; ///< components before it
+    std::int64_t ulps = 0;
+};
+
+Parting parting(const ItemOutcome& outcome, const View& gpu, std::size_t item,
+                const std::vector<NamedComponent>& parts) {
+    Parting at;
+    for (const NamedComponent& c : parts) {
+        at.ulps = distance_to(outcome.values[c.place], gpu.value(c.part.field, item, c.part.component));
+        if (at.ulps != 0)
+            return at;
+        ++at.fitting;
+    }
+    return at;
+}
+
+std::string set_text(const Interval& legal, Scalar scalar) {
+    if (scalar != Scalar::float32)
+        return legal.low == legal.high ? fmt::format("{}", legal.low) : fmt::format("{} to {}", legal.low, legal.high);
+    return legal.low == legal.high
+               ? fmt::format("{}", static_cast<float>(legal.low))
+               : fmt::format("{} to {}", static_cast<float>(legal.low), static_cast<float>(legal.high));
+}
+
+/// A decision or choice of the step, answered otherwise.
+struct Otherwise {
+    std::string step, right, instead;
+    std::vector<ToldValue> told; ///< besides the state
+};
+
+ToldValue told(const Site& site, std::vector<float> values, int turn = -1) {
+    return {std::string(site.output), std::move(values), turn};
+}
+
+/// What a choice was made among: of each turn of a loop over texels, its fetch and its offer.
+struct Offers {
+    std::vector<std::pair<RecordedRow, RecordedRow>> turns;
+
+    [[nodiscard]] std::string text(std::size_t turn) const {
+        if (turn >= turns.size())
+            return "none";
+        const auto& [fetch, offer] = turns[turn];
+        return fmt::format("texel ({}, {}) at {:.9g}", static_cast<int>(fetch.values[0]),
+                           static_cast<int>(fetch.values[1]), offer.values[0]);
+    }
+    /// Whose offer was the best, the last time that one was.
+    [[nodiscard]] std::size_t chosen() const {
+        std::size_t best = turns.size();
+        for (std::size_t i = 0; i < turns.size(); ++i)
+            if (turns[i].second.values[1] != 0.0F)
+                best = i;
+        return best;
+    }
+};
+
+/// Each that was not chosen, or nothing.
+void add_choices(const RecordedRow& choice, const Offers& offers, std::vector<Otherwise>& found) {
+    const std::size_t count = offers.turns.size(), right = offers.chosen();
+    for (std::size_t chosen = 0; chosen <= count; ++chosen) {
+        if (chosen == right)
+            continue;
+        Otherwise& one =
+            found.emplace_back(Otherwise{std::string(choice.site->label),
+                                         fmt::format("{} follows {}", offers.text(right), line_of(choice.where)),
+                                         offers.text(chosen),
+                                         {told(*choice.site, {chosen < count ? 1.0F : 0.0F})}});
+        for (std::size_t i = 0; i < count; ++i) {
+            const RecordedRow& fetch = offers.turns[i].first;
+            one.told.push_back(told(*fetch.site, {fetch.values[0], fetch.values[1]}, static_cast<int>(i)));
+            one.told.push_back(told(*choice.site, {i == chosen ? 1.0F : 0.0F}, static_cast<int>(i)));
+        }
+    }
+}
+
+/// Every decision and choice that can be told of, and was come by for the first time.
+std::vector<Otherwise> decided_otherwise(const std::vector<RecordedRow>& step) {
+    std::vector<Otherwise> found;
+    std::vector<const Site*> seen;
+    Offers offers;
+    std::optional<RecordedRow> fetch;
+    for (const RecordedRow& row : step) {
+        if (row.kind == Kind::fetch)
+            fetch = row.site->output_id != 0 ? std::optional(row) : std::nullopt;
+        else if (row.kind == Kind::offer && fetch)
+            offers.turns.emplace_back(*std::exchange(fetch, std::nullopt), row);
+        else if (row.kind == Kind::choice && row.site->output_id != 0)
+            add_choices(row, std::exchange(offers, {}), found);
+        if (row.site->output_id == 0 || (row.kind != Kind::decision && row.kind != Kind::value) ||
+            std::find(seen.begin(), seen.end(), row.site) != seen.end())
+            continue;
+        seen.push_back(row.site);
+        if (row.kind != Kind::decision)
+            continue;
+        const bool yes = row.values[0] != 0.0F;
+        found.push_back({std::string(row.site->label),
+                         fmt::format("{} follows {}", yes ? "yes" : "no", line_of(row.where)),
+                         yes ? "no" : "yes",
+                         {told(*row.site, {yes ? 0.0F : 1.0F})}});
+    }
+    return found;
+}
+
+/// Whether all that a run was told of the state is legal on its way, and came up there.
+bool fits(const FollowedStep& step, const std::vector<ToldValue>& state) {
+    std::size_t told = 0;
+    for (const ReadingRow& row : step.rows)
+        if (row.kind == Kind::value && row.is_told &&
+            std::any_of(state.begin(), state.end(), [&](const ToldValue& v) { return v.output == row.site->output; })) {
+            if (!row.is_legal())
+                return false;
+            ++told;
+        }
+    return told >= state.size() && step.undefined == Undefined::none;
+}
+
+/// The last decision that alone explains the state where it is made otherwise.
+std::optional<Otherwise> wrong_decision(const JudgedPass& p, std::size_t item) {
+    const std::vector<ToldValue> state = told_by_state(p.pass, p.gpu, item);
+    std::vector<Otherwise> all = decided_otherwise(p.pass.record(p.input(), item, p.profile));
+    for (auto one = all.rbegin(); one != all.rend(); ++one) {
+        one->told.insert(one->told.end(), state.begin(), state.end());
+        if (fits(p.pass.follow(p.input(), item, p.profile, p.known, one->told), state))
+            return std::move(*one);
+    }
+    return {};
+}
+
+} // namespace
+
+WrongStep wrong_step_of_item(const JudgedPass& p, std::size_t item) {
+    const std::vector<NamedComponent> parts = in_order_of_step(p, item);
+    const auto outcomes = p.pass.outcomes(p.input(), item, p.profile, p.known, &p.gpu);
+    const ItemOutcome* nearest = &outcomes.front();
+    Parting best = parting(*nearest, p.gpu, item, parts);
+    for (const ItemOutcome& outcome : outcomes) {
+        const Parting at = parting(outcome, p.gpu, item, parts);
+        if (std::pair(parts.size() - at.fitting, at.ulps) < std::pair(parts.size() - best.fitting, best.ulps)) {
+            best = at;
+            nearest = &outcome;
+        }
+    }
+    const auto differs = [&](const NamedComponent& part) {
+        return !same_bits(p.reference.value(part.part.field, item, part.part.component),
+                          p.gpu.value(part.part.field, item, part.part.component));
+    };
+    // Of what is open every value is legal: then the first that differs.
+    const auto first = std::find_if(parts.begin(), parts.end(), differs);
+    const NamedComponent& wrong = best.fitting < parts.size() ? parts[best.fitting]
+                                  : first != parts.end()      ? *first
+                                                              : parts.back();
+    const Component c = wrong.part;
+    const Field& field = p.gpu.fields()[c.field];
+    WrongStep step;
+    step.step = field_label(field);
+    step.operation = fmt::format("{} {} is legal", component_name(field, c.component),
+                                 set_text(nearest->values[wrong.place], field.scalar));
+    if (wrong.where)
+        step.operation += " " + line_of(*wrong.where);
+    const Value reference = p.reference.value(c.field, item, c.component),
+                gpu = p.gpu.value(c.field, item, c.component);
+    if (best.ulps != 0)
+        step.margin = best.ulps == INT64_MAX ? "NaN on one side" : fmt::format("{} ULP outside", best.ulps);
+    step.difference = {{p.pass.resource(), c.field}, item, c.component, reference, gpu, distance(reference, gpu)};
+    if (best.ulps == 0)
+        return step;
+    if (auto decision = wrong_decision(p, item)) {
+        step.step = std::move(decision->step);
+        step.operation = std::move(decision->right);
+        step.gpu = std::move(decision->instead);
+        step.margin.clear();
+    }
+    return step;
+}
+
+} // namespace lockstep

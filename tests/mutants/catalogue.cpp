@@ -71,8 +71,16 @@ Mutant read_mutant(const JsonValue& json, const std::string& pass) {
                            std::any_of(searches.begin(), searches.end(), [&](const SearchMistake& m) {
                                return m.pass == pass && m.name == mutant.cause;
                            }));
-    if (!mutant.cause.empty() && !is_other &&
-        std::none_of(table.begin(), table.end(), [&](const DeviationInfo& info) { return info.name == mutant.cause; }))
+    // Two names that together are the mistake: "a + b".
+    const std::size_t plus = mutant.cause.find(" + ");
+    const auto is_named = [&](std::string_view name) {
+        return std::any_of(table.begin(), table.end(), [&](const DeviationInfo& info) { return info.name == name; });
+    };
+    const std::string_view cause = mutant.cause;
+    const bool named = plus == std::string_view::npos
+                           ? is_named(cause)
+                           : is_named(cause.substr(0, plus)) && is_named(cause.substr(plus + 3));
+    if (!mutant.cause.empty() && !is_other && !named)
         json.at("cause").fail("reference/collision/deviation.hpp has no such deviation");
     return mutant;
 }

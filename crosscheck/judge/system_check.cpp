@@ -145,6 +145,7 @@ CheckReport check(const System& system, SystemSide& gpu, const CheckOptions& opt
     PowerMeter power(system.mistakes);
     std::vector<std::optional<SystemState>> earlier(system.passes.size()); // what each pass last started from
     SystemState before = system.start, now = system.start, reference = system.start;
+    SystemState made = system.start; // the buffer of the pass that runs is the reference's
     std::uint64_t changed = 0;
     gpu.upload(before.view());
 
@@ -182,7 +183,6 @@ CheckReport check(const System& system, SystemSide& gpu, const CheckOptions& opt
                 }
             }
             const SystemView from = judged ? before.view() : reference.view();
-            SystemState made = judged ? before : reference;
             try {
                 const Stopwatch watch(times.reference);
                 run_pass(pass, {from, frame}, profile, made[r]);
@@ -201,7 +201,8 @@ CheckReport check(const System& system, SystemSide& gpu, const CheckOptions& opt
                 if (!comparison.agree() || !judged)
                     note_difference(report, frame, comparison);
                 report.total.add(comparison);
-                changed += changed_items(from[r], std::as_const(made)[r]);
+                if (changed == 0)
+                    changed = changed_items(from[r], std::as_const(made)[r]);
             }
             if (judged) {
                 const Stopwatch watch(times.power);
@@ -234,9 +235,9 @@ CheckReport check(const System& system, SystemSide& gpu, const CheckOptions& opt
                 if (diverges && options.causes)
                     causes[p].add(one, verdicts);
             }
-            earlier[p] = judged ? before : reference;
-            reference = std::move(made);
-            before = left_by(system, p, before, now);
+            reference.swap(r, made);
+            earlier[p] = std::move(before);
+            before = left_by(system, p, *earlier[p], now);
         }
         report.times.push_back(times);
         report.frames = frame + 1;

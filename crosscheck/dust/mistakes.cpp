@@ -1,8 +1,30 @@
 #include "crosscheck/dust/mistakes.hpp"
 
+#include <cmath>
+#include <span>
+
 #include "reference/dust/sites.hpp"
 
 namespace lockstep::dust {
+namespace {
+
+/// What the host should have squared.
+void not_squared(std::span<float> value, const void* /*context*/) {
+    for (float& x : value)
+        x = std::sqrt(x);
+}
+
+/// The source's 0.02 s, whatever a frame takes.
+void constant_time(std::span<float> value, const void* /*context*/) {
+    for (float& x : value)
+        x = 0.02F;
+}
+
+Mistake spoiled_at(const Site& site, void (*spoil)(std::span<float>, const void*)) {
+    return {.site = site.id, .change = Change::spoiled, .spoil = spoil};
+}
+
+} // namespace
 
 const std::vector<NamedMistake>& mistakes() {
     static const std::vector<NamedMistake> all{
@@ -12,6 +34,19 @@ const std::vector<NamedMistake>& mistakes() {
         {"elasticity_missing", "a bounce loses nothing", "update", mistake_at(site::elasticity, Change::one)},
         {"radius_missing", "grains are points", "update", mistake_at(site::radius, Change::zero)},
         {"radius_doubled", "the radius is the whole scale", "update", mistake_at(site::radius, Change::doubled)},
+        {"spheres_missing", "grains do not see the spheres", "update", mistake_at(site::has_spheres, Change::inverted)},
+        {"boxes_missing", "grains do not see the boxes", "update", mistake_at(site::has_boxes, Change::inverted)},
+        {"force_not_squared", "the host hands over the vacuum's force, not its square", "vacuum_up",
+         spoiled_at(site::cleaner_sqr_force, not_squared)},
+        {"range_not_squared", "the host hands over the vacuum's range, not its square", "vacuum_up",
+         spoiled_at(site::cleaner_sqr_dist, not_squared)},
+        {"death_range_not_squared", "the host hands over the death range, not its square", "vacuum_up",
+         spoiled_at(site::cleaner_sqr_death, not_squared)},
+        {"wind_not_squared", "the host hands over the wind's force, not its square", "blow_wind",
+         spoiled_at(site::blower_sqr_force, not_squared)},
+        {"wind_by_frames", "wind of a fixed time a frame", "blow_wind", spoiled_at(site::impulse_dt, constant_time)},
+        {"blast_range_not_squared", "the host hands over the blast's range, not its square", "explode",
+         spoiled_at(site::explosion_sqr_range, not_squared)},
         {"cone_ignored", "the vacuum pulls from all around", "vacuum_up", mistake_at(site::in_cone, Change::always)},
         {"range_ignored", "the vacuum has no range", "vacuum_up", mistake_at(site::in_range, Change::always)},
         {"suction_reversed", "the vacuum blows", "vacuum_up", mistake_at(site::force, Change::negated)},

@@ -23,12 +23,14 @@ template <class R> class ColliderTwin {
     void list(Movement<R>& m) const {
         bool hit = false;
         const bool one = r.setting(site::one_hit, switches_.one_hit == OffOn::on);
-        for (const int k : r.range(site::spheres, 0, static_cast<int>(host_.spheres().size()) - 1))
-            if (!(one && hit))
-                hit = sphere(host_.spheres()[static_cast<std::size_t>(k)], m) || hit;
-        for (const int k : r.range(site::boxes, 0, static_cast<int>(host_.boxes().size()) - 1))
-            if (!(one && hit))
-                hit = box(host_.boxes()[static_cast<std::size_t>(k)], m) || hit;
+        if (r.setting(site::has_spheres, true))
+            for (const int k : r.range(site::spheres, 0, static_cast<int>(host_.spheres().size()) - 1))
+                if (!(one && hit))
+                    hit = sphere(host_.spheres()[static_cast<std::size_t>(k)], m) || hit;
+        if (r.setting(site::has_boxes, true))
+            for (const int k : r.range(site::boxes, 0, static_cast<int>(host_.boxes().size()) - 1))
+                if (!(one && hit))
+                    hit = box(host_.boxes()[static_cast<std::size_t>(k)], m) || hit;
     }
 
     void world(Movement<R>& m) const {

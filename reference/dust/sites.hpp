@@ -90,6 +90,7 @@ inline constexpr Site sphere_path_kept{"path kept by the sphere"}, sphere_speed_
 inline constexpr Site box_path_kept{"path kept by the box"}, box_speed_kept{"speed kept by the box"};
 inline constexpr Site wall_path_kept{"path kept by the wall"}, wall_speed_kept{"speed kept by the wall"};
 inline constexpr Site has_colliders{"colliders are looked at"}, has_world{"the world is looked at"};
+inline constexpr Site has_spheres{"spheres are looked at"}, has_boxes{"boxes are looked at"};
 inline constexpr Site one_hit{"one hit a frame"};
 inline constexpr Site half_grain{"grain's radius in the box"};
 inline constexpr Site world_to_local{"worldToLocal"}, local_to_world{"localToWorld"};

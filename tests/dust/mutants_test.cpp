@@ -1,7 +1,9 @@
 #include <algorithm>
+#include <cmath>
 #include <cstdlib>
 #include <cstring>
 #include <fstream>
+#include <functional>
 #include <iostream>
 #include <set>
 #include <sstream>
@@ -9,6 +11,7 @@
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
+#include <glm/matrix.hpp>
 #include <nlohmann/json.hpp>
 
 #include "reference/dust/sites.hpp"
@@ -294,4 +297,216 @@ TEST_CASE("dust mutants: a mistake in any kernel's twin, with the shader right, 
         options.mode = CheckMode::free;
         CHECK(check(system, side, options).verdict == Verdict::differ);
     }
+}
+
+namespace {
+
+/// A mistake of the host: what it hands the shaders is another thing than what the twins get.
+struct HostMutant {
+    std::string name;
+    std::function<void(dust::Settings&)> settings = {}; ///< of the shaders' side
+    std::function<void(GlPass&)> pass = {};
+    std::string cause = {}; ///< as a report names it; empty: no one change of the twin is the same
+};
+
+/// Of one kernel's uniform.
+std::function<void(GlPass&)> uniform(const std::string& kernel, const std::string& name,
+                                     const std::function<UniformValue(const Uniforms&)>& wrong) {
+    return [=](GlPass& pass) {
+        if (pass.name != kernel || pass.continues)
+            return;
+        pass.uniforms = [right = pass.uniforms, name, wrong](int frame) {
+            Uniforms all = right(frame);
+            if (all.contains(name))
+                all[name] = wrong(all);
+            return all;
+        };
+    };
+}
+
+float number(const Uniforms& all, const std::string& name) { return std::get<float>(all.at(name)); }
+
+std::function<void(GlPass&)> floats(const std::string& block,
+                                    const std::function<std::vector<float>(std::vector<float>)>& wrong) {
+    return [=](GlPass& pass) {
+        const auto found = pass.data.find(block);
+        if (found == pass.data.end())
+            return;
+        found->second = [right = found->second, wrong](int frame) { return wrong(right(frame)); };
+    };
+}
+
+/// Records of 35 floats at a stride of 36, as std430 lays a struct of two matrices and a vec3.
+std::vector<float> at_stride_36(const std::vector<float>& records) {
+    std::vector<float> padded;
+    for (std::size_t i = 0; i < records.size(); ++i) {
+        padded.push_back(records[i]);
+        if (i % 35 == 34)
+            padded.push_back(0.0F);
+    }
+    return padded;
+}
+
+std::vector<HostMutant> host_catalogue() {
+    using dust::Settings;
+    const auto sqrt_of = [](const std::string& name) {
+        return [name](const Uniforms& all) { return std::sqrt(number(all, name)); };
+    };
+    return {
+        {"stale_collider_stays",
+         [](Settings& s) {
+             s.colliders.push_back({.position = {-3, 5, 6}, .radius = 3.0F});
+         }},
+        {"stale_collider_not_moved", [](Settings& s) { s.colliders[0].position.x -= 1.5F; }},
+        {"stale_collider_gone",
+         [](Settings& s) { s.colliders.erase(s.colliders.begin() + 1); },
+         {},
+         "spheres: last skipped"},
+        {"zeros_for_a_removed_collider",
+         [](Settings& s) {
+             s.colliders.erase(s.colliders.begin(), s.colliders.begin() + 2);
+             s.colliders.push_back({.position = {0, 0, 0}, .radius = 1e-3F});
+         }},
+        {"colliders_padded_to_144_bytes", {}, floats("boxColliderBuffer", at_stride_36)},
+        {"spheres_padded_to_144_bytes", {}, floats("sphereColliderBuffer", at_stride_36)},
+        {"boxes_not_turned",
+         [](Settings& s) {
+             for (dust::Collider& one : s.colliders)
+                 one.rotate = glm::vec3(0.0F);
+         }},
+        {"sphere_scale_is_its_radius",
+         [](Settings& s) {
+             for (dust::Collider& one : s.colliders)
+                 one.radius *= 0.5F;
+         },
+         {},
+         "sphere's radius: halved"},
+        {"colliders_not_counted",
+         {},
+         uniform("update", "sphereColliderCount", [](const Uniforms&) { return 0; }),
+         "spheres_missing"},
+        {"radius_is_scale",
+         {},
+         uniform("update", "radius", [](const Uniforms& all) { return 2.0F * number(all, "radius"); }),
+         "radius_doubled"},
+        {"gravity_not_set",
+         {},
+         uniform("update", "gravity", [](const Uniforms&) { return glm::vec3(0.0F); }),
+         "gravity_missing"},
+        {"drag_not_set", {}, uniform("update", "airResistance", [](const Uniforms&) { return 0.0F; }), "drag_missing"},
+        {"elasticity_not_set",
+         {},
+         uniform("update", "elasticity", [](const Uniforms&) { return 1.0F; }),
+         "elasticity_missing"},
+        {"time_does_not_pass",
+         {},
+         uniform("update", "deltaTime", [](const Uniforms&) { return 0.0F; }),
+         "deltaTime: zero"},
+        {"world_turned_over",
+         {},
+         uniform("update", "worldBoundsMin", [](const Uniforms& all) { return all.at("worldBoundsMax"); })},
+        {"tail_not_dispatched",
+         {},
+         uniform("update", "dustCount",
+                 [](const Uniforms& all) { return std::get<unsigned>(all.at("dustCount")) & ~1023U; })},
+        {"mass_not_set", {}, uniform("vacuum_up", "mass", [](const Uniforms&) { return 1.0F; }), "mass: one"},
+        {"suction_not_squared",
+         {},
+         uniform("vacuum_up", "cleanerSqrForce", sqrt_of("cleanerSqrForce")),
+         "force_not_squared"},
+        {"suction_range_not_squared",
+         {},
+         uniform("vacuum_up", "cleanerSqrDist", sqrt_of("cleanerSqrDist")),
+         "range_not_squared"},
+        {"cone_of_the_angle",
+         {},
+         uniform("vacuum_up", "cleanerDotThreshold",
+                 [](const Uniforms& all) { return number(all, "emitterAngleRad"); })},
+        {"tool_faces_back",
+         {},
+         uniform("vacuum_up", "controllerForward",
+                 [](const Uniforms& all) { return -std::get<glm::vec3>(all.at("controllerForward")); }),
+         "controllerForward: negated"},
+        {"tool_a_frame_late",
+         [](Settings& s) {
+             for (dust::Pose& pose : s.controller)
+                 pose.frame += 1;
+         }},
+        {"death_range_not_squared",
+         {},
+         uniform("vacuum_up", "cleanerSqrDeathRange", sqrt_of("cleanerSqrDeathRange")),
+         "death_range_not_squared"},
+        {"emitter_matrix_transposed",
+         {},
+         uniform("emit", "controllerMatrix",
+                 [](const Uniforms& all) { return glm::transpose(std::get<glm::mat4>(all.at("controllerMatrix"))); }),
+         "controllerMatrix: transposed"},
+        {"emitter_angle_for_tangent",
+         {},
+         uniform("emit", "emitterTangent", [](const Uniforms& all) { return number(all, "emitterAngleRad"); })},
+        {"emitter_distance_left_out",
+         {},
+         uniform("emit", "emitterDist", [](const Uniforms&) { return 1.0F; }),
+         "emitterDist: one"},
+        {"directions_not_uploaded",
+         {},
+         floats("directionBuffer", [](std::vector<float> all) { return std::vector<float>(all.size(), 0.0F); }),
+         "direction of the table: zero"},
+        {"seed_not_set", {}, uniform("populate", "seed", [](const Uniforms&) { return 0U; }), "seed of the run: zero"},
+        {"spawn_box_of_points",
+         {},
+         uniform("populate", "spawnBoundsMax", [](const Uniforms& all) { return all.at("spawnBoundsMin"); })},
+        {"colours_changed_over",
+         {},
+         uniform("populate", "dustColorB", [](const Uniforms& all) { return all.at("dustColorA"); })},
+        {"blast_range_not_squared",
+         {},
+         uniform("explode", "explosionSqrRange", sqrt_of("explosionSqrRange")),
+         "blast_range_not_squared"},
+        {"blast_of_the_frame",
+         {},
+         uniform("explode", "impulseDeltaTime", [](const Uniforms& all) { return all.at("deltaTime"); })},
+        {"wind_constant",
+         {},
+         uniform("blow_wind", "impulseDeltaTime", [](const Uniforms&) { return 0.02F; }),
+         "wind_by_frames"},
+        {"wind_not_squared", {}, uniform("blow_wind", "blowerSqrForce", sqrt_of("blowerSqrForce")), "wind_not_squared"},
+    };
+}
+
+} // namespace
+
+TEST_CASE("dust mutants: what the host hands over wrongly is found, and in most cases has a cause") {
+    if (!gl())
+        return skip(gl().missing());
+    const dust::Settings right = room(false);
+    const dust::HostPtr host = host_of(right);
+    std::size_t with_cause = 0;
+    const std::vector<HostMutant> all = host_catalogue();
+    for (const HostMutant& mutant : all) {
+        dust::Settings wrong = right;
+        if (mutant.settings)
+            mutant.settings(wrong);
+        std::vector<GlPass> passes = dust::passes(host_of(wrong));
+        for (GlPass& pass : passes)
+            if (mutant.pass)
+                mutant.pass(pass);
+        const System system = dust::system(host);
+        GlSystemSide side(gl(), system, std::move(passes), "shaders/dust");
+        CheckOptions options;
+        options.frames = frames;
+        const CheckReport report = check(system, side, options);
+        std::vector<std::string> causes;
+        for (const CauseFindings& found : report.verdicts->causes)
+            for (const Cause& cause : found.best)
+                if (found.explains_all())
+                    causes.push_back(cause.name());
+        with_cause += causes.empty() ? 0 : 1;
+        if (std::getenv("LOCKSTEP_DUST_PARTS") != nullptr)
+            std::cout << fmt::format("{:34} {}\n", mutant.name, fmt::join(causes, " | ")) << std::flush;
+        INFO(mutant.name << ": " << fmt::format("{}", fmt::join(causes, " | ")));
+        CHECK(report.verdict == Verdict::divergent);
+        CHECK((mutant.cause.empty() || std::count(causes.begin(), causes.end(), mutant.cause) > 0));
+    }
+    CHECK(with_cause >= 23);
 }

@@ -40,10 +40,12 @@ ProbeResult probe(const Context& context, const ProbeOptions& options) {
     const probing::DriverArithmetic plain(false);
     probing::measure_vertex_arithmetic(plain, options.inputs, result.rows);
     probing::measure_chains(result.rows);
+    probing::measure_sines(result.rows);
     probing::measure_fragment_arithmetic(result.rows);
     if (result.context.compute) {
         probing::measure_compute_arithmetic(result.rows);
         probing::measure_compute_chains(result.rows);
+        probing::measure_compute_sines(result.rows);
     }
     probing::measure_storage(result.rows);
     probing::measure_order(result.rows);

@@ -27,6 +27,10 @@ void measure_compute_arithmetic(Rows& rows);
 void measure_chains(Rows& rows);
 void measure_compute_chains(Rows& rows);
 
+/// sin, cos and tan, to which GLSL gives no precision, beside a sequence that is known of one driver.
+void measure_sines(Rows& rows);
+void measure_compute_sines(Rows& rows);
+
 /// Halves and 8-bit codes, on their way into an image and out of it; texels outside it.
 void measure_storage(Rows& rows);
 

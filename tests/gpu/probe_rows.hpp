@@ -132,6 +132,12 @@ struct ProcessorRow {
 inline constexpr ProcessorRow processor_rows[] = {
     {"points: viewport, no geometry stage", "fma(clip*(1/w), scale, offset)", "(clip*(1/w))*scale + offset"},
     {"triangles: viewport, no geometry stage", "fma(clip*(1/w), scale, offset)", "(clip*(1/w))*scale + offset"},
+    {"sin, to 32768", "polynomial, fused", "polynomial, each rounded"},
+    {"cos, to 1024", "polynomial, fused", "polynomial, each rounded"},
+    {"tan, to 1024", "polynomial, fused", "polynomial, each rounded"},
+    {"compute: sin, to 32768", "polynomial, fused", "polynomial, each rounded"},
+    {"compute: cos, to 1024", "polynomial, fused", "polynomial, each rounded"},
+    {"compute: tan, to 1024", "polynomial, fused", "polynomial, each rounded"},
     {"sin", "none known", "none known"},
     {"exp2", "none known", "none known"},
     {"pow(x,2.2)", "none known", "none known"},

@@ -7,6 +7,7 @@
 #include <limits>
 
 #include "reference/model/dust/schema.hpp"
+#include "reference/plain_arithmetic.hpp"
 #include "reference/readings/number.hpp"
 #include "reference/vector_loops.hpp"
 
@@ -28,6 +29,11 @@ struct Flight {
 
 struct Sphere {
     float x = 0.0F, y = 0.0F, z = 0.0F, sqr_reach = 0.0F;
+};
+
+struct OrientedBox {
+    glm::mat4 to_local{1.0F};
+    glm::vec3 half_grain{0.0F}; ///< in the box's own units
 };
 
 struct Block {
@@ -68,6 +74,14 @@ template <class Number> Sphere sphere_of(const Host& host, const ColliderMatrice
     return {centre.x, centre.y, centre.z, static_cast<float>(reach * reach)};
 }
 
+/// Half a grain's size is a quotient, and that the arithmetic's.
+template <class A> OrientedBox box_of(A fp, const Host& host, const ColliderMatrices& collider) {
+    const float radius = host.radius();
+    return {collider.world_to_local,
+            {fp.divide(radius, collider.scale.x), fp.divide(radius, collider.scale.y),
+             fp.divide(radius, collider.scale.z)}};
+}
+
 template <class Number> void fly(Block& block, const Flight& flight) {
     const Number resistance = flight.resistance, dt = flight.dt;
     for (std::size_t first = 0; first < words; first += row) {
@@ -95,6 +109,23 @@ template <class Number> void meet(Block& block, const Sphere& sphere) {
     }
 }
 
+template <class Number> void meet(Block& block, const OrientedBox& box) {
+    LOCKSTEP_VECTOR_LOOP
+    for (std::size_t i = 0; i < block_size; ++i) {
+        const Number x = block.next[3 * i], y = block.next[3 * i + 1], z = block.next[3 * i + 2];
+        std::uint32_t misses = 0;
+        for (int k = 0; k < 3; ++k) {
+            const Number half = box.half_grain[k];
+            const Number turned =
+                (x * Number(box.to_local[0][k]) + y * Number(box.to_local[1][k])) + z * Number(box.to_local[2][k]);
+            const Number local = turned + Number(box.to_local[3][k]);
+            misses |= static_cast<std::uint32_t>(static_cast<float>(local + half) < -0.5F) |
+                      static_cast<std::uint32_t>(static_cast<float>(local - half) > 0.5F);
+        }
+        block.touches[i] |= 1U - misses;
+    }
+}
+
 LOCKSTEP_VECTOR_CLONES void fly_plain(Block& block, const Flight& flight) { fly<float>(block, flight); }
 LOCKSTEP_VECTOR_CLONES void fly_exact(Block& block, const Flight& flight) {
     fly<FlushingNumber<Portable>>(block, flight);
@@ -102,6 +133,11 @@ LOCKSTEP_VECTOR_CLONES void fly_exact(Block& block, const Flight& flight) {
 LOCKSTEP_VECTOR_CLONES void meet_plain(Block& block, const Sphere& sphere) { meet<float>(block, sphere); }
 LOCKSTEP_VECTOR_CLONES void meet_exact(Block& block, const Sphere& sphere) {
     meet<FlushingNumber<Portable>>(block, sphere);
+}
+
+LOCKSTEP_VECTOR_CLONES void meet_plain(Block& block, const OrientedBox& box) { meet<float>(block, box); }
+LOCKSTEP_VECTOR_CLONES void meet_exact(Block& block, const OrientedBox& box) {
+    meet<FlushingNumber<Portable>>(block, box);
 }
 
 template <std::size_t size> void flush(std::array<float, size>& values) {
@@ -138,14 +174,15 @@ void store(const Block& block, std::size_t first, std::size_t last, const View& 
 bool has_update_fast(const Host& host) {
     const Switches& s = host.switches();
     return s.drag == Drag::free && s.drag_implicit == OffOn::off && s.suction != Suction::force_in_update &&
-           host.boxes().empty();
+           (host.boxes().empty() || s.box_kind == BoxKind::obb);
 }
 
-void update_fast(const Host& host, const PassInput& in, std::size_t first, std::size_t last, const WritableView& after,
-                 std::vector<std::size_t>& left) {
+void update_fast(const Host& host, const PassInput& in, const Profile& profile, std::size_t first, std::size_t last,
+                 const WritableView& after, std::vector<std::size_t>& left) {
     const bool exact = host.settings().arithmetic == ArithmeticSwitch::exact;
     const FrameValues values = host.at(in.frame);
     const Flight flight = exact ? flight_of<FlushingNumber<Portable>>(host, values) : flight_of<float>(host, values);
+    const PlainArithmetic plain(profile.dot, profile.length_order(), profile.normalize_order(), profile.roots.get());
     const View& before = in.before[grain_buffer];
     Block block{};
     for (; first < last; first += block_size) {
@@ -162,6 +199,8 @@ void update_fast(const Host& host, const PassInput& in, std::size_t first, std::
         for (const ColliderMatrices& one : host.spheres())
             exact ? meet_exact(block, sphere_of<FlushingNumber<Portable>>(host, one))
                   : meet_plain(block, sphere_of<float>(host, one));
+        for (const ColliderMatrices& one : host.boxes())
+            exact ? meet_exact(block, box_of(Portable{}, host, one)) : meet_plain(block, box_of(plain, host, one));
         std::size_t stored = 0;
         for (std::size_t i = 0; i <= count; ++i) {
             const bool flies =

@@ -14,9 +14,10 @@ std::unique_ptr<ItemPass> update_pass(const HostPtr& host) {
                             .runs = [host](int frame) { return runs(*host, {"update"}, frame); },
                             .in_place = true};
     if (has_update_fast(*host))
-        options.fast = [host](const PassInput& in, const Profile&, std::size_t first, std::size_t last,
-                              const WritableView& after,
-                              std::vector<std::size_t>& left) { update_fast(*host, in, first, last, after, left); };
+        options.fast = [host](const PassInput& in, const Profile& profile, std::size_t first, std::size_t last,
+                              const WritableView& after, std::vector<std::size_t>& left) {
+            update_fast(*host, in, profile, first, last, after, left);
+        };
     return item_pass(std::move(options), UpdateTwin{host});
 }
 

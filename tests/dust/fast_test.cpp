@@ -83,7 +83,7 @@ TEST_CASE("dust update: its fast way has the twin's bits, whatever the grains ar
                 CHECK(words_of(twin) == words_of(fast));
                 CHECK(words_of(twin) == words_of(in_place));
                 std::vector<std::size_t> left;
-                dust::update_fast(*host, in, 0, host->settings().count, fast[dust::grain_buffer], left);
+                dust::update_fast(*host, in, profile, 0, host->settings().count, fast[dust::grain_buffer], left);
                 CHECK(left.size() < host->settings().count / 2); // else it proves nothing
                 ++compared;
             }

@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <bit>
 #include <cstring>
 #include <filesystem>
@@ -55,6 +56,15 @@ SystemState some_grains(const dust::Settings& settings, std::size_t count) {
             state.set(field::colour, i, std::bit_cast<float>(static_cast<std::uint32_t>(random())), c);
         }
     }
+    // Half of them around colliders, in and at the border of what counts as a hit.
+    for (std::size_t i = 0; i < count && !settings.colliders.empty(); i += 2) {
+        const dust::Collider& near = settings.colliders[random() % settings.colliders.size()];
+        const float reach = near.sphere ? near.radius : 0.5F * std::max({near.scale.x, near.scale.y, near.scale.z});
+        for (int c = 0; c < 3; ++c) {
+            state.set(field::position, i, near.position[c] + (2.0F * share(random) - 1.0F) * (reach + 0.5F), c);
+            state.set(field::velocity, i, speed(random) * 0.05F, c);
+        }
+    }
     return state;
 }
 
@@ -84,7 +94,7 @@ TEST_CASE("dust update: its fast way has the twin's bits, whatever the grains ar
                 CHECK(words_of(twin) == words_of(in_place));
                 std::vector<std::size_t> left;
                 dust::update_fast(*host, in, profile, 0, host->settings().count, fast[dust::grain_buffer], left);
-                CHECK(left.size() < host->settings().count / 2); // else it proves nothing
+                CHECK(left.size() < host->settings().count * 3 / 4); // else it proves nothing
                 ++compared;
             }
         }

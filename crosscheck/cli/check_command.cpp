@@ -32,6 +32,7 @@
 #include "crosscheck/report/page/study_results.hpp"
 #include "crosscheck/report/page/template.hpp"
 #include "crosscheck/report/places.hpp"
+#include "crosscheck/report/power_text.hpp"
 #include "crosscheck/report/progress.hpp"
 #include "crosscheck/report/report.hpp"
 #include "crosscheck/scene/profiles.hpp"

@@ -14,6 +14,7 @@
 #include "crosscheck/files/plain_text.hpp"
 #include "crosscheck/files/signals.hpp"
 #include "crosscheck/report/places.hpp"
+#include "crosscheck/report/power_text.hpp"
 #include "crosscheck/report/report.hpp"
 #include "crosscheck/scene/profiles.hpp"
 #include "crosscheck/scene/run_text.hpp"

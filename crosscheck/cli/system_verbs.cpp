@@ -20,6 +20,7 @@
 #include "crosscheck/record/capsule.hpp"
 #include "crosscheck/record/item_capsule.hpp"
 #include "crosscheck/report/item_text.hpp"
+#include "crosscheck/report/power_text.hpp"
 #include "crosscheck/report/progress.hpp"
 #include "crosscheck/scene/profiles.hpp"
 #include "reference/model/error.hpp"

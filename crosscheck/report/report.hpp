@@ -37,16 +37,6 @@ std::string pass_options_text(const PassRules& rules);
 /// collided".
 std::string verdict_words(const CheckReport& report);
 
-/// "101 of 106 mistakes would have shown".
-std::string power_words(const PowerSummary& power);
-
-/// Each mistake of a run's power, and the first frame in which it would have shown, or why it could not.
-std::string power_text(const PowerSummary& power);
-
-/// "101 of 106 mistakes would have shown; not: a (nothing collided) and 4 more".
-std::string power_line(const PowerSummary& power);
-nlohmann::json power_json(const PowerSummary& power);
-
 /// The report as a person reads it, verdict last but one, at most 60 lines. See docs/report_lines.md.
 std::string report_text(const CheckReport& report, const RunDescription& run);
 

@@ -22,6 +22,7 @@
 
 #include "crosscheck/judge/check.hpp"
 #include "crosscheck/judge/legal.hpp"
+#include "crosscheck/report/power_text.hpp"
 #include "crosscheck/report/report.hpp"
 #include "crosscheck/scene/scene_file.hpp"
 #include "gpu/collision/gpu_side.hpp"

@@ -8,6 +8,7 @@
 #include "crosscheck/judge/system_check.hpp"
 #include "crosscheck/record/item_capsule.hpp"
 #include "crosscheck/report/item_text.hpp"
+#include "crosscheck/report/power_text.hpp"
 #include "crosscheck/report/report.hpp"
 #include "gpu/gl_system.hpp"
 #include "lockstep/lockstep.hpp"

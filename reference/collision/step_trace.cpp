@@ -33,20 +33,10 @@ void fill_in(StepTrace& trace, const RecordedRow& row, bool zero_is_hit) {
     const auto is = [&](const Site& site, Kind kind = Kind::value) { return row.site == &site && row.kind == kind; };
     const std::array<float, 4>& v = row.values;
     const glm::vec3 vector(v[0], v[1], v[2]);
-    if (is(site::clip))
-        trace.clip = {v[0], v[1], v[2], v[3]};
-    else if (is(site::ndc) || is(site::not_divided))
-        trace.ndc = vector;
-    else if (is(site::texture_coordinate))
-        trace.texture_coordinate = vector;
-    else if (is(site::image_position))
-        trace.image_position = vector;
-    else if (is(site::base_texel))
+    if (is(site::base_texel))
         trace.base = {static_cast<int>(v[0]), static_cast<int>(v[1])};
     else if (is(site::own_position))
         trace.own_position = vector;
-    else if (is(site::velocity))
-        trace.velocity = vector;
     else if (is(site::neighbour, Kind::fetch))
         trace.neighbours.push_back(
             {.texel = {static_cast<int>(v[0]), static_cast<int>(v[1])}, .on_image = v[2] != 0.0F});

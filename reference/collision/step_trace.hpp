@@ -34,19 +34,15 @@ struct PointWindow {
     glm::ivec2 snapped{0};    ///< 2^-subpixel_bits pixels from the centre of pixel 0
 };
 
-/// One particle's way through the collision pass: what each step of the listing (thesis, Fig. 3-3) computed.
+/// One particle's way through the collision pass (thesis, Fig. 3-3): where it searched, what it found, and where its
+/// point was drawn.
 struct StepTrace {
     ParticleState before;
-    glm::vec4 clip{0.0F}; ///< u_ProjView * position
-    glm::vec2 ndc{0.0F};  ///< clip xy over w, if the switch says so
-    glm::vec2 texture_coordinate{0.0F};
-    glm::vec2 image_position{0.0F}; ///< in texels, before the cast
-    BaseTexelIndex base;            ///< x -1: outside the image
-    bool searches = false;          ///< collide time below 0, and a base texel
+    BaseTexelIndex base;   ///< x -1: outside the image
+    bool searches = false; ///< collide time below 0, and a base texel
     std::optional<glm::vec3> own_position;
     std::vector<NeighbourTrace> neighbours;
     std::optional<std::size_t> nearest; ///< index into neighbours: a hit
-    glm::vec3 velocity{0.0F};           ///< no hit: direction * speed + gravity * tick
     ParticleState after;
     glm::vec4 raster_clip{0.0F};    ///< the clip position that is drawn
     glm::vec4 point_position{0.0F}; ///< gl_Position

@@ -85,7 +85,8 @@ KnownOperations in_compute_stage(KnownOperations known, const Profile& profile) 
     known.square_root =
         known.square_root && followed(profile, {"compute: sqrt", "compute: inversesqrt", "compute: length"});
     known.dot = known.dot && followed(profile, {"compute: dot"});
-    known.subnormals = known.subnormals && followed(profile, {"compute: subnormal"});
+    // A stage that keeps subnormal operands and flushes results (Mesa 26) compares them with 0 either way.
+    known.subnormals = known.subnormals && !profile.compute_flush_results && followed(profile, {"compute: subnormal"});
     known.normalize = known.normalize && followed(profile, {"compute: normalize"});
     return known;
 }

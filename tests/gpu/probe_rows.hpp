@@ -119,7 +119,6 @@ inline constexpr LaterRow later_rows[] = {
     {"fma, precise", "rounded once", 25, 26},
     {"compute: subnormal result of *", "flushed", 25, 26},
     {"compute: subnormal result of +", "flushed", 25, 26},
-    {"compute: subnormal < 0", "flushed", 25, 26},
 };
 
 /// Rows that depend on the processor: with fused multiply-add, or without.

@@ -209,6 +209,13 @@ TEST_CASE("profiles: a compute stage that compares subnormals otherwise than it 
     CHECK(other.not_followed == std::vector<std::string>{"compute: subnormal < 0"});
     CHECK(measured_operations(other).subnormals);
     CHECK_FALSE(in_compute_stage(measured_operations(other), other).subnormals);
+    for (ProbeRow& row : result.rows)
+        if (row.name == "compute: subnormal result of *")
+            row.finding = "flushed";
+    result.rows.back().finding = "kept";
+    const Profile mixed = profile_from(result);
+    CHECK(mixed.not_followed.empty());
+    CHECK_FALSE(in_compute_stage(measured_operations(mixed), mixed).subnormals);
 }
 
 TEST_CASE("profiles: a stage that takes factors in another order has that open, and the compute stage with it") {

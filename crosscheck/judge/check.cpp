@@ -17,6 +17,7 @@
 #include "crosscheck/judge/stopwatch.hpp"
 #include "gpu/collision/gpu_side.hpp"
 #include "reference/collision/collision_mistakes.hpp"
+#include "reference/collision/formula_mistakes.hpp"
 #include "reference/collision/simulation.hpp"
 #include "reference/collision/step_pass.hpp"
 #include "reference/model/collision/collision_state.hpp"
@@ -166,11 +167,24 @@ class RunJudge {
     }
 
   private:
-    /// Names come first, then a change at one site without a name; but before several mistakes at once.
-    static CauseFindings simpler(CauseFindings named, CauseFindings unnamed) {
-        const bool one_name = named.explains_all() && named.best.front().mistakes.size() == 1;
-        const bool one_site = unnamed.explains_all() && !unnamed.best.front().has_name;
-        return !one_name && one_site ? unnamed : named;
+    /// One mistake of the catalogue comes first, and beside it those with a name that explain as much; then any other
+    /// single one; then several at once.
+    static CauseFindings simpler(CauseFindings of_catalogue, CauseFindings of_sites) {
+        const bool one_name = of_catalogue.explains_all() && of_catalogue.best.front().mistakes.size() == 1;
+        if (!one_name) { // then the catalogue's own are contradicted, whatever fewer items say
+            std::erase_if(of_sites.best, [](const Cause& cause) {
+                return std::any_of(deviation_table().begin(), deviation_table().end(), [&](const DeviationInfo& info) {
+                    return cause.has_name && cause.mistakes.front() == info.name;
+                });
+            });
+            return of_sites.explains_all() ? of_sites : of_catalogue;
+        }
+        if (of_sites.explains_all())
+            for (const Cause& cause : of_sites.best)
+                if (cause.has_name && std::none_of(of_catalogue.best.begin(), of_catalogue.best.end(),
+                                                   [&](const Cause& c) { return c.mistakes == cause.mistakes; }))
+                    of_catalogue.best.push_back(cause);
+        return of_catalogue;
     }
 
     /// Whether there are divergent ones among the verdicts, and the first of them kept.
@@ -222,6 +236,17 @@ class RunJudge {
                         named.push_back({std::string(info.name), std::string(info.meaning), pass, *mistake});
         for (const SearchMistake& m : search_mistakes())
             named.push_back({std::string(m.name), std::string(m.meaning), std::string(m.pass), m.mistake});
+        for (const FormulaMistake& m : formula_mistakes()) {
+            NamedMistake& added = named.emplace_back(
+                NamedMistake{std::string(m.name), std::string(m.meaning), "collision_pass", m.mistake});
+            for (const float constant : m.constants)
+                added.constants.push_back({constant});
+            if (m.fit != nullptr)
+                added.fit = [fit = m.fit, &constants = scene_.constants](std::span<const float> before,
+                                                                         std::span<const float> after) {
+                    return fit(before, after, constants);
+                };
+        }
         return named;
     }
 

@@ -196,7 +196,8 @@ bool is_no_mistake(Deviation deviation, const Switches& s, const Profile& profil
 CollisionPower::CollisionPower(const Scene& scene, const Profile& profile, const KnownOperations& known)
     : scene_(scene), profile_(profile), known_(known) {
     for (std::size_t d = 0; d < deviation_count; ++d)
-        tried_[d].is_mistake = !is_no_mistake(static_cast<Deviation>(d), scene.switches, profile);
+        tried_[d].is_mistake = counts_in_power(static_cast<Deviation>(d)) &&
+                               !is_no_mistake(static_cast<Deviation>(d), scene.switches, profile);
 }
 
 std::vector<Deviation> CollisionPower::unseen(bool of_drawing) const {

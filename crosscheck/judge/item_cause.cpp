@@ -34,26 +34,34 @@ bool alike(Value a, Value b) {
 
 } // namespace
 
-/// Whether the GPU's item is the reference's but for rounding, in every field.
-bool ItemCauseFinder::Trial::is_off_by_rounding(std::size_t item) const {
+bool ItemCauseFinder::Trial::near(std::size_t item, const ValueOf& a, const ValueOf& b) const {
     const View& before = pass.before[pass.pass.resource()];
+    std::array<std::array<float, 4>, 3> field{};
     for (std::size_t from = 0, to = 0; from < parts.size(); from = to) {
-        std::array<std::vector<float>, 3> field;
-        for (to = from; to < parts.size() && parts[to].field == parts[from].field; ++to) {
-            const auto at = [&](const View& view) { return view.value(parts[to].field, item, parts[to].component); };
-            if (at(pass.gpu).scalar != Scalar::float32) {
-                if (!same_bits(at(pass.gpu), at(pass.reference)))
+        std::size_t n = 0;
+        for (to = from; to < parts.size() && parts[to].field == parts[from].field && n < 4; ++to) {
+            const Value x = a(parts[to], to), y = b(parts[to], to);
+            if (x.scalar != Scalar::float32) {
+                if (!same_bits(x, y))
                     return false;
                 continue;
             }
-            field[0].push_back(at(pass.gpu).real());
-            field[1].push_back(at(pass.reference).real());
-            field[2].push_back(at(before).real());
+            field[0][n] = x.real();
+            field[1][n] = y.real();
+            field[2][n++] = before.value(parts[to].field, item, parts[to].component).real();
         }
-        if (!differ_by_rounding(field[0], field[1], field[2]))
+        if (!differ_by_rounding(std::span(field[0].data(), n), std::span(field[1].data(), n),
+                                std::span(field[2].data(), n)))
             return false;
     }
     return true;
+}
+
+bool ItemCauseFinder::Trial::is_off_by_rounding(std::size_t item) const {
+    const auto of = [&](const View& view) {
+        return [&view, item](const Component& c, std::size_t) { return view.value(c.field, item, c.component); };
+    };
+    return near(item, of(pass.gpu), of(pass.reference));
 }
 
 bool ItemCauseFinder::explains(const Hypothesis& hypothesis, const Trial& trial, std::size_t item) {
@@ -66,9 +74,28 @@ bool ItemCauseFinder::explains(const Hypothesis& hypothesis, const Trial& trial,
             return alike(before.value(c.field, item, c.component), p.gpu.value(c.field, item, c.component));
         });
     }
+    if (hypothesis.host == Host::field_kept || hypothesis.host == Host::fields_swapped) {
+        const View& before = p.before[p.pass.resource()];
+        return std::all_of(parts.begin(), parts.end(), [&](const Component& c) {
+            const auto [one, other] = hypothesis.fields;
+            const bool kept = hypothesis.host == Host::field_kept;
+            const std::uint8_t from = kept || (c.field != one && c.field != other) ? c.field
+                                      : c.field == one                             ? other
+                                                                                   : one;
+            const View& made = kept && c.field == one ? before : p.reference;
+            return alike(made.value(from, item, c.component), p.gpu.value(c.field, item, c.component));
+        });
+    }
     const PassInput input{hypothesis.host == Host::earlier_state ? *p.earlier : p.before, p.frame};
     const auto made = hypothesis.mistake ? std::span(&*hypothesis.mistake, 1) : std::span<const Mistake>();
     const std::vector<std::uint32_t> words = p.pass.mistaken(input, item, p.profile, made);
+    if (hypothesis.rounds())
+        return trial.near(
+            item,
+            [&](const Component& c, std::size_t w) {
+                return Value{p.gpu.value(c.field, item, c.component).scalar, words[w]};
+            },
+            [&](const Component& c, std::size_t) { return p.gpu.value(c.field, item, c.component); });
     for (std::size_t w = 0; w < parts.size(); ++w) {
         const Value gpu = p.gpu.value(parts[w].field, item, parts[w].component);
         if (!alike({gpu.scalar, words[w]}, gpu))
@@ -77,15 +104,51 @@ bool ItemCauseFinder::explains(const Hypothesis& hypothesis, const Trial& trial,
     return true;
 }
 
+/// Of one with constants as many as it has.
+void ItemCauseFinder::add_named(std::vector<Hypothesis>& all, const NamedMistake& named, const JudgedPass& pass,
+                                const std::vector<std::size_t>& items) {
+    std::vector<std::array<float, 3>> constants = named.constants;
+    if (named.fit)
+        for (const std::size_t item : sample(items, 4)) {
+            std::vector<float> before, after;
+            for (const Component& c : components(pass.gpu.about())) {
+                before.push_back(pass.before[pass.pass.resource()].value(c.field, item, c.component).real());
+                after.push_back(pass.gpu.value(c.field, item, c.component).real());
+            }
+            const std::array<float, 3> fitted = named.fit(before, after);
+            if (std::find(constants.begin(), constants.end(), fitted) == constants.end())
+                constants.push_back(fitted);
+        }
+    if (constants.empty())
+        all.push_back({.mistake = named.mistake, .named = &named});
+    for (const std::array<float, 3>& c : constants) {
+        Hypothesis& with = all.emplace_back(Hypothesis{.mistake = named.mistake, .named = &named});
+        with.mistake->constants = c;
+        with.text =
+            c[1] == 0.0F && c[2] == 0.0F ? fmt::format(" ({})", c[0]) : fmt::format(" ({}, {}, {})", c[0], c[1], c[2]);
+    }
+}
+
 std::vector<ItemCauseFinder::Hypothesis> ItemCauseFinder::hypotheses(const JudgedPass& pass,
                                                                      const std::vector<std::size_t>& items) const {
     std::vector<Hypothesis> all;
     for (const NamedMistake& named : named_)
         if (named.pass == pass.pass.name())
-            all.push_back({.mistake = named.mistake, .named = &named});
+            add_named(all, named, pass, items);
     all.push_back({.host = Hypothesis::Host::unwritten, .text = "items_not_written"});
     if (pass.earlier != nullptr)
         all.push_back({.host = Hypothesis::Host::earlier_state, .text = "state_of_earlier_frame"});
+    const std::span<const Field> fields = pass.gpu.fields();
+    for (std::uint8_t f = 0; f < fields.size() && fields.size() > 1; ++f) {
+        all.push_back({.host = Hypothesis::Host::field_kept,
+                       .text = fmt::format("{}_not_written", fields[f].name),
+                       .fields = {f}});
+        for (std::uint8_t g = 0; g < f; ++g)
+            if (fields[f].components == fields[g].components && fields[f].scalar == fields[g].scalar)
+                all.push_back({.host = Hypothesis::Host::fields_swapped,
+                               .text = fmt::format("{}_and_{}_swapped", fields[g].name, fields[f].name),
+                               .fields = {g, f}});
+    }
     std::vector<SeenSite> sites;
     for (const std::size_t item : items)
         for (const SeenSite& site : pass.pass.sites(pass.input(), item, pass.profile))
@@ -109,7 +172,7 @@ bool ItemCauseFinder::hold(Hypothesis& hypothesis, const Trial& trial, std::int6
         ++hypothesis.explained;
         hypothesis.telling += trial.is_off_by_rounding(item) ? 0 : 1;
     }
-    if (hypothesis.explained == before)
+    if (!trial.divergent.empty() && hypothesis.explained == before)
         return true;
     for (const std::size_t item : trial.agreeing) {
         if (hypothesis.balance() < at_least)
@@ -168,7 +231,9 @@ void ItemCauseFinder::add(const JudgedPass& pass, const std::vector<ItemVerdict>
         return;
     const std::size_t most = later ? later_items : trial_items;
     const std::vector<std::size_t> items = spread(sample(divergent, most)),
-                                   agreeing = spread(agreeing_items(pass.gpu.count(), verdicts, most));
+                                   agreeing =
+                                       spread(agreeing_items(pass.gpu.count(), verdicts,
+                                                             later ? agreeing_items_held / 4 : agreeing_items_held));
     const auto part = [&](std::size_t from, std::size_t to) {
         const auto of = [&](const std::vector<std::size_t>& all) {
             return std::span(all).subspan(std::min(from, all.size()),
@@ -182,7 +247,7 @@ void ItemCauseFinder::add(const JudgedPass& pass, const std::vector<ItemVerdict>
         tried_.resize(most_shown + 1);
     try_all(part(0, first_items));
     if (!tried_.empty() && tried_.front().explained == divergent_)
-        try_all(part(first_items, most));
+        try_all(part(first_items, agreeing_items_held));
 }
 
 CauseFindings ItemCauseFinder::findings() const {
@@ -191,7 +256,8 @@ CauseFindings ItemCauseFinder::findings() const {
     for (const Hypothesis& hypothesis : tried_) {
         if (hypothesis.explained != tried_.front().explained || hypothesis.contradicted != tried_.front().contradicted)
             break;
-        if (hypothesis.telling == 0)
+        // A formula that comes near must be seen where more than rounding shows.
+        if (hypothesis.telling == 0 || (hypothesis.rounds() && 2 * hypothesis.telling < hypothesis.explained))
             continue;
         const bool named = hypothesis.named != nullptr;
         std::string meaning = "a change of the twin at one site";
@@ -199,8 +265,12 @@ CauseFindings ItemCauseFinder::findings() const {
             meaning = "the pass left them as they were";
         else if (hypothesis.host == Hypothesis::Host::earlier_state)
             meaning = "the pass read the state of the frame before";
+        else if (hypothesis.host == Hypothesis::Host::field_kept)
+            meaning = "the field is as it was";
+        else if (hypothesis.host == Hypothesis::Host::fields_swapped)
+            meaning = "each of the two fields holds what the other should";
         found.best.push_back({{named ? hypothesis.named->name : hypothesis.text},
-                              named ? hypothesis.named->meaning : meaning,
+                              named ? hypothesis.named->meaning + hypothesis.text : meaning,
                               hypothesis.explained,
                               hypothesis.contradicted,
                               named || hypothesis.host != Hypothesis::Host::none});

@@ -1,6 +1,8 @@
 #pragma once
+#include <array>
 #include <cstddef>
 #include <cstdint>
+#include <functional>
 #include <map>
 #include <optional>
 #include <span>
@@ -19,9 +21,10 @@ namespace lockstep {
 class ItemCauseFinder {
   public:
     static constexpr int trial_frames = 4;
-    static constexpr std::size_t trial_items = 512; ///< a frame; of those that agree as many
+    static constexpr std::size_t trial_items = 512; ///< a frame
     static constexpr std::size_t first_items = 128; ///< of them; the rest is only for what explains all of these
-    static constexpr std::size_t later_items = 64;  ///< a frame that follows
+    static constexpr std::size_t agreeing_items_held = 4096; ///< a frame: hits are few among them
+    static constexpr std::size_t later_items = 64;           ///< a frame that follows
     static constexpr std::size_t most_shown = 3;
 
     explicit ItemCauseFinder(const std::vector<NamedMistake>& named) : named_(named) {}
@@ -33,13 +36,17 @@ class ItemCauseFinder {
   private:
     /// What may have gone wrong.
     struct Hypothesis {
-        enum class Host : std::uint8_t { none, unwritten, earlier_state };
+        enum class Host : std::uint8_t { none, unwritten, earlier_state, fields_swapped, field_kept };
         Host host = Host::none;
         std::optional<Mistake> mistake = {};
         const NamedMistake* named = nullptr;
-        std::string text = {}; ///< of one without a name
+        std::string text = {};                   ///< of one without a name; or the named one's constants
+        std::array<std::uint8_t, 2> fields = {}; ///< of the host's mistake
         std::uint64_t explained = 0, contradicted = 0;
         std::uint64_t telling = 0; ///< of those explained, which are off by more than rounding
+
+        /// Whether it need only come near: a formula may be written in other orders.
+        [[nodiscard]] bool rounds() const { return mistake && (named == nullptr || mistake->formula != nullptr); }
 
         /// Names first, then the host's, then a wrong input, then all else.
         [[nodiscard]] int rank() const {
@@ -56,8 +63,13 @@ class ItemCauseFinder {
         const JudgedPass& pass;
         std::vector<Component> parts;
         std::span<const std::size_t> divergent, agreeing;
+        using ValueOf = std::function<Value(const Component& part, std::size_t word)>;
+        /// Whether two values of the item differ by rounding alone, in every field.
+        [[nodiscard]] bool near(std::size_t item, const ValueOf& a, const ValueOf& b) const;
         [[nodiscard]] bool is_off_by_rounding(std::size_t item) const;
     };
+    static void add_named(std::vector<Hypothesis>& all, const NamedMistake& named, const JudgedPass& pass,
+                          const std::vector<std::size_t>& items);
     [[nodiscard]] std::vector<Hypothesis> hypotheses(const JudgedPass& pass,
                                                      const std::vector<std::size_t>& items) const;
     static bool explains(const Hypothesis& hypothesis, const Trial& trial, std::size_t item);

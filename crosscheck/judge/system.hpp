@@ -1,5 +1,8 @@
 #pragma once
+#include <array>
+#include <functional>
 #include <memory>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -14,6 +17,9 @@ struct NamedMistake {
     std::string meaning; ///< one line
     std::string pass;    ///< in which it is made
     Mistake mistake;
+    std::vector<std::array<float, 3>> constants = {}; ///< that are tried in its formula; empty: it has none
+    /// Finds its constants in an item's words before and after; empty: `constants` are all.
+    std::function<std::array<float, 3>(std::span<const float>, std::span<const float>)> fit = {};
 };
 
 /// A particle or image system as a check sees it: what its state is, the twins of its passes in the order in which a

@@ -63,6 +63,8 @@ template <class R> class CollisionTwin {
         Texel base;  ///< the texel searched round
         Texel texel; ///< the one whose position is nearest
         Vec3 away;   ///< own position minus the one stored there
+        auto fields() { return std::tie(base, texel, away); }
+        auto fields() const { return std::tie(base, texel, away); }
     };
     struct State : ParticleTwinState<R> {
         std::optional<Collision> hit = {};
@@ -71,7 +73,10 @@ template <class R> class CollisionTwin {
     CollisionTwin(R& reading, const CollisionImage& cdt, const FrameParams& params)
         : r(reading), cdt_(cdt), params_(params), constants_(params.constants), switches_(params.switches),
           box_step_((params.cdt_box.max - params.cdt_box.min) / 255.0F), image_(reading, params),
-          particle_(reading, params) {}
+          particle_(reading, params) {
+        if constexpr (requires { reading.foretell(&params); })
+            reading.foretell(&params);
+    }
 
     [[nodiscard]] State operator()(const ParticleState& before) const {
         const ParticleTwinState<R> a = particle_.read(before);

@@ -7,6 +7,9 @@
 #include <type_traits>
 #include <utility>
 
+#include <glm/common.hpp>
+#include <glm/exponential.hpp>
+
 #include "reference/collision/collision_code.hpp"
 #include "reference/collision/collision_mistakes.hpp"
 #include "reference/collision/collision_pass.hpp"
@@ -149,6 +152,10 @@ template <class A> class DeviatingPoint {
             clip.w = 1.0F;
         if (has(point_y_flipped))
             clip.y = -clip.y;
+        if (has(point_depth_constant))
+            clip.z = 0.0F;
+        if (has(point_depth_reversed))
+            clip.z = -clip.z;
         if (shift_ != 0.0F) {
             clip.x += clip.w * (shift_ / static_cast<float>(params_.width));
             clip.y += clip.w * (shift_ / static_cast<float>(params_.height));
@@ -190,6 +197,29 @@ template <class A> class DeviatingPoint {
     int viewport_height_ = params_.height;
     float shift_ = 0.0F; ///< half pixels
 };
+
+/// What a wrong fragment stage stores for a position.
+glm::vec3 stored_wrongly(glm::vec3 position, const Deviations& deviations, const CollisionCode& halves) {
+    if (deviations.has(stores_half_floats))
+        position = halves.decode(halves.encode(position));
+    if (deviations.has(stores_srgb))
+        position = glm::sign(position) * glm::pow(glm::abs(position), glm::vec3(1.0F / 2.2F));
+    if (deviations.has(stores_clamped))
+        position = glm::clamp(position, 0.0F, 1.0F);
+    if (deviations.has(stores_x_and_y_swapped))
+        std::swap(position.x, position.y);
+    if (deviations.has(stores_y_and_z_swapped))
+        std::swap(position.y, position.z);
+    if (deviations.has(stores_x_and_z_swapped))
+        std::swap(position.x, position.z);
+    return position;
+}
+
+bool discards(glm::vec3 position, const Deviations& deviations) {
+    return (deviations.has(negative_x_discarded) && position.x < 0.0F) ||
+           (deviations.has(negative_y_discarded) && position.y < 0.0F) ||
+           (deviations.has(negative_z_discarded) && position.z < 0.0F);
+}
 
 class DepthTest {
   public:
@@ -295,6 +325,7 @@ void deviating_draw(const FrameInputs& inputs, const Particles& after, const Pro
     const bool is_coarse = deviations.has(half_cdt) || deviations.has(unorm8_cdt);
     const CollisionCode coarse(
         stored_as(*inputs.params, deviations.has(half_cdt) ? CdtFormat::rgba16f : CdtFormat::rgba8));
+    const CollisionCode halves(stored_as(*inputs.params, CdtFormat::rgba16f));
     const auto stored_code = [&](glm::vec3 position) {
         return code.encode(is_coarse ? coarse.decode(coarse.encode(position)) : position);
     };
@@ -313,14 +344,20 @@ void deviating_draw(const FrameInputs& inputs, const Particles& after, const Pro
     with_deviating_arithmetic(profile, inputs.params->switches, deviations, [&](auto fp) {
         DeviatingPoint fragment(fp, *inputs.params, made, deviations, profile.raster);
         for (std::size_t i = 0; i < positions.size(); ++i) {
-            const PointFragment point = fragment(positions[i]);
+            PointFragment point = fragment(positions[i]);
+            if (deviations.has(fragment_depth_reversed))
+                point.depth = 1.0F - point.depth;
+            if (discards(after.position[i], deviations))
+                continue;
             if (!cdt.contains(point.x, point.y) || !test.passes(point.depth, depth.at(point.x, point.y)))
                 continue;
             depth.at(point.x, point.y) = point.depth;
             glm::vec4& texel = cdt.at(point.x, point.y);
-            texel = stored_code(stored[i]);
+            texel = stored_code(stored_wrongly(stored[i], deviations, halves));
             if (deviations.has(alpha_missing))
                 texel.a = 0.0F;
+            if (deviations.has(alpha_is_depth))
+                texel.a = point.depth;
         }
     });
 }

@@ -118,6 +118,19 @@ constexpr std::array table{
     DeviationInfo{stores_position_before, "stores_position_before", "stores where the particle was"},
     DeviationInfo{stores_direction, "stores_direction", "stores the direction"},
     DeviationInfo{alpha_missing, "alpha_missing", "stores alpha 0"},
+    DeviationInfo{stores_half_floats, "stores_half_floats", "stores the position in half floats"},
+    DeviationInfo{stores_srgb, "stores_srgb", "stores the position to the power of 1 / 2.2"},
+    DeviationInfo{stores_clamped, "stores_clamped", "stores the position clamped to 0 to 1"},
+    DeviationInfo{stores_x_and_y_swapped, "stores_x_and_y_swapped", "stores position.yxz"},
+    DeviationInfo{stores_y_and_z_swapped, "stores_y_and_z_swapped", "stores position.xzy"},
+    DeviationInfo{stores_x_and_z_swapped, "stores_x_and_z_swapped", "stores position.zyx"},
+    DeviationInfo{alpha_is_depth, "alpha_is_depth", "stores the depth as alpha"},
+    DeviationInfo{point_depth_constant, "point_depth_constant", "clip z is 0 for every point"},
+    DeviationInfo{point_depth_reversed, "point_depth_reversed", "clip z is negated: the farthest point stays"},
+    DeviationInfo{fragment_depth_reversed, "fragment_depth_reversed", "stores 1 - depth as the depth"},
+    DeviationInfo{negative_x_discarded, "negative_x_discarded", "fragments whose position.x < 0 are discarded"},
+    DeviationInfo{negative_y_discarded, "negative_y_discarded", "fragments whose position.y < 0 are discarded"},
+    DeviationInfo{negative_z_discarded, "negative_z_discarded", "fragments whose position.z < 0 are discarded"},
 };
 static_assert(table.size() == deviation_count);
 

@@ -119,8 +119,25 @@ enum class Deviation {
     stores_position_before,
     stores_direction,
     alpha_missing,
+    // Other ways to write the fragment stage. Every image with a point shows them: power does not count them.
+    stores_half_floats,
+    stores_srgb,
+    stores_clamped,
+    stores_x_and_y_swapped,
+    stores_y_and_z_swapped,
+    stores_x_and_z_swapped,
+    alpha_is_depth,
+    point_depth_constant,
+    point_depth_reversed,
+    fragment_depth_reversed,
+    negative_x_discarded,
+    negative_y_discarded,
+    negative_z_discarded,
 };
-inline constexpr std::size_t deviation_count = static_cast<std::size_t>(Deviation::alpha_missing) + 1;
+inline constexpr std::size_t deviation_count = static_cast<std::size_t>(Deviation::negative_z_discarded) + 1;
+
+/// Whether a run's power is asked about it.
+constexpr bool counts_in_power(Deviation deviation) { return deviation <= Deviation::alpha_missing; }
 
 /// Whether it changes a particle's step.
 constexpr bool changes_step(Deviation deviation) { return deviation < Deviation::point_without_divide; }

@@ -27,7 +27,16 @@ constexpr std::array names{"as it is",
                            "plus",
                            "minus",
                            "times",
+                           "y and z swapped",
+                           "x and z swapped",
+                           "y, z, x",
+                           "z, x, y",
+                           "by a formula",
                            "spoiled",
+                           "decided otherwise",
+                           "ranged otherwise",
+                           "fetched elsewhere",
+                           "chosen otherwise",
                            "inverted",
                            "always",
                            "never",
@@ -51,12 +60,15 @@ constexpr std::array names{"as it is",
                            "the last taken",
                            "the first taken",
                            "the greatest taken",
-                           "the last of equals"};
-static_assert(names.size() == static_cast<std::size_t>(last_of_equals) + 1);
+                           "the last of equals",
+                           "one a turn",
+                           "all added up",
+                           "all added up as unit vectors"};
+static_assert(names.size() == static_cast<std::size_t>(units_added_up) + 1);
 
 constexpr std::array value_changes{zero,     one,      negated,  doubled,   halved,   reciprocal,
                                    opposite, one_more, one_less, half_more, half_less};
-constexpr std::array whole_changes{zero, negated, one_more, one_less};
+constexpr std::array whole_changes{zero, one, negated, halved, doubled, one_more, one_less};
 constexpr std::array taken_from{instead, plus, minus, times};
 
 void add_values(std::vector<Mistake>& found, const SeenSite& seen, std::span<const Change> changes) {
@@ -68,6 +80,9 @@ void add_values(std::vector<Mistake>& found, const SeenSite& seen, std::span<con
     if (seen.size > 1)
         for (const Change change : {swapped, x_everywhere})
             found.push_back({.site = seen.site->id, .change = change});
+    if (seen.size == 3)
+        for (const Change change : {yz_swapped, xz_swapped, rotated, rotated_back})
+            found.push_back({.site = seen.site->id, .change = change});
 }
 
 bool is_value(const SeenSite& seen) { return seen.kind == Kind::value || seen.kind == Kind::whole_value; }
@@ -75,6 +90,34 @@ bool is_value(const SeenSite& seen) { return seen.kind == Kind::value || seen.ki
 } // namespace
 
 std::string_view change_name(Change change) { return names[static_cast<std::size_t>(change)]; }
+
+const CameBy::Kept* CameBy::find(std::uint32_t site) const {
+    for (std::size_t step = 0; step < places; ++step) {
+        const Kept& kept = kept_[(site + step) % places];
+        if (kept.site == site)
+            return &kept;
+        if (kept.site == 0)
+            return nullptr;
+    }
+    return nullptr;
+}
+
+void CameBy::keep(std::uint32_t site, std::span<const float> values) {
+    for (std::size_t step = 0; step < places; ++step) {
+        Kept& kept = kept_[(site + step) % places];
+        if (kept.site != site && kept.site != 0)
+            continue;
+        kept.site = site;
+        std::copy_n(values.begin(), std::min(values.size(), most_values), kept.values.begin());
+        return;
+    }
+}
+
+const std::array<float, CameBy::most_values>& CameBy::of(const Site& site) const {
+    static constexpr std::array<float, most_values> none{};
+    const Kept* kept = find(site.id);
+    return kept == nullptr ? none : kept->values;
+}
 
 std::vector<Mistake> mistakes_at(std::span<const SeenSite> sites) {
     std::vector<Mistake> found;
@@ -119,7 +162,7 @@ std::vector<Mistake> mistakes_at(std::span<const SeenSite> sites) {
             all({transposed});
             break;
         case Kind::choice:
-            all({last_taken, first_taken, greatest_taken, last_of_equals});
+            all({last_taken, first_taken, greatest_taken, last_of_equals, one_a_turn, added_up, units_added_up});
             break;
         }
         if (!is_value(seen))

@@ -1,4 +1,5 @@
 #pragma once
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <span>
@@ -31,7 +32,17 @@ enum class Change : std::uint8_t {
     plus,         ///< that added, and so on
     minus,
     times,
-    spoiled, ///< what the system says (Mistake::spoil)
+    yz_swapped,
+    xz_swapped,
+    rotated,      ///< y, z, x
+    rotated_back, ///< z, x, y
+    by_formula,   ///< what the system says (Mistake::formula)
+    spoiled,      ///< likewise (Mistake::spoil)
+    // By formula, as well: a condition, a loop, a fetch, a choice.
+    decided_by_formula,
+    ranged_by_formula,
+    fetched_by_formula,
+    chosen_by_formula,
     // A condition, or one comparison of it.
     inverted,
     always,
@@ -61,9 +72,43 @@ enum class Change : std::uint8_t {
     first_taken,
     greatest_taken,
     last_of_equals,
+    one_a_turn,    ///< after one that was taken, none before the next loop begins
+    added_up,      ///< what was found is the sum of all
+    units_added_up ///< of all as unit vectors
 };
 /// "negated"
 std::string_view change_name(Change change);
+
+/// What a run has come by: each site's values as they last were. A condition has its left operands, a fetch the texel.
+class CameBy {
+  public:
+    static constexpr std::size_t most_values = 4;
+
+    void keep(std::uint32_t site, std::span<const float> values);
+    /// The values kept, 0 where there are none.
+    [[nodiscard]] const std::array<float, most_values>& of(const Site& site) const;
+    [[nodiscard]] bool has(const Site& site) const { return find(site.id) != nullptr; }
+
+    const void* world = nullptr; ///< what the system foretold, see Mistaken::foretell
+    std::array<float, 3> constants{};
+
+  private:
+    struct Kept {
+        std::uint32_t site = 0;
+        std::array<float, most_values> values{};
+    };
+    static constexpr std::size_t places = 128;
+    [[nodiscard]] const Kept* find(std::uint32_t site) const;
+    std::array<Kept, places> kept_{}; ///< by site, in the next free place
+};
+
+/// A wrong way to compute, as the system says it: changes in place
+/// - a value's components, as they would have been;
+/// - of a condition its answer, followed by both operands of each comparison;
+/// - a loop's first, last and step;
+/// - a fetch's x and y, followed by the image's width and height;
+/// - the key by which one is chosen.
+using Formula = void (*)(std::span<float> value, const CameBy& run);
 
 /// One change of a twin at one site.
 struct Mistake {
@@ -74,6 +119,9 @@ struct Mistake {
     /// Of Change::spoiled: changes the components.
     void (*spoil)(std::span<float> value, const void* context) = nullptr;
     const void* context = nullptr;
+    Formula formula = nullptr;
+    std::array<float, 3> constants{}; ///< of the formula
+    const Mistake* also = nullptr;    ///< made together with it
 
     bool operator==(const Mistake&) const = default;
 };

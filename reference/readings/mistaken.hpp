@@ -90,10 +90,19 @@ template <class A> class Mistaken {
 
     Mistaken(A arithmetic, std::span<const Mistake> made) : fp_(arithmetic) {
         for (const Mistake& mistake : made)
-            if (count_ < made_.size()) {
-                made_[count_++].mistake = mistake;
-                touched_ |= bit(mistake.site) | bit(mistake.source);
+            for (const Mistake* one = &mistake; one != nullptr && count_ < made_.size(); one = one->also) {
+                made_[count_].mistake = *one;
+                made_[count_++].mistake.constants = mistake.constants;
+                touched_ |= bit(one->site) | bit(one->source);
+                if (one->formula != nullptr && !run_)
+                    run_.emplace();
             }
+    }
+
+    /// What formulas may ask of the system, whatever a run comes by.
+    void foretell(const void* world) {
+        if (run_)
+            run_->world = world;
     }
 
     /// From here on, writes down what sites it comes by, each kind of site once.
@@ -117,14 +126,15 @@ template <class A> class Mistaken {
     template <class T> T note(At p, T value) {
         constexpr bool whole = std::is_same_v<T, Int> || std::is_same_v<T, IVec2>;
         see(p, whole ? Kind::whole_value : Kind::value, static_cast<int>(parts(value).size()));
-        if (is_untouched(p))
-            return value;
-        for (Made& made : std::span(made_.data(), count_)) {
-            if (p.site.id == made.mistake.source)
-                keep(made, value);
-            if (p.site.id == made.mistake.site)
-                spoil(made, value);
-        }
+        if (!is_untouched(p))
+            for (Made& made : std::span(made_.data(), count_)) {
+                if (p.site.id == made.mistake.source)
+                    keep(made, value);
+                if (p.site.id == made.mistake.site)
+                    spoil(made, value);
+            }
+        if (run_)
+            came_by(p, value);
         return value;
     }
     bool decide(At p, bool condition) { return known(p, condition, Kind::condition); }
@@ -136,15 +146,30 @@ template <class A> class Mistaken {
     }
     IntRange<Int> range(At p, int first, int last) {
         see(p, Kind::loop);
+        ++loops_begun_;
         const Change change = change_at(p);
         if (change == Change::backwards)
             return {last, first, -1};
+        if (const Made* made = formula_at(p, Change::ranged_by_formula)) {
+            std::array<float, 3> loop{static_cast<float>(first), static_cast<float>(last), 1.0F};
+            ask(*made, loop);
+            const int from = static_cast<int>(loop[0]), step = std::max(static_cast<int>(loop[2]), 1);
+            const int turns = static_cast<int>(loop[1]) < from ? -1 : (static_cast<int>(loop[1]) - from) / step;
+            return {from, from + turns * step, step};
+        }
         return {first + (change == Change::first_skipped ? 1 : 0), last - (change == Change::last_skipped ? 1 : 0)};
     }
     /// Outside the image, where only a wrong size leads, drivers answer 0.
     template <class Texel> const Texel* fetch(At p, const Image<Texel>& image, const IVec2& size, const IVec2& at) {
         see(p, Kind::fetch);
         int x = at.x, y = at.y;
+        if (const Made* made = formula_at(p, Change::fetched_by_formula)) {
+            std::array<float, 4> place{static_cast<float>(x), static_cast<float>(y), static_cast<float>(size.x),
+                                       static_cast<float>(size.y)};
+            ask(*made, place);
+            x = static_cast<int>(place[0]);
+            y = static_cast<int>(place[1]);
+        }
         if (!(x >= 0 && y >= 0 && x < size.x && y < size.y)) {
             switch (change_at(p)) {
             case Change::outside_is_edge:
@@ -161,7 +186,11 @@ template <class A> class Mistaken {
                 return nullptr;
             }
         }
-        return image.contains(x, y) ? &image.at(x, y) : &zero;
+        const Texel* texel = image.contains(x, y) ? &image.at(x, y) : &zero;
+        if constexpr (std::is_same_v<Texel, glm::vec4>)
+            if (run_)
+                run_->keep(p.site.id, std::array{texel->x, texel->y, texel->z, texel->w});
+        return texel;
     }
 
     static Real real(Int i) { return static_cast<float>(static_cast<int>(i)); }
@@ -213,18 +242,38 @@ template <class A> class Mistaken {
         return {t.x, t.y, t.z, t.w};
     }
 
+  private:
+    struct Made {
+        Mistake mistake;
+        std::array<float, 4> kept{}; ///< the source's value, in this run
+        std::size_t kept_size = 0;
+    };
+
+  public:
     template <class Payload> class Least {
       public:
         Least(Mistaken& reading, At place, float first)
-            : reading_(reading), place_(place), change_(reading.change_at(place)), least_(first) {
+            : reading_(reading), place_(place), change_(reading.change_at(place)),
+              made_(reading.formula_at(place, Change::chosen_by_formula)), least_(first) {
             reading.see(place, Kind::choice);
         }
         template <class Condition>
         void offer(At place, const Condition& condition, const Real& key, const Payload& payload) {
-            if (!reading_.decide(place, condition) || !better(static_cast<float>(key)))
+            if (!reading_.decide(place, condition))
                 return;
-            least_ = static_cast<float>(key);
+            std::array<float, 1> by{static_cast<float>(key)};
+            if (made_ != nullptr)
+                reading_.ask(*made_, by);
+            if (!better(by[0]))
+                return;
+            least_ = by[0];
+            turn_ = reading_.loops_begun_;
+            const bool adds = change_ == Change::added_up || change_ == Change::units_added_up;
+            if (adds && found_)
+                return reading_.add(*found_, std::optional(payload), change_);
             found_ = payload;
+            if (adds)
+                reading_.add(*found_, std::optional<Payload>(), change_);
         }
         [[nodiscard]] const std::optional<Payload>& take() const { return found_; }
 
@@ -239,6 +288,11 @@ template <class A> class Mistaken {
                 return !found_ || key > least_;
             case Change::last_of_equals:
                 return key <= least_;
+            case Change::one_a_turn:
+                return key < least_ && !(found_ && turn_ == reading_.loops_begun_);
+            case Change::added_up:
+            case Change::units_added_up:
+                return true;
             default:
                 return key < least_;
             }
@@ -246,18 +300,14 @@ template <class A> class Mistaken {
         Mistaken& reading_;
         At place_;
         Change change_;
+        const Made* made_;
         float least_;
+        int turn_ = 0;
         std::optional<Payload> found_;
     };
 
   private:
     using Kind = SeenSite::Kind;
-
-    struct Made {
-        Mistake mistake;
-        std::array<float, 4> kept{}; ///< the source's value, in this run
-        std::size_t kept_size = 0;
-    };
 
     static Vec3 vector(glm::vec3 v) { return {v.x, v.y, v.z}; }
 
@@ -277,9 +327,51 @@ template <class A> class Mistaken {
         if (is_untouched(p))
             return Change::none;
         for (const Made& made : std::span(made_.data(), count_))
-            if (made.mistake.site == p.site.id && made.mistake.change > Change::spoiled)
+            if (made.mistake.site == p.site.id && made.mistake.change > Change::chosen_by_formula)
                 return made.mistake.change;
         return Change::none;
+    }
+
+    /// The mistake there that a formula says, of one kind.
+    [[nodiscard]] const Made* formula_at(At p, Change kind) const {
+        if (!run_ || is_untouched(p))
+            return nullptr;
+        for (const Made& made : std::span(made_.data(), count_))
+            if (made.mistake.site == p.site.id && made.mistake.change == kind)
+                return &made;
+        return nullptr;
+    }
+    void ask(const Made& made, std::span<float> value) {
+        run_->constants = made.mistake.constants;
+        made.mistake.formula(value, *run_);
+    }
+    template <class T> void came_by(At p, const T& value) {
+        const auto all = parts(value);
+        std::array<float, CameBy::most_values> v{};
+        for (std::size_t i = 0; i < all.size(); ++i)
+            v[i] = as_float(*all[i]);
+        run_->keep(p.site.id, std::span(v.data(), all.size()));
+    }
+
+    /// The vectors of what was found, and of one more, added up.
+    template <class Payload> void add(Payload& sum, const std::optional<Payload>& more, Change change) {
+        if constexpr (requires { sum.fields(); }) {
+            const auto as_asked = [&](const Vec3& v) {
+                return change == Change::units_added_up ? vector(fp_.normalize(floats(v))) : v;
+            };
+            const auto visit = [&]<class Field>(Field& field, const Field* other) {
+                if constexpr (std::is_same_v<Field, Vec3>)
+                    field = other == nullptr ? as_asked(field) : field + as_asked(*other);
+            };
+            std::apply(
+                [&](auto&... field) {
+                    if (more)
+                        std::apply([&](const auto&... other) { (visit(field, &other), ...); }, more->fields());
+                    else
+                        (visit(field, static_cast<const std::remove_reference_t<decltype(field)>*>(nullptr)), ...);
+                },
+                sum.fields());
+        }
     }
 
     template <class T> static auto parts(T& value) {
@@ -298,11 +390,20 @@ template <class A> class Mistaken {
     static void set(Real& to, float x) { to = x; }
     static void set(Int& to, float x) { to = static_cast<int>(x); }
 
-    template <class T> void spoil(const Made& made, T& value) const {
+    template <class T> void spoil(const Made& made, T& value) {
         const auto all = parts(value);
         const Mistake& mistake = made.mistake;
         if (mistake.change > Change::spoiled)
             return; // of the operation at this site
+        if (mistake.change == Change::by_formula) {
+            std::array<float, 4> v{};
+            for (std::size_t i = 0; i < all.size(); ++i)
+                v[i] = as_float(*all[i]);
+            ask(made, std::span(v.data(), all.size()));
+            for (std::size_t i = 0; i < all.size(); ++i)
+                set(*all[i], v[i]);
+            return;
+        }
         if (mistake.change == Change::spoiled) {
             std::array<float, 4> v{};
             for (std::size_t i = 0; i < all.size(); ++i)
@@ -313,6 +414,9 @@ template <class A> class Mistaken {
         } else if (mistake.change == Change::swapped) {
             if constexpr (all.size() > 1)
                 std::swap(*all[0], *all[1]);
+        } else if (mistake.change >= Change::yz_swapped && mistake.change <= Change::rotated_back) {
+            if constexpr (all.size() == 3)
+                reorder(*all[0], *all[1], *all[2], mistake.change);
         } else if (mistake.change == Change::x_everywhere) {
             for (auto* part : all)
                 *part = *all[0];
@@ -321,6 +425,14 @@ template <class A> class Mistaken {
                 if (mistake.part < 0 || mistake.part == static_cast<int>(i))
                     set(*all[i], changed(mistake.change, as_float(*all[i]), made.kept[made.kept_size > 1 ? i : 0]));
         }
+    }
+    template <class T> static void reorder(T& x, T& y, T& z, Change change) {
+        if (change == Change::rotated)
+            std::swap(x, y);
+        if (change == Change::xz_swapped || change == Change::rotated_back)
+            std::swap(x, z);
+        if (change != Change::xz_swapped)
+            std::swap(y, z);
     }
     static float changed(Change change, float x, float other) {
         switch (change) {
@@ -378,10 +490,25 @@ template <class A> class Mistaken {
     template <bool all, std::size_t n> bool holds(At p, const OpenComparisons<Real, all, n>& condition) {
         see(p, Kind::condition, static_cast<int>(n));
         bool at_site = false, is_all = all;
+        if (run_ && n <= CameBy::most_values) {
+            std::array<float, n> left{};
+            for (std::size_t i = 0; i < n; ++i)
+                left[i] = as_float(condition.part[i].a);
+            run_->keep(p.site.id, left);
+        }
         if (is_untouched(p))
             return holds(condition);
+        if (const Made* made = formula_at(p, Change::decided_by_formula)) {
+            std::array<float, 1 + 2 * n> v{holds(condition) ? 1.0F : 0.0F};
+            for (std::size_t i = 0; i < n; ++i) {
+                v[1 + 2 * i] = as_float(condition.part[i].a);
+                v[2 + 2 * i] = as_float(condition.part[i].b);
+            }
+            ask(*made, v);
+            return v[0] != 0.0F;
+        }
         for (const Made& made : std::span(made_.data(), count_))
-            if (made.mistake.site == p.site.id) {
+            if (made.mistake.site == p.site.id && made.mistake.change > Change::chosen_by_formula) {
                 at_site = true;
                 is_all = is_all != (made.mistake.change == Change::and_is_or);
             }
@@ -433,6 +560,8 @@ template <class A> class Mistaken {
     std::size_t count_ = 0;
     std::uint64_t touched_ = 0;
     bool looks_ = false;
+    int loops_begun_ = 0;
+    std::optional<CameBy> run_; ///< where a formula asks for it
     std::vector<SeenSite> sites_;
 };
 

@@ -27,6 +27,10 @@ std::vector<std::size_t> spread(const std::vector<std::size_t>& all) {
     return some;
 }
 
+bool sums(const Mistake& mistake) {
+    return mistake.change == Change::added_up || mistake.change == Change::units_added_up;
+}
+
 /// The same bits but for the sign of zero, which depends on how a mistake was written down.
 bool alike(Value a, Value b) {
     return same_bits(a, b) || (a.scalar == Scalar::float32 && a.real() == 0.0F && b.real() == 0.0F);
@@ -34,7 +38,7 @@ bool alike(Value a, Value b) {
 
 } // namespace
 
-bool ItemCauseFinder::Trial::near(std::size_t item, const ValueOf& a, const ValueOf& b) const {
+bool ItemCauseFinder::Trial::near(std::size_t item, const ValueOf& a, const ValueOf& b, float ulps) const {
     const View& before = pass.before[pass.pass.resource()];
     std::array<std::array<float, 4>, 3> field{};
     for (std::size_t from = 0, to = 0; from < parts.size(); from = to) {
@@ -51,7 +55,7 @@ bool ItemCauseFinder::Trial::near(std::size_t item, const ValueOf& a, const Valu
             field[2][n++] = before.value(parts[to].field, item, parts[to].component).real();
         }
         if (!differ_by_rounding(std::span(field[0].data(), n), std::span(field[1].data(), n),
-                                std::span(field[2].data(), n)))
+                                std::span(field[2].data(), n), ulps))
             return false;
     }
     return true;
@@ -61,7 +65,7 @@ bool ItemCauseFinder::Trial::is_off_by_rounding(std::size_t item) const {
     const auto of = [&](const View& view) {
         return [&view, item](const Component& c, std::size_t) { return view.value(c.field, item, c.component); };
     };
-    return near(item, of(pass.gpu), of(pass.reference));
+    return near(item, of(pass.gpu), of(pass.reference), rewritten_ulps);
 }
 
 bool ItemCauseFinder::explains(const Hypothesis& hypothesis, const Trial& trial, std::size_t item) {
@@ -95,7 +99,8 @@ bool ItemCauseFinder::explains(const Hypothesis& hypothesis, const Trial& trial,
             [&](const Component& c, std::size_t w) {
                 return Value{p.gpu.value(c.field, item, c.component).scalar, words[w]};
             },
-            [&](const Component& c, std::size_t) { return p.gpu.value(c.field, item, c.component); });
+            [&](const Component& c, std::size_t) { return p.gpu.value(c.field, item, c.component); },
+            sums(*hypothesis.mistake) ? summed_ulps : rewritten_ulps);
     for (std::size_t w = 0; w < parts.size(); ++w) {
         const Value gpu = p.gpu.value(parts[w].field, item, parts[w].component);
         if (!alike({gpu.scalar, words[w]}, gpu))

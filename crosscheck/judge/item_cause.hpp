@@ -46,7 +46,10 @@ class ItemCauseFinder {
         std::uint64_t telling = 0; ///< of those explained, which are off by more than rounding
 
         /// Whether it need only come near: a formula may be written in other orders.
-        [[nodiscard]] bool rounds() const { return mistake && (named == nullptr || mistake->formula != nullptr); }
+        [[nodiscard]] bool rounds() const {
+            return mistake && (named == nullptr || mistake->formula != nullptr || mistake->also != nullptr ||
+                               mistake->change >= Change::one_a_turn);
+        }
 
         /// Names first, then the host's, then a wrong input, then all else.
         [[nodiscard]] int rank() const {
@@ -65,7 +68,7 @@ class ItemCauseFinder {
         std::span<const std::size_t> divergent, agreeing;
         using ValueOf = std::function<Value(const Component& part, std::size_t word)>;
         /// Whether two values of the item differ by rounding alone, in every field.
-        [[nodiscard]] bool near(std::size_t item, const ValueOf& a, const ValueOf& b) const;
+        [[nodiscard]] bool near(std::size_t item, const ValueOf& a, const ValueOf& b, float ulps) const;
         [[nodiscard]] bool is_off_by_rounding(std::size_t item) const;
     };
     static void add_named(std::vector<Hypothesis>& all, const NamedMistake& named, const JudgedPass& pass,

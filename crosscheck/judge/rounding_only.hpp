@@ -10,16 +10,20 @@ namespace lockstep {
 /// 12 of length (4.7.1, as the Vulkan environment derives it), two products and a sum.
 inline constexpr float rewritten_ulps = 16.0F;
 
+/// The same of a sum over a window, whose terms may cancel.
+inline constexpr float summed_ulps = 64.0F * rewritten_ulps;
+
 /// Whether two values of a field, a vector or one number, differ by rounding alone. `before`: what the item had; a step
 /// from there rounds as that does.
-inline bool differ_by_rounding(std::span<const float> a, std::span<const float> b, std::span<const float> before) {
+inline bool differ_by_rounding(std::span<const float> a, std::span<const float> b, std::span<const float> before,
+                               float ulps = rewritten_ulps) {
     float scale = 0.0F;
     for (const std::span<const float> values : {a, b, before})
         for (const float x : values)
             scale = std::max(scale, std::abs(x)); // NaN: not greater
     for (std::size_t c = 0; c < a.size(); ++c)
-        if (!(std::abs(a[c] - b[c]) <= scale * (rewritten_ulps * 0x1p-23F)) &&
-            !(std::isnan(a[c]) && std::isnan(b[c])) && a[c] != b[c])
+        if (!(std::abs(a[c] - b[c]) <= scale * (ulps * 0x1p-23F)) && !(std::isnan(a[c]) && std::isnan(b[c])) &&
+            a[c] != b[c])
             return false;
     return true;
 }

@@ -72,7 +72,7 @@ constexpr std::array drags{0.5F, 0.8F, 0.9F, 0.95F, 0.98F, 0.99F, 0.995F, 0.999F
 constexpr std::array epsilons{1e-1F,  1e-2F,  1e-3F,  1e-4F,  1e-5F,  1e-6F,  1e-7F,
                               -1e-1F, -1e-2F, -1e-3F, -1e-4F, -1e-5F, -1e-6F, -1e-7F};
 constexpr std::array ranges{0.001F, 0.01F, 0.02F, 0.05F, 0.1F, 0.2F, 0.25F, 0.5F, 1.0F, 2.0F, 5.0F, 10.0F};
-constexpr std::array four{0.0F, 1.0F, 2.0F, 3.0F};
+constexpr std::array eight{0.0F, 1.0F, 2.0F, 3.0F, 4.0F, 5.0F, 6.0F, 7.0F};
 constexpr std::array three{0.0F, 1.0F, 2.0F};
 constexpr std::array six{0.0F, 1.0F, 2.0F, 3.0F, 4.0F, 5.0F};
 
@@ -182,6 +182,14 @@ void add_windows(std::vector<FormulaMistake>& all) {
 
 /// Which texel is read of one that is looked at.
 void add_fetches(std::vector<FormulaMistake>& all) {
+    all.push_back(
+        {"radius_is_one", "1 for u_TexelCollideRange", {.site = site::texel_collide_range.id, .change = one}});
+    all.push_back(
+        {"radius_halved", "u_TexelCollideRange / 2", {.site = site::texel_collide_range.id, .change = halved}});
+    all.push_back(
+        {"radius_doubled", "2 * u_TexelCollideRange", {.site = site::texel_collide_range.id, .change = doubled}});
+    all.push_back({"range_doubled", "2 * u_CollisionRange", {.site = site::collision_range.id, .change = doubled}});
+    all.push_back({"range_halved", "u_CollisionRange / 2", {.site = site::collision_range.id, .change = halved}});
     all.push_back({"border_never_read", "the image's outermost texels are never read", fetch([](Values v, Run) {
                        if (v[0] < 1.0F || v[1] < 1.0F || v[0] > v[2] - 2.0F || v[1] > v[3] - 2.0F)
                            leave_out(v);
@@ -331,9 +339,11 @@ void add_base_texels(std::vector<FormulaMistake>& all) {
                              const auto w = static_cast<float>(params(run).width),
                                         h = static_cast<float>(params(run).height);
                              const auto which = static_cast<int>(run.constants[0]);
-                             v[which < 2 ? 0 : 1] *= which % 2 == 0 ? h / w : w / h;
+                             const std::size_t c = which % 4 < 2 ? 0 : 1;
+                             const float aspect = which % 2 == 0 ? h / w : w / h;
+                             v[c] = which < 4 ? run.of(site::clip)[c] * aspect / clip_w(run) : v[c] * aspect;
                          }),
-                   four});
+                   eight});
     all.push_back({"divided_by_z", "clip xy is divided by z", value(site::ndc, [](Values v, Run run) {
                        const auto& clip = run.of(site::clip);
                        v[0] = clip[0] / clip[2], v[1] = clip[1] / clip[2];

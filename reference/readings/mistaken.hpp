@@ -137,7 +137,14 @@ template <class A> class Mistaken {
             came_by(p, value);
         return value;
     }
-    bool decide(At p, bool condition) { return known(p, condition, Kind::condition); }
+    bool decide(At p, bool condition) {
+        if (const Made* made = formula_at(p, Change::decided_by_formula)) {
+            std::array<float, 1> answer{condition ? 1.0F : 0.0F};
+            ask(*made, answer);
+            return answer[0] != 0.0F;
+        }
+        return known(p, condition, Kind::condition);
+    }
     bool decide(At p, const OpenComparison<Real>& condition) {
         return holds(p, OpenComparisons<Real, true, 1>{{condition}});
     }

@@ -239,8 +239,8 @@ TEST_CASE("verdict: the stress scenes together show 99 of 100 mistakes, and each
                                                 "--power-at-least", "99%", "--json", json});
     INFO(outcome.out << outcome.err);
     CHECK(outcome.status == 0);
-    CHECK_THAT(outcome.out, Catch::Contains("verdict   all 5 scenes pass"));
-    CHECK(json_of(json)["scenes"].size() == 5);
+    CHECK_THAT(outcome.out, Catch::Contains("verdict   all 6 scenes pass"));
+    CHECK(json_of(json)["scenes"].size() == 6);
     CHECK(run_lockstep({"check", "--stress", "--trace", "run.h5"}).status == 2);
 }
 

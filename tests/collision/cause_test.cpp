@@ -210,7 +210,7 @@ TEST_CASE("cause: every deviation that shows is found by its name, alone or besi
     }
     CHECK(hidden == "");
     // What another mistake may do just as well: searching in the wrong place, say.
-    CHECK(second == "radius_one_less outside_fetched_as_origin point_without_divide ");
+    CHECK(second == "radius_one_less outside_fetched_as_origin point_without_divide fragment_depth_reversed ");
 }
 
 TEST_CASE("cause: two deviations at once are found as a pair") {

@@ -1,0 +1,73 @@
+#include <algorithm>
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+#include <string>
+#include <vector>
+
+#include <catch2/catch.hpp>
+
+#include "crosscheck/report/report.hpp"
+#include "crosscheck/report/verdict_text.hpp"
+#include "crosscheck/scene/scene_file.hpp"
+#include "tests/collision/twin/llvmpipe.hpp"
+#include "tests/collision/twin/twin_scenes.hpp"
+#include "tests/temporary_folder.hpp"
+
+using namespace lockstep;
+
+namespace {
+
+std::string content(const std::filesystem::path& file) {
+    std::ifstream stream(file);
+    return {std::istreambuf_iterator<char>(stream), {}};
+}
+
+/// What follows `word` in a text, up to `end`.
+std::string after(const std::string& text, const std::string& word, char end) {
+    const std::size_t at = text.find(word);
+    REQUIRE(at != std::string::npos);
+    const std::size_t from = at + word.size();
+    return text.substr(from, text.find(end, from) - from);
+}
+
+/// The names that a run gives for what diverges; none where no cause is told.
+std::vector<std::string> told_causes(const CheckReport& report) {
+    std::vector<std::string> names;
+    if (report.verdicts && tells_cause(*report.verdicts))
+        for (const CauseFindings& found : report.verdicts->causes)
+            if (found.explains_all())
+                for (const Cause& cause : found.best)
+                    names.push_back(cause.name());
+    return names;
+}
+
+} // namespace
+
+TEST_CASE("wrong shaders: the cause of each, whatever its style, is told by its name") {
+    const auto context = test::open_llvmpipe();
+    if (!context)
+        return;
+    std::vector<std::filesystem::path> files;
+    for (const auto& entry : std::filesystem::directory_iterator("tests/collision/wrong_shaders"))
+        files.push_back(entry.path());
+    std::sort(files.begin(), files.end());
+    CHECK(files.size() >= 24);
+    for (const std::filesystem::path& file : files) {
+        const std::string text = content(file), cause = after(text, "// cause: ", ',');
+        const test::TemporaryFolder shaders;
+        shaders.write("collision_pass" + file.extension().string(), text);
+        const Scene scene = load_scene("data/scenes/stress/" + after(text, ", in ", '\n') + ".json", {});
+        const CheckReport report = test::check_twins(scene, 8, shaders.path());
+        const std::vector<std::string> told = told_causes(report);
+        std::string all;
+        for (const std::string& name : told)
+            all += name + " ";
+        INFO(file << ": " << verdict_name(report.verdict) << ", told: " << all);
+        CHECK(report.verdict == Verdict::divergent);
+        if (cause == "none")
+            CHECK(told.empty());
+        else
+            CHECK(std::find(told.begin(), told.end(), cause) != told.end());
+    }
+}

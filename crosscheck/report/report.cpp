@@ -338,9 +338,8 @@ std::string report_text(const CheckReport& r, const RunDescription& run) {
     const std::string_view second = r.verdict == Verdict::nondeterministic ? "second run" : "GPU";
     const std::string_view first = r.verdict == Verdict::nondeterministic ? "first run" : "reference";
     for (const FrameDifference& d : r.worst)
-        out +=
-            fmt::format("  {}: {} {}, {} {}, {}\n", place(r, d), first, value_text(d.difference.reference), second,
-                        value_text(d.difference.gpu), distance_text(d.difference.ulp, d.difference.reference.scalar));
+        out += fmt::format("  {}: {} {}, {} {}, {}\n", place(r, d), first, value_text(d.difference.reference), second,
+                           value_text(d.difference.gpu), distance_text(d.difference));
     if (run.mode == "free" && r.verdict == Verdict::differ) {
         out += growth_text(r);
     }

@@ -4,6 +4,8 @@
 
 #include <fmt/format.h>
 
+#include "crosscheck/report/value_text.hpp"
+
 namespace lockstep {
 namespace {
 
@@ -17,6 +19,8 @@ std::string ulp_text(const StepRow& row) {
     if (!row.reference.number || !row.gpu.number)
         return "";
     const std::int64_t ulp = row.ulp();
+    if (of_other_sign(*row.reference.number, *row.gpu.number, ulp))
+        return "other sign";
     return ulp == INT64_MAX ? "NaN" : fmt::format("{}", ulp);
 }
 

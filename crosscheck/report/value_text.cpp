@@ -32,6 +32,18 @@ std::string distance_text(std::int64_t distance, Scalar scalar) {
     return distance == 0 ? "sign of zero" : grouped(static_cast<std::uint64_t>(distance)) + " ULP";
 }
 
+bool of_other_sign(float reference, float gpu, std::int64_t ulp) {
+    constexpr std::int64_t one_octave = std::int64_t{1} << 23;
+    return ulp > one_octave && ulp != INT64_MAX && std::signbit(reference) != std::signbit(gpu);
+}
+
+std::string distance_text(const Difference& difference) {
+    const Value &reference = difference.reference, &gpu = difference.gpu;
+    const bool signs =
+        reference.scalar == Scalar::float32 && of_other_sign(reference.real(), gpu.real(), difference.ulp);
+    return signs ? "other sign" : distance_text(difference.ulp, reference.scalar);
+}
+
 std::string difference_text(const Schema& schema, const Difference& difference) {
     return fmt::format("{}: reference {}, GPU {}", component_name(schema[difference.field], difference.component),
                        exact_text(difference.reference), exact_text(difference.gpu));

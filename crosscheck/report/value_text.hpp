@@ -23,6 +23,12 @@ nlohmann::json value_json(Value value);
 /// "3 ULP"; of integers "3 apart".
 std::string distance_text(std::int64_t distance, Scalar scalar = Scalar::float32);
 
+/// The same of a difference; "other sign" of floats on two sides of 0, whose ULP say nothing.
+std::string distance_text(const Difference& difference);
+
+/// Whether the floats' distance is mostly that to 0 and back: `ulp` of more than an octave.
+bool of_other_sign(float reference, float gpu, std::int64_t ulp);
+
 /// "position.x: reference 0x1p+0, GPU 0x1.000002p+0".
 std::string difference_text(const Schema& schema, const Difference& difference);
 

@@ -1,0 +1,27 @@
+#include <catch2/catch.hpp>
+
+#include <limits>
+
+#include "crosscheck/report/row_text.hpp"
+#include "crosscheck/report/value_text.hpp"
+#include "reference/model/ulp.hpp"
+
+using namespace lockstep;
+
+namespace {
+
+std::string distance(float reference, float gpu) {
+    return distance_text(Difference{{}, 0, 0, reference, gpu, ulp_distance(reference, gpu)});
+}
+
+} // namespace
+
+TEST_CASE("value text: floats of the same sign, or close to 0, are ULP apart; others have another sign") {
+    CHECK(distance(1.0F, 1.0000001F) == "1 ULP");
+    CHECK(distance(1.0F, 3.0e8F).ends_with(" ULP"));
+    CHECK(distance(-1e-45F, 1e-45F) == "2 ULP");
+    CHECK(distance(0.0F, -0.0F) == "sign of zero");
+    CHECK(distance(-0.48F, 0.97F) == "other sign");
+    CHECK(distance(0.0F, 0.97F).ends_with(" ULP"));
+    CHECK(distance(1.0F, std::numeric_limits<float>::quiet_NaN()) == "NaN on one side");
+}

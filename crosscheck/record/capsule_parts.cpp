@@ -20,13 +20,13 @@ constexpr std::size_t inverse_sqrts = std::size_t{1} << 24U;
 
 constexpr std::pair<std::string_view, bool KnownOperations::*> known_table[] = {
     {"sums", &KnownOperations::sums},
-    {"factors_reordered", &KnownOperations::factors_reordered},
     {"divide", &KnownOperations::divide},
     {"square_root", &KnownOperations::square_root},
     {"dot", &KnownOperations::dot},
     {"normalize", &KnownOperations::normalize},
     {"subnormals", &KnownOperations::subnormals},
-    {"points", &KnownOperations::points}};
+    {"points", &KnownOperations::points},
+    {"factors_reordered", &KnownOperations::factors_reordered}};
 
 /// Index and value of what was looked up in a table.
 using Lookups = std::map<std::size_t, float>;

@@ -51,11 +51,14 @@ class ItemCauseFinder {
                                mistake->change >= Change::one_a_turn);
         }
 
-        /// Names first, then the host's, then a wrong input, then all else.
+        /// Names first, those with constants of their own after the others; then the host's, then a wrong input, then
+        /// all else.
         [[nodiscard]] int rank() const {
-            if (named != nullptr || host != Host::none)
-                return named != nullptr ? 0 : 1;
-            return text.starts_with("u_") ? 2 : 3;
+            if (named != nullptr)
+                return text.empty() ? 0 : 1;
+            if (host != Host::none)
+                return 2;
+            return text.starts_with("u_") ? 3 : 4;
         }
         [[nodiscard]] std::int64_t balance() const {
             return static_cast<std::int64_t>(explained) - static_cast<std::int64_t>(contradicted);

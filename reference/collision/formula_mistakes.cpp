@@ -194,6 +194,22 @@ void add_fetches(std::vector<FormulaMistake>& all) {
                        if (v[0] < 1.0F || v[1] < 1.0F || v[0] > v[2] - 2.0F || v[1] > v[3] - 2.0F)
                            leave_out(v);
                    })});
+    all.push_back({"last_column_never_read", "the image's last column is never read", fetch([](Values v, Run) {
+                       if (v[0] > v[2] - 2.0F)
+                           leave_out(v);
+                   })});
+    all.push_back({"last_row_never_read", "the image's last row is never read", fetch([](Values v, Run) {
+                       if (v[1] > v[3] - 2.0F)
+                           leave_out(v);
+                   })});
+    all.push_back({"first_column_never_read", "the image's first column is never read", fetch([](Values v, Run) {
+                       if (v[0] < 1.0F)
+                           leave_out(v);
+                   })});
+    all.push_back({"first_row_never_read", "the image's first row is never read", fetch([](Values v, Run) {
+                       if (v[1] < 1.0F)
+                           leave_out(v);
+                   })});
     all.push_back({"last_texels_never_read", "the image's last row and column are never read", fetch([](Values v, Run) {
                        if (v[0] > v[2] - 2.0F || v[1] > v[3] - 2.0F)
                            leave_out(v);
@@ -376,6 +392,9 @@ void add_base_texels(std::vector<FormulaMistake>& all) {
     static const Formula projects_predicted = [](Values v, Run run) {
         projects(v, run, before(run) + (old_velocity(run) + fall(run)) * tick(run));
     };
+    all.push_back(
+        {"base_texel_of_position_ahead", "searches round where position + velocity * tick lies",
+         value(site::clip, [](Values v, Run run) { projects(v, run, before(run) + old_velocity(run) * tick(run)); })});
     all.push_back({"base_texel_of_predicted_position", "searches round where free fall would lead to",
                    value(site::clip, projects_predicted)});
     all.push_back({"all_of_predicted_position", "searches as if it were where free fall would lead to",
@@ -428,6 +447,9 @@ void add_responses(std::vector<FormulaMistake>& all) {
     all.push_back(
         {"mean_of_away_and_old_direction", "at a hit: the mean of away and the old direction",
          hit_direction([](Values v, Run run) { set(v, glm::normalize(unit_away(run) + old_direction(run))); })});
+    all.push_back(
+        {"away_plus_old_direction", "at a hit: away, not normalised, plus the old direction",
+         hit_direction([](Values v, Run run) { set(v, glm::normalize(vec3(run, site::away) + old_direction(run))); })});
     all.push_back({"half_of_away_and_old_direction", "at a hit: half of away plus the old direction, not normalised",
                    hit_direction([](Values v, Run run) { set(v, 0.5F * (unit_away(run) + old_direction(run))); })});
     all.push_back({"sideways_at_hit", "at a hit: the cross product of away and an axis",
@@ -505,6 +527,10 @@ void add_responses(std::vector<FormulaMistake>& all) {
                    })});
     all.push_back({"speed_is_factor", "at a hit: the speed is the factor",
                    value(site::speed_at_hit, [](Values v, Run run) { v[0] = params(run).switches.speed_factor; })});
+    all.push_back(
+        {"speed_divided_by_factor", "at a hit: speed / factor", value(site::speed_at_hit, [](Values v, Run run) {
+             v[0] = real(run, site::speed_before) / params(run).switches.speed_factor;
+         })});
     all.push_back({"speed_by_tick", "at a hit: speed * factor * tick",
                    value(site::speed_at_hit, [](Values v, Run run) { v[0] *= tick(run); })});
     all.push_back({"speed_by_approach", "at a hit: the speed along away, times the factor",

@@ -11,6 +11,7 @@
 #include "crosscheck/judge/drawn_cause.hpp"
 #include "reference/collision/collision_mistakes.hpp"
 #include "reference/collision/deviation.hpp"
+#include "reference/collision/formula_mistakes.hpp"
 #include "reference/model/error.hpp"
 #include "tests/mutants/host_faults.hpp"
 #include "tests/shipped_shaders.hpp"
@@ -74,7 +75,10 @@ Mutant read_mutant(const JsonValue& json, const std::string& pass) {
     // Two names that together are the mistake: "a + b".
     const std::size_t plus = mutant.cause.find(" + ");
     const auto is_named = [&](std::string_view name) {
-        return std::any_of(table.begin(), table.end(), [&](const DeviationInfo& info) { return info.name == name; });
+        const auto has = [&](const auto& all) {
+            return std::any_of(all.begin(), all.end(), [&](const auto& info) { return info.name == name; });
+        };
+        return has(table) || has(formula_mistakes());
     };
     const std::string_view cause = mutant.cause;
     const bool named = plus == std::string_view::npos

@@ -41,9 +41,9 @@ struct Mutant {
 
 /// Reads a catalogue: a JSON array of objects with `name`, then `file`, `text`, `replacement` and `times` (default 1),
 /// or an array `edits` of such, or `fault`; `cause`, `alike` (an object), `equivalent` and `sums` ("(x+y)+z") as above.
-/// Causes are names of reference/collision/deviation.hpp, or two of them, "a + b"; those of another `pass` may also be
-/// changes at a site, as "part: zero". Throws Error naming the value that is wrong: an unknown fault, cause or order, a
-/// name that stands twice.
+/// Causes are names of reference/collision/deviation.hpp and formula_mistakes.cpp, or two of them, "a + b"; those of
+/// another `pass` may also be changes at a site, as "part: zero". Throws Error naming the value that is wrong: an
+/// unknown fault, cause or order, a name that stands twice.
 std::vector<Mutant> read_catalogue(const std::filesystem::path& file, const std::string& pass = "collision_pass");
 
 /// All of tests/mutants/: shaders.json and host.json, octree_pass.json and layered_collision_pass.json.

@@ -265,6 +265,17 @@ CauseFindings ItemCauseFinder::findings() const {
         if (hypothesis.telling == 0 || (hypothesis.rounds() && 2 * hypothesis.telling < hypothesis.explained))
             continue;
         const bool named = hypothesis.named != nullptr;
+        // A constant that fits a few is no evidence, nor is one of several that fit as well, but for those fitted.
+        const auto is_rival = [&](const Hypothesis& other) {
+            return &other != &hypothesis && other.named == hypothesis.named &&
+                   other.explained == hypothesis.explained && other.contradicted == hypothesis.contradicted;
+        };
+        if (named && !hypothesis.text.empty() &&
+            (hypothesis.explained < enough_for_constant ||
+             (!hypothesis.named->fit && std::any_of(tried_.begin(), tried_.end(), is_rival)) ||
+             std::any_of(found.best.begin(), found.best.end(),
+                         [&](const Cause& cause) { return cause.mistakes.front() == hypothesis.named->name; })))
+            continue;
         std::string meaning = "a change of the twin at one site";
         if (hypothesis.host == Hypothesis::Host::unwritten)
             meaning = "the pass left them as they were";

@@ -177,7 +177,12 @@ class RunJudge {
                     return cause.has_name && cause.mistakes.front() == info.name;
                 });
             });
-            return of_sites.explains_all() ? of_sites : of_catalogue;
+            // Among thousands of changes without a name one explains a few items by chance.
+            constexpr std::uint64_t enough_for_change = 8;
+            return of_sites.explains_all() &&
+                           (of_sites.best.front().has_name || of_sites.divergent >= enough_for_change)
+                       ? of_sites
+                       : of_catalogue;
         }
         if (of_sites.explains_all())
             for (const Cause& cause : of_sites.best)

@@ -69,6 +69,10 @@ TEST_CASE("planted faults: 100 in the GPU's state, each located to the frame, th
         CHECK(first.wrong.difference.component == component);
         CHECK(same_bits(first.wrong.difference.reference, plant.before()));
         CHECK(same_bits(first.wrong.difference.gpu, plant.after()));
+        std::string told;
+        for (const Cause& cause : report.verdicts->causes[collision::particles].best)
+            told += cause.name() + "; ";
+        INFO("told: " << told);
         CHECK_FALSE(report.verdicts->causes[collision::particles].explains_all());
         CHECK(seconds_to_answer(report) < 5.0);
     }

@@ -292,11 +292,16 @@ void attribute(GLuint index, GLint components, GLenum type, GLboolean normalised
                                    reinterpret_cast<const void*>(speed ? bytes + SpeedOffset : bytes));
 }
 
-void attribute_per_instance(GLuint index, GLint components, GLenum type, GLboolean normalised, GLsizei stride,
-                            const void* offset) {
+GLint components_of_last_attribute = 0;
+
+void note_components(GLuint index, GLint components, GLenum type, GLboolean normalised, GLsizei stride,
+                     const void* offset) {
+    components_of_last_attribute = components;
     state.real.VertexAttribPointer(index, components, type, normalised, stride, offset);
-    if (in_collision_pass() && components == 1)
-        state.real.VertexAttribDivisor(index, 1);
+}
+
+void attribute_per_instance(GLuint index, GLuint divisor) {
+    state.real.VertexAttribDivisor(index, in_collision_pass() && components_of_last_attribute == 1 ? 1 : divisor);
 }
 
 template <auto Before, auto After> void draw_triangles(GLenum mode, GLsizei count, GLenum type, const void* indices) {
@@ -352,7 +357,11 @@ const Fault faults[] = {
     {"attribute_offset_wrong", [] { gl::VertexAttribPointer = attribute<16, 0, false>; }},
     {"attribute_stride_wrong", [] { gl::VertexAttribPointer = attribute<0, -4, false>; }},
     {"attribute_normalised", [] { gl::VertexAttribPointer = attribute<0, 0, true>; }},
-    {"attribute_per_instance", [] { gl::VertexAttribPointer = attribute_per_instance; }},
+    {"attribute_per_instance",
+     [] {
+         gl::VertexAttribPointer = note_components;
+         gl::VertexAttribDivisor = attribute_per_instance;
+     }},
     {"matrix_transposed", [] { gl::UniformMatrix4fv = uniform_matrix<transpose>; }},
     {"matrix_of_earlier_frame", [] { gl::UniformMatrix4fv = uniform_matrix<use_earlier_matrix>; }},
     {"matrix_set_after_draw", [] { gl::UniformMatrix4fv = uniform_matrix<use_last_matrix>; }},

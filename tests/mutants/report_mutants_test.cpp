@@ -31,11 +31,11 @@ struct Expectation {
 };
 
 constexpr Expectation expectations[] = {
-    {"no_perspective_divide", "clip / w."},     {"y_flipped", "image position.y"},
+    {"no_perspective_divide", "clip / w."},   {"y_flipped", "image position.y"},
     {"collide_time_zero_searches", "search"}, {"distance_without_z", "texel ("},
-    {"nearest_last_found", "texel ("},          {"range_not_tested", "texel ("},
-    {"hit_direction_kept", "direction."},       {"hit_time_not_set", "collide time"},
-    {"gravity_missing", "velocity."},           {"move_reversed", "position."},
+    {"nearest_last_found", "texel ("},        {"range_not_tested", "texel ("},
+    {"hit_direction_kept", "direction."},     {"hit_time_not_set", "collide time"},
+    {"gravity_missing", "velocity."},         {"move_reversed", "position."},
 };
 
 /// What a red build leaves: the page, and the first divergent particle's step; empty where none diverges.

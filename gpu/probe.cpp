@@ -37,14 +37,14 @@ ProbeResult probe(const Context& context, const ProbeOptions& options) {
     result.context = context.describe();
     if (!result.context.precise)
         throw Error("probe: the context's GLSL has no `precise`; GL 4.0 or GL_ARB_gpu_shader5 has");
-    const probing::DriverArithmetic plain(false);
-    probing::measure_vertex_arithmetic(plain, options.inputs, result.rows);
-    probing::measure_chains(result.rows);
+    const probing::DriverArithmetic plain(false), precise(true);
+    probing::measure_vertex_arithmetic(plain, precise, options.inputs, result.rows);
+    probing::measure_chains(precise, result.rows);
     probing::measure_sines(result.rows);
     probing::measure_fragment_arithmetic(result.rows);
     if (result.context.compute) {
-        probing::measure_compute_arithmetic(result.rows);
-        probing::measure_compute_chains(result.rows);
+        probing::measure_compute_arithmetic(precise, result.rows);
+        probing::measure_compute_chains(precise, result.rows);
         probing::measure_compute_sines(result.rows);
     }
     probing::measure_storage(result.rows);

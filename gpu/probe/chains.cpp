@@ -1,17 +1,13 @@
-#include <array>
 #include <string>
 
-#include "gpu/check.hpp"
-#include "gpu/object.hpp"
+#include "gpu/probe/compute_stage.hpp"
 #include "gpu/probe/driver_arithmetic.hpp"
 #include "gpu/probe/rows.hpp"
-#include "gpu/program.hpp"
 
 namespace lockstep::probing {
 namespace {
 
 constexpr std::size_t inputs = 1024;
-constexpr std::size_t group_size = 64; // local_size_x of the shader
 
 struct Chains {
     Floats scaled_twice, scaled_and_divided, divided_and_scaled; ///< three floats an input
@@ -45,25 +41,10 @@ Chains in_vertex_stage(const Inputs& in) {
 }
 
 Chains in_compute_stage(const Inputs& in) {
-    const std::array stages{Stage::compute};
-    const Program program("probe/chains", load_stages(shader_folders(), "probe/chains", stages));
     Floats given;
     for (std::size_t i = 0; i < inputs; ++i)
         given.insert(given.end(), {in.v[i].x, in.v[i].y, in.v[i].z, in.s[i], in.t[i]});
-    Floats results(9 * inputs);
-    const GlBuffer from, to;
-    const auto bytes = [](const Floats& floats) { return static_cast<GLsizeiptr>(floats.size() * sizeof(float)); };
-    gl::BindBufferBase(GL_SHADER_STORAGE_BUFFER, 0, from.id());
-    gl::BufferData(GL_SHADER_STORAGE_BUFFER, bytes(given), given.data(), GL_STREAM_READ);
-    gl::BindBufferBase(GL_SHADER_STORAGE_BUFFER, 1, to.id());
-    gl::BufferData(GL_SHADER_STORAGE_BUFFER, bytes(results), results.data(), GL_STREAM_READ);
-    program.use();
-    gl::DispatchCompute(static_cast<GLuint>(inputs / group_size), 1, 1);
-    gl::MemoryBarrier(GL_BUFFER_UPDATE_BARRIER_BIT);
-    gl::GetBufferSubData(GL_SHADER_STORAGE_BUFFER, 0, bytes(results), results.data());
-    for (const GLuint binding : {0U, 1U})
-        gl::BindBufferBase(GL_SHADER_STORAGE_BUFFER, binding, 0);
-    check_gl(program.name());
+    const Floats results = ComputeStage("probe/chains").run(given, 9 * inputs, inputs);
     Chains chains;
     for (std::size_t i = 0; i < results.size(); ++i)
         (i % 9 < 3   ? chains.scaled_twice
@@ -100,16 +81,14 @@ void judge_chains(const std::string& stage, const Chains& made, const Inputs& in
 
 } // namespace
 
-void measure_chains(Rows& rows) {
+void measure_chains(const DriverArithmetic& precise, Rows& rows) {
     const Inputs in;
-    const DriverArithmetic gl(true);
-    judge_chains("", in_vertex_stage(in), in, gl, rows);
+    judge_chains("", in_vertex_stage(in), in, precise, rows);
 }
 
-void measure_compute_chains(Rows& rows) {
+void measure_compute_chains(const DriverArithmetic& precise, Rows& rows) {
     const Inputs in;
-    const DriverArithmetic gl(true);
-    judge_chains("compute: ", in_compute_stage(in), in, gl, rows);
+    judge_chains("compute: ", in_compute_stage(in), in, precise, rows);
 }
 
 } // namespace lockstep::probing

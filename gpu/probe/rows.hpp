@@ -13,19 +13,20 @@ using Rows = std::vector<ProbeRow>;
 // Each measures its rows in the current context and appends them. Names ending in ", precise": with the qualifier.
 
 /// Sums, products, quotients and roots in the vertex stage, and subnormals there. `plain`: without the qualifier.
-void measure_vertex_arithmetic(const DriverArithmetic& plain, std::size_t inputs, Rows& rows);
+void measure_vertex_arithmetic(const DriverArithmetic& plain, const DriverArithmetic& precise, std::size_t inputs,
+                               Rows& rows);
 
 /// The same operations in the fragment stage, as far as the passes have them there.
 void measure_fragment_arithmetic(Rows& rows);
 
 /// The compute stage: what GLSL leaves open, beside the vertex stage, and subnormals in products and sums. The context
 /// has one.
-void measure_compute_arithmetic(Rows& rows);
+void measure_compute_arithmetic(const DriverArithmetic& precise, Rows& rows);
 
 /// Products of products in functions: whether each is rounded as it is written. In the vertex stage; in the compute
 /// stage, which the context then has.
-void measure_chains(Rows& rows);
-void measure_compute_chains(Rows& rows);
+void measure_chains(const DriverArithmetic& precise, Rows& rows);
+void measure_compute_chains(const DriverArithmetic& precise, Rows& rows);
 
 /// sin, cos and tan, to which GLSL gives no precision, beside a sequence that is known of one driver.
 void measure_sines(Rows& rows);

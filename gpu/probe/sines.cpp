@@ -1,19 +1,15 @@
-#include <array>
 #include <cmath>
 #include <string>
 
-#include "gpu/check.hpp"
-#include "gpu/object.hpp"
+#include "gpu/probe/compute_stage.hpp"
 #include "gpu/probe/inputs.hpp"
 #include "gpu/probe/rows.hpp"
 #include "gpu/probe/vertex_stage.hpp"
-#include "gpu/program.hpp"
 
 namespace lockstep::probing {
 namespace {
 
 constexpr std::size_t inputs = 1024;
-constexpr std::size_t group_size = 64; // local_size_x of the shader
 
 /// Angles for sin up to 2^15, for cos and tan up to 2^10, where Mesa's reduction still holds.
 Floats angles() {
@@ -54,21 +50,7 @@ Floats in_vertex_stage(const Floats& given) {
     return stage.run(inputs, {{"a_Angles", 3, given.data()}}, "out_Made");
 }
 
-Floats in_compute_stage(Floats values) {
-    const std::array stages{Stage::compute};
-    const Program program("probe/sines", load_stages(shader_folders(), "probe/sines", stages));
-    const GlBuffer buffer;
-    const auto bytes = static_cast<GLsizeiptr>(values.size() * sizeof(float));
-    gl::BindBufferBase(GL_SHADER_STORAGE_BUFFER, 0, buffer.id());
-    gl::BufferData(GL_SHADER_STORAGE_BUFFER, bytes, values.data(), GL_STREAM_READ);
-    program.use();
-    gl::DispatchCompute(static_cast<GLuint>(inputs / group_size), 1, 1);
-    gl::MemoryBarrier(GL_BUFFER_UPDATE_BARRIER_BIT);
-    gl::GetBufferSubData(GL_SHADER_STORAGE_BUFFER, 0, bytes, values.data());
-    gl::BindBufferBase(GL_SHADER_STORAGE_BUFFER, 0, 0);
-    check_gl(program.name());
-    return values;
-}
+Floats in_compute_stage(const Floats& given) { return ComputeStage("probe/sines").run(given, inputs); }
 
 void judge_sines(const std::string& stage, const Floats& given, const Floats& made, Rows& rows) {
     const auto once = [](float a, float b, float c) { return std::fma(a, b, c); };

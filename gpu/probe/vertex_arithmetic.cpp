@@ -242,7 +242,8 @@ void measure_subnormals(const DriverArithmetic& gl, Rows& rows) {
 
 } // namespace
 
-void measure_vertex_arithmetic(const DriverArithmetic& plain, std::size_t inputs, Rows& rows) {
+void measure_vertex_arithmetic(const DriverArithmetic& plain, const DriverArithmetic& precise, std::size_t inputs,
+                               Rows& rows) {
     const auto measure = [&](const DriverArithmetic& gl, const std::string& qualifier) {
         measure_sums(gl, qualifier, inputs, rows);
         measure_roots(gl, qualifier, inputs, rows);
@@ -250,7 +251,6 @@ void measure_vertex_arithmetic(const DriverArithmetic& plain, std::size_t inputs
     };
     measure(plain, "");
     measure_transcendental(plain, inputs, rows);
-    const DriverArithmetic precise(true);
     measure(precise, ", precise");
     measure_subnormals(precise, rows);
 }

@@ -178,9 +178,8 @@ class RunJudge {
                 });
             });
             // Among thousands of changes without a name one explains a few items by chance.
-            constexpr std::uint64_t enough_for_change = 8;
             return of_sites.explains_all() &&
-                           (of_sites.best.front().has_name || of_sites.divergent >= enough_for_change)
+                           (of_sites.best.front().has_name || of_sites.divergent >= ItemCauseFinder::enough_evidence)
                        ? of_sites
                        : of_catalogue;
         }

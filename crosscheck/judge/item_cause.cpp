@@ -271,7 +271,7 @@ CauseFindings ItemCauseFinder::findings() const {
                    other.explained == hypothesis.explained && other.contradicted == hypothesis.contradicted;
         };
         if (named && !hypothesis.text.empty() &&
-            (hypothesis.explained < enough_for_constant ||
+            (hypothesis.explained < enough_evidence ||
              (!hypothesis.named->fit && std::any_of(tried_.begin(), tried_.end(), is_rival)) ||
              std::any_of(found.best.begin(), found.best.end(),
                          [&](const Cause& cause) { return cause.mistakes.front() == hypothesis.named->name; })))

@@ -26,7 +26,7 @@ class ItemCauseFinder {
     static constexpr std::size_t agreeing_items_held = 4096; ///< a frame: hits are few among them
     static constexpr std::size_t later_items = 64;           ///< a frame that follows
     static constexpr std::size_t most_shown = 3;
-    static constexpr std::uint64_t enough_for_constant = 8; ///< divergent items
+    static constexpr std::uint64_t enough_evidence = 8; ///< divergent items, where many hypotheses would fit a few
 
     explicit ItemCauseFinder(const std::vector<NamedMistake>& named) : named_(named) {}
 

@@ -1,7 +1,5 @@
 #include <algorithm>
 #include <filesystem>
-#include <fstream>
-#include <iterator>
 #include <string>
 #include <vector>
 
@@ -10,6 +8,7 @@
 #include "crosscheck/report/report.hpp"
 #include "crosscheck/scene/scene_file.hpp"
 #include "tests/collision/twin/llvmpipe.hpp"
+#include "tests/collision/twin/shader_files.hpp"
 #include "tests/collision/twin/twin_scenes.hpp"
 #include "tests/temporary_folder.hpp"
 
@@ -24,11 +23,6 @@ Legal rule_of(const std::string& text) {
     return says("// legal: any_order") ? Legal::any_order : says("// legal: glsl") ? Legal::glsl : Legal::measured;
 }
 
-std::string content(const std::filesystem::path& file) {
-    std::ifstream stream(file);
-    return {std::istreambuf_iterator<char>(stream), {}};
-}
-
 /// The presets in which a search is tried: those that its first lines name, or all of `presets`.
 std::vector<std::string> presets_of(const std::string& text, std::vector<std::string> presets) {
     const std::size_t line = text.find('\n'), list = text.find("preset: ", line);
@@ -39,25 +33,17 @@ std::vector<std::string> presets_of(const std::string& text, std::vector<std::st
     return presets;
 }
 
-std::vector<std::filesystem::path> files_in(const char* folder) {
-    std::vector<std::filesystem::path> files;
-    for (const auto& entry : std::filesystem::directory_iterator(folder))
-        files.push_back(entry.path());
-    std::sort(files.begin(), files.end());
-    return files;
-}
-
 } // namespace
 
 TEST_CASE("right shaders: no collision pass that is right in another style is divergent") {
     const auto context = test::open_llvmpipe();
     if (!context)
         return;
-    const std::vector<std::filesystem::path> files = files_in("tests/collision/right_shaders");
+    const std::vector<std::filesystem::path> files = test::files_in("tests/collision/right_shaders");
     CHECK(files.size() >= 42);
     int hints = 0;
     for (const std::filesystem::path& file : files) {
-        const std::string text = content(file);
+        const std::string text = test::content(file);
         const test::TemporaryFolder shaders;
         shaders.write("collision_pass.vert", text);
         if (text.find("out_Position") != std::string::npos)
@@ -84,10 +70,10 @@ TEST_CASE("right shaders: no search by octree or in layers that is right in anot
     const auto context = test::open_llvmpipe();
     if (!context)
         return;
-    const std::vector<std::filesystem::path> files = files_in("tests/collision/right_searches");
+    const std::vector<std::filesystem::path> files = test::files_in("tests/collision/right_searches");
     CHECK(files.size() >= 10);
     for (const std::filesystem::path& file : files) {
-        const std::string text = content(file);
+        const std::string text = test::content(file);
         const bool octree = file.extension() == ".comp";
         const test::TemporaryFolder shaders;
         shaders.write(octree ? "octree_pass.comp" : "layered_collision_pass.vert", text);

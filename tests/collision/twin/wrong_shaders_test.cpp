@@ -1,7 +1,5 @@
 #include <algorithm>
 #include <filesystem>
-#include <fstream>
-#include <iterator>
 #include <string>
 #include <vector>
 
@@ -11,17 +9,13 @@
 #include "crosscheck/report/verdict_text.hpp"
 #include "crosscheck/scene/scene_file.hpp"
 #include "tests/collision/twin/llvmpipe.hpp"
+#include "tests/collision/twin/shader_files.hpp"
 #include "tests/collision/twin/twin_scenes.hpp"
 #include "tests/temporary_folder.hpp"
 
 using namespace lockstep;
 
 namespace {
-
-std::string content(const std::filesystem::path& file) {
-    std::ifstream stream(file);
-    return {std::istreambuf_iterator<char>(stream), {}};
-}
 
 /// What follows `word` in a text, up to `end`.
 std::string after(const std::string& text, const std::string& word, char end) {
@@ -48,13 +42,10 @@ TEST_CASE("wrong shaders: the cause of each, whatever its style, is told by its 
     const auto context = test::open_llvmpipe();
     if (!context)
         return;
-    std::vector<std::filesystem::path> files;
-    for (const auto& entry : std::filesystem::directory_iterator("tests/collision/wrong_shaders"))
-        files.push_back(entry.path());
-    std::sort(files.begin(), files.end());
+    const std::vector<std::filesystem::path> files = test::files_in("tests/collision/wrong_shaders");
     CHECK(files.size() >= 24);
     for (const std::filesystem::path& file : files) {
-        const std::string text = content(file), cause = after(text, "// cause: ", ',');
+        const std::string text = test::content(file), cause = after(text, "// cause: ", ',');
         const test::TemporaryFolder shaders;
         shaders.write("collision_pass" + file.extension().string(), text);
         const Scene scene = load_scene("data/scenes/stress/" + after(text, ", in ", '\n') + ".json", {});

@@ -33,15 +33,18 @@ std::vector<std::size_t> items_to_try(const JudgedPass& p, const std::vector<std
 
 void PowerMeter::add(const JudgedPass& p, const std::vector<std::size_t>& telling) {
     std::vector<std::size_t> unseen;
+    std::size_t of_pass = 0;
     for (std::size_t m = 0; m < named_.size(); ++m)
         if (named_[m].pass == p.pass.name()) {
             tried_[m].passed = true;
+            ++of_pass;
             if (tried_[m].first_frame < 0)
                 unseen.push_back(m);
         }
     if (unseen.empty() || p.reference.count() == 0)
         return;
-    const std::vector<std::size_t> items = items_to_try(p, telling, tried_a_frame);
+    const std::size_t most = std::min(tried_a_frame * of_pass / unseen.size(), tried_at_most);
+    const std::vector<std::size_t> items = items_to_try(p, telling, most);
     std::vector<std::vector<SeenSite>> sites(items.size());
     parallel_blocks(static_cast<std::ptrdiff_t>(items.size()), [&](std::ptrdiff_t i) {
         const auto at = static_cast<std::size_t>(i);

@@ -12,10 +12,11 @@ namespace lockstep {
 
 /// Makes each named mistake in the twin of a pass, on items of the frames as they were. A mistake would have shown
 /// where what it makes of an item lies in no legal outcome. Each frame a few items are tried, first of those that
-/// decided otherwise than most, and of a mistake that has not shown yet.
+/// decided otherwise than most, and of a mistake that has not shown yet: the fewer of these, the more items.
 class PowerMeter {
   public:
-    static constexpr std::size_t tried_a_frame = 48;
+    static constexpr std::size_t tried_a_frame = 48; ///< items, while no mistake has shown
+    static constexpr std::size_t tried_at_most = 512;
 
     explicit PowerMeter(const std::vector<NamedMistake>& named) : named_(named), tried_(named.size()) {}
 

@@ -31,6 +31,14 @@ std::string text_or_nothing(const JsonValue& json, std::string_view key) {
     return value ? value->text() : std::string();
 }
 
+std::map<std::string, std::string> read_texts(const JsonValue& json, std::string_view key) {
+    std::map<std::string, std::string> texts;
+    if (const auto object = json.find(key))
+        for (const std::string& name : object->keys())
+            texts[name] = object->at(name).text();
+    return texts;
+}
+
 DotOrder read_order(const JsonValue& json) {
     const auto names = dot_order_names();
     const auto name = std::find(names.begin(), names.end(), json.text());
@@ -45,24 +53,24 @@ Mutant read_mutant(const JsonValue& json, const std::string& pass) {
     mutant.name = json.at("name").text();
     mutant.cause = text_or_nothing(json, "cause");
     mutant.equivalent = text_or_nothing(json, "equivalent");
-    if (const auto alike = json.find("alike"))
-        for (const std::string& name : alike->keys())
-            mutant.alike[name] = alike->at(name).text();
+    mutant.alike = read_texts(json, "alike");
+    mutant.differs_in = read_texts(json, "differs_in");
     if (const auto sums = json.find("sums"))
         mutant.sums = read_order(*sums);
     if (json.find("fault")) {
-        json.check_keys({"name", "fault", "cause", "alike", "equivalent", "sums"});
+        json.check_keys({"name", "fault", "cause", "alike", "differs_in", "equivalent", "sums"});
         mutant.fault = json.at("fault").text();
         if (!is_host_fault(mutant.fault))
             json.at("fault").fail("host_faults.cpp has no such fault");
     } else if (json.find("edits")) {
-        json.check_keys({"name", "edits", "cause", "alike", "equivalent", "sums"});
+        json.check_keys({"name", "edits", "cause", "alike", "differs_in", "equivalent", "sums"});
         for (const JsonValue& edit : json.at("edits").items()) {
             edit.check_keys({"file", "text", "replacement", "times"});
             mutant.edits.push_back(read_edit(edit));
         }
     } else {
-        json.check_keys({"name", "file", "text", "replacement", "times", "cause", "alike", "equivalent", "sums"});
+        json.check_keys(
+            {"name", "file", "text", "replacement", "times", "cause", "alike", "differs_in", "equivalent", "sums"});
         mutant.edits.push_back(read_edit(json));
     }
     const auto table = deviation_table();

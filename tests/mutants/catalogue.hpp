@@ -27,6 +27,8 @@ struct Mutant {
     std::string cause;                   ///< as a report names it; empty: no one change of the twin is the same
     /// What else does just the same in some scenes, and why.
     std::map<std::string, std::string> alike;
+    /// Scenes in which it does not do what `cause` names, and why: the text is not compiled there, or does more.
+    std::map<std::string, std::string> differs_in;
     std::string equivalent; ///< why it is as right as the original; empty: it is to be found
     /// The order in which it sums length and normalize, instead of the driver's own; nothing: it has nothing to do with
     /// that.
@@ -40,10 +42,10 @@ struct Mutant {
 };
 
 /// Reads a catalogue: a JSON array of objects with `name`, then `file`, `text`, `replacement` and `times` (default 1),
-/// or an array `edits` of such, or `fault`; `cause`, `alike` (an object), `equivalent` and `sums` ("(x+y)+z") as above.
-/// Causes are names of reference/collision/deviation.hpp and formula_mistakes.cpp, or two of them, "a + b"; those of
-/// another `pass` may also be changes at a site, as "part: zero". Throws Error naming the value that is wrong: an
-/// unknown fault, cause or order, a name that stands twice.
+/// or an array `edits` of such, or `fault`; `cause`, `alike` and `differs_in` (objects), `equivalent` and `sums`
+/// ("(x+y)+z") as above. Causes are names of reference/collision/deviation.hpp and formula_mistakes.cpp, or two of
+/// them, "a + b"; those of another `pass` may also be changes at a site, as "part: zero". Throws Error naming the value
+/// that is wrong: an unknown fault, cause or order, a name that stands twice.
 std::vector<Mutant> read_catalogue(const std::filesystem::path& file, const std::string& pass = "collision_pass");
 
 /// All of tests/mutants/: shaders.json and host.json, octree_pass.json and layered_collision_pass.json.

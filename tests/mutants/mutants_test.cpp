@@ -21,6 +21,7 @@ const std::set<std::string> few{"nearest_last_found",
                                 "hit_speed_reduced_by",
                                 "hit_direction_one_ulp",
                                 "gravity_doubled",
+                                "matrix_from_the_right",
                                 "drawn_before_step",
                                 "y_flipped",
                                 "half_ties_down",
@@ -75,8 +76,27 @@ TEST_CASE("mutants: a few of the catalogue are found and named, and the shipped 
         CHECK(outcome.killer() != nullptr);
         CHECK((mutant.cause.empty() || outcome.named()));
         CHECK_FALSE(outcome.wrongly_named());
+        for (const Trial& trial : outcome.trials) {
+            INFO("the power of the right run in " << trial.scene << " says that it would show");
+            CHECK((trial.predicted != true || trial.killed()));
+        }
     }
     CHECK(run == few.size());
+}
+
+TEST_CASE("mutants: where one is not what it is called stands by the name of a scene") {
+    const auto context = open_llvmpipe();
+    if (!context)
+        return;
+    std::set<std::string> known;
+    for (const TrialScene& scene : trial_scenes(llvmpipe_profile()))
+        known.insert(scene.name());
+    for (const Mutant& mutant : whole_catalogue())
+        for (const auto& [scene, why] : mutant.differs_in) {
+            INFO(mutant.name << " in " << scene);
+            CHECK(known.contains(scene));
+            CHECK_FALSE(why.empty());
+        }
 }
 
 TEST_CASE("mutants: what is drawn rightly of particles that diverge has no cause of its own") {

@@ -168,9 +168,10 @@ std::string score_markdown(const Score& score) {
         "shipped shaders: {}.\n\n",
         of(score.named(), score.hypotheses()), score.wrongly_named(), score.outcomes.size() - score.wanted(),
         score.false_alarms());
-    text +=
-        "## Predicted against found\n\nThe runs of mutants whose mistake has a name: what the line `power` of the same "
-        "run says of that mistake, and whether the verdict found it.\n\n| | found | not found |\n|---|---|---|\n";
+    text += "## Predicted against found\n\nThe runs of mutants whose mistake has a name: what the line `power` of the "
+            "shipped "
+            "shaders' run in that scene says of the mistake, and whether the verdict found the mutant there.\n\n"
+            "| | found | not found |\n|---|---|---|\n";
     for (const bool predicted : {true, false})
         text += fmt::format("| {} | {} | {} |\n", predicted ? "would have shown" : "could not show",
                             score.trials(predicted, true), score.trials(predicted, false));
@@ -178,9 +179,14 @@ std::string score_markdown(const Score& score) {
     for (const Outcome& outcome : score.outcomes)
         for (const Trial& trial : outcome.trials)
             if (is_power_trial(outcome, trial) && trial.predicted != trial.killed())
-                text += fmt::format("- {} in {}: {}\n", outcome.mutant.name, place(trial),
-                                    trial.killed() ? "found, though the power line says that it could not show"
-                                                   : "not found, though it would have shown");
+                text += fmt::format(
+                    "- {} in {}: {}\n", outcome.mutant.name, place(trial),
+                    trial.killed() ? fmt::format("found in {} items, which the power's sample missed", trial.divergent)
+                                   : "not found, though it would have shown");
+    text += "\nNot counted, since there the change is not the mistake that it is called:\n\n";
+    for (const Outcome& outcome : score.outcomes)
+        for (const auto& [scene, why] : outcome.mutant.differs_in)
+            text += fmt::format("- {} in {}: {}\n", outcome.mutant.name, scene, why);
     text += "\n## Found\n\nThe first scene that finds a mutant, and what explains everything there (equals side by "
             "side). x: "
             "found by that rule.\n\n| mutant | in | verdict | scene, frame | cause |";

@@ -32,9 +32,6 @@ bool renders(const Mutant& mutant) {
 }
 
 void note_verdict(Trial& trial, const CheckReport& report, const Mutant& mutant) {
-    for (const PowerSummary::Mistake& mistake : report.power.mistakes)
-        if (mistake.name == mutant.cause)
-            trial.predicted = mistake.first_frame.has_value();
     trial.verdict = verdict_name(report.verdict);
     trial.frame = report.first_frame.value_or(-1);
     if (!report.verdicts)
@@ -50,6 +47,18 @@ void note_verdict(Trial& trial, const CheckReport& report, const Mutant& mutant)
     trial.explained = found.explains_all() && (found.best.front().has_name || mutant.pass != "collision_pass");
     for (const Cause& cause : found.best)
         trial.causes.push_back(cause.name());
+}
+
+bool is_unmutated(const Mutant& mutant) { return mutant.edits.empty() && mutant.fault.empty(); }
+
+/// What the power of the right run in the scene says of the mutant's mistake.
+std::optional<bool> predicted(const Mutant& mutant, const TrialScene& scene) {
+    if (mutant.differs_in.contains(scene.name()))
+        return {};
+    for (const PowerSummary::Mistake& mistake : scene.power.mistakes)
+        if (mistake.name == mutant.cause)
+            return mistake.first_frame.has_value();
+    return {};
 }
 
 /// The end of a run that nothing checks; nothing if there is none.
@@ -126,6 +135,7 @@ Trial run_trial(const Mutant& mutant, TrialScene& trial_scene) {
     plant(mutant, folder);
     Trial trial;
     trial.scene = trial_scene.name();
+    trial.predicted = predicted(mutant, trial_scene);
     std::optional<FinalState> end;
     {
         const HostFault fault(mutant.fault);
@@ -138,7 +148,10 @@ Trial run_trial(const Mutant& mutant, TrialScene& trial_scene) {
                     end = {frame.gpu, frame.gpu_cdt, {}};
             };
             try {
-                note_verdict(trial, check(scene, trial_scene.profile(), gpu, options), mutant);
+                const CheckReport report = check(scene, trial_scene.profile(), gpu, options);
+                if (is_unmutated(mutant))
+                    trial_scene.power = report.power;
+                note_verdict(trial, report, mutant);
             } catch (const Error& error) {
                 trial.verdict = "ERROR";
                 trial.error = error.what();
@@ -194,9 +207,8 @@ bool Outcome::wrongly_named() const {
 
 Outcome run_mutant(const Mutant& mutant, std::vector<TrialScene>& scenes) {
     Outcome outcome{mutant, {}};
-    const bool changes = !mutant.edits.empty() || !mutant.fault.empty();
     for (TrialScene& scene : scenes)
-        if (!changes || scene.pass() == mutant.pass)
+        if (is_unmutated(mutant) || scene.pass() == mutant.pass)
             outcome.trials.push_back(run_trial(mutant, scene));
     return outcome;
 }

@@ -30,6 +30,8 @@ class TrialScene {
     [[nodiscard]] const Scene& scene() const { return scene_; }
     [[nodiscard]] const Profile& profile() const { return profile_; }
     [[nodiscard]] const FinalState& expected() const { return expected_; }
+    /// What the run of the shipped shaders proved; nothing tried before that run.
+    PowerSummary power;
 
     /// The last frame as GL renders it of `particles`, with the shaders of `folder` if that is not empty.
     [[nodiscard]] ColorImage render(const Particles& particles, const std::filesystem::path& folder);
@@ -58,9 +60,10 @@ struct Trial {
     std::uint64_t divergent = 0;
     bool explained = false;          ///< a named deviation explains everything that diverged
     std::vector<std::string> causes; ///< those that explain most, the first one first
-    std::optional<bool>
-        predicted;    ///< the run's power says that the mutant's mistake would have shown; not set: no name
-    std::string step; ///< where the first divergent item goes wrong
+    /// The power of the shipped shaders' run in this scene says that the mutant's mistake would have shown; not set:
+    /// the mistake has no name there.
+    std::optional<bool> predicted;
+    std::string step;                                         ///< where the first divergent item goes wrong
     std::array<std::optional<bool>, common_rule_count> rules; ///< accepted; nothing: the run had no end to compare
 
     [[nodiscard]] bool killed() const { return verdict != "AGREE" && verdict != "LEGAL"; }

@@ -152,6 +152,7 @@
     X(TexStorage2D, 4, 2, "GL_ARB_texture_storage")                                                                    \
     X(DrawElementsIndirect, 4, 0, "GL_ARB_draw_indirect")                                                              \
     X(DispatchCompute, 4, 3, "GL_ARB_compute_shader")                                                                  \
+    X(DispatchComputeIndirect, 4, 3, "GL_ARB_compute_shader")                                                          \
     X(ClearBufferData, 4, 3, "GL_ARB_clear_buffer_object")                                                             \
     X(GetProgramInterfaceiv, 4, 3, "GL_ARB_program_interface_query")                                                   \
     X(GetProgramResourceIndex, 4, 3, "GL_ARB_program_interface_query")                                                 \

@@ -175,6 +175,7 @@ struct GlSystem::Parts {
     /// Runs `work`, a draw or a dispatch, and takes its time.
     template <class Work> void timed(const Work& work);
     void dispatch(const Linked& linked, int frame);
+    std::optional<GLintptr> group_counts(const GroupCounts& of);
     [[nodiscard]] std::vector<ShaderSource> sources(const GlPass& pass, std::span<const Stage> stages,
                                                     bool traced) const;
     /// What a program of the pass reads: an item a vertex, or an instance.
@@ -376,11 +377,34 @@ ColorImage GlSystem::picture(std::size_t pass, int frame, const GlPicture& how) 
     return parts_->picture(*linked, frame, how);
 }
 
+/// Binds the buffer with the counts and returns their place in it; nothing where they are beyond what GL can dispatch:
+/// then as many groups run as the items take.
+std::optional<GLintptr> GlSystem::Parts::group_counts(const GroupCounts& of) {
+    constexpr std::uint32_t most_groups = 65535; // that every GL has
+    for (std::size_t s = 0; s < storages.size(); ++s) {
+        if (storages[s].layout.resource != of.field.resource)
+            continue;
+        std::size_t words = 0;
+        for (const RecordLayout::Member& member : storages[s].layout.members) {
+            const Field& field = storages[s].layout.field(member);
+            if (member.field == of.field.field) {
+                const std::size_t place = of.item * storages[s].layout.bytes() + words * sizeof(std::uint32_t);
+                const std::array<std::uint32_t, 3> counts = from(s).three_words(place);
+                gl::BindBuffer(GL_DISPATCH_INDIRECT_BUFFER, from(s).id());
+                const bool fits = std::all_of(counts.begin(), counts.end(), [](auto n) { return n <= most_groups; });
+                return fits ? std::optional(static_cast<GLintptr>(place)) : std::nullopt;
+            }
+            words += static_cast<std::size_t>(field.components);
+        }
+    }
+    return {};
+}
+
 void GlSystem::Parts::dispatch(const Linked& linked, int frame) {
     using Kind = Bound::Kind;
     linked.program.check_interface();
     for (std::size_t s = 0; s < storages.size(); ++s)
-        if (!storages[s].block.empty() &&
+        if ((!storages[s].block.empty() || linked.pass.keeps()) &&
             std::count(linked.resources.begin(), linked.resources.end(), storages[s].layout.resource) > 0)
             to(s).copy(from(s));
     std::vector<GlBuffer> given; // lives until the dispatch is done
@@ -402,11 +426,18 @@ void GlSystem::Parts::dispatch(const Linked& linked, int frame) {
         }
         gl::BindBufferBase(GL_SHADER_STORAGE_BUFFER, static_cast<GLuint>(b), buffer);
     }
-    const std::size_t items = from(first_storage(linked.pass.resource)).size();
+    const std::size_t items =
+        linked.pass.invocations ? linked.pass.invocations(frame) : from(first_storage(linked.pass.resource)).size();
+    const std::optional<GLintptr> counts = linked.pass.indirect ? group_counts(*linked.pass.indirect) : std::nullopt;
     linked.program.use();
-    timed(
-        [&] { gl::DispatchCompute(static_cast<GLuint>((items + linked.invocations - 1) / linked.invocations), 1, 1); });
-    gl::MemoryBarrier(GL_BUFFER_UPDATE_BARRIER_BIT | GL_CLIENT_MAPPED_BUFFER_BARRIER_BIT |
+    timed([&] {
+        if (counts)
+            gl::DispatchComputeIndirect(*counts);
+        else
+            gl::DispatchCompute(static_cast<GLuint>((items + linked.invocations - 1) / linked.invocations), 1, 1);
+    });
+    gl::BindBuffer(GL_DISPATCH_INDIRECT_BUFFER, 0);
+    gl::MemoryBarrier(GL_COMMAND_BARRIER_BIT | GL_BUFFER_UPDATE_BARRIER_BIT | GL_CLIENT_MAPPED_BUFFER_BARRIER_BIT |
                       GL_VERTEX_ATTRIB_ARRAY_BARRIER_BIT | GL_SHADER_STORAGE_BARRIER_BIT);
     gl::Finish();
 }

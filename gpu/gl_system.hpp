@@ -27,6 +27,12 @@ namespace lockstep {
 using UniformValue = std::variant<float, int, unsigned, glm::vec2, glm::vec3, glm::vec4, glm::ivec2, glm::mat4>;
 using Uniforms = std::map<std::string, UniformValue>;
 
+/// Three words of an item that say how many groups a dispatch has.
+struct GroupCounts {
+    FieldId field; ///< three uints, of a buffer with storage blocks
+    std::size_t item = 0;
+};
+
 /// A pass on GL: a shader that makes every item of a buffer anew.
 ///
 /// NAME.vert: attributes a_Field and captured outputs out_Field of each field, `collide_time` being a_CollideTime.
@@ -48,6 +54,15 @@ struct GlPass {
     /// Of a vertex pass that draws: the buffer of which each item is an instance, with its fields as attributes. An
     /// item of `resource` is then a vertex of an instance (gl_VertexID), as many a one as divide evenly.
     std::optional<std::uint8_t> instances_of = {};
+    /// Of a compute pass: how many invocations a frame has, at least; empty: one an item of `resource`. Items that none
+    /// makes stay as they were.
+    std::function<std::size_t(int frame)> invocations = {};
+    /// Of a compute pass: where its group counts lie, for an indirect dispatch. Items that no group makes stay as they
+    /// were.
+    std::optional<GroupCounts> indirect = {};
+
+    /// Whether the shader may leave items out of a buffer in two copies.
+    [[nodiscard]] bool keeps() const { return invocations || indirect; }
 };
 
 /// How a vertex pass of instances is drawn with NAME.frag: over one colour, triangles in the order of the instances,

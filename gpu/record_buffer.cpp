@@ -218,6 +218,18 @@ bool RecordBuffer::spare_holds(std::uint32_t pattern) const {
     return same;
 }
 
+std::array<std::uint32_t, 3> RecordBuffer::three_words(std::size_t place) const {
+    std::array<std::uint32_t, 3> words{};
+    gl::BindBuffer(GL_COPY_READ_BUFFER, buffer_.id());
+    const void* memory = gl::MapBufferRange(GL_COPY_READ_BUFFER, static_cast<GLintptr>(place),
+                                            static_cast<GLsizeiptr>(sizeof words), GL_MAP_READ_BIT);
+    if (memory == nullptr)
+        throw Error(fmt::format("{} buffer: GL cannot map it", layout_->about().item));
+    std::memcpy(words.data(), memory, sizeof words);
+    gl::UnmapBuffer(GL_COPY_READ_BUFFER);
+    return words;
+}
+
 void RecordBuffer::bind_capture() const { gl::BindBufferBase(GL_TRANSFORM_FEEDBACK_BUFFER, 0, id()); }
 
 namespace {

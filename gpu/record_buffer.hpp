@@ -1,4 +1,5 @@
 #pragma once
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <span>
@@ -60,6 +61,9 @@ class RecordBuffer {
     /// Every word of the spare records becomes `word`, and whether they all still are.
     void fill_spare(std::uint32_t word);
     [[nodiscard]] bool spare_holds(std::uint32_t word) const;
+
+    /// Three words from byte `place` on.
+    [[nodiscard]] std::array<std::uint32_t, 3> three_words(std::size_t place) const;
 
     /// Binds the buffer as what transform feedback writes to.
     void bind_capture() const;

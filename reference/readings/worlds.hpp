@@ -522,7 +522,11 @@ template <class A> class Worlds {
             return field.why();
         else if constexpr (std::is_integral_v<Field>)
             return Undefined::none;
-        else {
+        else if constexpr (requires { field.size(); }) {
+            Undefined reason = Undefined::none;
+            field.for_each([&](const auto& part) { reason = first_of(reason, open_field(part)); });
+            return reason;
+        } else {
             Undefined reason = Undefined::none;
             std::apply([&](const auto&... part) { ((reason = first_of(reason, open_field(part))), ...); },
                        field.fields());

@@ -25,7 +25,9 @@ namespace item_twin {
 
 /// Calls `visit` with every number of a struct, in the order of its fields().
 template <class State, class Visit> void for_each_number(const State& state, const Visit& visit) {
-    if constexpr (requires { state.fields(); })
+    if constexpr (requires { state.for_each(visit); })
+        state.for_each(visit);
+    else if constexpr (requires { state.fields(); })
         std::apply([&](const auto&... part) { (for_each_number(part, visit), ...); }, state.fields());
     else
         visit(state);
@@ -110,8 +112,8 @@ struct ItemPassOptions {
 };
 
 /// A twin as an ItemPass: `twin(r, in, item)`, a template over the reading R& r (values.hpp), pure, returning a struct
-/// whose fields() are those of the buffer's items, in order. `twin.at(frame)`, where there is one, is called in its
-/// place (in_frame).
+/// whose fields() are those of the buffer's items, in order, or ItemWords (item_words.hpp). `twin.at(frame)`, where
+/// there is one, is called in its place (in_frame).
 template <class Twin> class ItemTwin final : public ItemPass {
   public:
     ItemTwin(ItemPassOptions options, Twin twin) : options_(std::move(options)), twin_(std::move(twin)) {
@@ -137,9 +139,12 @@ template <class Twin> class ItemTwin final : public ItemPass {
         with_arithmetic_of(profile, [&]<class A>(A fp) {
             Values<A> values(fp);
             using State = decltype(twin(values, in, first));
-            item_twin::check_size(options_.name, after.about(), item_twin::numbers_in<State>());
+            if constexpr (!requires(const State& state) { state.size(); })
+                item_twin::check_size(options_.name, after.about(), item_twin::numbers_in<State>());
             const auto make = [&](std::size_t item) {
                 const State state = twin(values, in, item);
+                if constexpr (requires { state.size(); })
+                    item_twin::check_size(options_.name, after.about(), state.size());
                 const item_twin::WordColumn* column = columns.data();
                 item_twin::for_each_number(state, [&](const auto& x) {
                     const std::uint32_t word = item_twin::word_of(x);

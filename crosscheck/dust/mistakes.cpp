@@ -9,19 +9,19 @@ namespace lockstep::dust {
 namespace {
 
 /// What the host should have squared.
-void not_squared(std::span<float> value, const void* /*context*/) {
+void not_squared(std::span<float> value, const CameBy& /*run*/) {
     for (float& x : value)
         x = std::sqrt(x);
 }
 
 /// The source's 0.02 s, whatever a frame takes.
-void constant_time(std::span<float> value, const void* /*context*/) {
+void constant_time(std::span<float> value, const CameBy& /*run*/) {
     for (float& x : value)
         x = 0.02F;
 }
 
-Mistake spoiled_at(const Site& site, void (*spoil)(std::span<float>, const void*)) {
-    return {.site = site.id, .change = Change::spoiled, .spoil = spoil};
+Mistake spoiled_at(const Site& site, Formula formula) {
+    return {.site = site.id, .change = Change::spoiled, .formula = formula};
 }
 
 } // namespace

@@ -5,7 +5,6 @@
 
 #include <fmt/format.h>
 
-#include "crosscheck/judge/cause.hpp"
 #include "crosscheck/judge/collision_power.hpp"
 #include "crosscheck/judge/diagnosis.hpp"
 #include "crosscheck/judge/drawn_cause.hpp"
@@ -13,11 +12,10 @@
 #include "crosscheck/judge/legal_hint.hpp"
 #include "crosscheck/judge/power.hpp"
 #include "crosscheck/judge/side_state.hpp"
+#include "crosscheck/judge/step_cause.hpp"
 #include "crosscheck/judge/step_judge.hpp"
 #include "crosscheck/judge/stopwatch.hpp"
 #include "gpu/collision/gpu_side.hpp"
-#include "reference/collision/collision_mistakes.hpp"
-#include "reference/collision/formula_mistakes.hpp"
 #include "reference/collision/simulation.hpp"
 #include "reference/collision/step_pass.hpp"
 #include "reference/model/collision/collision_state.hpp"
@@ -106,7 +104,8 @@ class RunJudge {
     /// `has_cdt`: texels are judged too. `causes`: the mistake behind what diverges is looked for.
     RunJudge(const Scene& scene, const Profile& profile, const KnownOperations& known, bool has_cdt, bool causes)
         : scene_(scene), profile_(profile), known_(known), has_cdt_(has_cdt), seeks_causes_(causes),
-          named_(named_mistakes()), step_causes_(named_), listing_power_(scene, profile, known), power_(named_) {
+          named_(named_mistakes(scene, profile)), step_causes_(named_, step_name(scene.switches)),
+          listing_power_(scene, profile, known), power_(named_) {
         summary_.judges_leans = can_judge_leans(known, profile);
     }
 
@@ -158,39 +157,14 @@ class RunJudge {
 
     [[nodiscard]] VerdictSummary summary() const {
         VerdictSummary summary = summary_;
-        summary.causes[collision::particles] = is_listing(scene_.switches)
-                                                   ? simpler(causes_.particles(), step_causes_.findings())
-                                                   : step_causes_.findings();
-        summary.causes[collision::cdt] = has_remedies(scene_.switches) ? drawn_causes_.findings() : causes_.texels();
+        summary.causes[collision::particles] = step_causes_.findings();
+        summary.causes[collision::cdt] =
+            has_remedies(scene_.switches) ? drawn_causes_.findings() : texel_causes_.findings();
         summary.convict_shift();
         return summary;
     }
 
   private:
-    /// One mistake of the catalogue comes first, and beside it those with a name that explain as much; then any other
-    /// single one; then several at once.
-    static CauseFindings simpler(CauseFindings of_catalogue, CauseFindings of_sites) {
-        const bool one_name = of_catalogue.explains_all() && of_catalogue.best.front().mistakes.size() == 1;
-        if (!one_name) { // then the catalogue's own are contradicted, whatever fewer items say
-            std::erase_if(of_sites.best, [](const Cause& cause) {
-                return std::any_of(deviation_table().begin(), deviation_table().end(), [&](const DeviationInfo& info) {
-                    return cause.has_name && cause.mistakes.front() == info.name;
-                });
-            });
-            // Among thousands of changes without a name one explains a few items by chance.
-            return of_sites.explains_all() &&
-                           (of_sites.best.front().has_name || of_sites.divergent >= ItemCauseFinder::enough_evidence)
-                       ? of_sites
-                       : of_catalogue;
-        }
-        if (of_sites.explains_all())
-            for (const Cause& cause : of_sites.best)
-                if (cause.has_name && std::none_of(of_catalogue.best.begin(), of_catalogue.best.end(),
-                                                   [&](const Cause& c) { return c.mistakes == cause.mistakes; }))
-                    of_catalogue.best.push_back(cause);
-        return of_catalogue;
-    }
-
     /// Whether there are divergent ones among the verdicts, and the first of them kept.
     bool keep_first(int frame, const JudgedFrame& judged, const FrameVerdicts& verdicts) {
         const auto divergent = [](const std::vector<ItemVerdict>& items) {
@@ -208,14 +182,11 @@ class RunJudge {
     }
 
     void seek_causes(const RunFrame& f, const JudgedFrame& judged, const FrameVerdicts& verdicts) {
-        if (!is_listing(scene_.switches)) {
-            if (has_remedies(scene_.switches))
-                drawn_causes_.add(judged, f.earlier != nullptr ? &f.earlier->cdt : nullptr, verdicts.texels);
-            return with_step_pass(judged, [&](const JudgedPass& pass) { step_causes_.add(pass, verdicts.particles); });
-        }
+        if (has_remedies(scene_.switches))
+            drawn_causes_.add(judged, f.earlier != nullptr ? &f.earlier->cdt : nullptr, verdicts.texels);
         const FrameParams earlier_params = frame_params(scene_, std::max(f.number - 1, 0));
-        causes_.add(judged, verdicts, frame_inputs(f, earlier_params));
-        with_step_pass(judged, [&](const JudgedPass& pass) { step_causes_.add(pass, verdicts.particles); });
+        const FrameInputs inputs = frame_inputs(f, earlier_params);
+        add_causes(judged, verdicts, inputs, step_causes_, texel_causes_);
     }
 
     static FrameInputs frame_inputs(const RunFrame& f, const FrameParams& earlier_params) {
@@ -229,37 +200,12 @@ class RunJudge {
         return inputs;
     }
 
-    /// The catalogue's mistakes of the step, in any pass that makes it.
-    [[nodiscard]] std::vector<NamedMistake> named_mistakes() const {
-        std::vector<NamedMistake> named;
-        for (const DeviationInfo& info : deviation_table())
-            if (const auto mistake = step_mistake(info.deviation);
-                mistake && !is_no_mistake(info.deviation, scene_.switches, profile_))
-                for (const char* pass : {"collision_pass", "octree_pass", "layered_collision_pass"})
-                    if (has_site(pass, mistake->site))
-                        named.push_back({std::string(info.name), std::string(info.meaning), pass, *mistake});
-        for (const SearchMistake& m : search_mistakes())
-            named.push_back({std::string(m.name), std::string(m.meaning), std::string(m.pass), m.mistake});
-        for (const FormulaMistake& m : formula_mistakes()) {
-            NamedMistake& added = named.emplace_back(
-                NamedMistake{std::string(m.name), std::string(m.meaning), "collision_pass", m.mistake});
-            for (const float constant : m.constants)
-                added.constants.push_back({constant});
-            if (m.fit != nullptr)
-                added.fit = [fit = m.fit, &constants = scene_.constants](std::span<const float> before,
-                                                                         std::span<const float> after) {
-                    return fit(before, after, constants);
-                };
-        }
-        return named;
-    }
-
     const Scene& scene_;
     const Profile& profile_;
     KnownOperations known_;
     bool has_cdt_, seeks_causes_;
     VerdictSummary summary_{collision_schema()};
-    CauseFinder causes_;
+    TexelCauses texel_causes_;
     LegalHint hint_;
     std::vector<NamedMistake> named_;
     ItemCauseFinder step_causes_;

@@ -7,6 +7,7 @@
 #include <string_view>
 
 #include "crosscheck/judge/item_sample.hpp"
+#include "reference/collision/collision_mistakes.hpp"
 #include "reference/collision/collision_pass.hpp"
 #include "reference/collision/legal_texels.hpp"
 #include "reference/collision/obstacle_pass.hpp"
@@ -33,14 +34,6 @@ bool among(Deviation deviation, std::initializer_list<Deviation> all) {
 bool is_about_depth(Deviation deviation) {
     return among(deviation, {depth_greater, depth_not_tested, depth_equal_passes, depth_not_cleared,
                              obstacles_never_hide, cdt_not_cleared});
-}
-
-std::vector<std::uint32_t> words_of(const ParticleState& p) {
-    std::vector<std::uint32_t> words;
-    for (const float x : {p.position.x, p.position.y, p.position.z, p.direction.x, p.direction.y, p.direction.z,
-                          p.speed, p.collide_time})
-        words.push_back(std::bit_cast<std::uint32_t>(x));
-    return words;
 }
 
 Particles every(const Particles& all, std::size_t stride) {
@@ -229,7 +222,7 @@ void CollisionPower::try_steps(const PowerFrame& frame, const Situations& found)
     if (all.empty() || frame.after.size() == 0)
         return;
     const FrameInputs& in = frame.inputs;
-    const StepInputs step_inputs{*in.before, *in.cdt, scene_.obstacles, *in.params};
+    const StepInputs step_inputs{*in.before, *in.cdt, scene_.obstacles, *in.params, &in};
     const auto pass = step_pass(step_inputs);
     const SystemView before = step_state(step_inputs);
     const View reference = view(frame.after);
@@ -249,9 +242,9 @@ void CollisionPower::try_steps(const PowerFrame& frame, const Situations& found)
     parallel_blocks(static_cast<std::ptrdiff_t>(all.size()), [&](std::ptrdiff_t d) {
         const Deviation deviation = all[static_cast<std::size_t>(d)];
         Tried& tried = tried_[static_cast<std::size_t>(deviation)];
+        const std::vector<Mistake> made = mistakes_of(deviation);
         for (const std::size_t item : items) {
-            const MistakenItem is =
-                judge_mistaken(judged, item, words_of(deviating_step(in, item, profile_, deviation)));
+            const MistakenItem is = judge_mistaken(judged, item, pass->mistaken(judged.input(), item, profile_, made));
             tried.changes = tried.changes || is != MistakenItem::same;
             if (is == MistakenItem::divergent) {
                 tried.first_frame = frame.number;

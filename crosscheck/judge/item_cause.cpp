@@ -31,47 +31,23 @@ bool sums(const Mistake& mistake) {
     return mistake.change == Change::added_up || mistake.change == Change::units_added_up;
 }
 
-/// The same bits but for the sign of zero, which depends on how a mistake was written down.
-bool alike(Value a, Value b) {
-    return same_bits(a, b) || (a.scalar == Scalar::float32 && a.real() == 0.0F && b.real() == 0.0F);
+std::vector<const NamedMistake*> of_pass(const std::vector<NamedMistake>& named, std::string_view pass, bool exact) {
+    std::vector<const NamedMistake*> some;
+    for (const NamedMistake& one : named)
+        if (one.pass == pass && one.is_exact() == exact)
+            some.push_back(&one);
+    return some;
 }
 
 } // namespace
 
-bool ItemCauseFinder::Trial::near(std::size_t item, const ValueOf& a, const ValueOf& b, float ulps) const {
-    const View& before = pass.before[pass.pass.resource()];
-    std::array<std::array<float, 4>, 3> field{};
-    for (std::size_t from = 0, to = 0; from < parts.size(); from = to) {
-        std::size_t n = 0;
-        for (to = from; to < parts.size() && parts[to].field == parts[from].field && n < 4; ++to) {
-            const Value x = a(parts[to], to), y = b(parts[to], to);
-            if (x.scalar != Scalar::float32) {
-                if (!same_bits(x, y))
-                    return false;
-                continue;
-            }
-            field[0][n] = x.real();
-            field[1][n] = y.real();
-            field[2][n++] = before.value(parts[to].field, item, parts[to].component).real();
-        }
-        if (!differ_by_rounding(std::span(field[0].data(), n), std::span(field[1].data(), n),
-                                std::span(field[2].data(), n), ulps))
-            return false;
-    }
-    return true;
-}
-
-bool ItemCauseFinder::Trial::is_off_by_rounding(std::size_t item) const {
-    const auto of = [&](const View& view) {
-        return [&view, item](const Component& c, std::size_t) { return view.value(c.field, item, c.component); };
-    };
-    return near(item, of(pass.gpu), of(pass.reference), rewritten_ulps);
-}
+ItemCauseFinder::ItemCauseFinder(const std::vector<NamedMistake>& named, std::string_view pass)
+    : named_(of_pass(named, pass, false)), joint_(of_pass(named, pass, true)) {}
 
 bool ItemCauseFinder::explains(const Hypothesis& hypothesis, const Trial& trial, std::size_t item) {
     using Host = Hypothesis::Host;
-    const JudgedPass& p = trial.pass;
-    const std::vector<Component>& parts = trial.parts;
+    const JudgedPass& p = trial.likeness.pass();
+    const std::vector<Component>& parts = trial.likeness.parts();
     if (hypothesis.host == Host::unwritten) {
         const View& before = p.before[p.pass.resource()];
         return std::all_of(parts.begin(), parts.end(), [&](const Component& c) {
@@ -93,20 +69,9 @@ bool ItemCauseFinder::explains(const Hypothesis& hypothesis, const Trial& trial,
     const PassInput input{hypothesis.host == Host::earlier_state ? *p.earlier : p.before, p.frame};
     const auto made = hypothesis.mistake ? std::span(&*hypothesis.mistake, 1) : std::span<const Mistake>();
     const std::vector<std::uint32_t> words = p.pass.mistaken(input, item, p.profile, made);
-    if (hypothesis.rounds())
-        return trial.near(
-            item,
-            [&](const Component& c, std::size_t w) {
-                return Value{p.gpu.value(c.field, item, c.component).scalar, words[w]};
-            },
-            [&](const Component& c, std::size_t) { return p.gpu.value(c.field, item, c.component); },
-            sums(*hypothesis.mistake) ? summed_ulps : rewritten_ulps);
-    for (std::size_t w = 0; w < parts.size(); ++w) {
-        const Value gpu = p.gpu.value(parts[w].field, item, parts[w].component);
-        if (!alike({gpu.scalar, words[w]}, gpu))
-            return false;
-    }
-    return true;
+    if (!hypothesis.rounds())
+        return trial.likeness.are_gpus(item, words);
+    return trial.likeness.are_near_gpus(item, words, sums(*hypothesis.mistake) ? summed_ulps : rewritten_ulps);
 }
 
 /// Of one with constants as many as it has.
@@ -137,9 +102,8 @@ void ItemCauseFinder::add_named(std::vector<Hypothesis>& all, const NamedMistake
 std::vector<ItemCauseFinder::Hypothesis> ItemCauseFinder::hypotheses(const JudgedPass& pass,
                                                                      const std::vector<std::size_t>& items) const {
     std::vector<Hypothesis> all;
-    for (const NamedMistake& named : named_)
-        if (named.pass == pass.pass.name())
-            add_named(all, named, pass, items);
+    for (const NamedMistake* named : named_)
+        add_named(all, *named, pass, items);
     all.push_back({.host = Hypothesis::Host::unwritten, .text = "items_not_written"});
     if (pass.earlier != nullptr)
         all.push_back({.host = Hypothesis::Host::earlier_state, .text = "state_of_earlier_frame"});
@@ -175,7 +139,7 @@ bool ItemCauseFinder::hold(Hypothesis& hypothesis, const Trial& trial, std::int6
         if (!explains(hypothesis, trial, item))
             continue;
         ++hypothesis.explained;
-        hypothesis.telling += trial.is_off_by_rounding(item) ? 0 : 1;
+        hypothesis.telling += trial.likeness.is_off_by_rounding(item) ? 0 : 1;
     }
     if (!trial.divergent.empty() && hypothesis.explained == before)
         return true;
@@ -227,7 +191,13 @@ void ItemCauseFinder::try_all(const Trial& trial) {
     });
 }
 
-void ItemCauseFinder::add(const JudgedPass& pass, const std::vector<ItemVerdict>& verdicts) {
+void ItemCauseFinder::add(const JudgedPass& pass, const std::vector<ItemVerdict>& verdicts,
+                          const SeenElsewhere& elsewhere) {
+    joint_.add(pass, verdicts, elsewhere);
+    try_single(pass, verdicts);
+}
+
+void ItemCauseFinder::try_single(const JudgedPass& pass, const std::vector<ItemVerdict>& verdicts) {
     const std::vector<std::size_t> divergent = divergent_items(verdicts);
     if (divergent.empty())
         return;
@@ -239,12 +209,13 @@ void ItemCauseFinder::add(const JudgedPass& pass, const std::vector<ItemVerdict>
                                    agreeing =
                                        spread(agreeing_items(pass.gpu.count(), verdicts,
                                                              later ? agreeing_items_held / 4 : agreeing_items_held));
+    const ItemLikeness likeness(pass);
     const auto part = [&](std::size_t from, std::size_t to) {
         const auto of = [&](const std::vector<std::size_t>& all) {
             return std::span(all).subspan(std::min(from, all.size()),
                                           std::min(to, all.size()) - std::min(from, all.size()));
         };
-        return Trial{pass, components(pass.gpu.about()), of(items), of(agreeing)};
+        return Trial{likeness, of(items), of(agreeing)};
     };
     if (first)
         tried_ = hypotheses(pass, sample(divergent, 16));
@@ -255,7 +226,7 @@ void ItemCauseFinder::add(const JudgedPass& pass, const std::vector<ItemVerdict>
         try_all(part(first_items, agreeing_items_held));
 }
 
-CauseFindings ItemCauseFinder::findings() const {
+CauseFindings ItemCauseFinder::of_single() const {
     CauseFindings found;
     found.divergent = divergent_;
     for (const Hypothesis& hypothesis : tried_) {
@@ -291,6 +262,25 @@ CauseFindings ItemCauseFinder::findings() const {
                               hypothesis.contradicted,
                               named || hypothesis.host != Hypothesis::Host::none});
     }
+    return found;
+}
+
+CauseFindings ItemCauseFinder::findings() const {
+    CauseFindings found = joint_.findings();
+    const CauseFindings single = of_single();
+    const bool one_name = found.explains_all() && found.best.front().mistakes.size() == 1;
+    if (!one_name) {
+        // Among thousands of changes without a name one explains a few items by chance.
+        if (single.explains_all() && (single.best.front().has_name || single.divergent >= enough_evidence))
+            return single;
+        const bool is_part = found.best.empty() && !single.best.empty() && single.best.front().contradicted == 0 &&
+                             single.best.front().explained >= enough_evidence;
+        return is_part ? single : found;
+    }
+    if (single.explains_all())
+        for (const Cause& cause : single.best)
+            if (cause.has_name)
+                found.best.push_back(cause);
     return found;
 }
 

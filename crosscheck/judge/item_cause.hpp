@@ -2,22 +2,24 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
-#include <functional>
-#include <map>
 #include <optional>
 #include <span>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "crosscheck/judge/cause_findings.hpp"
+#include "crosscheck/judge/item_likeness.hpp"
 #include "crosscheck/judge/item_verdict.hpp"
+#include "crosscheck/judge/named_cause.hpp"
 #include "crosscheck/judge/system.hpp"
 
 namespace lockstep {
 
-/// Looks for the mistake in a pass's twin that explains what diverged: first those with names, then the host's (an old
-/// state, nothing written), then every change that the sites of the divergent items allow. On the first frames with
-/// divergence; what explains all there, and most_shown beside it, is held against the frames that follow.
+/// Looks for the mistake in a pass's twin that explains what diverged: the exact ones with names, alone or together
+/// (NamedCauses); and single ones of the others with names, the host's (an old state, nothing written) and every change
+/// that the sites of the divergent items allow. Of these, on the first frames with divergence; what explains all there,
+/// and most_shown beside it, is held against the frames that follow.
 class ItemCauseFinder {
   public:
     static constexpr int trial_frames = 4;
@@ -28,10 +30,13 @@ class ItemCauseFinder {
     static constexpr std::size_t most_shown = 3;
     static constexpr std::uint64_t enough_evidence = 8; ///< divergent items, where many hypotheses would fit a few
 
-    explicit ItemCauseFinder(const std::vector<NamedMistake>& named) : named_(named) {}
+    /// Of the pass of this name. `named` outlives this.
+    ItemCauseFinder(const std::vector<NamedMistake>& named, std::string_view pass);
 
-    void add(const JudgedPass& pass, const std::vector<ItemVerdict>& verdicts);
+    void add(const JudgedPass& pass, const std::vector<ItemVerdict>& verdicts, const SeenElsewhere& elsewhere = {});
 
+    /// One mistake with a name comes first, and beside it others with a name that explain as much; then any other
+    /// single one; then several at once.
     [[nodiscard]] CauseFindings findings() const;
 
   private:
@@ -47,10 +52,7 @@ class ItemCauseFinder {
         std::uint64_t telling = 0; ///< of those explained, which are off by more than rounding
 
         /// Whether it need only come near: a formula may be written in other orders.
-        [[nodiscard]] bool rounds() const {
-            return mistake && (named == nullptr || mistake->formula != nullptr || mistake->also != nullptr ||
-                               mistake->change >= Change::one_a_turn);
-        }
+        [[nodiscard]] bool rounds() const { return mistake && (named == nullptr || mistake->rounds()); }
 
         /// Names first, those with constants of their own after the others; then the host's, then a wrong input, then
         /// all else.
@@ -67,13 +69,8 @@ class ItemCauseFinder {
     };
     /// The items of a frame that hypotheses are held against.
     struct Trial {
-        const JudgedPass& pass;
-        std::vector<Component> parts;
+        const ItemLikeness& likeness;
         std::span<const std::size_t> divergent, agreeing;
-        using ValueOf = std::function<Value(const Component& part, std::size_t word)>;
-        /// Whether two values of the item differ by rounding alone, in every field.
-        [[nodiscard]] bool near(std::size_t item, const ValueOf& a, const ValueOf& b, float ulps) const;
-        [[nodiscard]] bool is_off_by_rounding(std::size_t item) const;
     };
     static void add_named(std::vector<Hypothesis>& all, const NamedMistake& named, const JudgedPass& pass,
                           const std::vector<std::size_t>& items);
@@ -82,8 +79,11 @@ class ItemCauseFinder {
     static bool explains(const Hypothesis& hypothesis, const Trial& trial, std::size_t item);
     static bool hold(Hypothesis& hypothesis, const Trial& trial, std::int64_t at_least);
     void try_all(const Trial& trial);
+    void try_single(const JudgedPass& pass, const std::vector<ItemVerdict>& verdicts);
+    [[nodiscard]] CauseFindings of_single() const;
 
-    const std::vector<NamedMistake>& named_;
+    std::vector<const NamedMistake*> named_; ///< those that NamedCauses does not try
+    NamedCauses joint_;
     int frames_ = 0;
     std::uint64_t divergent_ = 0;
     std::vector<Hypothesis> tried_;

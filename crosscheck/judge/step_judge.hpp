@@ -12,13 +12,18 @@
 
 namespace lockstep {
 
-/// Calls `work` with the particles' step of a frame as a pass that its twin judges.
-template <class Work> auto with_step_pass(const JudgedFrame& frame, const Work& work) {
-    const StepInputs inputs{frame.before, frame.cdt, frame.obstacles, frame.params};
+/// Calls `work` with the particles' step of a frame as a pass that its twin judges. `mixed_up`: what a host's mistakes
+/// take instead, null: nothing.
+template <class Work> auto with_step_pass(const JudgedFrame& frame, const FrameInputs* mixed_up, const Work& work) {
+    const StepInputs inputs{frame.before, frame.cdt, frame.obstacles, frame.params, mixed_up};
     const auto pass = step_pass(inputs);
     const SystemView before = step_state(inputs);
     const View reference = view(frame.reference), gpu = view(frame.gpu);
     return work(JudgedPass{*pass, frame.profile, frame.known, 0, before, reference, gpu});
+}
+
+template <class Work> auto with_step_pass(const JudgedFrame& frame, const Work& work) {
+    return with_step_pass(frame, nullptr, work);
 }
 
 /// Verdicts on a frame whose particles search otherwise than the listing's. A texel holds what is drawn there of the

@@ -20,6 +20,11 @@ struct NamedMistake {
     std::vector<std::array<float, 3>> constants = {}; ///< that are tried in its formula; empty: it has none
     /// Finds its constants in an item's words before and after; empty: `constants` are all.
     std::function<std::array<float, 3>(std::span<const float>, std::span<const float>)> fit = {};
+    /// Says what is seen, and so cannot be wrong where it explains everything; other causes of it are guesses.
+    bool describes = false;
+
+    /// Whether it leaves an item's very bits, and so may be tried together with others.
+    [[nodiscard]] bool is_exact() const { return constants.empty() && !fit && !mistake.rounds(); }
 };
 
 /// A particle or image system as a check sees it: what its state is, the twins of its passes in the order in which a

@@ -141,7 +141,7 @@ CheckReport check(const System& system, SystemSide& gpu, const CheckOptions& opt
     VerdictSummary summary(system.schema);
     std::vector<ItemCauseFinder> causes;
     for (std::size_t p = 0; p < system.passes.size(); ++p)
-        causes.emplace_back(system.mistakes);
+        causes.emplace_back(system.mistakes, system.passes[p]->name());
     PowerMeter power(system.mistakes);
     std::vector<std::optional<SystemState>> earlier(system.passes.size()); // what each pass last started from
     SystemState before = system.start, now = system.start, reference = system.start;

@@ -2,7 +2,9 @@
 
 #include <algorithm>
 #include <array>
+#include <span>
 
+#include "reference/collision/collision_code.hpp"
 #include "reference/collision/layered_twin.hpp"
 #include "reference/collision/octree/octree_twin.hpp"
 #include "reference/collision/sites.hpp"
@@ -18,6 +20,35 @@ struct Row {
     int part = -1;
     const Site* source = nullptr;
 };
+
+/// Of the pass's arithmetic and its host, at no site.
+struct WholeRow {
+    Deviation deviation;
+    Change change;
+};
+constexpr std::array whole{
+    WholeRow{Deviation::matrix_of_earlier_frame, Change::handed_over},
+    WholeRow{Deviation::stale_cdt, Change::handed_over},
+    WholeRow{Deviation::current_frame_cdt, Change::handed_over},
+    WholeRow{Deviation::buffers_not_swapped, Change::handed_over},
+    WholeRow{Deviation::state_passed_through, Change::item_kept},
+    WholeRow{Deviation::sums_left_to_right, Change::sums_left_to_right},
+    WholeRow{Deviation::sums_right_to_left, Change::sums_right_to_left},
+    WholeRow{Deviation::sums_fused, Change::sums_fused},
+    WholeRow{Deviation::products_fused, Change::products_fused},
+    WholeRow{Deviation::portable_arithmetic, Change::portable_arithmetic},
+    WholeRow{Deviation::subnormals_kept, Change::subnormals_kept},
+};
+
+/// What a CDT of another format leaves of a position.
+template <CdtFormat format> void store_and_read(std::span<float> position, const CameBy& run) {
+    FrameParams params = *static_cast<const FrameParams*>(run.world);
+    params.switches.cdt_format = format;
+    const CollisionCode coarse(params);
+    const glm::vec3 read = coarse.decode(coarse.encode({position[0], position[1], position[2]}));
+    for (std::size_t c = 0; c < 3; ++c)
+        position[c] = read[static_cast<int>(c)];
+}
 
 constexpr std::array table{
     Row{Deviation::transposed_matrix, site::proj_view, Change::transposed},
@@ -177,6 +208,15 @@ const std::array searches{
 std::span<const SearchMistake> search_mistakes() { return searches; }
 
 std::optional<Mistake> step_mistake(Deviation deviation) {
+    if (deviation == Deviation::half_cdt || deviation == Deviation::unorm8_cdt)
+        return Mistake{.site = site::stored_position.id,
+                       .change = Change::spoiled,
+                       .formula = deviation == Deviation::half_cdt ? store_and_read<CdtFormat::rgba16f>
+                                                                   : store_and_read<CdtFormat::rgba8>};
+    for (const WholeRow& row : whole)
+        if (row.deviation == deviation)
+            return Mistake{.change = row.change,
+                           .part = row.change == Change::handed_over ? static_cast<int>(deviation) : -1};
     const auto* row = std::find_if(table.begin(), table.end(), [&](const Row& r) { return r.deviation == deviation; });
     if (row == table.end())
         return {};
@@ -186,7 +226,18 @@ std::optional<Mistake> step_mistake(Deviation deviation) {
                    .source = row->source != nullptr ? row->source->id : 0};
 }
 
-bool has_site(std::string_view pass, std::uint32_t site) {
+std::vector<Mistake> mistakes_of(const Deviations& deviations) {
+    std::vector<Mistake> made;
+    for (const Deviation deviation : deviations)
+        if (const auto mistake = step_mistake(deviation))
+            made.push_back(*mistake);
+    return made;
+}
+
+bool can_make(std::string_view pass, const Mistake& mistake) {
+    const std::uint32_t site = mistake.site;
+    if (pass != "collision_pass" && (site == 0 || mistake.change == Change::spoiled))
+        return false;
     using namespace lockstep::site;
     static constexpr std::array<std::uint32_t, 12> of_listing{
         perspective_divide.id, half.id,           base_by_floor.id, scale.id,

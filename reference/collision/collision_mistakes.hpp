@@ -3,15 +3,19 @@
 #include <optional>
 #include <span>
 #include <string_view>
+#include <vector>
 
 #include "reference/collision/deviation.hpp"
 #include "reference/readings/mistake.hpp"
 
 namespace lockstep {
 
-/// What a named deviation is at the sites of the collision twin; nothing where it is not the step's mistake but its
-/// host's or its arithmetic's, or shows in drawing only.
+/// What a named deviation is in the collision twin; nothing where it shows in drawing only. One of its host's is
+/// Change::handed_over, its part the deviation.
 std::optional<Mistake> step_mistake(Deviation deviation);
+
+/// Those of several.
+std::vector<Mistake> mistakes_of(const Deviations& deviations);
 
 /// A human name of a mistake that only one of the other searches can make.
 struct SearchMistake {
@@ -22,7 +26,7 @@ struct SearchMistake {
 };
 std::span<const SearchMistake> search_mistakes();
 
-/// Whether the step of this search comes by a site at all: the octree's projects nothing.
-bool has_site(std::string_view pass, std::uint32_t site);
+/// Whether the step of this search can make a mistake of the listing's at all: the octree's projects nothing.
+bool can_make(std::string_view pass, const Mistake& mistake);
 
 } // namespace lockstep

@@ -1,9 +1,7 @@
 #include "reference/collision/deviating_pass.hpp"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
-#include <optional>
 #include <type_traits>
 #include <utility>
 
@@ -14,8 +12,8 @@
 #include "reference/collision/collision_mistakes.hpp"
 #include "reference/collision/collision_pass.hpp"
 #include "reference/collision/collision_twin.hpp"
-#include "reference/plain_arithmetic.hpp"
 #include "reference/readings/mistaken.hpp"
+#include "reference/readings/mistaken_arithmetic.hpp"
 #include "reference/subnormals.hpp"
 #include "reference/window.hpp"
 
@@ -29,112 +27,21 @@ FrameParams stored_as(FrameParams params, CdtFormat format) {
     return params;
 }
 
-/// The exact preset's arithmetic, its sums from either end.
-class PortableEitherWay : public Portable {
-  public:
-    explicit PortableEitherWay(bool right_to_left) : right_to_left_(right_to_left) {}
-    [[nodiscard]] float dot(glm::vec3 a, glm::vec3 b) const {
-        if (!right_to_left_)
-            return Portable::dot(a, b);
-        return add(multiply(a.x, b.x), add(multiply(a.y, b.y), multiply(a.z, b.z)));
-    }
-    [[nodiscard]] float length(glm::vec3 v) const { return sqrt(dot(v, v)); }
-    [[nodiscard]] glm::vec3 normalize(glm::vec3 v) const {
-        return right_to_left_ ? scale(v, inverse_sqrt(dot(v, v))) : Portable::normalize(v);
-    }
-
-  private:
-    bool right_to_left_;
-};
-
-/// The arithmetic a step is made with: the profile's, or a deviating one.
-template <class Pass> decltype(auto) with_deviating_arithmetic(const Profile& profile, const Switches& switches,
-                                                               const Deviations& deviations, Pass&& pass) {
-    const auto fused_or_not = [&](auto fp) {
-        return deviations.has(products_fused) ? pass(FusedProducts(fp)) : pass(fp);
-    };
-    if (switches.arithmetic == ArithmeticSwitch::exact || deviations.has(portable_arithmetic))
-        return fused_or_not(PortableEitherWay(deviations.has(sums_right_to_left)));
-    // The driver's tables come with its own orders of sums.
-    const auto in_order = [](DotOrder order) { return PlainArithmetic(order, order, order, nullptr); };
-    if (deviations.has(sums_fused))
-        return fused_or_not(in_order(DotOrder::fused_chain));
-    if (deviations.has(sums_right_to_left))
-        return fused_or_not(in_order(DotOrder::right_to_left));
-    if (deviations.has(sums_left_to_right))
-        return fused_or_not(in_order(DotOrder::left_to_right));
-    return fused_or_not(
-        PlainArithmetic(profile.dot, profile.length_order(), profile.normalize_order(), profile.roots.get()));
-}
-
-const CollisionImage& read_cdt(const FrameInputs& inputs, const Deviations& deviations) {
-    if (deviations.has(stale_cdt) && inputs.earlier_cdt != nullptr)
-        return *inputs.earlier_cdt;
-    if (deviations.has(current_frame_cdt) && inputs.drawn_cdt != nullptr)
-        return *inputs.drawn_cdt;
-    return *inputs.cdt;
-}
-
-/// The step's mistakes, and what the host mixes up.
-class MadeMistakes {
-  public:
-    MadeMistakes(const FrameInputs& inputs, const Deviations& deviations) : params_(*inputs.params) {
-        for (const Deviation deviation : deviations) {
-            if (const auto mistake = step_mistake(deviation))
-                add(*mistake);
-            if (deviation == half_cdt || deviation == unorm8_cdt)
-                add_coarse(deviation == half_cdt ? CdtFormat::rgba16f : CdtFormat::rgba8);
-        }
-        if (deviations.has(matrix_of_earlier_frame) && inputs.earlier_params != nullptr) {
-            mixed_up_.emplace(*inputs.params);
-            mixed_up_->collision_proj_view = inputs.earlier_params->collision_proj_view;
-        }
-    }
-    MadeMistakes(const MadeMistakes&) = delete;
-    MadeMistakes& operator=(const MadeMistakes&) = delete;
-
-    [[nodiscard]] std::span<const Mistake> mistakes() const { return {mistakes_.data(), count_}; }
-    [[nodiscard]] const FrameParams& params() const { return mixed_up_ ? *mixed_up_ : params_; }
-
-  private:
-    void add(const Mistake& mistake) {
-        if (count_ < mistakes_.size())
-            mistakes_[count_++] = mistake;
-    }
-    void add_coarse(CdtFormat format) {
-        coarse_.emplace(stored_as(params_, format));
-        add({.site = site::stored_position.id,
-             .change = Change::spoiled,
-             .spoil = store_and_read,
-             .context = &*coarse_});
-    }
-    static void store_and_read(std::span<float> position, const void* code) {
-        const auto& coarse = *static_cast<const CollisionCode*>(code);
-        const glm::vec3 read = coarse.decode(coarse.encode({position[0], position[1], position[2]}));
-        for (std::size_t c = 0; c < 3; ++c)
-            position[c] = read[static_cast<int>(c)];
-    }
-
-    const FrameParams& params_;
-    std::optional<FrameParams> mixed_up_;
-    std::optional<CollisionCode> coarse_;
-    std::array<Mistake, Deviations::most> mistakes_;
-    std::size_t count_ = 0;
-};
-
-template <class R>
-ParticleState step(R& reading, const CollisionImage& cdt, const FrameParams& params, const ParticleState& before) {
-    const auto v = CollisionTwin(reading, cdt, params)(before);
-    return {floats(v.position), floats(v.direction), static_cast<float>(v.speed), static_cast<float>(v.collide_time)};
+/// The camera that places the points.
+FrameParams seen_by(const FrameInputs& inputs, const Deviations& deviations) {
+    FrameParams params = *inputs.params;
+    if (deviations.has(matrix_of_earlier_frame) && inputs.earlier_params != nullptr)
+        params.collision_proj_view = inputs.earlier_params->collision_proj_view;
+    return params;
 }
 
 /// The point drawn for `position`.
 template <class A> class DeviatingPoint {
   public:
-    DeviatingPoint(A fp, const FrameParams& params, const MadeMistakes& made, const Deviations& deviations,
+    DeviatingPoint(A fp, const FrameParams& params, std::span<const Mistake> made, const Deviations& deviations,
                    const RasterRules& rules)
-        : fp_(fp), params_(params), deviations_(deviations), rules_(rules), reading_(fp, made.mistakes()),
-          image_(reading_, made.params()) {
+        : fp_(fp), params_(params), deviations_(deviations), rules_(rules), reading_(fp, made),
+          image_(reading_, params) {
         if (has(point_viewport_swapped))
             std::swap(viewport_width_, viewport_height_);
         if (has(point_on_upper_pixel))
@@ -280,41 +187,6 @@ void prepare(const FrameInputs& inputs, const Profile& profile, const Deviations
 
 } // namespace
 
-ParticleState deviating_step(const FrameInputs& inputs, std::size_t i, const Profile& profile,
-                             const Deviations& deviations) {
-    const FlushSubnormals guard(profile.flush_subnormals && !deviations.has(subnormals_kept));
-    const bool earlier = deviations.has(buffers_not_swapped) && inputs.earlier != nullptr;
-    const ParticleState before = (earlier ? *inputs.earlier : *inputs.before)[i];
-    if (deviations.has(state_passed_through))
-        return before;
-    const MadeMistakes made(inputs, deviations);
-    return with_deviating_arithmetic(profile, inputs.params->switches, deviations, [&]<class A>(A fp) {
-        Mistaken<A> reading(fp, made.mistakes());
-        return step(reading, read_cdt(inputs, deviations), made.params(), before);
-    });
-}
-
-ParticleState mistaken_step(const FrameInputs& inputs, std::size_t i, const Profile& profile,
-                            std::span<const Mistake> mistakes) {
-    const FlushSubnormals guard(profile.flush_subnormals);
-    return with_deviating_arithmetic(profile, inputs.params->switches, {}, [&]<class A>(A fp) {
-        Mistaken<A> reading(fp, mistakes);
-        return step(reading, *inputs.cdt, *inputs.params, (*inputs.before)[i]);
-    });
-}
-
-std::vector<SeenSite> step_sites(const FrameInputs& inputs, std::span<const std::size_t> particles,
-                                 const Profile& profile) {
-    const FlushSubnormals guard(profile.flush_subnormals);
-    return with_deviating_arithmetic(profile, inputs.params->switches, {}, [&]<class A>(A fp) {
-        Mistaken<A> reading(fp, {});
-        reading.look_at_sites();
-        for (const std::size_t i : particles)
-            step(reading, *inputs.cdt, *inputs.params, (*inputs.before)[i]);
-        return std::vector(reading.sites().begin(), reading.sites().end());
-    });
-}
-
 void deviating_draw(const FrameInputs& inputs, const Particles& after, const Profile& profile,
                     const Deviations& deviations, const CollisionImage& obstacles_cdt,
                     const DepthImage& obstacles_depth, CollisionImage& cdt) {
@@ -340,9 +212,10 @@ void deviating_draw(const FrameInputs& inputs, const Particles& after, const Pro
                                            : deviations.has(stores_position_before) ? inputs.before->position
                                                                                     : after.position;
     const DepthTest test(deviations);
-    const MadeMistakes made(inputs, deviations);
-    with_deviating_arithmetic(profile, inputs.params->switches, deviations, [&](auto fp) {
-        DeviatingPoint fragment(fp, *inputs.params, made, deviations, profile.raster);
+    const std::vector<Mistake> made = mistakes_of(deviations);
+    const FrameParams params = seen_by(inputs, deviations);
+    with_mistaken_arithmetic<true>(profile, params.switches.arithmetic, made, [&](auto fp) {
+        DeviatingPoint fragment(fp, params, made, deviations, profile.raster);
         for (std::size_t i = 0; i < positions.size(); ++i) {
             PointFragment point = fragment(positions[i]);
             if (deviations.has(fragment_depth_reversed))

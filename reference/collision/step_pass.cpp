@@ -1,8 +1,12 @@
 #include "reference/collision/step_pass.hpp"
 
+#include <optional>
+#include <span>
+#include <string>
 #include <utility>
 #include <vector>
 
+#include "reference/collision/collision_mistakes.hpp"
 #include "reference/collision/collision_twin.hpp"
 #include "reference/collision/layered_twin.hpp"
 #include "reference/collision/octree/octree_leaves.hpp"
@@ -21,9 +25,42 @@ ParticleState particle(const PassInput& in, std::size_t item) {
 }
 
 struct ListingStep {
+    static constexpr bool may_fuse = true;
+
     StepInputs inputs;
+    const Particles* before = nullptr; ///< by the host's mistake, not the state that is handed on
+    const CollisionImage* cdt = nullptr;
+    std::optional<FrameParams> params = {};
+
+    [[nodiscard]] ListingStep handed(std::span<const Mistake> made) const {
+        ListingStep step{inputs};
+        for (const Mistake& mistake : made) {
+            if (mistake.change != Change::handed_over || inputs.mixed_up == nullptr)
+                continue;
+            const FrameInputs& other = *inputs.mixed_up;
+            switch (static_cast<Deviation>(mistake.part)) {
+            case Deviation::buffers_not_swapped:
+                step.before = other.earlier;
+                break;
+            case Deviation::stale_cdt:
+                step.cdt = other.earlier_cdt != nullptr ? other.earlier_cdt : step.cdt;
+                break;
+            case Deviation::current_frame_cdt:
+                step.cdt = step.cdt != nullptr ? step.cdt : other.drawn_cdt;
+                break;
+            default:
+                if (other.earlier_params != nullptr) {
+                    step.params = inputs.params;
+                    step.params->collision_proj_view = other.earlier_params->collision_proj_view;
+                }
+            }
+        }
+        return step;
+    }
+
     template <class R> auto operator()(R& r, const PassInput& in, std::size_t item) const {
-        return CollisionTwin(r, inputs.cdt, inputs.params)(particle(in, item));
+        return CollisionTwin(r, cdt != nullptr ? *cdt : inputs.cdt, params ? *params : inputs.params)(
+            before != nullptr ? (*before)[item] : particle(in, item));
     }
 };
 
@@ -44,8 +81,8 @@ struct OctreeStep {
     }
 };
 
-ItemPassOptions options(const char* name, PassStage stage, const FrameParams& params) {
-    return {.name = name,
+ItemPassOptions options(PassStage stage, const FrameParams& params) {
+    return {.name = std::string(step_name(params.switches)),
             .resource = collision::particles,
             .stage = stage,
             .arithmetic = params.switches.arithmetic,
@@ -56,15 +93,21 @@ ItemPassOptions options(const char* name, PassStage stage, const FrameParams& pa
 
 bool is_listing(const Switches& switches) { return switches.search == Search::cdt && !has_remedies(switches); }
 
+std::string_view step_name(const Switches& switches) {
+    if (switches.search == Search::octree)
+        return "octree_pass";
+    return has_remedies(switches) ? "layered_collision_pass" : "collision_pass";
+}
+
 std::unique_ptr<ItemPass> step_pass(const StepInputs& inputs) {
     const FrameParams& params = inputs.params;
     if (params.switches.search == Search::octree)
-        return item_pass(options("octree_pass", PassStage::compute, params),
+        return item_pass(options(PassStage::compute, params),
                          OctreeStep{inputs, std::make_shared<const OctreeLeaves>(
                                                 fill_leaves(inputs.before.position, inputs.obstacles, params))});
     if (has_remedies(params.switches))
-        return item_pass(options("layered_collision_pass", PassStage::vertex, params), LayeredStep{inputs});
-    return item_pass(options("collision_pass", PassStage::vertex, params), ListingStep{inputs});
+        return item_pass(options(PassStage::vertex, params), LayeredStep{inputs});
+    return item_pass(options(PassStage::vertex, params), ListingStep{inputs});
 }
 
 SystemView step_state(const StepInputs& inputs) { return {{view(inputs.before), view(inputs.cdt)}}; }

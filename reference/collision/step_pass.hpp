@@ -1,6 +1,8 @@
 #pragma once
 #include <memory>
+#include <string_view>
 
+#include "reference/collision/frame_inputs.hpp"
 #include "reference/model/collision/particles.hpp"
 #include "reference/model/collision/scene.hpp"
 #include "reference/model/image.hpp"
@@ -18,11 +20,15 @@ struct StepInputs {
     const CollisionImage& cdt;
     const Mesh& obstacles;
     const FrameParams& params;
+    const FrameInputs* mixed_up = nullptr; ///< what the host's mistakes take instead; null: nothing
 };
 
 /// The twin of the particles' step of one frame, by the scene's switches: the listing's search, or the octree's. Null
 /// for a search that has no twin.
 std::unique_ptr<ItemPass> step_pass(const StepInputs& inputs);
+
+/// Its name: "collision_pass".
+std::string_view step_name(const Switches& switches);
 
 /// The state that it starts from, as one.
 SystemView step_state(const StepInputs& inputs);

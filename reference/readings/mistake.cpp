@@ -63,8 +63,16 @@ constexpr std::array names{"as it is",
                            "the last of equals",
                            "one a turn",
                            "all added up",
-                           "all added up as unit vectors"};
-static_assert(names.size() == static_cast<std::size_t>(units_added_up) + 1);
+                           "all added up as unit vectors",
+                           "sums left to right",
+                           "sums right to left",
+                           "sums fused",
+                           "products fused",
+                           "portable arithmetic",
+                           "subnormals kept",
+                           "item kept",
+                           "handed over otherwise"};
+static_assert(names.size() == static_cast<std::size_t>(handed_over) + 1);
 
 constexpr std::array value_changes{zero,     one,      negated,  doubled,   halved,   reciprocal,
                                    opposite, one_more, one_less, half_more, half_less};

@@ -1,4 +1,5 @@
 #pragma once
+#include <algorithm>
 #include <array>
 #include <cstddef>
 #include <cstdint>
@@ -37,7 +38,7 @@ enum class Change : std::uint8_t {
     rotated,      ///< y, z, x
     rotated_back, ///< z, x, y
     by_formula,   ///< what the system says (Mistake::formula)
-    spoiled,      ///< likewise (Mistake::spoil)
+    spoiled,      ///< likewise, to the very bits
     // By formula, as well: a condition, a loop, a fetch, a choice.
     decided_by_formula,
     ranged_by_formula,
@@ -72,9 +73,19 @@ enum class Change : std::uint8_t {
     first_taken,
     greatest_taken,
     last_of_equals,
-    one_a_turn,    ///< after one that was taken, none before the next loop begins
-    added_up,      ///< what was found is the sum of all
-    units_added_up ///< of all as unit vectors
+    one_a_turn,     ///< after one that was taken, none before the next loop begins
+    added_up,       ///< what was found is the sum of all
+    units_added_up, ///< of all as unit vectors
+    // Of the whole pass, at no site: its arithmetic.
+    sums_left_to_right,
+    sums_right_to_left,
+    sums_fused,
+    products_fused, ///< of twins that say so (item_twin.hpp)
+    portable_arithmetic,
+    subnormals_kept,
+    // What its host does.
+    item_kept,  ///< the item stays as it was
+    handed_over ///< what the twin says (Mistake::part)
 };
 /// "negated"
 std::string_view change_name(Change change);
@@ -116,15 +127,26 @@ struct Mistake {
     Change change = Change::none;
     int part = -1;            ///< component, or comparison; -1: the whole
     std::uint32_t source = 0; ///< the site whose value is taken
-    /// Of Change::spoiled: changes the components.
-    void (*spoil)(std::span<float> value, const void* context) = nullptr;
-    const void* context = nullptr;
     Formula formula = nullptr;
     std::array<float, 3> constants{}; ///< of the formula
     const Mistake* also = nullptr;    ///< made together with it
 
     bool operator==(const Mistake&) const = default;
+
+    /// Whether it is one of the pass's arithmetic: what it changes is rounding.
+    [[nodiscard]] bool is_about_rounding() const {
+        return change >= Change::sums_left_to_right && change <= Change::subnormals_kept;
+    }
+    /// Whether it is written in one way among many, that round otherwise.
+    [[nodiscard]] bool rounds() const {
+        return also != nullptr || (formula != nullptr && change != Change::spoiled) ||
+               (change >= Change::one_a_turn && change <= Change::units_added_up);
+    }
 };
+
+inline bool is_among(Change change, std::span<const Mistake> made) {
+    return std::any_of(made.begin(), made.end(), [&](const Mistake& m) { return m.change == change; });
+}
 
 /// As data: a change at a site, of its part `part` or the whole, by the value of `source`.
 inline Mistake mistake_at(const Site& site, Change change, int part = -1, const Site* source = nullptr) {

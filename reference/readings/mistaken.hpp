@@ -402,7 +402,7 @@ template <class A> class Mistaken {
         const Mistake& mistake = made.mistake;
         if (mistake.change > Change::spoiled)
             return; // of the operation at this site
-        if (mistake.change == Change::by_formula) {
+        if (mistake.change == Change::by_formula || mistake.change == Change::spoiled) {
             std::array<float, 4> v{};
             for (std::size_t i = 0; i < all.size(); ++i)
                 v[i] = as_float(*all[i]);
@@ -411,14 +411,7 @@ template <class A> class Mistaken {
                 set(*all[i], v[i]);
             return;
         }
-        if (mistake.change == Change::spoiled) {
-            std::array<float, 4> v{};
-            for (std::size_t i = 0; i < all.size(); ++i)
-                v[i] = as_float(*all[i]);
-            mistake.spoil(std::span(v.data(), all.size()), mistake.context);
-            for (std::size_t i = 0; i < all.size(); ++i)
-                set(*all[i], v[i]);
-        } else if (mistake.change == Change::swapped) {
+        if (mistake.change == Change::swapped) {
             if constexpr (all.size() > 1)
                 std::swap(*all[0], *all[1]);
         } else if (mistake.change >= Change::yz_swapped && mistake.change <= Change::rotated_back) {

@@ -13,6 +13,7 @@
 #include "reference/plain_arithmetic.hpp"
 #include "reference/readings/following.hpp"
 #include "reference/readings/mistaken.hpp"
+#include "reference/readings/mistaken_arithmetic.hpp"
 #include "reference/readings/recording.hpp"
 #include "reference/readings/values.hpp"
 #include "reference/readings/worlds.hpp"
@@ -67,6 +68,23 @@ inline constexpr std::uint32_t nothing_reads_so = 0x7f7ffffe;
 template <class Twin> decltype(auto) in_frame(const Twin& twin, int frame) {
     if constexpr (requires { twin.at(frame); })
         return twin.at(frame);
+    else
+        return (twin);
+}
+
+/// A twin whose products may be fused by mistake says `static constexpr bool may_fuse = true`: that is one more
+/// arithmetic to compile.
+template <class Twin> constexpr bool may_fuse() {
+    if constexpr (requires { Twin::may_fuse; })
+        return Twin::may_fuse;
+    else
+        return false;
+}
+
+/// A twin may have `handed(made)`, which returns the twin as a host that makes these mistakes hands it its inputs.
+template <class Twin> decltype(auto) as_handed(const Twin& twin, std::span<const Mistake> made) {
+    if constexpr (requires { twin.handed(made); })
+        return twin.handed(made);
     else
         return (twin);
 }
@@ -245,9 +263,13 @@ template <class Twin> class ItemTwin final : public ItemPass {
 
     [[nodiscard]] std::vector<std::uint32_t> mistaken(const PassInput& in, std::size_t item, const Profile& profile,
                                                       std::span<const Mistake> made) const override {
-        const FlushSubnormals guard = flush(profile);
-        const auto& twin = item_twin::in_frame(twin_, in.frame);
-        return with_arithmetic_of(profile, [&]<class A>(A fp) {
+        if (is_among(Change::item_kept, made))
+            return item_words(in.before[options_.resource], item);
+        const FlushSubnormals guard = flush(profile, !is_among(Change::subnormals_kept, made));
+        const auto& framed = item_twin::in_frame(twin_, in.frame);
+        const auto& twin = item_twin::as_handed(framed, made);
+        constexpr bool may_fuse = item_twin::may_fuse<std::remove_cvref_t<decltype(framed)>>();
+        return with_mistaken_arithmetic<may_fuse>(profile, options_.arithmetic, made, [&]<class A>(A fp) {
             try {
                 Mistaken<A> reading(fp, made);
                 return words_of(twin(reading, in, item), about(in));

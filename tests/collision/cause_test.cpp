@@ -8,12 +8,15 @@
 #include <utility>
 #include <vector>
 
-#include "crosscheck/judge/cause.hpp"
 #include "crosscheck/judge/compare.hpp"
+#include "crosscheck/judge/step_cause.hpp"
+#include "reference/collision/deviating_pass.hpp"
 #include "reference/collision/obstacle_pass.hpp"
 #include "reference/collision/simulation.hpp"
+#include "reference/collision/step_pass.hpp"
 #include "reference/model/camera.hpp"
 #include "tests/collision/collision_scenes.hpp"
+#include "tests/collision/deviating_step.hpp"
 
 using namespace lockstep;
 using namespace lockstep::test;
@@ -84,7 +87,9 @@ class Run {
     /// The reference with `deviations` plays the GPU, in frames 2 and 3.
     [[nodiscard]] Result with(
         const Deviations& deviations, const std::function<void(Particles&)>& spoil = [](Particles&) {}) const {
-        CauseFinder finder;
+        const std::vector<NamedMistake> named = named_mistakes(scene_, profile_);
+        ItemCauseFinder of_step(named, step_name(scene_.switches));
+        TexelCauses of_texels;
         Result result;
         for (int frame = 2; frame < frames; ++frame) {
             const auto t = static_cast<std::size_t>(frame);
@@ -117,10 +122,10 @@ class Run {
             const FrameVerdicts verdicts = judge(judged);
             if (!deviations.has(Deviation::current_frame_cdt))
                 inputs.drawn_cdt = &gpu.cdt;
-            finder.add(judged, verdicts, inputs);
+            add_causes(judged, verdicts, inputs, of_step, of_texels);
         }
-        result.particles = finder.particles();
-        result.texels = finder.texels();
+        result.particles = of_step.findings();
+        result.texels = of_texels.findings();
         return result;
     }
 

@@ -13,8 +13,10 @@
 #include "reference/collision/obstacle_pass.hpp"
 #include "reference/collision/simulation.hpp"
 #include "reference/model/profile.hpp"
+#include "tests/collision/deviating_step.hpp"
 
 using namespace lockstep;
+using test::deviating_step;
 
 namespace {
 

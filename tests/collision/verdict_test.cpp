@@ -14,12 +14,12 @@
 
 #include "reference/collision/collision_code.hpp"
 #include "reference/collision/collision_pass.hpp"
-#include "reference/collision/deviating_pass.hpp"
 #include "reference/collision/obstacle_pass.hpp"
 #include "reference/model/collision/collision_state.hpp"
 #include "reference/model/same_bits.hpp"
 #include "reference/triangle_interpolation.hpp"
 #include "tests/collision/collision_scenes.hpp"
+#include "tests/collision/deviating_step.hpp"
 
 using namespace lockstep;
 using namespace lockstep::test;

@@ -56,6 +56,67 @@ TEST_CASE("item cause: what a twin throws when a mistake is tried leaves the sea
     const View reference_view = std::as_const(reference)[0], gpu_view = std::as_const(gpu)[0];
     const JudgedPass judged{*pass, profile, known, 0, from, reference_view, gpu_view};
     const std::vector<NamedMistake> named;
-    ItemCauseFinder finder(named);
+    ItemCauseFinder finder(named, "fall");
     CHECK_THROWS_WITH(finder.add(judged, judge_items(judged)), "falls upwards");
+}
+
+namespace {
+
+constexpr Site side_before{"side before"}, drift{"drift"}, side{"side"};
+
+const Schema& leaves() {
+    static const Schema schema{
+        "leaves",
+        {{"leaves", "leaf", "the leaves", {{"height", Scalar::float32, 1, "m"}, {"side", Scalar::float32, 1, "m"}}}}};
+    return schema;
+}
+
+template <class R> struct Leaf {
+    typename R::Real height{}, side{};
+    auto fields() { return std::tie(height, side); }
+    auto fields() const { return std::tie(height, side); }
+};
+
+struct Sinks {
+    template <class R> Leaf<R> operator()(R& r, const PassInput& in, std::size_t item) const {
+        const auto high = r.read(height_before, in.before.real({0, 0}, item));
+        const auto wide = r.read(side_before, in.before.real({0, 1}, item));
+        return {r.note(height, high - r.uniform(lost, 0.5F)), r.note(side, wide + r.uniform(drift, 0.25F))};
+    }
+};
+
+} // namespace
+
+TEST_CASE("item cause: two mistakes at once in any pass are found as a pair of names") {
+    const auto pass = item_pass({.name = "sink"}, Sinks{});
+    SystemState before(leaves(), {{200}});
+    for (std::size_t i = 0; i < 200; ++i) {
+        before.set({0, 0}, i, 4.0F + static_cast<float>(i));
+        before.set({0, 1}, i, 0.125F * static_cast<float>(i));
+    }
+    SystemState reference = before, gpu = before;
+    const Profile profile = named_profile("strict");
+    const KnownOperations known = measured_operations(profile);
+    const SystemView from = before.view();
+    run_pass(*pass, {from, 0}, profile, reference[0]);
+    for (std::size_t i = 0; i < 200; ++i) {
+        gpu.set({0, 0}, i, 3.0F + static_cast<float>(i));
+        gpu.set({0, 1}, i, 0.125F * static_cast<float>(i) - 0.25F);
+    }
+    const View reference_view = std::as_const(reference)[0], gpu_view = std::as_const(gpu)[0];
+    const JudgedPass judged{*pass, profile, known, 0, from, reference_view, gpu_view};
+    const std::vector<NamedMistake> named{
+        {"falls_not", "the height stays", "sink", mistake_at(lost, Change::zero)},
+        {"falls_twice", "the height falls twice as far", "sink", mistake_at(lost, Change::doubled)},
+        {"drifts_back", "the wind comes from the other side", "sink", mistake_at(drift, Change::negated)}};
+    ItemCauseFinder finder(named, "sink");
+    finder.add(judged, judge_items(judged));
+    const CauseFindings found = finder.findings();
+    REQUIRE(found.explains_all());
+    CHECK(found.best.front().name() == "falls_twice + drifts_back");
+    CHECK(found.best.front().explained == 200);
+
+    ItemCauseFinder seen_elsewhere(named, "sink");
+    seen_elsewhere.add(judged, judge_items(judged), [](std::span<const NamedMistake* const>) { return 7; });
+    CHECK_FALSE(seen_elsewhere.findings().explains_all());
 }

@@ -1,0 +1,78 @@
+#include "crosscheck/judge/item_likeness.hpp"
+
+#include <array>
+
+#include "crosscheck/judge/rounding_only.hpp"
+
+namespace lockstep {
+namespace {
+
+auto values_of(const View& view, std::size_t item) {
+    return [&view, item](const Component& c, std::size_t) { return view.value(c.field, item, c.component); };
+}
+
+auto values_of(std::span<const std::uint32_t> words, const View& like) {
+    return [words, &like](const Component& c, std::size_t word) {
+        return Value{like.fields()[c.field].scalar, words[word]};
+    };
+}
+
+} // namespace
+
+bool alike(Value a, Value b) {
+    return same_bits(a, b) || (a.scalar == Scalar::float32 && a.real() == 0.0F && b.real() == 0.0F);
+}
+
+bool ItemLikeness::near(std::size_t item, const ValueOf& a, const ValueOf& b, float ulps) const {
+    const View& before = pass_.before[pass_.pass.resource()];
+    std::array<std::array<float, 4>, 3> field{};
+    for (std::size_t from = 0, to = 0; from < parts_.size(); from = to) {
+        std::size_t n = 0;
+        for (to = from; to < parts_.size() && parts_[to].field == parts_[from].field && n < 4; ++to) {
+            const Value x = a(parts_[to], to), y = b(parts_[to], to);
+            if (x.scalar != Scalar::float32) {
+                if (!same_bits(x, y))
+                    return false;
+                continue;
+            }
+            field[0][n] = x.real();
+            field[1][n] = y.real();
+            field[2][n++] = before.value(parts_[to].field, item, parts_[to].component).real();
+        }
+        if (!differ_by_rounding(std::span(field[0].data(), n), std::span(field[1].data(), n),
+                                std::span(field[2].data(), n), ulps))
+            return false;
+    }
+    return true;
+}
+
+bool ItemLikeness::are(const View& side, std::size_t item, std::span<const std::uint32_t> words) const {
+    for (std::size_t w = 0; w < parts_.size(); ++w) {
+        const Value has = side.value(parts_[w].field, item, parts_[w].component);
+        if (!alike({has.scalar, words[w]}, has))
+            return false;
+    }
+    return true;
+}
+
+bool ItemLikeness::are_gpus(std::size_t item, std::span<const std::uint32_t> words) const {
+    return are(pass_.gpu, item, words);
+}
+
+bool ItemLikeness::are_references(std::size_t item, std::span<const std::uint32_t> words) const {
+    return are(pass_.reference, item, words);
+}
+
+bool ItemLikeness::are_near_gpus(std::size_t item, std::span<const std::uint32_t> words, float ulps) const {
+    return near(item, values_of(words, pass_.gpu), values_of(pass_.gpu, item), ulps);
+}
+
+bool ItemLikeness::are_near_references(std::size_t item, std::span<const std::uint32_t> words, float ulps) const {
+    return near(item, values_of(words, pass_.reference), values_of(pass_.reference, item), ulps);
+}
+
+bool ItemLikeness::is_off_by_rounding(std::size_t item) const {
+    return near(item, values_of(pass_.gpu, item), values_of(pass_.reference, item), rewritten_ulps);
+}
+
+} // namespace lockstep

@@ -1,0 +1,43 @@
+#pragma once
+#include <cstddef>
+#include <cstdint>
+#include <functional>
+#include <span>
+#include <vector>
+
+#include "crosscheck/judge/system.hpp"
+
+namespace lockstep {
+
+/// How the values of a pass's items that a mistake would make stand to those of the GPU.
+class ItemLikeness {
+  public:
+    explicit ItemLikeness(const JudgedPass& pass) : pass_(pass), parts_(components(pass.gpu.about())) {}
+
+    [[nodiscard]] const JudgedPass& pass() const { return pass_; }
+    [[nodiscard]] const std::vector<Component>& parts() const { return parts_; }
+
+    /// Whether an item's words, made with a mistake, are the GPU's, but for the sign of zero, which depends on how a
+    /// mistake was written down.
+    [[nodiscard]] bool are_gpus(std::size_t item, std::span<const std::uint32_t> words) const;
+    /// Whether they differ from the GPU's by rounding alone, in every field.
+    [[nodiscard]] bool are_near_gpus(std::size_t item, std::span<const std::uint32_t> words, float ulps) const;
+    /// The same of the reference's own.
+    [[nodiscard]] bool are_references(std::size_t item, std::span<const std::uint32_t> words) const;
+    [[nodiscard]] bool are_near_references(std::size_t item, std::span<const std::uint32_t> words, float ulps) const;
+    /// Whether the reference differs from the GPU by rounding alone.
+    [[nodiscard]] bool is_off_by_rounding(std::size_t item) const;
+
+  private:
+    using ValueOf = std::function<Value(const Component& part, std::size_t word)>;
+    [[nodiscard]] bool are(const View& side, std::size_t item, std::span<const std::uint32_t> words) const;
+    [[nodiscard]] bool near(std::size_t item, const ValueOf& a, const ValueOf& b, float ulps) const;
+
+    const JudgedPass& pass_;
+    std::vector<Component> parts_;
+};
+
+/// The same bits, but for the sign of zero.
+bool alike(Value a, Value b);
+
+} // namespace lockstep

@@ -12,6 +12,7 @@
 #include "crosscheck/files/json_reader.hpp"
 #include "crosscheck/files/plain_text.hpp"
 #include "crosscheck/judge/registered_system.hpp"
+#include "crosscheck/lifecycle/system.hpp"
 #include "reference/model/near_name.hpp"
 
 namespace lockstep {
@@ -20,6 +21,7 @@ namespace {
 // One line a system.
 const std::vector<RegisteredSystem> registered{
     {"dust", "grains that tools, balls and colliders move, by compute shaders", dust::load},
+    {"lifecycle", "particles that are born, move, die and are packed, by compute shaders", lifecycle::load},
 };
 
 } // namespace

@@ -1,0 +1,54 @@
+#include "crosscheck/lifecycle/system.hpp"
+
+#include <algorithm>
+
+#include <fmt/format.h>
+
+#include "crosscheck/lifecycle/scene.hpp"
+#include "gpu/lifecycle/passes.hpp"
+#include "reference/lifecycle/passes.hpp"
+#include "reference/model/lifecycle/schema.hpp"
+
+namespace lockstep::lifecycle {
+namespace {
+
+/// What differs from the preset `corrected`, and where everyone may die though ages would say who.
+std::string text_of(const Host& host) {
+    std::string text;
+    const Switches corrected;
+    std::vector<int> usual;
+    for_each_switch(corrected,
+                    [&](std::string_view, auto value, const auto&) { usual.push_back(static_cast<int>(value)); });
+    std::size_t at = 0;
+    for_each_switch(
+        host.switches(), [&](std::string_view name, auto value, const std::vector<std::string_view>& names) {
+            if (static_cast<int>(value) != usual[at++])
+                text += fmt::format("{}{}={}", text.empty() ? "" : " ", name, names[static_cast<std::size_t>(value)]);
+        });
+    text = text.empty() ? "corrected" : "corrected, but " + text;
+    for (const HostEmitter& of : host.emitters())
+        if (host.switches().may_die != MayDie::all && of.dies == Dies::all)
+            text += fmt::format("; of emitter {} anyone may die", of.number);
+    return text;
+}
+
+} // namespace
+
+System system(const HostPtr& host, const std::string& name) {
+    const Schema& of = schema(host->switches());
+    const std::size_t emitters = host->emitters().size(), slots = host->slots();
+    System made{.name = name,
+                .schema = of,
+                .passes = twins(host),
+                .mistakes = {},
+                .start = {of, {{slots}, {emitters}, {slots}, {host->blocks()}, {host->ring()}, {emitters}, {slots}}},
+                .settings = text_of(*host)};
+    return made;
+}
+
+SystemScene load(const JsonValue& scene, const std::string& name, const SceneOptions& options) {
+    const auto host = std::make_shared<const Host>(read_scene(scene, options));
+    return {system(host, name), passes(host), host->settings().arithmetic};
+}
+
+} // namespace lockstep::lifecycle

@@ -1,0 +1,171 @@
+#include "gpu/lifecycle/passes.hpp"
+
+#include <algorithm>
+#include <initializer_list>
+#include <string>
+#include <utility>
+
+#include <glm/vec2.hpp>
+
+#include "reference/model/lifecycle/schema.hpp"
+
+namespace lockstep::lifecycle {
+namespace {
+
+std::vector<float> floats_of(const std::vector<HostForce>& forces) {
+    std::vector<float> all;
+    for (const HostForce& f : forces)
+        all.insert(all.end(),
+                   {static_cast<float>(f.kind), f.centre.x, f.centre.y, f.centre.z, f.axis.x, f.axis.y, f.axis.z,
+                    f.strength, f.radius, f.falloff, f.pull, f.square, f.drag, f.seed, 0.0F, 0.0F});
+    return all;
+}
+
+/// All that any kernel is handed; each takes what it has.
+Uniforms uniforms(const Host& host, const HostEmitter& of, int frame) {
+    const Emitter& e = of.settings();
+    const Settings& s = host.settings();
+    return {{"u_Emitter", static_cast<unsigned>(of.number)},
+            {"u_Base", static_cast<unsigned>(of.base)},
+            {"u_Capacity", static_cast<unsigned>(e.capacity)},
+            {"u_FirstBlock", static_cast<unsigned>(of.first_block)},
+            {"u_FirstInRing", static_cast<unsigned>(of.first_in_ring)},
+            {"u_Window", static_cast<unsigned>(of.window)},
+            {"u_Request", static_cast<unsigned>(of.request(frame))},
+            {"u_Frame", static_cast<unsigned>(frame)},
+            {"u_Corners", 4U},
+            {"u_Seed", of.seed},
+            {"u_Tick", s.tick},
+            {"u_HalfTickSquared", host.half_tick_squared()},
+            {"u_Time", host.time(frame)},
+            {"u_BoxLow", s.box_low},
+            {"u_BoxScale", host.box_scale()},
+            {"u_BoxStep", host.box_step()},
+            {"u_ShapeLow", e.min},
+            {"u_ShapeSize", e.max - e.min},
+            {"u_Radius", e.radius},
+            {"u_Origin", of.origin(frame)},
+            {"u_LastOrigin", of.origin(frame - 1)},
+            {"u_Direction", of.direction},
+            {"u_Side", of.side},
+            {"u_Up", of.up},
+            {"u_Jitter", e.direction_jitter},
+            {"u_Speed", e.speed},
+            {"u_SpeedJitter", e.speed_jitter},
+            {"u_ConeDepth", of.cone_depth},
+            {"u_Acceleration", e.acceleration},
+            {"u_Lifetime", glm::vec2(e.lifetime[0], e.lifetime[1])},
+            {"u_Sizes", glm::vec2(e.size[0], e.size[1])},
+            {"u_Color", e.color[0]},
+            {"u_EndColor", e.color[1]},
+            {"u_ForceCount", static_cast<int>(e.forces.size())}};
+}
+
+void add(ShaderDefines& all, std::string_view name, std::initializer_list<std::string_view> values,
+         std::size_t chosen) {
+    const std::vector<std::string_view> names(values);
+    const ShaderDefines one = choice_defines(name, names, chosen);
+    all.insert(all.end(), one.begin(), one.end());
+}
+
+ShaderDefines defines(const Host& host, const HostEmitter& of) {
+    ShaderDefines all;
+    for_each_switch(host.switches(),
+                    [&](std::string_view name, auto value, const std::vector<std::string_view>& names) {
+                        const ShaderDefines one = choice_defines(name, names, static_cast<std::size_t>(value));
+                        all.insert(all.end(), one.begin(), one.end());
+                    });
+    add(all, "shape", {"point", "box", "sphere"}, static_cast<std::size_t>(of.settings().shape));
+    add(all, "dies", {"window", "none", "all"}, static_cast<std::size_t>(of.dies));
+    all.emplace_back("CONE", of.settings().cone >= 0.0F ? "1" : "0");
+    return all;
+}
+
+/// The kernels of an emitter.
+class Kernels {
+  public:
+    Kernels(std::vector<GlPass>& all, const HostPtr& host, const HostEmitter& of) : all_(all), host_(host), of_(of) {}
+
+    /// What a dispatch writes besides its first buffer: the name of the pass, and the buffer.
+    using Besides = std::initializer_list<std::pair<std::string_view, std::uint8_t>>;
+
+    GlPass& add(std::string name, std::uint8_t resource, Besides besides) {
+        GlPass pass{.name = std::move(name), .stage = Stage::compute, .resource = resource};
+        pass.uniforms = [host = host_, of = &of_](int frame) { return uniforms(*host, *of, frame); };
+        pass.defines = defines(*host_, of_);
+        const std::size_t at = all_.size();
+        all_.push_back(std::move(pass));
+        for (const auto& [what, other] : besides)
+            all_.push_back({.name = std::string(what), .stage = Stage::compute, .resource = other, .continues = true});
+        return all_[at];
+    }
+    void one(const std::string& name, std::uint8_t resource, Besides besides) {
+        add(name, resource, besides).invocations = [](int) { return std::size_t{1}; };
+    }
+    void many(const std::string& name, std::uint8_t argument, std::uint8_t resource, Besides besides,
+              bool with_forces = false) {
+        GlPass& pass = add(name, resource, besides);
+        pass.indirect = GroupCounts{{argument_buffer, argument}, of_.number};
+        if (with_forces)
+            pass.data["Forces"] = [host = host_, of = &of_](int frame) { return floats_of(of->forces(frame)); };
+    }
+
+    void emit() {
+        const bool before = host_->switches().emit_when == EmitWhen::before_destroy;
+        GlPass& pass = before ? add("emit", particle_buffer,
+                                    {{"emit_counters", counter_buffer}, {"emit_arguments", argument_buffer}})
+                              : add("emit", particle_buffer, {{"emit_counters", counter_buffer}});
+        pass.invocations = [of = &of_](int frame) { return std::max<std::size_t>(of->request(frame), 1); };
+    }
+    void destroy() {
+        if (host_->switches().compaction == Compaction::atomic)
+            return many("destroy", argument::destroy, survivor_buffer, {{"destroy_count", counter_buffer}});
+        many("destroy_reduce", argument::destroy, sum_buffer, {});
+        add("destroy_scan", counter_buffer, {{"destroy_scan_sums", sum_buffer}}).invocations = [](int) {
+            return std::size_t{256};
+        };
+        many("destroy", argument::destroy, survivor_buffer, {});
+    }
+    void simulating(const std::string& name, std::uint8_t argument, bool simulates) {
+        if (simulates && counts_in_simulation(*host_, of_))
+            many(name, argument, counter_buffer, {{name + "_particles", particle_buffer}}, true);
+        else
+            many(name, argument, particle_buffer, {}, true);
+    }
+
+  private:
+    std::vector<GlPass>& all_;
+    const HostPtr& host_;
+    const HostEmitter& of_;
+};
+
+} // namespace
+
+std::vector<GlPass> passes(const HostPtr& host) {
+    std::vector<GlPass> all;
+    const Switches& s = host->switches();
+    const bool before = s.emit_when == EmitWhen::before_destroy;
+    for (const HostEmitter& of : host->emitters()) {
+        Kernels kernels(all, host, of);
+        if (before)
+            kernels.emit();
+        kernels.destroy();
+        kernels.simulating("move", argument::move, s.fuse == Fuse::fused);
+        if (before)
+            kernels.one("post_destroy", counter_buffer,
+                        {{"post_destroy_ring", ring_buffer}, {"post_destroy_arguments", argument_buffer}});
+        else
+            kernels.one("post_destroy", counter_buffer, {{"post_destroy_arguments", argument_buffer}});
+        if (s.fuse == Fuse::split)
+            kernels.simulating("simulate", argument::simulate, true);
+        if (!before) {
+            kernels.emit();
+            kernels.one("post_emit", counter_buffer,
+                        {{"post_emit_ring", ring_buffer}, {"post_emit_arguments", argument_buffer}});
+        }
+        kernels.one("indirect", counter_buffer, {{"indirect_arguments", argument_buffer}});
+    }
+    return all;
+}
+
+} // namespace lockstep::lifecycle

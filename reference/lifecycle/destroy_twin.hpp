@@ -1,0 +1,119 @@
+#pragma once
+#include <algorithm>
+
+#include "reference/lifecycle/counters.hpp"
+
+/// The survivors among those that may die. Twins of shaders/lifecycle/destroy_reduce.comp, destroy_scan.comp and
+/// destroy.comp.
+namespace lockstep::lifecycle {
+
+inline constexpr FieldId sum_of_block{sum_buffer, 0}, survivor{survivor_buffer, 0};
+
+/// How many survive in each block of 1,024.
+struct DestroyReduceTwin {
+    HostPtr host;
+    const HostEmitter* of;
+
+    template <class R> ItemWords<R> operator()(R& r, const PassInput& in, std::size_t item) const {
+        UintItem<R> sum(r, in.before, sum_buffer, item);
+        const EmitterTwin<R> emitter(r, *host, *of, in);
+        const std::uint32_t d = emitter.may_die();
+        if (item < of->first_block || item - of->first_block >= blocks_of(d))
+            return sum.record();
+        const auto first = static_cast<std::uint32_t>(item - of->first_block) * 1024U;
+        std::uint32_t alive = 0;
+        for (std::uint32_t slot = first; slot < std::min(first + 1024U, d); ++slot)
+            alive += emitter.survives(slot) ? 1U : 0U;
+        sum.set(site::block_sum, 0, alive);
+        return sum.record();
+    }
+};
+
+/// Of the blocks' sums, before each block and of all. Any correct algorithm has the same bits.
+struct DestroyScanTwin {
+    HostPtr host;
+    const HostEmitter* of;
+
+    template <class R> ItemWords<R> operator()(R& r, const PassInput& in, std::size_t item) const {
+        UintItem<R> sum(r, in.before, sum_buffer, item);
+        const std::uint32_t blocks = blocks_of(EmitterTwin<R>(r, *host, *of, in).may_die());
+        if (item < of->first_block || item - of->first_block >= blocks)
+            return sum.record();
+        sum.set(site::block_sum, 0, before(in, item));
+        return sum.record();
+    }
+    [[nodiscard]] std::uint32_t before(const PassInput& in, std::size_t end) const {
+        std::uint32_t sum = 0;
+        for (std::size_t b = of->first_block; b < end; ++b)
+            sum += in.before.word(sum_of_block, b);
+        return sum;
+    }
+};
+
+struct SurvivorCountTwin {
+    HostPtr host;
+    const HostEmitter* of;
+
+    template <class R> ItemWords<R> operator()(R& r, const PassInput& in, std::size_t item) const {
+        UintItem<R> counters(r, in.before, counter_buffer, item);
+        if (item != of->number)
+            return counters.record();
+        const std::uint32_t blocks = blocks_of(counters[counter::may_die]);
+        counters.set(site::survivors, counter::survivors,
+                     DestroyScanTwin{host, of}.before(in, of->first_block + blocks));
+        return counters.record();
+    }
+};
+
+/// The survivors in order: in a block, by the sums before it, and on from there.
+struct DestroyTwin {
+    HostPtr host;
+    const HostEmitter* of;
+
+    template <class R> ItemWords<R> operator()(R& r, const PassInput& in, std::size_t item) const {
+        UintItem<R> listed(r, in.before, survivor_buffer, item);
+        const EmitterTwin<R> emitter(r, *host, *of, in);
+        if (!emitter.has(item) || !r.decide(site::is_survivor, emitter.slot(item) < emitter.survivors()))
+            return listed.record();
+        const std::uint32_t rank = emitter.slot(item), d = emitter.may_die();
+        std::uint32_t block = block_of(in, rank, blocks_of(d));
+        std::uint32_t seen = in.before.word(sum_of_block, of->first_block + block);
+        for (std::uint32_t slot = block * 1024U; slot < d; ++slot)
+            if (emitter.survives(slot) && seen++ == rank) {
+                listed.set(site::rank, 0, slot);
+                break;
+            }
+        return listed.record();
+    }
+
+  private:
+    /// The last block before which no more than `rank` survive.
+    [[nodiscard]] std::uint32_t block_of(const PassInput& in, std::uint32_t rank, std::uint32_t blocks) const {
+        std::uint32_t low = 0, high = blocks;
+        while (high - low > 1) {
+            const std::uint32_t middle = (low + high) / 2;
+            (in.before.word(sum_of_block, of->first_block + middle) <= rank ? low : high) = middle;
+        }
+        return low;
+    }
+};
+
+/// How many an atomic counter counts.
+struct AppendCountTwin {
+    HostPtr host;
+    const HostEmitter* of;
+
+    template <class R> ItemWords<R> operator()(R& r, const PassInput& in, std::size_t item) const {
+        UintItem<R> counters(r, in.before, counter_buffer, item);
+        if (item != of->number)
+            return counters.record();
+        const EmitterTwin<R> emitter(r, *host, *of, in);
+        std::uint32_t appended = counters[counter::append];
+        for (std::uint32_t slot = 0; slot < counters[counter::may_die]; ++slot)
+            appended += emitter.survives(slot) ? 1U : 0U;
+        counters.set(site::append, counter::append, appended);
+        return counters.record();
+    }
+};
+
+} // namespace lockstep::lifecycle

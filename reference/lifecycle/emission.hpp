@@ -1,0 +1,105 @@
+#pragma once
+#include "reference/lifecycle/particle.hpp"
+#include "reference/lifecycle/turns.hpp"
+
+namespace lockstep::lifecycle {
+
+/// What a particle is born with. Twin of shaders/lifecycle/emission.glsl.
+template <class R> class Emission {
+    using Real = typename R::Real;
+    using Vec3 = typename R::Vec3;
+
+  public:
+    Emission(R& reading, const Host& host, const HostEmitter& of, int frame)
+        : r(reading), host_(host), of_(of), at_(of.settings()), frame_(frame) {}
+
+    /// Particle `k` of this frame's `emitted`, in a slot of the emitter.
+    ItemWords<R> particle(std::size_t slot, std::uint32_t serial, std::uint32_t k, std::uint32_t emitted) const {
+        Particle<R> born(r, host_);
+        born.at(slot, frame_);
+        born.set_position(r.note(site::position, place(serial, k, emitted)));
+        born.set_velocity(r.note(site::velocity, velocity(serial)));
+        born.set_acceleration(r.note(site::acceleration, r.uniform(site::born_acceleration, at_.acceleration)));
+        born.set_birth(life(serial), r.uniform(site::time, host_.time(frame_)), k);
+        born.set_sizes(r.uniform(site::initial_size, at_.size[0]), r.uniform(site::end_size, at_.size[1]));
+        born.set_colors(at_.color[0], at_.color[1]);
+        return born.record();
+    }
+    /// Whether the place of such a particle is clamped.
+    bool clamps(std::size_t slot, std::uint32_t serial, std::uint32_t k, std::uint32_t emitted) const {
+        Particle<R> born(r, host_);
+        born.at(slot, frame_);
+        born.set_position(place(serial, k, emitted));
+        return born.was_clamped();
+    }
+
+  private:
+    /// Of a channel, in [0, 1).
+    Vec3 random(std::uint32_t serial, int channel) const {
+        const auto ch = static_cast<int>(r.note(site::channel, typename R::Int(channel)));
+        const Bits3 bits = pcg3d({serial, of_.seed, static_cast<std::uint32_t>(ch)});
+        return r.note(site::random, Vec3{R::real(bits[0] >> 8U) * 0x1p-24F, R::real(bits[1] >> 8U) * 0x1p-24F,
+                                         R::real(bits[2] >> 8U) * 0x1p-24F});
+    }
+    static Real symmetric(const Real& u) { return u * 2.0F - 1.0F; }
+
+    Vec3 on_circle(const Real& z, const Real& turns) const {
+        const Real radius = r.note(site::circle, r.sqrt(site::circle, Real(1.0F) - z * z));
+        const auto [sine, cosine] = sine_cosine(r, r.note(site::turns, turns));
+        return {radius * cosine, radius * sine, z};
+    }
+
+    Vec3 place(std::uint32_t serial, std::uint32_t k, std::uint32_t emitted) const {
+        const Vec3 low = r.uniform(site::shape_low, at_.min);
+        Vec3 p = low;
+        if (at_.shape == Emitter::Shape::box) {
+            const Vec3 u = random(serial, 0);
+            p = low + u * r.uniform(site::shape_size, at_.max - at_.min);
+        } else if (at_.shape == Emitter::Shape::sphere) {
+            const Vec3 u = random(serial, 0);
+            p = low + on_circle(symmetric(u.x), u.y) * r.uniform(site::radius, at_.radius);
+        }
+        p = r.note(site::shape_place, p);
+        const Vec3 now = r.uniform(site::origin, of_.origin(frame_));
+        if (host_.switches().spawn_spread == SpawnSpread::point)
+            return p + now;
+        const Vec3 last = r.uniform(site::last_origin, of_.origin(frame_ - 1));
+        const Real share = r.note(site::share, r.divide(site::share, R::real(k) + Real(0.5F), R::real(emitted)));
+        return p + r.note(site::place_of_emitter, last + (now - last) * share);
+    }
+
+    Vec3 velocity(std::uint32_t serial) const {
+        const Vec3 u = random(serial, 1);
+        const Vec3 ahead = r.uniform(site::direction, of_.direction);
+        Vec3 way;
+        if (at_.cone >= 0.0F) {
+            const Vec3 local = on_circle(Real(1.0F) - u.x * r.uniform(site::cone_depth, of_.cone_depth), u.y);
+            way = (r.uniform(site::side, of_.side) * local.x + r.uniform(site::up, of_.up) * local.y) + ahead * local.z;
+        } else {
+            const Real jitter = r.uniform(site::jitter, at_.direction_jitter);
+            way = ahead + Vec3{symmetric(u.x) * jitter, symmetric(u.y) * jitter, symmetric(u.z) * jitter};
+        }
+        const Real more = symmetric(random(serial, 2).x) * r.uniform(site::speed_jitter, at_.speed_jitter);
+        const Real speed = r.note(site::speed_of_birth, r.uniform(site::speed, at_.speed) * (Real(1.0F) + more));
+        return r.note(site::direction_of_birth, way) * speed;
+    }
+
+    Real life(std::uint32_t serial) const {
+        const Real shortest = r.uniform(site::shortest, at_.lifetime[0]);
+        const Real longest = r.uniform(site::longest, at_.lifetime[1]);
+        Real life = r.note(site::share_of_life, shortest + random(serial, 2).y * (longest - shortest));
+        if (r.decide(site::too_short, life < shortest))
+            life = shortest;
+        if (r.decide(site::too_long, life > longest))
+            life = longest;
+        return life;
+    }
+
+    R& r;
+    const Host& host_;
+    const HostEmitter& of_;
+    const Emitter& at_;
+    int frame_;
+};
+
+} // namespace lockstep::lifecycle

@@ -1,0 +1,15 @@
+#include "reference/lifecycle/emit_twin.hpp"
+#include "reference/lifecycle/pass_options.hpp"
+#include "reference/lifecycle/passes.hpp"
+
+namespace lockstep::lifecycle {
+
+void add_emit(Passes& all, const HostPtr& host, const HostEmitter& of) {
+    all.push_back(item_pass(options_of(host, "emit", particle_buffer), EmitTwin{host, &of}));
+    all.push_back(item_pass(options_of(host, "emit_counters", counter_buffer, true), EmitCountersTwin{host, &of}));
+    if (host->switches().emit_when == EmitWhen::before_destroy)
+        all.push_back(
+            item_pass(options_of(host, "emit_arguments", argument_buffer, true), EmitArgumentsTwin{host, &of}));
+}
+
+} // namespace lockstep::lifecycle

@@ -1,0 +1,23 @@
+#include "reference/lifecycle/move_twin.hpp"
+#include "reference/lifecycle/pass_options.hpp"
+#include "reference/lifecycle/passes.hpp"
+
+namespace lockstep::lifecycle {
+
+void add_move(Passes& all, const HostPtr& host, const HostEmitter& of) {
+    const bool counts = host->switches().fuse == Fuse::fused && counts_in_simulation(*host, of);
+    if (counts)
+        all.push_back(item_pass(options_of(host, "move", counter_buffer), SimulatedCountTwin{{host, &of}}));
+    all.push_back(item_pass(options_of(host, counts ? "move_particles" : "move", particle_buffer, counts),
+                            MoveTwin{{host, &of}}));
+}
+
+void add_simulate(Passes& all, const HostPtr& host, const HostEmitter& of) {
+    const bool counts = counts_in_simulation(*host, of);
+    if (counts)
+        all.push_back(item_pass(options_of(host, "simulate", counter_buffer), SimulatedCountTwin{{host, &of}}));
+    all.push_back(item_pass(options_of(host, counts ? "simulate_particles" : "simulate", particle_buffer, counts),
+                            SimulateTwin{{host, &of}}));
+}
+
+} // namespace lockstep::lifecycle

@@ -1,0 +1,87 @@
+#pragma once
+#include <optional>
+
+#include "reference/lifecycle/counters.hpp"
+#include "reference/lifecycle/simulation.hpp"
+
+/// The ranks are closed, and a tick passes. Twins of shaders/lifecycle/move.comp and simulate.comp.
+namespace lockstep::lifecycle {
+
+/// The slot from which a particle is moved to `slot`; nothing beyond the last.
+template <class R> std::optional<std::uint32_t> source_of(R& r, const EmitterTwin<R>& emitter, const HostEmitter& of,
+                                                          const PassInput& in, std::uint32_t slot) {
+    const std::uint32_t s = emitter.survivors(), d = emitter.may_die();
+    if (!r.decide(site::is_present, slot < s + emitter.present() - d))
+        return {};
+    const bool listed = r.decide(site::is_survivor, slot < s);
+    return noted(r, site::source, listed ? in.before.word({survivor_buffer, 0}, of.base + slot) : d + (slot - s));
+}
+
+struct MoveTwin {
+    FrameOf frame;
+
+    [[nodiscard]] MoveTwin at(int number) const { return {frame_of(frame.host, *frame.of, number)}; }
+
+    template <class R> ItemWords<R> operator()(R& r, const PassInput& in, std::size_t item) const {
+        const Host& host = *frame.host;
+        const EmitterTwin<R> emitter(r, host, *frame.of, in);
+        if (!emitter.has(item))
+            return kept(r, host, in, item);
+        const auto from = source_of(r, emitter, *frame.of, in, emitter.slot(item));
+        if (!from)
+            return kept(r, host, in, item);
+        Particle<R> particle(r, host, emitter.words_of(*from));
+        particle.at(emitter.slot(item), in.frame);
+        if (host.switches().fuse == Fuse::fused)
+            simulate(r, frame, particle);
+        return particle.record();
+    }
+};
+
+struct SimulateTwin {
+    FrameOf frame;
+
+    [[nodiscard]] SimulateTwin at(int number) const { return {frame_of(frame.host, *frame.of, number)}; }
+
+    template <class R> ItemWords<R> operator()(R& r, const PassInput& in, std::size_t item) const {
+        const EmitterTwin<R> emitter(r, *frame.host, *frame.of, in);
+        if (!emitter.has(item) || !r.decide(site::is_present, emitter.slot(item) < emitter.alive()))
+            return kept(r, *frame.host, in, item);
+        Particle<R> particle(r, *frame.host, emitter.words_of(emitter.slot(item)));
+        particle.at(emitter.slot(item), in.frame);
+        simulate(r, frame, particle);
+        return particle.record();
+    }
+};
+
+/// How many were killed, and how many places were clamped, in a pass that simulates.
+struct SimulatedCountTwin {
+    FrameOf frame;
+
+    [[nodiscard]] SimulatedCountTwin at(int number) const { return {frame_of(frame.host, *frame.of, number)}; }
+
+    template <class R> ItemWords<R> operator()(R& r, const PassInput& in, std::size_t item) const {
+        UintItem<R> counters(r, in.before, counter_buffer, item);
+        if (item != frame.of->number)
+            return counters.record();
+        const EmitterTwin<R> emitter(r, *frame.host, *frame.of, in);
+        const bool fused = frame.host->switches().fuse == Fuse::fused;
+        std::uint32_t killed = 0, clamped = 0;
+        for (std::uint32_t slot = 0; slot < frame.of->slots; ++slot) {
+            std::optional<std::uint32_t> from = slot;
+            if (fused)
+                from = source_of(r, emitter, *frame.of, in, slot);
+            if (!from || (!fused && slot >= counters[counter::alive]))
+                break;
+            Particle<R> particle(r, *frame.host, emitter.words_of(*from));
+            particle.at(slot, in.frame);
+            killed += simulate(r, frame, particle) ? 1U : 0U;
+            clamped += particle.was_clamped() ? 1U : 0U;
+        }
+        counters.set(site::killed, counter::killed, counters[counter::killed] + killed);
+        counters.set(site::clamped, counter::clamped, counters[counter::clamped] + clamped);
+        return counters.record();
+    }
+};
+
+} // namespace lockstep::lifecycle

@@ -1,0 +1,29 @@
+#pragma once
+#include <utility>
+
+#include "reference/lifecycle/sites.hpp"
+
+namespace lockstep::lifecycle {
+
+/// Sine and cosine of x turns, of rounded operations alone: within 1.7 * 2^-24. Twin of shaders/lifecycle/turns.glsl.
+template <class R> std::pair<typename R::Real, typename R::Real> sine_cosine(R& r, const typename R::Real& x) {
+    using Real = typename R::Real;
+    const Real turn = x - r.floor(x + 0.5F);
+    const Real quarters = r.floor(turn * 4.0F + 0.5F);
+    const Real f = turn - quarters * 0.25F;
+    const Real z = f * f;
+    const Real s = f * ((((z * 42.0586929F + -76.7058563F) * z + 81.6052475F) * z + -41.3417015F) * z + 6.28318548F);
+    const Real c = (((z * 60.2446404F + -85.4568176F) * z + 64.9393921F) * z + -19.7392082F) * z + 1.0F;
+    switch (static_cast<int>(r.to_int(site::quarter, quarters)) & 3) {
+    case 0:
+        return {s, c};
+    case 1:
+        return {c, -s};
+    case 2:
+        return {-s, -c};
+    default:
+        return {-c, s};
+    }
+}
+
+} // namespace lockstep::lifecycle

@@ -1,0 +1,79 @@
+#include "reference/model/lifecycle/settings.hpp"
+
+#include <cmath>
+
+#include <fmt/format.h>
+#include <glm/geometric.hpp>
+
+#include "reference/model/error.hpp"
+
+namespace lockstep::lifecycle {
+namespace {
+
+constexpr double most_a_frame = 16'777'216.0; // 2^24
+
+[[noreturn]] void fail(std::size_t emitter, const std::string& what) {
+    throw Error(fmt::format("emitter {}: {}", emitter, what));
+}
+
+bool has_direction(const glm::vec3& v) { return std::isfinite(glm::length(v)) && glm::length(v) > 0.0F; }
+
+void check(const Force& force, std::size_t emitter, std::size_t at) {
+    const auto wrong = [&](const std::string& what) { fail(emitter, fmt::format("force {}: {}", at, what)); };
+    if (force.kind == Force::Kind::vortex && !has_direction(force.axis))
+        wrong("axis has no length");
+    if (force.falloff < 0 || force.falloff > 2)
+        wrong(fmt::format("falloff is {}; right is 0, 1 or 2", force.falloff));
+    if (!(force.radius > 0.0F))
+        wrong(fmt::format("radius is {}; right is above 0", force.radius));
+    if (force.seed >= 1U << 24U)
+        wrong(fmt::format("seed is {}; right is below 16777216", force.seed));
+    if (!(force.kill_radius >= 0.0F))
+        wrong(fmt::format("kill_radius is {}; right is 0 or above", force.kill_radius));
+    if (force.kind == Force::Kind::drag && !(force.k >= 0.0F))
+        wrong(fmt::format("k is {}; right is 0 or above", force.k));
+}
+
+void check(const Emitter& e, const Settings& settings, std::size_t at) {
+    if (e.capacity < 1 || e.capacity > most_particles_of_emitter)
+        fail(at, fmt::format("capacity is {}; right is 1 to {}", e.capacity, most_particles_of_emitter));
+    if (!(e.rate >= 0.0 && e.rate * double{settings.tick} < most_a_frame))
+        fail(at, fmt::format("rate is {}; right is from 0 to 2^24 particles a tick", e.rate));
+    for (const auto& [frame, count] : e.bursts)
+        if (frame < 0 || count > 1U << 24U)
+            fail(at, fmt::format("burst of {} in frame {}; right is at most 2^24, from frame 0 on", count, frame));
+    if (!(std::isfinite(e.lifetime[0]) && std::isfinite(e.lifetime[1]) && e.lifetime[0] <= e.lifetime[1]))
+        fail(at, fmt::format("lifetime is {} to {}; right is two finite numbers, the smaller first", e.lifetime[0],
+                             e.lifetime[1]));
+    if (!has_direction(e.direction))
+        fail(at, "direction has no length");
+    if (e.cone > 180.0F)
+        fail(at, fmt::format("cone is {} degrees; right is at most 180", e.cone));
+    for (std::size_t k = 0; k < e.path.size(); ++k)
+        if (k > 0 && e.path[k].frame <= e.path[k - 1].frame)
+            fail(at,
+                 fmt::format("path {}: frame {} after {}; right is rising", k, e.path[k].frame, e.path[k - 1].frame));
+    for (std::size_t k = 0; k < e.forces.size(); ++k)
+        check(e.forces[k], at, k);
+}
+
+} // namespace
+
+void check(const Settings& settings) {
+    if (!(std::isfinite(settings.tick) && settings.tick > 0.0F))
+        throw Error(fmt::format("tick is {} s; right is above 0", settings.tick));
+    if (settings.emitters.empty())
+        throw Error("there is no emitter");
+    const Switches& s = settings.switches;
+    if (s.management == Management::index_lists)
+        throw Error("management=index_lists is not built; right is move_alives");
+    if (s.position_code == PositionCode::box16)
+        for (int axis = 0; axis < 3; ++axis)
+            if (!(settings.box_size[axis] > 0.0F))
+                throw Error(
+                    fmt::format("box: {} units wide in {}; right is above 0", settings.box_size[axis], "xyz"[axis]));
+    for (std::size_t e = 0; e < settings.emitters.size(); ++e)
+        check(settings.emitters[e], settings, e);
+}
+
+} // namespace lockstep::lifecycle

@@ -1,0 +1,35 @@
+#version 430 core
+// Appends this frame's newborns behind the particles that are there. Twin: reference/lifecycle/emit_twin.hpp.
+
+#include "lifecycle.glsl"
+#include "particles.glsl"
+#include "emission.glsl"
+
+layout(local_size_x = 256) in;
+layout(std430) buffer Arguments { ArgumentWords arguments[]; };
+
+uniform uint u_Request;
+
+void main() {
+    uint k = gl_GlobalInvocationID.x;
+    uint alive = counters[u_Emitter].alive;
+#if OVERFLOW == OVERFLOW_DROP_NEW
+    uint emitted = min(u_Request, u_Capacity - alive);
+#else
+    uint emitted = u_Request;
+#endif
+    if (k == 0u) {
+        counters[u_Emitter].emitted = emitted;
+#if EMIT_WHEN == EMIT_WHEN_BEFORE_DESTROY
+        arguments[u_Emitter].move = uint[3](groups_of(alive + emitted), 1u, 1u);
+#if DIES == DIES_ALL
+        counters[u_Emitter].may_die = alive + emitted;
+        arguments[u_Emitter].destroy = uint[3](DESTROY_GROUPS(alive + emitted), 1u, 1u);
+#endif
+#endif
+    }
+    if (k >= emitted)
+        return;
+    be_born(alive + k, k, emitted);
+    store(alive + k);
+}

@@ -119,7 +119,7 @@ Emitter read_emitter(const JsonValue& json) {
     json.check_keys(
         {"capacity", "rate", "bursts",    "lifetime",         "shape", "position",     "centre", "min",          "max",
          "radius",   "path", "direction", "direction_jitter", "speed", "speed_jitter", "cone",   "acceleration", "size",
-         "color",    "draw", "forces"});
+         "color",    "draw", "uv",        "uv_scale",         "forces"});
     Emitter e;
     read(json, "capacity", e.capacity, [](const JsonValue& v) {
         return static_cast<std::size_t>(v.integer(1, static_cast<std::int64_t>(most_particles_of_emitter)));
@@ -153,6 +153,10 @@ Emitter read_emitter(const JsonValue& json) {
     read(json, "draw", e.draw, [](const JsonValue& v) {
         return static_cast<Emitter::Draw>(v.choice({"sprite", "ribbon"}));
     });
+    read(json, "uv", e.uv, [](const JsonValue& v) {
+        return static_cast<Emitter::Uv>(v.choice({"segment", "stretched", "distance"}));
+    });
+    read(json, "uv_scale", e.uv_scale);
     if (const auto forces = json.find("forces"))
         for (const JsonValue& force : forces->items())
             e.forces.push_back(read_force(force));

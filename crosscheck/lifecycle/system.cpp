@@ -4,6 +4,7 @@
 
 #include <fmt/format.h>
 
+#include "crosscheck/lifecycle/mistakes.hpp"
 #include "crosscheck/lifecycle/scene.hpp"
 #include "gpu/lifecycle/passes.hpp"
 #include "reference/lifecycle/passes.hpp"
@@ -41,8 +42,21 @@ System system(const HostPtr& host, const std::string& name) {
                 .schema = of,
                 .passes = twins(host),
                 .mistakes = {},
-                .start = {of, {{slots}, {emitters}, {slots}, {host->blocks()}, {host->ring()}, {emitters}, {slots}}},
+                .start = {of,
+                          {{slots},
+                           {emitters},
+                           {slots},
+                           {host->blocks()},
+                           {host->ring()},
+                           {emitters},
+                           {slots},
+                           {host->blocks()},
+                           {slots}}},
                 .settings = text_of(*host)};
+    for (const NamedMistake& mistake : mistakes())
+        if (std::any_of(made.passes.begin(), made.passes.end(),
+                        [&](const auto& pass) { return pass->name() == mistake.pass; }))
+            made.mistakes.push_back(mistake);
     return made;
 }
 

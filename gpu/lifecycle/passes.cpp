@@ -34,6 +34,8 @@ Uniforms uniforms(const Host& host, const HostEmitter& of, int frame) {
             {"u_Request", static_cast<unsigned>(of.request(frame))},
             {"u_Frame", static_cast<unsigned>(frame)},
             {"u_Corners", 4U},
+            {"u_View", view_matrix(s.camera)},
+            {"u_UvScale", e.uv_scale},
             {"u_Seed", of.seed},
             {"u_Tick", s.tick},
             {"u_HalfTickSquared", host.half_tick_squared()},
@@ -77,6 +79,8 @@ ShaderDefines defines(const Host& host, const HostEmitter& of) {
                     });
     add(all, "shape", {"point", "box", "sphere"}, static_cast<std::size_t>(of.settings().shape));
     add(all, "dies", {"window", "none", "all"}, static_cast<std::size_t>(of.dies));
+    add(all, "uv", {"segment", "stretched", "distance"}, static_cast<std::size_t>(of.settings().uv));
+    all.emplace_back("RIBBON", of.settings().draw == Emitter::Draw::ribbon ? "1" : "0");
     all.emplace_back("CONE", of.settings().cone >= 0.0F ? "1" : "0");
     return all;
 }
@@ -126,6 +130,13 @@ class Kernels {
         };
         many("destroy", argument::destroy, survivor_buffer, {});
     }
+    void ribbon() {
+        many("ribbon_distance", argument::ribbon, particle_buffer, {});
+        many("prefix_reduce", argument::ribbon, length_buffer, {{"prefix_reduce_sums", block_length_buffer}});
+        add("prefix_scan", block_length_buffer, {}).invocations = [](int) { return std::size_t{256}; };
+        many("prefix_sum", argument::ribbon, length_buffer, {{"prefix_sum_particles", particle_buffer}});
+        many("ribbon", argument::ribbon, point_buffer, {});
+    }
     void simulating(const std::string& name, std::uint8_t argument, bool simulates) {
         if (simulates && counts_in_simulation(*host_, of_))
             many(name, argument, counter_buffer, {{name + "_particles", particle_buffer}}, true);
@@ -163,6 +174,8 @@ std::vector<GlPass> passes(const HostPtr& host) {
             kernels.one("post_emit", counter_buffer,
                         {{"post_emit_ring", ring_buffer}, {"post_emit_arguments", argument_buffer}});
         }
+        if (of.settings().draw == Emitter::Draw::ribbon)
+            kernels.ribbon();
         kernels.one("indirect", counter_buffer, {{"indirect_arguments", argument_buffer}});
     }
     return all;

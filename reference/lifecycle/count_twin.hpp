@@ -30,12 +30,28 @@ struct PostDestroyTwin {
             return counters.record();
         const EmitterTwin<R> emitter(r, *host, *of, in);
         const std::uint32_t s = emitter.survivors(), died = emitter.may_die() - s;
+        if (of->settings().draw == Emitter::Draw::ribbon)
+            move_origin(r, counters, in, s);
         counters.set(site::alive, counter::alive, emitter.present() - died);
         counters.set(site::survivors, counter::survivors, s);
         counters.set(site::died, counter::died, died);
         if (host->switches().emit_when == EmitWhen::before_destroy)
             count_emission(r, counters, *of, in);
         return counters.record();
+    }
+
+  private:
+    /// What dies at the tail takes its length with it: u stays where it was.
+    template <class R> void move_origin(R& r, UintItem<R>& counters, const PassInput& in, std::uint32_t s) const {
+        if (host->switches().distance_sum != DistanceSum::fixed || host->switches().uv_anchor != UvAnchor::fixed)
+            return;
+        const std::uint32_t n = counters[counter::alive];
+        const std::uint32_t first = s > 0 ? in.before.word({survivor_buffer, 0}, of->base) : counters[counter::may_die];
+        if (n == 0 || first == 0)
+            return;
+        const std::uint32_t last = first < n ? first : n - 1;
+        const std::uint32_t way = noted(r, site::way_of_dead, in.before.word({length_buffer, 0}, of->base + last));
+        counters.set(site::distance_origin, counter::distance_origin, counters[counter::distance_origin] + way);
     }
 };
 

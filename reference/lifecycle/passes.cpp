@@ -17,6 +17,8 @@ Passes twins(const HostPtr& host) {
             add_emit(all, host, of);
             add_post_emit(all, host, of);
         }
+        if (of.settings().draw == Emitter::Draw::ribbon)
+            add_ribbon(all, host, of);
         add_indirect(all, host, of);
     }
     return all;

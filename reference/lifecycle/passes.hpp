@@ -16,6 +16,7 @@ void add_move(Passes& all, const HostPtr& host, const HostEmitter& of);
 void add_simulate(Passes& all, const HostPtr& host, const HostEmitter& of);
 void add_post_destroy(Passes& all, const HostPtr& host, const HostEmitter& of);
 void add_post_emit(Passes& all, const HostPtr& host, const HostEmitter& of);
+void add_ribbon(Passes& all, const HostPtr& host, const HostEmitter& of);
 void add_indirect(Passes& all, const HostPtr& host, const HostEmitter& of);
 
 /// All of a frame, emitter after emitter.

@@ -72,4 +72,17 @@ inline constexpr Site swirl{"swirl"}, sink{"sink"}, attraction{"attraction"}, sp
 inline constexpr Site noise_place{"place in the noise"}, frequency{"frequency"}, offset{"offset of the noise"};
 inline constexpr Site is_in_noise{"is in the noise"}, cell{"cell"}, curl{"curl"}, noise{"noise"}, fade{"fade"};
 
+// Ribbons.
+inline constexpr Site is_point{"is a point of the ribbon"}, between_points{"way between points"};
+inline constexpr Site way_to_point{"distance from previous", "distance_from_previous"};
+inline constexpr Site way_from_start{"distance from start", "distance_from_start"};
+inline constexpr Site units{"units of the distance"}, length_sum{"sum of distances"};
+inline constexpr Site way_of_dead{"length of the dead"}, view{"u_View"}, seen_point{"point seen"};
+inline constexpr Site segment_before{"segment before"}, segment_after{"segment after"}, tangent{"tangent"};
+inline constexpr Site side_of_ribbon{"side of the ribbon"}, half_width{"half width"}, mitre{"mitre"};
+inline constexpr Site is_mitred{"is mitred"}, left{"left", "left"}, right{"right", "right"};
+inline constexpr Site uv_scale{"u_UvScale"}, first_u{"u at the start"}, last_u{"u at the end"};
+inline constexpr Site has_length{"has a length"}, has_unit{"has a direction"}, unit{"direction"};
+inline constexpr Site has_life{"has a lifetime"}, age{"age"}, size{"size"}, stretched{"share of the ribbon"};
+
 } // namespace lockstep::lifecycle::site

@@ -9,10 +9,26 @@ layout(std430) buffer Arguments { ArgumentWords arguments[]; };
 
 uniform uint u_Request;
 
+#if RIBBON == 1 && DISTANCE_SUM == DISTANCE_SUM_FIXED && UV_ANCHOR == UV_ANCHOR_FIXED
+layout(std430) readonly buffer Survivors { uint survivors[]; };
+layout(std430) readonly buffer Distances { uint distances[]; };
+
+// What dies at the tail takes its length with it: u stays where it was.
+void move_origin(uint s) {
+    uint n = counters[u_Emitter].alive;
+    uint first = s > 0u ? survivors[u_Base] : counters[u_Emitter].may_die;
+    if (n > 0u && first > 0u)
+        counters[u_Emitter].distance_origin += distances[u_Base + min(first, n - 1u)];
+}
+#else
+void move_origin(uint s) {}
+#endif
+
 void main() {
     uint s = survivor_count();
     uint died = counters[u_Emitter].may_die - s;
     uint alive = present() - died;
+    move_origin(s);
     counters[u_Emitter].survivors = s;
     counters[u_Emitter].died = died;
     counters[u_Emitter].alive = alive;

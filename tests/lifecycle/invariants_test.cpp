@@ -115,9 +115,9 @@ TEST_CASE("invariants: split and fused leave the same living particles, in every
 
 TEST_CASE("invariants: the nominal window keeps the dead, the exact one none") {
     lifecycle::Settings s;
-    s.emitters[0].capacity = 1100;
-    s.emitters[0].rate = 600.0;
-    s.emitters[0].lifetime = {1.0F, 1.5F};
+    s.emitters[0].capacity = 800;
+    s.emitters[0].rate = 180.0;
+    s.emitters[0].lifetime = {3.0F, 4.0F};
     s.switches.time_code = lifecycle::TimeCode::half_seconds;
     s.switches.half_rounding = lifecycle::HalfRounding::toward_zero;
     const auto zombies = [&](lifecycle::MayDie may_die) {
@@ -126,7 +126,7 @@ TEST_CASE("invariants: the nominal window keeps the dead, the exact one none") {
         const FieldId lifetimes = field_named(system.schema, "lifetimes");
         ReferenceRun run = reference_of(system);
         std::uint32_t dead = 0, left = 0;
-        for (int frame = 0; frame < 150; ++frame) {
+        for (int frame = 0; frame < 300; ++frame) {
             run.step(frame);
             left += dead - count_of(run.state(), counter::died);
             dead = 0;

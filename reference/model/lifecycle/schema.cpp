@@ -105,6 +105,13 @@ Fields in_block(const std::string& block, std::vector<std::pair<std::string, int
     return all;
 }
 
+/// Sums of distances, along a ribbon and of blocks.
+Fields lengths(const std::string& block, std::string name, DistanceSum how) {
+    return {{.name = std::move(name),
+             .scalar = how == DistanceSum::fixed ? Scalar::uint32 : Scalar::float32,
+             .block = block}};
+}
+
 Schema made(const Switches& s) {
     return checked(
         {"lifecycle",
@@ -148,14 +155,24 @@ Schema made(const Switches& s) {
           {.name = "distances",
            .item = "distance",
            .title = "the distances",
-           .fields = in_block("Distances", {{"distance", 1}})}}});
+           .fields = lengths("Distances", "distance", s.distance_sum)},
+          {.name = "length_sums",
+           .item = "length",
+           .title = "the lengths of blocks",
+           .fields = lengths("LengthSums", "length", s.distance_sum)},
+          {.name = "points",
+           .item = "point",
+           .title = "the ribbons' points",
+           .fields = {{.name = "left", .components = 3, .block = "Points"},
+                      {.name = "right", .components = 3, .block = "Points"},
+                      {.name = "u", .components = 2, .block = "Points"}}}}});
 }
 
 } // namespace
 
 const Schema& schema(const Switches& s) {
-    static std::map<std::tuple<Layout, TimeCode, PositionCode, ColorCode>, Schema> all;
-    const std::tuple key(s.layout, s.time_code, s.position_code, s.color_code);
+    static std::map<std::tuple<Layout, TimeCode, PositionCode, ColorCode, DistanceSum>, Schema> all;
+    const std::tuple key(s.layout, s.time_code, s.position_code, s.color_code, s.distance_sum);
     const auto known = all.find(key);
     return known != all.end() ? known->second : all.emplace(key, made(s)).first->second;
 }

@@ -8,7 +8,8 @@ namespace lockstep::lifecycle {
 const Schema& schema(const Switches& switches);
 
 inline constexpr std::uint8_t particle_buffer = 0, counter_buffer = 1, survivor_buffer = 2, sum_buffer = 3,
-                              ring_buffer = 4, argument_buffer = 5, length_buffer = 6;
+                              ring_buffer = 4, argument_buffer = 5, length_buffer = 6, block_length_buffer = 7,
+                              point_buffer = 8;
 
 /// Of an emitter, by their place among its words.
 namespace counter {

@@ -72,8 +72,15 @@ void check(const Settings& settings) {
             if (!(settings.box_size[axis] > 0.0F))
                 throw Error(
                     fmt::format("box: {} units wide in {}; right is above 0", settings.box_size[axis], "xyz"[axis]));
-    for (std::size_t e = 0; e < settings.emitters.size(); ++e)
+    if (s.uv_anchor == UvAnchor::fixed && s.distance_sum == DistanceSum::float_blocks)
+        throw Error("uv_anchor=fixed needs sums without rounding; right is distance_sum=fixed, or uv_anchor=oldest");
+    for (std::size_t e = 0; e < settings.emitters.size(); ++e) {
         check(settings.emitters[e], settings, e);
+        const Emitter& one = settings.emitters[e];
+        if (one.draw == Emitter::Draw::ribbon && s.uv_anchor == UvAnchor::fixed && s.compaction == Compaction::atomic &&
+            one.lifetime[0] != one.lifetime[1])
+            fail(e, "uv_anchor=fixed needs the order of birth; right is compaction=scan, or one lifetime");
+    }
 }
 
 } // namespace lockstep::lifecycle

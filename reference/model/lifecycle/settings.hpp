@@ -42,6 +42,7 @@ struct Place {
 struct Emitter {
     enum class Shape { point, box, sphere };
     enum class Draw { sprite, ribbon };
+    enum class Uv { segment, stretched, distance };
     std::size_t capacity = 1024;
     double rate = 0.0;                                 ///< particles a second
     std::vector<std::pair<int, std::uint32_t>> bursts; ///< frame, count
@@ -58,6 +59,8 @@ struct Emitter {
     std::array<glm::vec4, 2> color{glm::vec4(1.0F), glm::vec4(1.0F)};
     std::vector<Force> forces;
     Draw draw = Draw::sprite;
+    Uv uv = Uv::distance; ///< of a ribbon
+    float uv_scale = 1.0F;
 };
 
 struct Settings {

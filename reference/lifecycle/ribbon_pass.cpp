@@ -1,0 +1,21 @@
+#include "reference/lifecycle/pass_options.hpp"
+#include "reference/lifecycle/passes.hpp"
+#include "reference/lifecycle/ribbon_points_twin.hpp"
+#include "reference/lifecycle/ribbon_twin.hpp"
+
+namespace lockstep::lifecycle {
+
+void add_ribbon(Passes& all, const HostPtr& host, const HostEmitter& of) {
+    all.push_back(item_pass(options_of(host, "ribbon_distance", particle_buffer), RibbonDistanceTwin{host, &of}));
+    all.push_back(item_pass(options_of(host, "prefix_reduce", length_buffer), PrefixReduceTwin{host, &of}));
+    all.push_back(
+        item_pass(options_of(host, "prefix_reduce_sums", block_length_buffer, true), BlockLengthTwin{host, &of}));
+    all.push_back(item_pass(options_of(host, "prefix_scan", block_length_buffer), PrefixScanTwin{host, &of}));
+    all.push_back(item_pass(options_of(host, "prefix_sum", length_buffer), PrefixSumTwin{host, &of}));
+    all.push_back(
+        item_pass(options_of(host, "prefix_sum_particles", particle_buffer, true), StartDistanceTwin{host, &of}));
+    all.push_back(item_pass(options_of(host, "ribbon", point_buffer),
+                            RibbonPointsTwin{host, &of, view_matrix(host->settings().camera)}));
+}
+
+} // namespace lockstep::lifecycle

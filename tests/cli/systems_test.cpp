@@ -40,7 +40,7 @@ TEST_CASE("systems: a scene names its system, and one that there is not is told 
     };
     const std::string file = (folder.path() / "scene.json").string();
     CHECK(told(R"({"system": "dusty"})") ==
-          file + ": /system: 'dusty' is no system; there are collision, dust; did you mean dust?");
+          file + ": /system: 'dusty' is no system; there are collision, dust, lifecycle; did you mean dust?");
     CHECK_THAT(told(R"({"system": 3})"), Catch::StartsWith(file + ": /system: 3 is not a text"));
     CHECK_THAT(told(R"({"system": "collision"})"), Contains("emitters"));
 }

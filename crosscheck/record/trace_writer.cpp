@@ -1,7 +1,9 @@
 #include "crosscheck/record/trace_writer.hpp"
 
 #include <algorithm>
+#include <cerrno>
 #include <cstring>
+#include <fstream>
 #include <optional>
 #include <utility>
 
@@ -26,6 +28,15 @@ using hdf5::Id;
 
 constexpr hsize_t largest_chunk = hsize_t{4} << 20U; // bytes
 constexpr hsize_t step_chunk = 1024;
+constexpr std::size_t first_blocks = 4096; // bytes, of what HDF5 writes when it creates a file
+
+/// Whether there is room for a file's first blocks. HDF5 2 ends the program where there is none.
+void check_room(const std::filesystem::path& file, const std::string& name) {
+    std::ofstream stream(file, std::ios::binary);
+    errno = 0;
+    if (!stream.write(std::string(first_blocks, '\0').data(), first_blocks).flush())
+        throw Error(fmt::format("{}: {}", name, std::strerror(errno)));
+}
 
 } // namespace
 
@@ -75,7 +86,11 @@ TraceWriter::File::File(const std::filesystem::path& temporary, std::string name
     expect(H5Pset_userblock(creation.get(), seal_size), name_);
     links_ = Id(H5Pcreate(H5P_LINK_CREATE), H5Pclose, name_);
     expect(H5Pset_create_intermediate_group(links_.get(), 1), name_);
-    file_ = Id(H5Fcreate(temporary.c_str(), H5F_ACC_TRUNC, creation.get(), H5P_DEFAULT), H5Fclose, name_);
+    // As HDF5 before 2.0 has it: the newer forms keep the time at which a group was made.
+    const Id access(H5Pcreate(H5P_FILE_ACCESS), H5Pclose, name_);
+    expect(H5Pset_libver_bounds(access.get(), H5F_LIBVER_EARLIEST, H5F_LIBVER_LATEST), name_);
+    check_room(temporary, name_);
+    file_ = Id(H5Fcreate(temporary.c_str(), H5F_ACC_TRUNC, creation.get(), access.get()), H5Fclose, name_);
     write_head();
     write_run(info);
 

@@ -110,13 +110,14 @@ struct LaterRow {
     std::string_view finding;
     int last_without; ///< Mesa's release
     int first_with;
+    bool is_fused = false; ///< only on a processor with fused multiply-add
 };
 
 inline constexpr LaterRow later_rows[] = {
     {"dot(vec3), precise", "(x+y)+z", 22, 25},
     {"points: snap", "half to even", 22, 25},
-    {"fma", "rounded once", 25, 26},
-    {"fma, precise", "rounded once", 25, 26},
+    {"fma", "rounded once", 25, 26, true},
+    {"fma, precise", "rounded once", 25, 26, true},
     {"compute: subnormal result of *", "flushed", 25, 26},
     {"compute: subnormal result of +", "flushed", 25, 26},
 };

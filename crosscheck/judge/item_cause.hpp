@@ -52,7 +52,7 @@ class ItemCauseFinder {
         std::uint64_t telling = 0; ///< of those explained, which are off by more than rounding
 
         /// Whether it need only come near: a formula may be written in other orders.
-        [[nodiscard]] bool rounds() const { return mistake && (named == nullptr || mistake->rounds()); }
+        [[nodiscard]] bool rounds() const { return mistake && (named == nullptr || named->rounds()); }
 
         /// Names first, those with constants of their own after the others; then the host's, then a wrong input, then
         /// all else.

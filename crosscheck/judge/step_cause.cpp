@@ -150,6 +150,7 @@ std::vector<NamedMistake> named_mistakes(const Scene& scene, const Profile& prof
     for (const FormulaMistake& m : formula_mistakes()) {
         NamedMistake& added =
             named.emplace_back(NamedMistake{std::string(m.name), std::string(m.meaning), "collision_pass", m.mistake});
+        added.freely_written = true;
         for (const float constant : m.constants)
             added.constants.push_back({constant});
         if (m.fit != nullptr)

@@ -22,9 +22,13 @@ struct NamedMistake {
     std::function<std::array<float, 3>(std::span<const float>, std::span<const float>)> fit = {};
     /// Says what is seen, and so cannot be wrong where it explains everything; other causes of it are guesses.
     bool describes = false;
+    /// Made in shaders that write the rest in their own way, too, which rounds otherwise.
+    bool freely_written = false;
 
+    /// Whether it need only come near what it explains.
+    [[nodiscard]] bool rounds() const { return freely_written || mistake.rounds(); }
     /// Whether it leaves an item's very bits, and so may be tried together with others.
-    [[nodiscard]] bool is_exact() const { return constants.empty() && !fit && !mistake.rounds(); }
+    [[nodiscard]] bool is_exact() const { return constants.empty() && !fit && !rounds(); }
 };
 
 /// A particle or image system as a check sees it: what its state is, the twins of its passes in the order in which a

@@ -6,5 +6,5 @@ cd "$(dirname "$0")/.."
 cmake --preset release -DLOCKSTEP_BUILD_TESTS=ON
 cmake --build --preset release --target lockstep_mutants
 mkdir -p data/results/mutants
-build/release/tests/mutants/lockstep_mutants --commit "$(git rev-parse --short HEAD)" \
+build/release/tests/mutants/lockstep_mutants --jobs "$(nproc)" --commit "$(git rev-parse --short HEAD)" \
   --json data/results/mutants/llvmpipe.json --markdown data/results/mutants/mutants.md

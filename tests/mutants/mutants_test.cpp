@@ -7,6 +7,7 @@
 #include "reference/collision/deviation.hpp"
 #include "reference/model/error.hpp"
 #include "tests/collision/twin/llvmpipe.hpp"
+#include "tests/mutants/outcome_json.hpp"
 #include "tests/mutants/score.hpp"
 
 using namespace lockstep;
@@ -82,6 +83,43 @@ TEST_CASE("mutants: a few of the catalogue are found and named, and the shipped 
         }
     }
     CHECK(run == few.size());
+}
+
+TEST_CASE("mutants: a score that another process made is the same score") {
+    const auto trial = [](const char* scene, const char* verdict) {
+        Trial made;
+        made.scene = scene;
+        made.verdict = verdict;
+        return made;
+    };
+    const auto mutant = [](const char* name) {
+        Mutant made;
+        made.name = name;
+        return made;
+    };
+    Score score;
+    score.renderer = "llvmpipe";
+    score.unmutated.trials.push_back(trial("crowd", "AGREE"));
+    Trial found = trial("lattice exact", "DIVERGENT"), refused = trial("bytes", "ERROR");
+    found.frame = 3;
+    found.divergent = 12;
+    found.explained = true;
+    found.causes = {"half_cdt", "other"};
+    found.predicted = false;
+    found.step = "direction";
+    found.rules[1] = false;
+    found.rules[2] = true;
+    refused.error = "GL says no";
+    Mutant half = mutant("half_code"), fault = mutant("fault");
+    half.cause = "half_cdt";
+    score.outcomes.push_back({half, {found, refused}});
+    score.outcomes.push_back({fault, {}});
+    score.outcomes.back().mutant.equivalent = "as right";
+    const Score read = read_score(whole_json(score), {{"half_code", half}, {"fault", fault}});
+    CHECK(score_markdown(read) == score_markdown(score));
+    CHECK(score_json(read) == score_json(score));
+    CHECK(read.trials(false, true) == 1);
+    CHECK(read.outcomes[0].trials[0].rules == found.rules);
 }
 
 TEST_CASE("mutants: where one is not what it is called stands by the name of a scene") {

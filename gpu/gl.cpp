@@ -1,7 +1,5 @@
 #include "gpu/gl.hpp"
 
-#include <string_view>
-
 #include <fmt/format.h>
 
 #include "reference/model/error.hpp"
@@ -20,6 +18,10 @@ bool offers(int major, int minor, const char* extension) {
     GetIntegerv(GL_MINOR_VERSION, &has_minor);
     if (has_major > major || (has_major == major && has_minor >= minor))
         return true;
+    return has_extension(extension);
+}
+
+bool has_extension(std::string_view extension) {
     GLint count = 0;
     GetIntegerv(GL_NUM_EXTENSIONS, &count);
     for (GLuint i = 0; i < static_cast<GLuint>(count); ++i)

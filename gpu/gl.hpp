@@ -8,6 +8,7 @@
 #include <GL/glcorearb.h>
 
 #include <functional>
+#include <string_view>
 
 /// Functions of GL 3.3 core.
 #define LOCKSTEP_GL_CORE(X)                                                                                            \
@@ -89,6 +90,7 @@
     X(GetFragDataLocation)                                                                                             \
     X(GetFramebufferAttachmentParameteriv)                                                                             \
     X(GetInteger64v)                                                                                                   \
+    X(GetIntegeri_v)                                                                                                   \
     X(GetIntegerv)                                                                                                     \
     X(GetProgramInfoLog)                                                                                               \
     X(GetProgramiv)                                                                                                    \
@@ -156,6 +158,8 @@
     X(ClearBufferData, 4, 3, "GL_ARB_clear_buffer_object")                                                             \
     X(GetProgramInterfaceiv, 4, 3, "GL_ARB_program_interface_query")                                                   \
     X(GetProgramResourceIndex, 4, 3, "GL_ARB_program_interface_query")                                                 \
+    X(GetProgramResourceiv, 4, 3, "GL_ARB_program_interface_query")                                                    \
+    X(GetProgramResourceName, 4, 3, "GL_ARB_program_interface_query")                                                  \
     X(ShaderStorageBlockBinding, 4, 3, "GL_ARB_shader_storage_buffer_object")                                          \
     X(DebugMessageCallback, 4, 3, "GL_KHR_debug")                                                                      \
     X(ObjectLabel, 4, 3, "GL_KHR_debug")                                                                               \
@@ -184,5 +188,8 @@ void unload();
 
 /// Whether the current context is at least of this version, or offers the extension, if one is named.
 bool offers(int major, int minor, const char* extension = "");
+
+/// Whether it offers this extension, whatever its version.
+bool has_extension(std::string_view extension);
 
 } // namespace lockstep::gl

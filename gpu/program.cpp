@@ -223,8 +223,8 @@ std::vector<std::pair<std::string, std::string>> blocks(std::string_view kind, s
     return found;
 }
 
-/// No pass binds a uniform block, and only a compute stage has storage buffers.
-void check_blocks(GLuint program, std::span<const ShaderSource> stages) {
+/// No pass binds a uniform block, and only a compute stage has storage buffers that are not `given`.
+void check_blocks(GLuint program, std::span<const ShaderSource> stages, std::span<const std::string_view> given) {
     GLint uniform_blocks = 0;
     gl::GetProgramiv(program, GL_ACTIVE_UNIFORM_BLOCKS, &uniform_blocks);
     if (uniform_blocks > 0) {
@@ -236,7 +236,9 @@ void check_blocks(GLuint program, std::span<const ShaderSource> stages) {
     if (stages.front().stage == Stage::compute)
         return;
     for (const auto& [name, place] : blocks("buffer", stages))
-        if (gl::GetProgramInterfaceiv == nullptr)
+        if (std::find(given.begin(), given.end(), name) != given.end())
+            continue;
+        else if (gl::GetProgramInterfaceiv == nullptr)
             throw Error(fmt::format("shader {}: nothing is given for storage buffer {}, and this GL is too old to tell "
                                     "whether it is used (4.3 or GL_ARB_program_interface_query does)",
                                     place, name));
@@ -350,7 +352,8 @@ std::vector<Capture> outputs_with(std::string_view prefix, std::span<const Shade
     return outputs;
 }
 
-Program::Program(std::string name, std::span<const ShaderSource> stages, std::span<const Capture> captured)
+Program::Program(std::string name, std::span<const ShaderSource> stages, std::span<const Capture> captured,
+                 std::span<const std::string_view> storage_buffers)
     : name_(std::move(name)) {
     std::vector<Shader> shaders;
     for (const ShaderSource& stage : stages)
@@ -365,7 +368,7 @@ Program::Program(std::string name, std::span<const ShaderSource> stages, std::sp
             check_geometry_stage(id_, stages);
         for (std::size_t i = 0; i < captured.size(); ++i)
             check_capture_type(id_, static_cast<GLuint>(i), captured[i], stages);
-        check_blocks(id_, stages);
+        check_blocks(id_, stages, storage_buffers);
         check_geometry_inputs(stages);
         check_fragment_inputs(stages);
         check_fragment_output(id_, stages);
@@ -484,6 +487,19 @@ void Program::set(std::string_view uniform, const glm::mat4& value) const {
 
 void Program::set_unit(std::string_view uniform, int unit, GLenum type) const {
     gl::Uniform1i(use_uniform(uniform, type), unit);
+}
+
+bool Program::uses_storage(GLuint binding) const {
+    GLint count = 0;
+    gl::GetProgramInterfaceiv(id_, GL_SHADER_STORAGE_BLOCK, GL_ACTIVE_RESOURCES, &count);
+    for (GLuint block = 0; block < static_cast<GLuint>(count); ++block) {
+        const GLenum property = GL_BUFFER_BINDING;
+        GLint bound = 0;
+        gl::GetProgramResourceiv(id_, GL_SHADER_STORAGE_BLOCK, block, 1, &property, 1, nullptr, &bound);
+        if (static_cast<GLuint>(bound) == binding)
+            return true;
+    }
+    return false;
 }
 
 GLint Program::attribute(std::string_view attribute, GLenum type) const {

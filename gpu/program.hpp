@@ -37,8 +37,10 @@ class Program {
   public:
     /// Links `stages`; `captured` outputs of the last vertex-processing stage go interleaved, in this order, into the
     /// buffer bound to transform feedback. Throws Error also for a captured output that is missing or of another type,
-    /// for a block that nobody binds, and for a fragment stage that writes no output 0.
-    Program(std::string name, std::span<const ShaderSource> stages, std::span<const Capture> captured = {});
+    /// for a block that nobody binds, and for a fragment stage that writes no output 0. A compute stage binds its
+    /// storage buffers by number; other stages have those of these names, if any.
+    Program(std::string name, std::span<const ShaderSource> stages, std::span<const Capture> captured = {},
+            std::span<const std::string_view> storage_buffers = {});
     Program(Program&& other) noexcept;
     Program& operator=(Program&& other) noexcept;
     ~Program();
@@ -64,6 +66,9 @@ class Program {
     /// Throws Error if the shader uses a uniform that was never set and has no initialiser, or an attribute that was
     /// never asked for: a misspelt name would otherwise read as 0.
     void check_interface() const;
+
+    /// Whether a storage buffer with this binding takes part. Needs GL 4.3.
+    [[nodiscard]] bool uses_storage(GLuint binding) const;
 
     [[nodiscard]] const std::string& name() const { return name_; }
     [[nodiscard]] GLuint id() const { return id_; }

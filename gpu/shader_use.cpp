@@ -111,10 +111,13 @@ void check_shader_use(const ShaderUse& use, const fs::path& user, bool allow_unu
         return;
     const bool none =
         std::all_of(use.files.begin(), use.files.end(), [](const UsedShader& used) { return used.foreign.empty(); });
+    std::string right;
+    for (const auto& [file, setting] : use.runs_with)
+        right += fmt::format("; {} runs with --set {}", file, setting);
     if (!use.unused.empty() && (none || !allow_unused))
         throw Error(fmt::format("shader folder {}: {} would not run in this scene with these switches; what can is {}, "
-                                "and files they include{}",
-                                user.string(), fmt::join(use.unused, ", "), fmt::join(stage_names(use), ", "),
+                                "and files they include{}{}",
+                                user.string(), fmt::join(use.unused, ", "), fmt::join(stage_names(use), ", "), right,
                                 none ? "" : "; --allow-unused lets others lie there"));
     if (none)
         throw Error(fmt::format("shader folder {}: nothing in it would run in this scene with these switches; what can "

@@ -1,5 +1,6 @@
 #pragma once
 #include <filesystem>
+#include <map>
 #include <span>
 #include <string>
 #include <string_view>
@@ -21,6 +22,8 @@ struct UsedShader {
 struct ShaderUse {
     std::vector<UsedShader> files;   ///< every stage that runs, and what stages include from the user's folder
     std::vector<std::string> unused; ///< shaders in the user's folder that do not, by name
+    /// Of unused ones, what has them run: "step=compute" for collision_pass.comp.
+    std::map<std::string, std::string> runs_with = {};
 };
 
 /// A pass by the name that its files begin with, and its stages.

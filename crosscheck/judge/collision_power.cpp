@@ -177,10 +177,10 @@ bool is_no_mistake(Deviation deviation, const Switches& s, const Profile& profil
     case sums_fused:
         return exact || profile.dot == DotOrder::fused_chain;
     case subnormals_kept:
-        return exact || !profile.flush_subnormals;
+        return exact || !(s.step == Step::compute ? profile.compute_flush_subnormals : profile.flush_subnormals);
     case point_on_upper_pixel:
     case point_viewport_swapped: // the stage itself finds the texel that it draws to
-        return exact;
+        return places_points(s);
     default:
         return false;
     }
@@ -197,8 +197,8 @@ std::vector<Deviation> CollisionPower::unseen(bool of_drawing) const {
     std::vector<Deviation> all;
     for (const DeviationInfo& info : deviation_table()) {
         const Tried& tried = tried_[static_cast<std::size_t>(info.deviation)];
-        const bool places_points = scene_.switches.arithmetic == ArithmeticSwitch::exact;
-        const bool wanted = of_drawing ? changes_drawing(info.deviation, places_points) : changes_step(info.deviation);
+        const bool wanted =
+            of_drawing ? changes_drawing(info.deviation, places_points(scene_.switches)) : changes_step(info.deviation);
         if (tried.is_mistake && tried.first_frame < 0 && wanted)
             all.push_back(info.deviation);
     }

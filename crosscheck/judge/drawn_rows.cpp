@@ -9,10 +9,10 @@
 
 #include "crosscheck/judge/step_rows.hpp"
 #include "crosscheck/judge/texel_table.hpp"
+#include "reference/collision/step_stage.hpp"
 #include "reference/legal_arithmetic.hpp"
 #include "reference/model/collision/collision_state.hpp"
 #include "reference/model/same_bits.hpp"
-#include "reference/subnormals.hpp"
 #include "reference/window.hpp"
 #include "reference/with_arithmetic.hpp"
 
@@ -25,9 +25,10 @@ template <class A> class DrawnRows {
     DrawnRows(A fp, std::vector<StepRow> step, const JudgedFrame& frame, std::size_t particle,
               const StepCapture& capture, const StepTrace& reference, FrameRun* run)
         : fp_(fp), run_(run), frame_(frame), params_(frame.params), particle_(particle),
-          arithmetic_(fp, frame.known, frame.profile.other_orders), before_(frame.before[particle]),
-          strict_(trace_step(before_, frame.cdt, params_, named_profile("strict"))), reference_(reference),
-          gpu_(capture), state_(capture.vertex_state.value_or(frame.gpu[particle])), rows_(std::move(step)) {}
+          arithmetic_(fp, known_in_step(frame.params.switches, frame.known, frame.profile), frame.profile.other_orders),
+          before_(frame.before[particle]), strict_(trace_step(before_, frame.cdt, params_, named_profile("strict"))),
+          reference_(reference), gpu_(capture), state_(capture.vertex_state.value_or(frame.gpu[particle])),
+          rows_(std::move(step)) {}
 
     std::vector<StepRow> operator()() {
         pass_on();
@@ -54,13 +55,15 @@ template <class A> class DrawnRows {
 
     /// Where the point goes.
     void draw() {
-        const FlushSubnormals flush(frame_.profile.flush_subnormals);
+        const FlushSubnormals flush = flush_in_step(params_.switches, frame_.profile);
         const auto clip = gpu_.vertex.vec4("trace_point_clip");
         const glm::vec3 drawn_at =
             params_.switches.raster_position == RasterPosition::updated ? state_.position : before_.position;
         const auto legal_clip = arithmetic_.transform(params_.collision_proj_view, arithmetic_.read(drawn_at));
         rows_.numbers<glm::vec4>("point's clip", strict_.raster_clip, reference_.raster_clip, clip, legal_clip.data());
 
+        if (params_.switches.step == Step::compute)
+            return place(clip.value_or(fp_.transform(params_.collision_proj_view, drawn_at)));
         const glm::vec4 follows =
             point_position(clip.value_or(fp_.transform(params_.collision_proj_view, drawn_at)), params_);
         if (!gpu_.drawn_alone)
@@ -83,6 +86,12 @@ template <class A> class DrawnRows {
         rasterise();
     }
 
+    /// Where the pass itself puts the point.
+    void place(glm::vec4 clip) {
+        const KnownOperations& known = arithmetic_.known();
+        fall_on(placed_fragment(clip, params_, frame_.profile), known.sums && known.divide && known.subnormals);
+    }
+
     [[nodiscard]] std::optional<std::string> told(std::string text) const {
         return gpu_.drawn_alone ? std::optional(std::move(text)) : std::nullopt;
     }
@@ -97,13 +106,16 @@ template <class A> class DrawnRows {
         pixels("snapped", [&](const StepTrace& t, int c) {
             return Cell{{}, fmt::format("{}/{} px", t.window.snapped[c] + grid / 2, grid)};
         });
+        fall_on(drawn_point(gpu_.position, params_, frame_.profile.raster), arithmetic_.known().points);
+    }
+
+    /// `follows`: the texel and depth that follow from what the GPU told; `known`: they are the only legal ones.
+    void fall_on(const PointFragment& follows, bool known) {
         const auto texel = [](const PointFragment& f) { return texel_text({f.x, f.y}); };
-        const PointFragment follows = drawn_point(gpu_.position, params_, frame_.profile.raster);
         if (!gpu_.drawn_alone)
             gpu_.texel = {follows.x, follows.y};
-        const std::optional<Interval> may = !arithmetic_.known().points && gpu_.texel.x >= 0
-                                                ? legal_depth(frame_, gpu_.texel, particle_)
-                                                : std::nullopt;
+        const std::optional<Interval> may =
+            !known && gpu_.texel.x >= 0 ? legal_depth(frame_, gpu_.texel, particle_) : std::nullopt;
         rows_.decision("texel", texel(strict_.fragment), texel(reference_.fragment), told(texel_text(gpu_.texel)),
                        texel(follows), may.has_value());
         if (gpu_.texel.x >= 0 || reference_.fragment.x >= 0) {

@@ -199,10 +199,10 @@ void TexelCauses::add(const JudgedFrame& frame, const FrameVerdicts& verdicts, c
         count(causes, some);
         return causes_.best_of(std::move(causes), pairs_kept);
     };
-    const bool places_points = frame.params.switches.arithmetic == ArithmeticSwitch::exact;
+    const bool placed = places_points(frame.params.switches);
     std::vector<std::size_t> singles;
     for (std::size_t place = 0; place < deviation_count; ++place)
-        if (changes_drawing(deviation_at(place), places_points))
+        if (changes_drawing(deviation_at(place), placed))
             singles.push_back(place);
     causes_.hold_against(wrong, singles, {count, best_pairs, best});
 }

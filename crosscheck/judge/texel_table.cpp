@@ -7,8 +7,8 @@
 #include "reference/collision/collision_code.hpp"
 #include "reference/collision/legal_texels.hpp"
 #include "reference/collision/step_pass.hpp"
+#include "reference/collision/step_stage.hpp"
 #include "reference/model/same_bits.hpp"
-#include "reference/subnormals.hpp"
 
 namespace lockstep {
 namespace {
@@ -28,7 +28,7 @@ const std::vector<glm::vec3>& drawn_positions(const JudgedFrame& frame) {
 std::vector<Contender> contenders(const JudgedFrame& frame, glm::ivec2 texel) {
     std::vector<Contender> found;
     const std::vector<glm::vec3>& positions = drawn_positions(frame);
-    const FlushSubnormals guard(frame.profile.flush_subnormals);
+    const FlushSubnormals guard = flush_in_step(frame.params.switches, frame.profile);
     for (std::size_t i = 0; i < positions.size(); ++i) {
         const PointFragment point = point_fragment(positions[i], frame.params, frame.profile);
         if (point.x == texel.x && point.y == texel.y && point.x >= 0)

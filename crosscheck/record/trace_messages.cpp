@@ -83,7 +83,7 @@ Scene read_scene(const JsonValue& contents, const std::string& file) {
     json.check_keys(scene_keys);
     Scene scene;
     read_settings(json, {}, {}, scene);
-    check_remedies(scene.switches);
+    check_switches(scene.switches);
     scene.name = contents.at("name").label();
     if (scene.name.empty())
         scene.name = "trace";

@@ -26,8 +26,9 @@ std::string switches_text(const Scene& scene) {
     if (scene.switches.search == Search::octree)
         return fmt::format("arithmetic {}, octree of depth {}, root {}", arithmetic, octree_depth,
                            scene.constants.octree_size);
-    return fmt::format("arithmetic {}, CDT {} {}x{}, radius {}", arithmetic, switch_value(scene.switches, "cdt_format"),
-                       scene.width, scene.height, scene.constants.texel_collide_range);
+    return fmt::format("arithmetic {}, CDT {} {}x{}, radius {}{}", arithmetic,
+                       switch_value(scene.switches, "cdt_format"), scene.width, scene.height,
+                       scene.constants.texel_collide_range, scene.switches.step == Step::compute ? ", compute" : "");
 }
 
 } // namespace lockstep

@@ -183,7 +183,7 @@ void read_settings(const JsonValue& json, const std::optional<std::string>& pres
         read_constants(*constants, scene.constants);
     for (const std::string& setting : set)
         apply_setting(setting, scene);
-    check_remedies(scene.switches);
+    check_switches(scene.switches);
 
     if (const auto camera = json.find("camera"))
         scene.camera = read_camera(*camera);

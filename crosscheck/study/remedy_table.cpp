@@ -48,7 +48,7 @@ const std::vector<std::vector<Setting>>& tried() {
 Scene with(Scene scene, const std::vector<Setting>& settings) {
     for (const auto& [name, value] : settings)
         set_switch(scene.switches, name, value);
-    check_remedies(scene.switches);
+    check_switches(scene.switches);
     return scene;
 }
 

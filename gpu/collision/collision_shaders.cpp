@@ -1,5 +1,12 @@
 #include "gpu/collision/collision_shaders.hpp"
 
+#include <array>
+#include <string>
+#include <string_view>
+#include <utility>
+
+#include <fmt/format.h>
+
 #include "reference/model/collision/layered_cdt.hpp"
 
 namespace lockstep {
@@ -10,6 +17,36 @@ const std::vector<Stage> no_geometry{Stage::vertex, Stage::fragment};
 const std::vector<Stage> vertex_alone{Stage::vertex};
 const std::vector<Stage> compute_alone{Stage::compute};
 
+void add_listing(const Switches& switches, std::vector<PassStages>& passes) {
+    if (switches.step == Step::compute)
+        passes.insert(passes.end(), {{"collision_pass", compute_alone},
+                                     {"nearest_particle", compute_alone},
+                                     {"collision_texels", no_geometry}});
+    else
+        passes.push_back({"collision_pass", points});
+}
+
+/// Of the settings of one switch, the first that has a file run; empty where there is none, or where it runs as it is.
+std::string setting_that_runs(const std::string& file, const Switches& switches) {
+    constexpr std::array<std::pair<std::string_view, std::string_view>, 6> choices{{{"step", "compute"},
+                                                                                    {"step", "transform_feedback"},
+                                                                                    {"search", "octree"},
+                                                                                    {"cdt_layers", "2"},
+                                                                                    {"obstacles_in_cdt", "triangles"},
+                                                                                    {"obstacles_in_cdt", "vertices"}}};
+    for (const auto& [name, value] : choices) {
+        Scene scene;
+        scene.switches = switches;
+        scene.obstacles.positions.resize(1);
+        set_switch(scene.switches, name, value);
+        for (const PassStages& pass : collision_stages(scene))
+            for (const Stage stage : pass.stages)
+                if (file == fmt::format("{}{}", pass.name, extension(stage)) && value != switch_value(switches, name))
+                    return fmt::format("{}={}", name, value);
+    }
+    return {};
+}
+
 } // namespace
 
 ShaderFolders collision_shaders(const std::filesystem::path& user) { return shader_folders(user, "collision"); }
@@ -17,7 +54,7 @@ ShaderFolders collision_shaders(const std::filesystem::path& user) { return shad
 ShaderDefines switch_defines(const Switches& switches) {
     ShaderDefines defines;
     for (const SwitchInfo& info : switch_table()) {
-        if (info.values.empty())
+        if (info.values.empty() || info.name == "step") // chooses which files run, and is no file's own business
             continue;
         const ShaderDefines choice =
             choice_defines(info.name, info.values, static_cast<std::size_t>(info.get(switches)));
@@ -35,7 +72,7 @@ std::vector<PassStages> collision_stages(const Scene& scene, bool rendered) {
     else if (has_remedies(switches))
         passes.insert(passes.end(), {{"layered_collision_pass", vertex_alone}, {"layered_cdt", no_geometry}});
     else
-        passes.push_back({"collision_pass", points});
+        add_listing(switches, passes);
     if (!octree && switches.obstacles_in_cdt != ObstaclesInCdt::off && !scene.obstacles.positions.empty())
         passes.push_back(
             {switches.obstacles_in_cdt == ObstaclesInCdt::triangles ? "obstacle_pass" : "obstacle_vertices", points});
@@ -46,7 +83,11 @@ std::vector<PassStages> collision_stages(const Scene& scene, bool rendered) {
 }
 
 ShaderUse shader_use(const Scene& scene, const std::filesystem::path& user, bool rendered) {
-    return shader_use("collision", collision_stages(scene, rendered), user);
+    ShaderUse use = shader_use("collision", collision_stages(scene, rendered), user);
+    for (const std::string& file : use.unused)
+        if (const std::string setting = setting_that_runs(file, scene.switches); !setting.empty())
+            use.runs_with[file] = setting;
+    return use;
 }
 
 } // namespace lockstep

@@ -32,14 +32,17 @@ glm::vec4 canary_texel(CdtFormat format) {
 
 GpuSimulation::GpuSimulation(const Scene& scene, const std::filesystem::path& shaders)
     : switches_(scene.switches), shaders_(shaders), obstacles_(scene.obstacles),
-      obstacle_pass_(scene.switches, shaders),
-      collision_pass_(scene.switches, shaders), particles_{ParticleBuffer(scene.start.size()),
-                                                           ParticleBuffer(scene.start.size())},
+      obstacle_pass_(scene.switches, shaders), particles_{ParticleBuffer(scene.start.size()),
+                                                          ParticleBuffer(scene.start.size())},
       cdts_{CollisionTexture(scene.width, scene.height, scene.switches.cdt_format),
             CollisionTexture(scene.width, scene.height, scene.switches.cdt_format)},
       layered_(layered(scene, shaders)) {
     if (scene.switches.search == Search::octree)
         octree_pass_.emplace(scene, shaders);
+    else if (scene.switches.step == Step::compute)
+        compute_pass_.emplace(scene, shaders);
+    else if (!layered_)
+        collision_pass_.emplace(scene.switches, shaders);
     upload(scene.start, empty_cdt(scene));
 }
 
@@ -90,10 +93,17 @@ void GpuSimulation::run_passes(const FrameParams& params, std::size_t from, std:
         return octree_pass_->run(params, particles_[from], particles_[to]);
     cdts_[to].bind_target();
     obstacle_pass_.run(obstacles_, params);
-    collision_pass_.run(params, particles_[from], particles_[to], cdts_[from], cdts_[to]);
+    if (compute_pass_)
+        return compute_pass_->run(params, particles_[from], particles_[to], cdts_[from], cdts_[to]);
+    collision_pass_->run(params, particles_[from], particles_[to], cdts_[from], cdts_[to]);
 }
 
 StepCapture GpuSimulation::trace(const FrameParams& params, std::size_t particle) {
+    if (compute_pass_) {
+        if (!compute_trace_)
+            compute_trace_.emplace(switches_, shaders_, params.width, params.height);
+        return compute_trace_->run(params, particles_[1 - current_], particle, cdts_[1 - current_]);
+    }
     if (!trace_)
         trace_.emplace(switches_, shaders_, params.width, params.height);
     return trace_->run(params, particles_[1 - current_], particle, cdts_[1 - current_]);
@@ -102,8 +112,8 @@ StepCapture GpuSimulation::trace(const FrameParams& params, std::size_t particle
 void GpuSimulation::verify_written() const {
     if (layered_)
         layered_->pass.verify_written(particles_[0].size());
-    else if (!octree_pass_)
-        collision_pass_.verify_written(particles_[0].size());
+    else if (collision_pass_)
+        collision_pass_->verify_written(particles_[0].size());
 }
 
 void GpuSimulation::read(Particles& particles) const { particles_[current_].read(particles); }

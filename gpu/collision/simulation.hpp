@@ -5,6 +5,8 @@
 
 #include "gpu/collision/collision_pass.hpp"
 #include "gpu/collision/collision_trace.hpp"
+#include "gpu/collision/compute_collision_pass.hpp"
+#include "gpu/collision/compute_trace.hpp"
 #include "gpu/collision/gpu_side.hpp"
 #include "gpu/collision/layered_collision_pass.hpp"
 #include "gpu/collision/obstacle_pass.hpp"
@@ -32,7 +34,8 @@ class GpuSimulation final : public GpuSide {
     void repeat_step(const FrameParams& params) override;
 
     /// What the last frame's step of a particle computed on its way, from the buffers that frame read. Compiles the
-    /// trace build at the first call, and then throws Error for what is wrong with it. Needs search = cdt.
+    /// trace build at the first call, and then throws Error for what is wrong with it. Needs search = cdt. A compute
+    /// shader without a trace build tells the state alone.
     [[nodiscard]] StepCapture trace(const FrameParams& params, std::size_t particle);
 
     /// GPU time of the last frame by a timer query, seconds, without the octree's refresh, which is the CPU's; 0 where
@@ -62,11 +65,13 @@ class GpuSimulation final : public GpuSide {
     std::filesystem::path shaders_;
     MeshBuffer obstacles_;
     ObstaclePass obstacle_pass_;
-    CollisionPass collision_pass_;
-    std::optional<OctreePass> octree_pass_; ///< search = octree: takes the place of these two
+    std::optional<CollisionPass> collision_pass_;      ///< the listing's, step = transform_feedback
+    std::optional<ComputeCollisionPass> compute_pass_; ///< step = compute: takes the place of collision_pass_
+    std::optional<OctreePass> octree_pass_;            ///< search = octree: takes the place of these
     std::array<ParticleBuffer, 2> particles_;
     std::array<CollisionTexture, 2> cdts_;
     std::optional<CollisionTrace> trace_;
+    std::optional<ComputeTrace> compute_trace_;
     std::optional<Layered> layered_; ///< with remedies, in the place of collision_pass_ and cdts_
     GlQuery timer_;
     double frame_seconds_ = 0.0;

@@ -8,7 +8,7 @@
 
 #include "reference/collision/collision_code.hpp"
 #include "reference/collision/collision_twin.hpp"
-#include "reference/subnormals.hpp"
+#include "reference/collision/step_stage.hpp"
 #include "reference/window.hpp"
 #include "reference/with_arithmetic.hpp"
 
@@ -20,11 +20,11 @@ template <class R> ParticleState as_floats(const ParticleTwinState<R>& v) {
 }
 
 template <class A> void update(A fp, const Particles& before, const CollisionImage& cdt, const FrameParams& params,
-                               bool flush, Particles& after) {
+                               const Profile& profile, Particles& after) {
     const auto count = static_cast<std::ptrdiff_t>(before.size());
 #pragma omp parallel
     {
-        const FlushSubnormals guard(flush);
+        const FlushSubnormals guard = flush_in_step(params.switches, profile);
         Values<A> values(fp);
         const CollisionTwin step(values, cdt, params);
 #pragma omp for schedule(static)
@@ -43,7 +43,7 @@ template <class A> BaseTexelIndex base_texel(A fp, glm::vec4 clip, const FramePa
     return texel ? BaseTexelIndex{texel->x, texel->y} : BaseTexelIndex{};
 }
 
-/// Switch arithmetic plain: the fixed function decides, in the driver's way.
+/// The fixed function decides, in the driver's way.
 template <class A>
 PointFragment rasterised_point(A fp, glm::vec4 clip, const FrameParams& params, const RasterRules& rules) {
     if (!in_clip_volume(clip))
@@ -56,23 +56,20 @@ PointFragment rasterised_point(A fp, glm::vec4 clip, const FrameParams& params, 
     return {x, y, rules.depth_by_driver_reciprocal ? (clip.z * fp.reciprocal(clip.w)) * 0.5F + 0.5F : window.z};
 }
 
-/// Switch arithmetic exact: the pass itself puts the point on the centre of the texel it computes, its depth on a grid
-/// of 2^-24, so that no driver has anything left to round.
-PointFragment placed_point(glm::vec4 clip, const FrameParams& params) {
-    const BaseTexelIndex texel = base_texel(Portable(), clip, params);
-    const float depth = (Portable::divide(clip.z, clip.w) + 1.0F) * 0.5F;
+/// The pass itself decides: the texel that the next frame will compute. With arithmetic exact its depth is on a grid of
+/// 2^-24, so that a driver that draws it has nothing left to round.
+template <class A> PointFragment placed_point(A fp, glm::vec4 clip, const FrameParams& params) {
+    const BaseTexelIndex texel = base_texel(fp, clip, params);
+    const float depth = (fp.divide(clip.z, clip.w) + 1.0F) * 0.5F;
     if (texel.x < 0 || !(clip.w > 0.0F) || !(depth >= 0.0F) || !(depth <= 1.0F))
         return {};
-    return {texel.x, texel.y, std::floor(depth * 0x1p24F) * 0x1p-24F};
+    return {texel.x, texel.y, std::is_same_v<A, Portable> ? std::floor(depth * 0x1p24F) * 0x1p-24F : depth};
 }
 
 template <class A>
 PointFragment fragment(A fp, glm::vec3 position, const FrameParams& params, const RasterRules& rules) {
     const glm::vec4 clip = fp.transform(params.collision_proj_view, position);
-    if constexpr (std::is_same_v<A, Portable>)
-        return placed_point(clip, params);
-    else
-        return rasterised_point(fp, clip, params, rules);
+    return places_points(params.switches) ? placed_point(fp, clip, params) : rasterised_point(fp, clip, params, rules);
 }
 
 } // namespace
@@ -82,7 +79,7 @@ void update_particles(const Particles& before, const CollisionImage& cdt, const 
     assert(&before != &after && cdt.width == params.width && cdt.height == params.height);
     after.resize(before.size());
     with_arithmetic(profile, params.switches.arithmetic,
-                    [&](auto fp) { update(fp, before, cdt, params, profile.flush_subnormals, after); });
+                    [&](auto fp) { update(fp, before, cdt, params, profile, after); });
 }
 
 void rasterise_particles(const Particles& before, const Particles& after, const FrameParams& params,
@@ -91,7 +88,7 @@ void rasterise_particles(const Particles& before, const Particles& after, const 
         params.switches.raster_position == RasterPosition::updated ? after.position : before.position;
     const CollisionCode code(params);
     with_arithmetic(profile, params.switches.arithmetic, [&](auto fp) {
-        const FlushSubnormals guard(profile.flush_subnormals);
+        const FlushSubnormals guard = flush_in_step(params.switches, profile);
         for (std::size_t i = 0; i < positions.size(); ++i) {
             const PointFragment point = fragment(fp, positions[i], params, profile.raster);
             if (point.x < 0 || !(point.depth < depth.at(point.x, point.y)))
@@ -103,13 +100,19 @@ void rasterise_particles(const Particles& before, const Particles& after, const 
 }
 
 PointFragment point_fragment(glm::vec3 position, const FrameParams& params, const Profile& profile) {
-    const FlushSubnormals guard(profile.flush_subnormals);
+    const FlushSubnormals guard = flush_in_step(params.switches, profile);
     return with_arithmetic(profile, params.switches.arithmetic,
                            [&](auto fp) { return fragment(fp, position, params, profile.raster); });
 }
 
+PointFragment placed_fragment(glm::vec4 clip, const FrameParams& params, const Profile& profile) {
+    const FlushSubnormals guard = flush_in_step(params.switches, profile);
+    return with_arithmetic(profile, params.switches.arithmetic,
+                           [&](auto fp) { return placed_point(fp, clip, params); });
+}
+
 BaseTexelIndex base_texel(glm::vec3 position, const FrameParams& params, const Profile& profile) {
-    const FlushSubnormals guard(profile.flush_subnormals);
+    const FlushSubnormals guard = flush_in_step(params.switches, profile);
     return with_arithmetic(profile, params.switches.arithmetic, [&](auto fp) {
         return base_texel(fp, fp.transform(params.collision_proj_view, position), params);
     });
@@ -123,7 +126,7 @@ std::vector<std::int32_t> collision_texels(std::span<const glm::vec3> positions,
     with_arithmetic(profile, params.switches.arithmetic, [&]<class A>(A fp) {
 #pragma omp parallel
         {
-            const FlushSubnormals guard(profile.flush_subnormals);
+            const FlushSubnormals guard = flush_in_step(params.switches, profile);
             Values<A> values(fp);
             const CollisionTwin step(values, cdt, params);
 #pragma omp for schedule(static)

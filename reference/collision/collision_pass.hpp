@@ -35,6 +35,9 @@ struct PointFragment {
 };
 PointFragment point_fragment(glm::vec3 position, const FrameParams& params, const Profile& profile);
 
+/// The same of a clip position, where the pass itself finds texel and depth (places_points).
+PointFragment placed_fragment(glm::vec4 clip, const FrameParams& params, const Profile& profile);
+
 /// The texel a particle at `position` searches round, x -1 where it lies outside the image (listing, lines 2 to 4).
 struct BaseTexelIndex {
     int x = -1;

@@ -12,8 +12,8 @@
 
 #include "reference/collision/collision_code.hpp"
 #include "reference/collision/collision_pass_fast.hpp"
+#include "reference/collision/step_stage.hpp"
 #include "reference/collision/texel_lookup.hpp"
-#include "reference/subnormals.hpp"
 #include "reference/vector_loops.hpp"
 #include "reference/window.hpp"
 #include "reference/with_arithmetic.hpp"
@@ -56,20 +56,20 @@ void point_fragments(A fp, const Columns& position, std::size_t count, const Fra
     }
 }
 
-/// The same for switch arithmetic exact, where the pass places its points itself.
-void placed_fragments(const Columns& position, std::size_t count, const FrameParams& params, std::int32_t* texel,
-                      float* depth) {
+/// The same where the pass places its points itself.
+template <class A> void placed_fragments(A fp, const Columns& position, std::size_t count, const FrameParams& params,
+                                         std::int32_t* texel, float* depth) {
     const glm::mat4 proj_view = params.collision_proj_view;
-    const TexelLookup lookup(Portable(), params);
+    const TexelLookup lookup(fp, params);
     const int width = params.width;
     LOCKSTEP_VECTOR_LOOP
     for (std::size_t i = 0; i < count; ++i) {
-        const glm::vec4 clip = Portable::transform(proj_view, position.at(i));
+        const glm::vec4 clip = fp.transform(proj_view, position.at(i));
         const auto base = lookup(clip);
-        const float z = (Portable::divide(clip.z, clip.w) + 1.0F) * 0.5F;
+        const float z = (fp.divide(clip.z, clip.w) + 1.0F) * 0.5F;
         const bool drawn = base.inside & (clip.w > 0.0F) & (z >= 0.0F) & (z <= 1.0F);
         texel[i] = drawn ? base.y * width + base.x : -1;
-        depth[i] = std::floor(z * 0x1p24F) * 0x1p-24F;
+        depth[i] = std::is_same_v<A, Portable> ? std::floor(z * 0x1p24F) * 0x1p-24F : z;
     }
 }
 
@@ -84,8 +84,8 @@ LOCKSTEP_VECTOR_CLONES void draw_slice(A fp, const std::vector<glm::vec3>& posit
     for (; first < last; first += block_size) {
         const std::size_t count = std::min(block_size, last - first);
         position.load(&positions[first], count);
-        if constexpr (std::is_same_v<A, Portable>)
-            placed_fragments(position, count, params, texel.data(), depth.data());
+        if (places_points(params.switches))
+            placed_fragments(fp, position, count, params, texel.data(), depth.data());
         else
             point_fragments<A, viewport, snap>(fp, position, count, params, rules, texel.data(), depth.data());
         for (std::size_t i = 0; i < count; ++i)
@@ -128,7 +128,7 @@ template <class A> void rasterise(A fp, const std::vector<glm::vec3>& positions,
     const auto start = [&](int slice) { return positions.size() * slice / slices; };
 #pragma omp parallel
     {
-        const FlushSubnormals guard(profile.flush_subnormals);
+        const FlushSubnormals guard = flush_in_step(params.switches, profile);
 #pragma omp for schedule(static, 1)
         for (int slice = 0; slice < slices; ++slice) {
             std::fill_n(&keys[texels * slice], texels, undrawn);
@@ -151,9 +151,10 @@ template <class A> void rasterise(A fp, const std::vector<glm::vec3>& positions,
 
 void rasterise_particles_fast(const Particles& before, const Particles& after, const FrameParams& params,
                               const Profile& profile, CollisionImage& cdt, DepthImage& depth) {
-    const RasterRules& rules = profile.raster;
-    if (profile.roots != nullptr || !has_fast_orders(profile) || rules.depth_by_driver_reciprocal ||
-        rules.viewport == ViewportRounding::scaled)
+    const bool exact = params.switches.arithmetic == ArithmeticSwitch::exact;
+    const bool slow_points = !places_points(params.switches) && (profile.raster.depth_by_driver_reciprocal ||
+                                                                 profile.raster.viewport == ViewportRounding::scaled);
+    if (!exact && (profile.roots != nullptr || !has_fast_orders(profile) || slow_points))
         return rasterise_particles(before, after, params, profile, cdt, depth);
     const auto& positions =
         params.switches.raster_position == RasterPosition::updated ? after.position : before.position;

@@ -8,9 +8,9 @@
 #include <type_traits>
 
 #include "reference/collision/collision_pass_fast.hpp"
+#include "reference/collision/step_stage.hpp"
 #include "reference/collision/stored_positions.hpp"
 #include "reference/collision/texel_lookup.hpp"
-#include "reference/subnormals.hpp"
 #include "reference/vector_loops.hpp"
 #include "reference/with_arithmetic.hpp"
 
@@ -222,14 +222,14 @@ LOCKSTEP_VECTOR_CLONES void update_block(A fp, const Update& u, float within, st
     collide(fp, u, position, first, hits);
 }
 
-template <class A> void update(A fp, const Update& u, bool flush) {
+template <class A> void update(A fp, const Update& u, const Profile& profile) {
     constexpr std::array<void (*)(A, const Update&, float, std::size_t, std::size_t), widest_radius> blocks{
         update_block<A, 1>, update_block<A, 2>, update_block<A, 3>, update_block<A, 4>};
     const auto block = blocks[u.params.constants.texel_collide_range - 1];
     const auto count = static_cast<std::ptrdiff_t>(u.before.size());
 #pragma omp parallel
     {
-        const FlushSubnormals guard(flush);
+        const FlushSubnormals guard = flush_in_step(u.params.switches, profile);
         const float within = largest_square(fp, u.params.constants.collision_range);
 #pragma omp for schedule(dynamic, 16)
         for (std::ptrdiff_t first = 0; first < count; first += block_size) {
@@ -244,15 +244,16 @@ template <class A> void update(A fp, const Update& u, bool flush) {
 void update_particles_fast(const Particles& before, const CollisionImage& cdt, const FrameParams& params,
                            const Profile& profile, Particles& after) {
     const int radius = params.constants.texel_collide_range;
-    if (radius < 1 || radius > widest_radius || profile.roots != nullptr ||
-        !has_fast_orders(profile)) // the driver's roots may not be monotonic
+    const bool exact = params.switches.arithmetic == ArithmeticSwitch::exact;
+    if (radius < 1 || radius > widest_radius || // the driver's roots may not be monotonic
+        (!exact && (profile.roots != nullptr || !has_fast_orders(profile))))
         return update_particles(before, cdt, params, profile, after);
     assert(&before != &after && cdt.width == params.width && cdt.height == params.height);
     after.resize(before.size());
     const StoredPositions stored = stored_positions(cdt, params, radius, 3);
     with_arithmetic(profile, params.switches.arithmetic, [&]<class A>(A fp) {
         if constexpr (!std::is_same_v<A, DriverRoots> && !std::is_same_v<A, OwnOrders>)
-            update(fp, {before, stored, params, after}, profile.flush_subnormals);
+            update(fp, {before, stored, params, after}, profile);
     });
 }
 

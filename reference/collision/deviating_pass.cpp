@@ -12,9 +12,9 @@
 #include "reference/collision/collision_mistakes.hpp"
 #include "reference/collision/collision_pass.hpp"
 #include "reference/collision/collision_twin.hpp"
+#include "reference/collision/step_stage.hpp"
 #include "reference/readings/mistaken.hpp"
 #include "reference/readings/mistaken_arithmetic.hpp"
-#include "reference/subnormals.hpp"
 #include "reference/window.hpp"
 
 namespace lockstep {
@@ -67,7 +67,7 @@ template <class A> class DeviatingPoint {
             clip.x += clip.w * (shift_ / static_cast<float>(params_.width));
             clip.y += clip.w * (shift_ / static_cast<float>(params_.height));
         }
-        return std::is_base_of_v<Portable, A> ? placed(clip) : rasterised(clip);
+        return places_points(params_.switches) || std::is_base_of_v<Portable, A> ? placed(clip) : rasterised(clip);
     }
 
   private:
@@ -80,7 +80,7 @@ template <class A> class DeviatingPoint {
         const float depth = (fp_.divide(clip.z, clip.w) + 1.0F) * 0.5F;
         if (!texel || !(clip.w > 0.0F) || !(depth >= 0.0F) || !(depth <= 1.0F))
             return {};
-        return {texel->x, texel->y, std::floor(depth * 0x1p24F) * 0x1p-24F};
+        return {texel->x, texel->y, std::is_base_of_v<Portable, A> ? std::floor(depth * 0x1p24F) * 0x1p-24F : depth};
     }
 
     [[nodiscard]] PointFragment rasterised(glm::vec4 clip) const {
@@ -190,7 +190,7 @@ void prepare(const FrameInputs& inputs, const Profile& profile, const Deviations
 void deviating_draw(const FrameInputs& inputs, const Particles& after, const Profile& profile,
                     const Deviations& deviations, const CollisionImage& obstacles_cdt,
                     const DepthImage& obstacles_depth, CollisionImage& cdt) {
-    const FlushSubnormals guard(profile.flush_subnormals);
+    const FlushSubnormals guard = flush_in_step(inputs.params->switches, profile);
     DepthImage depth;
     prepare(inputs, profile, deviations, obstacles_cdt, obstacles_depth, cdt, depth);
     const CollisionCode code(*inputs.params);

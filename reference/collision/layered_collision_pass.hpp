@@ -14,7 +14,7 @@ namespace lockstep {
 
 /// The collision pass with the remedies (docs/remedies.md). Twin of shaders/collision/layered_collision_pass.vert and
 /// shaders/collision/layered_cdt.*. A CDT is a stack of planes (reference/model/collision/layered_cdt.hpp); switches as
-/// check_remedies wants them. Pure: the answer depends on the arguments alone, not on the thread count.
+/// check_switches wants them. Pure: the answer depends on the arguments alone, not on the thread count.
 ///
 /// A particle looks at every position stored in its search windows, camera by camera, row by row, in each texel the
 /// obstacle and then the layers from the front; its base texel too, but not at its own stored position, nor at one at

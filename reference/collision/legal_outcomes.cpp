@@ -4,9 +4,9 @@
 #include <span>
 
 #include "reference/collision/collision_twin.hpp"
+#include "reference/collision/step_stage.hpp"
 #include "reference/plain_arithmetic.hpp"
 #include "reference/readings/worlds.hpp"
-#include "reference/subnormals.hpp"
 
 namespace lockstep {
 namespace {
@@ -94,10 +94,11 @@ bool LegalOutcome::contains(const ParticleState& s) const {
 std::vector<LegalOutcome> legal_outcomes(const ParticleState& before, const CollisionImage& cdt,
                                          const FrameParams& params, const Profile& profile,
                                          const KnownOperations& known, const ParticleState* observed) {
-    const FlushSubnormals guard(known.subnormals && profile.flush_subnormals);
+    const KnownOperations of_stage = known_in_step(params.switches, known, profile);
+    const FlushSubnormals guard = flush_in_step(params.switches, profile, of_stage.subnormals);
     std::vector<LegalOutcome> outcomes;
     with_plain_arithmetic(profile, params.switches.arithmetic, [&]<class A>(A fp) {
-        Worlds<A> worlds(fp, known, profile.other_orders);
+        Worlds<A> worlds(fp, of_stage, profile.other_orders);
         if (observed != nullptr) {
             worlds.tell(site::direction.output, {&observed->direction.x, 3});
             worlds.tell(site::speed.output, {&observed->speed, 1});

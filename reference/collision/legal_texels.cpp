@@ -8,6 +8,7 @@
 
 #include "reference/collision/collision_code.hpp"
 #include "reference/collision/collision_pass.hpp"
+#include "reference/collision/step_stage.hpp"
 #include "reference/legal_triangles.hpp"
 #include "reference/model/same_bits.hpp"
 #include "reference/subnormals.hpp"
@@ -103,8 +104,9 @@ template <class A> class Candidates {
     Candidates(A fp, const FrameParams& params, const Profile& profile, const KnownOperations& known,
                std::span<const std::size_t> texels)
         : fp_(fp), params_(params), profile_(profile), converts_(known.converts), code_(params),
-          arithmetic_(fp, known, profile.other_orders), wanted_(params.width, params.height, texels),
-          candidates_(texels.size()) {}
+          arithmetic_(fp, known, profile.other_orders),
+          placing_(fp, known_in_step(params.switches, known, profile), profile.other_orders),
+          wanted_(params.width, params.height, texels), candidates_(texels.size()) {}
 
     void add_point(Kind kind, std::size_t index, glm::vec3 drawn_at, glm::vec3 stored) {
         const PointFragment reference = point_fragment(drawn_at, params_, profile_);
@@ -149,21 +151,39 @@ template <class A> class Candidates {
         owner.place = place_of(window.x, window.y);
         if (clip[2].is_point() && clip[3].is_point() && known().raster.equal_depth)
             owner.clip_zw = glm::vec2(clip[2].as_float(), clip[3].as_float());
-        owner.sure = inside == InVolume::yes && columns.one_answer() && rows.one_answer();
         owner.may_be_clipped = inside != InVolume::yes;
-        owner.reach = {columns.first, rows.first, columns.last + 1, rows.last + 1};
-        owner.edge_margin = HUGE_VAL;
-        if (!columns.one_answer())
-            owner.edge_margin = columns.edge_margin;
-        if (!rows.one_answer())
-            owner.edge_margin = std::min(owner.edge_margin, rows.edge_margin);
-        for (int y = rows.first; y <= rows.last; ++y)
-            for (int x = columns.first; x <= columns.last; ++x) {
-                owner.is_reference = x == reference.x && y == reference.y;
-                owner.drawn_by_reference = owner.is_reference;
-                owner.shift = drawn ? glm::dvec2(x - reference.x, y - reference.y) : glm::dvec2(0.0);
-                add(owner, x, y);
-            }
+        add_range(owner, columns, rows, reference);
+    }
+
+    /// A point whose texel and depth the pass finds by itself (placed_point of collision_pass.cpp).
+    void add_placed_point(std::size_t index, glm::vec3 drawn_at, glm::vec3 stored) {
+        const PointFragment reference = point_fragment(drawn_at, params_, profile_);
+        if (reference.x >= 0 && !wanted_.near(reference.x, reference.y))
+            return;
+        const auto clip = placing_.transform(params_.collision_proj_view, placing_.read(drawn_at));
+        if (clip[3].any || !(clip[3].low > 0.0))
+            return;
+        const auto doubled = [&](const Interval& coordinate, bool divides) {
+            return placing_.sum(divides ? placing_.divide(coordinate, clip[3]) : coordinate, 1.0F);
+        };
+        const bool divides = params_.switches.perspective_divide == PerspectiveDivide::on;
+        const auto along = [&](const Interval& coordinate, int size) {
+            return placing_.product(placing_.product(doubled(coordinate, divides), 0.5F), static_cast<float>(size));
+        };
+        const Interval x = along(clip[0], params_.width), y = along(clip[1], params_.height);
+        const Interval depth = placing_.product(doubled(clip[2], true), 0.5F);
+        if (x.any || y.any || depth.any || depth.high < 0.0 || depth.low > 1.0)
+            return;
+        TexelOwner owner{.kind = Kind::particle, .index = index, .code = code_.encode(stored)};
+        owner.reference_depth = reference.depth;
+        owner.depth = depth.is_point() ? Interval(reference.depth) : depth;
+        owner.place = place_of(x.as_float(), y.as_float());
+        if (clip[2].is_point() && clip[3].is_point())
+            owner.clip_zw = glm::vec2(clip[2].as_float(), clip[3].as_float());
+        const PixelRange columns = texels_of(x, params_.width), rows = texels_of(y, params_.height);
+        owner.may_be_clipped = depth.low < 0.0 || depth.high > 1.0 || columns.first < 0 || rows.first < 0 ||
+                               columns.last >= params_.width || rows.last >= params_.height;
+        add_range(owner, columns, rows, reference);
     }
 
     void add_triangles(const Mesh& obstacles) {
@@ -182,6 +202,35 @@ template <class A> class Candidates {
     std::vector<std::vector<TexelOwner>> take() { return std::move(candidates_); }
 
   private:
+    /// The texels that the listing's lines 2 to 4 may give; -1 and `size` stand for all that lie outside.
+    [[nodiscard]] PixelRange texels_of(const Interval& place, int size) const {
+        const auto texel = [&](double x) {
+            const bool truncated = params_.switches.base_texel == BaseTexel::truncate && x > -1.0 && x < 0.0;
+            return truncated ? 0 : static_cast<int>(std::floor(std::clamp(x, -1.0, static_cast<double>(size))));
+        };
+        const double centre = middle(place);
+        return {texel(place.low), texel(place.high), std::abs(centre - std::round(centre)) * 256.0};
+    }
+
+    /// To each texel of a range of which it is drawn to one.
+    void add_range(TexelOwner owner, const PixelRange& columns, const PixelRange& rows,
+                   const PointFragment& reference) {
+        owner.sure = !owner.may_be_clipped && columns.one_answer() && rows.one_answer();
+        owner.reach = {columns.first, rows.first, columns.last + 1, rows.last + 1};
+        owner.edge_margin = HUGE_VAL;
+        if (!columns.one_answer())
+            owner.edge_margin = columns.edge_margin;
+        if (!rows.one_answer())
+            owner.edge_margin = std::min(owner.edge_margin, rows.edge_margin);
+        for (int y = rows.first; y <= rows.last; ++y)
+            for (int x = columns.first; x <= columns.last; ++x) {
+                owner.is_reference = x == reference.x && y == reference.y;
+                owner.drawn_by_reference = owner.is_reference;
+                owner.shift = reference.x >= 0 ? glm::dvec2(x - reference.x, y - reference.y) : glm::dvec2(0.0);
+                add(owner, x, y);
+            }
+    }
+
     void add(const TexelOwner& owner, int x, int y) {
         if (const int slot = wanted_.slot(x, y); slot >= 0)
             candidates_[static_cast<std::size_t>(slot)].push_back(owner);
@@ -228,7 +277,7 @@ template <class A> class Candidates {
     const Profile& profile_;
     DriverConverts converts_;
     CollisionCode code_;
-    LegalArithmetic<A> arithmetic_;
+    LegalArithmetic<A> arithmetic_, placing_; ///< placing_: in the stage that finds the texels of points
     Wanted wanted_;
     std::vector<std::vector<TexelOwner>> candidates_;
 };
@@ -317,6 +366,13 @@ std::vector<LegalTexel> legal_texels(const Mesh& obstacles, const Particles& bef
             if (params.switches.obstacles_in_cdt == ObstaclesInCdt::vertices)
                 for (std::size_t i = 0; i < obstacles.positions.size(); ++i)
                     all.add_point(Kind::obstacle, i, obstacles.positions[i], obstacles.positions[i]);
+            if (params.switches.step == Step::compute) {
+                const bool subnormals = known_in_step(params.switches, known, profile).subnormals;
+                const FlushSubnormals in_step = flush_in_step(params.switches, profile, subnormals);
+                for (std::size_t i = 0; i < positions.size(); ++i)
+                    all.add_placed_point(i, positions[i], after.position[i]);
+                return all.take();
+            }
             for (std::size_t i = 0; i < positions.size(); ++i)
                 all.add_point(Kind::particle, i, positions[i], after.position[i]);
             return all.take();

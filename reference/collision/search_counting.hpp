@@ -5,7 +5,7 @@
 #include <optional>
 
 #include "reference/collision/search_study.hpp"
-#include "reference/subnormals.hpp"
+#include "reference/collision/step_stage.hpp"
 
 namespace lockstep {
 
@@ -61,7 +61,7 @@ template <class Search> SearchStudy count_search(const Search& search, std::size
     const auto count = static_cast<std::ptrdiff_t>(particles);
 #pragma omp parallel
     {
-        const FlushSubnormals guard(profile.flush_subnormals);
+        const FlushSubnormals guard = flush_in_step(params.switches, profile);
         SearchCounts counts;
 #pragma omp for schedule(dynamic, 1024)
         for (std::ptrdiff_t i = 0; i < count; ++i)

@@ -5,9 +5,9 @@
 
 #include "reference/collision/collision_code.hpp"
 #include "reference/collision/collision_twin.hpp"
+#include "reference/collision/step_stage.hpp"
 #include "reference/parallel_blocks.hpp"
 #include "reference/plain_arithmetic.hpp"
-#include "reference/subnormals.hpp"
 #include "reference/with_arithmetic.hpp"
 
 namespace lockstep {
@@ -124,7 +124,7 @@ Situations situations_of(const Particles& before, const CollisionImage& cdt, con
     std::vector<Situations> parts((n + block - 1) / block);
     with_arithmetic(profile, params.switches.arithmetic, [&](auto fp) {
         parallel_blocks(static_cast<std::ptrdiff_t>(parts.size()), [&](std::ptrdiff_t b) {
-            const FlushSubnormals guard(profile.flush_subnormals);
+            const FlushSubnormals guard = flush_in_step(params.switches, profile);
             Observer observer(fp, before, cdt, params, after);
             const std::size_t first = static_cast<std::size_t>(b) * block;
             for (std::size_t i = first; i < std::min(first + block, n); ++i)

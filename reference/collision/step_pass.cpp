@@ -107,7 +107,8 @@ std::unique_ptr<ItemPass> step_pass(const StepInputs& inputs) {
                                                 fill_leaves(inputs.before.position, inputs.obstacles, params))});
     if (has_remedies(params.switches))
         return item_pass(options(PassStage::vertex, params), LayeredStep{inputs});
-    return item_pass(options(PassStage::vertex, params), ListingStep{inputs});
+    const PassStage stage = params.switches.step == Step::compute ? PassStage::compute : PassStage::vertex;
+    return item_pass(options(stage, params), ListingStep{inputs});
 }
 
 SystemView step_state(const StepInputs& inputs) { return {{view(inputs.before), view(inputs.cdt)}}; }

@@ -4,10 +4,10 @@
 #include <cmath>
 
 #include "reference/collision/collision_twin.hpp"
+#include "reference/collision/step_stage.hpp"
 #include "reference/collision/texel_lookup.hpp"
 #include "reference/plain_arithmetic.hpp"
 #include "reference/readings/recording.hpp"
-#include "reference/subnormals.hpp"
 #include "reference/window.hpp"
 
 namespace lockstep {
@@ -89,7 +89,7 @@ StepTrace trace_step(const ParticleState& before, const CollisionImage& cdt, con
                      const Profile& profile) {
     StepTrace trace;
     trace.before = before;
-    const FlushSubnormals guard(profile.flush_subnormals);
+    const FlushSubnormals guard = flush_in_step(params.switches, profile);
     with_plain_arithmetic(profile, params.switches.arithmetic, [&]<class A>(A fp) {
         Recording<A> reading(fp);
         const auto v = CollisionTwin(reading, cdt, params)(before);

@@ -50,12 +50,17 @@ TEST_CASE("shader use: a folder of which nothing would run is status 2 with the 
                                  "collision_pass.vert.txt", "collision_pass.VERT", "arithmetics.glsl"})
         SECTION(misspelt) {
             setting.shaders.write(misspelt, "#version 330 core\nvoid main() {}\n");
-            CHECK(refusal(run_lockstep(check)) == folder + misspelt + possible);
+            const std::string right = misspelt == std::string("collision_pass.comp")
+                                          ? "; collision_pass.comp runs with --set step=compute"
+                                          : "";
+            CHECK(refusal(run_lockstep(check)) == folder + misspelt + possible + right);
             write_own(setting.shaders, "collision_pass.frag");
             CHECK(refusal(run_lockstep(check)) ==
-                  folder + misspelt + possible + "; --allow-unused lets others lie there");
+                  folder + misspelt + possible + right + "; --allow-unused lets others lie there");
         }
-    for (const char* other : {"octree_pass.comp", "obstacle_vertices.vert", "layered_cdt.frag"})
+    for (const auto& [other, setting_for_it] : {std::pair{"octree_pass.comp", "search=octree"},
+                                                {"obstacle_vertices.vert", "obstacles_in_cdt=vertices"},
+                                                {"layered_cdt.frag", "cdt_layers=2"}})
         SECTION(other) {
             write_own(setting.shaders, other);
             for (const char* verb : {"check", "explain", "bench", "record", "debug"}) {
@@ -66,9 +71,9 @@ TEST_CASE("shader use: a folder of which nothing would run is status 2 with the 
                     arguments = test::joined(arguments, {"--frame", "1", "--particle", "1"});
                 if (verb == std::string("record"))
                     arguments = test::joined(arguments, {"-o", setting.folder.path() / "run.h5"});
-                CHECK(refusal(run_lockstep(arguments)) == folder + other + not_run + state +
-                                                              (verb == std::string("check") ? picture : "") +
-                                                              ", and files they include");
+                CHECK(refusal(run_lockstep(arguments)) ==
+                      folder + other + not_run + state + (verb == std::string("check") ? picture : "") +
+                          ", and files they include; " + other + " runs with --set " + setting_for_it);
             }
         }
     SECTION("what draws the picture lies beside the step that is explained") {
@@ -83,6 +88,28 @@ TEST_CASE("shader use: a folder of which nothing would run is status 2 with the 
         write_own(setting.shaders, "collision_pass.vert");
         CHECK(run_lockstep(explain).status == 0);
     }
+}
+
+TEST_CASE("shader use: with step = compute the compute stage runs, and the vertex stage is told to be unused") {
+    if (!test::have_software_gl())
+        return;
+    const test::SceneSetting setting("check");
+    write_own(setting.shaders, "collision_pass.comp");
+    const std::string own = setting.shaders.path().string();
+    const test::Outcome outcome = run_lockstep(setting.command({"--frames", "2", "--set", "step=compute"}));
+    INFO(outcome.err);
+    CHECK(outcome.status == 0);
+    CHECK_THAT(outcome.out, Contains("\nshaders   foreign: " + own +
+                                     "/collision_pass.comp; shipped: "
+                                     "nearest_particle.comp, collision_texels.vert, collision_texels.frag, ") &&
+                                Contains(", compute)"));
+    write_own(setting.shaders, "collision_pass.vert");
+    CHECK_THAT(refusal(run_lockstep(setting.command({"--frames", "2", "--set", "step=compute"}))),
+               Contains("collision_pass.vert would not run") &&
+                   Contains("; collision_pass.vert runs with --set step=transform_feedback"));
+    for (const char* other : {"search=octree", "cdt_layers=3"})
+        CHECK_THAT(refusal(run_lockstep({"check", setting.scene, "--set", "step=compute", "--set", other})),
+                   Contains("switch step: ") && Contains("transform_feedback, not compute"));
 }
 
 TEST_CASE("shader use: the report has whose stages ran, file by file") {

@@ -335,7 +335,7 @@ TEST_CASE("layered collision: switches that do not go with remedies are told") {
         for (const auto& [name, value] : set)
             set_switch(switches, name, value);
         try {
-            check_remedies(switches);
+            check_switches(switches);
         } catch (const Error& e) {
             return e.what();
         }

@@ -75,7 +75,7 @@ Mutant read_mutant(const JsonValue& json, const std::string& pass) {
     }
     const auto table = deviation_table();
     const auto searches = search_mistakes();
-    const bool is_other = pass != "collision_pass" &&
+    const bool is_other = !makes_listing(pass) &&
                           (mutant.cause.find(": ") != std::string::npos || DrawnCauseFinder::knows(mutant.cause) ||
                            std::any_of(searches.begin(), searches.end(), [&](const SearchMistake& m) {
                                return m.pass == pass && m.name == mutant.cause;
@@ -115,6 +115,8 @@ int replace_each(std::string& shader, const Edit& edit) {
 
 } // namespace
 
+bool makes_listing(std::string_view pass) { return pass == "collision_pass" || pass == "compute_collision_pass"; }
+
 std::string Mutant::where() const {
     if (!fault.empty())
         return "host";
@@ -141,7 +143,7 @@ std::vector<Mutant> whole_catalogue() {
     std::vector<Mutant> mutants = read_catalogue("tests/mutants/shaders.json");
     const auto add = [&](const std::vector<Mutant>& more) { mutants.insert(mutants.end(), more.begin(), more.end()); };
     add(read_catalogue("tests/mutants/host.json"));
-    for (const char* pass : {"octree_pass", "layered_collision_pass"})
+    for (const char* pass : {"compute_collision_pass", "octree_pass", "layered_collision_pass"})
         add(read_catalogue(std::filesystem::path("tests/mutants") / pass += ".json", pass));
     return mutants;
 }

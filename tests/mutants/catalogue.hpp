@@ -3,6 +3,7 @@
 #include <map>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "reference/model/profile.hpp"
@@ -44,12 +45,15 @@ struct Mutant {
 /// Reads a catalogue: a JSON array of objects with `name`, then `file`, `text`, `replacement` and `times` (default 1),
 /// or an array `edits` of such, or `fault`; `cause`, `alike` and `differs_in` (objects), `equivalent` and `sums`
 /// ("(x+y)+z") as above. Causes are names of reference/collision/deviation.hpp and formula_mistakes.cpp, or two of
-/// them, "a + b"; those of another `pass` may also be changes at a site, as "part: zero". Throws Error naming the value
-/// that is wrong: an unknown fault, cause or order, a name that stands twice.
+/// them, "a + b"; those of another `pass` than the listing's may also be changes at a site, as "part: zero". Throws
+/// Error naming the value that is wrong: an unknown fault, cause or order, a name that stands twice.
 std::vector<Mutant> read_catalogue(const std::filesystem::path& file, const std::string& pass = "collision_pass");
 
-/// All of tests/mutants/: shaders.json and host.json, octree_pass.json and layered_collision_pass.json.
+/// All of tests/mutants/: shaders.json and host.json, and a file of each other pass.
 std::vector<Mutant> whole_catalogue();
+
+/// Whether a pass makes the listing's step: in vertex and fragment stages, or with step = compute in compute stages.
+bool makes_listing(std::string_view pass);
 
 /// The catalogue on a driver of `profile`: a mutant that sums as the driver itself does, with `precise` or without, is
 /// as right there.

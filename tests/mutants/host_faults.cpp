@@ -41,6 +41,8 @@ struct State {
     bool to_be_read = false;            ///< the next texture bound is what the collision pass reads
     GLuint copy = 0;                    ///< a texture of our own
     std::vector<GLfloat> cdt, earlier_cdt;
+    GLint held_program = 0; ///< the step whose groups wait
+    GLuint held_groups = 0;
 };
 State state;
 
@@ -310,6 +312,27 @@ template <auto Before, auto After> void draw_triangles(GLenum mode, GLsizei coun
     After();
 }
 
+/// The step's groups run once what comes after it has run: what a barrier left out lets a driver do.
+void hold_step_back(GLuint x, GLuint y, GLuint z) {
+    if (in_collision_pass()) {
+        state.real.GetIntegerv(GL_CURRENT_PROGRAM, &state.held_program);
+        state.held_groups = x;
+        return;
+    }
+    state.real.DispatchCompute(x, y, z);
+}
+
+void run_step_held_back() {
+    if (state.held_groups == 0)
+        return;
+    GLint current = 0;
+    state.real.GetIntegerv(GL_CURRENT_PROGRAM, &current);
+    state.real.UseProgram(static_cast<GLuint>(state.held_program));
+    state.real.DispatchCompute(std::exchange(state.held_groups, 0), 1, 1);
+    state.real.MemoryBarrier(GL_ALL_BARRIER_BITS);
+    state.real.UseProgram(static_cast<GLuint>(current));
+}
+
 struct Fault {
     std::string_view name;
     void (*make)();
@@ -560,6 +583,34 @@ const Fault faults[] = {
      }},
     {"one_group_missing",
      [] { gl::DispatchCompute = [](GLuint x, GLuint y, GLuint z) { state.real.DispatchCompute(x - 1, y, z); }; }},
+    {"one_group_more",
+     [] { gl::DispatchCompute = [](GLuint x, GLuint y, GLuint z) { state.real.DispatchCompute(x + 1, y, z); }; }},
+    {"barriers_left_out", [] { gl::MemoryBarrier = [](GLbitfield) {}; }},
+    {"nearest_not_cleared", [] { gl::ClearBufferData = [](GLenum, GLenum, GLenum, GLenum, const void*) {}; }},
+    {"nearest_before_step",
+     [] {
+         gl::DispatchCompute = hold_step_back;
+         gl::DrawArrays = [](GLenum mode, GLint first, GLsizei count) {
+             state.real.DrawArrays(mode, first, count);
+             run_step_held_back();
+         };
+     }},
+    {"storage_exchanged",
+     [] {
+         gl::BindBufferBase = [](GLenum target, GLuint index, GLuint buffer) {
+             const bool faulty = target == GL_SHADER_STORAGE_BUFFER && index < 2;
+             state.real.BindBufferBase(target, faulty ? 1 - index : index, buffer);
+         };
+     }},
+    {"texel_depth_func_lequal", [] { gl::DepthFunc = [](GLenum) { state.real.DepthFunc(GL_LEQUAL); }; }},
+    {"texel_depth_test_off",
+     [] {
+         gl::DrawArrays = [](GLenum mode, GLint first, GLsizei count) {
+             state.real.Disable(GL_DEPTH_TEST);
+             state.real.DrawArrays(mode, first, count);
+             state.real.Enable(GL_DEPTH_TEST);
+         };
+     }},
     {"octree_obstacles_not_uploaded",
      [] {
          gl::BindBufferBase = [](GLenum target, GLuint index, GLuint buffer) {

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <chrono>
 #include <cstdio>
+#include <cstdlib>
 #include <filesystem>
 #include <fstream>
 #include <iterator>
@@ -37,7 +38,25 @@ struct Shard {
     [[nodiscard]] bool has(std::size_t index) const { return index % of == part - 1; }
 };
 
-Shard parse_shard(const std::string& text) {
+/// What --shard says, or, where it says nothing, the environment's TEST_SHARD_INDEX, which counts from 0, and
+/// TEST_TOTAL_SHARDS: what test runners set.
+Shard parse_shard(std::string text) {
+    if (text.empty()) {
+        const char* const index = std::getenv("TEST_SHARD_INDEX");
+        const char* const total = std::getenv("TEST_TOTAL_SHARDS");
+        if (index == nullptr && total == nullptr)
+            return {};
+        Shard shard;
+        char rest = 0;
+        if (index == nullptr || total == nullptr || std::sscanf(index, "%zu%c", &shard.part, &rest) != 1 ||
+            std::sscanf(total, "%zu%c", &shard.of, &rest) != 1 || shard.part >= shard.of)
+            throw Error(
+                fmt::format("TEST_SHARD_INDEX {} and TEST_TOTAL_SHARDS {}: an index from 0 and a number above it "
+                            "go together",
+                            index == nullptr ? "not set" : index, total == nullptr ? "not set" : total));
+        ++shard.part;
+        return shard;
+    }
     Shard shard;
     char rest = 0;
     if (std::sscanf(text.c_str(), "%zu/%zu%c", &shard.part, &shard.of, &rest) != 2 || shard.part < 1 ||
@@ -166,12 +185,13 @@ int main(int argc, char** argv) {
     Selection of;
     std::string gl = "osmesa";
     std::filesystem::path json, markdown;
-    std::string commit, shard = "1/1";
+    std::string commit, shard;
     std::size_t jobs = 1;
     Verb program{"lockstep_mutants", "Runs the catalogue of mutants, from the root of the source tree"};
     program.add(texts_option("name", "MUTANT", of.only, "only these mutants"));
     program.add(text_option("--pass", "PASS", of.pass, "only those of octree_pass, say"));
-    program.add(text_option("--shard", "K/N", shard, "only the Kth of N parts"));
+    program.add(text_option("--shard", "K/N", shard,
+                            "only the Kth of N parts; else as TEST_SHARD_INDEX and TEST_TOTAL_SHARDS say"));
     program.add(integer_option("--jobs", "N", {1, 256}, jobs, "processes that share them"));
     program.add(text_option("--gl", "auto|osmesa|egl|egl-device:N", gl, "which GL to open"));
     program.add(path_option("--json", "FILE", json, "results as data"));

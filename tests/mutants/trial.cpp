@@ -44,7 +44,7 @@ void note_verdict(Trial& trial, const CheckReport& report, const Mutant& mutant)
     }
     const CauseFindings& found = verdicts.causes[verdicts.causes[0].divergent > 0 ? 0 : 1];
     // Of the listing, whose mistakes have names, only these are claims.
-    trial.explained = found.explains_all() && (found.best.front().has_name || mutant.pass != "collision_pass");
+    trial.explained = found.explains_all() && (found.best.front().has_name || !makes_listing(mutant.pass));
     for (const Cause& cause : found.best)
         trial.causes.push_back(cause.name());
 }
@@ -91,6 +91,8 @@ TrialScene::TrialScene(const std::string& name, const std::string& preset, const
 const char* TrialScene::pass() const {
     if (scene_.switches.search == Search::octree)
         return "octree_pass";
+    if (scene_.switches.step == Step::compute)
+        return "compute_collision_pass";
     return has_remedies(scene_.switches) ? "layered_collision_pass" : "collision_pass";
 }
 
@@ -117,11 +119,19 @@ ColorImage TrialScene::render_reference(const Particles& particles) const {
 }
 
 std::vector<TrialScene> trial_scenes(const Profile& profile, std::span<const std::string_view> names) {
-    constexpr std::pair<const char*, const char*> set[] = {
-        {"crowd", ""},       {"listing", ""},      {"exact", ""},        {"halves", ""},       {"bytes", ""},
-        {"lattice", ""},     {"lattice", "paper"}, {"lattice", "exact"}, {"strip", ""},        {"strip", "paper"},
-        {"octree", ""},      {"octree", "paper"},  {"octree", "exact"},  {"octree_edges", ""}, {"layers", ""},
-        {"layers", "exact"}, {"mutual", ""},       {"mutual", "exact"},  {"two_cameras", ""},  {"layer_edges", ""}};
+    constexpr std::pair<const char*, const char*> set[] = {{"crowd", ""},           {"listing", ""},
+                                                           {"exact", ""},           {"halves", ""},
+                                                           {"bytes", ""},           {"lattice", ""},
+                                                           {"lattice", "paper"},    {"lattice", "exact"},
+                                                           {"strip", ""},           {"strip", "paper"},
+                                                           {"octree", ""},          {"octree", "paper"},
+                                                           {"octree", "exact"},     {"octree_edges", ""},
+                                                           {"layers", ""},          {"layers", "exact"},
+                                                           {"mutual", ""},          {"mutual", "exact"},
+                                                           {"two_cameras", ""},     {"layer_edges", ""},
+                                                           {"compute_crowd", ""},   {"compute_exact", ""},
+                                                           {"compute_lattice", ""}, {"compute_lattice", "paper"},
+                                                           {"compute_strip", "paper"}};
     std::vector<TrialScene> scenes;
     for (const auto& [name, preset] : set)
         if (names.empty() || std::find(names.begin(), names.end(), name) != names.end())

@@ -124,6 +124,8 @@ json run(const Scene& scene, const std::string& name, int frames, std::span<cons
 std::string why_unavailable(const Scene& scene) {
     if (scene.switches.search == Search::octree)
         return "search = octree runs in a compute shader, which WebGL2 does not have";
+    if (scene.switches.step == Step::compute)
+        return "step = compute runs in compute shaders, which WebGL2 does not have";
     if (has_remedies(scene.switches))
         return "the layered collision pass (cdt_layers, cdt_cameras, search_window, response) is not in it";
     if (scene.start.size() > most_live_particles)

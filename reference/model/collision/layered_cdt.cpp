@@ -21,13 +21,19 @@ bool has_remedies(const Switches& switches) {
 }
 
 bool chooses_pass(std::string_view switch_name) {
-    return switch_name == "search" ||
+    return switch_name == "search" || switch_name == "step" ||
            std::find(remedy_switches.begin(), remedy_switches.end(), switch_name) != remedy_switches.end();
 }
 
-void check_remedies(const Switches& switches) {
+void check_switches(const Switches& switches) {
+    if (switches.step == Step::compute && switches.search == Search::octree)
+        throw Error("switch step: search = octree has a compute pass of its own and needs transform_feedback, not "
+                    "compute");
     if (!has_remedies(switches))
         return;
+    if (switches.step == Step::compute)
+        throw Error("switch step: cdt_layers, cdt_cameras, search_window and response need transform_feedback, not "
+                    "compute");
     constexpr std::array<std::string_view, 6> corrected{"perspective_divide", "base_texel",    "self_position",
                                                         "empty_texel",        "zero_distance", "raster_position"};
     for (const std::string_view name : corrected) {
@@ -46,7 +52,7 @@ void check_remedies(const Switches& switches) {
 }
 
 int cdt_height(const Scene& scene) {
-    check_remedies(scene.switches);
+    check_switches(scene.switches);
     return scene.height * (has_remedies(scene.switches) ? cdt_planes(scene.switches).count() : 1);
 }
 

@@ -44,11 +44,11 @@ bool has_remedies(const Switches& switches);
 /// Whether the switch of this name says which pass runs, and not how the collision pass does.
 bool chooses_pass(std::string_view switch_name);
 
-/// The remedies repair the corrected reading of the listing and know no other: throws Error naming the switch that
-/// stands against them, or two of them that do not go together.
-void check_remedies(const Switches& switches);
+/// Throws Error naming a switch that does not go with another. The remedies repair the corrected reading of the
+/// listing and know no other, nor do all of them go together; step = compute is the listing's own search.
+void check_switches(const Switches& switches);
 
-/// Height of a scene's CDT in texels. Throws Error like check_remedies. With remedies, plane p lies in rows
+/// Height of a scene's CDT in texels. Throws Error like check_switches. With remedies, plane p lies in rows
 /// p * scene.height and up.
 int cdt_height(const Scene& scene);
 

@@ -15,6 +15,7 @@ namespace {
 
 using Names = std::string_view;
 constexpr std::array<Names, 2> search{"cdt", "octree"};
+constexpr std::array<Names, 2> step{"transform_feedback", "compute"};
 constexpr std::array<Names, 2> off_on{"off", "on"};
 constexpr std::array<Names, 1> times_half{"times_half"};
 constexpr std::array<Names, 2> base_texel{"truncate", "floor"};
@@ -95,6 +96,7 @@ std::span<const SwitchInfo> switch_table() {
         named<&S::arithmetic>("arithmetic", arithmetic, "GLSL's own functions, or portable.glsl"),
         named<&S::search>("search", search,
                           "neighbours are looked for in the CDT, or in an octree (thesis, chapter 5)"),
+        named<&S::step>("step", step, "the listing's step is made by vertex and fragment stages, or by compute stages"),
         count<&S::cdt_layers>("cdt_layers", one_to_eight, "particles a texel of the CDT holds, nearest first"),
         count<&S::cdt_cameras>("cdt_cameras", std::span(one_to_eight).first(2),
                                "collision cameras; the second stands at a right angle to the first"),
@@ -106,6 +108,10 @@ std::span<const SwitchInfo> switch_table() {
         number("cdt_camera_offset", &S::cdt_camera_offset, "z offset of a moving collision camera, world units"),
     };
     return table;
+}
+
+bool places_points(const Switches& switches) {
+    return switches.arithmetic == ArithmeticSwitch::exact || switches.step == Step::compute;
 }
 
 Switches preset(std::string_view name) {

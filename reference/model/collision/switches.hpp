@@ -13,6 +13,9 @@ namespace lockstep {
 /// Where a particle looks for neighbours: in the CDT, or in the octree the thesis compares it with (octree.hpp), which
 /// then takes the place of the passes that draw and read the CDT.
 enum class Search { cdt, octree };
+/// Which stage makes the listing's step: a vertex stage whose outputs are captured, drawn as points, or a compute stage
+/// that finds the texel of each point, and the nearest point of each texel, by itself.
+enum class Step { transform_feedback, compute };
 enum class PerspectiveDivide { off, on };
 enum class TexCoord { times_half };
 enum class BaseTexel { truncate, floor };
@@ -38,6 +41,7 @@ enum class Response { single, mutual };
 
 struct Switches {
     Search search = Search::cdt;
+    Step step = Step::transform_feedback;
     PerspectiveDivide perspective_divide = PerspectiveDivide::on;
     TexCoord texcoord = TexCoord::times_half;
     BaseTexel base_texel = BaseTexel::floor;
@@ -61,6 +65,9 @@ struct Switches {
 
     bool operator==(const Switches&) const = default;
 };
+
+/// Whether the pass itself finds the texel and the depth that a point is drawn with; otherwise the rasteriser does.
+bool places_points(const Switches& switches);
 
 /// One switch as scene files, --set and shaders name it.
 struct SwitchInfo {

@@ -1,0 +1,137 @@
+#include "gpu/collision/compute_collision_pass.hpp"
+
+#include <algorithm>
+#include <array>
+#include <string>
+#include <string_view>
+
+#include <fmt/format.h>
+
+#include "gpu/check.hpp"
+#include "gpu/collision/collision_pass.hpp"
+#include "gpu/collision/collision_shaders.hpp"
+#include "gpu/collision/step_uniforms.hpp"
+#include "gpu/shader_source.hpp"
+#include "reference/model/error.hpp"
+
+namespace lockstep {
+namespace {
+
+constexpr GLuint nobody = 0xffffffffU;
+
+void check_room(const Scene& scene) {
+    if (!gl::offers(4, 3))
+        throw Error("collision_pass: step = compute needs compute shaders and storage buffers, GL 4.3; this context is "
+                    "of an earlier version; --set step=transform_feedback needs none");
+    GLint64 largest = 0;
+    gl::GetInteger64v(GL_MAX_SHADER_STORAGE_BLOCK_SIZE, &largest);
+    const auto needed = static_cast<GLint64>(scene.start.size() * particle_records().bytes());
+    if (needed > largest)
+        throw Error(
+            fmt::format("collision_pass: {} particles need a storage buffer of {} bytes; this context allows {}",
+                        scene.start.size(), needed, largest));
+}
+
+Program link_compute(const Scene& scene, const std::filesystem::path& shaders, const std::string& name) {
+    check_room(scene);
+    ShaderDefines defines = switch_defines(scene.switches);
+    if (gl::has_extension("GL_NV_shader_atomic_int64") && gl::has_extension("GL_ARB_gpu_shader_int64"))
+        defines.emplace_back("LOCKSTEP_INT64_ATOMICS", "1");
+    const std::array stages{Stage::compute};
+    return {name, load_stages(collision_shaders(shaders), name, stages, defines)};
+}
+
+Program link_draw(const Scene& scene, const std::filesystem::path& shaders) {
+    const std::array stages{Stage::vertex, Stage::fragment};
+    constexpr std::array<std::string_view, 2> buffers{"After", "Nearest"};
+    return {"collision_texels",
+            load_stages(collision_shaders(shaders), "collision_texels", stages, switch_defines(scene.switches)),
+            {},
+            buffers};
+}
+
+void allocate(const GlBuffer& buffer, std::size_t words) {
+    gl::BindBuffer(GL_SHADER_STORAGE_BUFFER, buffer.id());
+    gl::BufferData(GL_SHADER_STORAGE_BUFFER, static_cast<GLsizeiptr>(std::max<std::size_t>(words, 2) * sizeof(GLuint)),
+                   nullptr, GL_DYNAMIC_COPY);
+}
+
+/// Invocations in a group of a compute stage that makes one a particle.
+std::size_t group_size(const Program& program, std::size_t particles) {
+    std::array<GLint, 3> size{};
+    gl::GetProgramiv(program.id(), GL_COMPUTE_WORK_GROUP_SIZE, size.data());
+    if (size[1] != 1 || size[2] != 1)
+        throw Error(fmt::format("{}: local_size_y is {} and local_size_z {}; particles are counted along x, and both "
+                                "are to be 1",
+                                program.name(), size[1], size[2]));
+    const auto along = static_cast<std::size_t>(size[0]);
+    GLint most = 0;
+    gl::GetIntegeri_v(GL_MAX_COMPUTE_WORK_GROUP_COUNT, 0, &most);
+    if (particles > along * static_cast<std::size_t>(most))
+        throw Error(fmt::format("{}: {} particles are more than {} groups of {}, which is what this context takes; a "
+                                "larger local_size_x is needed",
+                                program.name(), particles, most, along));
+    return along;
+}
+
+void dispatch(const Program& program, std::size_t particles, std::size_t group) {
+    program.use();
+    gl::DispatchCompute(static_cast<GLuint>((particles + group - 1) / group), 1, 1);
+    gl::MemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT);
+}
+
+} // namespace
+
+ComputeCollisionPass::ComputeCollisionPass(const Scene& scene, const std::filesystem::path& shaders)
+    : step_(link_compute(scene, shaders, "collision_pass")), nearest_(link_compute(scene, shaders, "nearest_particle")),
+      draw_(link_draw(scene, shaders)), step_group_(group_size(step_, scene.start.size())),
+      nearest_group_(group_size(nearest_, scene.start.size())), has_offers_(step_.uses_storage(offers_binding)) {
+    allocate(nearest_particles_, 2 * static_cast<std::size_t>(scene.width) * static_cast<std::size_t>(scene.height));
+    if (has_offers_)
+        allocate(offers_, 2 * scene.start.size());
+    check_gl("collision_pass");
+}
+
+void ComputeCollisionPass::run(const FrameParams& params, const ParticleBuffer& from, ParticleBuffer& to,
+                               const CollisionTexture& cdt, CollisionTexture& target) {
+    gl::BindBuffer(GL_SHADER_STORAGE_BUFFER, nearest_particles_.id());
+    gl::ClearBufferData(GL_SHADER_STORAGE_BUFFER, GL_R32UI, GL_RED_INTEGER, GL_UNSIGNED_INT, &nobody);
+    gl::BindBufferBase(GL_SHADER_STORAGE_BUFFER, before_binding, from.id());
+    gl::BindBufferBase(GL_SHADER_STORAGE_BUFFER, after_binding, to.id());
+    gl::BindBufferBase(GL_SHADER_STORAGE_BUFFER, nearest_binding, nearest_particles_.id());
+    gl::BindBufferBase(GL_SHADER_STORAGE_BUFFER, offers_binding, has_offers_ ? offers_.id() : 0);
+    step(params, from, cdt);
+    draw(params, from.size(), target);
+    gl::MemoryBarrier(GL_BUFFER_UPDATE_BARRIER_BIT | GL_CLIENT_MAPPED_BUFFER_BARRIER_BIT |
+                      GL_VERTEX_ATTRIB_ARRAY_BARRIER_BIT | GL_SHADER_STORAGE_BARRIER_BIT);
+    gl::UseProgram(0);
+    check_gl("collision_pass");
+}
+
+void ComputeCollisionPass::step(const FrameParams& params, const ParticleBuffer& from, const CollisionTexture& cdt) {
+    step_.set("u_ParticleCount", static_cast<unsigned>(from.size()));
+    set_collision_uniforms(step_, params);
+    step_.check_interface();
+    cdt.bind_texture(0);
+    dispatch(step_, from.size(), step_group_);
+    if (!has_offers_)
+        return;
+    nearest_.set("u_ParticleCount", static_cast<unsigned>(from.size()));
+    nearest_.check_interface();
+    dispatch(nearest_, from.size(), nearest_group_);
+}
+
+void ComputeCollisionPass::draw(const FrameParams& params, std::size_t particles, CollisionTexture& target) {
+    draw_.set("u_ParticleCount", static_cast<unsigned>(particles));
+    draw_.set("u_ClientWidth", params.width);
+    draw_.set("u_ClientHeight", params.height);
+    set_collision_code(draw_, params);
+    draw_.check_interface();
+    target.bind_target();
+    gl::Enable(GL_DEPTH_TEST);
+    gl::DepthFunc(GL_LESS);
+    gl::BindVertexArray(no_attributes_.id());
+    gl::DrawArrays(GL_TRIANGLES, 0, 3);
+}
+
+} // namespace lockstep

@@ -1,0 +1,45 @@
+#pragma once
+#include <filesystem>
+
+#include "gpu/collision/collision_texture.hpp"
+#include "gpu/collision/particle_buffer.hpp"
+#include "gpu/object.hpp"
+#include "gpu/program.hpp"
+#include "reference/model/collision/scene.hpp"
+
+namespace lockstep {
+
+/// The storage buffers of shaders/collision/collision_pass.comp and of what draws after it (docs/own_shader.md).
+enum StorageBinding : GLuint {
+    before_binding,
+    after_binding,
+    nearest_binding, ///< two words a texel: particle, depth; both 2^32 - 1 where nobody was offered
+    offers_binding,  ///< two words a particle: texel, depth
+    trace_binding,   ///< what the trace build tells
+};
+
+/// The collision pass in compute stages (switch step = compute): shaders/collision/collision_pass.comp steps the
+/// particles and offers each to its texel, nearest_particle.comp finds the lowest index among the nearest where that
+/// takes a pass of its own, and collision_texels.* draws the texels. Twin of reference/collision/collision_pass.hpp.
+class ComputeCollisionPass {
+  public:
+    /// `shaders` is looked into before the shipped folder; may be empty. Throws Error where the context has no compute
+    /// shaders (GL 4.3), or no storage buffer large enough.
+    ComputeCollisionPass(const Scene& scene, const std::filesystem::path& shaders);
+
+    /// Steps `from` into `to`, reading `cdt`, drawing into `target` on top of what it holds.
+    void run(const FrameParams& params, const ParticleBuffer& from, ParticleBuffer& to, const CollisionTexture& cdt,
+             CollisionTexture& target);
+
+  private:
+    void step(const FrameParams& params, const ParticleBuffer& from, const CollisionTexture& cdt);
+    void draw(const FrameParams& params, std::size_t particles, CollisionTexture& target);
+
+    Program step_, nearest_, draw_;
+    std::size_t step_group_, nearest_group_; ///< invocations
+    bool has_offers_;                        ///< step_ leaves the lowest index to nearest_
+    GlBuffer nearest_particles_, offers_;
+    GlVertexArray no_attributes_;
+};
+
+} // namespace lockstep

@@ -1,0 +1,31 @@
+#pragma once
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "gpu/object.hpp"
+
+namespace lockstep {
+
+/// GPU time between marks by GL_TIMESTAMP queries. A mark may have the GPU wait for what was before it: frames that are
+/// timed so are not those whose whole is timed.
+class PassTimer {
+  public:
+    /// From here on the first pass's time counts.
+    void start();
+
+    /// What was commanded since the last mark, or the start, was this pass. Marks before any start count nothing.
+    void mark(const char* pass);
+
+    /// Waits for the GPU. Each pass and its seconds, in order; then nothing is timed until the next start.
+    std::vector<std::pair<std::string, double>> stop();
+
+  private:
+    void stamp();
+
+    std::vector<GlQuery> queries_; ///< as many as were ever needed
+    std::vector<std::string> passes_;
+    bool runs_ = false;
+};
+
+} // namespace lockstep

@@ -1,6 +1,10 @@
 #include <algorithm>
 #include <chrono>
 #include <memory>
+#include <optional>
+#include <span>
+#include <string>
+#include <utility>
 #include <vector>
 
 #include <fmt/format.h>
@@ -13,10 +17,12 @@
 #include "crosscheck/cli/system_verbs.hpp"
 #include "crosscheck/judge/check.hpp"
 #include "crosscheck/report/report.hpp"
+#include "crosscheck/report/verdict_text.hpp"
 #include "crosscheck/scene/profiles.hpp"
 #include "crosscheck/scene/scene_constants.hpp"
 #include "crosscheck/scene/scene_file.hpp"
 #include "crosscheck/study/statistics.hpp"
+#include "gpu/collision/render_pass.hpp"
 #include "gpu/collision/simulation.hpp"
 #include "gpu/context.hpp"
 #include "reference/model/collision/layered_cdt.hpp"
@@ -37,12 +43,17 @@ struct Options {
 
 double now() { return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count(); }
 
+/// GPU time of a pass by itself, and of all frames' picture: medians, seconds.
+using PassSeconds = std::vector<std::pair<std::string, double>>;
+
 /// Seconds a frame, medians over the run.
 struct Timing {
     double gl = 0.0;        ///< GL frames alone, without any check, to glFinish
     double timer = 0.0;     ///< the same by the GPU's own clock (GL_TIME_ELAPSED)
     double check = 0.0;     ///< the whole of a checked frame
     double reference = 0.0; ///< the reference's share of it
+    double render = 0.0;    ///< the picture of the last frame, by the GPU's own clock
+    PassSeconds passes;
     CheckReport report;
 };
 
@@ -57,6 +68,75 @@ void time_alone(GpuSimulation& gpu, const Scene& scene, int frames, std::vector<
         wall.push_back(now() - start);
         timer.push_back(gpu.frame_seconds());
     }
+}
+
+/// Frames as they come, each pass between timestamps.
+PassSeconds time_passes(GpuSimulation& gpu, const Scene& scene, int frames) {
+    gpu.upload(scene.start, empty_cdt(scene));
+    PassSeconds passes;
+    std::vector<std::vector<double>> seconds;
+    for (int frame = 0; frame < frames; ++frame) {
+        const FrameParams params = frame_params(scene, frame);
+        gpu.step(params);
+        passes = gpu.pass_seconds(params);
+        seconds.resize(passes.size());
+        for (std::size_t p = 0; p < passes.size(); ++p)
+            seconds[p].push_back(passes[p].second);
+    }
+    for (std::size_t p = 0; p < passes.size(); ++p)
+        passes[p].second = median(seconds[p]);
+    return passes;
+}
+
+double time_rendering(const GpuSimulation& gpu, const Scene& scene, const Options& options) {
+    RenderPass pass(scene.switches, options.run.shaders, scene.render_width, scene.render_height);
+    const FrameParams params = frame_params(scene, options.run.frames - 1);
+    const GlQuery timer;
+    std::vector<double> seconds;
+    for (int frame = 0; frame < options.warm_up + options.run.frames; ++frame) {
+        {
+            const RunningQuery timing(GL_TIME_ELAPSED, timer);
+            pass.run(gpu.particle_buffer(), gpu.obstacle_buffer(), params);
+        }
+        gl::Finish();
+        GLuint64 nanoseconds = 0;
+        gl::GetQueryObjectui64v(timer.id(), GL_QUERY_RESULT, &nanoseconds);
+        if (frame >= options.warm_up)
+            seconds.push_back(static_cast<double>(nanoseconds) * 1e-9);
+    }
+    return median(seconds);
+}
+
+/// The count that takes `budget` seconds, on the line through the two measured ones nearest to it; nothing where that
+/// does not rise.
+std::optional<double> count_within(double budget, std::span<const std::size_t> counts,
+                                   std::span<const double> seconds) {
+    if (counts.size() < 2)
+        return {};
+    std::size_t upper = 1;
+    while (upper + 1 < counts.size() && seconds[upper] < budget)
+        ++upper;
+    const auto x0 = static_cast<double>(counts[upper - 1]), x1 = static_cast<double>(counts[upper]);
+    const double slope = (seconds[upper] - seconds[upper - 1]) / (x1 - x0);
+    if (!(slope > 0.0))
+        return {};
+    return std::max(0.0, x0 + (budget - seconds[upper - 1]) / slope);
+}
+
+/// "particles in 16.7 ms: 1,200,000, with rendering 700,000; in 6.9 ms: ..."
+std::string within_frames(std::span<const std::size_t> counts, std::span<const double> state,
+                          std::span<const double> rendered) {
+    std::string text;
+    for (const auto& [words, budget] : {std::pair{"16.7 ms", 1.0 / 60.0}, {"6.9 ms", 1.0 / 144.0}}) {
+        const auto alone = count_within(budget, counts, state), with = count_within(budget, counts, rendered);
+        if (!alone || !with)
+            return {};
+        text += fmt::format("{} in {}: {}, with rendering {}", text.empty() ? "particles" : ";", words,
+                            grouped(static_cast<std::uint64_t>(*alone)), grouped(static_cast<std::uint64_t>(*with)));
+        if (*alone > static_cast<double>(counts.back()) || *with > static_cast<double>(counts.back()))
+            text += " (beyond what was measured)";
+    }
+    return text;
 }
 
 /// The GL frames alone run before and after the checked ones, so that a machine that warms up or slows down shows on
@@ -81,6 +161,8 @@ Timing time_run(const Scene& scene, const Profile& profile, const Options& optio
     for (const FrameTimes& times : timing.report.times)
         reference.push_back(times.reference);
     time_alone(gpu, scene, options.run.frames, alone, timer);
+    timing.passes = time_passes(gpu, scene, options.run.frames);
+    timing.render = time_rendering(gpu, scene, options);
     timing.gl = median(alone);
     timing.timer = median(timer);
     timing.check = median(checked);
@@ -109,7 +191,7 @@ int run(const Options& options) {
     int status = status_agree;
     std::size_t largest = 0;
     for (const int radius : options.radii) {
-        std::vector<double> gl, reference;
+        std::vector<double> gl, reference, timer, rendered;
         for (const std::size_t count : options.counts) {
             RunOptions run = options.run;
             run.particles = count;
@@ -118,16 +200,24 @@ int run(const Options& options) {
             fmt::print("{:>6} {:>9} {:>9.3f} {:>9.3f} {:>9.3f} {:>9.3f} {:>7.2f}x {:>7.2f}x  {} {}\n", radius, count,
                        t.gl * 1e3, t.timer * 1e3, t.reference * 1e3, t.check * 1e3, t.gl / t.reference, t.check / t.gl,
                        hash_text(t.report.gpu_hash), verdict_words(t.report));
+            fmt::print("{:>16} GL timer of each pass:", "");
+            for (const auto& [pass, seconds] : t.passes)
+                fmt::print(" {} {:.3f},", pass, seconds * 1e3);
+            fmt::print(" rendering apart {:.3f}\n", t.render * 1e3);
             std::fflush(stdout);
             if (!passes(t.report, options.rules))
                 status = status_differ;
             gl.push_back(t.gl);
+            timer.push_back(t.timer);
+            rendered.push_back(t.timer + t.render);
             reference.push_back(t.reference);
             largest = std::max(largest, count);
         }
         if (options.counts.size() > 1)
             fmt::print("       time ~ particles^{:.2f} (GL), ^{:.2f} (reference)\n",
                        fitted_exponent(options.counts, gl), fitted_exponent(options.counts, reference));
+        if (const std::string line = within_frames(options.counts, timer, rendered); !line.empty())
+            fmt::print("       {}, by the GL timer\n", line);
     }
     fmt::print("peak memory {:.0f} MiB, {:.0f} bytes a particle at {} particles\n",
                static_cast<double>(peak_bytes()) / 1048576.0,

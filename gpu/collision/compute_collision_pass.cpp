@@ -93,32 +93,36 @@ ComputeCollisionPass::ComputeCollisionPass(const Scene& scene, const std::filesy
 }
 
 void ComputeCollisionPass::run(const FrameParams& params, const ParticleBuffer& from, ParticleBuffer& to,
-                               const CollisionTexture& cdt, CollisionTexture& target) {
+                               const CollisionTexture& cdt, CollisionTexture& target, PassTimer& timer) {
     gl::BindBuffer(GL_SHADER_STORAGE_BUFFER, nearest_particles_.id());
     gl::ClearBufferData(GL_SHADER_STORAGE_BUFFER, GL_R32UI, GL_RED_INTEGER, GL_UNSIGNED_INT, &nobody);
     gl::BindBufferBase(GL_SHADER_STORAGE_BUFFER, before_binding, from.id());
     gl::BindBufferBase(GL_SHADER_STORAGE_BUFFER, after_binding, to.id());
     gl::BindBufferBase(GL_SHADER_STORAGE_BUFFER, nearest_binding, nearest_particles_.id());
     gl::BindBufferBase(GL_SHADER_STORAGE_BUFFER, offers_binding, has_offers_ ? offers_.id() : 0);
-    step(params, from, cdt);
+    step(params, from, cdt, timer);
     draw(params, from.size(), target);
+    timer.mark("collision_texels");
     gl::MemoryBarrier(GL_BUFFER_UPDATE_BARRIER_BIT | GL_CLIENT_MAPPED_BUFFER_BARRIER_BIT |
                       GL_VERTEX_ATTRIB_ARRAY_BARRIER_BIT | GL_SHADER_STORAGE_BARRIER_BIT);
     gl::UseProgram(0);
     check_gl("collision_pass");
 }
 
-void ComputeCollisionPass::step(const FrameParams& params, const ParticleBuffer& from, const CollisionTexture& cdt) {
+void ComputeCollisionPass::step(const FrameParams& params, const ParticleBuffer& from, const CollisionTexture& cdt,
+                                PassTimer& timer) {
     step_.set("u_ParticleCount", static_cast<unsigned>(from.size()));
     set_collision_uniforms(step_, params);
     step_.check_interface();
     cdt.bind_texture(0);
     dispatch(step_, from.size(), step_group_);
+    timer.mark("collision_pass");
     if (!has_offers_)
         return;
     nearest_.set("u_ParticleCount", static_cast<unsigned>(from.size()));
     nearest_.check_interface();
     dispatch(nearest_, from.size(), nearest_group_);
+    timer.mark("nearest_particle");
 }
 
 void ComputeCollisionPass::draw(const FrameParams& params, std::size_t particles, CollisionTexture& target) {

@@ -4,6 +4,7 @@
 #include "gpu/collision/collision_texture.hpp"
 #include "gpu/collision/particle_buffer.hpp"
 #include "gpu/object.hpp"
+#include "gpu/pass_timer.hpp"
 #include "gpu/program.hpp"
 #include "reference/model/collision/scene.hpp"
 
@@ -29,10 +30,10 @@ class ComputeCollisionPass {
 
     /// Steps `from` into `to`, reading `cdt`, drawing into `target` on top of what it holds.
     void run(const FrameParams& params, const ParticleBuffer& from, ParticleBuffer& to, const CollisionTexture& cdt,
-             CollisionTexture& target);
+             CollisionTexture& target, PassTimer& timer);
 
   private:
-    void step(const FrameParams& params, const ParticleBuffer& from, const CollisionTexture& cdt);
+    void step(const FrameParams& params, const ParticleBuffer& from, const CollisionTexture& cdt, PassTimer& timer);
     void draw(const FrameParams& params, std::size_t particles, CollisionTexture& target);
 
     Program step_, nearest_, draw_;

@@ -86,16 +86,36 @@ void GpuSimulation::run_frame(const FrameParams& params, std::size_t from, std::
 
 void GpuSimulation::run_passes(const FrameParams& params, std::size_t from, std::size_t to) {
     if (layered_)
-        return layered_->pass.run(params, obstacles_, obstacle_pass_, particles_[from], particles_[to],
-                                  layered_->cdts[from], layered_->cdts[to]);
+        return run_layered(params, from, to);
     cdts_[to].clear();
-    if (octree_pass_)
-        return octree_pass_->run(params, particles_[from], particles_[to]);
+    pass_timer_.mark("clear");
+    if (octree_pass_) {
+        octree_pass_->run(params, particles_[from], particles_[to]);
+        return pass_timer_.mark("octree_pass");
+    }
     cdts_[to].bind_target();
     obstacle_pass_.run(obstacles_, params);
+    pass_timer_.mark("obstacle_pass");
     if (compute_pass_)
-        return compute_pass_->run(params, particles_[from], particles_[to], cdts_[from], cdts_[to]);
+        return compute_pass_->run(params, particles_[from], particles_[to], cdts_[from], cdts_[to], pass_timer_);
     collision_pass_->run(params, particles_[from], particles_[to], cdts_[from], cdts_[to]);
+    pass_timer_.mark("collision_pass");
+}
+
+void GpuSimulation::run_layered(const FrameParams& params, std::size_t from, std::size_t to) {
+    layered_->pass.run(params, obstacles_, obstacle_pass_, particles_[from], particles_[to], layered_->cdts[from],
+                       layered_->cdts[to]);
+    pass_timer_.mark("layered_collision_pass");
+}
+
+std::vector<std::pair<std::string, double>> GpuSimulation::pass_seconds(const FrameParams& params) {
+    GLint bits = 0;
+    gl::GetQueryiv(GL_TIMESTAMP, GL_QUERY_COUNTER_BITS, &bits);
+    if (bits == 0)
+        return {};
+    pass_timer_.start();
+    run_passes(params, 1 - current_, current_);
+    return pass_timer_.stop();
 }
 
 StepCapture GpuSimulation::trace(const FrameParams& params, std::size_t particle) {

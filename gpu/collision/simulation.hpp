@@ -2,6 +2,9 @@
 #include <array>
 #include <filesystem>
 #include <optional>
+#include <string>
+#include <utility>
+#include <vector>
 
 #include "gpu/collision/collision_pass.hpp"
 #include "gpu/collision/collision_trace.hpp"
@@ -12,6 +15,7 @@
 #include "gpu/collision/obstacle_pass.hpp"
 #include "gpu/collision/octree_pass.hpp"
 #include "gpu/mesh_buffer.hpp"
+#include "gpu/pass_timer.hpp"
 #include "reference/model/collision/particles.hpp"
 #include "reference/model/image.hpp"
 
@@ -42,6 +46,14 @@ class GpuSimulation final : public GpuSide {
     /// the context has none.
     [[nodiscard]] double frame_seconds() const { return frame_seconds_; }
 
+    /// The last frame once more, from the same state: GPU time of each of its passes by timestamps, seconds, in order,
+    /// the clearing of the CDT before them. Empty where the context has none.
+    std::vector<std::pair<std::string, double>> pass_seconds(const FrameParams& params);
+
+    /// What the last frame left, for a pass that draws it.
+    [[nodiscard]] const ParticleBuffer& particle_buffer() const { return particles_[current_]; }
+    [[nodiscard]] const MeshBuffer& obstacle_buffer() const { return obstacles_; }
+
     void read(Particles& particles) const override;
     void read(CollisionImage& cdt) const override;
     [[nodiscard]] bool holds(const Particles& particles) const override;
@@ -59,6 +71,7 @@ class GpuSimulation final : public GpuSide {
 
     void run_frame(const FrameParams& params, std::size_t from, std::size_t to);
     void run_passes(const FrameParams& params, std::size_t from, std::size_t to);
+    void run_layered(const FrameParams& params, std::size_t from, std::size_t to);
     void verify_written() const;
 
     Switches switches_;
@@ -74,6 +87,7 @@ class GpuSimulation final : public GpuSide {
     std::optional<ComputeTrace> compute_trace_;
     std::optional<Layered> layered_; ///< with remedies, in the place of collision_pass_ and cdts_
     GlQuery timer_;
+    PassTimer pass_timer_;
     double frame_seconds_ = 0.0;
     std::size_t current_ = 0; ///< which of the two the next frame starts from
 };

@@ -103,13 +103,13 @@ template <class A> class Candidates {
   public:
     Candidates(A fp, const FrameParams& params, const Profile& profile, const KnownOperations& known,
                std::span<const std::size_t> texels)
-        : fp_(fp), params_(params), profile_(profile), converts_(known.converts), code_(params),
-          arithmetic_(fp, known, profile.other_orders),
+        : fp_(fp), params_(params), drawn_(drawn_by_rasteriser(params)), profile_(profile), converts_(known.converts),
+          code_(params), arithmetic_(fp, known, profile.other_orders),
           placing_(fp, known_in_step(params.switches, known, profile), profile.other_orders),
           wanted_(params.width, params.height, texels), candidates_(texels.size()) {}
 
     void add_point(Kind kind, std::size_t index, glm::vec3 drawn_at, glm::vec3 stored) {
-        const PointFragment reference = point_fragment(drawn_at, params_, profile_);
+        const PointFragment reference = point_fragment(drawn_at, drawn_, profile_);
         const bool drawn = reference.x >= 0;
         if (drawn && !wanted_.near(reference.x, reference.y))
             return;
@@ -274,6 +274,7 @@ template <class A> class Candidates {
 
     A fp_;
     const FrameParams& params_;
+    FrameParams drawn_; ///< as points are drawn that the rasteriser places
     const Profile& profile_;
     DriverConverts converts_;
     CollisionCode code_;

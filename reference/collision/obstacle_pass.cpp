@@ -9,6 +9,7 @@
 
 #include "reference/collision/collision_code.hpp"
 #include "reference/collision/collision_pass.hpp"
+#include "reference/collision/step_stage.hpp"
 #include "reference/draw_triangles.hpp"
 #include "reference/subnormals.hpp"
 #include "reference/triangle_interpolation.hpp"
@@ -52,8 +53,9 @@ template <class A> void draw_obstacle_vertices(A fp, const Mesh& obstacles, cons
                                                const Profile& profile, CollisionImage& cdt, DepthImage& depth) {
     const FlushSubnormals guard(profile.flush_subnormals);
     const CollisionCode code(params);
+    const FrameParams drawn = drawn_by_rasteriser(params);
     for (const glm::vec3 position : obstacles.positions) {
-        const PointFragment point = point_fragment(position, params, profile);
+        const PointFragment point = point_fragment(position, drawn, profile);
         if (point.x < 0 || !(point.depth < depth.at(point.x, point.y)))
             continue;
         depth.at(point.x, point.y) = point.depth;

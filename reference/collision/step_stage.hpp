@@ -1,6 +1,6 @@
 #pragma once
 #include "reference/known_operations.hpp"
-#include "reference/model/collision/switches.hpp"
+#include "reference/model/collision/scene.hpp"
 #include "reference/model/profile.hpp"
 #include "reference/subnormals.hpp"
 
@@ -15,6 +15,12 @@ inline FlushSubnormals flush_in_step(const Switches& switches, const Profile& pr
         return FlushSubnormals(known && profile.flush_subnormals);
     return {known && profile.compute_flush_subnormals,
             known && profile.compute_flush_results.value_or(profile.compute_flush_subnormals)};
+}
+
+/// The same frame as the passes see it that draw in vertex and fragment stages whatever `step` is: the obstacles'.
+inline FrameParams drawn_by_rasteriser(FrameParams params) {
+    params.switches.step = Step::transform_feedback;
+    return params;
 }
 
 /// What of `known` holds there.

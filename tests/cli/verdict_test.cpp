@@ -185,7 +185,24 @@ TEST_CASE("verdict: both sides render, and bench tells a verdict a row") {
         {"bench", setting.scene, "--gl", test::software_gl(), "--frames", "2", "--counts", "100,200", "--radius", "1"});
     CHECK(bench.status == 0);
     CHECK_THAT(bench.out,
-               Catch::Matches("(.|\n)*  1 +100 .* [0-9a-f]{16} AGREE\n +1 +200 .* [0-9a-f]{16} AGREE\n(.|\n)*"));
+               Catch::Matches("(.|\n)*  1 +100 .* [0-9a-f]{16} AGREE\n +GL timer of each pass: clear [0-9.]+, "
+                              "obstacle_pass [0-9.]+, collision_pass [0-9.]+, rendering apart [0-9.]+\n"
+                              " +1 +200 .* [0-9a-f]{16} AGREE\n(.|\n)*"));
+    const test::Outcome compute = run_lockstep({"bench", setting.scene, "--gl", test::software_gl(), "--frames", "2",
+                                                "--counts", "100,200", "--radius", "1", "--set", "step=compute"});
+    CHECK(compute.status == 0);
+    CHECK_THAT(compute.out, Catch::Contains(", collision_pass ") && Catch::Contains(", collision_texels "));
+}
+
+TEST_CASE("verdict: bench says how many particles a frame at 60 and at 144 Hz has time for") {
+    if (!test::have_software_gl())
+        return;
+    const Setting setting;
+    const test::Outcome bench = run_lockstep({"bench", setting.scene, "--gl", test::software_gl(), "--frames", "5",
+                                              "--counts", "1000,60000", "--radius", "1"});
+    CHECK_THAT(bench.out, Catch::Matches("(.|\n)* particles in 16.7 ms: [0-9,]+, with rendering [0-9,]+"
+                                         "( \\(beyond what was measured\\))?; in 6.9 ms: [0-9,]+, with rendering "
+                                         "[0-9,]+( \\(beyond what was measured\\))?, by the GL timer\n(.|\n)*"));
 }
 
 TEST_CASE("verdict: a run in which nothing collided says so, and fails where hits are required") {

@@ -288,7 +288,7 @@ TEST_CASE("compute collision pass twin: planted bugs are seen") {
         {"collision_pass.comp", " && len < particle_min_length", ""},
         {"collision_pass.comp", "u_CollisionRange > len", "u_CollisionRange * 0.99 > len"},
         {"collision_pass.comp", "product(a.speed, u_SpeedFactor)", "a.speed"},
-        {"collision_pass.comp", "ls_flush(a.collide_time) < 0.0", "ls_flush(a.collide_time) < 0.05"},
+        {"collision_pass.comp", "ls_flush(a.collide_time) < 0.0", "ls_flush(a.collide_time) < 0.09"},
         {"collision_pass.comp", "    offer_to_texel(self, clip);\n", ""},
         {"nearest_particle.glsl", "at.y * u_ClientWidth + at.x", "at.x * u_ClientWidth + at.y"},
         {"nearest_particle.glsl", "(ls_divide(clip.z, clip.w) + 1.0) * 0.5", "(1.0 - ls_divide(clip.z, clip.w)) * 0.5"},
@@ -313,13 +313,14 @@ TEST_CASE("compute collision pass twin: every value on a particle's way is told,
     FrameRun run(compute_scene("corrected"), profile, measured_operations(profile), std::filesystem::path());
     run.go_to(3);
     std::size_t drawn = 0, found = 0;
-    for (std::size_t particle = 0; particle < 40; ++particle) {
+    for (std::size_t particle = 0; particle < 150; ++particle) {
         const StepTable table = step_table(run, particle);
         CHECK(table.warning.empty());
         CHECK(table.first_divergent() == nullptr);
         CHECK(table.gpu.drawn_alone);
         CHECK(table.gpu.texel == glm::ivec2(table.reference.fragment.x, table.reference.fragment.y));
-        CHECK(table.gpu.neighbours.size() == table.reference.neighbours.size());
+        const std::size_t looked_at = table.reference.neighbours.size(); // the base texel is none of them
+        CHECK(table.gpu.neighbours.size() == (looked_at > 0 ? looked_at + 1 : 0));
         for (const StepRow& row : table.rows)
             CHECK((row.reference.empty() == row.gpu.empty() || row.label == "also wanted by"));
         drawn += table.gpu.texel.x >= 0 ? 1 : 0;

@@ -148,7 +148,7 @@ TEST_CASE("compute collision pass twin: of particles at one place the first is d
     const CheckReport last = test::check_twins(one_place("corrected", 300), 3, shaders.path());
     REQUIRE(last.verdicts);
     CHECK(last.verdict == Verdict::divergent);
-    CHECK(last.verdicts->causes[collision::cdt].best.front().name() == "depth_equal_passes");
+    CHECK(last.verdicts->causes[collision::cdt].explains_all()); // all are equally deep: any order of them
 }
 
 TEST_CASE("compute collision pass twin: nothing within the range hits nothing") {

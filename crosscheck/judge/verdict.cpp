@@ -15,43 +15,12 @@
 #include "reference/collision/layered_collision_pass.hpp"
 #include "reference/collision/legal_texels.hpp"
 #include "reference/collision/obstacle_pass.hpp"
-#include "reference/collision/sites.hpp"
-#include "reference/collision/step_trace.hpp"
 #include "reference/model/collision/collision_state.hpp"
 #include "reference/model/collision/layered_cdt.hpp"
 #include "reference/model/same_bits.hpp"
 
 namespace lockstep {
 namespace {
-
-bool same_texel(const CollisionImage& cdt, BaseTexelIndex a, BaseTexelIndex b) {
-    const auto code = [&](BaseTexelIndex t) { return cdt.contains(t.x, t.y) ? cdt.at(t.x, t.y) : glm::vec4(0.0F); };
-    return same_bits(code(a), code(b));
-}
-
-/// Whether an outcome decides as the reference did: a hit or none, and of the same stored positions.
-bool decides_alike(const LegalOutcome& outcome, const StepTrace& reference, const JudgedFrame& frame) {
-    if (outcome.hit != reference.nearest.has_value())
-        return false;
-    if (!outcome.hit)
-        return true;
-    const bool own_from_texel = frame.params.switches.self_position == SelfPosition::texel;
-    return same_texel(frame.cdt, outcome.neighbour, reference.neighbours[*reference.nearest].texel) &&
-           (!own_from_texel || same_texel(frame.cdt, outcome.base, reference.base));
-}
-
-/// The tie that led to `outcome` instead of the reference's.
-std::optional<Tie> deciding_tie(const LegalOutcome& outcome, const StepTrace& reference) {
-    const auto nearest = std::find_if(outcome.ties.begin(), outcome.ties.end(),
-                                      [](const Tie& tie) { return tie.kind.name == site::nearest.label; });
-    const bool same_base = outcome.base.x == reference.base.x && outcome.base.y == reference.base.y;
-    if (outcome.hit && reference.nearest && same_base)
-        if (nearest != outcome.ties.end())
-            return *nearest;
-    if (outcome.ties.empty())
-        return {};
-    return outcome.ties.front();
-}
 
 /// The classes of differing particles, by the texels they are drawn to on either side.
 class ClassesByTexel {
@@ -288,40 +257,13 @@ CollisionImage redraw(const JudgedFrame& frame) {
 }
 
 ItemVerdict judge_particle(const JudgedFrame& frame, std::size_t particle) {
-    if (!is_listing(frame.params.switches))
-        return with_step_pass(frame, [&](const JudgedPass& pass) { return judge_item(pass, particle); });
-    const ParticleState gpu = frame.gpu[particle];
-    const std::vector<LegalOutcome> outcomes =
-        legal_outcomes(frame.before[particle], frame.cdt, frame.params, frame.profile, frame.known, &gpu);
-    ItemVerdict verdict{.index = particle, .outcomes = outcomes.size()};
-    const StepTrace reference = trace_step(frame.before[particle], frame.cdt, frame.params, frame.profile);
-    for (const LegalOutcome& outcome : outcomes) {
-        if (!outcome.contains(gpu))
-            continue;
-        DifferenceClass kind = DifferenceClass::tie;
-        if (outcome.undefined != Undefined::none)
-            kind = DifferenceClass::undefined;
-        else if (outcomes.size() == 1 || decides_alike(outcome, reference, frame))
-            kind = DifferenceClass::rounding;
-        if (kind >= verdict.kind)
-            continue;
-        verdict.kind = kind;
-        verdict.undefined = outcome.undefined;
-        verdict.tie = kind == DifferenceClass::tie ? deciding_tie(outcome, reference) : std::nullopt;
-    }
-    return verdict;
+    return with_step_pass(frame, [&](const JudgedPass& pass) { return judge_item(pass, particle); });
 }
 
 FrameVerdicts judge(const JudgedFrame& frame) {
     if (!is_listing(frame.params.switches))
         return judge_by_twin(frame);
-    const std::vector<std::size_t> differing = differing_items(frame.reference, frame.gpu);
-    FrameVerdicts verdicts;
-    verdicts.particles.resize(differing.size());
-    const auto count = static_cast<std::ptrdiff_t>(differing.size());
-#pragma omp parallel for schedule(dynamic, 64) if (count > 256)
-    for (std::ptrdiff_t i = 0; i < count; ++i)
-        verdicts.particles[static_cast<std::size_t>(i)] = judge_particle(frame, differing[static_cast<std::size_t>(i)]);
+    FrameVerdicts verdicts{with_step_pass(frame, judge_items), {}};
     verdicts.texels = judge_texels(frame, verdicts.particles);
     return verdicts;
 }

@@ -11,6 +11,7 @@
 
 #include <fmt/format.h>
 
+#include "crosscheck/judge/item_likeness.hpp"
 #include "crosscheck/judge/item_table.hpp"
 #include "reference/model/same_bits.hpp"
 #include "reference/model/ulp.hpp"
@@ -194,6 +195,35 @@ std::optional<Otherwise> wrong_decision(const JudgedPass& p, std::size_t item) {
     return {};
 }
 
+/// What a decision, loop or choice on the way did otherwise, where that leaves the item as it is: an offer that the
+/// twin never made has no row, and is told of the choice that follows.
+std::optional<Otherwise> wrong_search(const JudgedPass& p, std::size_t item) {
+    const std::vector<RecordedRow> rows = p.pass.record(p.input(), item, p.profile);
+    const auto choice = std::find_if(rows.begin(), rows.end(), [](const RecordedRow& row) {
+        return row.kind == Kind::choice && row.site->output_id != 0;
+    });
+    if (choice == rows.end())
+        return {};
+    std::vector<SeenSite> sites;
+    using Seen = SeenSite::Kind;
+    for (const SeenSite& seen : p.pass.sites(p.input(), item, p.profile)) {
+        const auto of_site = [&](const RecordedRow& row) { return row.site == seen.site; };
+        if (std::none_of(rows.begin(), choice + 1, of_site) && std::any_of(choice, rows.end(), of_site))
+            break; // what follows from the choice
+        if (seen.kind == Seen::condition || seen.kind == Seen::setting || seen.kind == Seen::loop)
+            sites.push_back(seen);
+    }
+    const ItemLikeness likeness(p);
+    for (const Mistake& mistake : mistakes_at(sites))
+        if (likeness.are_gpus(item, p.pass.mistaken(p.input(), item, p.profile, {&mistake, 1})))
+            return Otherwise{std::string(choice->site->label),
+                             fmt::format("{} follows {}", choice->values[0] != 0.0F ? "what was found" : "none",
+                                         line_of(choice->where)),
+                             "as by " + mistake_text(mistake, sites),
+                             {}};
+    return {};
+}
+
 } // namespace
 
 WrongStep wrong_step_of_item(const JudgedPass& p, std::size_t item) {
@@ -232,7 +262,10 @@ WrongStep wrong_step_of_item(const JudgedPass& p, std::size_t item) {
     step.difference = {{p.pass.resource(), c.field}, item, c.component, reference, gpu, distance(reference, gpu)};
     if (best.ulps == 0)
         return step;
-    if (auto decision = wrong_decision(p, item)) {
+    auto decision = wrong_decision(p, item);
+    if (!decision)
+        decision = wrong_search(p, item);
+    if (decision) {
         step.step = std::move(decision->step);
         step.operation = std::move(decision->right);
         step.gpu = std::move(decision->instead);

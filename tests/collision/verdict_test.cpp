@@ -110,6 +110,7 @@ TEST_CASE("verdict: a decision that alone explains the state where it is made ot
     };
     for (const Case& one : {Case{Deviation::last_found_instead_of_nearest, "nearest", "texel ("},
                             Case{Deviation::never_collides, "nearest", "none"},
+                            Case{Deviation::own_texel_not_skipped, "nearest", "as by "},
                             Case{Deviation::collide_time_not_counted, "collide time", ""}}) {
         Frame frame("corrected");
         const FrameInputs inputs{

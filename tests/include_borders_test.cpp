@@ -32,6 +32,9 @@ std::optional<std::size_t> job_of(const std::string& file) {
     return {};
 }
 
+/// What every system goes through: it knows none.
+const std::set<std::string> machinery_jobs{"files", "judge", "report", "record"};
+
 /// The system in whose folder a file of both sides lies; nothing of what is every system's.
 std::optional<std::string> system_of(const std::string& file) {
     static const std::regex folder("(?:reference/model|reference|gpu)/([a-z_]+)/.*");
@@ -42,15 +45,30 @@ std::optional<std::string> system_of(const std::string& file) {
     return match[1].str();
 }
 
-/// The file that names the systems there are.
-const std::string registration = "crosscheck/cli/systems.cpp";
+/// The system in whose folder a file lies, on either side or where crosscheck/ puts both together; nothing of what is
+/// every system's.
+std::optional<std::string> any_system_of(const std::string& file) {
+    static const std::regex folder("crosscheck/([a-z_]+)/.*");
+    std::smatch match;
+    if (std::regex_match(file, match, folder))
+        return std::find(jobs.begin(), jobs.end(), match[1].str()) == jobs.end() ? std::optional(match[1].str())
+                                                                                 : std::nullopt;
+    return system_of(file);
+}
 
-/// The system in whose folder a file lies, of those with one in crosscheck/ that puts both of its sides together.
+/// Whether a file puts both sides of a system together.
+bool system_in_crosscheck(const std::string& file) { return file.starts_with("crosscheck/") && any_system_of(file); }
+
+/// The file that names the systems there are.
+const std::string registration = "crosscheck/cli/systems.cpp", default_system = "collision";
+
+/// The system in whose folder a file lies, of those with one in crosscheck/ that puts both of its sides together; but
+/// for the system that the verbs and studies are of besides.
 std::optional<std::string> registered_system_of(const std::string& file) {
     static const std::regex folder("(?:crosscheck|gpu|reference/model|reference)/([a-z_]+)/.*");
     std::smatch match;
     if (!std::regex_match(file, match, folder) || !fs::is_directory("crosscheck/" + match[1].str()) ||
-        std::find(jobs.begin(), jobs.end(), match[1].str()) != jobs.end())
+        std::find(jobs.begin(), jobs.end(), match[1].str()) != jobs.end() || match[1].str() == default_system)
         return {};
     return match[1].str();
 }
@@ -79,6 +97,10 @@ std::string forbidden(const std::string& file, const std::string& header) {
     if (file.starts_with("crosscheck/") && header.starts_with("tests/"))
         return "only tests include tests";
     const auto job = job_of(file), used = job_of(header);
+    if (const auto system = any_system_of(header); job && system && machinery_jobs.contains(jobs[*job]))
+        return jobs[*job] + " knows no system, " + *system + " neither";
+    if (system_in_crosscheck(file) && used && jobs[*used] != "scene" && !machinery_jobs.contains(jobs[*used]))
+        return "a system knows nothing of " + jobs[*used];
     if (job && used && *used > *job)
         return jobs[*job] + " knows nothing of " + jobs[*used];
     return {};
@@ -141,6 +163,15 @@ TEST_CASE("include borders: a crossing is seen, with its line") {
     CHECK(crossings("crosscheck/judge/a.cpp", "#include \"crosscheck/dust/system.hpp\"\n") ==
           Strings{"crosscheck/judge/a.cpp:1: only crosscheck/cli/systems.cpp knows dust"});
     CHECK(crossings("crosscheck/report/a.cpp", "#include \"reference/model/dust/settings.hpp\"\n").size() == 1);
+    CHECK(crossings("crosscheck/report/a.cpp", "#include \"reference/model/collision/scene.hpp\"\n") ==
+          Strings{"crosscheck/report/a.cpp:1: report knows no system, collision neither"});
+    CHECK(crossings("crosscheck/record/a.hpp", "#include \"crosscheck/collision/judge/verdict.hpp\"\n").size() == 1);
+    CHECK(crossings("crosscheck/judge/a.hpp", "#include \"gpu/collision/gpu_side.hpp\"\n").size() == 1);
+    CHECK(crossings("crosscheck/collision/judge/a.hpp", "#include \"gpu/collision/gpu_side.hpp\"\n").empty());
+    CHECK(crossings("crosscheck/collision/page/a.hpp", "#include \"crosscheck/record/seal.hpp\"\n").empty());
+    CHECK(crossings("crosscheck/collision/page/a.hpp", "#include \"crosscheck/study/study.hpp\"\n") ==
+          Strings{"crosscheck/collision/page/a.hpp:1: a system knows nothing of study"});
+    CHECK(crossings("crosscheck/study/a.cpp", "#include \"crosscheck/collision/judge/verdict.hpp\"\n").empty());
     CHECK(crossings("crosscheck/dust/a.cpp", "#include \"gpu/dust/passes.hpp\"\n").empty());
     CHECK(crossings("crosscheck/cli/systems.cpp", "#include \"crosscheck/dust/system.hpp\"\n").empty());
     CHECK(crossings("reference/readings/a.hpp", "#include \"reference/model/collision/scene.hpp\"\n") ==

@@ -15,7 +15,7 @@
 #include "crosscheck/cli/option_values.hpp"
 #include "crosscheck/cli/run_options.hpp"
 #include "crosscheck/cli/system_verbs.hpp"
-#include "crosscheck/judge/check.hpp"
+#include "crosscheck/collision/judge/check.hpp"
 #include "crosscheck/report/report.hpp"
 #include "crosscheck/report/verdict_text.hpp"
 #include "crosscheck/scene/profiles.hpp"

@@ -15,20 +15,20 @@
 #include "crosscheck/cli/run_options.hpp"
 #include "crosscheck/cli/stress_check.hpp"
 #include "crosscheck/cli/system_verbs.hpp"
+#include "crosscheck/collision/judge/check.hpp"
+#include "crosscheck/collision/judge/side_state.hpp"
+#include "crosscheck/collision/page/explained.hpp"
+#include "crosscheck/collision/page/report_page.hpp"
+#include "crosscheck/collision/record/capsule_json.hpp"
+#include "crosscheck/collision/record/trace_side.hpp"
+#include "crosscheck/collision/report/frame_images.hpp"
+#include "crosscheck/collision/report/hash_file.hpp"
 #include "crosscheck/files/json_text.hpp"
 #include "crosscheck/files/output_files.hpp"
 #include "crosscheck/files/plain_text.hpp"
 #include "crosscheck/files/shell_words.hpp"
 #include "crosscheck/files/signals.hpp"
 #include "crosscheck/files/threads.hpp"
-#include "crosscheck/judge/check.hpp"
-#include "crosscheck/judge/side_state.hpp"
-#include "crosscheck/record/capsule_json.hpp"
-#include "crosscheck/record/trace_side.hpp"
-#include "crosscheck/report/frame_images.hpp"
-#include "crosscheck/report/hash_file.hpp"
-#include "crosscheck/report/page/explained.hpp"
-#include "crosscheck/report/page/report_page.hpp"
 #include "crosscheck/report/page/study_results.hpp"
 #include "crosscheck/report/page/template.hpp"
 #include "crosscheck/report/places.hpp"
@@ -215,7 +215,7 @@ int check_and_tell(const Options& options, OutputFiles& files, const Checked& ch
     const nlohmann::json study = options.report.empty() ? nlohmann::json() : study_results(options.report);
     HashFile hashes;
     FrameImages images;
-    CheckOptions check_options;
+    FrameCheckOptions check_options;
     check_options.mode = options.mode;
     check_options.frames = options.run.frames;
     check_options.stop = &interrupted;

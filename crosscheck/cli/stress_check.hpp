@@ -1,6 +1,6 @@
 #pragma once
 #include "crosscheck/cli/run_options.hpp"
-#include "crosscheck/judge/check.hpp"
+#include "crosscheck/collision/judge/check.hpp"
 #include "crosscheck/judge/legal.hpp"
 
 namespace lockstep {

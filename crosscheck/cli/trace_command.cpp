@@ -5,8 +5,8 @@
 
 #include "crosscheck/cli/commands.hpp"
 #include "crosscheck/cli/option_values.hpp"
+#include "crosscheck/collision/record/trace_reader.hpp"
 #include "crosscheck/files/plain_text.hpp"
-#include "crosscheck/record/trace_reader.hpp"
 #include "crosscheck/report/verdict_text.hpp"
 #include "crosscheck/scene/profiles.hpp"
 

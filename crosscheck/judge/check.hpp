@@ -9,16 +9,12 @@
 #include "crosscheck/judge/compare.hpp"
 #include "crosscheck/judge/legal.hpp"
 #include "crosscheck/judge/power_summary.hpp"
-#include "crosscheck/judge/render_judge.hpp"
-#include "crosscheck/judge/verdict.hpp"
+#include "crosscheck/judge/render_verdict.hpp"
 #include "crosscheck/judge/verdict_summary.hpp"
 #include "reference/known_operations.hpp"
-#include "reference/model/collision/scene.hpp"
-#include "reference/model/profile.hpp"
+#include "reference/model/schema.hpp"
 
 namespace lockstep {
-
-class GpuSide;
 
 enum class CheckMode {
     resync, ///< after each frame the reference restarts from the GPU's state, so each step is judged alone
@@ -100,6 +96,9 @@ struct PassRules {
            report.power.share() >= rules.power_at_least;
 }
 
+/// Counts what a comparison of a frame found; there may be several of a frame.
+void note_difference(CheckReport& report, int frame, const Comparison& comparison);
+
 /// What the counts of a run come to.
 [[nodiscard]] Verdict verdict_on(const CheckReport& report);
 
@@ -110,32 +109,15 @@ void ask_power(CheckReport& report, double at_least);
 /// Takes up the verdict on a rendered frame of the run: the run's is the worse of both.
 void add_rendered(CheckReport& report, RenderVerdict rendered);
 
-/// Both sides after one frame, and what their comparison said.
-struct ComparedFrame {
-    int frame = 0;
-    const Particles& reference;
-    const CollisionImage& reference_cdt;
-    const Particles& gpu;
-    const CollisionImage& gpu_cdt;
-    const Comparison& comparison;
-    const FrameVerdicts* verdicts = nullptr; ///< null where nothing differs, or differences are not judged
-};
-
 struct CheckOptions {
     CheckMode mode = CheckMode::resync;
     int frames = 60;
     int repeated_frames = 2; ///< the first frames run twice on the GPU and must repeat themselves bit by bit
     std::function<void(int frames_done)> on_frame;
-    /// Called after each comparison (hash files, images, traces).
-    std::function<void(const ComparedFrame&)> on_state;
     /// What legal outcomes are taken from; not set: what the profile's driver was measured to do.
     std::optional<KnownOperations> known;
     bool causes = true;                      ///< look for the mistake behind what diverges
     const std::atomic<bool>* stop = nullptr; ///< set: end after the frame at hand, with the verdict so far
 };
-
-/// Runs both sides from the scene's start and compares every float of every frame. Throws Error when the run would
-/// prove nothing: a GL error, an incomplete framebuffer, output that was not written, no frame compared.
-CheckReport check(const Scene& scene, const Profile& profile, GpuSide& gpu, const CheckOptions& options);
 
 } // namespace lockstep

@@ -45,21 +45,6 @@ void check_system(const System& system) {
     }
 }
 
-void note_difference(CheckReport& report, int frame, const Comparison& comparison) {
-    const std::int64_t worst = comparison.worst.empty() ? 0 : comparison.worst.front().ulp;
-    if (report.counts.empty() || report.counts.back().frame != frame)
-        report.counts.push_back({frame, std::vector<std::uint64_t>(report.schema.resources.size()), 0});
-    FrameCount& counts = report.counts.back();
-    counts.worst_ulp = std::max(counts.worst_ulp, worst);
-    for (std::uint8_t r = 0; r < report.schema.resources.size(); ++r)
-        counts.items[r] += comparison.differing(r);
-    if (comparison.agree() || report.first_frame)
-        return;
-    report.first_frame = frame;
-    for (const Difference& difference : comparison.worst)
-        report.worst.push_back({frame, difference});
-}
-
 std::uint64_t hash_of(const SystemState& state) {
     std::uint64_t hash = state_hash(state[0]);
     for (std::uint8_t r = 1; r < state.schema().resources.size(); ++r)

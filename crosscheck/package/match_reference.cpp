@@ -4,10 +4,10 @@
 
 #include <fmt/format.h>
 
+#include "crosscheck/collision/judge/side_state.hpp"
+#include "crosscheck/collision/report/frame_images.hpp"
 #include "crosscheck/files/shell_words.hpp"
-#include "crosscheck/judge/side_state.hpp"
 #include "crosscheck/package/folded_text.hpp"
-#include "crosscheck/report/frame_images.hpp"
 #include "crosscheck/report/places.hpp"
 #include "crosscheck/scene/profiles.hpp"
 #include "crosscheck/scene/run_text.hpp"

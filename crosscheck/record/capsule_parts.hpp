@@ -15,6 +15,9 @@
 
 namespace lockstep {
 
+/// Largest file that a capsule makes, bytes.
+inline constexpr std::size_t largest_capsule = 100'000;
+
 /// What capsules of every system are made of, as JSON and back. Readers throw Error naming the key and what it may be.
 
 /// Groups of eight hexadecimal digits, a space between them.

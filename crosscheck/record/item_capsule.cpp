@@ -13,7 +13,6 @@
 #include "crosscheck/files/asked_memory.hpp"
 #include "crosscheck/files/json_reader.hpp"
 #include "crosscheck/judge/item_judge.hpp"
-#include "crosscheck/record/capsule.hpp"
 #include "crosscheck/record/capsule_parts.hpp"
 #include "crosscheck/report/item_text.hpp"
 #include "crosscheck/scene/profile_json.hpp"

@@ -6,7 +6,7 @@
 #include "crosscheck/judge/system_check.hpp"
 #include "crosscheck/report/report.hpp"
 #include "crosscheck/report/value_text.hpp"
-#include "gpu/collision/gpu_side.hpp"
+#include "gpu/side_description.hpp"
 
 namespace lockstep {
 

@@ -156,22 +156,10 @@ std::string color_text(Rgba8 c) {
     return fmt::format("#{:02x}{:02x}{:02x}{}", c.r, c.g, c.b, c.a == 255 ? "" : fmt::format(" alpha {}", c.a));
 }
 
-std::string owner_text(const PixelOwner& owner) {
-    switch (owner.kind) {
-    case PixelOwner::Kind::background:
-        return "the background";
-    case PixelOwner::Kind::obstacle:
-        return fmt::format("triangle {} of the obstacles", owner.index);
-    case PixelOwner::Kind::particle:
-        return fmt::format("particle {}", owner.index);
-    }
-    return "";
-}
-
 std::string first_pixel_text(const RenderVerdict& r) {
     const auto width = static_cast<std::size_t>(r.width);
     return fmt::format("pixel ({}, {}): reference {} of {}, GPU {}", r.first->index % width, r.first->index / width,
-                       color_text(r.first->reference), owner_text(r.first->owner), color_text(r.first->gpu));
+                       color_text(r.first->reference), r.first->owner, color_text(r.first->gpu));
 }
 
 /// The lines under `render`: cause, and the first pixel.
@@ -374,7 +362,7 @@ nlohmann::json render_json(const CheckReport& report, const RunDescription& run)
                  {"causes", nlohmann::json::array()}});
     for (std::size_t kind = 0; kind < class_names.size(); ++kind)
         json["classes"][std::string(class_names[kind])] = r.classes[kind];
-    for (const RenderMistakeInfo& cause : r.causes)
+    for (const RenderCause& cause : r.causes)
         json["causes"].push_back({{"name", cause.name}, {"meaning", cause.meaning}});
     if (r.first)
         json["first"] = {{"text", first_pixel_text(r)},

@@ -7,7 +7,7 @@
 #include <glm/geometric.hpp>
 #include <nlohmann/json.hpp>
 
-#include "crosscheck/judge/check.hpp"
+#include "crosscheck/collision/judge/check.hpp"
 #include "crosscheck/scene/scene_file.hpp"
 #include "crosscheck/study/statistics.hpp"
 #include "crosscheck/study/study.hpp"

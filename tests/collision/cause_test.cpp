@@ -8,8 +8,8 @@
 #include <utility>
 #include <vector>
 
+#include "crosscheck/collision/judge/step_cause.hpp"
 #include "crosscheck/judge/compare.hpp"
-#include "crosscheck/judge/step_cause.hpp"
 #include "reference/collision/deviating_pass.hpp"
 #include "reference/collision/obstacle_pass.hpp"
 #include "reference/collision/simulation.hpp"

@@ -7,7 +7,7 @@
 
 #include <catch2/catch.hpp>
 
-#include "crosscheck/judge/render_judge.hpp"
+#include "crosscheck/collision/judge/render_judge.hpp"
 
 namespace lockstep {
 namespace {
@@ -129,7 +129,7 @@ TEST_CASE("render judge: one code off the legal ones is divergent, one sphere mi
     CHECK(verdict.causes.empty());
     REQUIRE(verdict.first);
     CHECK(verdict.first->index == 32 * 64 + 32);
-    CHECK(verdict.first->owner == PixelOwner{PixelOwner::Kind::particle, 0});
+    CHECK(verdict.first->owner == "particle 0");
     const ColorImage without = render_pass(at({{0, 0, 0}}), {}, params, Profile{});
     verdict = judge_render(inputs, Profile{}, glsl_alone, without);
     CHECK(verdict.count(DifferenceClass::divergent) > verdict.differing * 3 / 4);

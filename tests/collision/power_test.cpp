@@ -5,8 +5,8 @@
 #include <string>
 #include <utility>
 
-#include "crosscheck/judge/check.hpp"
-#include "crosscheck/judge/collision_power.hpp"
+#include "crosscheck/collision/judge/check.hpp"
+#include "crosscheck/collision/judge/collision_power.hpp"
 #include "crosscheck/scene/scene_file.hpp"
 #include "gpu/collision/gpu_side.hpp"
 #include "reference/collision/deviating_pass.hpp"

@@ -6,8 +6,8 @@
 
 #include <nlohmann/json.hpp>
 
-#include "crosscheck/judge/diagnosis.hpp"
-#include "crosscheck/judge/verdict.hpp"
+#include "crosscheck/collision/judge/diagnosis.hpp"
+#include "crosscheck/collision/judge/verdict.hpp"
 #include "crosscheck/judge/verdict_summary.hpp"
 #include "crosscheck/report/verdict_text.hpp"
 #include "reference/collision/collision_pass.hpp"

@@ -6,8 +6,8 @@
 #include <map>
 #include <string>
 
-#include "crosscheck/judge/diagnosis.hpp"
-#include "crosscheck/judge/verdict.hpp"
+#include "crosscheck/collision/judge/diagnosis.hpp"
+#include "crosscheck/collision/judge/verdict.hpp"
 #include "crosscheck/judge/verdict_summary.hpp"
 #include "crosscheck/report/verdict_text.hpp"
 #include <nlohmann/json.hpp>

@@ -2,7 +2,7 @@
 #include <cstdint>
 #include <string_view>
 
-#include "crosscheck/record/capsule_json.hpp"
+#include "crosscheck/collision/record/capsule_json.hpp"
 #include "reference/model/error.hpp"
 
 using namespace lockstep;

@@ -2,7 +2,7 @@
 #include <cstdint>
 #include <cstring>
 
-#include "crosscheck/record/trace_messages.hpp"
+#include "crosscheck/collision/record/trace_messages.hpp"
 #include "reference/model/error.hpp"
 
 using namespace lockstep;

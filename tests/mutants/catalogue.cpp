@@ -7,8 +7,8 @@
 
 #include <fmt/format.h>
 
+#include "crosscheck/collision/judge/drawn_cause.hpp"
 #include "crosscheck/files/json_reader.hpp"
-#include "crosscheck/judge/drawn_cause.hpp"
 #include "reference/collision/collision_mistakes.hpp"
 #include "reference/collision/deviation.hpp"
 #include "reference/collision/formula_mistakes.hpp"

@@ -7,8 +7,8 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
-#include "crosscheck/judge/step_table.hpp"
-#include "crosscheck/judge/texel_table.hpp"
+#include "crosscheck/collision/judge/step_table.hpp"
+#include "crosscheck/collision/judge/texel_table.hpp"
 #include "tests/collision/twin/llvmpipe.hpp"
 #include "tests/mutants/catalogue.hpp"
 #include "tests/mutants/trial.hpp"

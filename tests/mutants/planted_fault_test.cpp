@@ -4,7 +4,7 @@
 
 #include <catch2/catch.hpp>
 
-#include "crosscheck/judge/check.hpp"
+#include "crosscheck/collision/judge/check.hpp"
 #include "crosscheck/scene/scene_file.hpp"
 #include "gpu/collision/simulation.hpp"
 #include "reference/model/collision/collision_state.hpp"

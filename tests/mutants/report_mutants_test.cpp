@@ -10,9 +10,9 @@
 #include <fmt/ranges.h>
 #include <nlohmann/json.hpp>
 
-#include "crosscheck/record/capsule.hpp"
-#include "crosscheck/report/page/explained.hpp"
-#include "crosscheck/report/page/report_page.hpp"
+#include "crosscheck/collision/page/explained.hpp"
+#include "crosscheck/collision/page/report_page.hpp"
+#include "crosscheck/collision/record/capsule.hpp"
 #include "crosscheck/report/page/template.hpp"
 #include "gpu/collision/simulation.hpp"
 #include "tests/collision/twin/llvmpipe.hpp"
@@ -48,7 +48,7 @@ Artefact artefact_of(const test::TrialScene& trial, const std::filesystem::path&
     const Scene& scene = trial.scene();
     PageCollector collector(scene, trial.profile(), CheckMode::resync, test::trial_frames);
     GpuSimulation gpu(scene, shaders);
-    CheckOptions options;
+    FrameCheckOptions options;
     options.frames = test::trial_frames;
     options.on_state = [&](const ComparedFrame& frame) { collector.add(frame); };
     const CheckReport report = check(scene, trial.profile(), gpu, options);

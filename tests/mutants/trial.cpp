@@ -163,7 +163,7 @@ Trial run_trial(const Mutant& mutant, TrialScene& trial_scene) {
         const HostFault fault(mutant.fault);
         try {
             GpuSimulation gpu(scene, mutant.edits.empty() ? std::filesystem::path() : folder.path());
-            CheckOptions options;
+            FrameCheckOptions options;
             options.frames = trial_frames;
             options.on_state = [&](const ComparedFrame& frame) {
                 if (frame.frame == trial_frames - 1)

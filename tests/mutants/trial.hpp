@@ -9,7 +9,7 @@
 #include <string_view>
 #include <vector>
 
-#include "crosscheck/judge/check.hpp"
+#include "crosscheck/collision/judge/check.hpp"
 #include "gpu/collision/render_pass.hpp"
 #include "tests/mutants/catalogue.hpp"
 #include "tests/mutants/common_rules.hpp"

@@ -10,9 +10,9 @@
 #include <nlohmann/json.hpp>
 #include <zlib.h>
 
-#include "crosscheck/judge/check.hpp"
+#include "crosscheck/collision/judge/check.hpp"
+#include "crosscheck/collision/page/report_page.hpp"
 #include "crosscheck/report/page/blob.hpp"
-#include "crosscheck/report/page/report_page.hpp"
 #include "gpu/collision/gpu_side.hpp"
 #include "reference/collision/simulation.hpp"
 #include "reference/model/collision/collision_state.hpp"
@@ -79,7 +79,7 @@ std::unique_ptr<Collected> collect(const Scene& scene, CheckMode mode, int frame
     auto collected =
         std::make_unique<Collected>(Collected{{}, PageCollector(scene, named_profile("strict"), mode, frames)});
     FaultyGpu gpu(scene, pushed, every);
-    CheckOptions options;
+    FrameCheckOptions options;
     options.mode = mode;
     options.frames = frames;
     options.on_state = [&](const ComparedFrame& frame) { collected->page.add(frame); };

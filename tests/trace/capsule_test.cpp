@@ -2,10 +2,10 @@
 
 #include <memory>
 
-#include "crosscheck/judge/frame_run.hpp"
-#include "crosscheck/record/capsule_json.hpp"
+#include "crosscheck/collision/judge/frame_run.hpp"
+#include "crosscheck/collision/record/capsule_json.hpp"
+#include "crosscheck/collision/record/trace_side.hpp"
 #include "crosscheck/record/root_offsets.hpp"
-#include "crosscheck/record/trace_side.hpp"
 #include "tests/temporary_folder.hpp"
 #include "tests/trace/small_trace.hpp"
 

@@ -3,8 +3,8 @@
 #include <bit>
 #include <cmath>
 
-#include "crosscheck/judge/check.hpp"
-#include "crosscheck/record/trace_side.hpp"
+#include "crosscheck/collision/judge/check.hpp"
+#include "crosscheck/collision/record/trace_side.hpp"
 #include "reference/model/collision/collision_state.hpp"
 #include "reference/model/state_hash.hpp"
 #include "tests/temporary_folder.hpp"

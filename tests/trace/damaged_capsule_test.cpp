@@ -6,8 +6,8 @@
 #include <string>
 #include <vector>
 
+#include "crosscheck/collision/record/capsule_json.hpp"
 #include "crosscheck/files/json_reader.hpp"
-#include "crosscheck/record/capsule_json.hpp"
 #include "reference/model/error.hpp"
 #include "tests/trace/small_trace.hpp"
 

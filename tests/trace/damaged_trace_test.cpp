@@ -12,9 +12,9 @@
 
 #include <unistd.h>
 
-#include "crosscheck/judge/check.hpp"
+#include "crosscheck/collision/judge/check.hpp"
+#include "crosscheck/collision/record/trace_side.hpp"
 #include "crosscheck/record/seal.hpp"
-#include "crosscheck/record/trace_side.hpp"
 #include "reference/model/collision/collision_state.hpp"
 #include "reference/model/error.hpp"
 #include "reference/model/state_hash.hpp"
@@ -53,7 +53,7 @@ Reading reading_of(const std::filesystem::path& file) {
         reading.has_cdt = trace.info().has_cdt;
         reading.hashes.push_back(state_hash(trace.info().scene.start, CollisionImage()));
         reading.of_particles = reading.hashes;
-        CheckOptions options;
+        FrameCheckOptions options;
         options.frames = trace.info().frames;
         options.known = known_operations(trace.info());
         options.on_state = [&](const ComparedFrame& frame) {

@@ -4,8 +4,8 @@
 #include <cstdlib>
 #include <string>
 
-#include "crosscheck/judge/check.hpp"
-#include "crosscheck/record/trace_side.hpp"
+#include "crosscheck/collision/judge/check.hpp"
+#include "crosscheck/collision/record/trace_side.hpp"
 #include "tests/skip.hpp"
 #include "tests/temporary_folder.hpp"
 #include "tests/trace/small_trace.hpp"

@@ -3,8 +3,8 @@
 #include <fstream>
 #include <iterator>
 
+#include "crosscheck/collision/record/trace_writer.hpp"
 #include "crosscheck/record/seal.hpp"
-#include "crosscheck/record/trace_writer.hpp"
 #include "crosscheck/scene/scene_file.hpp"
 #include "reference/collision/simulation.hpp"
 #include "reference/model/error.hpp"

@@ -3,7 +3,7 @@
 #include <functional>
 #include <string>
 
-#include "crosscheck/record/trace_info.hpp"
+#include "crosscheck/collision/record/trace_info.hpp"
 #include "reference/model/collision/particles.hpp"
 #include "reference/model/image.hpp"
 

@@ -8,11 +8,11 @@
 
 #include <hdf5.h>
 
+#include "crosscheck/collision/record/trace_reader.hpp"
 #include "crosscheck/record/hdf5.hpp"
 #include "crosscheck/record/layout.hpp"
 #include "crosscheck/record/root_offsets.hpp"
 #include "crosscheck/record/seal.hpp"
-#include "crosscheck/record/trace_reader.hpp"
 #include "reference/model/same_bits.hpp"
 #include "tests/temporary_folder.hpp"
 #include "tests/trace/small_trace.hpp"

@@ -4,7 +4,7 @@
 
 #include <nlohmann/json.hpp>
 
-#include "crosscheck/record/trace_messages.hpp"
+#include "crosscheck/collision/record/trace_messages.hpp"
 #include "reference/model/error.hpp"
 #include "tests/trace/small_trace.hpp"
 

@@ -8,7 +8,7 @@
 #include <catch2/catch.hpp>
 #include <fmt/format.h>
 
-#include "crosscheck/judge/step_table.hpp"
+#include "crosscheck/collision/judge/step_table.hpp"
 #include "crosscheck/scene/scene_file.hpp"
 #include "reference/model/collision/collision_state.hpp"
 #include "reference/model/collision/layered_cdt.hpp"

@@ -5,7 +5,7 @@
 
 #include <catch2/catch.hpp>
 
-#include "crosscheck/report/debug_session.hpp"
+#include "crosscheck/collision/report/debug_session.hpp"
 #include "reference/model/error.hpp"
 #include "tests/collision/twin/llvmpipe.hpp"
 #include "tests/collision/twin/twin_scenes.hpp"

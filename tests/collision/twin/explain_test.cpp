@@ -5,10 +5,10 @@
 #include <catch2/catch.hpp>
 #include <fmt/format.h>
 
-#include "crosscheck/judge/frame_run.hpp"
-#include "crosscheck/judge/step_table.hpp"
-#include "crosscheck/judge/texel_table.hpp"
-#include "crosscheck/report/explain_text.hpp"
+#include "crosscheck/collision/judge/frame_run.hpp"
+#include "crosscheck/collision/judge/step_table.hpp"
+#include "crosscheck/collision/judge/texel_table.hpp"
+#include "crosscheck/collision/report/explain_text.hpp"
 #include "reference/model/same_bits.hpp"
 #include "tests/collision/twin/llvmpipe.hpp"
 #include "tests/collision/twin/twin_scenes.hpp"

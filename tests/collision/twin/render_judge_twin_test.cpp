@@ -9,8 +9,8 @@
 #include <fmt/format.h>
 #include <glm/matrix.hpp>
 
+#include "crosscheck/collision/judge/render_judge.hpp"
 #include "crosscheck/judge/legal.hpp"
-#include "crosscheck/judge/render_judge.hpp"
 #include "gpu/collision/render_pass.hpp"
 #include "tests/collision/twin/llvmpipe.hpp"
 #include "tests/collision/twin/random_scenes.hpp"

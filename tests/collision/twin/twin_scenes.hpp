@@ -1,7 +1,7 @@
 #pragma once
 #include <cstddef>
 
-#include "crosscheck/judge/check.hpp"
+#include "crosscheck/collision/judge/check.hpp"
 #include "crosscheck/judge/legal.hpp"
 #include "gpu/collision/simulation.hpp"
 #include "reference/model/collision/scene.hpp"

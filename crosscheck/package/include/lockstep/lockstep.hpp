@@ -20,7 +20,7 @@
 #include <string_view>
 #include <vector>
 
-#include "crosscheck/judge/check.hpp"
+#include "crosscheck/collision/judge/check.hpp"
 #include "crosscheck/judge/legal.hpp"
 #include "crosscheck/report/power_text.hpp"
 #include "crosscheck/report/report.hpp"

@@ -1,0 +1,360 @@
+#include "crosscheck/collision/judge/collision_power.hpp"
+
+#include <algorithm>
+#include <bit>
+#include <initializer_list>
+#include <map>
+#include <string_view>
+
+#include "crosscheck/judge/item_sample.hpp"
+#include "reference/collision/collision_mistakes.hpp"
+#include "reference/collision/collision_pass.hpp"
+#include "reference/collision/legal_texels.hpp"
+#include "reference/collision/obstacle_pass.hpp"
+#include "reference/collision/step_pass.hpp"
+#include "reference/model/collision/collision_state.hpp"
+#include "reference/model/same_bits.hpp"
+#include "reference/parallel_blocks.hpp"
+
+namespace lockstep {
+namespace {
+
+using enum Deviation;
+
+constexpr std::size_t looked_at = 16384;     ///< particles of a frame, of those without a hit
+constexpr std::size_t drawn_at_most = 16384; ///< particles, where it does not matter which of two is nearer
+constexpr std::size_t texels_judged = 16;
+constexpr std::size_t steps_a_frame = 3000; ///< that are tried with a mistake
+
+bool among(Deviation deviation, std::initializer_list<Deviation> all) {
+    return std::find(all.begin(), all.end(), deviation) != all.end();
+}
+
+/// Whether it changes who wins a texel: a few particles alone do not show it.
+bool is_about_depth(Deviation deviation) {
+    return among(deviation, {depth_greater, depth_not_tested, depth_equal_passes, depth_not_cleared,
+                             obstacles_never_hide, cdt_not_cleared});
+}
+
+Particles every(const Particles& all, std::size_t stride) {
+    Particles some;
+    some.resize((all.size() + stride - 1) / stride);
+    for (std::size_t i = 0; i < some.size(); ++i)
+        some.set(i, all[i * stride]);
+    return some;
+}
+
+/// In which frames something is drawn again: in the first few, then in ever fewer; of many particles in fewer still.
+bool draws_in(int frame, std::size_t particles) {
+    if (particles > 2 * drawn_at_most)
+        return frame < 3 || frame == 16 || frame % 64 == 0;
+    return frame < 4 || std::has_single_bit(static_cast<unsigned>(frame)) || frame % 16 == 0;
+}
+
+/// Drawing with deviations, of all particles or of a few.
+class Drawing {
+  public:
+    Drawing(const PowerFrame& frame, const Scene& scene, const Profile& profile, const KnownOperations& known,
+            std::size_t stride)
+        : scene_(scene), profile_(profile), known_(known), params_(*frame.inputs.params),
+          before_(every(*frame.inputs.before, stride)), after_(every(frame.after, stride)), inputs_(frame.inputs),
+          obstacles_cdt_(params_.width, params_.height), obstacles_depth_(params_.width, params_.height, 1.0F) {
+        inputs_.before = &before_;
+        if (inputs_.earlier != nullptr) {
+            earlier_ = every(*inputs_.earlier, stride);
+            inputs_.earlier = &earlier_;
+        }
+        obstacle_pass(scene.obstacles, params_, profile, obstacles_cdt_, obstacles_depth_);
+        right_ = draw({});
+    }
+    Drawing(const Drawing&) = delete;
+    Drawing& operator=(const Drawing&) = delete;
+
+    /// What each of them makes of the image, judged by a few texels that it changes.
+    [[nodiscard]] std::vector<MistakenItem> judge(const std::vector<Deviation>& deviations) const {
+        std::vector<std::vector<Changed>> changed(deviations.size());
+        parallel_blocks(static_cast<std::ptrdiff_t>(deviations.size()), [&](std::ptrdiff_t d) {
+            const auto at = static_cast<std::size_t>(d);
+            changed[at] = changed_by(deviations[at]);
+        });
+        std::map<std::size_t, std::size_t> place; // of a texel among those judged
+        for (const std::vector<Changed>& some : changed)
+            for (const Changed& texel : some)
+                place.emplace(texel.index, 0);
+        std::vector<std::size_t> texels;
+        for (auto& [index, at] : place) {
+            at = texels.size();
+            texels.push_back(index);
+        }
+        const std::vector<LegalTexel> legal =
+            legal_texels(scene_.obstacles, before_, after_, params_, profile_, known_, texels);
+        std::vector<MistakenItem> judged;
+        for (const std::vector<Changed>& some : changed) {
+            const bool divergent = std::any_of(some.begin(), some.end(), [&](const Changed& texel) {
+                return legal[place[texel.index]].owner_of(texel.code) == nullptr;
+            });
+            judged.push_back(some.empty() ? MistakenItem::same
+                             : divergent  ? MistakenItem::divergent
+                                          : MistakenItem::legal);
+        }
+        return judged;
+    }
+
+  private:
+    struct Changed {
+        std::size_t index;
+        glm::vec4 code;
+    };
+    [[nodiscard]] std::vector<Changed> changed_by(Deviation deviation) const {
+        const CollisionImage drawn = draw(deviation);
+        std::vector<std::size_t> differing;
+        for (std::size_t t = 0; t < drawn.texels.size(); ++t)
+            if (!same_bits(drawn.texels[t], right_.texels[t]))
+                differing.push_back(t);
+        std::vector<Changed> some;
+        for (const std::size_t t : sample(differing, texels_judged))
+            some.push_back({t, drawn.texels[t]});
+        return some;
+    }
+    [[nodiscard]] CollisionImage draw(const Deviations& deviations) const {
+        CollisionImage cdt;
+        deviating_draw(inputs_, after_, profile_, deviations, obstacles_cdt_, obstacles_depth_, cdt);
+        return cdt;
+    }
+
+    const Scene& scene_;
+    const Profile& profile_;
+    const KnownOperations& known_;
+    const FrameParams& params_;
+    Particles before_, after_, earlier_;
+    FrameInputs inputs_;
+    CollisionImage obstacles_cdt_;
+    DepthImage obstacles_depth_;
+    CollisionImage right_;
+};
+
+} // namespace
+
+bool is_no_mistake(Deviation deviation, const Switches& s, const Profile& profile) {
+    const bool exact = s.arithmetic == ArithmeticSwitch::exact;
+    switch (deviation) {
+    case no_perspective_divide:
+        return s.perspective_divide == PerspectiveDivide::off;
+    case truncate_instead_of_floor:
+        return s.base_texel == BaseTexel::truncate;
+    case floor_instead_of_truncate:
+        return s.base_texel == BaseTexel::floor;
+    case own_position_from_texel:
+        return s.self_position == SelfPosition::texel;
+    case own_position_from_vertex:
+        return s.self_position == SelfPosition::vertex;
+    case phantom_origin:
+        return s.empty_texel == EmptyTexel::phantom;
+    case empty_texels_skipped:
+        return s.empty_texel == EmptyTexel::skip;
+    case zero_distance_hits:
+        return s.zero_distance == ZeroDistance::hit;
+    case zero_distance_skipped:
+        return s.zero_distance == ZeroDistance::skip;
+    case tick_missing_in_collision_step:
+        return s.collision_step == CollisionStep::full;
+    case tick_added_to_collision_step:
+        return s.collision_step == CollisionStep::tick;
+    case half_cdt:
+        return s.cdt_format == CdtFormat::rgba16f;
+    case unorm8_cdt:
+        return s.cdt_format == CdtFormat::rgba8;
+    case point_of_position_before:
+        return s.raster_position == RasterPosition::before_step;
+    case point_of_position_after:
+        return s.raster_position == RasterPosition::updated;
+    case portable_arithmetic:
+        return exact;
+    case sums_left_to_right: // exact sums so; of the profile's order a driver sums itself
+        return exact || profile.dot == DotOrder::left_to_right;
+    case sums_right_to_left:
+        return !exact && profile.dot == DotOrder::right_to_left;
+    case sums_fused:
+        return exact || profile.dot == DotOrder::fused_chain;
+    case subnormals_kept:
+        return exact || !(s.step == Step::compute ? profile.compute_flush_subnormals : profile.flush_subnormals);
+    case point_on_upper_pixel:
+    case point_viewport_swapped: // the stage itself finds the texel that it draws to
+        return places_points(s);
+    default:
+        return false;
+    }
+}
+
+CollisionPower::CollisionPower(const Scene& scene, const Profile& profile, const KnownOperations& known)
+    : scene_(scene), profile_(profile), known_(known) {
+    for (std::size_t d = 0; d < deviation_count; ++d)
+        tried_[d].is_mistake = counts_in_power(static_cast<Deviation>(d)) &&
+                               !is_no_mistake(static_cast<Deviation>(d), scene.switches, profile);
+}
+
+std::vector<Deviation> CollisionPower::unseen(bool of_drawing) const {
+    std::vector<Deviation> all;
+    for (const DeviationInfo& info : deviation_table()) {
+        const Tried& tried = tried_[static_cast<std::size_t>(info.deviation)];
+        const bool wanted =
+            of_drawing ? changes_drawing(info.deviation, places_points(scene_.switches)) : changes_step(info.deviation);
+        if (tried.is_mistake && tried.first_frame < 0 && wanted)
+            all.push_back(info.deviation);
+    }
+    return all;
+}
+
+void CollisionPower::add(const PowerFrame& frame) {
+    const FrameInputs& in = frame.inputs;
+    if (in.earlier_params != nullptr)
+        camera_moves_ = camera_moves_ || in.earlier_params->collision_proj_view != in.params->collision_proj_view;
+    const Situations found = situations_of(*in.before, *in.cdt, *in.params, profile_, frame.after, looked_at);
+    for (std::size_t s = 0; s < situation_count; ++s)
+        met_.count[s] += found.count[s];
+    try_steps(frame, found);
+    if (draws_in(frame.number, frame.after.size()))
+        try_drawing(frame);
+}
+
+void CollisionPower::try_steps(const PowerFrame& frame, const Situations& found) {
+    const std::vector<Deviation> all = unseen(false);
+    if (all.empty() || frame.after.size() == 0)
+        return;
+    const FrameInputs& in = frame.inputs;
+    const StepInputs step_inputs{*in.before, *in.cdt, scene_.obstacles, *in.params, &in};
+    const auto pass = step_pass(step_inputs);
+    const SystemView before = step_state(step_inputs);
+    const View reference = view(frame.after);
+    const JudgedPass judged{*pass, profile_, known_, frame.number, before, reference, reference};
+    const std::size_t most = std::max<std::size_t>(steps_a_frame / all.size(), 2 * situation_count);
+    std::vector<std::size_t> telling;
+    const auto take = [&](const std::vector<std::size_t>& some, std::size_t count) { // others in every frame
+        for (std::size_t i = 0; i < std::min(count, some.size()); ++i)
+            telling.push_back(
+                some[(i * some.size() / std::min(count, some.size()) + static_cast<std::size_t>(frame.number) * 7) %
+                     some.size()]);
+    };
+    for (const std::vector<std::size_t>& some : found.some)
+        take(some, most / (2 * situation_count));
+    take(found.some[static_cast<std::size_t>(Situation::search)], most / 4);
+    const std::vector<std::size_t> items = items_to_try(judged, telling, most);
+    parallel_blocks(static_cast<std::ptrdiff_t>(all.size()), [&](std::ptrdiff_t d) {
+        const Deviation deviation = all[static_cast<std::size_t>(d)];
+        Tried& tried = tried_[static_cast<std::size_t>(deviation)];
+        const std::vector<Mistake> made = mistakes_of(deviation);
+        for (const std::size_t item : items) {
+            const MistakenItem is = judge_mistaken(judged, item, pass->mistaken(judged.input(), item, profile_, made));
+            tried.changes = tried.changes || is != MistakenItem::same;
+            if (is == MistakenItem::divergent) {
+                tried.first_frame = frame.number;
+                return;
+            }
+        }
+    });
+}
+
+void CollisionPower::try_drawing(const PowerFrame& frame) {
+    const std::vector<Deviation> all = unseen(true);
+    if (all.empty())
+        return;
+    const std::size_t n = frame.after.size(), stride = std::max<std::size_t>(1, n / drawn_at_most);
+    const auto try_all = [&](const std::vector<Deviation>& some, std::size_t of) {
+        if (some.empty())
+            return;
+        const Drawing drawing(frame, scene_, profile_, known_, of);
+        const std::vector<MistakenItem> judged = drawing.judge(some);
+        for (std::size_t d = 0; d < some.size(); ++d) {
+            Tried& tried = tried_[static_cast<std::size_t>(some[d])];
+            tried.changes = tried.changes || judged[d] != MistakenItem::same;
+            if (judged[d] == MistakenItem::divergent)
+                tried.first_frame = frame.number;
+        }
+    };
+    std::vector<Deviation> of_few, of_all;
+    for (const Deviation deviation : all)
+        (stride == 1 || is_about_depth(deviation) ? of_all : of_few).push_back(deviation);
+    try_all(of_all, 1);
+    try_all(of_few, stride);
+}
+
+/// Why it could not show, as far as the states tell.
+std::string CollisionPower::why_not(Deviation deviation) const {
+    struct Reason {
+        bool holds;
+        std::initializer_list<Deviation> of;
+        std::string_view text;
+    };
+    const auto none = [&](Situation situation) { return met_.of(situation) == 0; };
+    const bool no_obstacles =
+        scene_.obstacles.indices.empty() || scene_.switches.obstacles_in_cdt == ObstaclesInCdt::off;
+    const Reason reasons[] = {
+        {no_obstacles, {obstacles_not_drawn, obstacles_never_hide}, "there are no obstacles in the CDT"},
+        {scene_.width == scene_.height, {width_and_height_swapped, point_viewport_swapped}, "the image is square"},
+        {!camera_moves_, {matrix_of_earlier_frame}, "the camera stands still"},
+        {scene_.constants.gravity == glm::vec3(0.0F),
+         {gravity_missing, gravity_doubled, gravity_reversed, gravity_without_tick, moves_before_gravity},
+         "there is no gravity"},
+        {none(Situation::left_of_image),
+         {truncate_instead_of_floor, floor_instead_of_truncate},
+         "no search lay between -1 and 0 in the image"},
+        {none(Situation::at_border),
+         {outside_fetched_as_edge, outside_fetched_as_opposite_side, outside_fetched_as_origin},
+         "no search reached over the image's border"},
+        {none(Situation::at_range), {range_included}, "nobody was exactly at the collision range"},
+        {none(Situation::at_no_distance), {zero_distance_hits, zero_distance_skipped}, "nobody was at distance 0"},
+        {none(Situation::timer_at_zero),
+         {collide_time_zero_searches},
+         "no collide time stood at 0 with somebody in range"},
+        {none(Situation::waiting),
+         {collide_time_not_tested, collide_time_test_reversed},
+         "nobody who waited had somebody in range"},
+        {none(Situation::hit), {}, "nothing collided"},
+        {none(Situation::two_in_range),
+         {last_found_instead_of_nearest, first_found_instead_of_nearest, farthest_instead_of_nearest},
+         "no hit had two in range"},
+        {true,
+         {last_found_instead_of_nearest, first_found_instead_of_nearest, farthest_instead_of_nearest},
+         "no hit with two in range would have ended otherwise"},
+        {none(Situation::equally_near), {less_or_equal_for_less}, "no hit had two equally near"},
+        {true, {phantom_origin}, "no search was in range of the origin"},
+        {true, {subnormals_kept}, "nothing was subnormal"},
+        {true, {depth_equal_passes}, "no two had the same depth in a texel"},
+        {true, {point_on_upper_pixel}, "no point lay on a pixel's edge"},
+        {true,
+         {outside_fetched_as_edge, outside_fetched_as_opposite_side, outside_fetched_as_origin},
+         "nobody in range would have been found outside the image"},
+    };
+    if (tried_[static_cast<std::size_t>(deviation)].changes)
+        return "what it changes is legal, too";
+    for (const Reason& reason : reasons) {
+        const bool of_hit = reason.of.size() == 0 && changes_step(deviation) && deviation < gravity_missing;
+        if (reason.holds && (of_hit || among(deviation, reason.of)))
+            return std::string(reason.text);
+    }
+    return "it changes nothing in these states";
+}
+
+PowerSummary CollisionPower::summary() const {
+    PowerSummary summary;
+    for (const DeviationInfo& info : deviation_table()) {
+        const Tried& tried = tried_[static_cast<std::size_t>(info.deviation)];
+        if (!tried.is_mistake)
+            continue;
+        PowerSummary::Mistake& mistake = summary.mistakes.emplace_back();
+        mistake.name = info.name;
+        mistake.meaning = info.meaning;
+        if (tried.first_frame >= 0)
+            mistake.first_frame = tried.first_frame;
+        else
+            mistake.why_not = why_not(info.deviation);
+    }
+    summary.situations = {{"hits", met_.of(Situation::hit)},
+                          {"hits with two in range", met_.of(Situation::two_in_range)},
+                          {"searches at the image's border", met_.of(Situation::at_border)},
+                          {"behind the camera", met_.of(Situation::behind_camera)},
+                          {"NaN", met_.of(Situation::not_a_number)}};
+    return summary;
+}
+
+} // namespace lockstep

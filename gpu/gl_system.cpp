@@ -4,6 +4,7 @@
 #include <array>
 #include <cctype>
 #include <chrono>
+#include <map>
 #include <optional>
 #include <utility>
 
@@ -13,6 +14,7 @@
 #include "gpu/check.hpp"
 #include "gpu/program.hpp"
 #include "gpu/record_buffer.hpp"
+#include "gpu/state_image.hpp"
 #include "gpu/texture.hpp"
 #include "gpu/vertex_capture.hpp"
 #include "reference/model/error.hpp"
@@ -35,8 +37,10 @@ std::vector<Storage> storages_of(const Schema& schema) {
     std::vector<Storage> all;
     for (std::uint8_t r = 0; r < schema.resources.size(); ++r) {
         const Resource& resource = schema.resources[r];
-        if (resource.dimensions != 1)
-            throw Error(fmt::format("{}: '{}' is an image; GlSystem has buffers alone", schema.system, resource.name));
+        if (resource.dimensions != 1) {
+            static_cast<void>(image_format(resource));
+            continue;
+        }
         const std::size_t first = all.size();
         for (std::uint8_t f = 0; f < resource.fields.size(); ++f) {
             const auto known = std::find_if(all.begin() + static_cast<std::ptrdiff_t>(first), all.end(),
@@ -94,10 +98,22 @@ void check_stage(const GlPass& pass, const Schema& schema) {
         throw Error(fmt::format("{}: a pass is a vertex or a compute shader", pass.name));
     if (pass.resource >= schema.resources.size())
         throw Error(fmt::format("{}: {} has no buffer {}", pass.name, schema.system, pass.resource));
-    const bool in_place = !schema.resources[pass.resource].fields.front().block.empty();
+    const Resource& made = schema.resources[pass.resource];
+    const bool is_image = made.dimensions > 1, draws = pass.draw.has_value();
+    if (pass.stage == Stage::vertex && is_image != draws)
+        throw Error(fmt::format("{}: a vertex shader makes {} {}", pass.name, made.title,
+                                is_image ? "where it says how it draws" : "by transform feedback, and draws nothing"));
+    if (draws && (pass.stage != Stage::vertex || made.dimensions != 2 || pass.draw->buffer >= schema.resources.size() ||
+                  schema.resources[pass.draw->buffer].dimensions != 1 || pass.instances_of))
+        throw Error(
+            fmt::format("{}: a vertex shader draws items of a buffer into an image of two dimensions", pass.name));
+    if (is_image && (pass.continues || pass.invocations || pass.indirect))
+        throw Error(
+            fmt::format("{}: {} are made by a dispatch of their own, an invocation a texel", pass.name, made.title));
+    const bool in_place = !made.fields.front().block.empty();
     if (pass.stage == Stage::vertex && in_place)
-        throw Error(fmt::format("{}: {} has storage blocks, which a vertex shader cannot change", pass.name,
-                                schema.resources[pass.resource].title));
+        throw Error(
+            fmt::format("{}: {} has storage blocks, which a vertex shader cannot change", pass.name, made.title));
     if (pass.instances_of && (pass.stage != Stage::vertex || *pass.instances_of >= schema.resources.size()))
         throw Error(
             fmt::format("{}: instances are those of a buffer of {}, for a vertex shader", pass.name, schema.system));
@@ -152,9 +168,10 @@ struct GlSystem::Parts {
     struct Linked {
         GlPass pass;
         Program program;
-        std::vector<Bound> bound;            ///< of a compute pass
-        std::vector<std::uint8_t> resources; ///< that it writes
-        std::size_t invocations = 1;         ///< of a group
+        std::vector<Bound> bound;                     ///< of a compute pass
+        std::vector<std::uint8_t> resources;          ///< that it writes
+        std::array<std::size_t, 3> group = {1, 1, 1}; ///< invocations along each axis
+        std::size_t invocations = 1;                  ///< of a group
         std::optional<std::vector<VertexCapture>> traced = {};
     };
     const Schema* schema;
@@ -163,15 +180,24 @@ struct GlSystem::Parts {
     std::vector<Storage> storages;
     std::vector<std::optional<Linked>> passes;      ///< none: its dispatch is that of the one before
     std::vector<std::vector<RecordBuffer>> buffers; ///< two a storage
-    std::vector<std::size_t> current;               ///< of each buffer, which of the two the next pass reads
-    SmallestTarget target = {};                     ///< of vertex passes
+    std::vector<std::size_t> current;               ///< of each buffer and image, which of the two the next pass reads
+    std::map<std::uint8_t, std::vector<StateImage>> images = {}; ///< two a resource
+    SmallestTarget target = {};                                  ///< of vertex passes
     GlQuery timer = {};
+    bool takes_times = false;
     Seconds seconds = {};
 
     /// What the pass runs in a frame; null where there is nothing.
     [[nodiscard]] const Linked* running(std::size_t pass, int frame) const;
     void run(const Linked& linked, int frame);
+    void capture(const Linked& linked);
     void draw(const Linked& linked);
+    void dispatch_image(const Linked& linked);
+    /// Lends the program the state's images, as the pass before left them.
+    void lend_images(const Program& program, std::size_t first_unit = 0) const;
+    [[nodiscard]] bool is_image(std::uint8_t resource) const { return schema->resources[resource].dimensions > 1; }
+    [[nodiscard]] StateImage& image_from(std::uint8_t resource) { return images.at(resource)[current[resource]]; }
+    [[nodiscard]] StateImage& image_to(std::uint8_t resource) { return images.at(resource)[1 - current[resource]]; }
     /// Runs `work`, a draw or a dispatch, and takes its time.
     template <class Work> void timed(const Work& work);
     void dispatch(const Linked& linked, int frame);
@@ -180,7 +206,9 @@ struct GlSystem::Parts {
                                                     bool traced) const;
     /// What a program of the pass reads: an item a vertex, or an instance.
     [[nodiscard]] GlVertexArray inputs(const GlPass& pass, const Program& program);
-    [[nodiscard]] std::size_t items(std::uint8_t resource) { return from(first_storage(resource)).size(); }
+    [[nodiscard]] std::size_t items(std::uint8_t resource) {
+        return is_image(resource) ? image_from(resource).extent().count() : from(first_storage(resource)).size();
+    }
     [[nodiscard]] ColorImage picture(const Linked& linked, int frame, const GlPicture& how);
     [[nodiscard]] std::size_t first_storage(std::uint8_t resource) const;
     [[nodiscard]] RecordBuffer& from(std::size_t storage) {
@@ -214,9 +242,14 @@ GlSystem::GlSystem(const Schema& schema, std::vector<GlPass> passes, std::filesy
             continue;
         }
         const bool compute = pass.stage == Stage::compute;
-        const std::vector<ShaderSource> stages = parts_->sources(pass, std::array{pass.stage}, false);
+        const bool captured = !compute && !pass.draw;
+        std::vector<Stage> used{pass.stage};
+        if (pass.draw)
+            used.push_back(Stage::fragment);
+        const std::vector<ShaderSource> stages = parts_->sources(pass, used, false);
         const std::vector<Capture> captures =
-            compute ? std::vector<Capture>{} : parts_->storages[parts_->first_storage(pass.resource)].layout.captures();
+            captured ? parts_->storages[parts_->first_storage(pass.resource)].layout.captures()
+                     : std::vector<Capture>{};
         Program program(pass.name, stages, captures);
         if (!compute)
             check_nothing_lost(stages, captures);
@@ -227,10 +260,10 @@ GlSystem::GlSystem(const Schema& schema, std::vector<GlPass> passes, std::filesy
             gl::GetProgramiv(program.id(), GL_COMPUTE_WORK_GROUP_SIZE, group.data());
         }
         const std::uint8_t resource = pass.resource;
-        const auto invocations = static_cast<std::size_t>(group[0]) * static_cast<std::size_t>(group[1]) *
-                                 static_cast<std::size_t>(group[2]);
-        parts_->passes.emplace_back(
-            Parts::Linked{std::move(pass), std::move(program), std::move(bound), {resource}, invocations});
+        std::array<std::size_t, 3> sizes{};
+        std::transform(group.begin(), group.end(), sizes.begin(), [](GLint n) { return static_cast<std::size_t>(n); });
+        parts_->passes.emplace_back(Parts::Linked{
+            std::move(pass), std::move(program), std::move(bound), {resource}, sizes, sizes[0] * sizes[1] * sizes[2]});
         last = &*parts_->passes.back();
     }
 }
@@ -260,6 +293,16 @@ void GlSystem::upload(const SystemView& state) {
     std::size_t spare = 0; // records behind those that are changed in place: what a last group could write
     for (const auto& linked : parts_->passes)
         spare = std::max(spare, linked ? linked->invocations : 0);
+    parts_->images.clear();
+    for (std::uint8_t r = 0; r < parts_->schema->resources.size(); ++r) {
+        parts_->current[r] = 0;
+        if (!parts_->is_image(r))
+            continue;
+        std::vector<StateImage>& two = parts_->images[r];
+        for (int i = 0; i < 2; ++i)
+            two.emplace_back(parts_->schema->resources[r], state[r].extent);
+        two[0].upload(state[r]);
+    }
     parts_->buffers.clear();
     for (const Storage& storage : parts_->storages) {
         const std::uint8_t r = storage.layout.resource;
@@ -268,12 +311,13 @@ void GlSystem::upload(const SystemView& state) {
             two.emplace_back(storage.layout, state[r].count(), storage.block.empty() ? 0 : spare);
             two.back().fill_spare(canary_word);
         }
-        parts_->current[r] = 0;
         two[0].upload(state[r]);
     }
 }
 
 template <class Work> void GlSystem::Parts::timed(const Work& work) {
+    if (!takes_times)
+        return work();
     gl::Finish();
     const auto start = std::chrono::steady_clock::now();
     {
@@ -289,6 +333,19 @@ template <class Work> void GlSystem::Parts::timed(const Work& work) {
 
 GlSystem::Seconds GlSystem::seconds() const { return parts_->seconds; }
 
+void GlSystem::time_steps(bool on) { parts_->takes_times = on; }
+
+void GlSystem::Parts::lend_images(const Program& program, std::size_t first_unit) const {
+    for (const auto& [resource, two] : images) {
+        const Resource& about = schema->resources[resource];
+        const auto unit = static_cast<int>(first_unit++);
+        program.set_unit("u_" + shader_name(about.name) + "Before", unit, sampler_type(about));
+        gl::ActiveTexture(GL_TEXTURE0 + static_cast<GLenum>(unit));
+        gl::BindTexture(two.front().target(), two[current[resource]].id());
+    }
+    gl::ActiveTexture(GL_TEXTURE0 + 31); // where what follows may bind as it likes
+}
+
 GlVertexArray GlSystem::Parts::inputs(const GlPass& pass, const Program& program) {
     if (!pass.instances_of)
         return vertex_array(from(first_storage(pass.resource)), program);
@@ -299,7 +356,59 @@ GlVertexArray GlSystem::Parts::inputs(const GlPass& pass, const Program& program
     return instance_array(read, program);
 }
 
+/// The image is drawn into what the next pass reads.
 void GlSystem::Parts::draw(const Linked& linked) {
+    const GlPass& pass = linked.pass;
+    const GlDraw& how = *pass.draw;
+    StateImage& image = image_to(pass.resource);
+    if (how.clears)
+        image.clear();
+    else
+        image.copy(image_from(pass.resource));
+    const auto width = static_cast<GLsizei>(image.extent().width), height = static_cast<GLsizei>(image.extent().height);
+    const GlFramebuffer framebuffer;
+    gl::BindFramebuffer(GL_FRAMEBUFFER, framebuffer.id());
+    gl::FramebufferTexture2D(GL_FRAMEBUFFER, GL_COLOR_ATTACHMENT0, GL_TEXTURE_2D, image.id(), 0);
+    const GlTexture depth;
+    if (how.has_depth) {
+        allocate_texture(depth.id(), depth32f, width, height);
+        gl::FramebufferTexture2D(GL_FRAMEBUFFER, GL_DEPTH_ATTACHMENT, GL_TEXTURE_2D, depth.id(), 0);
+    }
+    check_framebuffer(GL_FRAMEBUFFER, fmt::format("{}: image of {} x {} texels", pass.name, width, height));
+    gl::Viewport(0, 0, width, height);
+    const float far_plane = 1.0F;
+    if (how.has_depth) {
+        gl::Enable(GL_DEPTH_TEST);
+        gl::DepthFunc(GL_LESS);
+        gl::DepthMask(GL_TRUE);
+        gl::ClearBufferfv(GL_DEPTH, 0, &far_plane);
+    }
+    if (how.blend != GlDraw::Blend::none) {
+        gl::Enable(GL_BLEND);
+        how.blend == GlDraw::Blend::added ? gl::BlendFunc(GL_ONE, GL_ONE)
+                                          : gl::BlendFunc(GL_SRC_ALPHA, GL_ONE_MINUS_SRC_ALPHA);
+    }
+    const RecordBuffer& buffer = from(first_storage(how.buffer));
+    const RecordBuffer* const one[] = {&buffer};
+    const GlVertexArray vertices =
+        how.vertices > 0 ? instance_array(one, linked.program) : vertex_array(buffer, linked.program);
+    linked.program.check_interface();
+    linked.program.use();
+    gl::BindVertexArray(vertices.id());
+    const GLenum primitive = how.primitive == GlDraw::Primitive::points ? GL_POINTS : GL_TRIANGLES;
+    const auto items = static_cast<GLsizei>(buffer.size());
+    timed([&] {
+        if (how.vertices > 0)
+            gl::DrawArraysInstanced(primitive, 0, static_cast<GLsizei>(how.vertices), items);
+        else
+            gl::DrawArrays(primitive, 0, items);
+    });
+    gl::Disable(GL_BLEND);
+    gl::Disable(GL_DEPTH_TEST);
+    gl::BindVertexArray(0);
+}
+
+void GlSystem::Parts::capture(const Linked& linked) {
     const GlPass& pass = linked.pass;
     const std::size_t vertices = items(pass.resource), instances = pass.instances_of ? items(*pass.instances_of) : 1;
     if (instances == 0 || vertices % instances != 0)
@@ -347,6 +456,7 @@ ColorImage GlSystem::Parts::picture(const Linked& linked, int frame, const GlPic
     gl::Enable(GL_BLEND);
     gl::BlendFunc(GL_SRC_ALPHA, GL_ONE_MINUS_SRC_ALPHA);
     set_uniforms(program, pass, items(pass.resource), frame);
+    lend_images(program);
     const GlVertexArray vertices = inputs(pass, program);
     program.check_interface();
     program.use();
@@ -427,25 +537,47 @@ void GlSystem::Parts::dispatch(const Linked& linked, int frame) {
         gl::BindBufferBase(GL_SHADER_STORAGE_BUFFER, static_cast<GLuint>(b), buffer);
     }
     const std::size_t items =
-        linked.pass.invocations ? linked.pass.invocations(frame) : from(first_storage(linked.pass.resource)).size();
-    const std::optional<GLintptr> counts = linked.pass.indirect ? group_counts(*linked.pass.indirect) : std::nullopt;
+        linked.pass.invocations ? linked.pass.invocations(frame) : this->items(linked.pass.resource);
+    // Negative: as many groups as the items take.
+    const GLintptr place = linked.pass.indirect ? group_counts(*linked.pass.indirect).value_or(-1) : -1;
     linked.program.use();
     timed([&] {
-        if (counts)
-            gl::DispatchComputeIndirect(*counts);
+        if (place >= 0)
+            gl::DispatchComputeIndirect(place);
+        else if (is_image(linked.pass.resource))
+            dispatch_image(linked);
         else
             gl::DispatchCompute(static_cast<GLuint>((items + linked.invocations - 1) / linked.invocations), 1, 1);
     });
     gl::BindBuffer(GL_DISPATCH_INDIRECT_BUFFER, 0);
     gl::MemoryBarrier(GL_COMMAND_BARRIER_BIT | GL_BUFFER_UPDATE_BARRIER_BIT | GL_CLIENT_MAPPED_BUFFER_BARRIER_BIT |
-                      GL_VERTEX_ATTRIB_ARRAY_BARRIER_BIT | GL_SHADER_STORAGE_BARRIER_BIT);
-    gl::Finish();
+                      GL_VERTEX_ATTRIB_ARRAY_BARRIER_BIT | GL_SHADER_STORAGE_BARRIER_BIT |
+                      GL_TEXTURE_FETCH_BARRIER_BIT | GL_TEXTURE_UPDATE_BARRIER_BIT | GL_FRAMEBUFFER_BARRIER_BIT);
+}
+
+void GlSystem::Parts::dispatch_image(const Linked& linked) {
+    const Extent& extent = image_to(linked.pass.resource).extent();
+    const auto groups = [&](std::size_t texels, int axis) {
+        const std::size_t of = linked.group[static_cast<std::size_t>(axis)];
+        return static_cast<GLuint>((texels + of - 1) / of);
+    };
+    gl::DispatchCompute(groups(extent.width, 0), groups(extent.height, 1), groups(extent.depth, 2));
 }
 
 void GlSystem::Parts::run(const Linked& linked, int frame) {
-    set_uniforms(linked.program, linked.pass, from(first_storage(linked.pass.resource)).size(), frame);
-    if (linked.pass.stage == Stage::vertex)
+    const std::uint8_t resource = linked.pass.resource;
+    set_uniforms(linked.program, linked.pass, items(resource), frame);
+    lend_images(linked.program);
+    if (linked.pass.stage == Stage::compute && is_image(resource)) {
+        const StateImage& after = image_to(resource);
+        linked.program.set_unit("u_" + shader_name(schema->resources[resource].name) + "After", 0,
+                                image_type(schema->resources[resource]));
+        gl::BindImageTexture(0, after.id(), 0, GL_TRUE, 0, GL_WRITE_ONLY, after.format().layout.internal);
+    }
+    if (linked.pass.draw)
         draw(linked);
+    else if (linked.pass.stage == Stage::vertex)
+        capture(linked);
     else
         dispatch(linked, frame);
     gl::UseProgram(0);
@@ -477,20 +609,25 @@ void GlSystem::repeat_step(std::size_t pass, int frame) {
 }
 
 void GlSystem::lay_canary(std::size_t pass) {
-    if (const std::optional<Parts::Linked>& linked = parts_->passes.at(pass))
+    if (const std::optional<Parts::Linked>& linked = parts_->passes.at(pass);
+        linked && parts_->is_image(linked->pass.resource))
+        parts_->image_to(linked->pass.resource).fill(canary_word);
+    else if (linked)
         for (std::size_t s = 0; s < parts_->storages.size(); ++s)
             if (parts_->storages[s].layout.resource == linked->pass.resource)
                 parts_->to(s).fill(canary_word);
 }
 
 void GlSystem::read(SystemState& state) const {
+    for (const auto& [resource, two] : parts_->images)
+        two[parts_->current[resource]].read(state[resource]);
     for (std::size_t s = 0; s < parts_->storages.size(); ++s)
         parts_->from(s).read(state[parts_->storages[s].layout.resource]);
 }
 
 std::vector<CapturedVertex> GlSystem::trace(std::size_t pass, int frame, std::size_t item) {
     if (parts_->running(pass, frame) == nullptr || parts_->passes[pass]->pass.stage != Stage::vertex ||
-        parts_->passes[pass]->pass.instances_of)
+        parts_->passes[pass]->pass.instances_of || parts_->passes[pass]->pass.draw)
         return {};
     Parts::Linked& linked = *parts_->passes[pass];
     if (!linked.traced) {
@@ -506,6 +643,7 @@ std::vector<CapturedVertex> GlSystem::trace(std::size_t pass, int frame, std::si
     gl::Enable(GL_RASTERIZER_DISCARD);
     for (const VertexCapture& part : *linked.traced) {
         set_uniforms(part.program(), linked.pass, source.size(), frame);
+        parts_->lend_images(part.program());
         const CapturedVertex one = part.run(source, item, 1).front();
         all.outputs.insert(all.outputs.end(), one.outputs.begin(), one.outputs.end());
     }

@@ -33,13 +33,29 @@ struct GroupCounts {
     std::size_t item = 0;
 };
 
-/// A pass on GL: a shader that makes every item of a buffer anew.
+/// How a vertex pass with NAME.frag draws an image of two dimensions: output 0 of each fragment goes into a texel.
+struct GlDraw {
+    enum class Primitive : std::uint8_t { points, triangles };
+    enum class Blend : std::uint8_t { none, added, by_alpha }; ///< GL_ONE, GL_ONE; GL_SRC_ALPHA, GL_ONE_MINUS_SRC_ALPHA
+    std::uint8_t buffer = 0; ///< whose items are the vertices, with its fields as attributes
+    Primitive primitive = Primitive::points;
+    Blend blend = Blend::none;
+    bool has_depth = false;   ///< tested LESS, in a depth buffer (32 bits) of the draw's own, 1 at first
+    bool clears = true;       ///< texels are 0 before; else as the pass before left them
+    std::size_t vertices = 0; ///< of an instance, gl_VertexID; then each item is an instance. 0: each is a vertex
+};
+
+/// A pass on GL: a shader that makes every item of a buffer or image anew.
 ///
 /// NAME.vert: attributes a_Field and captured outputs out_Field of each field, `collide_time` being a_CollideTime.
 /// NAME.comp: storage blocks BufferBefore and BufferAfter of each buffer, `grains` being GrainsBefore, an item a record
 /// of its fields in the schema's order without gaps (a struct of scalars; a vec3 would leave one). A buffer whose
 /// fields have blocks of their own (Field::block) is changed in place, in a copy of what the pass before left; behind
 /// its records lie as many as a group has, which nobody may write.
+///
+/// An image of the state (Resource::format, gpu/state_image.hpp) is read by any stage as a sampler, `light` by
+/// u_LightBefore with texelFetch. A compute pass of an image writes u_LightAfter, an image uniform, by imageStore, and
+/// has at least an invocation a texel, along each axis. A vertex pass of an image draws it (`draw`).
 struct GlPass {
     std::string name;
     Stage stage = Stage::vertex; ///< or compute
@@ -54,6 +70,8 @@ struct GlPass {
     /// Of a vertex pass that draws: the buffer of which each item is an instance, with its fields as attributes. An
     /// item of `resource` is then a vertex of an instance (gl_VertexID), as many a one as divide evenly.
     std::optional<std::uint8_t> instances_of = {};
+    /// Of a vertex pass of an image.
+    std::optional<GlDraw> draw = {};
     /// Of a compute pass: how many invocations a frame has, at least; empty: one an item of `resource`. Items that none
     /// makes stay as they were.
     std::function<std::size_t(int frame)> invocations = {};
@@ -73,12 +91,12 @@ struct GlPicture {
     std::vector<std::uint32_t> indices; ///< of an instance's vertices, three a triangle
 };
 
-/// The GPU side of a system whose state is buffers, in the current context: each pass reads the state that the one
-/// before left, in one copy of each buffer, and writes the other.
+/// The GPU side of a system, in the current context: each pass reads the state that the one before left, in one copy of
+/// each buffer and image, and writes the other.
 class GlSystem final : public SystemSide {
   public:
     /// `shaders`: the folder of the passes' files, which may include the shipped arithmetic.glsl. `schema` outlives
-    /// this. Throws Error for a schema with images, and for what is wrong with a shader.
+    /// this. Throws Error for what is wrong with a shader or an image's format.
     GlSystem(const Schema& schema, std::vector<GlPass> passes, std::filesystem::path shaders,
              ArithmeticSwitch arithmetic = ArithmeticSwitch::plain);
 
@@ -93,10 +111,11 @@ class GlSystem final : public SystemSide {
     void repeat_step(std::size_t pass, int frame) override;
 
     /// Seconds that the last step's draw or dispatch took, nothing else with it: to glFinish, and by the GPU's own
-    /// clock (GL_TIME_ELAPSED).
+    /// clock (GL_TIME_ELAPSED). Of steps after time_steps(true).
     struct Seconds {
         double wall = 0.0, timer = 0.0;
     };
+    void time_steps(bool on);
     [[nodiscard]] Seconds seconds() const;
 
     /// What a pass of instances draws from the state as it is.

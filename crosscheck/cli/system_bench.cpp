@@ -30,6 +30,7 @@ struct Times {
 
 void time_gl(const System& system, GlSystemSide& gpu, int warm_up, int frames, Times& times) {
     gpu.upload(system.start.view());
+    gpu.time_steps(true);
     for (int frame = 0; frame < warm_up + frames; ++frame) {
         double wall = 0.0, timer = 0.0;
         for (std::size_t p = 0; p < system.passes.size(); ++p) {
@@ -48,6 +49,7 @@ void time_gl(const System& system, GlSystemSide& gpu, int warm_up, int frames, T
         times.frame.gl.push_back(wall);
         times.frame.timer.push_back(timer);
     }
+    gpu.time_steps(false);
 }
 
 void time_reference(const System& system, const Profile& profile, int warm_up, int frames, Times& times) {

@@ -24,7 +24,8 @@ ShaderUse shaders_of(const SystemScene& scene, const RunOptions& run) {
     for (const GlPass& pass : scene.passes)
         if (!pass.continues && std::none_of(stages.begin(), stages.end(),
                                             [&](const PassStages& known) { return known.name == pass.name; }))
-            stages.push_back({pass.name, {pass.stage}});
+            stages.push_back(
+                {pass.name, pass.draw ? std::vector{pass.stage, Stage::fragment} : std::vector{pass.stage}});
     if (scene.picture)
         for (const GlPass& pass : scene.picture(scene.system.start, 0).passes)
             stages.push_back({pass.name, {pass.stage, Stage::fragment}});

@@ -28,9 +28,9 @@ void check_system(const System& system) {
     for (const auto& pass : system.passes) {
         if (pass == nullptr)
             throw Error(fmt::format("{}: a pass is null; right is item_pass(options, twin)", system.schema.system));
-        if (pass->resource() >= system.schema.resources.size() ||
-            system.schema.resources[pass->resource()].dimensions != 1)
-            throw Error(fmt::format("{}: pass {} makes the items of no buffer", system.schema.system, pass->name()));
+        if (pass->resource() >= system.schema.resources.size())
+            throw Error(
+                fmt::format("{}: pass {} makes the items of no buffer or image", system.schema.system, pass->name()));
         if (system.start.extent(pass->resource()).count() == 0)
             throw Error(fmt::format("{}: nothing would be compared: there are no {}s", system.schema.system,
                                     system.schema.resources[pass->resource()].item));

@@ -17,15 +17,16 @@ std::string line(std::string_view key, std::string_view text) { return fmt::form
 /// What the words of verdicts are about.
 struct Shape {
     const Schema& schema;
-    std::int64_t width; ///< of images
+    std::int64_t width; ///< of images; 1 or less where they have several: their items are then counted
 };
 
 std::string place_text(const Place& place, const Shape& shape) {
     const Resource& resource = shape.schema.resources[place.resource];
     const auto index = static_cast<std::int64_t>(place.index);
-    return resource.dimensions > 1 ? fmt::format("frame {} {} ({}, {})", place.frame, resource.item,
-                                                 index % shape.width, index / shape.width)
-                                   : fmt::format("frame {} {} {}", place.frame, resource.item, index);
+    return resource.dimensions > 1 && shape.width > 1
+               ? fmt::format("frame {} {} ({}, {})", place.frame, resource.item, index % shape.width,
+                             index / shape.width)
+               : fmt::format("frame {} {} {}", place.frame, resource.item, index);
 }
 
 std::string classes_text(const std::array<std::uint64_t, class_names.size()>& counts) {
@@ -140,7 +141,7 @@ nlohmann::json lean_json(const VerdictSummary& s) {
 
 nlohmann::json place_json(const Place& place, const Shape& shape) {
     const Resource& resource = shape.schema.resources[place.resource];
-    if (resource.dimensions == 1)
+    if (resource.dimensions == 1 || shape.width <= 1)
         return {{"frame", place.frame}, {resource.item, place.index}};
     const auto index = static_cast<std::int64_t>(place.index);
     return {{"frame", place.frame}, {resource.item, {index % shape.width, index / shape.width}}};

@@ -34,6 +34,7 @@ class GlSystemSide final : public SystemSide {
     [[nodiscard]] ColorImage picture(std::size_t pass, int frame, const GlPicture& how) {
         return system_.picture(pass, frame, how);
     }
+    void time_steps(bool on) { system_.time_steps(on); }
     [[nodiscard]] GlSystem::Seconds seconds() const { return system_.seconds(); }
     std::vector<CapturedVertex> trace(std::size_t pass, int frame, std::size_t item) override {
         return system_.trace(pass, frame, item);

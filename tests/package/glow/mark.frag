@@ -1,0 +1,7 @@
+#version 330 core
+flat in uint lamp;
+out uint mark;
+
+void main() {
+    mark = lamp;
+}

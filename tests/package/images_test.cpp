@@ -1,0 +1,250 @@
+#include <filesystem>
+#include <fstream>
+#include <sstream>
+#include <string>
+
+#include <catch2/catch.hpp>
+#include <lockstep/catch.hpp>
+#include <lockstep/system.hpp>
+
+#include "reference/system/item_words.hpp"
+#include "tests/temporary_folder.hpp"
+
+using namespace lockstep;
+using lockstep::test::TemporaryFolder;
+
+/// Lamps in a buffer: their light is added up in an image and hazes one of three dimensions; the nearest marks its
+/// texel, and each draws a pane of two. All numbers are exact in any order.
+namespace {
+
+enum : std::uint8_t { lamps, light, haze, marks, panes };
+constexpr FieldId place{lamps, 0}, depth{lamps, 1}, power{lamps, 2}, of_light{light, 0}, of_haze{haze, 0},
+    mark{marks, 0};
+constexpr Extent flat{8, 4, 1}, deep{8, 4, 2};
+
+namespace site {
+inline constexpr Site power{"power"}, light{"light"}, haze{"haze"}, half{"half"}, share{"share"}, mark{"mark"};
+} // namespace site
+
+Schema schema() {
+    return checked({"glow",
+                    {{.name = "lamps",
+                      .item = "lamp",
+                      .title = "the lamps",
+                      .fields = {{.name = "place", .components = 2}, {.name = "depth"}, {.name = "power"}}},
+                     {.name = "light",
+                      .item = "texel",
+                      .title = "the light",
+                      .fields = {{.name = "light"}},
+                      .dimensions = 2,
+                      .format = "r32f"},
+                     {.name = "haze",
+                      .item = "cell",
+                      .title = "the haze",
+                      .fields = {{.name = "haze"}},
+                      .dimensions = 3,
+                      .format = "r32f"},
+                     {.name = "marks",
+                      .item = "mark",
+                      .title = "the marks",
+                      .fields = {{.name = "mark", .scalar = Scalar::uint32}},
+                      .dimensions = 2,
+                      .format = "r32ui"},
+                     {.name = "panes",
+                      .item = "pane",
+                      .title = "the panes",
+                      .fields = {{.name = "pane", .scalar = Scalar::uint32}},
+                      .dimensions = 2,
+                      .format = "r8"}}});
+}
+
+std::size_t texel_of(const SystemView& state, std::size_t lamp) {
+    const glm::vec2 at = state.vec2(place, lamp);
+    return static_cast<std::size_t>(at.y) * flat.width + static_cast<std::size_t>(at.x);
+}
+
+struct Shine {
+    template <class R> auto operator()(R& r, const PassInput& in, std::size_t item) const {
+        typename R::Real sum(0.0F);
+        for (std::size_t lamp = 0; lamp < in.before[lamps].count(); ++lamp)
+            if (texel_of(in.before, lamp) == item)
+                sum = sum + r.read(site::power, in.before.real(power, lamp));
+        ItemWords<R> words;
+        words.add(r.note(site::light, sum));
+        return words;
+    }
+};
+
+struct Spread {
+    template <class R> auto operator()(R& r, const PassInput& in, std::size_t item) const {
+        const float part = item < flat.count() ? 1.0F : 0.25F;
+        const auto old = r.read(site::haze, in.before.real(of_haze, item));
+        const auto lit = r.read(site::light, in.before.real(of_light, item % flat.count()));
+        ItemWords<R> words;
+        words.add(r.note(site::haze, r.uniform(site::half, 0.5F) * old + r.uniform(site::share, part) * lit));
+        return words;
+    }
+};
+
+struct MarkNearest {
+    template <class R> auto operator()(R&, const PassInput& in, std::size_t item) const {
+        std::uint32_t nearest = in.before.word(mark, item);
+        float least = 1.0F;
+        for (std::size_t lamp = 0; lamp < in.before[lamps].count(); ++lamp)
+            if (texel_of(in.before, lamp) == item && in.before.real(depth, lamp) < least) {
+                least = in.before.real(depth, lamp);
+                nearest = static_cast<std::uint32_t>(lamp) + 1;
+            }
+        ItemWords<R> words;
+        words.add(nearest);
+        return words;
+    }
+};
+
+struct Pane {
+    template <class R> auto operator()(R&, const PassInput& in, std::size_t item) const {
+        ItemWords<R> words;
+        bool covered = false;
+        for (std::size_t lamp = 0; lamp < in.before[lamps].count(); ++lamp) {
+            const std::size_t first = texel_of(in.before, lamp);
+            covered = covered || item == first || (item == first + 1 && item % flat.width != 0);
+        }
+        words.add(std::uint32_t{covered ? 51U : 0U});
+        return words;
+    }
+};
+
+struct Dim {
+    template <class R> auto operator()(R& r, const PassInput& in, std::size_t item) const {
+        const glm::vec2 at = in.before.vec2(place, item);
+        const auto old = r.read(site::power, in.before.real(power, item));
+        const auto lit = r.read(site::light, in.before.real(of_light, texel_of(in.before, item)));
+        ItemWords<R> words;
+        words.add(typename R::Real(at.x < 7.0F ? at.x + 1.0F : 0.0F));
+        words.add(typename R::Real(at.y));
+        words.add(typename R::Real(in.before.real(depth, item)));
+        words.add(r.note(site::power, old * 0.5F + lit * 0.25F));
+        return words;
+    }
+};
+
+const Schema& glow() {
+    static const Schema all = schema();
+    return all;
+}
+
+System system() {
+    System made{.name = "glow",
+                .schema = glow(),
+                .passes = {},
+                .mistakes = {},
+                .start = {glow(), {{24}, flat, deep, flat, flat}},
+                .settings = {}};
+    for (std::size_t i = 0; i < 24; ++i) {
+        made.start.set(place, i, glm::vec2(static_cast<float>(i * 5 % 8), static_cast<float>(i * i % 4)));
+        made.start.set(depth, i, static_cast<float>(i * 7 % 24) / 32.0F);
+        made.start.set(power, i, 1.0F + 0.25F * static_cast<float>(i % 3));
+    }
+    made.passes.push_back(item_pass({.name = "shine", .resource = light}, Shine{}));
+    made.passes.push_back(item_pass({.name = "spread", .resource = haze, .stage = PassStage::compute}, Spread{}));
+    made.passes.push_back(item_pass({.name = "mark", .resource = marks}, MarkNearest{}));
+    made.passes.push_back(item_pass({.name = "pane", .resource = panes}, Pane{}));
+    made.passes.push_back(item_pass({.name = "dim", .resource = lamps}, Dim{}));
+    return made;
+}
+
+std::vector<GlPass> passes() {
+    using Blend = GlDraw::Blend;
+    std::vector<GlPass> all{{.name = "shine", .resource = light},
+                            {.name = "spread", .stage = Stage::compute, .resource = haze},
+                            {.name = "mark", .resource = marks},
+                            {.name = "pane", .resource = panes},
+                            {.name = "dim", .resource = lamps}};
+    all[0].draw = GlDraw{.buffer = lamps, .blend = Blend::added};
+    all[2].draw = GlDraw{.buffer = lamps, .has_depth = true, .clears = false};
+    all[3].draw = GlDraw{.buffer = lamps, .primitive = GlDraw::Primitive::triangles, .vertices = 6};
+    return all;
+}
+
+const Gl& gl() {
+    static const Gl one;
+    return one;
+}
+
+CheckReport run(const std::string& shaders, std::vector<GlPass> of = passes()) {
+    const System made = system();
+    GlSystemSide side(gl(), made, std::move(of), shaders);
+    CheckOptions options;
+    options.frames = 6;
+    return check(made, side, options);
+}
+
+/// The shaders with one text replaced, in a folder of their own.
+std::string planted(const TemporaryFolder& folder, const std::string& file, const std::string& right,
+                    const std::string& by) {
+    std::filesystem::copy("tests/package/glow", folder.path());
+    std::ostringstream text;
+    text << std::ifstream(folder.path() / file).rdbuf();
+    std::string shader = text.str();
+    REQUIRE(shader.find(right) != std::string::npos);
+    std::ofstream(folder.path() / file) << shader.replace(shader.find(right), right.size(), by);
+    return folder.path().string();
+}
+
+} // namespace
+
+TEST_CASE("images: a system draws into them with blending and depth, writes and reads them, and every bit agrees") {
+    if (!gl())
+        return skip(gl().missing());
+    const CheckReport report = run("tests/package/glow");
+    INFO(report_text(report, {}));
+    CHECK(report.verdict == Verdict::agree);
+    CHECK(report.untried.empty());
+    CHECK(report.total.compared() == std::uint64_t{6} * (24 * 4 + 32 + 64 + 32 + 32));
+}
+
+TEST_CASE("images: what a wrong shader leaves in one is divergent there") {
+    if (!gl())
+        return skip(gl().missing());
+    struct Bug {
+        const char *file, *right, *by;
+        std::uint8_t resource;
+    };
+    const Bug bug =
+        GENERATE(Bug{"shine.frag", "light = power;", "light = power > 1.25 ? 0.0 : power;", light},
+                 Bug{"spread.comp", "0.5 *", "0.25 *", haze}, Bug{"mark.vert", "a_Depth, 1.0", "-a_Depth, 1.0", marks},
+                 Bug{"pane.vert", "vec2(2, 1), vec2(0, 1)", "vec2(0, 1), vec2(0, 1)", panes},
+                 Bug{"dim.vert", "ivec2(a_Place)", "ivec2(a_Place.yx)", lamps});
+    const TemporaryFolder folder;
+    const CheckReport report = run(planted(folder, bug.file, bug.right, bug.by));
+    CAPTURE(bug.file);
+    INFO(report_text(report, {}));
+    CHECK(report.verdict == Verdict::divergent);
+    for (std::uint8_t r = 0; r < glow().resources.size(); ++r)
+        CHECK((report.total.differing(r) > 0) == (r == bug.resource));
+}
+
+TEST_CASE("images: a texel that a dispatch leaves out is an error, not a value of before") {
+    if (!gl())
+        return skip(gl().missing());
+    const TemporaryFolder folder;
+    const std::string shaders =
+        planted(folder, "spread.comp", "    float share", "    if (texel.x == 3)\n        return;\n    float share");
+    CHECK_THROWS_WITH(run(shaders), Catch::Contains("spread did not write cell 3"));
+}
+
+TEST_CASE("images: formats and passes that do not fit are named") {
+    if (!gl())
+        return skip(gl().missing());
+    std::vector<GlPass> all = passes();
+    all[0].draw.reset();
+    CHECK_THROWS_WITH(run("tests/package/glow", all),
+                      "shine: a vertex shader makes the light where it says how it draws");
+    Schema wrong = schema();
+    wrong.resources[light].format = "r33f";
+    CHECK_THROWS_WITH(GlSystem(wrong, {}, "tests/package/glow"),
+                      Catch::Contains("no image has format 'r33f'; there are r32f"));
+    wrong.resources[light].format = "rgba32f";
+    CHECK_THROWS_WITH(GlSystem(wrong, {}, "tests/package/glow"),
+                      "'light': its texels are floats; an image of format rgba32f has vec4s");
+}

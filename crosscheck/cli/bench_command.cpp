@@ -178,7 +178,7 @@ std::size_t peak_bytes() {
 
 int run(const Options& options) {
     check_scene_exists(options.run.scene);
-    if (const RegisteredSystem* system = system_of_scene(options.run.scene))
+    if (const RegisteredSystem* system = system_of(options.run))
         return bench_system(*system, options.run, {options.counts, options.warm_up, options.legal, options.rules});
     static_cast<void>(
         shaders_to_run(options.run, load(options.run))); // says what is wrong with the scene before the table begins
@@ -245,7 +245,7 @@ Verb bench_command() {
     verb.run = [options](const Call& call) {
         if (call.has("--particles"))
             throw Error("bench: --particles does not go with it; --counts N,... names how many");
-        if (call.has("--radius") && system_of_scene(options->run.scene) != nullptr)
+        if (call.has("--radius") && system_of(options->run) != nullptr)
             throw Error("bench: --radius goes with scenes of system collision");
         return run(*options);
     };

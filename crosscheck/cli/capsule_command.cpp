@@ -66,7 +66,7 @@ Capsule cut_recorded(const Options& options) {
 
 int cut(const Options& options, const Call& call) {
     check_scene_or_trace(call, options.run, options.trace);
-    if (const RegisteredSystem* system = options.trace.empty() ? system_of_scene(options.run.scene) : nullptr) {
+    if (const RegisteredSystem* system = options.trace.empty() ? system_of(options.run) : nullptr) {
         if (!options.item || options.particle)
             throw Error(fmt::format("capsule cut: of a scene of system {}, --item I is needed", name_of(*system)));
         return cut_system(*system, options.run, {options.frame, options.pass, *options.item, options.legal, false},

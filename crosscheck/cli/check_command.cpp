@@ -415,7 +415,7 @@ Verb check_command() {
         }
         check_scene_or_trace(call, options->run, options->trace);
         options->frames_given = call.has("--frames");
-        if (const RegisteredSystem* system = options->trace.empty() ? system_of_scene(options->run.scene) : nullptr) {
+        if (const RegisteredSystem* system = options->trace.empty() ? system_of(options->run) : nullptr) {
             check_options(call, fmt::format("a scene of system {}", name_of(*system)), system_check_options());
             return check_system(*system, options->run,
                                 {options->mode, options->legal, options->rules, options->json, options->power,

@@ -73,7 +73,7 @@ void explain_trace(const Options& options) {
 }
 
 int run(const Options& options, const Call& call) {
-    if (const RegisteredSystem* system = options.trace.empty() ? system_of_scene(options.run.scene) : nullptr) {
+    if (const RegisteredSystem* system = options.trace.empty() ? system_of(options.run) : nullptr) {
         if (!options.item || options.particle || options.texel)
             throw Error(fmt::format("explain: of a scene of system {}, --item I is needed", name_of(*system)));
         return explain_system(*system, options.run,

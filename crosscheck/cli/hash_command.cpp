@@ -22,7 +22,7 @@ struct Options {
 };
 
 int run(const Options& options) {
-    if (const RegisteredSystem* system = system_of_scene(options.run.scene))
+    if (const RegisteredSystem* system = system_of(options.run))
         return hash_system(*system, options.run, options.profile, options.every);
     const Scene scene = load(options.run);
     ReferenceSimulation reference(scene, named_profile(options.profile));

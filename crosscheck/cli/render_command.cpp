@@ -58,7 +58,7 @@ ColorImage render_gpu(const Scene& scene, const Options& options) {
 
 int run(const Options& options) {
     check_scene_exists(options.run.scene);
-    if (const RegisteredSystem* system = system_of_scene(options.run.scene))
+    if (const RegisteredSystem* system = system_of(options.run))
         return render_system(*system, options.run,
                              {options.frame, options.side == Side::gpu, options.profile, options.output});
     const Scene scene = load(options.run);

@@ -8,6 +8,7 @@
 
 #include "crosscheck/cli/option_values.hpp"
 #include "crosscheck/cli/systems.hpp"
+#include "crosscheck/files/json_reader.hpp"
 #include "crosscheck/files/shell_words.hpp"
 #include "crosscheck/files/threads.hpp"
 #include "crosscheck/scene/run_text.hpp"
@@ -85,22 +86,43 @@ void check_scene_or_trace(const Call& call, const RunOptions& options, const std
                 fmt::format("{}: {} goes with a scene that is run here, not with --trace", call.verb.name, name));
 }
 
+struct SceneDocument::Read {
+    std::filesystem::path file;
+    nlohmann::json document;
+};
+
+std::shared_ptr<SceneDocument::Read> SceneDocument::nothing_read() { return std::make_shared<Read>(); }
+
+const nlohmann::json& SceneDocument::of(const std::filesystem::path& file) const {
+    if (read_->file != file) {
+        read_->document = read_json(file);
+        read_->file = file;
+    }
+    return read_->document;
+}
+
+const RegisteredSystem* system_of(const RunOptions& options) {
+    std::error_code error;
+    if (options.scene.empty() || !std::filesystem::exists(options.scene, error))
+        return nullptr; // load() says so
+    return system_of_scene(JsonValue(options.document.of(options.scene), options.scene.string()));
+}
+
 Scene load(const RunOptions& options) {
     check_scene_exists(options.scene);
-    if (const RegisteredSystem* system = system_of_scene(options.scene))
+    if (const RegisteredSystem* system = system_of(options))
         throw Error(fmt::format(
             "{}: is a scene of system {}, which bench, capsule, check, explain, hash and render run; this takes "
             "one of system {}",
             options.scene.string(), name_of(*system), default_system));
     start_threads(options.threads);
-    return load_scene(options.scene, {options.particles, options.preset, options.set});
+    return read_scene(options.document.of(options.scene), options.scene,
+                      {options.particles, options.preset, options.set});
 }
 
 void protect_inputs(const RunOptions& options, OutputFiles& files) {
-    std::error_code error;
-    if (std::filesystem::is_regular_file(options.scene, error)) // a pipe cannot be read twice
-        for (const std::filesystem::path& file : scene_files(options.scene))
-            files.protect(file);
+    for (const std::filesystem::path& file : scene_files(options.document.of(options.scene), options.scene))
+        files.protect(file);
     files.protect(options.shaders);
 }
 

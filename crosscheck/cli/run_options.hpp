@@ -1,9 +1,12 @@
 #pragma once
 #include <cstddef>
 #include <filesystem>
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
+
+#include <nlohmann/json_fwd.hpp>
 
 #include "crosscheck/cli/verb.hpp"
 #include "crosscheck/files/output_files.hpp"
@@ -14,6 +17,20 @@ namespace lockstep {
 
 /// Frames a run may have.
 inline constexpr int most_frames = 100'000'000;
+
+struct RegisteredSystem;
+
+/// A scene file, read when it is first asked for, and once: it may be a pipe. Copies share it.
+class SceneDocument {
+  public:
+    /// Throws Error where it cannot be read.
+    [[nodiscard]] const nlohmann::json& of(const std::filesystem::path& file) const;
+
+  private:
+    struct Read;
+    std::shared_ptr<Read> read_ = nothing_read();
+    static std::shared_ptr<Read> nothing_read();
+};
 
 /// The options that say what is run; every verb that runs a scene has them.
 struct RunOptions {
@@ -26,6 +43,7 @@ struct RunOptions {
     std::string gl = "auto";
     std::filesystem::path shaders; ///< looked into first; empty: only the shipped shaders
     bool allow_unused = false;     ///< shaders may lie there that do not run
+    SceneDocument document = {};
 };
 
 enum class SceneArgument { required, optional };
@@ -41,6 +59,10 @@ void check_scene_or_trace(const Call& call, const RunOptions& options, const std
 
 /// Throws Error where no file is named so; says which is, beside it or among the scenes that come with lockstep.
 void check_scene_exists(const std::filesystem::path& scene);
+
+/// The registered system that the scene is of; null where it is the default one's. Throws Error where the scene cannot
+/// be read, or is of no system, with the names there are.
+const RegisteredSystem* system_of(const RunOptions& options);
 
 /// Loads the scene and sets the thread count.
 Scene load(const RunOptions& options);

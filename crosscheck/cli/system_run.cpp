@@ -13,10 +13,10 @@ namespace lockstep {
 
 ReadScene read_scene(const RegisteredSystem& system, const RunOptions& run) {
     start_threads(run.threads);
-    nlohmann::json document = read_json(run.scene);
+    const nlohmann::json& document = run.document.of(run.scene);
     const std::string file = run.scene.string(), name = plain_line(run.scene.stem().string());
     SystemScene scene = system.load(JsonValue(document, file), name, {run.particles, run.preset, run.set});
-    return {file, std::move(document), std::move(scene)};
+    return {file, document, std::move(scene)};
 }
 
 ShaderUse shaders_of(const SystemScene& scene, const RunOptions& run) {

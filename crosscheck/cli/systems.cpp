@@ -1,7 +1,6 @@
 #include "crosscheck/cli/systems.hpp"
 
 #include <algorithm>
-#include <system_error>
 #include <vector>
 
 #include <fmt/format.h>
@@ -43,14 +42,6 @@ const RegisteredSystem* system_of_scene(const JsonValue& scene) {
     }
     value->fail(fmt::format("'{}' is no system; there are {}{}", plain_line(name), fmt::join(names, ", "),
                             did_you_mean(name, names)));
-}
-
-const RegisteredSystem* system_of_scene(const std::filesystem::path& file) {
-    std::error_code error;
-    if (!std::filesystem::is_regular_file(file, error))
-        return nullptr;
-    const nlohmann::json document = read_json(file);
-    return system_of_scene(JsonValue(document, file.string()));
 }
 
 } // namespace lockstep

@@ -18,11 +18,8 @@ std::span<const RegisteredSystem> registered_systems();
 
 std::string_view name_of(const RegisteredSystem& system);
 
-/// The registered system of a scene file; null where it is the default one's. Throws Error, with the names there are,
-/// where it is of none. A file that cannot be read twice, a pipe, is the default system's.
-const RegisteredSystem* system_of_scene(const std::filesystem::path& file);
-
-/// The same of a scene that was read.
+/// The registered system of a scene; null where it is the default one's. Throws Error, with the names there are, where
+/// it is of none.
 const RegisteredSystem* system_of_scene(const JsonValue& scene);
 
 } // namespace lockstep

@@ -64,10 +64,13 @@ std::vector<Emitter> read_emitters(const JsonValue& json) {
 } // namespace
 
 Scene load_scene(const std::filesystem::path& file, const SceneOptions& options) {
+    return read_scene(read_json(file), file, options);
+}
+
+Scene read_scene(const nlohmann::json& document, const std::filesystem::path& file, const SceneOptions& options) {
     if (options.particles && (*options.particles < 1 || *options.particles > most_particles))
         throw Error(fmt::format("--particles {}: not an integer from 1 to {}", *options.particles, most_particles));
 
-    const nlohmann::json document = read_json(file);
     const JsonValue json(document, file.string());
     if (const auto system = json.find("system"))
         static_cast<void>(system->choice({"collision"}));
@@ -91,9 +94,8 @@ Scene load_scene(const std::filesystem::path& file, const SceneOptions& options)
     return scene;
 }
 
-std::vector<std::filesystem::path> scene_files(const std::filesystem::path& file) {
+std::vector<std::filesystem::path> scene_files(const nlohmann::json& document, const std::filesystem::path& file) {
     std::vector<std::filesystem::path> files{file};
-    const nlohmann::json document = read_json(file);
     if (const auto obstacles = JsonValue(document, file.string()).find("obstacles"))
         for (const JsonValue& obstacle : obstacles->items())
             if (const auto mesh = obstacle.find("file"))

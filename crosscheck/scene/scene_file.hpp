@@ -5,6 +5,8 @@
 #include <string>
 #include <vector>
 
+#include <nlohmann/json_fwd.hpp>
+
 #include "reference/model/collision/scene.hpp"
 
 namespace lockstep {
@@ -24,7 +26,10 @@ inline constexpr std::size_t most_particles = 100'000'000;
 /// relative to the scene file. Throws Error: `FILE: /json/pointer: what is wrong and what is allowed`.
 Scene load_scene(const std::filesystem::path& file, const SceneOptions& options = {});
 
-/// The files that load_scene reads: the scene's own, and its meshes.
-std::vector<std::filesystem::path> scene_files(const std::filesystem::path& file);
+/// The same of a file that was read; `file` is where it lies.
+Scene read_scene(const nlohmann::json& document, const std::filesystem::path& file, const SceneOptions& options = {});
+
+/// The files that a scene is read from: its own, and its meshes.
+std::vector<std::filesystem::path> scene_files(const nlohmann::json& document, const std::filesystem::path& file);
 
 } // namespace lockstep

@@ -66,6 +66,18 @@ TEST_CASE("systems: hash is of the reference alone, the same for any number of t
     CHECK(one.out.starts_with("19 "));
 }
 
+TEST_CASE("systems: a scene may come through a pipe, which nothing reads twice") {
+    for (const char* file : {"data/scenes/dust/physics.json", "data/scenes/x_streams.json"}) {
+        std::ifstream stream(file);
+        const std::string text{std::istreambuf_iterator<char>(stream), {}};
+        const std::vector<std::string> options{"--frames", "3", "--particles", "100"};
+        const auto piped = run_lockstep(test::joined({"hash", "/dev/stdin"}, options), {.standard_input = text});
+        INFO(file << ": " << piped.err);
+        CHECK(piped.status == 0);
+        CHECK(piped.out == run_lockstep(test::joined({"hash", file}, options)).out);
+    }
+}
+
 TEST_CASE("systems: render writes a picture of either side, check judges what the last frame draws") {
     const test::TemporaryFolder folder;
     const std::string picture = (folder.path() / "picture.png").string();

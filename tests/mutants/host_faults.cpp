@@ -585,7 +585,6 @@ const Fault faults[] = {
      [] { gl::DispatchCompute = [](GLuint x, GLuint y, GLuint z) { state.real.DispatchCompute(x - 1, y, z); }; }},
     {"one_group_more",
      [] { gl::DispatchCompute = [](GLuint x, GLuint y, GLuint z) { state.real.DispatchCompute(x + 1, y, z); }; }},
-    {"barriers_left_out", [] { gl::MemoryBarrier = [](GLbitfield) {}; }},
     {"nearest_not_cleared", [] { gl::ClearBufferData = [](GLenum, GLenum, GLenum, GLenum, const void*) {}; }},
     {"nearest_before_step",
      [] {

@@ -143,7 +143,9 @@ std::vector<TrialScene> trial_scenes(const Profile& profile, std::span<const std
                                                            {"compute_exact", ""},
                                                            {"compute_lattice", ""},
                                                            {"compute_lattice", "paper"},
-                                                           {"compute_strip", "paper"}};
+                                                           {"compute_strip", "paper"},
+                                                           {"compute_ties", ""},
+                                                           {"compute_ties", "exact"}};
     std::vector<TrialScene> scenes;
     for (const auto& [name, preset] : set)
         if (names.empty() || std::find(names.begin(), names.end(), name) != names.end())

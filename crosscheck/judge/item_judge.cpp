@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <optional>
 
+#include "crosscheck/judge/append_judge.hpp"
 #include "crosscheck/judge/compare.hpp"
 #include "reference/parallel_blocks.hpp"
 
@@ -44,6 +45,8 @@ ItemVerdict judge_item(const JudgedPass& p, std::size_t item) {
 }
 
 std::vector<ItemVerdict> judge_items(const JudgedPass& pass) {
+    if (pass.pass.appended(pass.input()))
+        return judge_appended(pass);
     const std::vector<std::size_t> differing = differing_items(pass.reference, pass.gpu);
     std::vector<ItemVerdict> verdicts(differing.size());
     constexpr std::size_t block = 16;

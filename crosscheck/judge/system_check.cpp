@@ -6,6 +6,7 @@
 
 #include <fmt/format.h>
 
+#include "crosscheck/judge/append_judge.hpp"
 #include "crosscheck/judge/item_cause.hpp"
 #include "crosscheck/judge/item_judge.hpp"
 #include "crosscheck/judge/item_table.hpp"
@@ -127,6 +128,7 @@ CheckReport check(const System& system, SystemSide& gpu, const CheckOptions& opt
     std::vector<ItemCauseFinder> causes;
     for (std::size_t p = 0; p < system.passes.size(); ++p)
         causes.emplace_back(system.mistakes, system.passes[p]->name());
+    std::vector<AppendCause> append_causes(system.passes.size());
     PowerMeter power(system.mistakes);
     std::vector<std::optional<SystemState>> earlier(system.passes.size()); // what each pass last started from
     SystemState before = system.start, now = system.start, reference = system.start;
@@ -159,13 +161,16 @@ CheckReport check(const System& system, SystemSide& gpu, const CheckOptions& opt
                 SystemState again = now;
                 gpu.repeat_step(p, frame);
                 gpu.read(again);
-                if (const Comparison repeated = compare(now[r], again[r]); !repeated.agree()) {
+                const Comparison repeated = compare(now[r], again[r]);
+                if (!repeated.agree() &&
+                    !same_but_for_order(pass, {before.view(), frame}, std::as_const(now)[r], std::as_const(again)[r])) {
                     note_difference(report, frame, repeated);
                     report.verdict = Verdict::nondeterministic;
                     report.total.add(repeated);
                     report.frames = frame + 1;
                     return report;
                 }
+                now = std::move(again);
             }
             const SystemView from = judged ? before.view() : reference.view();
             try {
@@ -217,7 +222,9 @@ CheckReport check(const System& system, SystemSide& gpu, const CheckOptions& opt
                     first(DifferenceClass::divergent);
                 else if (!summary.first)
                     first(DifferenceClass::undefined);
-                if (diverges && options.causes)
+                if (diverges && options.causes && pass.appended(one.input()))
+                    append_causes[p].add(one);
+                else if (diverges && options.causes)
                     causes[p].add(one, verdicts);
             }
             reference.swap(r, made);
@@ -233,7 +240,7 @@ CheckReport check(const System& system, SystemSide& gpu, const CheckOptions& opt
         throw Error(fmt::format("{}: nothing was compared: {} frames", system.name, report.frames));
     if (judged) {
         for (std::size_t p = 0; p < causes.size(); ++p) {
-            const CauseFindings found = causes[p].findings();
+            const CauseFindings found = append_causes[p].empty() ? causes[p].findings() : append_causes[p].findings();
             CauseFindings& of_buffer = summary.causes[system.passes[p]->resource()];
             if (found.divergent > of_buffer.divergent)
                 of_buffer = found;

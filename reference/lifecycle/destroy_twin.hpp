@@ -86,7 +86,6 @@ struct DestroyTwin {
         return listed.record();
     }
 
-  private:
     /// The last block before which no more than `rank` survive.
     [[nodiscard]] std::uint32_t block_of(const PassInput& in, std::uint32_t rank, std::uint32_t blocks) const {
         std::uint32_t low = 0, high = blocks;
@@ -95,6 +94,26 @@ struct DestroyTwin {
             (in.before.word(sum_of_block, of->first_block + middle) <= rank ? low : high) = middle;
         }
         return low;
+    }
+};
+
+/// The survivors in the order of their slots: one of those in which invocations may append them.
+struct AppendTwin {
+    HostPtr host;
+    const HostEmitter* of;
+
+    template <class R> ItemWords<R> operator()(R& r, const PassInput& in, std::size_t item) const {
+        UintItem<R> listed(r, in.before, survivor_buffer, item);
+        const EmitterTwin<R> emitter(r, *host, *of, in);
+        if (!emitter.has(item))
+            return listed.record();
+        std::uint32_t seen = 0;
+        for (std::uint32_t slot = 0; slot < emitter.may_die(); ++slot)
+            if (emitter.survives(slot) && seen++ == emitter.slot(item)) {
+                listed.set(site::rank, 0, slot);
+                break;
+            }
+        return listed.record();
     }
 };
 

@@ -2,6 +2,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <span>
 #include <string>
 #include <string_view>
@@ -61,6 +62,11 @@ struct FollowedStep {
     Undefined undefined = Undefined::none;
 };
 
+/// Items of a buffer, one after the other.
+struct ItemRange {
+    std::size_t first = 0, count = 0;
+};
+
 /// A pass that makes each item of one buffer anew, from what the frame before left: its twin in every reading
 /// (reference/readings), behind one interface. Pure: any number of threads may ask at once.
 class ItemPass {
@@ -83,6 +89,10 @@ class ItemPass {
     /// Whether an item of its buffer follows from no other of that buffer: then `after` may be the state that `in`
     /// reads.
     [[nodiscard]] virtual bool in_place() const { return false; }
+
+    /// The items that the pass appends in an order that nothing fixes: legal is any that has each of them once.
+    /// Nothing: each item has its place.
+    [[nodiscard]] virtual std::optional<ItemRange> appended(const PassInput& /*in*/) const { return {}; }
 
     /// The output by which the twin's sites know a field of the buffer.
     [[nodiscard]] virtual std::string_view output(const Resource& about, std::uint8_t field) const = 0;

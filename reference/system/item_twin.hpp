@@ -3,6 +3,7 @@
 #include <concepts>
 #include <functional>
 #include <memory>
+#include <optional>
 #include <span>
 #include <string>
 #include <type_traits>
@@ -122,6 +123,8 @@ struct ItemPassOptions {
     std::function<bool(int frame)> runs = {}; ///< empty: in every frame
     bool continues = false;                   ///< ItemPass::continues
     bool in_place = false;                    ///< ItemPass::in_place
+    /// ItemPass::appended; empty: each item has its place.
+    std::function<ItemRange(const PassInput& in)> appended = {};
     /// A faster way to the twin's bits, held to them by a test: makes those of items first to last, the last excluded,
     /// that it can, and puts the others into `left`. Empty: the twin makes all.
     std::function<void(const PassInput& in, const Profile& profile, std::size_t first, std::size_t last,
@@ -144,6 +147,9 @@ template <class Twin> class ItemTwin final : public ItemPass {
     [[nodiscard]] bool runs(int frame) const override { return !options_.runs || options_.runs(frame); }
     [[nodiscard]] bool continues() const override { return options_.continues; }
     [[nodiscard]] bool in_place() const override { return options_.in_place; }
+    [[nodiscard]] std::optional<ItemRange> appended(const PassInput& in) const override {
+        return options_.appended ? std::optional(options_.appended(in)) : std::nullopt;
+    }
 
     [[nodiscard]] std::string_view output(const Resource& about, std::uint8_t field) const override {
         return field < options_.outputs.size() ? options_.outputs[field] : about.fields[field].name;

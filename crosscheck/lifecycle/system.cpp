@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 
 #include "crosscheck/lifecycle/mistakes.hpp"
+#include "crosscheck/lifecycle/picture.hpp"
 #include "crosscheck/lifecycle/scene.hpp"
 #include "gpu/lifecycle/passes.hpp"
 #include "reference/lifecycle/passes.hpp"
@@ -62,7 +63,8 @@ System system(const HostPtr& host, const std::string& name) {
 
 SystemScene load(const JsonValue& scene, const std::string& name, const SceneOptions& options) {
     const auto host = std::make_shared<const Host>(read_scene(scene, options));
-    return {system(host, name), passes(host), host->settings().arithmetic};
+    return {system(host, name), passes(host), host->settings().arithmetic,
+            [host](const SystemState& state, int) { return picture(host, state); }};
 }
 
 } // namespace lockstep::lifecycle

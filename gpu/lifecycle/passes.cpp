@@ -70,13 +70,18 @@ void add(ShaderDefines& all, std::string_view name, std::initializer_list<std::s
     all.insert(all.end(), one.begin(), one.end());
 }
 
-ShaderDefines defines(const Host& host, const HostEmitter& of) {
+ShaderDefines switch_defines(const Host& host) {
     ShaderDefines all;
     for_each_switch(host.switches(),
                     [&](std::string_view name, auto value, const std::vector<std::string_view>& names) {
                         const ShaderDefines one = choice_defines(name, names, static_cast<std::size_t>(value));
                         all.insert(all.end(), one.begin(), one.end());
                     });
+    return all;
+}
+
+ShaderDefines defines(const Host& host, const HostEmitter& of) {
+    ShaderDefines all = switch_defines(host);
     add(all, "shape", {"point", "box", "sphere"}, static_cast<std::size_t>(of.settings().shape));
     add(all, "dies", {"window", "none", "all"}, static_cast<std::size_t>(of.dies));
     add(all, "uv", {"segment", "stretched", "distance"}, static_cast<std::size_t>(of.settings().uv));
@@ -179,6 +184,21 @@ std::vector<GlPass> passes(const HostPtr& host) {
         kernels.one("indirect", counter_buffer, {{"indirect_arguments", argument_buffer}});
     }
     return all;
+}
+
+GlPass draw_gl_pass(const HostPtr& host, const Drawing& drawing) {
+    GlPass pass{.name = "draw", .stage = Stage::vertex, .resource = corner_buffer};
+    pass.instances_of = quad_buffer;
+    pass.defines = switch_defines(*host);
+    pass.uniforms = [host, drawing](int) -> Uniforms {
+        return {{"u_View", drawing.view},
+                {"u_Projection", drawing.projection},
+                {"u_Frame", 0U},
+                {"u_BoxLow", host->settings().box_low},
+                {"u_BoxScale", host->box_scale()},
+                {"u_BoxStep", host->box_step()}};
+    };
+    return pass;
 }
 
 } // namespace lockstep::lifecycle

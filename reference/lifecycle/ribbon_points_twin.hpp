@@ -1,6 +1,7 @@
 #pragma once
 #include <glm/mat4x4.hpp>
 
+#include "reference/lifecycle/appearance.hpp"
 #include "reference/lifecycle/forces.hpp"
 #include "reference/lifecycle/lengths.hpp"
 
@@ -40,7 +41,7 @@ struct RibbonPointsTwin {
         if (!has_length(r, side))
             side = {Real(1.0F), Real(0.0F), Real(0.0F)};
         side = r.note(site::side_of_ribbon, side);
-        Real reach = r.note(site::half_width, size(r, emitter, i) * 0.5F);
+        Real reach = r.note(site::half_width, size_of(r, Particle<R>(r, *host, emitter.words_of(i))) * 0.5F);
         if (host->switches().ribbon_joint == RibbonJoint::mitre) {
             const Vec3 along = has_length(r, after) ? after : before;
             const Real c = r.note(site::mitre, r.dot(site::mitre, side, unit(r, cross_of(along, -p))));
@@ -75,19 +76,6 @@ struct RibbonPointsTwin {
         const auto length = r.sqrt(site::unit, squared);
         return {r.divide(site::unit, v.x, length), r.divide(site::unit, v.y, length),
                 r.divide(site::unit, v.z, length)};
-    }
-    template <class R> typename R::Real size(R& r, const EmitterTwin<R>& emitter, std::uint32_t slot) const {
-        using Real = typename R::Real;
-        const Particle<R> point(r, *host, emitter.words_of(slot));
-        const Real life = point.lifetime();
-        Real t(1.0F);
-        if (r.decide(site::has_life, life < 0.0F || life > 0.0F)) {
-            t = Real(1.0F) - r.divide(site::age, point.remaining(), life);
-            t = r.monotone(t, [](float f) { return f > 0.0F ? (f < 1.0F ? f : 1.0F) : 0.0F; });
-        }
-        t = r.note(site::age, t);
-        const auto [first, end] = point.sizes();
-        return r.note(site::size, first + t * (end - first));
     }
     template <class R> typename R::Real u(R& r, const PassInput& in, const EmitterTwin<R>& emitter, std::uint32_t i,
                                           std::uint32_t n) const {

@@ -83,6 +83,9 @@ inline constexpr Site side_of_ribbon{"side of the ribbon"}, half_width{"half wid
 inline constexpr Site is_mitred{"is mitred"}, left{"left", "left"}, right{"right", "right"};
 inline constexpr Site uv_scale{"u_UvScale"}, first_u{"u at the start"}, last_u{"u at the end"};
 inline constexpr Site has_length{"has a length"}, has_unit{"has a direction"}, unit{"direction"};
+inline constexpr Site projection{"u_Projection"}, seen_corner{"corner seen"}, is_visible{"is not expired"};
+inline constexpr Site clip{"clip", "clip"}, tint{"tint", "tint"}, drawn{"drawn", "drawn"};
+inline constexpr Site texel_place{"texel_place", "texel_place"};
 inline constexpr Site has_life{"has a lifetime"}, age{"age"}, size{"size"}, stretched{"share of the ribbon"};
 
 } // namespace lockstep::lifecycle::site

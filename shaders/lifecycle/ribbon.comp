@@ -5,6 +5,7 @@
 #include "lifecycle.glsl"
 #include "particles.glsl"
 #include "lengths.glsl"
+#include "appearance.glsl"
 
 layout(local_size_x = 256) in;
 layout(std430) readonly buffer Distances { Length distances[]; };
@@ -27,14 +28,6 @@ vec3 unit_of(vec3 v) {
 vec3 seen(uint i) {
     load(i);
     return ls_transform(u_View, position()).xyz;
-}
-
-float age() {
-    float life = lifetime();
-    if (!(life != 0.0))
-        return 1.0;
-    float t = sub(1.0, ls_divide(remaining(), life));
-    return t > 0.0 ? (t < 1.0 ? t : 1.0) : 0.0;
 }
 
 float u_at(uint i, uint n) {
@@ -65,8 +58,7 @@ void main() {
     if (i >= n)
         return;
     vec3 p = seen(i);
-    vec3 size_of = vec3(sizes(), age());
-    float size = add(size_of.x, mul(size_of.z, sub(size_of.y, size_of.x)));
+    float size = size_now();
     vec3 before_it = vec3(0.0), after_it = vec3(0.0);
     if (i > 0u)
         before_it = sub(p, seen(i - 1u));

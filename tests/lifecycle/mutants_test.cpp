@@ -68,7 +68,7 @@ lifecycle::Settings settings_of(const std::string& run) {
     lifecycle::Settings s;
     lifecycle::Emitter& e = s.emitters.front();
     e.capacity = 2500;
-    e.rate = 3000.0;
+    e.rate = 1800.0;
     e.lifetime = {0.1F, 0.3F};
     e.shape = lifecycle::Emitter::Shape::box;
     e.min = {-1.0F, 0.2F, -1.0F};
@@ -129,7 +129,7 @@ struct Outcome {
 Outcome run_of(const std::string& shaders, const std::string& run) {
     Outcome outcome;
     try {
-        const CheckReport report = run_lifecycle(settings_of(run), 32, CheckMode::resync, shaders);
+        const CheckReport report = run_lifecycle(settings_of(run), 26, CheckMode::resync, shaders);
         outcome.verdict = report.verdict == Verdict::agree       ? "AGREE"
                           : report.verdict == Verdict::legal     ? "LEGAL"
                           : report.verdict == Verdict::divergent ? "DIVERGENT"

@@ -1,0 +1,68 @@
+#pragma once
+#include <cstring>
+#include <tuple>
+
+#include "reference/lifecycle/appearance.hpp"
+#include "reference/model/lifecycle/drawing.hpp"
+
+namespace lockstep::lifecycle {
+
+/// A corner of a sprite, which faces the camera, or of a ribbon's segment. Twin of shaders/lifecycle/draw.vert.
+struct DrawTwin {
+    HostPtr host;
+    Drawing drawing;
+
+    template <class R> struct Corner {
+        typename R::Vec4 clip, tint;
+        std::uint32_t drawn = 0;
+        typename R::Vec2 texel_place;
+        auto fields() const { return std::tie(clip, tint, drawn, texel_place); }
+    };
+
+    template <class R> Corner<R> operator()(R& r, const PassInput& in, std::size_t item) const {
+        using Real = typename R::Real;
+        using Vec3 = typename R::Vec3;
+        const std::size_t quad = item / 4;
+        const bool right = (item & 1U) != 0, next = (item & 2U) != 0;
+        const DrawnFields fields = drawn_fields(host->switches());
+        const Particle<R> particle(r, *host, particle_words(in.before, quad));
+        std::uint32_t kind = in.before.word(fields.kind, quad);
+        Vec3 seen;
+        Real u(right ? 1.0F : 0.0F), v(next ? 1.0F : 0.0F);
+        if (kind == 2) {
+            const FieldId edge =
+                next ? (right ? fields.next_right : fields.next_left) : (right ? fields.right : fields.left);
+            seen = r.read(site::seen_point, in.before.vec3(edge, quad));
+            u = r.read(site::first_u, in.before.real(fields.u, quad, next ? 1 : 0));
+            v = Real(right ? 1.0F : 0.0F);
+        } else {
+            const auto centre = r.transform(site::view, r.uniform(site::view, drawing.view), particle.position());
+            const Real reach = r.note(site::half_width, size_of(r, particle) * 0.5F);
+            seen = {centre.x + Real(right ? 1.0F : -1.0F) * reach, centre.y + Real(next ? 1.0F : -1.0F) * reach,
+                    centre.z};
+            if (host->switches().expired == Expired::hidden && !r.decide(site::is_visible, particle.remaining() > 0.0F))
+                kind = 0;
+        }
+        const auto clip = r.transform(site::projection, r.uniform(site::projection, drawing.projection),
+                                      r.note(site::seen_corner, seen));
+        const auto drawn = r.note(site::drawn, typename R::Int(static_cast<int>(kind)));
+        return {r.note(site::clip, clip), color_of(r, particle), static_cast<std::uint32_t>(static_cast<int>(drawn)),
+                r.note(site::texel_place, typename R::Vec2{u, v})};
+    }
+
+  private:
+    [[nodiscard]] RawWords particle_words(const SystemView& state, std::size_t quad) const {
+        static_cast<void>(state.value({quad_buffer, 0}, quad));
+        const View& view = state[quad_buffer];
+        const std::size_t words = plan_of(host->switches().layout).words;
+        RawWords raw{};
+        for (std::size_t w = 0, f = 0; w < words; ++f) {
+            const auto n = static_cast<std::size_t>(view.fields()[f].components);
+            std::memcpy(raw.data() + w, view.columns[f] + quad * n * sizeof(std::uint32_t), n * sizeof(std::uint32_t));
+            w += n;
+        }
+        return raw;
+    }
+};
+
+} // namespace lockstep::lifecycle

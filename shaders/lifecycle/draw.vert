@@ -1,0 +1,89 @@
+#version 430 core
+// A corner of a sprite, which faces the camera, or of a ribbon's segment: an instance each. Twin:
+// reference/lifecycle/draw_twin.hpp.
+#define DRAWS 1
+#include "rounding.glsl"
+#include "layout.glsl"
+#include "appearance.glsl"
+
+in uint a_Kind; // 0: nothing, 1: a sprite, 2: a segment
+in vec3 a_Left, a_Right, a_NextLeft, a_NextRight; // of a segment, in view space
+in vec2 a_U;
+
+#if LAYOUT == LAYOUT_112
+in vec3 a_Position, a_InitialColor, a_EndColor;
+in float a_InitialSize, a_InitialLifetime, a_InitialOpacity, a_RemainLifetime, a_EndSize, a_EndOpacity;
+#elif FLOATS
+in vec3 a_Position;
+in float a_InitialLifetime, a_RemainLifetime, a_InitialSize, a_EndSize;
+in uint a_InitialColor, a_EndColor;
+#else
+in uint a_PositionXy, a_PositionZVelocityX, a_Lifetimes, a_InitialColor, a_EndColor;
+#if LAYOUT == LAYOUT_44 || LAYOUT == LAYOUT_40
+in uint a_Sizes;
+#else
+in float a_InitialSize, a_EndSize;
+#endif
+#endif
+
+uniform mat4 u_View, u_Projection;
+
+out vec4 out_Clip;
+out vec4 out_Tint;
+flat out uint out_Drawn;
+out vec2 out_TexelPlace;
+
+// Only what drawing needs.
+void load_instance() {
+    for (uint k = 0u; k < STRIDE; ++k)
+        w[k] = 0u;
+#if FLOATS
+    set_words(AT_POSITION, a_Position);
+    set_word(AT_LIFETIME, a_InitialLifetime);
+    set_word(AT_REMAINING, a_RemainLifetime);
+#else
+    w[0] = a_PositionXy;
+    w[1] = a_PositionZVelocityX;
+    w[3] = a_Lifetimes;
+#endif
+#if LAYOUT == LAYOUT_44 || LAYOUT == LAYOUT_40
+    w[AT_SIZES] = a_Sizes;
+#else
+    set_word(AT_SIZE, a_InitialSize);
+    set_word(AT_END_SIZE, a_EndSize);
+#endif
+#if LAYOUT == LAYOUT_112
+    set_words(12u, a_InitialColor);
+    set_word(11u, a_InitialOpacity);
+    set_words(16u, a_EndColor);
+    set_word(20u, a_EndOpacity);
+#else
+    w[AT_COLOR] = a_InitialColor;
+    w[AT_COLOR + 1u] = a_EndColor;
+#endif
+}
+
+void main() {
+    load_instance();
+    bool right = (gl_VertexID & 1) != 0, next = (gl_VertexID & 2) != 0;
+    vec2 corner = vec2(right ? 1.0 : -1.0, next ? 1.0 : -1.0);
+    out_Drawn = a_Kind;
+    vec3 seen;
+    if (a_Kind == 2u) {
+        seen = ls_flush3(next ? (right ? a_NextRight : a_NextLeft) : (right ? a_Right : a_Left));
+        out_TexelPlace = vec2(ls_flush(next ? a_U.y : a_U.x), right ? 1.0 : 0.0);
+    } else {
+        seen = ls_transform(u_View, position()).xyz;
+        float reach = mul(size_now(), 0.5);
+        seen.x = add(seen.x, mul(corner.x, reach));
+        seen.y = add(seen.y, mul(corner.y, reach));
+        out_TexelPlace = vec2(right ? 1.0 : 0.0, next ? 1.0 : 0.0);
+#if EXPIRED == EXPIRED_HIDDEN
+        if (!(remaining() > 0.0))
+            out_Drawn = 0u;
+#endif
+    }
+    out_Clip = ls_transform(u_Projection, seen);
+    out_Tint = color_now();
+    gl_Position = out_Clip;
+}

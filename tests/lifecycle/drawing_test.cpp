@@ -1,0 +1,104 @@
+#include "crosscheck/lifecycle/picture.hpp"
+#include "reference/model/lifecycle/drawing.hpp"
+#include "tests/lifecycle/lifecycle_run.hpp"
+
+using namespace lockstep;
+using namespace lockstep::test;
+namespace lifecycle = lockstep::lifecycle;
+namespace counter = lifecycle::counter;
+
+namespace {
+
+/// Sprites and a ribbon, some of them dead in the last frame.
+lifecycle::Settings both() {
+    lifecycle::Settings s;
+    s.camera.eye = {0.0F, 1.0F, 6.0F};
+    s.switches.time_code = lifecycle::TimeCode::half_seconds;
+    lifecycle::Emitter& sprites = s.emitters.front();
+    sprites.capacity = 300;
+    sprites.rate = 900.0;
+    sprites.lifetime = {0.1F, 0.3F};
+    sprites.direction_jitter = 0.5F;
+    sprites.size = {0.2F, 0.05F};
+    sprites.color = {glm::vec4(1.0F, 0.7F, 0.2F, 1.0F), glm::vec4(0.4F, 0.0F, 0.3F, 0.0F)};
+    lifecycle::Emitter ribbon = sprites;
+    ribbon.capacity = 40;
+    ribbon.rate = 120.0;
+    ribbon.path = {{0, {-1, 0, 0}}, {20, {1, 1, 0}}};
+    ribbon.draw = lifecycle::Emitter::Draw::ribbon;
+    s.emitters.push_back(ribbon);
+    return s;
+}
+
+/// After 20 frames, of the reference alone.
+SystemState state_of(const lifecycle::HostPtr& host) {
+    const System system = lifecycle::system(host);
+    ReferenceRun run = reference_of(system);
+    for (int frame = 0; frame < 20; ++frame)
+        run.step(frame);
+    return run.state();
+}
+
+} // namespace
+
+TEST_CASE("drawing: the corners of sprites and segments agree with their twin, from every layout") {
+    if (!gl())
+        return skip(gl().missing());
+    lifecycle::Settings s = both();
+    const int layout = GENERATE(0, 1, 3, 5, 6);
+    s.switches.layout = static_cast<lifecycle::Layout>(layout);
+    s.arithmetic = layout % 2 == 0 ? ArithmeticSwitch::exact : ArithmeticSwitch::plain;
+    const lifecycle::HostPtr host = host_of(s);
+    const SystemPicture picture = lifecycle::picture(host, state_of(host));
+    GlSystemSide side(gl(), picture.system, picture.passes, "shaders/lifecycle", s.arithmetic);
+    CheckOptions options;
+    options.frames = 1;
+    const CheckReport report = check(picture.system, side, options);
+    INFO(report_text(report, {}));
+    CHECK(report.verdict == Verdict::agree);
+}
+
+TEST_CASE("drawing: what is drawn are the living, and with expired=hidden none that has no time left") {
+    lifecycle::Settings s = both();
+    const auto drawn = [&](lifecycle::Expired expired, std::size_t& alive, std::size_t& dead) {
+        s.switches.expired = expired;
+        const lifecycle::HostPtr host = host_of(s);
+        const SystemState state = state_of(host);
+        const SystemPicture picture = lifecycle::picture(host, state);
+        ReferenceRun run = reference_of(picture.system);
+        run.step(0);
+        alive = state.view().word({lifecycle::counter_buffer, counter::alive}, 0);
+        dead = 0;
+        for (std::size_t i = 0; i < alive; ++i)
+            dead += (state.view().word(field_named(state.schema(), "lifetimes"), i) & 0x8000U) != 0 ? 1 : 0;
+        std::size_t count = 0;
+        for (std::size_t corner = 0; corner < 4 * s.emitters[0].capacity; corner += 4)
+            count += run.state().view().word({lifecycle::corner_buffer, 2}, corner);
+        return count;
+    };
+    std::size_t alive = 0, dead = 0;
+    CHECK(drawn(lifecycle::Expired::drawn, alive, dead) == alive);
+    CHECK(drawn(lifecycle::Expired::hidden, alive, dead) == alive - dead);
+    CHECK(dead > 0);
+}
+
+TEST_CASE("drawing: both sides' pictures are the same but for a few steps") {
+    if (!gl())
+        return skip(gl().missing());
+    const lifecycle::Settings s = both();
+    const lifecycle::HostPtr host = host_of(s);
+    const SystemPicture picture = lifecycle::picture(host, state_of(host));
+    ReferenceRun run = reference_of(picture.system);
+    run.step(0);
+    const ColorImage reference = picture.image(run.state().view());
+    GlSystemSide side(gl(), picture.system, picture.passes, "shaders/lifecycle", s.arithmetic);
+    side.upload(picture.system.start.view());
+    const ColorImage gpu = side.picture(0, 0, picture.how);
+    std::size_t lit = 0, off = 0;
+    for (std::size_t p = 0; p < gpu.texels.size(); ++p) {
+        lit += gpu.texels[p].r > picture.how.background.r + 20 ? 1 : 0;
+        off += std::abs(int{gpu.texels[p].r} - int{reference.texels[p].r}) > 12 ? 1 : 0;
+    }
+    CHECK(lit > 2000);
+    CHECK(off < lit / 50);
+}

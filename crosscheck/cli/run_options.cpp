@@ -121,8 +121,9 @@ Scene load(const RunOptions& options) {
 }
 
 void protect_inputs(const RunOptions& options, OutputFiles& files) {
-    for (const std::filesystem::path& file : scene_files(options.document.of(options.scene), options.scene))
-        files.protect(file);
+    if (!options.scene.empty()) // else a recording's
+        for (const std::filesystem::path& file : scene_files(options.document.of(options.scene), options.scene))
+            files.protect(file);
     files.protect(options.shaders);
 }
 

@@ -72,6 +72,8 @@ KnownOperations measured_operations(const Profile& profile) {
     known.normalize = (tables || errors.normalize == 0) && followed(profile, {"normalize"});
     known.subnormals = followed(profile, {"subnormal"});
     known.factors_reordered = !followed(profile, {"v*s*t", "v*s/t", "v/s*t"});
+    if (profile.any_order)
+        known.sums = known.divide = known.square_root = known.dot = known.normalize = false;
     known.raster = measured_raster(profile);
     known.points = known.raster.points() && known.raster.triangles();
     return known;

@@ -134,6 +134,8 @@ nlohmann::json profile_json(const Profile& profile) {
     for (const auto& [name, accurate] : accuracy_table)
         if (profile.*accurate)
             json[std::string(name)] = name_of(off_on, *(profile.*accurate));
+    if (profile.any_order)
+        json["any_order"] = name_of(off_on, true);
     if (profile.compute_flush_results)
         json["compute_flush_results"] = name_of(off_on, *profile.compute_flush_results);
     return json;
@@ -142,7 +144,7 @@ nlohmann::json profile_json(const Profile& profile) {
 Profile read_profile(const JsonValue& json) {
     json.check_keys({"name", "dot", "length_dot", "normalize_dot", "other_orders", "flush_subnormals",
                      "compute_flush_subnormals", "compute_flush_results", "raster", "ulp_errors", "not_followed",
-                     "point_window_accurate", "corner_window_accurate", "driver_converts"});
+                     "point_window_accurate", "corner_window_accurate", "driver_converts", "any_order"});
     Profile profile = base(json);
     read_named(json, "dot", dot_order_names(), profile.dot);
     read_orders(json, profile);
@@ -151,6 +153,7 @@ Profile read_profile(const JsonValue& json) {
         read_named(json, "compute_flush_results", off_on, *profile.compute_flush_results);
     }
     read_named(json, "flush_subnormals", off_on, profile.flush_subnormals);
+    read_named(json, "any_order", off_on, profile.any_order);
     read_named(json, "compute_flush_subnormals", off_on, profile.compute_flush_subnormals);
     for (const auto& [name, accurate] : accuracy_table) {
         if (json.find("raster")) // an older program's, which did not look

@@ -217,6 +217,26 @@ bool encodes(const std::filesystem::path& shaders, std::string_view pass) {
     return false;
 }
 
+/// Whether a stage that computes particles says `precise` of nothing; a copy of a shipped one says it.
+bool lacks_precise(const std::filesystem::path& shaders) {
+    constexpr std::pair<std::string_view, Stage> computing[] = {
+        {"collision_pass", Stage::vertex}, {"layered_collision_pass", Stage::vertex}, {"octree_pass", Stage::compute}};
+    return !shaders.empty() && std::any_of(std::begin(computing), std::end(computing), [&](const auto& of) {
+        const ShaderSource stage = load_stage(collision_shaders(shaders), of.first, of.second);
+        ShaderWords words(stage.text);
+        bool says = false;
+        while (words.next())
+            says = says || words.token() == "precise";
+        return !says;
+    });
+}
+
+/// Whether sums without `precise` are not the ones written.
+bool fuses_without_precise(const ProbeResult& result) {
+    const auto is_fused = [&](const char* row) { return result.has(row) && result.row(row).finding != "each rounded"; };
+    return is_fused("a*b+c") || is_fused("cross");
+}
+
 std::string errors_text(const OperationErrors& e) {
     const std::pair<const char*, std::int64_t> all[] = {{"a/b", e.divide},
                                                         {"1/b", e.reciprocal},
@@ -334,6 +354,7 @@ Profile measured_profile(const ProbeResult& result, const std::filesystem::path&
 Profile with_shaders(Profile profile, const ProbeResult& result, const std::filesystem::path& shaders) {
     profile.converts = {!encodes(shaders, "collision_pass"), !encodes(shaders, "obstacle_pass"),
                         !encodes(shaders, "obstacle_vertices")};
+    profile.any_order = fuses_without_precise(result) && lacks_precise(shaders);
     if (has_geometry_stage(shaders))
         return profile;
     // The rows of points behind a geometry stage say nothing of these points.
@@ -355,6 +376,8 @@ std::string describe(const Profile& profile) {
                     profile.raster.point_edge_to_lower ? "lower" : "upper");
     if (!profile.not_followed.empty())
         text += fmt::format("; not followed: {}", fmt::join(profile.not_followed, ", "));
+    if (profile.any_order)
+        text += "; sums in any order, since a stage says no precise";
     if (const KnownRaster known = measured_operations(profile).raster; !known.points() || !known.triangles())
         text +=
             known.point_window_accurate && known.corner_window_accurate && known.point_grid && known.triangle_grid

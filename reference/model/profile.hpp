@@ -102,6 +102,9 @@ struct Profile {
     /// Whether window coordinates were measured to err by no more than glsl_window_accuracy; null: nobody measured.
     std::optional<bool> point_window_accurate, corner_window_accurate;
     DriverConverts converts;
+    /// A stage that runs says `precise` of nothing, and the driver then fuses: + - * / and roots may be taken in any
+    /// order, and are held to GLSL's precision.
+    bool any_order = false;
     OperationErrors errors;
     /// The driver's own 1/x and inversesqrt, where division, square root and normalize were measured to be made of them
     /// (arithmetic DriverRoots); null: the reference rounds them correctly.

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <fstream>
+#include <iterator>
 #include <string>
 
 #include <nlohmann/json.hpp>
@@ -14,6 +15,7 @@
 #include "reference/known_operations.hpp"
 #include "reference/with_arithmetic.hpp"
 #include "tests/collision/collision_scenes.hpp"
+#include "tests/temporary_folder.hpp"
 
 using namespace lockstep;
 using namespace lockstep::test;
@@ -229,4 +231,29 @@ TEST_CASE("driver profiles: a triangle that the reference's grid makes a line of
     };
     CHECK(may_be_drawn(KnownOperations{}));
     CHECK_FALSE(may_be_drawn(KnownOperations::all()));
+}
+
+TEST_CASE("driver profiles: a stage without precise is held to no order where the driver fuses") {
+    ProbeResult result = probed("mesa_25_0_7");
+    const auto sums_known = [&](const TemporaryFolder& shaders) {
+        return measured_operations(with_shaders(profile_from(result), result, shaders.path())).sums;
+    };
+    const auto folder_with = [](const TemporaryFolder& folder, const char* file) {
+        std::ifstream text(std::string("tests/collision/right_shaders/") + file);
+        folder.write("collision_pass.vert", std::string(std::istreambuf_iterator<char>(text), {}));
+    };
+    const TemporaryFolder plain, precise, empty;
+    folder_with(plain, "no_precise.vert"); // it has the word in a comment
+    folder_with(precise, "precise.vert");
+    CHECK(sums_known(plain)); // this driver computes what is written
+    for (const char* fused : {"a*b+c", "cross"}) {
+        result = probed("mesa_25_0_7");
+        find(result, fused, "fused");
+        CHECK_FALSE(sums_known(plain));
+        CHECK(sums_known(precise));
+        CHECK(sums_known(empty));
+    }
+    const Profile open = with_shaders(profile_from(result), result, plain.path());
+    CHECK_FALSE(measured_operations(open).normalize);
+    CHECK(describe(open).find("since a stage says no precise") != std::string::npos);
 }

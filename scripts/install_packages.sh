@@ -30,7 +30,7 @@ tests=(
     libbenchmark-dev                              # benchmarks
     gnuplot-nox                                   # charts of lockstep study
     chromium                                      # the report page's tests
-    dpkg-dev                                      # Debian packages of lockstep
+    dpkg-dev file                                 # Debian packages of lockstep
     python3-numpy python3-h5py                    # the example that writes a trace; states that the page saved become one
 )
 

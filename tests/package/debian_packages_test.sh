@@ -3,7 +3,7 @@
 # Usage: debian_packages_test.sh SOURCE BUILD
 set -euo pipefail
 build=$2
-for tool in dpkg-deb dpkg-shlibdeps; do
+for tool in dpkg-deb dpkg-shlibdeps file; do
     command -v $tool >/dev/null || { echo "skipped: no $tool"; exit 77; }
 done
 folder=$(mktemp -d)

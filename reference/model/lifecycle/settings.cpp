@@ -38,7 +38,7 @@ void check(const Emitter& e, const Settings& settings, std::size_t at) {
     if (e.capacity < 1 || e.capacity > most_particles_of_emitter)
         fail(at, fmt::format("capacity is {}; right is 1 to {}", e.capacity, most_particles_of_emitter));
     if (!(e.rate >= 0.0 && e.rate * double{settings.tick} < most_a_frame))
-        fail(at, fmt::format("rate is {}; right is from 0 to 2^24 particles a tick", e.rate));
+        fail(at, fmt::format("rate is {}; right is from 0 to 2^24 particles a tick", static_cast<float>(e.rate)));
     for (const auto& [frame, count] : e.bursts)
         if (frame < 0 || count > 1U << 24U)
             fail(at, fmt::format("burst of {} in frame {}; right is at most 2^24, from frame 0 on", count, frame));

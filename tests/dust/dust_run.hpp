@@ -11,13 +11,9 @@
 #include "crosscheck/dust/system.hpp"
 #include "gpu/dust/passes.hpp"
 #include "reference/model/dust/schema.hpp"
+#include "tests/system_run.hpp"
 
 namespace lockstep::test {
-
-inline const Gl& gl() {
-    static const Gl one;
-    return one;
-}
 
 inline dust::HostPtr host_of(dust::Settings settings) {
     return std::make_shared<const dust::Host>(std::move(settings));
@@ -33,12 +29,7 @@ inline dust::Settings in_exact(dust::Settings settings) {
 inline CheckReport run_dust(const dust::Settings& settings, int frames, CheckMode mode = CheckMode::resync,
                             const std::string& shaders = "shaders/dust") {
     const dust::HostPtr host = host_of(settings);
-    const System system = dust::system(host);
-    GlSystemSide side(gl(), system, dust::passes(host), shaders, settings.arithmetic);
-    CheckOptions options;
-    options.frames = frames;
-    options.mode = mode;
-    return check(system, side, options);
+    return run_system(dust::system(host), dust::passes(host), shaders, settings.arithmetic, frames, mode);
 }
 
 } // namespace lockstep::test

@@ -1,71 +1,22 @@
-#include <algorithm>
 #include <cmath>
-#include <cstdlib>
 #include <cstring>
-#include <fstream>
 #include <functional>
-#include <iostream>
 #include <set>
-#include <sstream>
 #include <string>
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 #include <glm/matrix.hpp>
-#include <nlohmann/json.hpp>
 
 #include "reference/dust/sites.hpp"
 #include "tests/dust/dust_run.hpp"
-#include "tests/temporary_folder.hpp"
+#include "tests/text_mutants.hpp"
 
 using namespace lockstep;
 using namespace lockstep::test;
 namespace dust = lockstep::dust;
 
 namespace {
-
-/// A change of a kernel's text.
-struct Mutant {
-    std::string name, file, text, replacement;
-    int times = 1;
-    std::string cause;      ///< as a report names it; empty: no one change of the twin is the same
-    std::string equivalent; ///< why it is as right as the original in these runs; empty: it is to be found
-};
-
-std::vector<Mutant> catalogue() {
-    std::ifstream stream("tests/dust/mutants.json");
-    std::vector<Mutant> all;
-    for (const nlohmann::json& one : nlohmann::json::parse(stream))
-        all.push_back({one.at("name"), one.at("file"), one.at("text"), one.at("replacement"), one.value("times", 1),
-                       one.value("cause", ""), one.value("equivalent", "")});
-    return all;
-}
-
-std::string read(const std::filesystem::path& file) {
-    std::ostringstream text;
-    text << std::ifstream(file).rdbuf();
-    return text.str();
-}
-
-/// How often a text stands in another.
-int occurrences(const std::string& in, const std::string& text) {
-    int count = 0;
-    for (std::size_t at = in.find(text); at != std::string::npos; at = in.find(text, at + text.size()))
-        ++count;
-    return count;
-}
-
-/// The mutant's shaders in a folder of their own.
-void plant(const Mutant& mutant, const TemporaryFolder& folder) {
-    for (const auto& entry : std::filesystem::directory_iterator("shaders/dust")) {
-        std::string text = read(entry.path());
-        if (entry.path().filename() == mutant.file)
-            for (std::size_t at = text.find(mutant.text); at != std::string::npos;
-                 at = text.find(mutant.text, at + mutant.replacement.size()))
-                text.replace(at, mutant.text.size(), mutant.replacement);
-        std::ofstream(folder.path() / entry.path().filename()) << text;
-    }
-}
 
 /// Two rooms in which every kernel has something to do: turned boxes in one, axis-aligned ones in the other.
 dust::Settings room(bool aabb) {
@@ -112,109 +63,37 @@ dust::Settings nursery() {
 
 constexpr int frames = 50;
 
-struct Outcome {
-    std::string verdict = "AGREE";
-    std::vector<std::string> causes; ///< that explain everything, the likeliest first
-
-    [[nodiscard]] bool found() const { return verdict != "AGREE" && verdict != "LEGAL"; }
-};
-
-Outcome run_of(const std::string& shaders, const dust::Settings& settings) {
-    Outcome outcome;
-    try {
-        const CheckReport report = run_dust(settings, frames, CheckMode::resync, shaders);
-        outcome.verdict = report.verdict == Verdict::agree       ? "AGREE"
-                          : report.verdict == Verdict::legal     ? "LEGAL"
-                          : report.verdict == Verdict::divergent ? "DIVERGENT"
-                                                                 : "OTHER";
-        if (!report.verdicts)
-            return outcome;
-        for (const CauseFindings& found : report.verdicts->causes)
-            for (const Cause& cause : found.best) {
-                if (found.explains_all())
-                    outcome.causes.push_back(cause.name());
-                else if (std::getenv("LOCKSTEP_DUST_PARTS") != nullptr)
-                    outcome.causes.push_back(fmt::format("({} {}/{} -{})", cause.name(), cause.explained,
-                                                         found.divergent, cause.contradicted));
-            }
-    } catch (const Error& error) {
-        outcome.verdict = std::string("ERROR ") + error.what();
-    }
-    return outcome;
-}
-
-Outcome run_of(const Mutant& mutant) {
-    const TemporaryFolder folder;
-    plant(mutant, folder);
+/// In the first room that shows a difference.
+Outcome run_of(const std::string& shaders, const std::string&) {
     Outcome outcome;
     for (const dust::Settings& settings : {room(false), room(true), nursery()})
         if (!outcome.found())
-            outcome = run_of(folder.path().string(), settings);
+            outcome = outcome_of([&] { return run_dust(settings, frames, CheckMode::resync, shaders); });
     return outcome;
-}
-
-bool is_named(const Mutant& mutant, const Outcome& outcome) {
-    return std::find(outcome.causes.begin(), outcome.causes.end(), mutant.cause) != outcome.causes.end();
 }
 
 } // namespace
 
 TEST_CASE("dust mutants: each text stands in the shipped kernel as often as the catalogue says") {
-    std::set<std::string> names;
-    for (const Mutant& mutant : catalogue()) {
-        INFO(mutant.name);
-        CHECK(occurrences(read("shaders/dust/" + mutant.file), mutant.text) == mutant.times);
-        CHECK(names.insert(mutant.name).second);
-    }
-    CHECK(names.size() >= 60);
+    check_texts("dust");
 }
 
 TEST_CASE("dust mutants: some of each kernel are found and named, and the shipped kernels are not") {
     if (!gl())
         return skip(gl().missing());
-    for (const dust::Settings& settings : {room(false), room(true), nursery()})
-        CHECK(run_of("shaders/dust", settings).verdict == "AGREE");
-    const std::set<std::string> few{"stride_16_read",   "death_not_counted",     "death_not_atomic", "spawned_dead",
-                                    "cone_ignored",     "suction_reversed",      "emitted_all",      "wind_reversed",
-                                    "blast_not_fading", "gravity_missing",       "drag_reversed",    "sphere_far_side",
-                                    "faces_turned",     "box_velocity_as_point", "wall_path_uncut"};
-    std::size_t run = 0;
-    for (const Mutant& mutant : catalogue()) {
-        if (!few.contains(mutant.name))
-            continue;
-        ++run;
-        const Outcome outcome = run_of(mutant);
-        INFO(mutant.name << ": " << outcome.verdict);
-        CHECK(outcome.found());
-        CHECK((mutant.cause.empty() || is_named(mutant, outcome)));
-    }
-    CHECK(run == few.size());
+    CHECK(run_of("shaders/dust", "").verdict == "AGREE");
+    check_mutants("dust",
+                  {"stride_16_read", "death_not_counted", "death_not_atomic", "spawned_dead", "cone_ignored",
+                   "suction_reversed", "emitted_all", "wind_reversed", "blast_not_fading", "gravity_missing",
+                   "drag_reversed", "sphere_far_side", "faces_turned", "box_velocity_as_point", "wall_path_uncut"},
+                  run_of);
 }
 
 /// All of them, as a table: lockstep_tests_dust "[mutants]"
 TEST_CASE("dust mutants: the whole catalogue", "[.][mutants]") {
     if (!gl())
         return skip(gl().missing());
-    std::size_t wanted = 0, found = 0, to_name = 0, named = 0, false_alarms = 0;
-    const char* only = std::getenv("LOCKSTEP_DUST_MUTANT");
-    for (const Mutant& mutant : catalogue()) {
-        if (only != nullptr && mutant.name.find(only) == std::string::npos)
-            continue;
-        const Outcome outcome = run_of(mutant);
-        const bool is_wanted = mutant.equivalent.empty();
-        wanted += is_wanted ? 1 : 0;
-        found += is_wanted && outcome.found() ? 1 : 0;
-        false_alarms += !is_wanted && outcome.found() ? 1 : 0;
-        to_name += is_wanted && !mutant.cause.empty() ? 1 : 0;
-        named += is_wanted && !mutant.cause.empty() && is_named(mutant, outcome) ? 1 : 0;
-        std::cout << fmt::format("{:36} {:9} {}{}\n", mutant.name, outcome.verdict.substr(0, 90),
-                                 fmt::join(outcome.causes, " | "),
-                                 mutant.cause.empty() || is_named(mutant, outcome) ? "" : "   WANTED " + mutant.cause)
-                  << std::flush;
-        CHECK((outcome.found() || !is_wanted));
-    }
-    std::cout << fmt::format("{} of {} found, {} of {} named, {} false alarms\n", found, wanted, named, to_name,
-                             false_alarms);
+    check_catalogue("dust", run_of);
 }
 
 namespace {
@@ -495,18 +374,11 @@ TEST_CASE("dust mutants: what the host hands over wrongly is found, and in most 
         GlSystemSide side(gl(), system, std::move(passes), "shaders/dust");
         CheckOptions options;
         options.frames = frames;
-        const CheckReport report = check(system, side, options);
-        std::vector<std::string> causes;
-        for (const CauseFindings& found : report.verdicts->causes)
-            for (const Cause& cause : found.best)
-                if (found.explains_all())
-                    causes.push_back(cause.name());
-        with_cause += causes.empty() ? 0 : 1;
-        if (std::getenv("LOCKSTEP_DUST_PARTS") != nullptr)
-            std::cout << fmt::format("{:34} {}\n", mutant.name, fmt::join(causes, " | ")) << std::flush;
-        INFO(mutant.name << ": " << fmt::format("{}", fmt::join(causes, " | ")));
-        CHECK(report.verdict == Verdict::divergent);
-        CHECK((mutant.cause.empty() || std::count(causes.begin(), causes.end(), mutant.cause) > 0));
+        const Outcome outcome = outcome_of([&] { return check(system, side, options); });
+        with_cause += outcome.causes.empty() ? 0 : 1;
+        INFO(mutant.name << ": " << fmt::format("{}", fmt::join(outcome.causes, " | ")));
+        CHECK(outcome.verdict == "DIVERGENT");
+        CHECK((mutant.cause.empty() || outcome.names(mutant.cause)));
     }
     CHECK(with_cause >= 23);
 }

@@ -11,13 +11,9 @@
 #include "crosscheck/lifecycle/system.hpp"
 #include "gpu/lifecycle/passes.hpp"
 #include "reference/model/lifecycle/schema.hpp"
+#include "tests/system_run.hpp"
 
 namespace lockstep::test {
-
-inline const Gl& gl() {
-    static const Gl one;
-    return one;
-}
 
 inline lifecycle::HostPtr host_of(lifecycle::Settings settings) {
     return std::make_shared<const lifecycle::Host>(std::move(settings));
@@ -32,12 +28,7 @@ inline lifecycle::Settings in_exact(lifecycle::Settings settings) {
 inline CheckReport run_lifecycle(const lifecycle::Settings& settings, int frames, CheckMode mode = CheckMode::resync,
                                  const std::string& shaders = "shaders/lifecycle") {
     const lifecycle::HostPtr host = host_of(settings);
-    const System system = lifecycle::system(host);
-    GlSystemSide side(gl(), system, lifecycle::passes(host), shaders, settings.arithmetic);
-    CheckOptions options;
-    options.frames = frames;
-    options.mode = mode;
-    return check(system, side, options);
+    return run_system(lifecycle::system(host), lifecycle::passes(host), shaders, settings.arithmetic, frames, mode);
 }
 
 /// The reference alone.

@@ -7,6 +7,7 @@
 #include "crosscheck/lifecycle/mistakes.hpp"
 #include "crosscheck/lifecycle/picture.hpp"
 #include "crosscheck/lifecycle/scene.hpp"
+#include "crosscheck/scene/scene_fields.hpp"
 #include "gpu/lifecycle/passes.hpp"
 #include "reference/lifecycle/passes.hpp"
 #include "reference/model/lifecycle/schema.hpp"
@@ -16,18 +17,7 @@ namespace {
 
 /// What differs from the preset `corrected`, and where everyone may die though ages would say who.
 std::string text_of(const Host& host) {
-    std::string text;
-    const Switches corrected;
-    std::vector<int> usual;
-    for_each_switch(corrected,
-                    [&](std::string_view, auto value, const auto&) { usual.push_back(static_cast<int>(value)); });
-    std::size_t at = 0;
-    for_each_switch(
-        host.switches(), [&](std::string_view name, auto value, const std::vector<std::string_view>& names) {
-            if (static_cast<int>(value) != usual[at++])
-                text += fmt::format("{}{}={}", text.empty() ? "" : " ", name, names[static_cast<std::size_t>(value)]);
-        });
-    text = text.empty() ? "corrected" : "corrected, but " + text;
+    std::string text = differing_text(switch_values(host.switches()), switch_values(Switches()));
     for (const HostEmitter& of : host.emitters())
         if (host.switches().may_die != MayDie::all && of.dies == Dies::all)
             text += fmt::format("; of emitter {} anyone may die", of.number);

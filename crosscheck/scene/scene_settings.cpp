@@ -8,6 +8,7 @@
 #include <glm/geometric.hpp>
 
 #include "crosscheck/scene/scene_constants.hpp"
+#include "crosscheck/scene/scene_fields.hpp"
 #include "reference/model/collision/layered_cdt.hpp"
 #include "reference/model/error.hpp"
 #include "reference/model/near_name.hpp"
@@ -16,44 +17,13 @@ namespace lockstep {
 namespace {
 
 constexpr std::int64_t largest_image = 16384;
-constexpr NumberRule field_of_view{1.0, 179.0, "an angle from 1 to 179 degrees"};
-
-bool parallel(glm::vec3 a, glm::vec3 b) {
-    const glm::dvec3 normal = glm::cross(glm::normalize(glm::dvec3(a)), glm::normalize(glm::dvec3(b)));
-    return !(glm::length(normal) > 1e-6); // also when a or b is zero
-}
-
-Camera read_camera(const JsonValue& json) {
-    json.check_keys({"eye", "target", "up", "fov_y", "near", "far"});
-    Camera camera;
-    if (const auto eye = json.find("eye"))
-        camera.eye = eye->vector();
-    if (const auto target = json.find("target"))
-        camera.target = target->vector();
-    if (const auto up = json.find("up"))
-        camera.up = up->vector();
-    if (const auto fov_y = json.find("fov_y"))
-        camera.fov_y = fov_y->number(field_of_view);
-    if (const auto near = json.find("near"))
-        camera.near_plane = near->number(number::positive);
-    if (const auto far = json.find("far"))
-        camera.far_plane = far->number(number::positive);
-    if (camera.near_plane >= camera.far_plane)
-        json.fail(fmt::format("near {} is not below far {}", camera.near_plane, camera.far_plane));
-    if (parallel(camera.target - camera.eye, camera.up))
-        json.fail("eye, target and up lie on one line; the camera needs a direction of view and another one up");
-    return camera;
-}
-
 std::vector<CameraKey> read_camera_path(const JsonValue& json, const Camera& camera) {
     std::vector<CameraKey> path;
     for (const JsonValue& item : json.items()) {
         item.check_keys({"frame", "eye", "target"});
         CameraKey key{static_cast<int>(item.at("frame").integer(0, 1'000'000'000)), camera.eye, camera.target};
-        if (const auto eye = item.find("eye"))
-            key.eye = eye->vector();
-        if (const auto target = item.find("target"))
-            key.target = target->vector();
+        read_field(item, "eye", key.eye);
+        read_field(item, "target", key.target);
         if (!path.empty() && key.frame <= path.back().frame)
             item.fail(fmt::format("frame {} does not come after frame {}; keys are sorted by frame", key.frame,
                                   path.back().frame));

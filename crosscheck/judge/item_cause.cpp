@@ -42,7 +42,11 @@ std::vector<const NamedMistake*> of_pass(const std::vector<NamedMistake>& named,
 } // namespace
 
 ItemCauseFinder::ItemCauseFinder(const std::vector<NamedMistake>& named, std::string_view pass)
-    : named_(of_pass(named, pass, false)), joint_(of_pass(named, pass, true)) {}
+    : named_(of_pass(named, pass, false)), joint_(of_pass(named, pass, true)) {
+    for (const NamedMistake& one : named)
+        if (one.pass == pass && one.describes)
+            describing_.push_back({.mistake = one.mistake, .named = &one});
+}
 
 bool ItemCauseFinder::explains(const Hypothesis& hypothesis, const Trial& trial, std::size_t item) {
     using Host = Hypothesis::Host;
@@ -140,13 +144,16 @@ bool ItemCauseFinder::hold(Hypothesis& hypothesis, const Trial& trial, std::int6
             continue;
         ++hypothesis.explained;
         hypothesis.telling += trial.likeness.is_off_by_rounding(item) ? 0 : 1;
+        hypothesis.distinct += trial.described[item] != 0 ? 0 : 1;
     }
     if (!trial.divergent.empty() && hypothesis.explained == before)
         return true;
     for (const std::size_t item : trial.agreeing) {
         if (hypothesis.balance() < at_least)
             return false;
-        hypothesis.contradicted += explains(hypothesis, trial, item) ? 0 : 1;
+        const bool agrees = explains(hypothesis, trial, item);
+        hypothesis.contradicted += agrees ? 0 : 1;
+        hypothesis.distinct += agrees && trial.described[item] == 0 ? 1 : 0;
     }
     return hypothesis.balance() >= at_least;
 }
@@ -187,7 +194,8 @@ void ItemCauseFinder::try_all(const Trial& trial) {
             next.push_back(std::move(tried_[h]));
     tried_ = std::move(next);
     std::stable_sort(tried_.begin(), tried_.end(), [](const Hypothesis& a, const Hypothesis& b) {
-        return std::tuple(-a.balance(), a.rank()) < std::tuple(-b.balance(), b.rank());
+        return std::tuple(-a.balance(), a.distinct == 0, a.rank()) <
+               std::tuple(-b.balance(), b.distinct == 0, b.rank());
     });
 }
 
@@ -210,13 +218,21 @@ void ItemCauseFinder::try_single(const JudgedPass& pass, const std::vector<ItemV
                                        spread(agreeing_items(pass.gpu.count(), verdicts,
                                                              later ? agreeing_items_held / 4 : agreeing_items_held));
     const ItemLikeness likeness(pass);
+    std::vector<char> described(pass.gpu.count());
     const auto part = [&](std::size_t from, std::size_t to) {
         const auto of = [&](const std::vector<std::size_t>& all) {
             return std::span(all).subspan(std::min(from, all.size()),
                                           std::min(to, all.size()) - std::min(from, all.size()));
         };
-        return Trial{likeness, of(items), of(agreeing)};
+        return Trial{likeness, of(items), of(agreeing), described};
     };
+    for (const std::vector<std::size_t>& some : {items, agreeing})
+        parallel_blocks(static_cast<std::ptrdiff_t>(some.size()), [&](std::ptrdiff_t i) {
+            const std::size_t item = some[static_cast<std::size_t>(i)];
+            described[item] = std::any_of(describing_.begin(), describing_.end(), [&](const Hypothesis& description) {
+                return explains(description, Trial{likeness, {}, {}, {}}, item);
+            });
+        });
     if (first)
         tried_ = hypotheses(pass, sample(divergent, 16));
     if (later && tried_.size() > most_shown + 1)
@@ -226,7 +242,7 @@ void ItemCauseFinder::try_single(const JudgedPass& pass, const std::vector<ItemV
         try_all(part(first_items, agreeing_items_held));
 }
 
-CauseFindings ItemCauseFinder::of_single() const {
+CauseFindings ItemCauseFinder::of_single(bool beside_description) const {
     CauseFindings found;
     found.divergent = divergent_;
     for (const Hypothesis& hypothesis : tried_) {
@@ -234,6 +250,9 @@ CauseFindings ItemCauseFinder::of_single() const {
             break;
         // A formula that comes near must be seen where more than rounding shows.
         if (hypothesis.telling == 0 || (hypothesis.rounds() && 2 * hypothesis.telling < hypothesis.explained))
+            continue;
+        // What has no item to show that the description lacks is another word for it, and fails where that does.
+        if (hypothesis.distinct == 0 && !beside_description)
             continue;
         const bool named = hypothesis.named != nullptr;
         // A constant that fits a few is no evidence, nor is one of several that fit as well, but for those fitted.
@@ -267,8 +286,8 @@ CauseFindings ItemCauseFinder::of_single() const {
 
 CauseFindings ItemCauseFinder::findings() const {
     CauseFindings found = joint_.findings();
-    const CauseFindings single = of_single();
     const bool one_name = found.explains_all() && found.best.front().mistakes.size() == 1;
+    const CauseFindings single = of_single(one_name);
     if (!one_name) {
         // Among thousands of changes without a name one explains a few items by chance.
         if (single.explains_all() && (single.best.front().has_name || single.divergent >= enough_evidence))

@@ -49,7 +49,8 @@ class ItemCauseFinder {
         std::string text = {};                   ///< of one without a name; or the named one's constants
         std::array<std::uint8_t, 2> fields = {}; ///< of the host's mistake
         std::uint64_t explained = 0, contradicted = 0;
-        std::uint64_t telling = 0; ///< of those explained, which are off by more than rounding
+        std::uint64_t distinct = 0; ///< of those that it has right, which no description has
+        std::uint64_t telling = 0;  ///< of those explained, which are off by more than rounding
 
         /// Whether it need only come near: a formula may be written in other orders.
         [[nodiscard]] bool rounds() const { return mistake && (named == nullptr || named->rounds()); }
@@ -71,6 +72,7 @@ class ItemCauseFinder {
     struct Trial {
         const ItemLikeness& likeness;
         std::span<const std::size_t> divergent, agreeing;
+        std::span<const char> described; ///< by item: whether a mistake that only describes has its words
     };
     static void add_named(std::vector<Hypothesis>& all, const NamedMistake& named, const JudgedPass& pass,
                           const std::vector<std::size_t>& items);
@@ -80,9 +82,10 @@ class ItemCauseFinder {
     static bool hold(Hypothesis& hypothesis, const Trial& trial, std::int64_t at_least);
     void try_all(const Trial& trial);
     void try_single(const JudgedPass& pass, const std::vector<ItemVerdict>& verdicts);
-    [[nodiscard]] CauseFindings of_single() const;
+    [[nodiscard]] CauseFindings of_single(bool beside_description) const;
 
     std::vector<const NamedMistake*> named_; ///< those that NamedCauses does not try
+    std::vector<Hypothesis> describing_;     ///< those that say what is seen
     NamedCauses joint_;
     int frames_ = 0;
     std::uint64_t divergent_ = 0;

@@ -31,4 +31,14 @@ Billboard particle_billboard(glm::vec3 position, const FrameParams& params, cons
     });
 }
 
+std::optional<BillboardWindow> particle_window(glm::vec3 position, const FrameParams& params, const Profile& profile) {
+    const FlushSubnormals guard(profile.flush_subnormals);
+    const Billboard square = particle_billboard(position, params, profile);
+    if (!is_visible(square))
+        return {};
+    return with_arithmetic(profile, params.switches.arithmetic, [&](auto fp) {
+        return std::optional(billboard_window(fp, square, params.render_width, params.render_height));
+    });
+}
+
 } // namespace lockstep

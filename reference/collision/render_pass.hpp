@@ -1,5 +1,6 @@
 #pragma once
 #include <cstdint>
+#include <optional>
 
 #include "reference/collision/billboard.hpp"
 #include "reference/model/collision/particles.hpp"
@@ -36,5 +37,8 @@ RenderedFrame render_with_owners(const Particles& particles, const Mesh& obstacl
 
 /// The geometry shader's square for a particle at `position` (world space).
 Billboard particle_billboard(glm::vec3 position, const FrameParams& params, const Profile& profile);
+
+/// Where in the window it lies, pixels; nothing where none is emitted.
+std::optional<BillboardWindow> particle_window(glm::vec3 position, const FrameParams& params, const Profile& profile);
 
 } // namespace lockstep

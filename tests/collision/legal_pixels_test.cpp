@@ -84,6 +84,33 @@ TEST_CASE("legal pixels: a pixel inside a sphere has to show it, one outside may
     CHECK(outside.candidates[0].owner == PixelOwner());
 }
 
+TEST_CASE("legal pixels: what is drawn to a pixel is told with what hides it, and the rest is what may be seen") {
+    const Particles particles = at({{0, 0, 0}, {0.1F, 0.05F, 0.1F}, {-0.5F, 0.3F, 1.0F}, {0, 0, -2}});
+    const Mesh mesh{{{-1, -1, -0.5F}, {1, -1, 0}, {0, 1, 0.1F}}, {0, 1, 2}};
+    const FrameParams params = view();
+    const RenderInputs inputs{particles, mesh, params};
+    std::size_t hidden = 0;
+    for (std::size_t pixel = 0; pixel < 64 * 64; pixel += 3) {
+        INFO(pixel);
+        std::vector<PixelOwner> seen, legal;
+        for (const PixelFragment& fragment : pixel_fragments(inputs, Profile{}, glsl_alone, pixel))
+            if (!fragment.hidden_by)
+                seen.push_back(fragment.candidate.owner);
+            else
+                ++hidden;
+        const LegalPixel allowed = legal_pixels(inputs, Profile{}, glsl_alone, std::span(&pixel, 1)).front();
+        for (const PixelCandidate& c : allowed.candidates)
+            legal.push_back(c.owner);
+        CHECK(seen == legal);
+    }
+    CHECK(hidden > 500);
+    // Particle 1 is the nearest in the middle, and hides the triangle, which hides particle 3 too.
+    for (const PixelFragment& fragment : pixel_fragments(inputs, Profile{}, glsl_alone, 32 * 64 + 32))
+        if (fragment.candidate.owner != PixelOwner{PixelOwner::Kind::particle, 1})
+            CHECK(fragment.hidden_by == PixelOwner{PixelOwner::Kind::particle, 1});
+    CHECK(pixel_fragments(inputs, Profile{}, glsl_alone, 32 * 64 + 32).size() == 5);
+}
+
 TEST_CASE("legal pixels: a rim, or a side, through the pixel's centre leaves it to rounding") {
     // Half a side of the square is 5 pixels, and the centre of the sphere a pixel's.
     FrameParams params = view();

@@ -90,6 +90,25 @@ template <class Sites> class LegalPixels {
 
     /// Of pixels of the image, once it is as it is stored.
     std::vector<LegalPixel> at(std::span<const std::size_t> pixels) const {
+        const std::vector<Wanted> wanted = wanted_at(pixels);
+        std::vector<LegalPixel> legal(pixels.size());
+        const auto count = static_cast<std::ptrdiff_t>(pixels.size());
+#pragma omp parallel for schedule(dynamic, 64)
+        for (std::ptrdiff_t i = 0; i < count; ++i) {
+            const FlushSubnormals guard(known_.subnormals && profile_.flush_subnormals);
+            for (const PixelFragment& seen : fragments_of(wanted[static_cast<std::size_t>(i)], false))
+                legal[static_cast<std::size_t>(i)].candidates.push_back(seen.candidate);
+        }
+        return legal;
+    }
+
+    /// The same of one, with what is hidden.
+    std::vector<PixelFragment> fragments_at(std::size_t pixel) const {
+        return fragments_of(wanted_at(std::span(&pixel, 1)).front(), true);
+    }
+
+  private:
+    std::vector<Wanted> wanted_at(std::span<const std::size_t> pixels) const {
         std::vector<Wanted> wanted;
         Image<std::vector<std::int32_t>> slots(width_, height_);
         for (std::size_t i = 0; i < pixels.size(); ++i) {
@@ -119,17 +138,9 @@ template <class Sites> class LegalPixels {
                 for (int x = seen.columns.first_may; x < seen.columns.end_may; ++x)
                     each(x, y, [&](Wanted& pixel) { pixel.particles.push_back(i); });
         }
-        std::vector<LegalPixel> legal(pixels.size());
-        const auto count = static_cast<std::ptrdiff_t>(pixels.size());
-#pragma omp parallel for schedule(dynamic, 64)
-        for (std::ptrdiff_t i = 0; i < count; ++i) {
-            const FlushSubnormals guard(known_.subnormals && profile_.flush_subnormals);
-            legal[static_cast<std::size_t>(i)] = settled(wanted[static_cast<std::size_t>(i)]);
-        }
-        return legal;
+        return wanted;
     }
 
-  private:
     [[nodiscard]] Vec3<LegalNumber<A>> to_view(glm::vec3 position) const {
         const auto view = vertex_.transform(params_.render_view, vertex_.read(position));
         return {view.x, view.y, view.z};
@@ -190,7 +201,9 @@ template <class Sites> class LegalPixels {
                 std::min(end_may, size), middle(low_side),        middle(high_side)};
     }
 
-    [[nodiscard]] LegalPixel settled(const Wanted& wanted) const {
+    /// All that may be drawn to a pixel, in drawing order; of what is surely hidden, what hides it. `every`: hidden
+    /// ones too.
+    [[nodiscard]] std::vector<PixelFragment> fragments_of(const Wanted& wanted, bool every) const {
         struct Fragment {
             PixelCandidate candidate;
             Vec3<LegalNumber<A>> normal = {};
@@ -217,16 +230,21 @@ template <class Sites> class LegalPixels {
                 candidate.edge_margin = std::min(candidate.edge_margin, rim_margin(seen, wanted));
             fragments.push_back({candidate, at.normal});
         }
-        LegalPixel pixel;
-        for (Fragment& fragment : fragments)
-            if (std::none_of(fragments.begin(), fragments.end(), [&](const Fragment& other) {
-                    return &other != &fragment && other.candidate.sure &&
-                           hides(other.candidate, fragment.candidate, &other < &fragment);
-                })) {
-                color(fragment.candidate, fragment.normal, wanted.y);
-                pixel.candidates.push_back(fragment.candidate);
-            }
-        return pixel;
+        std::vector<PixelFragment> told;
+        for (Fragment& fragment : fragments) {
+            const Fragment* hider = nullptr;
+            for (const Fragment& other : fragments)
+                if (&other != &fragment && other.candidate.sure &&
+                    hides(other.candidate, fragment.candidate, &other < &fragment) &&
+                    (hider == nullptr || hides(other.candidate, hider->candidate, &other < hider)))
+                    hider = &other;
+            if (hider != nullptr && !every)
+                continue;
+            color(fragment.candidate, fragment.normal, wanted.y);
+            told.push_back(
+                {fragment.candidate, hider != nullptr ? std::optional(hider->candidate.owner) : std::nullopt});
+        }
+        return told;
     }
 
     [[nodiscard]] double rim_margin(const LegalSprite& sprite, const Wanted& pixel) const {
@@ -347,6 +365,15 @@ std::vector<LegalPixel> legal_pixels(const RenderInputs& inputs, const Profile& 
     const MistakenInputs mistaken(inputs, *mistake);
     return legal_of(MistakenSites(*mistake), mistaken.particles(), mistaken.obstacles(), mistaken.params(), profile,
                     known, pixels);
+}
+
+std::vector<PixelFragment> pixel_fragments(const RenderInputs& inputs, const Profile& profile,
+                                           const KnownOperations& known, std::size_t pixel) {
+    if (inputs.params.switches.arithmetic == ArithmeticSwitch::exact)
+        return {{exact_pixels(inputs, profile, std::span(&pixel, 1), {}).front().candidates.front(), {}}};
+    const FlushSubnormals guard(known.subnormals && profile.flush_subnormals);
+    return LegalPixels<RightSites>({}, inputs.particles, inputs.obstacles, inputs.params, profile, known)
+        .fragments_at(pixel);
 }
 
 } // namespace lockstep

@@ -31,6 +31,12 @@ struct LegalPixel {
     std::vector<PixelCandidate> candidates;
 };
 
+/// What may be drawn to a pixel.
+struct PixelFragment {
+    PixelCandidate candidate;
+    std::optional<PixelOwner> hidden_by; ///< surely, whatever the rounding; none: it may be seen
+};
+
 /// For each of `pixels` (row by row from the bottom), who may be seen there and how: triangles and billboards whose
 /// sides pass the pixel's centre, discs at their rim, depths that rounding can swap, and each candidate's colour in the
 /// sets that GLSL's precision rules allow. What is known of the driver is the reference's (KnownOperations), in the
@@ -38,5 +44,10 @@ struct LegalPixel {
 /// there is one candidate, the reference's. `mistake`: of the pass with that mistake, whose image may be turned.
 std::vector<LegalPixel> legal_pixels(const RenderInputs& inputs, const Profile& profile, const KnownOperations& known,
                                      std::span<const std::size_t> pixels, std::optional<RenderMistake> mistake = {});
+
+/// All that may be drawn to one pixel, in drawing order, the background first; with `arithmetic=exact` only what is
+/// seen. Those that nothing hides are its legal candidates.
+std::vector<PixelFragment> pixel_fragments(const RenderInputs& inputs, const Profile& profile,
+                                           const KnownOperations& known, std::size_t pixel);
 
 } // namespace lockstep

@@ -105,23 +105,28 @@ MistakenInputs::MistakenInputs(const RenderInputs& inputs, RenderMistake mistake
 }
 
 ColorImage mistaken_render_pass(const RenderInputs& inputs, const Profile& profile, RenderMistake mistake) {
+    return mistaken_render_with_owners(inputs, profile, mistake).color;
+}
+
+RenderedFrame mistaken_render_with_owners(const RenderInputs& inputs, const Profile& profile, RenderMistake mistake) {
     const FlushSubnormals guard(profile.flush_subnormals);
     const MistakenInputs mistaken(inputs, mistake);
     const MistakenSites sites(mistake);
     const int width = inputs.params.render_width, height = inputs.params.render_height;
-    const ColorImage drawn = with_plain_arithmetic(profile, inputs.params.switches.arithmetic, [&](auto fp) {
+    const RenderedFrame drawn = with_plain_arithmetic(profile, inputs.params.switches.arithmetic, [&](auto fp) {
         RenderDrawing drawing(fp, sites, mistaken.params(), profile);
         if (sites.draws_background())
             drawing.draw_background();
         drawing.draw_obstacles(mistaken.obstacles());
         drawing.draw_particles(mistaken.particles());
-        return drawing.take().color;
+        return drawing.take();
     });
-    ColorImage image(width, height);
+    RenderedFrame image{ColorImage(width, height), Image<PixelOwner>(width, height)};
     for (int y = 0; y < height; ++y)
         for (int x = 0; x < width; ++x) {
             const glm::ivec2 from = sites.source(x, y, width, height);
-            image.at(x, y) = drawn.at(from.x, from.y);
+            image.color.at(x, y) = drawn.color.at(from.x, from.y);
+            image.owner.at(x, y) = drawn.owner.at(from.x, from.y);
         }
     return image;
 }

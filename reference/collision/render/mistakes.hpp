@@ -211,4 +211,7 @@ class MistakenSites : public RightSites {
 /// The frame that the reference draws with that mistake.
 ColorImage mistaken_render_pass(const RenderInputs& inputs, const Profile& profile, RenderMistake mistake);
 
+/// The same, with whose each pixel is.
+RenderedFrame mistaken_render_with_owners(const RenderInputs& inputs, const Profile& profile, RenderMistake mistake);
+
 } // namespace lockstep

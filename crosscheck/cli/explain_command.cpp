@@ -13,7 +13,9 @@
 #include "crosscheck/collision/judge/frame_run.hpp"
 #include "crosscheck/collision/record/trace_side.hpp"
 #include "crosscheck/collision/report/explain_text.hpp"
+#include "crosscheck/collision/report/frame_images.hpp"
 #include "crosscheck/collision/report/named_items.hpp"
+#include "crosscheck/collision/report/pixel_text.hpp"
 #include "crosscheck/files/plain_text.hpp"
 #include "crosscheck/files/threads.hpp"
 #include "crosscheck/scene/profiles.hpp"
@@ -27,14 +29,26 @@ struct Options {
     RunOptions run;
     int frame = 0;
     std::filesystem::path trace; ///< instead of a scene and GL
-    std::optional<std::string> particle, texel, item;
+    std::optional<std::string> particle, texel, pixel, item;
     std::string pass;
     Legal legal = Legal::measured;
     bool hexadecimal = false;
 };
 
 std::size_t item_of(const Options& options, const Scene& scene) {
+    if (options.pixel)
+        return pixel_named(*options.pixel, scene);
     return options.particle ? particle_named(*options.particle, scene) : texel_named(*options.texel, scene);
+}
+
+std::string text_of(const Options& options, FrameRun& frames, std::size_t item, NumberFormat format) {
+    if (options.texel)
+        return explain_texel(frames, item, format);
+    if (!options.pixel)
+        return explain_particle(frames, item, format);
+    const JudgedFrame frame = frames.judged();
+    return explain_pixel(frames, render_on_gpu(frame.gpu, frames.scene(), frame.params, options.run.shaders), item,
+                         format);
 }
 
 void tell(const Options& options, FrameRun& frames, const std::string& file, const std::string& settings,
@@ -45,13 +59,12 @@ void tell(const Options& options, FrameRun& frames, const std::string& file, con
     const NumberFormat format = options.hexadecimal ? NumberFormat::hexadecimal : NumberFormat::decimal;
     fmt::print("scene     {} ({})\nswitches  {}\nGL        {}\nprofile   {}\n\n", scene.name, plain_line(file),
                settings, plain_line(renderer), describe(frames.profile()));
-    fmt::print(
-        "{}", plain_text(options.texel ? explain_texel(frames, item, format) : explain_particle(frames, item, format)));
+    fmt::print("{}", plain_text(text_of(options, frames, item, format)));
 }
 
 void explain_scene(const Options& options) {
     const Scene scene = load(options.run);
-    static_cast<void>(shaders_to_run(options.run, scene));
+    static_cast<void>(shaders_to_run(options.run, scene, options.pixel.has_value()));
     item_of(options, scene);
     const Context context(parse_context_request(options.run.gl));
     const Profile profile = measured_profile(context, options.run.shaders);
@@ -60,6 +73,8 @@ void explain_scene(const Options& options) {
 }
 
 void explain_trace(const Options& options) {
+    if (options.pixel)
+        throw Error("explain: --pixel needs a scene: no picture is in a recording; --particle and --texel go with one");
     start_threads(options.run.threads);
     TraceReader trace(options.trace);
     const TraceInfo& info = trace.info();
@@ -74,17 +89,17 @@ void explain_trace(const Options& options) {
 
 int run(const Options& options, const Call& call) {
     if (const RegisteredSystem* system = options.trace.empty() ? system_of(options.run) : nullptr) {
-        if (!options.item || options.particle || options.texel)
+        if (!options.item || options.particle || options.texel || options.pixel)
             throw Error(fmt::format("explain: of a scene of system {}, --item I is needed", name_of(*system)));
         return explain_system(*system, options.run,
                               {options.frame, options.pass, *options.item, options.legal, options.hexadecimal});
     }
     if (options.item || !options.pass.empty())
-        throw Error(fmt::format("explain: --item and --pass do not go with a scene of system {}; --particle and "
-                                "--texel do",
+        throw Error(fmt::format("explain: --item and --pass do not go with a scene of system {}; --particle, --texel "
+                                "and --pixel do",
                                 default_system));
-    if (options.particle.has_value() == options.texel.has_value())
-        throw Error("explain: either --particle I or --texel X,Y is needed");
+    if (int{options.particle.has_value()} + int{options.texel.has_value()} + int{options.pixel.has_value()} != 1)
+        throw Error("explain: one of --particle I, --texel X,Y and --pixel X,Y is needed");
     check_scene_or_trace(call, options.run, options.trace);
     if (options.trace.empty())
         explain_scene(options);
@@ -97,7 +112,7 @@ int run(const Options& options, const Call& call) {
 
 Verb explain_command() {
     auto options = std::make_shared<Options>();
-    Verb verb{"explain", "both sides of one particle or texel in one frame, step by step"};
+    Verb verb{"explain", "both sides of one particle, texel or pixel in one frame, step by step"};
     add_scene_options(verb, options->run, SceneArgument::optional);
     add_gl_options(verb, options->run);
     add_trace_option(verb, options->trace);
@@ -105,6 +120,8 @@ Verb explain_command() {
     verb.add(text_option("--particle", "I", options->particle, "the particle"));
     verb.add(
         text_option("--texel", "X,Y", options->texel, "the texel of the CDT, column and row from the bottom left"));
+    verb.add(text_option("--pixel", "X,Y", options->pixel,
+                         "the pixel of the rendered frame, column and row from the bottom left"));
     verb.add(text_option("--item", "I", options->item, "the item, of a scene of another system"));
     verb.add(text_option("--pass", "NAME", options->pass, "of which pass, there; else the first"));
     add_legal_option(verb, options->legal);

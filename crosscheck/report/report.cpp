@@ -152,10 +152,6 @@ std::string verdict_line(const CheckReport& r) {
                        verdict_name(*r.state_verdict), state);
 }
 
-std::string color_text(Rgba8 c) {
-    return fmt::format("#{:02x}{:02x}{:02x}{}", c.r, c.g, c.b, c.a == 255 ? "" : fmt::format(" alpha {}", c.a));
-}
-
 std::string first_pixel_text(const RenderVerdict& r) {
     const auto width = static_cast<std::size_t>(r.width);
     return fmt::format("pixel ({}, {}): reference {} of {}, GPU {}", r.first->index % width, r.first->index / width,
@@ -303,8 +299,11 @@ std::string report_text(const CheckReport& r, const RunDescription& run) {
     for (const std::string& note : run.notes)
         line("note", note);
     line("verdict", verdict_line(r));
-    if (r.total.agree())
+    if (r.total.agree()) {
+        if (!run.explain.empty())
+            line("", fmt::format("again: {}", run.explain));
         return r.state_verdict ? out + fmt::format("\nrepeat    {}\n", run.repeat) : out;
+    }
     if (r.verdict == Verdict::divergent && r.wider_rule && !(r.verdicts && tells_cause(*r.verdicts)))
         line("hint",
              fmt::format(

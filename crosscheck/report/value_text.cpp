@@ -49,4 +49,8 @@ std::string difference_text(const Schema& schema, const Difference& difference) 
                        exact_text(difference.reference), exact_text(difference.gpu));
 }
 
+std::string color_text(Rgba8 c) {
+    return fmt::format("#{:02x}{:02x}{:02x}{}", c.r, c.g, c.b, c.a == 255 ? "" : fmt::format(" alpha {}", c.a));
+}
+
 } // namespace lockstep

@@ -5,6 +5,7 @@
 #include <nlohmann/json_fwd.hpp>
 
 #include "crosscheck/judge/compare.hpp"
+#include "reference/model/image.hpp"
 
 namespace lockstep {
 
@@ -31,5 +32,8 @@ bool of_other_sign(float reference, float gpu, std::int64_t ulp);
 
 /// "position.x: reference 0x1p+0, GPU 0x1.000002p+0".
 std::string difference_text(const Schema& schema, const Difference& difference);
+
+/// "#3a6bd2", or with an alpha that is not 255 "#3a6bd2 alpha 0".
+std::string color_text(Rgba8 color);
 
 } // namespace lockstep

@@ -72,7 +72,7 @@ TEST_CASE("arguments: an unknown option, or a missing one, is named") {
         {{"check"}, "check: a scene or --trace FILE is needed"},
         {{"debug"}, "scene is required" + help},
         {{"report"}, "trace is required" + help},
-        {{"explain", "--frame", "3"}, "explain: either --particle I or --texel X,Y is needed"},
+        {{"explain", "--frame", "3"}, "explain: one of --particle I, --texel X,Y and --pixel X,Y is needed"},
         {{"explain", "--frame", "3", "--particle", "1"}, "explain: a scene or --trace FILE is needed"},
         {{"render", scene}, "--output is required" + help},
         {{"check", scene, "--frames"}, "--frames needs a value" + help},

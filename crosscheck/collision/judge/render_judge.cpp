@@ -35,31 +35,6 @@ template <class Visit> void for_each_legal(const RenderInputs& inputs, const Pro
     }
 }
 
-DifferenceClass class_of(const LegalPixel& legal, const PixelOwner& reference, Rgba8 gpu) {
-    DifferenceClass found = DifferenceClass::divergent;
-    for (const PixelCandidate& candidate : legal.candidates) {
-        if (!candidate.may_be(gpu))
-            continue;
-        const bool same = candidate.owner == reference;
-        found = std::min(found, candidate.open ? DifferenceClass::undefined
-                                : same         ? DifferenceClass::rounding
-                                               : DifferenceClass::tie);
-    }
-    return found;
-}
-
-std::string owner_text(const PixelOwner& owner) {
-    switch (owner.kind) {
-    case PixelOwner::Kind::background:
-        return "the background";
-    case PixelOwner::Kind::obstacle:
-        return fmt::format("triangle {} of the obstacles", owner.index);
-    case PixelOwner::Kind::particle:
-        return fmt::format("particle {}", owner.index);
-    }
-    return "";
-}
-
 bool known_inputs(const RenderInputs& inputs, RenderMistake mistake) {
     return (mistake != RenderMistake::state_of_earlier_frame || inputs.earlier != nullptr) &&
            (mistake != RenderMistake::view_of_earlier_frame || inputs.earlier_params != nullptr);
@@ -86,6 +61,31 @@ bool explains(const RenderInputs& inputs, const Profile& profile, const KnownOpe
 
 } // namespace
 
+std::string owner_text(const PixelOwner& owner) {
+    switch (owner.kind) {
+    case PixelOwner::Kind::background:
+        return "the background";
+    case PixelOwner::Kind::obstacle:
+        return fmt::format("triangle {} of the obstacles", owner.index);
+    case PixelOwner::Kind::particle:
+        return fmt::format("particle {}", owner.index);
+    }
+    return "";
+}
+
+DifferenceClass pixel_class(const LegalPixel& legal, const PixelOwner& reference, Rgba8 gpu) {
+    DifferenceClass found = DifferenceClass::divergent;
+    for (const PixelCandidate& candidate : legal.candidates) {
+        if (!candidate.may_be(gpu))
+            continue;
+        const bool same = candidate.owner == reference;
+        found = std::min(found, candidate.open ? DifferenceClass::undefined
+                                : same         ? DifferenceClass::rounding
+                                               : DifferenceClass::tie);
+    }
+    return found;
+}
+
 RenderVerdict judge_render(const RenderInputs& inputs, const Profile& profile, const KnownOperations& known,
                            const ColorImage& gpu) {
     const RenderedFrame reference = render_with_owners(inputs.particles, inputs.obstacles, inputs.params, profile);
@@ -103,7 +103,7 @@ RenderVerdict judge_render(const RenderInputs& inputs, const Profile& profile, c
     DifferenceClass worst = DifferenceClass::tie;
     for_each_legal(inputs, profile, known, differing, {}, [&](std::size_t pixel, const LegalPixel& legal) {
         const PixelOwner owner = reference.owner.texels[pixel];
-        const DifferenceClass kind = class_of(legal, owner, gpu.texels[pixel]);
+        const DifferenceClass kind = pixel_class(legal, owner, gpu.texels[pixel]);
         ++verdict.classes[static_cast<std::size_t>(kind)];
         if (kind <= worst)
             return;

@@ -4,6 +4,7 @@
 #include <cstdint>
 
 #include <fmt/format.h>
+#include <glm/vec2.hpp>
 
 #include "reference/model/error.hpp"
 
@@ -18,6 +19,16 @@ std::int64_t integer(std::string_view text) {
     return status == std::errc{} && rest == end ? value : -1;
 }
 
+std::size_t place_named(std::string_view text, glm::ivec2 size, std::string_view item, std::string_view image) {
+    const std::size_t comma = text.find(',');
+    const std::int64_t x = integer(text.substr(0, comma));
+    const std::int64_t y = comma == std::string_view::npos ? -1 : integer(text.substr(comma + 1));
+    if (x < 0 || y < 0 || x >= size.x || y >= size.y)
+        throw Error(
+            fmt::format("there is no {} '{}'; the {} has 0,0 to {},{}", item, text, image, size.x - 1, size.y - 1));
+    return static_cast<std::size_t>(y) * static_cast<std::size_t>(size.x) + static_cast<std::size_t>(x);
+}
+
 } // namespace
 
 std::size_t particle_named(std::string_view text, const Scene& scene) {
@@ -29,13 +40,11 @@ std::size_t particle_named(std::string_view text, const Scene& scene) {
 }
 
 std::size_t texel_named(std::string_view text, const Scene& scene) {
-    const std::size_t comma = text.find(',');
-    const std::int64_t x = integer(text.substr(0, comma));
-    const std::int64_t y = comma == std::string_view::npos ? -1 : integer(text.substr(comma + 1));
-    if (x < 0 || y < 0 || x >= scene.width || y >= scene.height)
-        throw Error(
-            fmt::format("there is no texel '{}'; the CDT has 0,0 to {},{}", text, scene.width - 1, scene.height - 1));
-    return static_cast<std::size_t>(y) * static_cast<std::size_t>(scene.width) + static_cast<std::size_t>(x);
+    return place_named(text, {scene.width, scene.height}, "texel", "CDT");
+}
+
+std::size_t pixel_named(std::string_view text, const Scene& scene) {
+    return place_named(text, {scene.render_width, scene.render_height}, "pixel", "rendered frame");
 }
 
 } // namespace lockstep

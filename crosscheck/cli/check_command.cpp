@@ -71,8 +71,8 @@ std::string repeat_line(const Options& options, int frames) {
     return line + pass_options_text(options.rules) + (options.no_render ? " --no-render" : "");
 }
 
-std::string explain_line(const Options& options, const Place& place, int width) {
-    const std::string at = place_arguments(place, collision_schema(), width);
+/// `at`: "--frame 3 --particle 17".
+std::string explain_line(const Options& options, const std::string& at) {
     return (options.trace.empty() ? command_line("explain", options.run, at)
                                   : fmt::format("lockstep explain --trace {} {}", shell_path(options.trace), at)) +
            legal_option_text(options.legal);
@@ -171,8 +171,9 @@ SecondLook look_again(const Options& options, const Checked& checked, const std:
     for (const PageItem& item : items)
         look.items.push_back(
             {item,
-             explain_line(options, {item.frame, item.texel ? collision::cdt : collision::particles, item.index},
-                          scene.width),
+             explain_line(options,
+                          place_arguments({item.frame, item.texel ? collision::cdt : collision::particles, item.index},
+                                          collision_schema(), scene.width)),
              explanation(item)});
     return look;
 }
@@ -180,6 +181,7 @@ SecondLook look_again(const Options& options, const Checked& checked, const std:
 RunDescription description(const Options& options, const Checked& checked, const CheckReport& report) {
     const bool free = options.mode == CheckMode::free;
     const bool whole = !report.first_frame || report.state_verdict; // the rendered frame is the last
+    const std::string first = first_arguments(report, checked.scene.width);
     const int repeat_frames = whole ? report.frames : *report.first_frame + 1;
     return {fmt::format("{} ({})", checked.scene.name, plain_line(checked.file)),
             checked.context,
@@ -188,9 +190,7 @@ RunDescription description(const Options& options, const Checked& checked, const
             free ? "free" : "resync",
             checked.scene.width,
             repeat_line(options, repeat_frames),
-            report.verdicts && report.verdicts->first
-                ? explain_line(options, report.verdicts->first->place, checked.scene.width)
-                : std::string(),
+            first.empty() ? first : explain_line(options, first),
             checked.notes,
             checked.shaders,
             checked.recorded_shaders.empty() ? "not in the recording" : "recorded: " + checked.recorded_shaders,

@@ -49,11 +49,11 @@ class CommandLines {
     }
 
     [[nodiscard]] std::string explain(const CheckReport& report) const {
-        if (!program_can() || !report.verdicts || !report.verdicts->first)
+        const std::string first = first_arguments(report, scene_.width);
+        if (!program_can() || first.empty())
             return "";
-        return fmt::format("lockstep explain {} {}{}{}", scene_.origin,
-                           place_arguments(report.verdicts->first->place, report.schema, scene_.width),
-                           *side_.arguments, legal_option_text(options_.legal));
+        return fmt::format("lockstep explain {} {}{}{}", scene_.origin, first, *side_.arguments,
+                           legal_option_text(options_.legal));
     }
 
   private:
@@ -112,6 +112,7 @@ MatchResult match_reference(GpuSide& gpu, const Scene& scene, const MatchOptions
         read_side(gpu, scene, last);
         add_rendered(report, judge_rendered(last, nullptr, scene, report.frames - 1, side.profile, *check_options.known,
                                             shaders->folder()));
+        run.explain = commands.explain(report);
     }
     const bool passed = passes(report, rules(options));
     return {std::move(report), std::move(run), passed};

@@ -13,4 +13,14 @@ std::string place_arguments(const Place& place, const Schema& schema, int width)
     return fmt::format("--frame {} --{} {}", place.frame, resource.item, item);
 }
 
+std::string first_arguments(const CheckReport& report, int width) {
+    if (report.verdicts && report.verdicts->first)
+        return place_arguments(report.verdicts->first->place, report.schema, width);
+    if (!report.rendered || !report.rendered->first)
+        return "";
+    const auto columns = static_cast<std::size_t>(report.rendered->width);
+    const std::size_t pixel = report.rendered->first->index;
+    return fmt::format("--frame {} --pixel {},{}", report.rendered->frame, pixel % columns, pixel / columns);
+}
+
 } // namespace lockstep

@@ -116,9 +116,10 @@ TEST_CASE("explain_command: what cannot be explained is told in one line") {
     CHECK(told({"--particle", "1"}) == "--frame is required (lockstep --help tells more)");
     CHECK(told({"--frame", "-1", "--particle", "1"}) ==
           "--frame: '-1' is not an integer from 0 to 100000000 (lockstep --help tells more)");
-    CHECK(told({"--frame", "1"}) == "explain: either --particle I or --texel X,Y is needed");
-    CHECK(told({"--frame", "1", "--particle", "1", "--texel", "1,1"}) ==
-          "explain: either --particle I or --texel X,Y is needed");
+    const std::string one = "explain: one of --particle I, --texel X,Y and --pixel X,Y is needed";
+    CHECK(told({"--frame", "1"}) == one);
+    CHECK(told({"--frame", "1", "--particle", "1", "--texel", "1,1"}) == one);
+    CHECK(told({"--frame", "1", "--pixel", "1,1", "--texel", "1,1"}) == one);
     CHECK(told({"--frame", "1", "--particle", "1", "--legal", "loose"}) ==
           "--legal: 'loose' is not one of measured, glsl, any_order (lockstep --help tells more)");
     for (const char* wrong : {"300", "-1", "x", "1.5", ""})
@@ -127,6 +128,57 @@ TEST_CASE("explain_command: what cannot be explained is told in one line") {
     for (const char* wrong : {"64,0", "0,48", "-1,0", "3", "3,", ",3", "1,2,3", "a,b", "1, 2"})
         CHECK(told({"--frame", "1", "--texel", wrong}) ==
               "there is no texel '" + std::string(wrong) + "'; the CDT has 0,0 to 63,47");
+    for (const char* wrong : {"40,0", "0,30", "-1,0", "3", "3,", ",3", "1,2,3", "a,b", "1, 2"})
+        CHECK(told({"--frame", "1", "--pixel", wrong}) ==
+              "there is no pixel '" + std::string(wrong) + "'; the rendered frame has 0,0 to 39,29");
+    CHECK(refusal(run_lockstep({"explain", "--trace", "run.h5", "--frame", "1", "--pixel", "1,1"})) ==
+          "explain: --pixel needs a scene: no picture is in a recording; --particle and --texel go with one");
+}
+
+TEST_CASE("explain_command: a pixel of the rendered frame, with what is drawn there") {
+    if (!test::have_software_gl())
+        return;
+    const Setting setting;
+    const test::Outcome empty = setting.explain({"--frame", "2", "--pixel", "0,0"});
+    CHECK(empty.status == 0);
+    CHECK(empty.err.empty());
+    CHECK_THAT(empty.out, Catch::Contains("pixel (0, 0) in frame 2: every bit agrees") &&
+                              Catch::Contains("the background") && Catch::Contains("beside it: particle "));
+    CHECK_THAT(setting.explain({"--frame", "2", "--pixel", "39,29", "--hex"}).out, Catch::Contains("depth 0x1p+0"));
+}
+
+TEST_CASE("explain_command: check names the command of the rendered frame's first divergent pixel, and it the cause") {
+    if (!test::have_software_gl())
+        return;
+    Setting setting;
+    std::string large = test::small_scene;
+    large.replace(large.find("\"collision_range\""), 0, "\"billboard_radius\": 0.06, ");
+    setting.folder.write("scene.json", large);
+    const auto cause = [&] {
+        const test::Outcome check = run_lockstep({"check", setting.scene, "--frames", "3", "--gl", test::software_gl(),
+                                                  "--shaders", setting.shaders.path()});
+        CHECK(check.status == 1);
+        const std::string again = after(check.out, "again: ");
+        CHECK_THAT(again, Catch::Contains(" --frame 2 --pixel "));
+        const test::Outcome outcome = run_lockstep(words(again));
+        CHECK(outcome.status == 0);
+        CHECK_THAT(outcome.out, Catch::Contains(" in frame 2: divergent\n"));
+        return after(outcome.out, "cause     ");
+    };
+    SECTION("squares of half the size") {
+        test::plant(setting.shaders, "render_pass.geom", "gl_Position = vec4((i & 1) == 0 ? low.x : high.x,",
+                    "vec2 q = (high.xy - low.xy) * 0.25; if (i == 0) { low.xy += q; high.xy -= q; }\n"
+                    "gl_Position = vec4((i & 1) == 0 ? low.x : high.x,");
+        CHECK_THAT(cause(), Catch::StartsWith("quads_half_size: ") && Catch::EndsWith(", as the GPU does"));
+    }
+    SECTION("nothing emitted") {
+        test::plant(setting.shaders, "render_pass.geom", "EmitVertex();", "");
+        CHECK_THAT(cause(), Catch::StartsWith("sprites_not_drawn: "));
+    }
+    SECTION("the depth of the sphere's centre") {
+        test::plant(setting.shaders, "render_pass.frag", "g_Centre.z + normal.z * u_BillboardRadius", "g_Centre.z");
+        CHECK_THAT(cause(), Catch::StartsWith("sphere_is_flat_in_depth: "));
+    }
 }
 
 TEST_CASE("explain_command: a step of the octree, and one with remedies, value by value along its twin") {

@@ -60,26 +60,27 @@ TEST_CASE("drawing: the corners of sprites and segments agree with their twin, f
 
 TEST_CASE("drawing: what is drawn are the living, and with expired=hidden none that has no time left") {
     lifecycle::Settings s = both();
-    const auto drawn = [&](lifecycle::Expired expired, std::size_t& alive, std::size_t& dead) {
+    struct Counts {
+        std::size_t alive = 0, dead = 0, drawn = 0;
+    };
+    const auto counts = [&](lifecycle::Expired expired) {
         s.switches.expired = expired;
         const lifecycle::HostPtr host = host_of(s);
         const SystemState state = state_of(host);
         const SystemPicture picture = lifecycle::picture(host, state);
         ReferenceRun run = reference_of(picture.system);
         run.step(0);
-        alive = state.view().word({lifecycle::counter_buffer, counter::alive}, 0);
-        dead = 0;
-        for (std::size_t i = 0; i < alive; ++i)
-            dead += (state.view().word(field_named(state.schema(), "lifetimes"), i) & 0x8000U) != 0 ? 1 : 0;
-        std::size_t count = 0;
+        Counts of{.alive = state.view().word({lifecycle::counter_buffer, counter::alive}, 0)};
+        for (std::size_t i = 0; i < of.alive; ++i)
+            of.dead += (state.view().word(field_named(state.schema(), "lifetimes"), i) & 0x8000U) != 0 ? 1 : 0;
         for (std::size_t corner = 0; corner < 4 * s.emitters[0].capacity; corner += 4)
-            count += run.state().view().word({lifecycle::corner_buffer, 2}, corner);
-        return count;
+            of.drawn += run.state().view().word({lifecycle::corner_buffer, 2}, corner);
+        return of;
     };
-    std::size_t alive = 0, dead = 0;
-    CHECK(drawn(lifecycle::Expired::drawn, alive, dead) == alive);
-    CHECK(drawn(lifecycle::Expired::hidden, alive, dead) == alive - dead);
-    CHECK(dead > 0);
+    const Counts all = counts(lifecycle::Expired::drawn), living = counts(lifecycle::Expired::hidden);
+    CHECK(all.drawn == all.alive);
+    CHECK(living.drawn == living.alive - living.dead);
+    CHECK(living.dead > 0);
 }
 
 TEST_CASE("drawing: both sides' pictures are the same but for a few steps") {

@@ -26,7 +26,40 @@ constexpr std::pair<std::string_view, bool KnownOperations::*> known_table[] = {
     {"normalize", &KnownOperations::normalize},
     {"subnormals", &KnownOperations::subnormals},
     {"points", &KnownOperations::points},
-    {"factors_reordered", &KnownOperations::factors_reordered}};
+    {"factors_reordered", &KnownOperations::factors_reordered},
+    {"interpolation", &KnownOperations::interpolation}};
+
+constexpr std::pair<std::string_view, bool KnownRaster::*> raster_table[] = {
+    {"point_window", &KnownRaster::point_window},
+    {"point_grid", &KnownRaster::point_grid},
+    {"point_edges", &KnownRaster::point_edges},
+    {"point_depth", &KnownRaster::point_depth},
+    {"triangle_window", &KnownRaster::triangle_window},
+    {"triangle_grid", &KnownRaster::triangle_grid},
+    {"triangle_sides", &KnownRaster::triangle_sides},
+    {"point_window_accurate", &KnownRaster::point_window_accurate},
+    {"corner_window_accurate", &KnownRaster::corner_window_accurate}};
+
+/// What is known unless it is said that it is not.
+constexpr std::pair<std::string_view, bool KnownRaster::*> unknown_table[] = {
+    {"equal_depth_unknown", &KnownRaster::equal_depth}, {"gl_grid_unknown", &KnownRaster::gl_grid}};
+
+constexpr std::pair<std::string_view, bool DriverConverts::*> converts_table[] = {
+    {"converts_particles", &DriverConverts::particles},
+    {"converts_triangles", &DriverConverts::triangles},
+    {"converts_vertices", &DriverConverts::vertices}};
+
+/// Calls visit(name, value, value when the name stands in the list) for all of `known`, the values by reference.
+template <class Known, class Visit> void for_each_known(Known& known, const Visit& visit) {
+    for (const auto& [name, operation] : known_table)
+        visit(name, known.*operation, true);
+    for (const auto& [name, part] : raster_table)
+        visit(name, known.raster.*part, true);
+    for (const auto& [name, part] : unknown_table)
+        visit(name, known.raster.*part, false);
+    for (const auto& [name, kind] : converts_table)
+        visit(name, known.converts.*kind, true);
+}
 
 /// Index and value of what was looked up in a table.
 using Lookups = std::map<std::size_t, float>;
@@ -73,19 +106,24 @@ std::vector<std::uint32_t> read_words(const JsonValue& value, std::size_t count)
 
 json known_json(const KnownOperations& known) {
     json list = json::array();
-    for (const auto& [name, operation] : known_table)
-        if (known.*operation)
+    for_each_known(known, [&](std::string_view name, bool value, bool if_listed) {
+        if (value == if_listed)
             list.push_back(name);
+    });
     return list;
 }
 
 KnownOperations read_known(const JsonValue& value) {
     KnownOperations known{.sums = false};
     std::vector<std::string_view> names;
-    for (const auto& [name, operation] : known_table)
-        names.push_back(name);
-    for (const JsonValue& item : value.items())
-        known.*known_table[item.choice(names)].second = true;
+    for_each_known(known, [&](std::string_view name, bool, bool) { names.push_back(name); });
+    for (const JsonValue& item : value.items()) {
+        const std::string_view listed = names[item.choice(names)];
+        for_each_known(known, [&](std::string_view name, bool& known_value, bool if_listed) {
+            if (name == listed)
+                known_value = if_listed;
+        });
+    }
     return known;
 }
 

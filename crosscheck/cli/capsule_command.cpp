@@ -12,7 +12,9 @@
 #include "crosscheck/cli/system_verbs.hpp"
 #include "crosscheck/collision/judge/frame_run.hpp"
 #include "crosscheck/collision/record/capsule_json.hpp"
+#include "crosscheck/collision/record/pixel_capsule_json.hpp"
 #include "crosscheck/collision/record/trace_side.hpp"
+#include "crosscheck/collision/report/frame_images.hpp"
 #include "crosscheck/collision/report/named_items.hpp"
 #include "crosscheck/files/plain_text.hpp"
 #include "crosscheck/files/threads.hpp"
@@ -27,7 +29,7 @@ struct Options {
     RunOptions run;
     std::filesystem::path trace, output, capsule;
     int frame = 0;
-    std::optional<std::string> particle, item;
+    std::optional<std::string> particle, pixel, item;
     std::string pass;
     Legal legal = Legal::measured;
     bool hexadecimal = false;
@@ -38,22 +40,44 @@ int status_of(const Capsule& capsule) {
     return verdict.differs && verdict.verdict.kind >= DifferenceClass::undefined ? status_differ : status_agree;
 }
 
-Capsule cut_from(FrameRun& run, const Options& options, const std::string& renderer, const std::string& settings) {
-    const std::size_t particle = particle_named(*options.particle, run.scene());
-    run.go_to(options.frame);
-    return cut_capsule(run.judged(), {run.scene(), renderer, settings, options.frame, particle, run.capture(particle)});
+int status_of(const PixelCapsule& capsule) {
+    return table_of(capsule).kind.value_or(DifferenceClass::rounding) >= DifferenceClass::undefined ? status_differ
+                                                                                                    : status_agree;
 }
 
-Capsule cut_live(const Options& options) {
+/// What is written, and the exit status.
+struct CutCapsule {
+    std::string file;
+    int status;
+};
+
+CutCapsule cut_from(FrameRun& run, const Options& options, const std::string& renderer, const std::string& settings) {
+    const std::size_t particle = particle_named(*options.particle, run.scene());
+    run.go_to(options.frame);
+    const Capsule capsule =
+        cut_capsule(run.judged(), {run.scene(), renderer, settings, options.frame, particle, run.capture(particle)});
+    return {capsule_file(capsule), status_of(capsule)};
+}
+
+CutCapsule cut_live(const Options& options) {
     const Scene scene = load(options.run);
-    static_cast<void>(shaders_to_run(options.run, scene));
+    static_cast<void>(shaders_to_run(options.run, scene, options.pixel.has_value()));
+    const std::size_t pixel = options.pixel ? pixel_named(*options.pixel, scene) : 0;
     const Context context(parse_context_request(options.run.gl));
     const Profile profile = measured_profile(context, options.run.shaders);
     FrameRun run(scene, profile, known_operations(options.legal, profile), options.run.shaders);
-    return cut_from(run, options, summary(context.describe()), settings_text(options.run, scene));
+    const std::string renderer = summary(context.describe()), settings = settings_text(options.run, scene);
+    if (!options.pixel)
+        return cut_from(run, options, renderer, settings);
+    run.go_to(options.frame);
+    const PixelCapsule capsule =
+        cut_pixel_capsule(judged_picture(run, options.run.shaders), {scene, renderer, settings, pixel});
+    return {capsule_file(capsule), status_of(capsule)};
 }
 
-Capsule cut_recorded(const Options& options) {
+CutCapsule cut_recorded(const Options& options) {
+    if (options.pixel)
+        throw Error("capsule cut: --pixel needs a scene: no picture is in a recording; --particle goes with one");
     start_threads(options.run.threads);
     TraceReader trace(options.trace);
     const TraceInfo& info = trace.info();
@@ -67,31 +91,36 @@ Capsule cut_recorded(const Options& options) {
 int cut(const Options& options, const Call& call) {
     check_scene_or_trace(call, options.run, options.trace);
     if (const RegisteredSystem* system = options.trace.empty() ? system_of(options.run) : nullptr) {
-        if (!options.item || options.particle)
+        if (!options.item || options.particle || options.pixel)
             throw Error(fmt::format("capsule cut: of a scene of system {}, --item I is needed", name_of(*system)));
         return cut_system(*system, options.run, {options.frame, options.pass, *options.item, options.legal, false},
                           options.output);
     }
-    if (!options.particle || options.item || !options.pass.empty())
-        throw Error(fmt::format("capsule cut: of a scene of system {}, --particle I is needed, and no --item or --pass",
+    if (options.particle.has_value() == options.pixel.has_value() || options.item || !options.pass.empty())
+        throw Error(fmt::format("capsule cut: of a scene of system {}, one of --particle I and --pixel X,Y is needed, "
+                                "and no --item or --pass",
                                 default_system));
     OutputFiles files;
     protect_inputs(options.run, files);
     files.protect(options.trace);
     files.expect(options.output);
-    const Capsule capsule = options.trace.empty() ? cut_live(options) : cut_recorded(options);
-    files.write(options.output, capsule_file(capsule));
+    const CutCapsule capsule = options.trace.empty() ? cut_live(options) : cut_recorded(options);
+    files.write(options.output, capsule.file);
     files.commit();
-    return status_of(capsule);
+    return capsule.status;
 }
 
 int show(const Options& options) {
     if (const std::optional<int> status = show_system(options.capsule, options.hexadecimal))
         return *status;
-    const Capsule capsule = load_capsule(options.capsule);
-    fmt::print("{}", plain_text(capsule_text(capsule,
-                                             options.hexadecimal ? NumberFormat::hexadecimal : NumberFormat::decimal)));
-    return status_of(capsule);
+    const NumberFormat format = options.hexadecimal ? NumberFormat::hexadecimal : NumberFormat::decimal;
+    const auto show_this = [&](const auto& capsule) {
+        fmt::print("{}", plain_text(capsule_text(capsule, format)));
+        return status_of(capsule);
+    };
+    const nlohmann::json document = read_json(options.capsule);
+    const JsonValue value(document, options.capsule.string());
+    return is_pixel_capsule(value) ? show_this(read_pixel_capsule(value)) : show_this(read_capsule(value));
 }
 
 } // namespace
@@ -105,22 +134,23 @@ Verb capsule_command() {
     cut_verb.add(
         required(integer_option("--frame", "F", {0, most_frames}, options->frame, "the frame, counted from 0")));
     cut_verb.add(text_option("--particle", "I", options->particle, "the particle"));
+    cut_verb.add(text_option("--pixel", "X,Y", options->pixel, "or the pixel of the rendered frame"));
     cut_verb.add(text_option("--item", "I", options->item, "the item, of a scene of another system"));
     cut_verb.add(text_option("--pass", "NAME", options->pass, "of which pass, there; else the first"));
     cut_verb.add(required(path_option("-o,--output", "FILE", options->output, "the capsule, JSON, at most 100 kB")));
     add_legal_option(cut_verb, options->legal);
-    cut_verb.footer = "Exit status: 0 the particle agrees or is legal, 1 it is not, 2 could not run.\n"
+    cut_verb.footer = "Exit status: 0 it agrees or is legal, 1 it is not, 2 could not run.\n"
                       "Example: lockstep capsule cut data/scenes/lattice.json --frame 30 --particle 17 -o 17.json";
     cut_verb.run = [options](const Call& call) { return cut(*options, call); };
 
     Verb show_verb{"show", "judge one again, and print its step table; needs no GL"};
     show_verb.add(required(path_option("capsule", "FILE", options->capsule, "what `capsule cut` wrote")));
     show_verb.add(flag("--hex", options->hexadecimal, "hexadecimal floats instead of decimal ones"));
-    show_verb.footer = "Exit status: 0 the particle agrees or is legal, 1 it is not, 2 could not run.\n"
+    show_verb.footer = "Exit status: 0 it agrees or is legal, 1 it is not, 2 could not run.\n"
                        "Example: lockstep capsule show 17.json";
     show_verb.run = [options](const Call&) { return show(*options); };
 
-    Verb verb{"capsule", "one particle's step as a small file that repeats its verdict anywhere"};
+    Verb verb{"capsule", "one particle's step, or a pixel, as a small file that repeats its verdict anywhere"};
     verb.footer = "Example: lockstep capsule cut data/scenes/lattice.json --frame 30 --particle 17 -o 17.json\n"
                   "then, anywhere: lockstep capsule show 17.json";
     verb.verbs = {cut_verb, show_verb};

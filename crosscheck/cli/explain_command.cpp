@@ -46,9 +46,7 @@ std::string text_of(const Options& options, FrameRun& frames, std::size_t item, 
         return explain_texel(frames, item, format);
     if (!options.pixel)
         return explain_particle(frames, item, format);
-    const JudgedFrame frame = frames.judged();
-    return explain_pixel(frames, render_on_gpu(frame.gpu, frames.scene(), frame.params, options.run.shaders), item,
-                         format);
+    return pixel_text(judged_picture(frames, options.run.shaders).table(item), format);
 }
 
 void tell(const Options& options, FrameRun& frames, const std::string& file, const std::string& settings,

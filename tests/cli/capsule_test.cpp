@@ -143,9 +143,51 @@ TEST_CASE("capsule: what cannot be cut or read is refused in a line, and no file
         return;
     const Setting setting;
     CHECK_THAT(refusal(setting.cut_live("3", "300")), Contains("300"));
+    CHECK_THAT(refusal(setting.cut({setting.scene, "--pixel", "1,1"}, "3", "3")),
+               Contains("one of --particle I and --pixel X,Y is needed"));
     CHECK_THAT(refusal(setting.cut({}, "3", "3")), Contains("a scene or --trace FILE is needed"));
     CHECK_THAT(refusal(setting.show()), Contains("capsule.json: cannot be read"));
     CHECK_THAT(refusal(run_lockstep({"capsule", "show", setting.scene})),
                Contains("scene.json: /: no capsule: the key \"lockstep_capsule\" is missing"));
     CHECK(test::names_in(setting.folder.path()) == std::vector<std::string>{"scene.json"});
+}
+
+TEST_CASE("capsule: a pixel of the rendered frame says without GL what explain says, right or divergent") {
+    if (!test::have_software_gl())
+        return;
+    const Setting setting;
+    std::string large = test::small_scene;
+    large.replace(large.find("\"collision_range\""), 0, "\"billboard_radius\": 0.06, ");
+    setting.folder.write("scene.json", large);
+    const auto cut = [&](const std::string& pixel, int status) {
+        std::vector<std::string> place{"--frame", "3", "--pixel", pixel};
+        CHECK(run_lockstep(test::joined(test::joined({"capsule", "cut", setting.scene, "--gl", test::software_gl(),
+                                                      "-o", setting.file},
+                                                     test::shader_options(setting.shaders)),
+                                        place))
+                  .status == status);
+        CHECK(std::filesystem::file_size(setting.file) <= 100'000);
+        const test::Outcome shown = setting.show();
+        CHECK(shown.status == status);
+        CHECK(shown.err.empty());
+        const std::string explained = run_lockstep(test::joined(setting.live("explain"), place)).out;
+        CHECK(shown.out.substr(shown.out.find("\npixel (")) == explained.substr(explained.find("\npixel (")));
+        return shown.out;
+    };
+    CHECK_THAT(cut("20,15", 0), Contains("every bit agrees") && Contains("hidden by "));
+    CHECK_THAT(cut("0,0", 0), Contains("beside it: "));
+    test::plant(setting.shaders, "render_pass.geom", "EmitVertex();", "");
+    CHECK_THAT(cut("20,15", 1), Contains(": divergent\n") && Contains("cause     sprites_not_drawn"));
+
+    std::ifstream stream(setting.file);
+    const std::string text{std::istreambuf_iterator<char>(stream), {}};
+    const auto damaged = [&](const std::string& from, const std::string& to) {
+        std::string changed = text;
+        REQUIRE(changed.find(from) != std::string::npos);
+        setting.folder.write("capsule.json", changed.replace(changed.find(from), from.size(), to));
+        return refusal(setting.show());
+    };
+    CHECK_THAT(damaged("\"pixel\":[20,15]", "\"pixel\":[40,15]"), Contains("/pixel/0: 40 is not"));
+    CHECK_THAT(damaged("\"sprites_not_drawn\"", "\"sprites_not_drawm\""), Contains("/causes/0: "));
+    CHECK_THAT(damaged("\"gpu\":[", "\"gpu\":[7,"), Contains("/gpu: not [red, green, blue, alpha]"));
 }

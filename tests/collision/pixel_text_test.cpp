@@ -27,7 +27,9 @@ struct Drawn {
     [[nodiscard]] float pixels_a_unit() const { return params.render_projection[0][0] * 32.0F / 3.0F; }
 
     [[nodiscard]] PixelTable table(int x, int y) const {
-        return pixel_table({particles, obstacles, params}, Profile{}, known, gpu, gpu.index(x, y));
+        const RenderInputs inputs{particles, obstacles, params};
+        return pixel_table(inputs, Profile{}, known, gpu.index(x, y), gpu.at(x, y),
+                           judge_render(inputs, Profile{}, known, gpu));
     }
     [[nodiscard]] std::string at(int x, int y, NumberFormat format = NumberFormat::decimal) const {
         return pixel_text(table(x, y), format);

@@ -62,14 +62,15 @@ std::vector<MistakenPixel> mistaken_pixels(const RenderInputs& inputs, const Pro
 } // namespace
 
 PixelTable pixel_table(const RenderInputs& inputs, const Profile& profile, const KnownOperations& known,
-                       const ColorImage& gpu, std::size_t pixel) {
+                       std::size_t pixel, Rgba8 gpu, const RenderVerdict& whole) {
     const RenderedFrame reference = render_with_owners(inputs.particles, inputs.obstacles, inputs.params, profile);
     PixelTable table;
+    table.frame = whole.frame;
     table.pixel = pixel;
-    table.width = gpu.width;
+    table.width = inputs.params.render_width;
     table.owner = reference.owner.texels[pixel];
     table.reference = reference.color.texels[pixel];
-    table.gpu = gpu.texels[pixel];
+    table.gpu = gpu;
     for (const PixelFragment& fragment : pixel_fragments(inputs, profile, known, pixel)) {
         const PixelOwner& owner = fragment.candidate.owner;
         table.drawn.push_back(
@@ -80,7 +81,7 @@ PixelTable pixel_table(const RenderInputs& inputs, const Profile& profile, const
     if (table.reference != table.gpu)
         table.kind =
             pixel_class(legal_pixels(inputs, profile, known, std::span(&pixel, 1)).front(), table.owner, table.gpu);
-    const auto columns = static_cast<std::size_t>(gpu.width);
+    const auto columns = static_cast<std::size_t>(table.width);
     table.near =
         near_discs(inputs, profile, table.drawn, static_cast<int>(pixel % columns), static_cast<int>(pixel / columns));
     std::stable_sort(table.drawn.begin(), table.drawn.end(), [](const DrawnHere& a, const DrawnHere& b) {
@@ -89,9 +90,8 @@ PixelTable pixel_table(const RenderInputs& inputs, const Profile& profile, const
         };
         return key(a.fragment.candidate) < key(b.fragment.candidate);
     });
-    const RenderVerdict frame = judge_render(inputs, profile, known, gpu);
-    table.divergent = frame.count(DifferenceClass::divergent);
-    table.causes = mistaken_pixels(inputs, profile, frame.causes, pixel);
+    table.divergent = whole.count(DifferenceClass::divergent);
+    table.causes = mistaken_pixels(inputs, profile, whole.causes, pixel);
     return table;
 }
 

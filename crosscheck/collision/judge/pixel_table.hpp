@@ -42,8 +42,8 @@ struct PixelTable {
     std::vector<MistakenPixel> causes;   ///< of these, best first, at most 3
 };
 
-/// `gpu`: the frame that the GPU drew of the particles in `inputs`.
+/// `gpu`: what the GPU drew there of the particles in `inputs`; `whole`: the verdict on the frame that it is of.
 PixelTable pixel_table(const RenderInputs& inputs, const Profile& profile, const KnownOperations& known,
-                       const ColorImage& gpu, std::size_t pixel);
+                       std::size_t pixel, Rgba8 gpu, const RenderVerdict& whole);
 
 } // namespace lockstep

@@ -11,6 +11,7 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include "crosscheck/collision/record/particle_json.hpp"
 #include "crosscheck/files/asked_memory.hpp"
 #include "crosscheck/files/json_text.hpp"
 #include "crosscheck/record/capsule_parts.hpp"
@@ -26,52 +27,6 @@ namespace {
 using nlohmann::json;
 
 constexpr std::int64_t version = 1;
-template <int Count> std::string vector_text(const glm::vec<Count, float>& v) {
-    std::uint32_t words[Count];
-    for (int i = 0; i < Count; ++i)
-        words[i] = std::bit_cast<std::uint32_t>(v[i]);
-    return words_text(words);
-}
-
-std::string word_text(float value) { return vector_text(glm::vec<1, float>(value)); }
-
-template <int Count> glm::vec<Count, float> read_vector(const JsonValue& value) {
-    const auto words = read_words(value, Count);
-    glm::vec<Count, float> v;
-    for (int i = 0; i < Count; ++i)
-        v[i] = std::bit_cast<float>(words[static_cast<std::size_t>(i)]);
-    return v;
-}
-
-float read_float(const JsonValue& value) { return read_vector<1>(value)[0]; }
-
-/// The words of each field.
-json state_json(const ParticleState& state) {
-    const View item = view(state);
-    json fields = json::object();
-    for (std::size_t f = 0; f < item.fields().size(); ++f) {
-        std::vector<std::uint32_t> words;
-        for (int c = 0; c < item.fields()[f].components; ++c)
-            words.push_back(item.value(f, 0, c).bits);
-        fields[item.fields()[f].name] = words_text(words);
-    }
-    return fields;
-}
-
-ParticleState read_state(const JsonValue& value) {
-    ParticleState state;
-    const WritableView item = view(state);
-    std::vector<std::string_view> names;
-    for (const Field& field : item.fields())
-        names.push_back(field.name);
-    value.check_keys(names);
-    for (std::size_t f = 0; f < item.fields().size(); ++f) {
-        const Field& field = item.fields()[f];
-        const auto words = read_words(value.at(field.name), static_cast<std::size_t>(field.components));
-        std::memcpy(item.columns[f], words.data(), words.size() * sizeof words[0]);
-    }
-    return state;
-}
 
 /// Texels that hold something: [x, y, code].
 json texels_json(const CollisionImage& cdt) {
@@ -163,11 +118,6 @@ StepCapture read_capture(const JsonValue& value, const Scene& scene) {
     capture.depth = read_float(value.at("depth"));
     capture.code = read_vector<4>(value.at("code"));
     return capture;
-}
-
-/// As a JSON file gives it back: what is no UTF-8, in a file's name, is replaced.
-std::string as_utf8(const std::string& text) {
-    return json::parse(json(text).dump(-1, ' ', false, json::error_handler_t::replace)).get<std::string>();
 }
 
 } // namespace

@@ -34,6 +34,11 @@ RenderVerdict judge_rendered(const Particles& particles, const Particles* earlie
     return verdict;
 }
 
+JudgedPicture judged_picture(const FrameRun& run, const std::filesystem::path& shaders) {
+    const JudgedFrame frame = run.judged();
+    return {run, render_on_gpu(frame.gpu, run.scene(), frame.params, shaders)};
+}
+
 void FrameImages::keep(const ComparedFrame& frame) {
     if (differs_)
         return;

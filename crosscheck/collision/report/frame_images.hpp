@@ -4,6 +4,8 @@
 #include <string_view>
 
 #include "crosscheck/collision/judge/check.hpp"
+#include "crosscheck/collision/judge/frame_run.hpp"
+#include "crosscheck/collision/report/pixel_text.hpp"
 #include "crosscheck/files/output_files.hpp"
 #include "crosscheck/report/report.hpp"
 
@@ -18,6 +20,9 @@ ColorImage render_on_gpu(const Particles& particles, const Scene& scene, const F
 RenderVerdict judge_rendered(const Particles& particles, const Particles* earlier, const Scene& scene, int frame,
                              const Profile& profile, const KnownOperations& known,
                              const std::filesystem::path& shaders);
+
+/// The frame that a run stands at, drawn by the GPU. Needs the run's context.
+JudgedPicture judged_picture(const FrameRun& run, const std::filesystem::path& shaders);
 
 /// Pictures of one frame of a check: the first that differs, or else the last.
 class FrameImages {

@@ -170,13 +170,18 @@ std::string pixel_text(const PixelTable& table, NumberFormat format) {
     return causes.empty() ? text : text + "\n" + causes;
 }
 
-std::string explain_pixel(FrameRun& run, const ColorImage& gpu, std::size_t pixel, NumberFormat format) {
-    const JudgedFrame frame = run.judged();
-    const FrameParams earlier_params = frame_params(run.scene(), std::max(run.frame() - 1, 0));
-    PixelTable table = pixel_table({frame.gpu, frame.obstacles, frame.params, &frame.before, &earlier_params},
-                                   frame.profile, frame.known, gpu, pixel);
-    table.frame = run.frame();
-    return pixel_text(table, format);
+JudgedPicture::JudgedPicture(const FrameRun& run, ColorImage gpu)
+    : frame_(run.judged()), earlier_params_(frame_params(run.scene(), std::max(run.frame() - 1, 0))),
+      gpu_(std::move(gpu)), verdict_(judge_render(inputs(), frame_.profile, frame_.known, gpu_)) {
+    verdict_.frame = run.frame();
+}
+
+RenderInputs JudgedPicture::inputs() const {
+    return {frame_.gpu, frame_.obstacles, frame_.params, &frame_.before, &earlier_params_};
+}
+
+PixelTable JudgedPicture::table(std::size_t pixel) const {
+    return pixel_table(inputs(), frame_.profile, frame_.known, pixel, gpu_.texels[pixel], verdict_);
 }
 
 } // namespace lockstep

@@ -8,10 +8,27 @@
 
 namespace lockstep {
 
-/// A pixel of the frame that the run stands at: both sides' colour, the verdict, everything that may be drawn there and
-/// what hides it, and the mistakes that explain the whole frame. `gpu`: that frame, as the GPU drew it.
-std::string explain_pixel(FrameRun& run, const ColorImage& gpu, std::size_t pixel, NumberFormat format);
+/// What the frame that a run stands at is drawn of, and the verdict on it. The run has to outlive it and stand still.
+class JudgedPicture {
+  public:
+    /// `gpu`: the frame as the GPU drew it.
+    JudgedPicture(const FrameRun& run, ColorImage gpu);
 
+    [[nodiscard]] RenderInputs inputs() const;
+    [[nodiscard]] const JudgedFrame& frame() const { return frame_; }
+    [[nodiscard]] const RenderVerdict& verdict() const { return verdict_; }
+    [[nodiscard]] Rgba8 gpu(std::size_t pixel) const { return gpu_.texels[pixel]; }
+    [[nodiscard]] PixelTable table(std::size_t pixel) const;
+
+  private:
+    JudgedFrame frame_;
+    FrameParams earlier_params_;
+    ColorImage gpu_;
+    RenderVerdict verdict_;
+};
+
+/// Both sides' colour, the verdict, everything that may be drawn there and what hides it, and the mistakes that explain
+/// the whole frame.
 std::string pixel_text(const PixelTable& table, NumberFormat format);
 
 } // namespace lockstep

@@ -1,7 +1,11 @@
 #include "crosscheck/lifecycle/mistakes.hpp"
 
+#include <cmath>
 #include <initializer_list>
+#include <span>
 #include <string>
+
+#include "reference/lifecycle/packing.hpp"
 
 #include "reference/lifecycle/sites.hpp"
 
@@ -11,6 +15,52 @@ namespace {
 /// The passes in which particles take a step.
 constexpr std::initializer_list<const char*> simulating{"move", "move_particles", "simulate", "simulate_particles"};
 
+/// The passes in which numbers become halves.
+constexpr std::initializer_list<const char*> packing{
+    "emit", "move", "move_particles", "simulate", "simulate_particles", "ribbon_distance", "prefix_sum_particles"};
+
+Mistake spoiled_at(const Site& site, Formula formula) {
+    return {.site = site.id, .change = Change::spoiled, .formula = formula};
+}
+
+template <HalfRounding rounding> void rounded(std::span<float> code, const CameBy& run) {
+    code[0] = ordered_half(half_code(run.of(site::half_source)[0], rounding));
+}
+
+std::uint32_t magnitude_of(float x) { return std::bit_cast<std::uint32_t>(x) & 0x7fffffffU; }
+
+/// With another code, of a number that is no subnormal half.
+void set_code(std::span<float> code, float of, std::uint32_t magnitude) {
+    if (magnitude_of(of) >= 0x38800000U && magnitude_of(of) < 0x7f800000U)
+        code[0] = ordered_half((std::signbit(of) ? 0x8000U : 0U) | std::min(magnitude, 0x7bffU));
+}
+
+void rounded_half_up(std::span<float> code, const CameBy& run) {
+    const float x = run.of(site::half_source)[0];
+    set_code(code, x, (magnitude_of(x) - 0x38000000U + 0x1000U) >> 13U);
+}
+
+void exponent_one_more(std::span<float> code, const CameBy& run) {
+    set_code(code, run.of(site::half_source)[0], (half_of_ordered(static_cast<int>(code[0])) & 0x7fffU) + 0x400U);
+}
+
+void without_sign(std::span<float> code, const CameBy& /*run*/) {
+    if (code[0] < 0.0F)
+        code[0] = -1.0F - code[0];
+}
+
+void read_exponent_one_less(std::span<float> value, const CameBy& /*run*/) {
+    if (std::abs(value[0]) >= 0x1p-14F)
+        value[0] *= 0.5F;
+}
+
+void of_23_bits(std::span<float> value, const CameBy& /*run*/) {
+    for (float& x : value)
+        x = std::floor(x * 0x1p23F) * 0x1p-24F;
+}
+
+const Mistake first_opacity_again = mistake_at(site::end_opacity, Change::instead, -1, &site::initial_opacity);
+
 std::vector<NamedMistake> made() {
     std::vector<NamedMistake> all;
     const auto in = [&](std::initializer_list<const char*> passes, const char* name, const char* meaning,
@@ -19,6 +69,7 @@ std::vector<NamedMistake> made() {
             all.push_back({name, meaning, pass, mistake});
     };
     using enum Change;
+    using enum HalfRounding;
     // The step.
     in(simulating, "acceleration_missing", "nothing accelerates", mistake_at(site::force, zero));
     in(simulating, "acceleration_reversed", "acceleration has the wrong sign", mistake_at(site::force, negated));
@@ -68,6 +119,37 @@ std::vector<NamedMistake> made() {
        mistake_at(site::survives, never));
     in({"destroy_reduce", "destroy", "destroy_count"}, "dead_at_below_zero", "who has exactly 0 left survives",
        mistake_at(site::survives, or_equal));
+    in({"move", "move_particles"}, "rest_by_one", "who cannot die comes from one slot on, the survivors from theirs",
+       mistake_at(site::rest, one_more));
+    in({"destroy"}, "listed_one_place_on", "the list begins one place on", mistake_at(site::list_place, one_less));
+    // Lists.
+    in({"emit_list"}, "newborns_not_listed", "the newborns stand in no list", mistake_at(site::is_new, never));
+    in({"post_destroy"}, "lists_not_swapped", "the list that was made is not the next frame's",
+       mistake_at(site::current_list, opposite));
+    in({"destroy_dead"}, "dead_not_listed", "the slots of the dead are lost", mistake_at(site::is_dead, never));
+    in({"destroy_dead"}, "dead_one_place_on", "the dead are listed one place on",
+       mistake_at(site::dead_rank, one_less));
+    in({"simulate", "simulate_particles"}, "newborns_not_simulated", "the newborns take no step",
+       mistake_at(site::particles_present, instead, -1, &site::alive_before));
+    in({"sort"}, "order_not_compared", "within a frame the slot goes before the order",
+       mistake_at(site::key_order_compared, zero));
+    in({"sort"}, "time_not_compared", "the order in the frame goes before the time",
+       mistake_at(site::key_time_compared, zero));
+    in({"sort"}, "sorted_falling", "the youngest come first", mistake_at(site::sorts_before, inverted));
+    in({"sort"}, "all_runs_rise", "no run falls", mistake_at(site::is_rising, always));
+    in({"pre_sort"}, "one_too_few_padded", "a key of the dead is among those of the living",
+       mistake_at(site::alive_before, one_more));
+    // Packing.
+    in(packing, "halves_truncated", "halves are rounded toward zero", spoiled_at(site::half, rounded<toward_zero>));
+    in(packing, "halves_to_nearest", "halves are rounded to the nearest, as drivers do",
+       spoiled_at(site::half, rounded<nearest_even>));
+    in(packing, "halves_half_up", "ties go away from zero", spoiled_at(site::half, rounded_half_up));
+    in(packing, "half_exponent_off", "the exponent of a half is one more", spoiled_at(site::half, exponent_one_more));
+    in(packing, "half_sign_lost", "halves have no sign", spoiled_at(site::half, without_sign));
+    in(packing, "half_read_off", "the exponent of a half is read one less",
+       spoiled_at(site::half_read, read_exponent_one_less));
+    in({"emit"}, "colors_truncated", "colours are cut off", mistake_at(site::half_step, zero));
+    in({"emit"}, "colors_by_256", "1 is beyond the greatest code", mistake_at(site::color_steps, one_more));
     // Emission.
     in({"emit"}, "born_still", "newborns do not move", mistake_at(site::velocity, zero));
     in({"emit"}, "born_backwards", "newborns move the other way", mistake_at(site::velocity, negated));
@@ -85,6 +167,17 @@ std::vector<NamedMistake> made() {
     in({"emit"}, "serial_one_more", "newborns have the random numbers of the next", mistake_at(site::serial, one_more));
     in({"emit"}, "channel_one_more", "random numbers come from the next channel", mistake_at(site::channel, one_more));
     in({"emit"}, "random_reversed", "random numbers fall where they should rise", mistake_at(site::random, opposite));
+    in({"emit"}, "random_of_23_bits", "a bit of the random numbers is lost", spoiled_at(site::random, of_23_bits));
+    in({"emit"}, "life_by_x", "the lifetime goes by the random number of the speed",
+       mistake_at(site::random_of_life, x_everywhere));
+    in({"emit"}, "life_by_another_channel", "the lifetime goes by the channel of the direction",
+       mistake_at(site::channel_of_life, one_less));
+    in({"emit"}, "sizes_swapped", "the first size is the last", mistake_at(site::sizes, swapped));
+    Mistake end_color = mistake_at(site::end_color, instead, -1, &site::initial_color);
+    end_color.also = &first_opacity_again;
+    in({"emit"}, "end_color_missing", "the last colour is the first", end_color);
+    in({"emit_arguments"}, "moved_without_newborns", "the newborns have no groups to be moved",
+       mistake_at(site::present, instead, -1, &site::alive_before));
     in({"emit"}, "size_not_given", "newborns have no size", mistake_at(site::initial_size, zero));
     in({"emit", "emit_counters"}, "emitted_none", "nobody is born", mistake_at(site::request, zero));
     in({"emit", "emit_counters"}, "emitted_one_more", "one more is born", mistake_at(site::request, one_more));

@@ -19,9 +19,16 @@ namespace {
 std::string text_of(const Host& host) {
     std::string text = differing_text(switch_values(host.switches()), switch_values(Switches()));
     for (const HostEmitter& of : host.emitters())
-        if (host.switches().may_die != MayDie::all && of.dies == Dies::all)
+        if (host.switches().may_die != MayDie::all && !host.lists() && of.dies == Dies::all)
             text += fmt::format("; of emitter {} anyone may die", of.number);
     return text;
+}
+
+/// The slots in the order in which they are given: the last one first.
+void bury_all(const Host& host, SystemState& state) {
+    for (const HostEmitter& of : host.emitters())
+        for (std::size_t i = 0; i < of.slots; ++i)
+            state.set({dead_buffer, 0}, of.base + i, static_cast<std::uint32_t>(of.slots - 1 - i));
 }
 
 } // namespace
@@ -29,21 +36,19 @@ std::string text_of(const Host& host) {
 System system(const HostPtr& host, const std::string& name) {
     const Schema& of = schema(host->switches());
     const std::size_t emitters = host->emitters().size(), slots = host->slots();
+    std::vector<Extent> extents{{slots},          {emitters},       {host->lists() ? 2 * slots : slots},
+                                {host->blocks()}, {host->ring()},   {emitters},
+                                {slots},          {host->blocks()}, {slots}};
+    if (host->lists())
+        extents.insert(extents.end(), {{slots}, {host->keys()}});
     System made{.name = name,
                 .schema = of,
                 .passes = twins(host),
                 .mistakes = {},
-                .start = {of,
-                          {{slots},
-                           {emitters},
-                           {slots},
-                           {host->blocks()},
-                           {host->ring()},
-                           {emitters},
-                           {slots},
-                           {host->blocks()},
-                           {slots}}},
+                .start = {of, std::move(extents)},
                 .settings = text_of(*host)};
+    if (host->lists())
+        bury_all(*host, made.start);
     for (const NamedMistake& mistake : mistakes())
         if (std::any_of(made.passes.begin(), made.passes.end(),
                         [&](const auto& pass) { return pass->name() == mistake.pass; }))

@@ -8,6 +8,7 @@
 #include <glm/vec2.hpp>
 
 #include "reference/model/lifecycle/schema.hpp"
+#include "reference/model/lifecycle/sort_steps.hpp"
 
 namespace lockstep::lifecycle {
 namespace {
@@ -31,6 +32,8 @@ Uniforms uniforms(const Host& host, const HostEmitter& of, int frame) {
             {"u_FirstBlock", static_cast<unsigned>(of.first_block)},
             {"u_FirstInRing", static_cast<unsigned>(of.first_in_ring)},
             {"u_Window", static_cast<unsigned>(of.window)},
+            {"u_FirstKey", static_cast<unsigned>(of.first_key)},
+            {"u_Keys", static_cast<unsigned>(of.keys)},
             {"u_Request", static_cast<unsigned>(of.request(frame))},
             {"u_Frame", static_cast<unsigned>(frame)},
             {"u_Corners", 4U},
@@ -96,9 +99,9 @@ class Kernels {
     Kernels(std::vector<GlPass>& all, const HostPtr& host, const HostEmitter& of) : all_(all), host_(host), of_(of) {}
 
     /// What a dispatch writes besides its first buffer: the name of the pass, and the buffer.
-    using Besides = std::initializer_list<std::pair<std::string_view, std::uint8_t>>;
+    using Besides = std::pair<std::string_view, std::uint8_t>;
 
-    GlPass& add(std::string name, std::uint8_t resource, Besides besides) {
+    GlPass& add(std::string name, std::uint8_t resource, const std::vector<Besides>& besides) {
         GlPass pass{.name = std::move(name), .stage = Stage::compute, .resource = resource};
         pass.uniforms = [host = host_, of = &of_](int frame) { return uniforms(*host, *of, frame); };
         pass.defines = defines(*host_, of_);
@@ -108,11 +111,11 @@ class Kernels {
             all_.push_back({.name = std::string(what), .stage = Stage::compute, .resource = other, .continues = true});
         return all_[at];
     }
-    void one(const std::string& name, std::uint8_t resource, Besides besides) {
+    void one(const std::string& name, std::uint8_t resource, const std::vector<Besides>& besides) {
         add(name, resource, besides).invocations = [](int) { return std::size_t{1}; };
     }
-    void many(const std::string& name, std::uint8_t argument, std::uint8_t resource, Besides besides,
-              bool with_forces = false) {
+    void many(const std::string& name, std::uint8_t argument, std::uint8_t resource,
+              const std::vector<Besides>& besides, bool with_forces = false) {
         GlPass& pass = add(name, resource, besides);
         pass.indirect = GroupCounts{{argument_buffer, argument}, of_.number};
         if (with_forces)
@@ -120,22 +123,46 @@ class Kernels {
     }
 
     void emit() {
-        const bool before = host_->switches().emit_when == EmitWhen::before_destroy;
-        GlPass& pass = before ? add("emit", particle_buffer,
-                                    {{"emit_counters", counter_buffer}, {"emit_arguments", argument_buffer}})
-                              : add("emit", particle_buffer, {{"emit_counters", counter_buffer}});
+        std::vector<Besides> besides;
+        if (host_->lists())
+            besides.push_back({"emit_list", survivor_buffer});
+        besides.push_back({"emit_counters", counter_buffer});
+        if (host_->switches().emit_when == EmitWhen::before_destroy)
+            besides.push_back({"emit_arguments", argument_buffer});
+        GlPass& pass = add("emit", particle_buffer, besides);
         pass.invocations = [of = &of_](int frame) { return std::max<std::size_t>(of->request(frame), 1); };
     }
     void destroy() {
+        std::vector<Besides> besides;
         if (host_->switches().compaction == Compaction::atomic)
-            return many("destroy", argument::destroy, survivor_buffer, {{"destroy_count", counter_buffer}});
+            besides.push_back({"destroy_count", counter_buffer});
+        if (host_->lists())
+            besides.push_back({"destroy_dead", dead_buffer});
+        if (host_->switches().compaction == Compaction::atomic)
+            return many("destroy", argument::destroy, survivor_buffer, besides);
         many("destroy_reduce", argument::destroy, sum_buffer, {});
         add("destroy_scan", counter_buffer, {{"destroy_scan_sums", sum_buffer}}).invocations = [](int) {
             return std::size_t{256};
         };
-        many("destroy", argument::destroy, survivor_buffer, {});
+        many("destroy", argument::destroy, survivor_buffer, besides);
+    }
+    /// The points of a ribbon, by their times of birth.
+    void sort() {
+        add("pre_sort", key_buffer, {}).invocations = [of = &of_](int) { return of->keys; };
+        for_each_sort_step(of_.keys, [&](std::uint32_t run, std::uint32_t apart) {
+            GlPass& pass = add("sort", key_buffer, {});
+            pass.invocations = [of = &of_](int) { return of->keys / 2; };
+            pass.uniforms = [host = host_, of = &of_, run, apart](int frame) {
+                Uniforms all = uniforms(*host, *of, frame);
+                all["u_Run"] = run;
+                all["u_Apart"] = apart;
+                return all;
+            };
+        });
     }
     void ribbon() {
+        if (host_->lists())
+            sort();
         many("ribbon_distance", argument::ribbon, particle_buffer, {});
         many("prefix_reduce", argument::ribbon, length_buffer, {{"prefix_reduce_sums", block_length_buffer}});
         add("prefix_scan", block_length_buffer, {}).invocations = [](int) { return std::size_t{256}; };
@@ -165,14 +192,17 @@ std::vector<GlPass> passes(const HostPtr& host) {
         Kernels kernels(all, host, of);
         if (before)
             kernels.emit();
+        if (host->lists())
+            kernels.simulating("simulate", argument::move, true);
         kernels.destroy();
-        kernels.simulating("move", argument::move, s.fuse == Fuse::fused);
+        if (!host->lists())
+            kernels.simulating("move", argument::move, s.fuse == Fuse::fused);
         if (before)
             kernels.one("post_destroy", counter_buffer,
                         {{"post_destroy_ring", ring_buffer}, {"post_destroy_arguments", argument_buffer}});
         else
             kernels.one("post_destroy", counter_buffer, {{"post_destroy_arguments", argument_buffer}});
-        if (s.fuse == Fuse::split)
+        if (!host->lists() && s.fuse == Fuse::split)
             kernels.simulating("simulate", argument::simulate, true);
         if (!before) {
             kernels.emit();

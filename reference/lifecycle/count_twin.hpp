@@ -35,6 +35,8 @@ struct PostDestroyTwin {
         counters.set(site::alive, counter::alive, emitter.present() - died);
         counters.set(site::survivors, counter::survivors, s);
         counters.set(site::died, counter::died, died);
+        if (host->lists())
+            counters.set(site::current_list, counter::list, 1U - counters[counter::list]);
         if (host->switches().emit_when == EmitWhen::before_destroy)
             count_emission(r, counters, *of, in);
         return counters.record();
@@ -122,6 +124,8 @@ struct IndirectCountersTwin {
         }
         counters.set(site::may_die, counter::may_die, d);
         counters.set(site::append, counter::append, 0);
+        if (host->lists())
+            counters.set(site::buried, counter::buried, 0);
         return counters.record();
     }
 };

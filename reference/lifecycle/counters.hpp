@@ -61,7 +61,8 @@ template <class R> class EmitterTwin {
     }
     /// At the start of the destroy pass.
     [[nodiscard]] std::uint32_t present() const {
-        return host_.switches().emit_when == EmitWhen::before_destroy ? alive() + emitted() : alive();
+        return noted(r, site::particles_present,
+                     host_.switches().emit_when == EmitWhen::before_destroy ? alive() + emitted() : alive());
     }
     [[nodiscard]] std::uint32_t capacity() const {
         return noted(r, site::capacity, static_cast<std::uint32_t>(of_.settings().capacity));
@@ -69,21 +70,47 @@ template <class R> class EmitterTwin {
     /// Whether an item lies in the emitter's segment; `slot` is its place there.
     [[nodiscard]] bool has(std::size_t item) const { return item >= of_.base && item - of_.base < of_.slots; }
     [[nodiscard]] std::uint32_t slot(std::size_t item) const { return static_cast<std::uint32_t>(item - of_.base); }
+    /// Whether an item of the survivors may be one that is listed now; `list_place` is its place there.
+    [[nodiscard]] bool may_list(std::size_t item) const {
+        return item >= next_list() && item - next_list() < of_.slots;
+    }
+    [[nodiscard]] std::uint32_t list_place(std::size_t item) const {
+        return static_cast<std::uint32_t>(item - next_list());
+    }
     [[nodiscard]] RawWords words_of(std::uint32_t slot) const {
         return raw_words(in_.before, particle_buffer, of_.base + slot);
     }
+    // Of index lists: where the list of the living begins, and that which is being made.
+    [[nodiscard]] std::size_t living_list() const { return 2 * of_.base + list() * of_.slots; }
+    [[nodiscard]] std::size_t next_list() const {
+        return host_.lists() ? 2 * of_.base + (1U - list()) * of_.slots : of_.base;
+    }
+    /// Of the particle that is `place`-th.
+    [[nodiscard]] std::uint32_t slot_at(std::uint32_t place) const {
+        if (!host_.lists())
+            return place;
+        return noted(r, site::listed, in_.before.word({survivor_buffer, 0}, living_list() + place));
+    }
+    /// Of the point of a ribbon that is `place`-th.
+    [[nodiscard]] std::uint32_t point_slot(std::uint32_t place) const {
+        return host_.lists() ? in_.before.word({key_buffer, 2}, of_.first_key + place) : place;
+    }
     /// Of those that may die.
-    [[nodiscard]] bool survives(std::uint32_t slot) const {
+    [[nodiscard]] bool survives(std::uint32_t place) const {
         const std::uint32_t n = present(), most = capacity();
-        if (n > most && r.decide(site::overflows, slot < n - most))
+        if (n > most && r.decide(site::overflows, place < n - most))
             return false;
-        return r.decide(site::survives, Particle<R>(r, host_, words_of(slot)).remaining() > 0.0F);
+        return r.decide(site::survives, Particle<R>(r, host_, words_of(slot_at(place))).remaining() > 0.0F);
     }
     [[nodiscard]] std::uint32_t destroy_groups(std::uint32_t d) const {
         return host_.switches().compaction == Compaction::scan ? blocks_of(d) : groups_of(d);
     }
 
   private:
+    [[nodiscard]] std::uint32_t list() const {
+        return in_.before.word({counter_buffer, counter::list}, of_.number) & 1U;
+    }
+
     R& r;
     const Host& host_;
     const HostEmitter& of_;

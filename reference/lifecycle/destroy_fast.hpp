@@ -13,4 +13,9 @@ void destroy_fast(const Host& host, const HostEmitter& of, const PassInput& in, 
 /// The items of the list that are appended.
 ItemRange survivors_of(const Host& host, const HostEmitter& of, const PassInput& in);
 
+/// The same of the dead, where they are listed.
+void bury_fast(const Host& host, const HostEmitter& of, const PassInput& in, std::size_t first, std::size_t last,
+               const WritableView& after);
+ItemRange dead_of(const Host& host, const HostEmitter& of, const PassInput& in);
+
 } // namespace lockstep::lifecycle

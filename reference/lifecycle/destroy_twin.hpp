@@ -73,14 +73,16 @@ struct DestroyTwin {
     template <class R> ItemWords<R> operator()(R& r, const PassInput& in, std::size_t item) const {
         UintItem<R> listed(r, in.before, survivor_buffer, item);
         const EmitterTwin<R> emitter(r, *host, *of, in);
-        if (!emitter.has(item) || !r.decide(site::is_survivor, emitter.slot(item) < emitter.survivors()))
+        if (!emitter.may_list(item))
             return listed.record();
-        const std::uint32_t rank = emitter.slot(item), d = emitter.may_die();
+        const std::uint32_t rank = noted(r, site::list_place, emitter.list_place(item)), d = emitter.may_die();
+        if (!r.decide(site::is_survivor, rank < emitter.survivors()))
+            return listed.record();
         std::uint32_t block = block_of(in, rank, blocks_of(d));
         std::uint32_t seen = in.before.word(sum_of_block, of->first_block + block);
-        for (std::uint32_t slot = block * 1024U; slot < d; ++slot)
-            if (emitter.survives(slot) && seen++ == rank) {
-                listed.set(site::rank, 0, slot);
+        for (std::uint32_t place = block * 1024U; place < d; ++place)
+            if (emitter.survives(place) && seen++ == rank) {
+                listed.set(site::rank, 0, emitter.slot_at(place));
                 break;
             }
         return listed.record();
@@ -105,15 +107,37 @@ struct AppendTwin {
     template <class R> ItemWords<R> operator()(R& r, const PassInput& in, std::size_t item) const {
         UintItem<R> listed(r, in.before, survivor_buffer, item);
         const EmitterTwin<R> emitter(r, *host, *of, in);
-        if (!emitter.has(item))
+        if (!emitter.may_list(item))
             return listed.record();
         std::uint32_t seen = 0;
-        for (std::uint32_t slot = 0; slot < emitter.may_die(); ++slot)
-            if (emitter.survives(slot) && seen++ == emitter.slot(item)) {
-                listed.set(site::rank, 0, slot);
+        for (std::uint32_t place = 0; place < emitter.may_die(); ++place)
+            if (emitter.survives(place) && seen++ == emitter.list_place(item)) {
+                listed.set(site::rank, 0, emitter.slot_at(place));
                 break;
             }
         return listed.record();
+    }
+};
+
+/// The slots of those that died, behind those that are free already; with atomics in any order.
+struct DeadTwin {
+    HostPtr host;
+    const HostEmitter* of;
+
+    template <class R> ItemWords<R> operator()(R& r, const PassInput& in, std::size_t item) const {
+        UintItem<R> dead(r, in.before, dead_buffer, item);
+        const EmitterTwin<R> emitter(r, *host, *of, in);
+        if (!emitter.has(item))
+            return dead.record();
+        const std::uint32_t d = emitter.may_die();
+        const std::uint32_t rank = noted(r, site::dead_rank, emitter.slot(item) - (emitter.capacity() - d));
+        if (!r.decide(site::is_dead, rank < d))
+            return dead.record();
+        std::uint32_t seen = 0;
+        for (std::uint32_t place = 0; place < d && seen <= rank; ++place)
+            if (!emitter.survives(place) && seen++ == rank)
+                dead.set(site::dead_slot, 0, emitter.slot_at(place));
+        return dead.record();
     }
 };
 
@@ -128,9 +152,12 @@ struct AppendCountTwin {
             return counters.record();
         const EmitterTwin<R> emitter(r, *host, *of, in);
         std::uint32_t appended = counters[counter::append];
-        for (std::uint32_t slot = 0; slot < counters[counter::may_die]; ++slot)
-            appended += emitter.survives(slot) ? 1U : 0U;
+        std::uint32_t buried = counters[counter::buried];
+        for (std::uint32_t place = 0; place < counters[counter::may_die]; ++place)
+            ++(emitter.survives(place) ? appended : buried);
         counters.set(site::append, counter::append, appended);
+        if (host->lists())
+            counters.set(site::buried, counter::buried, buried);
         return counters.record();
     }
 };

@@ -35,8 +35,8 @@ template <class R> class Emission {
 
   private:
     /// Of a channel, in [0, 1).
-    Vec3 random(std::uint32_t serial, int channel) const {
-        const auto ch = static_cast<int>(r.note(site::channel, typename R::Int(channel)));
+    Vec3 random(std::uint32_t serial, int channel, At place = site::channel) const {
+        const auto ch = static_cast<int>(r.note(place, typename R::Int(channel)));
         const Bits3 bits = pcg3d({serial, of_.seed, static_cast<std::uint32_t>(ch)});
         return r.note(site::random, Vec3{R::real(bits[0] >> 8U) * 0x1p-24F, R::real(bits[1] >> 8U) * 0x1p-24F,
                                          R::real(bits[2] >> 8U) * 0x1p-24F});
@@ -87,7 +87,8 @@ template <class R> class Emission {
     Real life(std::uint32_t serial) const {
         const Real shortest = r.uniform(site::shortest, at_.lifetime[0]);
         const Real longest = r.uniform(site::longest, at_.lifetime[1]);
-        Real life = r.note(site::share_of_life, shortest + random(serial, 2).y * (longest - shortest));
+        const Vec3 share = r.note(site::random_of_life, random(serial, 2, site::channel_of_life));
+        Real life = r.note(site::share_of_life, shortest + share.y * (longest - shortest));
         if (r.decide(site::too_short, life < shortest))
             life = shortest;
         if (r.decide(site::too_long, life > longest))

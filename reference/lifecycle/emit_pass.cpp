@@ -5,7 +5,12 @@
 namespace lockstep::lifecycle {
 
 void add_emit(Passes& all, const HostPtr& host, const HostEmitter& of) {
-    all.push_back(item_pass(options_of(host, "emit", particle_buffer), EmitTwin{host, &of}));
+    if (host->lists()) {
+        all.push_back(item_pass(options_of(host, "emit", particle_buffer), EmitListedTwin{host, &of}));
+        all.push_back(item_pass(options_of(host, "emit_list", survivor_buffer, true), EmitListTwin{host, &of}));
+    } else {
+        all.push_back(item_pass(options_of(host, "emit", particle_buffer), EmitTwin{host, &of}));
+    }
     all.push_back(item_pass(options_of(host, "emit_counters", counter_buffer, true), EmitCountersTwin{host, &of}));
     if (host->switches().emit_when == EmitWhen::before_destroy)
         all.push_back(

@@ -1,6 +1,7 @@
 #pragma once
 #include "reference/lifecycle/counters.hpp"
 #include "reference/lifecycle/emission.hpp"
+#include "reference/lifecycle/lists.hpp"
 
 /// This frame's newborns behind the particles that are there. Twins of shaders/lifecycle/emit.comp.
 namespace lockstep::lifecycle {
@@ -31,6 +32,48 @@ struct EmitTwin {
     }
 };
 
+/// The same where slots are given: the last of the dead first.
+struct EmitListedTwin {
+    HostPtr host;
+    const HostEmitter* of;
+    std::vector<std::uint32_t> places = {}; ///< places_of_dead
+
+    [[nodiscard]] EmitListedTwin at(const PassInput& in) const { return {host, of, places_of_dead(*of, in)}; }
+
+    template <class R> ItemWords<R> operator()(R& r, const PassInput& in, std::size_t item) const {
+        const EmitterTwin<R> emitter(r, *host, *of, in);
+        if (!emitter.has(item) || places[emitter.slot(item)] == not_listed)
+            return kept(r, *host, in, item);
+        const std::uint32_t slot = emitter.slot(item), alive = emitter.alive();
+        const std::uint32_t emitted = emitted_of(r, *host, *of, alive, in.frame);
+        const std::uint32_t k = emitter.capacity() - alive - 1 - noted(r, site::given_place, places[slot]);
+        if (!r.decide(site::is_new, k < emitted))
+            return kept(r, *host, in, item);
+        const std::uint32_t first = count_before(r, site::serial, in, *of, counter::serial);
+        return Emission<R>(r, *host, *of, in.frame).particle(slot, first + k, k, emitted);
+    }
+};
+
+/// The newborns' slots behind the list of the living.
+struct EmitListTwin {
+    HostPtr host;
+    const HostEmitter* of;
+
+    template <class R> ItemWords<R> operator()(R& r, const PassInput& in, std::size_t item) const {
+        UintItem<R> listed(r, in.before, survivor_buffer, item);
+        const EmitterTwin<R> emitter(r, *host, *of, in);
+        if (item < emitter.living_list() || item - emitter.living_list() >= of->slots)
+            return listed.record();
+        const std::uint32_t alive = emitter.alive();
+        const std::uint32_t k = static_cast<std::uint32_t>(item - emitter.living_list()) - alive;
+        if (!r.decide(site::is_new, k < emitted_of(r, *host, *of, alive, in.frame)))
+            return listed.record();
+        const std::uint32_t place = noted(r, site::given_place, emitter.capacity() - alive - 1 - k);
+        listed.set(site::rank, 0, in.before.word({dead_buffer, 0}, of->base + place));
+        return listed.record();
+    }
+};
+
 struct EmitCountersTwin {
     HostPtr host;
     const HostEmitter* of;
@@ -48,10 +91,15 @@ struct EmitCountersTwin {
             std::uint32_t clamped = counters[counter::clamped];
             const Emission<R> births(r, *host, *of, in.frame);
             for (std::uint32_t k = 0; k < emitted; ++k)
-                clamped += births.clamps(alive + k, counters[counter::serial] + k, k, emitted) ? 1U : 0U;
+                clamped += births.clamps(born_slot(in, alive, k), counters[counter::serial] + k, k, emitted) ? 1U : 0U;
             counters.set(site::clamped, counter::clamped, clamped);
         }
         return counters.record();
+    }
+
+  private:
+    [[nodiscard]] std::uint32_t born_slot(const PassInput& in, std::uint32_t alive, std::uint32_t k) const {
+        return host->lists() ? in.before.word({dead_buffer, 0}, of->base + of->slots - alive - 1 - k) : alive + k;
     }
 };
 
@@ -64,7 +112,7 @@ struct EmitArgumentsTwin {
         if (item != of->number)
             return calls.record();
         const EmitterTwin<R> emitter(r, *host, *of, in);
-        const std::uint32_t n = emitter.present();
+        const std::uint32_t n = noted(r, site::present, emitter.present());
         calls.set_groups(site::move_groups, argument::move, groups_of(n));
         if (of->dies == Dies::all)
             calls.set_groups(site::destroy_groups, argument::destroy, emitter.destroy_groups(n));

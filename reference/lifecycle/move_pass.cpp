@@ -16,8 +16,11 @@ void add_simulate(Passes& all, const HostPtr& host, const HostEmitter& of) {
     const bool counts = counts_in_simulation(*host, of);
     if (counts)
         all.push_back(item_pass(options_of(host, "simulate", counter_buffer), SimulatedCountTwin{{host, &of}}));
-    all.push_back(item_pass(options_of(host, counts ? "simulate_particles" : "simulate", particle_buffer, counts),
-                            SimulateTwin{{host, &of}}));
+    ItemPassOptions stepping = options_of(host, counts ? "simulate_particles" : "simulate", particle_buffer, counts);
+    if (host->lists())
+        all.push_back(item_pass(std::move(stepping), SimulateListedTwin{{host, &of}}));
+    else
+        all.push_back(item_pass(std::move(stepping), SimulateTwin{{host, &of}}));
 }
 
 } // namespace lockstep::lifecycle

@@ -2,6 +2,7 @@
 #include <optional>
 
 #include "reference/lifecycle/counters.hpp"
+#include "reference/lifecycle/lists.hpp"
 #include "reference/lifecycle/simulation.hpp"
 
 /// The ranks are closed, and a tick passes. Twins of shaders/lifecycle/move.comp and simulate.comp.
@@ -14,7 +15,9 @@ template <class R> std::optional<std::uint32_t> source_of(R& r, const EmitterTwi
     if (!r.decide(site::is_present, slot < s + emitter.present() - d))
         return {};
     const bool listed = r.decide(site::is_survivor, slot < s);
-    return noted(r, site::source, listed ? in.before.word({survivor_buffer, 0}, of.base + slot) : d + (slot - s));
+    if (listed)
+        return noted(r, site::source, in.before.word({survivor_buffer, 0}, of.base + slot));
+    return noted(r, site::source, noted(r, site::rest, d + (slot - s)));
 }
 
 struct MoveTwin {
@@ -54,6 +57,27 @@ struct SimulateTwin {
     }
 };
 
+/// The same of those that are listed; they stay where they are.
+struct SimulateListedTwin {
+    FrameOf frame;
+    std::vector<std::uint32_t> places = {}; ///< places_of_living
+
+    [[nodiscard]] SimulateListedTwin at(const PassInput& in) const {
+        return {frame_of(frame.host, *frame.of, in.frame), places_of_living(*frame.host, *frame.of, in)};
+    }
+
+    template <class R> ItemWords<R> operator()(R& r, const PassInput& in, std::size_t item) const {
+        const EmitterTwin<R> emitter(r, *frame.host, *frame.of, in);
+        if (!emitter.has(item) || places[emitter.slot(item)] == not_listed ||
+            !r.decide(site::is_present, places[emitter.slot(item)] < emitter.present()))
+            return kept(r, *frame.host, in, item);
+        Particle<R> particle(r, *frame.host, emitter.words_of(emitter.slot(item)));
+        particle.at(emitter.slot(item), in.frame);
+        simulate(r, frame, particle);
+        return particle.record();
+    }
+};
+
 /// How many were killed, and how many places were clamped, in a pass that simulates.
 struct SimulatedCountTwin {
     FrameOf frame;
@@ -65,16 +89,19 @@ struct SimulatedCountTwin {
         if (item != frame.of->number)
             return counters.record();
         const EmitterTwin<R> emitter(r, *frame.host, *frame.of, in);
-        const bool fused = frame.host->switches().fuse == Fuse::fused;
+        const bool lists = frame.host->lists(), fused = !lists && frame.host->switches().fuse == Fuse::fused;
+        const std::uint32_t n = lists ? emitter.present() : counters[counter::alive];
         std::uint32_t killed = 0, clamped = 0;
-        for (std::uint32_t slot = 0; slot < frame.of->slots; ++slot) {
-            std::optional<std::uint32_t> from = slot;
+        for (std::uint32_t place = 0; place < frame.of->slots; ++place) {
+            std::optional<std::uint32_t> from;
             if (fused)
-                from = source_of(r, emitter, *frame.of, in, slot);
-            if (!from || (!fused && slot >= counters[counter::alive]))
+                from = source_of(r, emitter, *frame.of, in, place);
+            else if (place < n)
+                from = emitter.slot_at(place);
+            if (!from)
                 break;
             Particle<R> particle(r, *frame.host, emitter.words_of(*from));
-            particle.at(slot, in.frame);
+            particle.at(lists ? *from : place, in.frame);
             killed += simulate(r, frame, particle) ? 1U : 0U;
             clamped += particle.was_clamped() ? 1U : 0U;
         }

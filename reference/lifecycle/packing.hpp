@@ -20,18 +20,19 @@ constexpr std::uint32_t half_of_ordered(int ordered) {
 /// The half of x. With portable arithmetic zero has no sign.
 template <class R> std::uint32_t half_of(R& r, At place, const typename R::Real& x, HalfRounding rounding,
                                          std::uint32_t dither, bool zero_is_unsigned) {
-    const auto code = r.monotone(x, [=](float f) {
+    const auto code = r.monotone(r.note(site::half_source, x), [=](float f) {
         const std::uint32_t half = half_code(f, rounding, dither);
         return ordered_half(zero_is_unsigned && half == 0x8000U ? 0U : half);
     });
-    return half_of_ordered(static_cast<int>(r.note(place, typename R::Int(r.to_int(place, code)))));
+    const auto half = r.note(site::half, code);
+    return half_of_ordered(static_cast<int>(r.note(place, typename R::Int(r.to_int(place, half)))));
 }
 
 /// 0 to 1 in `steps` steps; NaN is 0.
 template <class R> std::uint32_t unorm_of(R& r, At place, const typename R::Real& c, float steps) {
     const auto clamped = r.monotone(c, [](float f) { return f > 0.0F ? (f < 1.0F ? f : 1.0F) : 0.0F; });
-    return static_cast<std::uint32_t>(
-        static_cast<int>(r.note(place, typename R::Int(r.to_int(place, r.floor(clamped * steps + 0.5F))))));
+    const auto code = r.floor(clamped * r.uniform(site::color_steps, steps) + r.uniform(site::half_step, 0.5F));
+    return static_cast<std::uint32_t>(static_cast<int>(r.note(place, typename R::Int(r.to_int(place, code)))));
 }
 
 /// Its code is clamped to 16 bits; NaN is 0. `clamped` is set where it was.

@@ -144,7 +144,8 @@ template <class R> class Particle {
         }
     }
 
-    void set_sizes(const Real& first, const Real& end) {
+    void set_sizes(const Real& initial, const Real& last) {
+        const auto [first, end] = r.note(site::sizes, typename R::Vec2{initial, last});
         if (plan_.half_sizes) {
             const std::uint32_t code = half_of(first, 12, site::size_code);
             return set_word_of(static_cast<std::size_t>(plan_.size), code, half_of(end, 13, site::size_code));
@@ -185,8 +186,8 @@ template <class R> class Particle {
             set_color(first, plan_.color, plan_.opacity, site::initial_color, site::initial_opacity);
             return set_color(end, plan_.end_color, plan_.end_opacity, site::end_color, site::end_opacity);
         }
-        raw_[static_cast<std::size_t>(plan_.color)] = code_of(first, site::initial_color);
-        raw_[static_cast<std::size_t>(plan_.end_color)] = code_of(end, site::end_color);
+        raw_[static_cast<std::size_t>(plan_.color)] = code_of(first, site::initial_color, site::initial_opacity);
+        raw_[static_cast<std::size_t>(plan_.end_color)] = code_of(end, site::end_color, site::end_opacity);
     }
     [[nodiscard]] std::array<Real, 4> color(bool end) const {
         const auto at_word = static_cast<std::size_t>(end ? plan_.end_color : plan_.color);
@@ -243,23 +244,23 @@ template <class R> class Particle {
         set(w + 2, v.z);
     }
     void set_color(const glm::vec4& c, int rgb, int a, At of_rgb, At of_a) {
-        set_words(rgb, r.note(of_rgb, r.uniform(of_rgb, glm::vec3(c))));
-        set(a, r.note(of_a, r.uniform(of_a, c.a)));
+        set_words(rgb, r.uniform(of_rgb, glm::vec3(c)));
+        set(a, r.uniform(of_a, c.a));
     }
-    [[nodiscard]] std::uint32_t code_of(const glm::vec4& c, At place) {
+    [[nodiscard]] std::uint32_t code_of(const glm::vec4& c, At place, At opacity) {
         const bool rgba8 = host_.switches().color_code == ColorCode::rgba8;
-        const Vec3 rgb = r.note(place, r.uniform(place, glm::vec3(c)));
+        const Vec3 rgb = r.uniform(place, glm::vec3(c));
         const float steps = rgba8 ? 255.0F : 1023.0F;
         const std::uint32_t red = unorm_of(r, site::color_code, rgb.x, steps);
         const std::uint32_t green = unorm_of(r, site::color_code, rgb.y, steps);
         const std::uint32_t blue = unorm_of(r, site::color_code, rgb.z, steps);
-        const std::uint32_t alpha = unorm_of(r, site::color_code, Real(c.a), rgba8 ? 255.0F : 3.0F);
+        const std::uint32_t alpha = unorm_of(r, site::color_code, r.uniform(opacity, c.a), rgba8 ? 255.0F : 3.0F);
         return rgba8 ? red | green << 8U | blue << 16U | alpha << 24U : red | green << 10U | blue << 20U | alpha << 30U;
     }
 
     [[nodiscard]] std::uint32_t high(std::size_t w) const { return raw_[w] >> 16U; }
     [[nodiscard]] std::uint32_t low(std::size_t w) const { return raw_[w] & 0xffffU; }
-    [[nodiscard]] Real half(std::uint32_t code) const { return r.read(site::size_code, half_value(code)); }
+    [[nodiscard]] Real half(std::uint32_t code) const { return r.read(site::half_read, half_value(code)); }
     [[nodiscard]] std::uint32_t half_of(const Real& x, std::uint32_t field, At place) const {
         const HalfRounding rounding = host_.switches().half_rounding;
         const std::uint32_t dither = rounding == HalfRounding::dithered ? pcg3d({slot_, frame_, field})[0] : 0U;

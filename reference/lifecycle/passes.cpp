@@ -8,10 +8,13 @@ Passes twins(const HostPtr& host) {
     for (const HostEmitter& of : host->emitters()) {
         if (s.emit_when == EmitWhen::before_destroy)
             add_emit(all, host, of);
+        if (host->lists())
+            add_simulate(all, host, of);
         add_destroy(all, host, of);
-        add_move(all, host, of);
+        if (!host->lists())
+            add_move(all, host, of);
         add_post_destroy(all, host, of);
-        if (s.fuse == Fuse::split)
+        if (!host->lists() && s.fuse == Fuse::split)
             add_simulate(all, host, of);
         if (s.emit_when == EmitWhen::after_simulation) {
             add_emit(all, host, of);

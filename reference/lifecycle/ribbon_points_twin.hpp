@@ -28,7 +28,7 @@ struct RibbonPointsTwin {
         const std::uint32_t i = emitter.slot(item), n = emitter.alive();
         const auto seen = [&](std::uint32_t k) {
             const auto p = r.transform(site::view, r.uniform(site::view, view),
-                                       Particle<R>(r, *host, emitter.words_of(k)).position());
+                                       Particle<R>(r, *host, emitter.words_of(emitter.point_slot(k))).position());
             return Vec3{p.x, p.y, p.z};
         };
         const Vec3 p = r.note(site::seen_point, seen(i));
@@ -41,7 +41,8 @@ struct RibbonPointsTwin {
         if (!has_length(r, side))
             side = {Real(1.0F), Real(0.0F), Real(0.0F)};
         side = r.note(site::side_of_ribbon, side);
-        Real reach = r.note(site::half_width, size_of(r, Particle<R>(r, *host, emitter.words_of(i))) * 0.5F);
+        Real reach =
+            r.note(site::half_width, size_of(r, Particle<R>(r, *host, emitter.words_of(emitter.point_slot(i)))) * 0.5F);
         if (host->switches().ribbon_joint == RibbonJoint::mitre) {
             const Vec3 along = has_length(r, after) ? after : before;
             const Real c = r.note(site::mitre, r.dot(site::mitre, side, unit(r, cross_of(along, -p))));
@@ -87,7 +88,7 @@ struct RibbonPointsTwin {
             return i == 0 ? Real(0.0F) : r.divide(site::stretched, R::real(i + 1), R::real(n));
         }
         if (s.distance_sum == DistanceSum::float_blocks)
-            return Particle<R>(r, *host, emitter.words_of(i)).from_start();
+            return Particle<R>(r, *host, emitter.words_of(emitter.point_slot(i))).from_start();
         std::uint32_t sum = in.before.word({length_buffer, 0}, of->base + i);
         if (s.uv_anchor == UvAnchor::fixed)
             sum +=

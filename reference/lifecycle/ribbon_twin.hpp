@@ -2,6 +2,7 @@
 #include <algorithm>
 
 #include "reference/lifecycle/lengths.hpp"
+#include "reference/lifecycle/sort_twin.hpp"
 
 /// The lengths along a ribbon. Twins of shaders/lifecycle/ribbon_distance.comp, prefix_reduce.comp, prefix_scan.comp
 /// and prefix_sum.comp.
@@ -16,14 +17,14 @@ struct RibbonDistanceTwin {
 
     template <class R> ItemWords<R> operator()(R& r, const PassInput& in, std::size_t item) const {
         const EmitterTwin<R> emitter(r, *host, *of, in);
-        if (!emitter.has(item) || !r.decide(site::is_point, emitter.slot(item) < emitter.alive()))
+        const std::uint32_t place = place_of_point(*host, *of, in, item);
+        if (!emitter.has(item) || !r.decide(site::is_point, place < emitter.alive()))
             return kept(r, *host, in, item);
-        const std::uint32_t slot = emitter.slot(item);
-        Particle<R> point(r, *host, emitter.words_of(slot));
-        point.at(slot, in.frame);
+        Particle<R> point(r, *host, emitter.words_of(emitter.slot(item)));
+        point.at(emitter.slot(item), in.frame);
         typename R::Real way(0.0F);
-        if (slot > 0) {
-            const Particle<R> last(r, *host, emitter.words_of(slot - 1));
+        if (place > 0) {
+            const Particle<R> last(r, *host, emitter.words_of(emitter.point_slot(place - 1)));
             const auto between = r.note(site::between_points, point.position() - last.position());
             way = r.length(site::way_to_point, between);
         }
@@ -44,7 +45,7 @@ struct BlockLengths {
         return lengths.scan(point & 255U, [&](std::uint32_t k) {
             if (first + k >= n)
                 return Length<R>{};
-            return lengths.of(Particle<R>(r, *host, emitter.words_of(first + k)).from_previous());
+            return lengths.of(Particle<R>(r, *host, emitter.words_of(emitter.point_slot(first + k))).from_previous());
         });
     }
 };
@@ -124,13 +125,14 @@ struct StartDistanceTwin {
 
     template <class R> ItemWords<R> operator()(R& r, const PassInput& in, std::size_t item) const {
         const EmitterTwin<R> emitter(r, *host, *of, in);
-        if (!emitter.has(item) || !r.decide(site::is_point, emitter.slot(item) < emitter.alive()))
+        const std::uint32_t place = place_of_point(*host, *of, in, item);
+        if (!emitter.has(item) || !r.decide(site::is_point, place < emitter.alive()))
             return kept(r, *host, in, item);
         const Lengths<R> lengths(r, host->switches());
         Particle<R> point(r, *host, emitter.words_of(emitter.slot(item)));
         point.at(emitter.slot(item), in.frame);
-        point.set_from_start(
-            r.note(site::way_from_start, lengths.distance(lengths.read(in.before, distance_of_point, item))));
+        point.set_from_start(r.note(site::way_from_start,
+                                    lengths.distance(lengths.read(in.before, distance_of_point, of->base + place))));
         return point.record();
     }
 };

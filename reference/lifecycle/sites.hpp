@@ -19,6 +19,8 @@ inline constexpr Site position_code{"code of position"}, velocity_code{"code of 
 inline constexpr Site acceleration_code{"code of acceleration"}, lifetime_code{"code of lifetime"};
 inline constexpr Site remaining_code{"code of remaining"}, spawn_code{"code of spawn time"};
 inline constexpr Site size_code{"code of size"}, color_code{"code of colour"};
+inline constexpr Site half_source{"number that becomes a half"}, half{"code of a half"}, half_read{"half read"};
+inline constexpr Site color_steps{"steps of a channel"}, half_step{"half a step"};
 inline constexpr Site previous_code{"code of distance from previous"}, start_code{"code of distance from start"};
 inline constexpr Site box_low{"u_BoxLow"}, box_scale{"u_BoxScale"}, box_step{"u_BoxStep"}, in_box{"is in the box"};
 
@@ -39,12 +41,22 @@ inline constexpr Site circle{"radius on the sphere"}, shape_place{"place in the 
 inline constexpr Site place_of_emitter{"place of the emitter"}, direction_of_birth{"direction of birth"};
 inline constexpr Site speed_of_birth{"speed of birth"}, share_of_life{"share of the lifetimes"};
 inline constexpr Site too_short{"shorter than the shortest"}, too_long{"longer than the longest"};
+inline constexpr Site channel_of_life{"channel of the lifetime"}, random_of_life{"random numbers of the lifetime"};
+inline constexpr Site sizes{"sizes"};
 inline constexpr Site ticks_of_life{"ticks of the lifetime"};
 
 // Destruction and order.
 inline constexpr Site alive_before{"alive before"}, may_die_before{"may die"}, survivors_before{"survivors before"};
 inline constexpr Site survives{"survives", {}, "s"}, is_in_range{"may die by its place"}, overflows{"must make room"};
 inline constexpr Site block_sum{"sum of the block", "sum"}, rank{"rank", "survivor"}, source{"source slot"};
+inline constexpr Site listed{"slot in the list"}, buried{"buried", "buried"}, dead_slot{"slot of the dead"};
+inline constexpr Site particles_present{"particles present"}, dead_rank{"rank of the dead"},
+    is_dead{"is one of the dead"}, given_place{"place in the list of the dead"};
+inline constexpr Site current_list{"list", "list"}, is_padding{"is padding"}, sorts_before{"sorts before"};
+inline constexpr Site is_rising{"rises"}, key_time_compared{"time compared"}, key_order_compared{"order compared"},
+    key_slot_compared{"slot compared"};
+inline constexpr Site key_time{"time of the key"}, key_order{"order of the key"}, key_slot{"slot of the key"};
+inline constexpr Site list_place{"place in the list"}, rest{"slot of the rest"}, present{"particles there"};
 inline constexpr Site is_survivor{"is one of the survivors"}, is_present{"is there after the destruction"};
 
 // Counters, by their names.

@@ -64,11 +64,13 @@ template <class Number> Interval set_of(const Number& x) {
 /// A word of which no item of all such words is right: the greatest float, less its last bit.
 inline constexpr std::uint32_t nothing_reads_so = 0x7f7ffffe;
 
-/// A twin may have `at(frame)`, which returns the twin of one frame: what depends on that alone is then made once, not
-/// for every item.
-template <class Twin> decltype(auto) in_frame(const Twin& twin, int frame) {
-    if constexpr (requires { twin.at(frame); })
-        return twin.at(frame);
+/// A twin may have `at(frame)`, which returns the twin of one frame, or `at(in)`, that of one state: what depends on
+/// that alone is then made once, not for every item.
+template <class Twin> decltype(auto) in_frame(const Twin& twin, const PassInput& in) {
+    if constexpr (requires { twin.at(in); })
+        return twin.at(in);
+    else if constexpr (requires { twin.at(in.frame); })
+        return twin.at(in.frame);
     else
         return (twin);
 }
@@ -133,8 +135,8 @@ struct ItemPassOptions {
 };
 
 /// A twin as an ItemPass: `twin(r, in, item)`, a template over the reading R& r (values.hpp), pure, returning a struct
-/// whose fields() are those of the buffer's items, in order, or ItemWords (item_words.hpp). `twin.at(frame)`, where
-/// there is one, is called in its place (in_frame).
+/// whose fields() are those of the buffer's items, in order, or ItemWords (item_words.hpp). `twin.at(frame)` or
+/// `twin.at(in)`, where there is one, is called in its place (in_frame).
 template <class Twin> class ItemTwin final : public ItemPass {
   public:
     ItemTwin(ItemPassOptions options, Twin twin) : options_(std::move(options)), twin_(std::move(twin)) {
@@ -159,7 +161,7 @@ template <class Twin> class ItemTwin final : public ItemPass {
              const WritableView& after) const override {
         const FlushSubnormals guard = flush(profile);
         const std::vector<item_twin::WordColumn> columns = item_twin::word_columns(after);
-        const auto& twin = item_twin::in_frame(twin_, in.frame);
+        const auto& twin = item_twin::in_frame(twin_, in);
         with_arithmetic_of(profile, [&]<class A>(A fp) {
             Values<A> values(fp);
             using State = decltype(twin(values, in, first));
@@ -192,7 +194,7 @@ template <class Twin> class ItemTwin final : public ItemPass {
                                                     const KnownOperations& known, const View* observed) const override {
         const FlushSubnormals guard = flush(profile, known.subnormals);
         std::vector<ItemOutcome> found;
-        const auto& twin = item_twin::in_frame(twin_, in.frame);
+        const auto& twin = item_twin::in_frame(twin_, in);
         with_arithmetic_of(profile, [&]<class A>(A fp) {
             Worlds<A> worlds(fp, of_stage(known, profile), profile.other_orders);
             std::vector<std::vector<float>> kept;
@@ -215,7 +217,7 @@ template <class Twin> class ItemTwin final : public ItemPass {
     [[nodiscard]] std::vector<RecordedRow> record(const PassInput& in, std::size_t item,
                                                   const Profile& profile) const override {
         const FlushSubnormals guard = flush(profile);
-        const auto& twin = item_twin::in_frame(twin_, in.frame);
+        const auto& twin = item_twin::in_frame(twin_, in);
         return with_arithmetic_of(profile, [&]<class A>(A fp) {
             Recording<A> reading(fp);
             twin(reading, in, item);
@@ -226,7 +228,7 @@ template <class Twin> class ItemTwin final : public ItemPass {
     [[nodiscard]] FollowedStep follow(const PassInput& in, std::size_t item, const Profile& profile,
                                       const KnownOperations& known, std::span<const ToldValue> told) const override {
         const FlushSubnormals guard = flush(profile, known.subnormals);
-        const auto& twin = item_twin::in_frame(twin_, in.frame);
+        const auto& twin = item_twin::in_frame(twin_, in);
         return with_arithmetic_of(profile, [&]<class A>(A fp) {
             Following<A> reading(fp, of_stage(known, profile), profile.other_orders);
             std::map<std::string_view, int> occurrences;
@@ -258,7 +260,7 @@ template <class Twin> class ItemTwin final : public ItemPass {
     [[nodiscard]] std::vector<SeenSite> sites(const PassInput& in, std::size_t item,
                                               const Profile& profile) const override {
         const FlushSubnormals guard = flush(profile);
-        const auto& twin = item_twin::in_frame(twin_, in.frame);
+        const auto& twin = item_twin::in_frame(twin_, in);
         return with_arithmetic_of(profile, [&]<class A>(A fp) {
             Mistaken<A> reading(fp, {});
             reading.look_at_sites();
@@ -272,7 +274,7 @@ template <class Twin> class ItemTwin final : public ItemPass {
         if (is_among(Change::item_kept, made))
             return item_words(in.before[options_.resource], item);
         const FlushSubnormals guard = flush(profile, !is_among(Change::subnormals_kept, made));
-        const auto& framed = item_twin::in_frame(twin_, in.frame);
+        const auto& framed = item_twin::in_frame(twin_, in);
         const auto& twin = item_twin::as_handed(framed, made);
         constexpr bool may_fuse = item_twin::may_fuse<std::remove_cvref_t<decltype(framed)>>();
         return with_mistaken_arithmetic<may_fuse>(profile, options_.arithmetic, made, [&]<class A>(A fp) {

@@ -7,7 +7,16 @@
 #include "survival.glsl"
 
 layout(local_size_x = 256) in;
+#if MANAGEMENT == MANAGEMENT_INDEX_LISTS
+layout(std430) buffer Dead { uint dead[]; };
+
+// Behind the slots that are free already.
+void bury(uint place, uint rank) { dead[u_Base + u_Capacity - counters[u_Emitter].may_die + rank] = slot_at(place); }
+#else
 layout(std430) buffer Survivors { uint survivors[]; };
+
+void bury(uint place, uint rank) {}
+#endif
 
 #if COMPACTION == COMPACTION_SCAN
 #include "group_scan.glsl"
@@ -25,12 +34,20 @@ void main() {
     uint rank = scan_sums[u_FirstBlock + gl_WorkGroupID.x] + below;
     for (uint k = 0u; k < 4u; ++k)
         if ((flags & (1u << k)) != 0u)
-            survivors[u_Base + rank++] = first + k;
+            survivors[next_list() + rank++] = slot_at(first + k);
+        else if (first + k < d)
+            bury(first + k, first + k - rank);
 }
 #else
 void main() {
     uint i = gl_GlobalInvocationID.x;
-    if (i < counters[u_Emitter].may_die && survives(i))
-        survivors[u_Base + atomicAdd(counters[u_Emitter].append, 1u)] = i;
+    if (i >= counters[u_Emitter].may_die)
+        return;
+    if (survives(i))
+        survivors[next_list() + atomicAdd(counters[u_Emitter].append, 1u)] = slot_at(i);
+#if MANAGEMENT == MANAGEMENT_INDEX_LISTS
+    else
+        bury(i, atomicAdd(counters[u_Emitter].buried, 1u));
+#endif
 }
 #endif

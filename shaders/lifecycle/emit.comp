@@ -4,11 +4,25 @@
 #include "lifecycle.glsl"
 #include "particles.glsl"
 #include "emission.glsl"
+#include "lists.glsl"
 
 layout(local_size_x = 256) in;
 layout(std430) buffer Arguments { ArgumentWords arguments[]; };
 
 uniform uint u_Request;
+
+// Of newborn k; where slots are given, the last of the dead first.
+#if MANAGEMENT == MANAGEMENT_INDEX_LISTS
+layout(std430) readonly buffer Dead { uint dead[]; };
+
+uint slot_of_newborn(uint k, uint alive) {
+    uint slot = dead[u_Base + u_Capacity - alive - 1u - k];
+    survivors[living_list() + alive + k] = slot;
+    return slot;
+}
+#else
+uint slot_of_newborn(uint k, uint alive) { return alive + k; }
+#endif
 
 void main() {
     uint k = gl_GlobalInvocationID.x;
@@ -30,6 +44,7 @@ void main() {
     }
     if (k >= emitted)
         return;
-    be_born(alive + k, k, emitted);
-    store(alive + k);
+    uint slot = slot_of_newborn(k, alive);
+    be_born(slot, k, emitted);
+    store(slot);
 }

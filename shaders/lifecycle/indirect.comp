@@ -16,6 +16,9 @@ void main() {
     uint alive = counters[u_Emitter].alive;
     uint segments = max(alive, 1u) - 1u;
     counters[u_Emitter].append = 0u;
+#if MANAGEMENT == MANAGEMENT_INDEX_LISTS
+    counters[u_Emitter].buried = 0u;
+#endif
 #if ARITHMETIC == ARITHMETIC_EXACT
     arguments[u_Emitter].draw_sprite = uint[4](alive, 1u, 0u, 0u);
     arguments[u_Emitter].draw_ribbon = uint[4](segments, 1u, 0u, 0u);

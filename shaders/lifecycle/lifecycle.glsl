@@ -8,7 +8,7 @@ uniform uint u_Capacity; // particles it may have
 
 struct CounterWords {
     uint alive, emitted, may_die, survivors, append, died, serial, dropped;
-    uint dropped_total, young, ring_head, distance_origin, clamped, killed, spare_0, spare_1;
+    uint dropped_total, young, ring_head, distance_origin, clamped, killed, buried, list;
 };
 layout(std430) buffer Counters { CounterWords counters[]; };
 

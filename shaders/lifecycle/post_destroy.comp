@@ -32,6 +32,9 @@ void main() {
     counters[u_Emitter].survivors = s;
     counters[u_Emitter].died = died;
     counters[u_Emitter].alive = alive;
+#if MANAGEMENT == MANAGEMENT_INDEX_LISTS
+    counters[u_Emitter].list = 1u - counters[u_Emitter].list;
+#endif
 #if EMIT_WHEN == EMIT_WHEN_BEFORE_DESTROY
     count_emission(u_Request);
 #endif

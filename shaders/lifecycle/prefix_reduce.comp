@@ -3,6 +3,7 @@
 
 #include "lifecycle.glsl"
 #include "particles.glsl"
+#include "points.glsl"
 #include "lengths.glsl"
 #include "length_scan.glsl"
 
@@ -16,7 +17,7 @@ void main() {
     uint i = gl_GlobalInvocationID.x, n = counters[u_Emitter].alive;
     Length own = NO_LENGTH;
     if (i < n) {
-        load(i);
+        load(point_slot(i));
         own = length_of(distance_from_previous());
     }
     Length sum = length_scan(own);

@@ -3,6 +3,7 @@
 
 #include "lifecycle.glsl"
 #include "particles.glsl"
+#include "points.glsl"
 #include "lengths.glsl"
 
 layout(local_size_x = 256) in;
@@ -19,8 +20,9 @@ void main() {
     if (i >= 256u)
         sum = plus(length_sums[u_FirstBlock + (i >> 8) - 1u], sum);
     distances[u_Base + i] = sum;
-    load(i);
-    dither_slot = i;
+    uint slot = point_slot(i);
+    load(slot);
+    dither_slot = slot;
     set_distance_from_start(distance_of(sum));
-    store(i);
+    store(slot);
 }

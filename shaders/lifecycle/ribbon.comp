@@ -4,6 +4,7 @@
 
 #include "lifecycle.glsl"
 #include "particles.glsl"
+#include "points.glsl"
 #include "lengths.glsl"
 #include "appearance.glsl"
 
@@ -26,7 +27,7 @@ vec3 unit_of(vec3 v) {
 }
 
 vec3 seen(uint i) {
-    load(i);
+    load(point_slot(i));
     return ls_transform(u_View, position()).xyz;
 }
 
@@ -45,7 +46,7 @@ float u_at(uint i, uint n) {
     return distance_of(distances[u_Base + i]);
 #endif
 #else
-    load(i);
+    load(point_slot(i));
     return distance_from_start();
 #endif
 #else

@@ -3,6 +3,7 @@
 
 #include "lifecycle.glsl"
 #include "particles.glsl"
+#include "points.glsl"
 
 layout(local_size_x = 256) in;
 
@@ -10,16 +11,17 @@ void main() {
     uint i = gl_GlobalInvocationID.x;
     if (i >= counters[u_Emitter].alive)
         return;
+    uint slot = point_slot(i);
     float way = 0.0;
     if (i > 0u) {
-        load(i - 1u);
+        load(point_slot(i - 1u));
         vec3 last = position();
-        load(i);
+        load(slot);
         way = ls_length(sub(position(), last));
     } else {
-        load(i);
+        load(slot);
     }
-    dither_slot = i;
+    dither_slot = slot;
     set_distance_from_previous(way);
-    store(i);
+    store(slot);
 }

@@ -4,14 +4,21 @@
 #include "lifecycle.glsl"
 #include "particles.glsl"
 #include "simulation.glsl"
+#include "lists.glsl"
 
 layout(local_size_x = 256) in;
 
 void main() {
     uint i = gl_GlobalInvocationID.x;
+#if MANAGEMENT == MANAGEMENT_INDEX_LISTS
+    if (i >= present())
+        return;
+#else
     if (i >= counters[u_Emitter].alive)
         return;
-    load(i);
-    simulate(i);
-    store(i);
+#endif
+    uint slot = slot_at(i);
+    load(slot);
+    simulate(slot);
+    store(slot);
 }

@@ -1,10 +1,11 @@
 // Who survives the frame, of those that may die. Twin: reference/lifecycle/survival.hpp.
+#include "lists.glsl"
 
-bool survives(uint slot) {
+bool survives(uint place) {
     uint n = present();
-    if (n > u_Capacity && slot < n - u_Capacity)
+    if (n > u_Capacity && place < n - u_Capacity)
         return false;
-    load(slot);
+    load(slot_at(place));
     return remaining() > 0.0;
 }
 

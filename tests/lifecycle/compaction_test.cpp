@@ -53,7 +53,7 @@ TEST_CASE("compaction: what an atomic counter lists may have any order, and is t
 TEST_CASE("compaction: another order is legal, a lost, a doubled and a moved survivor each a cause of its own") {
     if (!gl())
         return skip(gl().missing());
-    const std::string append = "survivors[u_Base + atomicAdd(counters[u_Emitter].append, 1u)] = i;";
+    const std::string append = "survivors[next_list() + atomicAdd(counters[u_Emitter].append, 1u)] = slot_at(i);";
     const TemporaryFolder folder;
     const auto run = [&](const std::string& by) {
         const CheckReport report = run_lifecycle(atomic(), 30, CheckMode::resync, planted(folder, append, by));

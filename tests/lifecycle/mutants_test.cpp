@@ -37,6 +37,19 @@ lifecycle::Settings settings_of(const std::string& run) {
         e.rate = 60000.0, e.capacity = 20000, s.switches.may_die = lifecycle::MayDie::all;
     if (run == "kill")
         e.forces = {{.kind = Kind::attraction, .centre = {0.0F, 0.4F, 0.0F}, .kill_radius = 0.5F}};
+    if (run.starts_with("lists")) {
+        s.switches.management = lifecycle::Management::index_lists;
+        s.switches.layout = lifecycle::Layout::bytes_112;
+        s.switches.uv_anchor = lifecycle::UvAnchor::oldest;
+    }
+    if (run == "lists_before")
+        s.switches.emit_when = lifecycle::EmitWhen::before_destroy;
+    if (run == "lists_atomic")
+        s.switches.compaction = lifecycle::Compaction::atomic;
+    if (run == "lists_ribbon") {
+        e.draw = lifecycle::Emitter::Draw::ribbon;
+        e.capacity = 250;
+    }
     if (run == "forces") {
         s.switches.layout = lifecycle::Layout::bytes_112;
         s.switches.fuse = lifecycle::Fuse::split;

@@ -140,7 +140,13 @@ TEST_CASE("lifecycle scenes: what is wrong with a file is said in one line, with
     }
     CHECK_THAT(error_of("", R"("switches": {"layout": "41"}, )"), Catch::Contains("/switches/layout"));
     CHECK_THAT(error_of("", R"("tick": 0, )"), Catch::Contains("/tick"));
-    CHECK_THAT(error_of("", R"("switches": {"management": "index_lists"}, )"), Catch::Contains("is not built"));
+    CHECK(error_of("", R"("switches": {"management": "index_lists"}, )") == "");
+    CHECK_THAT(error_of("", R"("switches": {"management": "index_lists", "overflow": "replace_oldest"}, )"),
+               Catch::Contains("right is drop_new"));
+    CHECK_THAT(error_of(R"("draw": "ribbon")", R"("switches": {"management": "index_lists"}, )"),
+               Catch::Contains("right is layout=112"));
+    CHECK_THAT(error_of(R"("draw": "ribbon")", R"("switches": {"management": "index_lists", "layout": "112"}, )"),
+               Catch::Contains("right is uv_anchor=oldest"));
     CHECK_THAT(error_of("", R"("switches": {"distance_sum": "float_blocks"}, )"), Catch::Contains("uv_anchor=oldest"));
     CHECK_THROWS_WITH(lifecycle::load_scene(folder + "fire.json", {.set = {"layout=41"}}),
                       Catch::Contains("layout: '41' is not one of 112, 80"));

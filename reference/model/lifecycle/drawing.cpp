@@ -38,6 +38,20 @@ DrawnFields drawn_fields(const Switches& s) {
     return {at(0), at(1), at(2), at(3), at(4), at(5)};
 }
 
+namespace {
+
+/// Of the particle that is drawn `place`-th; of a ribbon its point.
+std::size_t slot_of(const Host& host, const HostEmitter& of, const SystemView& state, std::size_t place) {
+    if (!host.lists())
+        return place;
+    if (of.keys > 0)
+        return state.word({key_buffer, 2}, of.first_key + place);
+    const std::uint32_t list = state.word({counter_buffer, counter::list}, of.number) & 1U;
+    return state.word({survivor_buffer, 0}, 2 * of.base + list * of.slots + place);
+}
+
+} // namespace
+
 SystemState quads_of(const Host& host, const SystemState& state) {
     const std::size_t slots = host.slots();
     SystemState quads(drawn_schema(host.switches()), {{slots}, {4 * slots}});
@@ -52,16 +66,17 @@ SystemState quads_of(const Host& host, const SystemState& state) {
     for (const HostEmitter& of : host.emitters()) {
         const std::size_t alive = view.word({counter_buffer, counter::alive}, of.number);
         const bool ribbon = of.settings().draw == Emitter::Draw::ribbon;
-        for (std::size_t i = of.base; i < of.base + alive; ++i) {
+        for (std::size_t i = 0; i < alive; ++i) {
+            const std::size_t quad = of.base + slot_of(host, of, view, i), point = of.base + i;
             if (!ribbon) {
-                quads.set(fields.kind, i, std::uint32_t{1});
-            } else if (i + 1 < of.base + alive) {
-                quads.set(fields.kind, i, std::uint32_t{2});
-                quads.set(fields.left, i, view.vec3(left, i));
-                quads.set(fields.right, i, view.vec3(right, i));
-                quads.set(fields.next_left, i, view.vec3(left, i + 1));
-                quads.set(fields.next_right, i, view.vec3(right, i + 1));
-                quads.set(fields.u, i, view.vec2(u, i));
+                quads.set(fields.kind, quad, std::uint32_t{1});
+            } else if (i + 1 < alive) {
+                quads.set(fields.kind, quad, std::uint32_t{2});
+                quads.set(fields.left, quad, view.vec3(left, point));
+                quads.set(fields.right, quad, view.vec3(right, point));
+                quads.set(fields.next_left, quad, view.vec3(left, point + 1));
+                quads.set(fields.next_right, quad, view.vec3(right, point + 1));
+                quads.set(fields.u, quad, view.vec2(u, point));
             }
         }
     }

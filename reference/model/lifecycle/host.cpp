@@ -1,6 +1,7 @@
 #include "reference/model/lifecycle/host.hpp"
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
 
 #include <fmt/format.h>
@@ -61,12 +62,15 @@ HostEmitter::HostEmitter(const Settings& all, std::size_t number_)
     if (s.overflow == Overflow::replace_oldest)
         slots += largest_request();
     blocks = (slots + 255) / 256;
+    if (s.management == Management::index_lists && settings_.draw == Emitter::Draw::ribbon)
+        keys = std::bit_ceil(slots);
     kills = std::any_of(settings_.forces.begin(), settings_.forces.end(),
                         [](const Force& f) { return f.kind == Force::Kind::attraction && f.kill_radius > 0.0F; });
     const std::optional<std::size_t> age = s.may_die == MayDie::nominal
                                                ? std::optional(nominal_age(settings_.lifetime[0], all.tick))
                                                : dying_age(all, settings_.lifetime[0]);
-    if (s.may_die == MayDie::all || kills || s.overflow == Overflow::replace_oldest || (age && *age == 0))
+    if (s.may_die == MayDie::all || kills || s.overflow == Overflow::replace_oldest ||
+        s.management == Management::index_lists || (age && *age == 0))
         dies = Dies::all;
     else if (!age || *age > longest_window)
         dies = Dies::none;
@@ -153,7 +157,7 @@ bool counts_in_simulation(const Host& host, const HostEmitter& of) {
 
 Host::Host(Settings settings) : settings_(std::move(settings)) {
     check(settings_);
-    std::size_t base = 0, block = 0, in_ring = 0;
+    std::size_t base = 0, block = 0, in_ring = 0, key = 0;
     for (std::size_t e = 0; e < settings_.emitters.size(); ++e) {
         HostEmitter& one = emitters_.emplace_back(settings_, e);
         if (one.slots > most_particles_of_emitter)
@@ -162,8 +166,10 @@ Host::Host(Settings settings) : settings_(std::move(settings)) {
         one.base = base;
         one.first_block = block;
         one.first_in_ring = in_ring;
+        one.first_key = key;
         base += one.slots;
         block += one.blocks;
+        key += one.keys;
         in_ring += std::max<std::size_t>(one.window, 1);
     }
 }
@@ -173,6 +179,8 @@ std::size_t Host::blocks() const { return emitters_.back().first_block + emitter
 std::size_t Host::ring() const {
     return emitters_.back().first_in_ring + std::max<std::size_t>(emitters_.back().window, 1);
 }
+
+std::size_t Host::keys() const { return emitters_.back().first_key + emitters_.back().keys; }
 
 float Host::time(int frame) const { return static_cast<float>(double(frame) * double{settings_.tick}); }
 

@@ -40,6 +40,7 @@ class HostEmitter {
     std::size_t base = 0, slots = 0;           ///< particles
     std::size_t first_block = 0, blocks = 0;   ///< sums of 1,024, and of 256 for a ribbon
     std::size_t first_in_ring = 0, window = 0; ///< W; 0 where it is not asked for
+    std::size_t first_key = 0, keys = 0;       ///< of a ribbon that is sorted: a power of two
     Dies dies = Dies::window;
     bool kills = false;     ///< a force of its may kill
     std::uint32_t seed = 0; ///< of its random numbers
@@ -72,6 +73,9 @@ class Host {
     [[nodiscard]] std::size_t slots() const;
     [[nodiscard]] std::size_t blocks() const;
     [[nodiscard]] std::size_t ring() const;
+    [[nodiscard]] std::size_t keys() const;
+    /// Of particles there are lists, and none moves.
+    [[nodiscard]] bool lists() const { return settings_.switches.management == Management::index_lists; }
     [[nodiscard]] float time(int frame) const;
     [[nodiscard]] float half_tick_squared() const { return (0.5F * settings_.tick) * settings_.tick; }
     /// Of box16: 65,535 / size and size / 65,535.

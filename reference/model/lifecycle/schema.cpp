@@ -113,66 +113,76 @@ Fields lengths(const std::string& block, std::string name, DistanceSum how) {
 }
 
 Schema made(const Switches& s) {
-    return checked(
-        {"lifecycle",
-         {{.name = "particles", .item = "particle", .title = "the particles", .fields = particle_fields(s)},
-          {.name = "counters",
-           .item = "emitter",
-           .title = "the counters",
-           .fields = in_block("Counters", {{"alive", 1},
-                                           {"emitted", 1},
-                                           {"may_die", 1},
-                                           {"survivors", 1},
-                                           {"append", 1},
-                                           {"died", 1},
-                                           {"serial", 1},
-                                           {"dropped", 1},
-                                           {"dropped_total", 1},
-                                           {"young", 1},
-                                           {"ring_head", 1},
-                                           {"distance_origin", 1},
-                                           {"clamped", 1},
-                                           {"killed", 1},
-                                           {"spare", 2}})},
-          {.name = "survivors",
-           .item = "survivor",
-           .title = "the survivors",
-           .fields = in_block("Survivors", {{"survivor", 1}})},
-          {.name = "scan_sums",
-           .item = "sum",
-           .title = "the sums of blocks",
-           .fields = in_block("ScanSums", {{"sum", 1}})},
-          {.name = "ring",
-           .item = "count",
-           .title = "the emission ring",
-           .fields = in_block("Ring", {{"emission", 1}})},
-          {.name = "arguments",
-           .item = "call",
-           .title = "the arguments",
-           .fields = in_block(
-               "Arguments",
-               {{"destroy", 3}, {"move", 3}, {"simulate", 3}, {"ribbon", 3}, {"draw_sprite", 4}, {"draw_ribbon", 4}})},
-          {.name = "distances",
-           .item = "distance",
-           .title = "the distances",
-           .fields = lengths("Distances", "distance", s.distance_sum)},
-          {.name = "length_sums",
-           .item = "length",
-           .title = "the lengths of blocks",
-           .fields = lengths("LengthSums", "length", s.distance_sum)},
-          {.name = "points",
-           .item = "point",
-           .title = "the ribbons' points",
-           .fields = {{.name = "left", .components = 3, .block = "Points"},
-                      {.name = "right", .components = 3, .block = "Points"},
-                      {.name = "u", .components = 2, .block = "Points"}}}}});
+    Schema all{
+        "lifecycle",
+        {{.name = "particles", .item = "particle", .title = "the particles", .fields = particle_fields(s)},
+         {.name = "counters",
+          .item = "emitter",
+          .title = "the counters",
+          .fields = in_block("Counters", {{"alive", 1},
+                                          {"emitted", 1},
+                                          {"may_die", 1},
+                                          {"survivors", 1},
+                                          {"append", 1},
+                                          {"died", 1},
+                                          {"serial", 1},
+                                          {"dropped", 1},
+                                          {"dropped_total", 1},
+                                          {"young", 1},
+                                          {"ring_head", 1},
+                                          {"distance_origin", 1},
+                                          {"clamped", 1},
+                                          {"killed", 1},
+                                          {"spare", 2}})},
+         {.name = "survivors",
+          .item = "survivor",
+          .title = "the survivors",
+          .fields = in_block("Survivors", {{"survivor", 1}})},
+         {.name = "scan_sums",
+          .item = "sum",
+          .title = "the sums of blocks",
+          .fields = in_block("ScanSums", {{"sum", 1}})},
+         {.name = "ring", .item = "count", .title = "the emission ring", .fields = in_block("Ring", {{"emission", 1}})},
+         {.name = "arguments",
+          .item = "call",
+          .title = "the arguments",
+          .fields = in_block(
+              "Arguments",
+              {{"destroy", 3}, {"move", 3}, {"simulate", 3}, {"ribbon", 3}, {"draw_sprite", 4}, {"draw_ribbon", 4}})},
+         {.name = "distances",
+          .item = "distance",
+          .title = "the distances",
+          .fields = lengths("Distances", "distance", s.distance_sum)},
+         {.name = "length_sums",
+          .item = "length",
+          .title = "the lengths of blocks",
+          .fields = lengths("LengthSums", "length", s.distance_sum)},
+         {.name = "points",
+          .item = "point",
+          .title = "the ribbons' points",
+          .fields = {{.name = "left", .components = 3, .block = "Points"},
+                     {.name = "right", .components = 3, .block = "Points"},
+                     {.name = "u", .components = 2, .block = "Points"}}}}};
+    if (s.management == Management::index_lists) {
+        std::vector<Field>& counters = all.resources[counter_buffer].fields;
+        counters.pop_back();
+        for (Field& field : in_block("Counters", {{"buried", 1}, {"list", 1}}))
+            counters.push_back(std::move(field));
+        all.resources.push_back(
+            {.name = "dead", .item = "slot", .title = "the dead", .fields = in_block("Dead", {{"slot", 1}})});
+        all.resources.push_back({.name = "keys",
+                                 .item = "key",
+                                 .title = "the keys of the points",
+                                 .fields = in_block("Keys", {{"time", 1}, {"order", 1}, {"of", 1}})});
+    }
+    return checked(std::move(all));
 }
 
 } // namespace
 
 const Schema& schema(const Switches& s) {
-    static std::map<std::tuple<Layout, TimeCode, PositionCode, ColorCode, DistanceSum>, Schema> all;
-    const std::tuple key(s.layout, s.time_code, s.position_code, s.color_code, s.distance_sum);
+    static std::map<std::tuple<Layout, TimeCode, PositionCode, ColorCode, DistanceSum, Management>, Schema> all;
+    const std::tuple key(s.layout, s.time_code, s.position_code, s.color_code, s.distance_sum, s.management);
     const auto known = all.find(key);
     return known != all.end() ? known->second : all.emplace(key, made(s)).first->second;
 }

@@ -65,8 +65,8 @@ void check(const Settings& settings) {
     if (settings.emitters.empty())
         throw Error("there is no emitter");
     const Switches& s = settings.switches;
-    if (s.management == Management::index_lists)
-        throw Error("management=index_lists is not built; right is move_alives");
+    if (s.management == Management::index_lists && s.overflow == Overflow::replace_oldest)
+        throw Error("overflow=replace_oldest needs the order of birth; right is drop_new, or management=move_alives");
     if (s.position_code == PositionCode::box16)
         for (int axis = 0; axis < 3; ++axis)
             if (!(settings.box_size[axis] > 0.0F))
@@ -77,6 +77,14 @@ void check(const Settings& settings) {
     for (std::size_t e = 0; e < settings.emitters.size(); ++e) {
         check(settings.emitters[e], settings, e);
         const Emitter& one = settings.emitters[e];
+        if (one.draw == Emitter::Draw::ribbon && s.management == Management::index_lists) {
+            if (s.layout != Layout::bytes_112)
+                fail(e, "a ribbon of management=index_lists is sorted by its times of birth, which packed layouts do "
+                        "not keep; right is layout=112, or management=move_alives");
+            if (s.uv_anchor == UvAnchor::fixed)
+                fail(e, "uv_anchor=fixed needs the order of birth before death; right is uv_anchor=oldest, or "
+                        "management=move_alives");
+        }
         if (one.draw == Emitter::Draw::ribbon && s.uv_anchor == UvAnchor::fixed && s.compaction == Compaction::atomic &&
             one.lifetime[0] != one.lifetime[1])
             fail(e, "uv_anchor=fixed needs the order of birth; right is compaction=scan, or one lifetime");

@@ -188,7 +188,6 @@ RunDescription description(const Options& options, const Checked& checked, const
             describe(checked.profile),
             checked.settings,
             free ? "free" : "resync",
-            checked.scene.width,
             repeat_line(options, repeat_frames),
             first.empty() ? first : explain_line(options, first),
             checked.notes,

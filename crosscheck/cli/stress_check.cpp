@@ -57,7 +57,6 @@ Ran run_scene(const StressOptions& options, const RunOptions& run, const Profile
     about.profile = describe(profile);
     about.settings = settings_text(run, scene);
     about.mode = "resync";
-    about.width = scene.width;
     about.notes = conversion_notes(profile, scene.switches);
     about.shaders = shaders;
     const int frames = report.first_frame ? *report.first_frame + 1 : report.frames;

@@ -9,6 +9,7 @@
 #include "crosscheck/judge/append_judge.hpp"
 #include "crosscheck/judge/item_cause.hpp"
 #include "crosscheck/judge/item_judge.hpp"
+#include "crosscheck/judge/item_place.hpp"
 #include "crosscheck/judge/item_table.hpp"
 #include "crosscheck/judge/power.hpp"
 #include "crosscheck/judge/stopwatch.hpp"
@@ -92,17 +93,17 @@ void expect_untouched(const System& system, std::size_t first, const SystemState
             continue;
         const auto changed = differing_items(before[r], now[r]);
         if (!changed.empty())
-            throw Error(fmt::format("frame {}: {} changed {} {}; it is to write {} alone", frame, pass.name(),
-                                    system.schema.resources[r].item, changed.front(),
+            throw Error(fmt::format("frame {}: {} changed {}; it is to write {} alone", frame, pass.name(),
+                                    item_name(system.schema.resources[r], now.extent(r), changed.front()),
                                     system.schema.resources[pass.resource()].title));
     }
 }
 
-void find_canary(const System& system, const ItemPass& pass, const SystemState& now, int frame) {
+void find_canary(const ItemPass& pass, const SystemState& now, int frame) {
     const View view = now[pass.resource()];
     if (const std::size_t item = find_word(view, canary_word); item < view.count())
-        throw Error(fmt::format("frame {}: {} did not write {} {}: its record still holds what was laid there before",
-                                frame, pass.name(), system.schema.resources[pass.resource()].item, item));
+        throw Error(fmt::format("frame {}: {} did not write {}: its record still holds what was laid there before",
+                                frame, pass.name(), item_name(view.about(), view.extent, item)));
 }
 
 /// What the GPU left, but for the buffers of passes that continue `pass`: they were not judged yet.
@@ -157,7 +158,7 @@ CheckReport check(const System& system, SystemSide& gpu, const CheckOptions& opt
                 expect_untouched(system, p, before, now, frame);
             }
             if (repeat) {
-                find_canary(system, pass, now, frame);
+                find_canary(pass, now, frame);
                 SystemState again = now;
                 gpu.repeat_step(p, frame);
                 gpu.read(again);

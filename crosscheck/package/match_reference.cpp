@@ -102,7 +102,6 @@ MatchResult match_reference(GpuSide& gpu, const Scene& scene, const MatchOptions
                        lockstep::describe(side.profile),
                        switches_text(scene),
                        options.mode == CheckMode::free ? "free" : "resync",
-                       scene.width,
                        commands.repeat(report),
                        commands.explain(report),
                        conversion_notes(side.profile, scene.switches),

@@ -13,6 +13,7 @@
 #include "crosscheck/files/asked_memory.hpp"
 #include "crosscheck/files/json_reader.hpp"
 #include "crosscheck/judge/item_judge.hpp"
+#include "crosscheck/judge/item_place.hpp"
 #include "crosscheck/record/capsule_parts.hpp"
 #include "crosscheck/report/item_text.hpp"
 #include "crosscheck/scene/profile_json.hpp"
@@ -175,9 +176,10 @@ ItemCapsule cut_item_capsule(SystemRun& run, std::size_t item, const std::string
     set_words(capsule.gpu, resource, item, item_words(judged.gpu, item));
     const std::string of_run = explain_item(judged, item, capsule.told, NumberFormat::hexadecimal);
     if (item_capsule_text(capsule, run.system(), NumberFormat::hexadecimal) != of_run)
-        throw Error(fmt::format("{} {} in frame {}: its capsule would be judged otherwise than the run; its twin reads "
-                                "what is not in the state",
-                                judged.gpu.about().item, item, judged.frame));
+        throw Error(
+            fmt::format("{} in frame {}: its capsule would be judged otherwise than the run; its twin reads what "
+                        "is not in the state",
+                        item_name(judged.gpu.about(), judged.gpu.extent, item), judged.frame));
     return capsule;
 }
 

@@ -10,6 +10,7 @@
 #include <fmt/format.h>
 
 #include "crosscheck/judge/item_judge.hpp"
+#include "crosscheck/judge/item_place.hpp"
 #include "crosscheck/judge/item_table.hpp"
 #include "crosscheck/report/row_text.hpp"
 #include "crosscheck/scene/profiles.hpp"
@@ -46,7 +47,8 @@ std::string explain_item(SystemRun& run, std::size_t item, NumberFormat format) 
 std::string explain_item(const JudgedPass& pass, std::size_t item, std::span<const ToldValue> told,
                          NumberFormat format) {
     const Resource& about = pass.gpu.about();
-    std::string text = fmt::format("{} {} in frame {}, pass {}\n", about.item, item, pass.frame, pass.pass.name());
+    std::string text =
+        fmt::format("{} in frame {}, pass {}\n", item_name(about, pass.gpu.extent, item), pass.frame, pass.pass.name());
     const std::vector<StepRow> rows = item_rows(pass, item, told);
     std::size_t width = narrowest_label;
     for (const StepRow& row : rows)
@@ -84,7 +86,6 @@ RunDescription describe_run(const System& system, const SideDescription& side, c
     run.profile = describe(side.profile);
     run.settings = system.settings.empty() ? "none" : system.settings;
     run.mode = options.mode == CheckMode::free ? "free" : "resync";
-    run.width = 1;
     run.draws = false;
     run.repeat = repeat;
     run.shaders = side.shaders;

@@ -2,15 +2,14 @@
 
 #include <fmt/format.h>
 
+#include "crosscheck/judge/item_place.hpp"
+
 namespace lockstep {
 
 std::string place_arguments(const Place& place, const Schema& schema, int width) {
     const Resource& resource = schema.resources[place.resource];
-    const auto columns = static_cast<std::size_t>(width);
-    const std::string item = resource.dimensions == 1
-                                 ? std::to_string(place.index)
-                                 : fmt::format("{},{}", place.index % columns, place.index / columns);
-    return fmt::format("--frame {} --{} {}", place.frame, resource.item, item);
+    return fmt::format("--frame {} --{} {}", place.frame, resource.item,
+                       item_argument(resource, {static_cast<std::size_t>(width), 1, 1}, place.index));
 }
 
 std::string first_arguments(const CheckReport& report, int width) {

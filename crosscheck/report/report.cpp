@@ -7,6 +7,7 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
+#include "crosscheck/judge/item_place.hpp"
 #include "crosscheck/report/power_text.hpp"
 #include "crosscheck/report/value_text.hpp"
 #include "crosscheck/report/verdict_text.hpp"
@@ -20,13 +21,16 @@ std::string place(const CheckReport& r, const FrameDifference& d) {
     const FieldId id = d.difference.field;
     const Resource& resource = r.schema.resources[id.resource];
     const std::string component = component_name(r.schema[id], d.difference.component);
-    const std::size_t index = d.difference.index;
-    if (resource.dimensions == 1)
-        return fmt::format("frame {} {} {} {}", d.frame, resource.item, index, component);
-    const auto [width, height, depth] = r.total.resources[id.resource].extent;
-    const std::string layer = resource.dimensions == 3 ? fmt::format(", {}", index / (width * height)) : "";
-    return fmt::format("frame {} {} ({}, {}{}){}", d.frame, resource.item, index % width, index / width % height, layer,
-                       component.substr(r.schema[id].name.size()));
+    return fmt::format("frame {} {}{}", d.frame,
+                       item_name(resource, r.total.resources[id.resource].extent, d.difference.index),
+                       resource.dimensions == 1 ? " " + component : component.substr(r.schema[id].name.size()));
+}
+
+std::vector<Extent> extents(const CheckReport& r) {
+    std::vector<Extent> all;
+    for (const auto& compared : r.total.resources)
+        all.push_back(compared.extent);
+    return all;
 }
 
 /// "5 particle states and 7 texels": of each buffer and image as many.
@@ -311,7 +315,7 @@ std::string report_text(const CheckReport& r, const RunDescription& run) {
                  "rounds otherwise than what was measured",
                  legal_option_text(*r.wider_rule)));
     if (r.verdicts)
-        out += verdict_text(*r.verdicts, r.schema, run.width);
+        out += verdict_text(*r.verdicts, r.schema, extents(r));
     if (!run.explain.empty())
         line("", fmt::format("again: {}", run.explain));
 
@@ -421,7 +425,7 @@ nlohmann::json report_json(const CheckReport& r, const RunDescription& run) {
                   {"compare", seconds.compare},
                   {"judge", seconds.judge},
                   {"power", seconds.power}}},
-                {"verdicts", r.verdicts ? verdict_json(*r.verdicts, r.schema, run.width) : json()},
+                {"verdicts", r.verdicts ? verdict_json(*r.verdicts, r.schema, extents(r)) : json()},
                 {"repeat", run.repeat},
                 {"notes", run.notes},
                 {"explain", run.explain.empty() ? json() : json(run.explain)}};

@@ -17,7 +17,6 @@ struct RunDescription {
     std::string profile;  ///< the arithmetic the reference followed
     std::string settings; ///< preset and changed switches
     std::string mode;
-    int width = 0;       ///< CDT, to turn a texel index into x, y
     std::string repeat;  ///< a command line that repeats a run up to the first difference; {frames} is filled in
     std::string explain; ///< one that shows the first divergence step by step; empty if there is none
     std::vector<std::string> notes = {};   ///< what a reader of the verdict has to know besides

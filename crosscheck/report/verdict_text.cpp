@@ -7,6 +7,7 @@
 #include <fmt/ranges.h>
 #include <nlohmann/json.hpp>
 
+#include "crosscheck/judge/item_place.hpp"
 #include "crosscheck/report/value_text.hpp"
 
 namespace lockstep {
@@ -17,16 +18,16 @@ std::string line(std::string_view key, std::string_view text) { return fmt::form
 /// What the words of verdicts are about.
 struct Shape {
     const Schema& schema;
-    std::int64_t width; ///< of images; 1 or less where they have several: their items are then counted
+    std::span<const Extent> extents;
+
+    [[nodiscard]] Extent extent(std::size_t resource) const {
+        return resource < extents.size() ? extents[resource] : Extent();
+    }
 };
 
 std::string place_text(const Place& place, const Shape& shape) {
-    const Resource& resource = shape.schema.resources[place.resource];
-    const auto index = static_cast<std::int64_t>(place.index);
-    return resource.dimensions > 1 && shape.width > 1
-               ? fmt::format("frame {} {} ({}, {})", place.frame, resource.item, index % shape.width,
-                             index / shape.width)
-               : fmt::format("frame {} {} {}", place.frame, resource.item, index);
+    return fmt::format("frame {} {}", place.frame,
+                       item_name(shape.schema.resources[place.resource], shape.extent(place.resource), place.index));
 }
 
 std::string classes_text(const std::array<std::uint64_t, class_names.size()>& counts) {
@@ -141,10 +142,9 @@ nlohmann::json lean_json(const VerdictSummary& s) {
 
 nlohmann::json place_json(const Place& place, const Shape& shape) {
     const Resource& resource = shape.schema.resources[place.resource];
-    if (resource.dimensions == 1 || shape.width <= 1)
-        return {{"frame", place.frame}, {resource.item, place.index}};
-    const auto index = static_cast<std::int64_t>(place.index);
-    return {{"frame", place.frame}, {resource.item, {index % shape.width, index / shape.width}}};
+    nlohmann::json item =
+        nlohmann::json::parse(fmt::format("[{}]", item_argument(resource, shape.extent(place.resource), place.index)));
+    return {{"frame", place.frame}, {resource.item, item.size() == 1 ? item[0] : item}};
 }
 
 nlohmann::json cause_json(const CauseFindings& found) {
@@ -180,8 +180,8 @@ std::string grouped(std::uint64_t value) {
     return digits;
 }
 
-std::string verdict_text(const VerdictSummary& s, const Schema& schema, int width) {
-    const Shape shape{schema, width};
+std::string verdict_text(const VerdictSummary& s, const Schema& schema, std::span<const Extent> extents) {
+    const Shape shape{schema, extents};
     std::string classes;
     for (std::size_t r = 0; r < s.classes.size(); ++r)
         classes += fmt::format("{}{}s: {}", r == 0 ? "" : "; ", schema.resources[r].item, classes_text(s.classes[r]));
@@ -214,8 +214,8 @@ std::string verdict_text(const VerdictSummary& s, const Schema& schema, int widt
     return text;
 }
 
-nlohmann::json verdict_json(const VerdictSummary& s, const Schema& schema, int width) {
-    const Shape shape{schema, width};
+nlohmann::json verdict_json(const VerdictSummary& s, const Schema& schema, std::span<const Extent> extents) {
+    const Shape shape{schema, extents};
     using nlohmann::json;
     json ties = json::object();
     for (const auto& [kind, tie] : s.ties)

@@ -1,10 +1,12 @@
 #pragma once
 #include <cstdint>
+#include <span>
 #include <string>
 
 #include <nlohmann/json_fwd.hpp>
 
 #include "crosscheck/judge/verdict_summary.hpp"
+#include "reference/model/state_view.hpp"
 
 namespace lockstep {
 
@@ -14,10 +16,11 @@ std::string grouped(std::uint64_t value);
 /// Whether a cause is told of anything: what explains all of a buffer's or image's divergence, and nothing contradicts.
 bool tells_cause(const VerdictSummary& summary);
 
-/// The lines of a report about verdicts: classes, ties, cause, first divergence. `width`: of images, texels.
-std::string verdict_text(const VerdictSummary& summary, const Schema& schema, int width);
+/// The lines of a report about verdicts: classes, ties, cause, first divergence. `extents`: of each
+/// buffer and image.
+std::string verdict_text(const VerdictSummary& summary, const Schema& schema, std::span<const Extent> extents);
 
 /// The same as data.
-nlohmann::json verdict_json(const VerdictSummary& summary, const Schema& schema, int width);
+nlohmann::json verdict_json(const VerdictSummary& summary, const Schema& schema, std::span<const Extent> extents);
 
 } // namespace lockstep

@@ -22,6 +22,7 @@ using namespace lockstep::test;
 namespace {
 
 constexpr int side = 500;
+const std::vector<Extent> extents{{}, {side, side}};
 
 /// The projection that puts everything so many 1/256 pixels further right and up.
 glm::mat4 shifted(glm::mat4 m, glm::vec2 steps) {
@@ -103,7 +104,7 @@ struct Setting {
 };
 
 std::string shift_of(const VerdictSummary& summary) {
-    return verdict_json(summary, collision_schema(), side)["lean"]["shift"];
+    return verdict_json(summary, collision_schema(), extents)["lean"]["shift"];
 }
 
 const std::pair<glm::vec2, const char*> shifts[] = {{{0.4F, 0.0F}, "shifted_right"},
@@ -121,7 +122,7 @@ TEST_CASE("tie bias: points shifted by 0.4 of a sub-pixel step are divergent, an
         const VerdictSummary summary = setting.judged(steps);
         CHECK(summary.total(DifferenceClass::divergent) > 20);
         CHECK(shift_of(summary) == name);
-        CHECK_THAT(verdict_text(summary, collision_schema(), side),
+        CHECK_THAT(verdict_text(summary, collision_schema(), extents),
                    Catch::Contains("\nshift     " + std::string(name) + ": "));
         REQUIRE(summary.first);
         const std::string& step = summary.first->wrong.step;
@@ -136,7 +137,7 @@ TEST_CASE("tie bias: triangles shifted by 0.4 of a sub-pixel step are divergent,
         INFO(name);
         const VerdictSummary summary = setting.judged(steps);
         CHECK(summary.total(DifferenceClass::divergent) > 20);
-        INFO(verdict_text(summary, collision_schema(), side));
+        INFO(verdict_text(summary, collision_schema(), extents));
         CHECK(shift_of(summary) == name);
     }
 }
@@ -167,7 +168,7 @@ TEST_CASE("tie bias: where nobody measured how accurate window coordinates are, 
         CHECK(summary.total(DifferenceClass::divergent) > 100);
         REQUIRE(summary.first);
         CHECK(summary.first->verdict.kind == DifferenceClass::divergent);
-        CHECK_THAT(verdict_text(summary, collision_schema(), side),
+        CHECK_THAT(verdict_text(summary, collision_schema(), extents),
                    Catch::Contains(std::string(name) + ": in both halves of the image"));
     }
     CHECK(setting.judged({0.0F, 0.0F}, ViewportRounding::separate).total(DifferenceClass::divergent) == 0);
@@ -182,7 +183,7 @@ TEST_CASE("tie bias: a driver measured to be less accurate, or on no known grid,
     const VerdictSummary summary = setting.judged({0.4F, 0.0F});
     CHECK(summary.total(DifferenceClass::divergent) == 0);
     CHECK(shift_of(summary).empty());
-    CHECK_THAT(verdict_text(summary, collision_schema(), side),
+    CHECK_THAT(verdict_text(summary, collision_schema(), extents),
                Catch::Contains("\nlean      into the pixel beside: 0 left, "));
 }
 

@@ -334,12 +334,12 @@ TEST_CASE("verdict: a summary counts classes, set sizes and ties, and its text a
     CHECK(nearest.smallest == 0.125);
     CHECK(nearest.largest == 0.25);
     CHECK(nearest.closest.index == 9);
-    const std::string text = verdict_text(summary, collision_schema(), 64);
+    const std::string text = verdict_text(summary, collision_schema(), std::vector<Extent>{{}, {64, 64}});
     CHECK_THAT(text, Catch::Contains("particles: 1 rounding, 2 tie; texels: 1 undefined"));
     CHECK_THAT(text, Catch::Contains("median 1, largest 3"));
     CHECK_THAT(text, Catch::Contains("nearest: 2, margins 0.125 to 0.25 world units; closest frame 5 particle 9"));
     CHECK_THAT(text, Catch::Contains("normalize of a vector of length 0: 1"));
-    const nlohmann::json json = verdict_json(summary, collision_schema(), 64);
+    const nlohmann::json json = verdict_json(summary, collision_schema(), std::vector<Extent>{{}, {64, 64}});
     CHECK(json["particles"]["tie"] == 2);
     CHECK(json["set_size"]["largest"] == 3);
     CHECK(json["ties"]["nearest"]["closest"]["particle"] == 9);

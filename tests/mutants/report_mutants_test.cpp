@@ -63,7 +63,7 @@ Artefact artefact_of(const test::TrialScene& trial, const std::filesystem::path&
             artefact.capsule =
                 cut_capsule(frames.judged(), {scene, "", "", item.frame, item.index, frames.capture(item.index)});
         }
-    const RunDescription run{trial.name(), "", "", "", "resync", scene.width, "", ""};
+    const RunDescription run{trial.name(), "", "", "", "resync", "", ""};
     artefact.page = report_page(page_data_marker, collector, report, run, {}, items, {});
     return artefact;
 }

@@ -2,8 +2,10 @@
 #include <fstream>
 #include <sstream>
 #include <string>
+#include <tuple>
 
 #include <catch2/catch.hpp>
+#include <fmt/format.h>
 #include <lockstep/catch.hpp>
 #include <lockstep/system.hpp>
 
@@ -179,6 +181,14 @@ CheckReport run(const std::string& shaders, std::vector<GlPass> of = passes()) {
     return check(made, side, options);
 }
 
+/// "(3, 1)" of an image of 8 x 4, "(3, 1, 0)" of the deep one.
+std::string told_place(const Resource& resource, std::size_t item) {
+    if (resource.dimensions == 1)
+        return fmt::format("{}", item);
+    const std::string at = fmt::format("{}, {}", item % 8, item / 8 % 4);
+    return resource.dimensions == 2 ? fmt::format("({})", at) : fmt::format("({}, {})", at, item / 32);
+}
+
 /// The shaders with one text replaced, in a folder of their own.
 std::string planted(const TemporaryFolder& folder, const std::string& file, const std::string& right,
                     const std::string& by) {
@@ -222,6 +232,23 @@ TEST_CASE("images: what a wrong shader leaves in one is divergent there") {
     CHECK(report.verdict == Verdict::divergent);
     for (std::uint8_t r = 0; r < glow().resources.size(); ++r)
         CHECK((report.total.differing(r) > 0) == (r == bug.resource));
+    const Resource& wrong = glow().resources[bug.resource];
+    const Place& first = report.verdicts->first->place;
+    CHECK_THAT(report_text(report, {}), Catch::Contains(fmt::format("first     frame {} {} {},", first.frame,
+                                                                    wrong.item, told_place(wrong, first.index))));
+}
+
+TEST_CASE("images: what is told of a texel names its column, row and layer, in explain and in a capsule") {
+    if (!gl())
+        return skip(gl().missing());
+    const System twins = system();
+    GlSystemSide side(gl(), twins, passes(), "tests/package/glow");
+    for (const auto& [pass, item, name] : {std::tuple{0U, 11U, "texel (3, 1) in frame 1, pass shine"},
+                                           {1U, 43U, "cell (3, 1, 1) in frame 1, pass spread"}}) {
+        SystemRun run(twins, side, measured_operations(side.describe().profile), 1, pass);
+        CHECK_THAT(explain_item(run, item), Catch::StartsWith(name));
+        CHECK_THAT(item_capsule_text(cut_item_capsule(run, item, "here"), twins), Catch::StartsWith(name));
+    }
 }
 
 TEST_CASE("images: a texel that a dispatch leaves out is an error, not a value of before") {
@@ -230,7 +257,7 @@ TEST_CASE("images: a texel that a dispatch leaves out is an error, not a value o
     const TemporaryFolder folder;
     const std::string shaders =
         planted(folder, "spread.comp", "    float share", "    if (texel.x == 3)\n        return;\n    float share");
-    CHECK_THROWS_WITH(run(shaders), Catch::Contains("spread did not write cell 3"));
+    CHECK_THROWS_WITH(run(shaders), Catch::Contains("spread did not write cell (3, 0, 0)"));
 }
 
 TEST_CASE("images: formats and passes that do not fit are named") {

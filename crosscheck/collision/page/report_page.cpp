@@ -75,7 +75,7 @@ std::string report_page(std::string_view page_template, const PageCollector& run
 
     json tables = json::array(), listed = json::array();
     for (const ExplainedItem& item : items) {
-        listed.push_back(item_json(item, description.width));
+        listed.push_back(item_json(item, run.scene().width));
         tables.push_back(item.told);
     }
     const CollisionImage cdt = empty_cdt(run.scene());

@@ -22,7 +22,7 @@ bool starts_with_any(const std::string& text, const std::vector<std::string>& pr
 }
 
 /// The jobs of crosscheck/, each knowing those before it.
-const std::vector<std::string> jobs{"files", "scene", "judge", "report", "record", "study", "package", "cli"};
+const std::vector<std::string> jobs{"files", "scene", "judge", "report", "record", "study", "command", "package", "cli"};
 
 /// The place of a file's job among them; nothing of files that are no job's.
 std::optional<std::size_t> job_of(const std::string& file) {
@@ -77,7 +77,7 @@ std::optional<std::string> registered_system_of(const std::string& file) {
 std::string forbidden(const std::string& file, const std::string& header) {
     if (!file.starts_with("gpu/") && starts_with_any(header, {"GL/", "EGL/", "GLES", "KHR/", "OpenGL/", "glbinding/"}))
         return "GL headers belong to gpu/";
-    if (header.starts_with("CLI/") && file != "crosscheck/cli/command_line.cpp")
+    if (header.starts_with("CLI/") && file != "crosscheck/command/command_line.cpp")
         return "verbs describe their options as data";
     if (file.starts_with("reference/model/") && starts_with_any(header, {"reference/"}) &&
         !header.starts_with("reference/model/"))

@@ -11,11 +11,11 @@
 #include <sys/resource.h>
 
 #include "crosscheck/cli/commands.hpp"
-#include "crosscheck/cli/judging_options.hpp"
-#include "crosscheck/cli/option_values.hpp"
 #include "crosscheck/cli/run_options.hpp"
 #include "crosscheck/cli/system_verbs.hpp"
 #include "crosscheck/collision/judge/check.hpp"
+#include "crosscheck/command/judging_options.hpp"
+#include "crosscheck/command/option_values.hpp"
 #include "crosscheck/report/report.hpp"
 #include "crosscheck/report/verdict_text.hpp"
 #include "crosscheck/scene/profiles.hpp"

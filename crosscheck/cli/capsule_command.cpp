@@ -6,8 +6,6 @@
 #include <fmt/format.h>
 
 #include "crosscheck/cli/commands.hpp"
-#include "crosscheck/cli/judging_options.hpp"
-#include "crosscheck/cli/option_values.hpp"
 #include "crosscheck/cli/run_options.hpp"
 #include "crosscheck/cli/system_verbs.hpp"
 #include "crosscheck/collision/judge/frame_run.hpp"
@@ -16,6 +14,8 @@
 #include "crosscheck/collision/record/trace_side.hpp"
 #include "crosscheck/collision/report/frame_images.hpp"
 #include "crosscheck/collision/report/named_items.hpp"
+#include "crosscheck/command/judging_options.hpp"
+#include "crosscheck/command/option_values.hpp"
 #include "crosscheck/files/plain_text.hpp"
 #include "crosscheck/files/threads.hpp"
 #include "crosscheck/scene/profiles.hpp"
@@ -131,12 +131,13 @@ Verb capsule_command() {
     add_scene_options(cut_verb, options->run, SceneArgument::optional);
     add_gl_options(cut_verb, options->run);
     add_trace_option(cut_verb, options->trace);
-    cut_verb.add(
-        required(integer_option("--frame", "F", {0, most_frames}, options->frame, "the frame, counted from 0")));
+    cut_verb.add(frame_option(options->frame));
     cut_verb.add(text_option("--particle", "I", options->particle, "the particle"));
     cut_verb.add(text_option("--pixel", "X,Y", options->pixel, "or the pixel of the rendered frame"));
-    cut_verb.add(text_option("--item", "I", options->item, "the item, of a scene of another system"));
-    cut_verb.add(text_option("--pass", "NAME", options->pass, "of which pass, there; else the first"));
+    cut_verb.add(text_option("--item", "I|X,Y", options->item,
+                             "the item, of a scene of another system; of an image column and row"));
+    cut_verb.add(
+        text_option("--pass", "NAME", options->pass, "of which pass, there; else the first that runs in the frame"));
     cut_verb.add(required(path_option("-o,--output", "FILE", options->output, "the capsule, JSON, at most 100 kB")));
     add_legal_option(cut_verb, options->legal);
     cut_verb.footer = "Exit status: 0 it agrees or is legal, 1 it is not, 2 could not run.\n"
@@ -145,7 +146,7 @@ Verb capsule_command() {
 
     Verb show_verb{"show", "judge one again, and print its step table; needs no GL"};
     show_verb.add(required(path_option("capsule", "FILE", options->capsule, "what `capsule cut` wrote")));
-    show_verb.add(flag("--hex", options->hexadecimal, "hexadecimal floats instead of decimal ones"));
+    show_verb.add(hex_option(options->hexadecimal));
     show_verb.footer = "Exit status: 0 it agrees or is legal, 1 it is not, 2 could not run.\n"
                        "Example: lockstep capsule show 17.json";
     show_verb.run = [options](const Call&) { return show(*options); };

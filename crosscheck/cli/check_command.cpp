@@ -10,8 +10,6 @@
 #include <fmt/format.h>
 
 #include "crosscheck/cli/commands.hpp"
-#include "crosscheck/cli/judging_options.hpp"
-#include "crosscheck/cli/option_values.hpp"
 #include "crosscheck/cli/run_options.hpp"
 #include "crosscheck/cli/stress_check.hpp"
 #include "crosscheck/cli/system_verbs.hpp"
@@ -23,6 +21,8 @@
 #include "crosscheck/collision/record/trace_side.hpp"
 #include "crosscheck/collision/report/frame_images.hpp"
 #include "crosscheck/collision/report/hash_file.hpp"
+#include "crosscheck/command/judging_options.hpp"
+#include "crosscheck/command/option_values.hpp"
 #include "crosscheck/files/json_text.hpp"
 #include "crosscheck/files/output_files.hpp"
 #include "crosscheck/files/plain_text.hpp"

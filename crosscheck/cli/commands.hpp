@@ -1,13 +1,8 @@
 #pragma once
-#include "crosscheck/cli/verb.hpp"
+#include "crosscheck/command/exit_status.hpp"
+#include "crosscheck/command/verb.hpp"
 
 namespace lockstep {
-
-/// Exit statuses of the program.
-inline constexpr int status_agree = 0;
-inline constexpr int status_differ = 1;
-inline constexpr int status_could_not_run = 2;
-inline constexpr int status_interrupted = 130; ///< Ctrl-C, as a shell reports it
 
 Verb check_command();
 Verb report_command();

@@ -6,7 +6,7 @@
 #include "crosscheck/cli/commands.hpp"
 #include "crosscheck/cli/completion.hpp"
 #include "crosscheck/cli/man_page.hpp"
-#include "crosscheck/cli/option_values.hpp"
+#include "crosscheck/command/option_values.hpp"
 
 namespace lockstep {
 

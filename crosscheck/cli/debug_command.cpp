@@ -7,10 +7,10 @@
 #include <unistd.h>
 
 #include "crosscheck/cli/commands.hpp"
-#include "crosscheck/cli/judging_options.hpp"
-#include "crosscheck/cli/option_values.hpp"
 #include "crosscheck/cli/run_options.hpp"
 #include "crosscheck/collision/report/debug_session.hpp"
+#include "crosscheck/command/judging_options.hpp"
+#include "crosscheck/command/option_values.hpp"
 #include "crosscheck/files/plain_text.hpp"
 #include "crosscheck/scene/profiles.hpp"
 #include "gpu/context.hpp"

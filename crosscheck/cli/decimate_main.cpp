@@ -3,8 +3,8 @@
 
 #include <fmt/format.h>
 
-#include "crosscheck/cli/command_line.hpp"
-#include "crosscheck/cli/option_values.hpp"
+#include "crosscheck/command/command_line.hpp"
+#include "crosscheck/command/option_values.hpp"
 #include "crosscheck/scene/decimate.hpp"
 
 using namespace lockstep;

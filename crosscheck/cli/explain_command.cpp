@@ -6,8 +6,6 @@
 #include <fmt/format.h>
 
 #include "crosscheck/cli/commands.hpp"
-#include "crosscheck/cli/judging_options.hpp"
-#include "crosscheck/cli/option_values.hpp"
 #include "crosscheck/cli/run_options.hpp"
 #include "crosscheck/cli/system_verbs.hpp"
 #include "crosscheck/collision/judge/frame_run.hpp"
@@ -16,6 +14,8 @@
 #include "crosscheck/collision/report/frame_images.hpp"
 #include "crosscheck/collision/report/named_items.hpp"
 #include "crosscheck/collision/report/pixel_text.hpp"
+#include "crosscheck/command/judging_options.hpp"
+#include "crosscheck/command/option_values.hpp"
 #include "crosscheck/files/plain_text.hpp"
 #include "crosscheck/files/threads.hpp"
 #include "crosscheck/scene/profiles.hpp"
@@ -114,16 +114,18 @@ Verb explain_command() {
     add_scene_options(verb, options->run, SceneArgument::optional);
     add_gl_options(verb, options->run);
     add_trace_option(verb, options->trace);
-    verb.add(required(integer_option("--frame", "F", {0, most_frames}, options->frame, "the frame, counted from 0")));
+    verb.add(frame_option(options->frame));
     verb.add(text_option("--particle", "I", options->particle, "the particle"));
     verb.add(
         text_option("--texel", "X,Y", options->texel, "the texel of the CDT, column and row from the bottom left"));
     verb.add(text_option("--pixel", "X,Y", options->pixel,
                          "the pixel of the rendered frame, column and row from the bottom left"));
-    verb.add(text_option("--item", "I", options->item, "the item, of a scene of another system"));
-    verb.add(text_option("--pass", "NAME", options->pass, "of which pass, there; else the first"));
+    verb.add(text_option("--item", "I|X,Y", options->item,
+                         "the item, of a scene of another system; of an image column and row"));
+    verb.add(
+        text_option("--pass", "NAME", options->pass, "of which pass, there; else the first that runs in the frame"));
     add_legal_option(verb, options->legal);
-    verb.add(flag("--hex", options->hexadecimal, "hexadecimal floats instead of decimal ones"));
+    verb.add(hex_option(options->hexadecimal));
     verb.footer = "Exit status: 0 told, 2 could not run.\n"
                   "Example: lockstep explain data/scenes/lattice.json --frame 30 --particle 17";
     verb.run = [options](const Call& call) { return run(*options, call); };

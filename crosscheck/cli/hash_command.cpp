@@ -4,9 +4,9 @@
 #include <fmt/format.h>
 
 #include "crosscheck/cli/commands.hpp"
-#include "crosscheck/cli/option_values.hpp"
 #include "crosscheck/cli/run_options.hpp"
 #include "crosscheck/cli/system_verbs.hpp"
+#include "crosscheck/command/option_values.hpp"
 #include "reference/collision/simulation.hpp"
 #include "reference/model/collision/collision_state.hpp"
 #include "reference/model/profile.hpp"

@@ -4,8 +4,8 @@
 #include <new>
 #include <string>
 
-#include "crosscheck/cli/command_line.hpp"
 #include "crosscheck/cli/commands.hpp"
+#include "crosscheck/command/command_line.hpp"
 #include "crosscheck/files/plain_text.hpp"
 #include "crosscheck/files/signals.hpp"
 #include "crosscheck/files/standard_output.hpp"

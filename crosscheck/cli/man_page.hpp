@@ -2,7 +2,7 @@
 #include <string>
 #include <vector>
 
-#include "crosscheck/cli/verb.hpp"
+#include "crosscheck/command/verb.hpp"
 
 namespace lockstep {
 

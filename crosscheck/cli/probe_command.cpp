@@ -5,8 +5,8 @@
 #include <nlohmann/json.hpp>
 
 #include "crosscheck/cli/commands.hpp"
-#include "crosscheck/cli/option_values.hpp"
 #include "crosscheck/cli/run_options.hpp"
+#include "crosscheck/command/option_values.hpp"
 #include "crosscheck/files/output_files.hpp"
 #include "crosscheck/report/probe_table.hpp"
 #include "crosscheck/scene/profiles.hpp"

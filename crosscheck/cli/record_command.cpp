@@ -6,9 +6,9 @@
 #include <nlohmann/json.hpp>
 
 #include "crosscheck/cli/commands.hpp"
-#include "crosscheck/cli/option_values.hpp"
 #include "crosscheck/cli/run_options.hpp"
 #include "crosscheck/collision/record/trace_writer.hpp"
+#include "crosscheck/command/option_values.hpp"
 #include "crosscheck/files/plain_text.hpp"
 #include "crosscheck/judge/compare.hpp"
 #include "crosscheck/report/progress.hpp"

@@ -4,10 +4,10 @@
 #include <fmt/format.h>
 
 #include "crosscheck/cli/commands.hpp"
-#include "crosscheck/cli/option_values.hpp"
 #include "crosscheck/cli/run_options.hpp"
 #include "crosscheck/cli/system_verbs.hpp"
 #include "crosscheck/collision/report/frame_images.hpp"
+#include "crosscheck/command/option_values.hpp"
 #include "crosscheck/files/output_files.hpp"
 #include "crosscheck/files/png.hpp"
 #include "crosscheck/report/progress.hpp"

@@ -6,8 +6,8 @@
 
 #include <fmt/format.h>
 
-#include "crosscheck/cli/option_values.hpp"
 #include "crosscheck/cli/systems.hpp"
+#include "crosscheck/command/option_values.hpp"
 #include "crosscheck/files/json_reader.hpp"
 #include "crosscheck/files/shell_words.hpp"
 #include "crosscheck/files/threads.hpp"

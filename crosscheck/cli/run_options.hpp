@@ -8,15 +8,12 @@
 
 #include <nlohmann/json_fwd.hpp>
 
-#include "crosscheck/cli/verb.hpp"
+#include "crosscheck/command/verb.hpp"
 #include "crosscheck/files/output_files.hpp"
 #include "gpu/shader_use.hpp"
 #include "reference/model/collision/scene.hpp"
 
 namespace lockstep {
-
-/// Frames a run may have.
-inline constexpr int most_frames = 100'000'000;
 
 struct RegisteredSystem;
 

@@ -9,9 +9,9 @@
 #include <nlohmann/json.hpp>
 
 #include "crosscheck/cli/commands.hpp"
-#include "crosscheck/cli/option_values.hpp"
 #include "crosscheck/cli/run_options.hpp"
 #include "crosscheck/cli/thesis_study.hpp"
+#include "crosscheck/command/option_values.hpp"
 #include "crosscheck/files/json_text.hpp"
 #include "crosscheck/files/output_files.hpp"
 #include "crosscheck/files/plain_text.hpp"

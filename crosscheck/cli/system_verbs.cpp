@@ -1,8 +1,6 @@
 #include "crosscheck/cli/system_verbs.hpp"
 
-#include <algorithm>
 #include <array>
-#include <charconv>
 #include <cstdio>
 #include <vector>
 
@@ -16,17 +14,12 @@
 #include "crosscheck/files/json_text.hpp"
 #include "crosscheck/files/plain_text.hpp"
 #include "crosscheck/files/shell_words.hpp"
-#include "crosscheck/files/signals.hpp"
 #include "crosscheck/judge/system_check.hpp"
 #include "crosscheck/record/capsule_parts.hpp"
 #include "crosscheck/record/item_capsule.hpp"
 #include "crosscheck/report/item_text.hpp"
 #include "crosscheck/report/power_text.hpp"
-#include "crosscheck/report/progress.hpp"
-#include "crosscheck/scene/profiles.hpp"
 #include "reference/model/error.hpp"
-#include "reference/model/near_name.hpp"
-#include "reference/model/state_hash.hpp"
 
 namespace lockstep {
 namespace {
@@ -35,53 +28,9 @@ using nlohmann::json;
 
 constexpr int capsule_version = 1;
 
-/// A whole number that is all of a word.
-std::optional<std::size_t> number(std::string_view text) {
-    std::size_t value = 0;
-    const auto [end, status] = std::from_chars(text.data(), text.data() + text.size(), value);
-    return status == std::errc{} && end == text.data() + text.size() ? std::optional(value) : std::nullopt;
-}
-
-/// The first that runs in the frame where none is named.
-std::size_t pass_named(const std::string& name, const System& system, int frame) {
-    std::vector<std::string> names;
-    for (const auto& pass : system.passes) {
-        if (name.empty() && pass->runs(frame))
-            return names.size();
-        names.emplace_back(pass->name());
-    }
-    if (const auto found = std::find(names.begin(), names.end(), name); found != names.end())
-        return static_cast<std::size_t>(found - names.begin());
-    if (const auto place = number(name); place && *place < names.size())
-        return *place;
-    throw Error(fmt::format("--pass: there is no pass '{}'; there are {}{}", plain_line(name), fmt::join(names, ", "),
-                            did_you_mean(name, names)));
-}
-
-std::size_t item_named(const std::string& text, const SystemScene& scene, std::size_t pass) {
-    const std::uint8_t resource = scene.system.passes[pass]->resource();
-    const std::size_t count = scene.system.start.extent(resource).count();
-    const auto item = number(text);
-    if (!item || *item >= count)
-        throw Error(fmt::format("--item: there is no {} '{}'; {} has 0 to {}",
-                                scene.system.schema.resources[resource].item, plain_line(text), scene.system.name,
-                                count - 1));
-    return *item;
-}
-
-NumberFormat format(bool hexadecimal) { return hexadecimal ? NumberFormat::hexadecimal : NumberFormat::decimal; }
-
 std::string check_line(const RunOptions& run, const SystemCheck& asked, int frames) {
     return command_line("check", run, frames) + (asked.mode == CheckMode::free ? " --mode free" : "") +
            legal_option_text(asked.legal) + pass_options_text(asked.rules);
-}
-
-CheckReport run_both(const System& system, SystemSide& side, CheckOptions options, bool quiet) {
-    const InterruptHandler handler;
-    Progress progress("check", options.frames, !quiet);
-    options.stop = &interrupted;
-    options.on_frame = [&](int done) { progress.show(done); };
-    return check(system, side, options);
 }
 
 /// What the last frame draws.
@@ -126,10 +75,6 @@ std::string drawn_text(const DrawnFrame& drawn, const PassRules& rules) {
                        verdict_words(report), drawn.items, report.schema.resources.back().item, drawn.frame);
 }
 
-int status_of(const ItemCapsule& capsule, const System& system) {
-    return judge(capsule, system).kind >= DifferenceClass::undefined ? status_differ : status_agree;
-}
-
 } // namespace
 
 std::span<const std::string_view> system_check_options() {
@@ -157,20 +102,16 @@ int check_system(const RegisteredSystem& system, const RunOptions& run, const Sy
     options.mode = asked.mode;
     options.frames = run.frames;
     options.known = known_operations(asked.legal, side.describe().profile);
-    CheckReport report = run_both(twins, side, options, asked.quiet);
+    CheckReport report = check_shown(twins, side, options, asked.quiet);
     ask_power(report, asked.rules.power_at_least);
 
     const int frames = report.first_frame ? *report.first_frame + 1 : report.frames;
     RunDescription about = describe_run(twins, side.describe(), options, check_line(run, asked, frames));
     about.scene = fmt::format("{} ({})", twins.name, plain_line(read.file));
     about.shaders = std::move(shaders);
-    if (report.verdicts && report.verdicts->first) {
-        const auto& first = *report.verdicts->first;
-        about.explain = command_line("explain", run,
-                                     fmt::format("--frame {} --pass {} --item {}", first.place.frame,
-                                                 twins.passes[first.pass]->name(), first.place.index)) +
-                        legal_option_text(asked.legal);
-    }
+    if (const auto words = first_item_words(twins, report); !words.empty())
+        about.explain =
+            command_line("explain", run, fmt::format("{}", fmt::join(words, " "))) + legal_option_text(asked.legal);
     const DrawnFrame drawn =
         asked.render && !report.partial() ? judge_drawn(read.scene, gl, side, run, asked, report) : DrawnFrame{};
     if (!asked.quiet) {
@@ -197,27 +138,16 @@ int check_system(const RegisteredSystem& system, const RunOptions& run, const Sy
 
 int explain_system(const RegisteredSystem& system, const RunOptions& run, const SystemItem& item) {
     const ReadScene read = read_scene(system, run);
-    const std::size_t pass = pass_named(item.pass, read.scene.system, item.frame);
-    const std::size_t index = item_named(item.item, read.scene, pass);
+    static_cast<void>(place_of(item, read.scene.system));
     static_cast<void>(shaders_of(read.scene, run));
     const Gl gl = open_gl(run);
     GlSystemSide side = side_of(gl, read.scene, run);
-    const Profile profile = side.describe().profile;
-    SystemRun both(read.scene.system, side, known_operations(item.legal, profile), item.frame, pass);
-    fmt::print("scene     {} ({})\nswitches  {}\nGL        {}\nprofile   {}\n\n{}", read.scene.system.name,
-               plain_line(read.file), read.scene.system.settings, plain_line(gl.name()), describe(profile),
-               plain_text(explain_item(both, index, format(item.hexadecimal))));
+    fmt::print("{}", explain_text(read.scene.system, side, item, read.file));
     return status_agree;
 }
 
 int hash_system(const RegisteredSystem& system, const RunOptions& run, const std::string& profile, bool every) {
-    const ReadScene read = read_scene(system, run);
-    ReferenceRun reference(read.scene.system, named_profile(profile));
-    for (int frame = 0; frame < run.frames; ++frame) {
-        reference.step(frame);
-        if (every || frame + 1 == run.frames)
-            fmt::print("{} {}\n", frame, hash_text(reference.hash()));
-    }
+    print_hashes(read_scene(system, run).scene.system, profile, run.frames, every);
     return status_agree;
 }
 
@@ -225,8 +155,7 @@ int cut_system(const RegisteredSystem& system, const RunOptions& run, const Syst
                const std::filesystem::path& output) {
     const ReadScene read = read_scene(system, run);
     const System& twins = read.scene.system;
-    const std::size_t pass = pass_named(item.pass, twins, item.frame);
-    const std::size_t index = item_named(item.item, read.scene, pass);
+    static_cast<void>(place_of(item, twins));
     OutputFiles files;
     files.protect(run.scene);
     files.protect(run.shaders);
@@ -234,8 +163,7 @@ int cut_system(const RegisteredSystem& system, const RunOptions& run, const Syst
     static_cast<void>(shaders_of(read.scene, run));
     const Gl gl = open_gl(run);
     GlSystemSide side = side_of(gl, read.scene, run);
-    SystemRun both(twins, side, known_operations(item.legal, side.describe().profile), item.frame, pass);
-    const ItemCapsule capsule = cut_item_capsule(both, index, gl.name());
+    const ItemCapsule capsule = cut_item(twins, side, item);
     json options{{"set", run.set}};
     if (run.particles)
         options["particles"] = *run.particles;
@@ -279,8 +207,7 @@ std::optional<int> show_system(const std::filesystem::path& file, bool hexadecim
         options.preset = preset->text();
     const SystemScene scene = system->load(value.at("scene"), value.at("name").label(), options);
     const ItemCapsule capsule = read_item_capsule(value.at("capsule"), scene.system);
-    fmt::print("scene     {}\nGL        {}\nprofile   {}\n\n{}", scene.system.name, plain_line(capsule.renderer),
-               describe(capsule.profile), plain_text(item_capsule_text(capsule, scene.system, format(hexadecimal))));
+    fmt::print("{}", shown_text(capsule, scene.system, number_format(hexadecimal)));
     return status_of(capsule, scene.system);
 }
 

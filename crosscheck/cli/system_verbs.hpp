@@ -10,6 +10,7 @@
 #include "crosscheck/cli/systems.hpp"
 #include "crosscheck/judge/check.hpp"
 #include "crosscheck/judge/legal.hpp"
+#include "crosscheck/package/item_verbs.hpp"
 
 namespace lockstep {
 
@@ -30,15 +31,6 @@ struct SystemRender {
     bool gpu = false;
     std::string profile = "strict"; ///< of the reference
     std::filesystem::path output;
-};
-
-/// One item of one pass.
-struct SystemItem {
-    int frame = 0;
-    std::string pass; ///< by name, or by number; empty: the first
-    std::string item; ///< its number
-    Legal legal = Legal::measured;
-    bool hexadecimal = false;
 };
 
 /// What `lockstep bench` is asked of one.

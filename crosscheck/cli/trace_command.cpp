@@ -4,8 +4,8 @@
 #include <fmt/format.h>
 
 #include "crosscheck/cli/commands.hpp"
-#include "crosscheck/cli/option_values.hpp"
 #include "crosscheck/collision/record/trace_reader.hpp"
+#include "crosscheck/command/option_values.hpp"
 #include "crosscheck/files/plain_text.hpp"
 #include "crosscheck/report/verdict_text.hpp"
 #include "crosscheck/scene/profiles.hpp"

@@ -1,210 +1,221 @@
 #include "lockstep/system_program.hpp"
 
-#include <algorithm>
-#include <charconv>
 #include <cstdio>
 #include <exception>
 #include <filesystem>
-#include <map>
+#include <memory>
 #include <optional>
-#include <string_view>
 
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 #include <nlohmann/json.hpp>
 
+#include "crosscheck/command/command_line.hpp"
+#include "crosscheck/command/exit_status.hpp"
+#include "crosscheck/command/judging_options.hpp"
+#include "crosscheck/command/option_values.hpp"
 #include "crosscheck/files/json_text.hpp"
 #include "crosscheck/files/output_files.hpp"
 #include "crosscheck/files/plain_text.hpp"
+#include "crosscheck/judge/item_place.hpp"
+#include "crosscheck/package/item_verbs.hpp"
 
 namespace lockstep {
 namespace {
 
-constexpr std::string_view help =
-    R"(usage: {0} check [--frames N] [--mode resync|free] [--legal measured|glsl|any_order] [--shaders DIR] [--gl NAME]
-             [--json FILE] [--capsule FILE] [--allow-undefined]
-       {0} explain --frame N --item N [--pass N] [--shaders DIR] [--gl NAME] [--legal NAME] [--hex]
-       {0} capsule FILE [--hex]
-
-check runs the shaders beside their twins, pass by pass, and compares every bit; --capsule keeps the first item that is
-divergent. explain shows one item's step, value by value. capsule judges a kept one again, without GL.
-Exit status: 0 it passed, 1 it did not, 2 it could not be run.
-)";
-
-/// The words after the verb: --NAME VALUE, flags, and what stands by itself.
-class Arguments {
-  public:
-    Arguments(int argc, char** argv) {
-        for (int i = 2; i < argc; ++i) {
-            const std::string_view word = argv[i];
-            if (!word.starts_with("--")) {
-                alone_.emplace_back(word);
-            } else if (word == "--hex" || word == "--allow-undefined") {
-                given_[std::string(word)] = "";
-            } else {
-                if (i + 1 == argc)
-                    throw Error(fmt::format("{} needs a value", word));
-                if (!given_.emplace(word, argv[++i]).second)
-                    throw Error(fmt::format("{} is given twice", word));
-            }
-        }
-    }
-    /// Throws Error for an option that the verb does not have.
-    void allow(std::initializer_list<std::string_view> options, std::size_t alone) const {
-        for (const auto& [name, value] : given_)
-            if (std::find(options.begin(), options.end(), name) == options.end())
-                throw Error(
-                    fmt::format("there is no option {}; there are {}", plain_line(name), fmt::join(options, ", ")));
-        if (alone_.size() != alone)
-            throw Error(alone_.size() < alone
-                            ? std::string("a file is missing; see help")
-                            : fmt::format("'{}' is not expected; see help", plain_line(alone_.back())));
-    }
-    [[nodiscard]] bool has(const std::string& name) const { return given_.contains(name); }
-    [[nodiscard]] std::string text(const std::string& name, const std::string& otherwise = "") const {
-        const auto found = given_.find(name);
-        return found == given_.end() ? otherwise : found->second;
-    }
-    [[nodiscard]] int number(const std::string& name, std::optional<int> otherwise = {}) const {
-        const auto found = given_.find(name);
-        if (found == given_.end()) {
-            if (!otherwise)
-                throw Error(fmt::format("{} is missing", name));
-            return *otherwise;
-        }
-        int value = -1;
-        const std::string& word = found->second;
-        const auto [end, status] = std::from_chars(word.data(), word.data() + word.size(), value);
-        if (status != std::errc{} || end != word.data() + word.size() || value < 0)
-            throw Error(fmt::format("{}: '{}' is not a whole number from 0 up", name, plain_line(word)));
-        return value;
-    }
-    [[nodiscard]] const std::vector<std::string>& alone() const { return alone_; }
-
-  private:
-    std::map<std::string, std::string> given_;
-    std::vector<std::string> alone_;
+/// A system with its shaders, as the program was made for.
+struct Program {
+    const System& system;
+    const std::vector<GlPass>& passes;
+    std::vector<std::string> words; ///< of the command line, after the program's name
 };
 
-Legal legal_of(const Arguments& arguments) {
-    static const std::map<std::string, Legal> names{
-        {"measured", Legal::measured}, {"glsl", Legal::glsl}, {"any_order", Legal::any_order}};
-    const std::string name = arguments.text("--legal", "measured");
-    if (!names.contains(name))
-        throw Error(fmt::format("--legal: '{}' is not one of measured, glsl, any_order", plain_line(name)));
-    return names.at(name);
+struct Options {
+    std::string gl = "auto";
+    std::filesystem::path shaders;
+    int frames = 60;
+    CheckMode mode = CheckMode::resync;
+    PassRules rules;
+    bool power = false, quiet = false, every = false;
+    std::filesystem::path json, capsule;
+    std::string profile = "strict";
+    SystemItem item;
+};
+
+void add_gl_options(Verb& verb, Options& options) {
+    verb.add(text_option("--gl", "auto|osmesa|egl|egl-device:N", options.gl, "which GL to open"));
+    verb.add(path_option("--shaders", "DIR", options.shaders, "take the shaders from here instead"));
 }
 
-NumberFormat format_of(const Arguments& arguments) {
-    return arguments.has("--hex") ? NumberFormat::hexadecimal : NumberFormat::decimal;
+void add_item_options(Verb& verb, SystemItem& item) {
+    verb.add(frame_option(item.frame));
+    verb.add(required(text_option("--item", "I|X,Y", item.item, "the item, of an image column and row")));
+    verb.add(pass_option(item.pass));
+    add_legal_option(verb, item.legal);
 }
 
-/// One run of the program.
-class SystemProgram {
-  public:
-    /// `words`: of the command line, after the program's name.
-    SystemProgram(const System& system, const std::vector<GlPass>& passes, std::string shaders,
-                  std::vector<std::string> words)
-        : system_(system), passes_(passes), shaders_(std::move(shaders)), words_(std::move(words)) {}
+/// The system's shaders on this machine's GL.
+struct OpenSide {
+    Gl gl;
+    GlSystemSide side;
 
-    int check_verb(const Arguments& arguments) {
-        arguments.allow(
-            {"--frames", "--mode", "--legal", "--shaders", "--gl", "--json", "--capsule", "--allow-undefined"}, 0);
-        const std::string mode = arguments.text("--mode", "resync");
-        if (mode != "resync" && mode != "free")
-            throw Error(fmt::format("--mode: '{}' is not one of resync, free", plain_line(mode)));
-        MatchOptions options;
-        options.frames = arguments.number("--frames", 60);
-        options.mode = mode == "free" ? CheckMode::free : CheckMode::resync;
-        options.legal = legal_of(arguments);
-        options.allow_undefined = arguments.has("--allow-undefined");
-        const Gl gl = open_gl(arguments);
-        GlSystemSide side(gl, system_, passes_, folder(arguments));
-        OutputFiles files;
-        files.protect(folder(arguments));
-        for (const char* output : {"--json", "--capsule"})
-            if (arguments.has(output))
-                files.expect(arguments.text(output));
-        options.repeat = this_program(words_);
-        const MatchResult result = match_system(side, system_, options);
-        fmt::print("{}", result.text());
-        if (arguments.has("--json"))
-            files.write(arguments.text("--json"), json_text(report_json(result.report(), result.run())));
-        if (arguments.has("--capsule"))
-            keep_capsule(result.report(), side, options.legal, arguments.text("--capsule"), files);
-        files.commit();
-        return result.passed() ? 0 : 1;
-    }
-
-    int explain_verb(const Arguments& arguments) {
-        arguments.allow({"--frame", "--item", "--pass", "--shaders", "--gl", "--legal", "--hex"}, 0);
-        const Gl gl = open_gl(arguments);
-        GlSystemSide side(gl, system_, passes_, folder(arguments));
-        SystemRun run(system_, side, known_operations(legal_of(arguments), side.describe().profile),
-                      arguments.number("--frame"), static_cast<std::size_t>(arguments.number("--pass", 0)));
-        fmt::print("{}", explain_item(run, static_cast<std::size_t>(arguments.number("--item")), format_of(arguments)));
-        return 0;
-    }
-
-    int capsule_verb(const Arguments& arguments) {
-        arguments.allow({"--hex"}, 1);
-        const ItemCapsule capsule = load_item_capsule(arguments.alone().front(), system_);
-        fmt::print("{}\n{}", capsule.renderer, item_capsule_text(capsule, system_, format_of(arguments)));
-        return judge(capsule, system_).kind == DifferenceClass::divergent ? 1 : 0;
-    }
+    OpenSide(const Program& program, const Options& options)
+        : gl(opened(options)), side(gl, program.system, program.passes, options.shaders.string()) {}
 
   private:
-    static Gl open_gl(const Arguments& arguments) {
-        Gl gl(arguments.text("--gl"));
-        if (!gl)
-            throw Error(gl.missing());
-        return gl;
+    static Gl opened(const Options& options) {
+        Gl gl(options.gl);
+        return gl ? std::move(gl) : throw Error(gl.missing());
     }
-    [[nodiscard]] std::string folder(const Arguments& arguments) const { return arguments.text("--shaders", shaders_); }
-
-    void keep_capsule(const CheckReport& report, SystemSide& side, Legal legal, const std::string& path,
-                      OutputFiles& files) {
-        if (!report.verdicts || !report.verdicts->first) {
-            fmt::print("capsule   none: nothing is divergent\n");
-            return;
-        }
-        const Place& place = report.verdicts->first->place;
-        const std::size_t pass = report.verdicts->first->pass;
-        SystemRun run(system_, side, known_operations(legal, side.describe().profile), place.frame, pass);
-        files.write(path, item_capsule_file(cut_item_capsule(run, place.index, side.describe().name), system_));
-        fmt::print("capsule   {} {} of frame {}\n", system_.schema.resources[place.resource].item, place.index,
-                   place.frame);
-    }
-
-    const System& system_;
-    const std::vector<GlPass>& passes_;
-    std::string shaders_;
-    std::vector<std::string> words_;
 };
+
+void keep_capsule(const Program& program, const Options& options, const CheckReport& report, SystemSide& side,
+                  OutputFiles& files) {
+    if (!report.verdicts || !report.verdicts->first) {
+        fmt::print("capsule   none: nothing is divergent\n");
+        return;
+    }
+    const auto& [place, pass] = std::pair(report.verdicts->first->place, report.verdicts->first->pass);
+    SystemRun run(program.system, side, known_operations(options.item.legal, side.describe().profile), place.frame,
+                  pass);
+    files.write(options.capsule,
+                item_capsule_file(cut_item_capsule(run, place.index, side.describe().name), program.system));
+    fmt::print("capsule   {} of frame {}\n",
+               item_name(program.system.schema.resources[place.resource], program.system.start.extent(place.resource),
+                         place.index),
+               place.frame);
+}
+
+int check_verb(const Program& program, const Options& options) {
+    OutputFiles files;
+    files.protect(options.shaders);
+    for (const auto& output : {options.json, options.capsule})
+        if (!output.empty())
+            files.expect(output);
+    OpenSide gpu(program, options);
+    CheckOptions check;
+    check.mode = options.mode;
+    check.frames = options.frames;
+    check.known = known_operations(options.item.legal, gpu.side.describe().profile);
+    CheckReport report = check_shown(program.system, gpu.side, check, options.quiet);
+    ask_power(report, options.rules.power_at_least);
+    RunDescription run = describe_run(program.system, gpu.side.describe(), check, this_program(program.words));
+    if (const auto words = first_item_words(program.system, report); !words.empty()) {
+        std::vector<std::string> explain{"explain"};
+        explain.insert(explain.end(), words.begin(), words.end());
+        explain.insert(explain.end(), {"--gl", options.gl, "--shaders", options.shaders.string()});
+        run.explain = this_program(explain) + legal_option_text(options.item.legal);
+    }
+    if (!options.quiet)
+        fmt::print("{}{}{}",
+                   report.partial() ? fmt::format("interrupted after {} of {} frames\n", report.frames, options.frames)
+                                    : "",
+                   plain_text(report_text(report, run)), options.power ? power_text(report.power) : std::string());
+    if (!options.json.empty())
+        files.write(options.json, json_text(report_json(report, run)));
+    if (!options.capsule.empty())
+        keep_capsule(program, options, report, gpu.side, files);
+    files.commit();
+    if (report.partial())
+        return status_interrupted;
+    return passes(report, options.rules) ? status_agree : status_differ;
+}
+
+int explain_verb(const Program& program, const Options& options) {
+    static_cast<void>(place_of(options.item, program.system));
+    OpenSide gpu(program, options);
+    fmt::print("{}", explain_text(program.system, gpu.side, options.item, ""));
+    return status_agree;
+}
+
+int cut_verb(const Program& program, const Options& options) {
+    static_cast<void>(place_of(options.item, program.system));
+    OutputFiles files;
+    files.protect(options.shaders);
+    files.expect(options.capsule);
+    OpenSide gpu(program, options);
+    const ItemCapsule capsule = cut_item(program.system, gpu.side, options.item);
+    files.write(options.capsule, item_capsule_file(capsule, program.system));
+    files.commit();
+    return status_of(capsule, program.system);
+}
+
+int show_verb(const Program& program, const Options& options) {
+    const ItemCapsule capsule = load_item_capsule(options.capsule, program.system);
+    fmt::print("{}", shown_text(capsule, program.system, number_format(options.item.hexadecimal)));
+    return status_of(capsule, program.system);
+}
+
+int hash_verb(const Program& program, const Options& options) {
+    print_hashes(program.system, options.profile, options.frames, options.every);
+    return status_agree;
+}
+
+/// As `lockstep` has them for the systems it knows (docs/verbs.md): the same names, words and statuses.
+Verb verbs_of(const std::string& name, const Program& program, const std::shared_ptr<Options>& options) {
+    const auto running = [&program, options](int (*run)(const Program&, const Options&)) {
+        return [&program, options, run](const Call&) { return run(program, *options); };
+    };
+    Verb check{"check", "run both sides, pass by pass, and compare every bit of every frame"};
+    check.add(integer_option("--frames", "N", {1, most_frames}, options->frames, "frames to compare"));
+    check.add(choice_option<CheckMode>("--mode", options->mode,
+                                       {{"resync", CheckMode::resync}, {"free", CheckMode::free}},
+                                       "resync: each frame's step alone; free: both run on by themselves"));
+    add_gl_options(check, *options);
+    add_legal_option(check, options->item.legal);
+    check.add(flag("--allow-undefined", options->rules.allow_undefined, "do not fail on what GL leaves open"));
+    check.add(share_option("--power-at-least", options->rules.power_at_least,
+                           "fail where the run would have shown fewer of the mistakes with names: 95%, 0.95"));
+    check.add(flag("--power", options->power, "list which mistakes the run would have shown, and why not the others"));
+    check.add(path_option("--json", "FILE", options->json, "write the report as JSON"));
+    check.add(path_option("--capsule", "FILE", options->capsule, "keep the first item that is divergent"));
+    check.add(flag("--quiet", options->quiet, "no report, only the exit status"));
+    check.run = running(check_verb);
+
+    Verb explain{"explain", "both sides of one item in one frame, value by value"};
+    add_gl_options(explain, *options);
+    add_item_options(explain, options->item);
+    explain.add(hex_option(options->item.hexadecimal));
+    explain.run = running(explain_verb);
+
+    Verb cut{"cut", "cut one out of a run"};
+    add_gl_options(cut, *options);
+    add_item_options(cut, options->item);
+    cut.add(required(path_option("-o,--output", "FILE", options->capsule, "the capsule, JSON, at most 100 kB")));
+    cut.run = running(cut_verb);
+    Verb show{"show", "judge one again, and print its table; needs no GL"};
+    show.add(required(path_option("capsule", "FILE", options->capsule, "what `capsule cut` or `check` wrote")));
+    show.add(hex_option(options->item.hexadecimal));
+    show.run = running(show_verb);
+    Verb capsule{"capsule", "one item's step as a small file that repeats its verdict anywhere"};
+    capsule.verbs = {cut, show};
+
+    Verb hash{"hash", "run the reference alone and print its state hash; needs no GL"};
+    hash.add(integer_option("--frames", "N", {1, most_frames}, options->frames, "frames to run"));
+    hash.add(text_option("--profile", "strict|llvmpipe|nvidia", options->profile, "the order of sums"));
+    hash.add(flag("--every", options->every, "print every frame's hash, not only the last"));
+    hash.run = running(hash_verb);
+
+    Verb verbs{
+        name,
+        fmt::format("{}: runs the system's twins beside its shaders, and compares every bit of every frame", name)};
+    verbs.verbs = {check, explain, capsule, hash};
+    verbs.footer = "Exit status: 0 it agrees or is legal, 1 it is not, 2 could not run, 130 ended by Ctrl-C.";
+    return verbs;
+}
 
 } // namespace
 
 int run_system_program(int argc, char** argv, const System& system, const std::vector<GlPass>& passes,
                        const std::string& shaders) {
     const std::string name = argc > 0 ? std::filesystem::path(argv[0]).filename().string() : system.schema.system;
-    const std::string_view verb = argc > 1 ? argv[1] : "help";
     try {
-        SystemProgram program(system, passes, shaders, {argv + std::min(argc, 1), argv + argc});
-        const Arguments arguments(argc, argv);
-        if (verb == "check")
-            return program.check_verb(arguments);
-        if (verb == "explain")
-            return program.explain_verb(arguments);
-        if (verb == "capsule")
-            return program.capsule_verb(arguments);
-        if (verb != "help" && verb != "--help")
-            throw Error(
-                fmt::format("there is no verb '{}'; there are check, explain, capsule, help", plain_line(verb)));
-        fmt::print(fmt::runtime(help), name);
-        return 0;
+        const Program program{system, passes, {argv + std::min(argc, 1), argv + argc}};
+        const auto options = std::make_shared<Options>();
+        options->shaders = shaders;
+        return run_command_line(verbs_of(name, program, options), argc, argv, status_could_not_run);
     } catch (const std::exception& error) {
         fmt::print(stderr, "{}: {}\n", name, plain_line(error.what()));
-        return 2;
+        return status_could_not_run;
     }
 }
 

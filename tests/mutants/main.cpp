@@ -17,8 +17,8 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
-#include "crosscheck/cli/command_line.hpp"
-#include "crosscheck/cli/option_values.hpp"
+#include "crosscheck/command/command_line.hpp"
+#include "crosscheck/command/option_values.hpp"
 #include "crosscheck/files/atomic_file.hpp"
 #include "crosscheck/scene/profiles.hpp"
 #include "gpu/context.hpp"

@@ -57,13 +57,23 @@ says 'verdict DIVERGENT from frame 0 on'
 says 'explained by '
 says 'u_Drag: zero'
 says 'first frame 0 grain 0, divergent, step grains_step'
+says 'grains explain --frame 0 --pass grains_step --item 0'
 grep -q '"verdict": "DIVERGENT"' report.json || fail 'the JSON report does not say DIVERGENT'
 succeeds build/grains explain --frame 3 --item 17 --shaders planted
 says 'first acceleration.'
-ends_with 1 build/grains capsule capsule.json
+ends_with 1 build/grains capsule show capsule.json
 says 'first acceleration.'
+ends_with 1 build/grains capsule cut --frame 3 --item 17 --shaders planted -o 17.json
+ends_with 1 build/grains capsule show 17.json --hex
+says 'grain 17 in frame 3, pass grains_step'
+succeeds build/grains hash --frames 5
+says '4 '
 ends_with 2 build/grains check --frame 30
-says 'there is no option --frame; there are --frames'
+says "unknown option '--frame'; did you mean --frames?"
+ends_with 2 build/grains bench
+says "unknown verb 'bench'; the verbs are check, explain, capsule, hash"
+ends_with 2 build/grains explain --frame 3 --item 2000
+says "there is no grain '2000'; grains has 0 to 1999"
 
 # The shaders are the package's.
 echo 'not GLSL' >>prefix/share/lockstep/shaders/collision/collision_pass.frag

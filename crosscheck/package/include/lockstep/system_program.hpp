@@ -9,9 +9,9 @@
 
 namespace lockstep {
 
-/// Runs `argv` (`PROGRAM help` says what there is): check, explain and capsule, on GL with the shaders of `--shaders`,
-/// otherwise those of `shaders`. Returns the exit status: 0 the check passed, 1 it did not, 2 a message was printed
-/// that says what is wrong.
+/// Runs `argv` (`PROGRAM --help` says what there is): check, explain, capsule and hash, on GL with the shaders of
+/// `--shaders`, otherwise those of `shaders`. Returns the exit status: 0 what was asked for agrees or is legal, 1 it is
+/// not, 2 a message was printed that says what is wrong, 130 Ctrl-C.
 int run_system_program(int argc, char** argv, const System& system, const std::vector<GlPass>& passes,
                        const std::string& shaders);
 

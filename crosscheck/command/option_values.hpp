@@ -7,9 +7,12 @@
 #include <utility>
 #include <vector>
 
-#include "crosscheck/cli/verb.hpp"
+#include "crosscheck/command/verb.hpp"
 
 namespace lockstep {
+
+/// Frames a run may have.
+inline constexpr int most_frames = 100'000'000;
 
 /// Each makes an option that keeps its value in `target`, which has to outlive the call of its verb.
 /// A text that is no value is refused with what would be one.

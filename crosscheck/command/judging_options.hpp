@@ -1,5 +1,5 @@
 #pragma once
-#include "crosscheck/cli/verb.hpp"
+#include "crosscheck/command/verb.hpp"
 #include "crosscheck/judge/check.hpp"
 #include "crosscheck/judge/legal.hpp"
 

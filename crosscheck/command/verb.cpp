@@ -1,4 +1,4 @@
-#include "crosscheck/cli/verb.hpp"
+#include "crosscheck/command/verb.hpp"
 
 #include <algorithm>
 #include <cctype>

@@ -1,6 +1,6 @@
-#include "crosscheck/cli/judging_options.hpp"
+#include "crosscheck/command/judging_options.hpp"
 
-#include "crosscheck/cli/option_values.hpp"
+#include "crosscheck/command/option_values.hpp"
 
 namespace lockstep {
 

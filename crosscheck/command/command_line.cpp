@@ -1,4 +1,4 @@
-#include "crosscheck/cli/command_line.hpp"
+#include "crosscheck/command/command_line.hpp"
 
 #include <algorithm>
 #include <sstream>

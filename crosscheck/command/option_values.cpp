@@ -1,4 +1,4 @@
-#include "crosscheck/cli/option_values.hpp"
+#include "crosscheck/command/option_values.hpp"
 
 #include <algorithm>
 #include <charconv>

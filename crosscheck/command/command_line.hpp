@@ -1,5 +1,5 @@
 #pragma once
-#include "crosscheck/cli/verb.hpp"
+#include "crosscheck/command/verb.hpp"
 
 namespace lockstep {
 

@@ -1,0 +1,125 @@
+#include "crosscheck/package/item_verbs.hpp"
+
+#include <algorithm>
+#include <charconv>
+#include <string_view>
+#include <vector>
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include "crosscheck/command/exit_status.hpp"
+#include "crosscheck/command/option_values.hpp"
+#include "crosscheck/files/plain_text.hpp"
+#include "crosscheck/files/signals.hpp"
+#include "crosscheck/judge/item_place.hpp"
+#include "crosscheck/report/item_text.hpp"
+#include "crosscheck/report/progress.hpp"
+#include "crosscheck/scene/profiles.hpp"
+#include "gpu/system_side.hpp"
+#include "reference/model/error.hpp"
+#include "reference/model/near_name.hpp"
+#include "reference/model/state_hash.hpp"
+
+namespace lockstep {
+namespace {
+
+/// The first that runs in the frame where none is named.
+std::size_t pass_named(const std::string& name, const System& system, int frame) {
+    std::vector<std::string> names;
+    for (const auto& pass : system.passes) {
+        if (name.empty() && pass->runs(frame))
+            return names.size();
+        names.emplace_back(pass->name());
+    }
+    if (const auto found = std::find(names.begin(), names.end(), name); found != names.end())
+        return static_cast<std::size_t>(found - names.begin());
+    std::size_t place = 0;
+    const auto [end, status] = std::from_chars(name.data(), name.data() + name.size(), place);
+    if (status == std::errc{} && end == name.data() + name.size() && place < names.size())
+        return place;
+    throw Error(fmt::format("--pass: there is no pass '{}'; there are {}{}", plain_line(name), fmt::join(names, ", "),
+                            did_you_mean(name, names)));
+}
+
+std::string heading(const System& system, const std::string& file, const std::string& gl, const Profile& profile) {
+    return fmt::format("scene     {}{}\nswitches  {}\nGL        {}\nprofile   {}\n\n", system.name,
+                       file.empty() ? "" : fmt::format(" ({})", plain_line(file)),
+                       system.settings.empty() ? "none" : system.settings, plain_line(gl), describe(profile));
+}
+
+} // namespace
+
+Option frame_option(int& frame) {
+    return required(integer_option("--frame", "F", {0, most_frames}, frame, "the frame, counted from 0"));
+}
+
+Option pass_option(std::string& pass) {
+    return text_option("--pass", "NAME", pass, "of which pass; else the first that runs in the frame");
+}
+
+Option hex_option(bool& hexadecimal) {
+    return flag("--hex", hexadecimal, "hexadecimal floats instead of decimal ones");
+}
+
+ItemPlace place_of(const SystemItem& item, const System& system) {
+    const std::size_t pass = pass_named(item.pass, system, item.frame);
+    const std::uint8_t resource = system.passes[pass]->resource();
+    return {pass, item_named(plain_line(item.item), system.schema.resources[resource], system.start.extent(resource),
+                             system.name)};
+}
+
+std::string explain_text(const System& system, SystemSide& side, const SystemItem& item, const std::string& file) {
+    const auto [pass, index] = place_of(item, system);
+    const SideDescription about = side.describe();
+    SystemRun run(system, side, known_operations(item.legal, about.profile), item.frame, pass);
+    return heading(system, file, about.name, about.profile) +
+           plain_text(explain_item(run, index, number_format(item.hexadecimal)));
+}
+
+ItemCapsule cut_item(const System& system, SystemSide& side, const SystemItem& item) {
+    const auto [pass, index] = place_of(item, system);
+    const SideDescription about = side.describe();
+    SystemRun run(system, side, known_operations(item.legal, about.profile), item.frame, pass);
+    return cut_item_capsule(run, index, about.name);
+}
+
+std::string shown_text(const ItemCapsule& capsule, const System& system, NumberFormat format) {
+    return heading(system, "", capsule.renderer, capsule.profile) +
+           plain_text(item_capsule_text(capsule, system, format));
+}
+
+int status_of(const ItemCapsule& capsule, const System& system) {
+    return judge(capsule, system).kind >= DifferenceClass::undefined ? status_differ : status_agree;
+}
+
+std::vector<std::string> first_item_words(const System& system, const CheckReport& report) {
+    if (!report.verdicts || !report.verdicts->first)
+        return {};
+    const Place& place = report.verdicts->first->place;
+    return {"--frame",
+            std::to_string(place.frame),
+            "--pass",
+            std::string(system.passes[report.verdicts->first->pass]->name()),
+            "--item",
+            item_argument(system.schema.resources[place.resource], system.start.extent(place.resource), place.index)};
+}
+
+void print_hashes(const System& system, const std::string& profile, int frames, bool every) {
+    ReferenceRun reference(system, named_profile(profile));
+    for (int frame = 0; frame < frames; ++frame) {
+        reference.step(frame);
+        if (every || frame + 1 == frames)
+            fmt::print("{} {}\n", frame, hash_text(reference.hash()));
+    }
+}
+
+CheckReport check_shown(const System& system, SystemSide& side, CheckOptions options, bool quiet) {
+    const InterruptHandler handler;
+    Progress progress("check", options.frames, !quiet);
+    options.stop = &interrupted;
+    options.on_frame = [&](int done) { progress.show(done); };
+    return check(system, side, options);
+}
+
+} // namespace lockstep

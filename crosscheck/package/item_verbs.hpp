@@ -1,0 +1,64 @@
+#pragma once
+#include <cstddef>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "crosscheck/command/verb.hpp"
+#include "crosscheck/judge/check.hpp"
+#include "crosscheck/judge/legal.hpp"
+#include "crosscheck/judge/system.hpp"
+#include "crosscheck/judge/system_check.hpp"
+#include "crosscheck/record/item_capsule.hpp"
+#include "crosscheck/report/value_text.hpp"
+
+/// What verbs do on any system, of a scene file or of a program of its own.
+namespace lockstep {
+
+/// One item of one pass, as typed.
+struct SystemItem {
+    int frame = 0;
+    std::string pass; ///< by name, or by number; empty: the first that runs
+    std::string item; ///< its number, or of an image x,y
+    Legal legal = Legal::measured;
+    bool hexadecimal = false;
+};
+
+Option frame_option(int& frame);
+Option pass_option(std::string& pass);
+Option hex_option(bool& hexadecimal);
+
+inline NumberFormat number_format(bool hexadecimal) {
+    return hexadecimal ? NumberFormat::hexadecimal : NumberFormat::decimal;
+}
+
+/// By their numbers.
+struct ItemPlace {
+    std::size_t pass = 0, item = 0;
+};
+
+/// Throws Error where there is no such pass or item, with those there are.
+ItemPlace place_of(const SystemItem& item, const System& system);
+
+/// The run of both sides to that frame, and what `explain` prints of the item. `file`: the scene's; empty: it has none.
+std::string explain_text(const System& system, SystemSide& side, const SystemItem& item, const std::string& file);
+
+ItemCapsule cut_item(const System& system, SystemSide& side, const SystemItem& item);
+
+/// What `capsule show` prints.
+std::string shown_text(const ItemCapsule& capsule, const System& system, NumberFormat format);
+
+/// The exit status: whether the item agrees or is legal.
+int status_of(const ItemCapsule& capsule, const System& system);
+
+/// The options of `explain` for a run's first divergence: "--frame", "3", "--pass", "update", ...; none where there is
+/// none.
+std::vector<std::string> first_item_words(const System& system, const CheckReport& report);
+
+/// Prints the reference's state hash after the last frame, or after `every` one.
+void print_hashes(const System& system, const std::string& profile, int frames, bool every);
+
+/// check() with what it has done so far on a terminal, until it is done or interrupted.
+CheckReport check_shown(const System& system, SystemSide& side, CheckOptions options, bool quiet);
+
+} // namespace lockstep

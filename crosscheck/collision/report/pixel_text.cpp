@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <optional>
 #include <string_view>
 #include <vector>
@@ -47,10 +48,12 @@ std::string colors_text(const PixelCandidate& candidate) {
 
 std::string depth_text(const Interval& depth, NumberFormat format) {
     if (depth.any)
-        return "any";
+        return "depth any, ";
+    if (std::isnan(depth.low))
+        return "";
     const std::string low = number_text(static_cast<float>(depth.low), format);
     const std::string high = number_text(static_cast<float>(depth.high), format);
-    return low == high ? low : fmt::format("{} to {}", low, high);
+    return low == high ? fmt::format("depth {}, ", low) : fmt::format("depth {} to {}, ", low, high);
 }
 
 /// Those drawn here whose colour the GPU's may be: of what may be seen, or of what is hidden.
@@ -114,8 +117,8 @@ std::string drawn_text(const DrawnHere& here, const PixelTable& table, NumberFor
         seen = "seen";
     if (candidate.open)
         seen += ", on what GL leaves open";
-    std::string text = fmt::format("    {:<28} {:<22} depth {}, {}\n", owner_text(candidate.owner),
-                                   colors_text(candidate), depth_text(candidate.depth, format), seen);
+    std::string text = fmt::format("    {:<28} {:<22} {}{}\n", owner_text(candidate.owner), colors_text(candidate),
+                                   depth_text(candidate.depth, format), seen);
     if (!candidate.sure)
         text += fmt::format("      drawn here or not: its side or rim is {:.3g}/256 pixel from the pixel's centre\n",
                             candidate.edge_margin);

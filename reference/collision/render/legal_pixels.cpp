@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cstdint>
+#include <limits>
 #include <utility>
 
 #include "reference/collision/render/sprite.hpp"
@@ -369,8 +370,11 @@ std::vector<LegalPixel> legal_pixels(const RenderInputs& inputs, const Profile& 
 
 std::vector<PixelFragment> pixel_fragments(const RenderInputs& inputs, const Profile& profile,
                                            const KnownOperations& known, std::size_t pixel) {
-    if (inputs.params.switches.arithmetic == ArithmeticSwitch::exact)
-        return {{exact_pixels(inputs, profile, std::span(&pixel, 1), {}).front().candidates.front(), {}}};
+    if (inputs.params.switches.arithmetic == ArithmeticSwitch::exact) {
+        PixelCandidate seen = exact_pixels(inputs, profile, std::span(&pixel, 1), {}).front().candidates.front();
+        seen.depth = std::numeric_limits<float>::quiet_NaN();
+        return {{seen, {}}};
+    }
     const FlushSubnormals guard(known.subnormals && profile.flush_subnormals);
     return LegalPixels<RightSites>({}, inputs.particles, inputs.obstacles, inputs.params, profile, known)
         .fragments_at(pixel);

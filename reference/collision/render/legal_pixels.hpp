@@ -45,8 +45,8 @@ struct PixelFragment {
 std::vector<LegalPixel> legal_pixels(const RenderInputs& inputs, const Profile& profile, const KnownOperations& known,
                                      std::span<const std::size_t> pixels, std::optional<RenderMistake> mistake = {});
 
-/// All that may be drawn to one pixel, in drawing order, the background first; with `arithmetic=exact` only what is
-/// seen. Those that nothing hides are its legal candidates.
+/// All that may be drawn to one pixel, in drawing order, the background first; with `arithmetic=exact` what is seen
+/// alone, its depth NaN: not told. Those that nothing hides are its legal candidates.
 std::vector<PixelFragment> pixel_fragments(const RenderInputs& inputs, const Profile& profile,
                                            const KnownOperations& known, std::size_t pixel);
 

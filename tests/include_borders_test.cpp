@@ -22,7 +22,8 @@ bool starts_with_any(const std::string& text, const std::vector<std::string>& pr
 }
 
 /// The jobs of crosscheck/, each knowing those before it.
-const std::vector<std::string> jobs{"files", "scene", "judge", "report", "record", "study", "command", "package", "cli"};
+const std::vector<std::string> jobs{"files", "scene",   "judge",   "report", "record",
+                                    "study", "command", "package", "cli"};
 
 /// The place of a file's job among them; nothing of files that are no job's.
 std::optional<std::size_t> job_of(const std::string& file) {
@@ -34,6 +35,12 @@ std::optional<std::size_t> job_of(const std::string& file) {
 
 /// What every system goes through: it knows none.
 const std::set<std::string> machinery_jobs{"files", "judge", "report", "record"};
+
+/// Whether a file does what verbs do on any system.
+bool runs_any_system(const std::string& file) {
+    return starts_with_any(file, {"crosscheck/command/", "crosscheck/package/item_verbs", "crosscheck/package/system",
+                                  "crosscheck/cli/system_"});
+}
 
 /// The system in whose folder a file of both sides lies; nothing of what is every system's.
 std::optional<std::string> system_of(const std::string& file) {
@@ -99,6 +106,8 @@ std::string forbidden(const std::string& file, const std::string& header) {
     const auto job = job_of(file), used = job_of(header);
     if (const auto system = any_system_of(header); job && system && machinery_jobs.contains(jobs[*job]))
         return jobs[*job] + " knows no system, " + *system + " neither";
+    if (const auto system = any_system_of(header); system && runs_any_system(file))
+        return "verbs on any system know none, " + *system + " neither";
     if (system_in_crosscheck(file) && used && jobs[*used] != "scene" && !machinery_jobs.contains(jobs[*used]))
         return "a system knows nothing of " + jobs[*used];
     if (job && used && *used > *job)
@@ -172,6 +181,10 @@ TEST_CASE("include borders: a crossing is seen, with its line") {
     CHECK(crossings("crosscheck/collision/page/a.hpp", "#include \"crosscheck/study/study.hpp\"\n") ==
           Strings{"crosscheck/collision/page/a.hpp:1: a system knows nothing of study"});
     CHECK(crossings("crosscheck/study/a.cpp", "#include \"crosscheck/collision/judge/verdict.hpp\"\n").empty());
+    for (const char* file :
+         {"crosscheck/cli/system_verbs.cpp", "crosscheck/package/item_verbs.cpp", "crosscheck/command/a.cpp"})
+        CHECK(crossings(file, "#include \"reference/model/collision/scene.hpp\"\n") ==
+              Strings{std::string(file) + ":1: verbs on any system know none, collision neither"});
     CHECK(crossings("crosscheck/dust/a.cpp", "#include \"gpu/dust/passes.hpp\"\n").empty());
     CHECK(crossings("crosscheck/cli/systems.cpp", "#include \"crosscheck/dust/system.hpp\"\n").empty());
     CHECK(crossings("reference/readings/a.hpp", "#include \"reference/model/collision/scene.hpp\"\n") ==

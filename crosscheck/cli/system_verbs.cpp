@@ -10,7 +10,6 @@
 
 #include "crosscheck/cli/commands.hpp"
 #include "crosscheck/cli/system_run.hpp"
-#include "crosscheck/collision/record/capsule.hpp"
 #include "crosscheck/files/json_text.hpp"
 #include "crosscheck/files/plain_text.hpp"
 #include "crosscheck/files/shell_words.hpp"

@@ -42,4 +42,12 @@ bool ShaderWords::next() {
     return false;
 }
 
+bool says(std::string_view shader, std::string_view word) {
+    ShaderWords words(shader);
+    while (words.next())
+        if (words.token() == word)
+            return true;
+    return false;
+}
+
 } // namespace lockstep

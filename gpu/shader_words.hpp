@@ -23,4 +23,7 @@ class ShaderWords {
     std::size_t line_ = 1;
 };
 
+/// Whether a word stands in a shader outside its comments.
+bool says(std::string_view shader, std::string_view word);
+
 } // namespace lockstep

@@ -136,6 +136,8 @@ nlohmann::json profile_json(const Profile& profile) {
             json[std::string(name)] = name_of(off_on, *(profile.*accurate));
     if (profile.any_order)
         json["any_order"] = name_of(off_on, true);
+    if (profile.open_corners)
+        json["open_corners"] = name_of(off_on, true);
     if (profile.compute_flush_results)
         json["compute_flush_results"] = name_of(off_on, *profile.compute_flush_results);
     return json;
@@ -144,7 +146,8 @@ nlohmann::json profile_json(const Profile& profile) {
 Profile read_profile(const JsonValue& json) {
     json.check_keys({"name", "dot", "length_dot", "normalize_dot", "other_orders", "flush_subnormals",
                      "compute_flush_subnormals", "compute_flush_results", "raster", "ulp_errors", "not_followed",
-                     "point_window_accurate", "corner_window_accurate", "driver_converts", "any_order"});
+                     "point_window_accurate", "corner_window_accurate", "driver_converts", "any_order",
+                     "open_corners"});
     Profile profile = base(json);
     read_named(json, "dot", dot_order_names(), profile.dot);
     read_orders(json, profile);
@@ -154,6 +157,7 @@ Profile read_profile(const JsonValue& json) {
     }
     read_named(json, "flush_subnormals", off_on, profile.flush_subnormals);
     read_named(json, "any_order", off_on, profile.any_order);
+    read_named(json, "open_corners", off_on, profile.open_corners);
     read_named(json, "compute_flush_subnormals", off_on, profile.compute_flush_subnormals);
     for (const auto& [name, accurate] : accuracy_table) {
         if (json.find("raster")) // an older program's, which did not look

@@ -219,16 +219,27 @@ bool encodes(const std::filesystem::path& shaders, std::string_view pass) {
 
 /// Whether a stage that computes particles says `precise` of nothing; a copy of a shipped one says it.
 bool lacks_precise(const std::filesystem::path& shaders) {
-    constexpr std::pair<std::string_view, Stage> computing[] = {
-        {"collision_pass", Stage::vertex}, {"layered_collision_pass", Stage::vertex}, {"octree_pass", Stage::compute}};
+    constexpr std::pair<std::string_view, Stage> computing[] = {{"collision_pass", Stage::vertex},
+                                                                {"collision_pass", Stage::compute},
+                                                                {"layered_collision_pass", Stage::vertex},
+                                                                {"octree_pass", Stage::compute}};
     return !shaders.empty() && std::any_of(std::begin(computing), std::end(computing), [&](const auto& of) {
-        const ShaderSource stage = load_stage(collision_shaders(shaders), of.first, of.second);
-        ShaderWords words(stage.text);
-        bool says = false;
-        while (words.next())
-            says = says || words.token() == "precise";
-        return !says;
+        return !says(load_stage(collision_shaders(shaders), of.first, of.second).text, "precise");
     });
+}
+
+/// Whether the obstacles' vertex stage redeclares gl_Position neither precise nor invariant. What is precise elsewhere
+/// and copied to it is fused all the same (NVIDIA 580).
+bool leaves_corners_open(const std::filesystem::path& shaders) {
+    if (shaders.empty())
+        return false;
+    const ShaderSource stage = load_stage(collision_shaders(shaders), "obstacle_pass", Stage::vertex);
+    ShaderWords words(stage.text);
+    std::string before;
+    for (; words.next(); before = words.token())
+        if (words.token() == "gl_Position" && (before == "precise" || before == "invariant"))
+            return false;
+    return true;
 }
 
 /// Whether sums without `precise` are not the ones written.
@@ -355,6 +366,7 @@ Profile with_shaders(Profile profile, const ProbeResult& result, const std::file
     profile.converts = {!encodes(shaders, "collision_pass"), !encodes(shaders, "obstacle_pass"),
                         !encodes(shaders, "obstacle_vertices")};
     profile.any_order = fuses_without_precise(result) && lacks_precise(shaders);
+    profile.open_corners = fuses_without_precise(result) && leaves_corners_open(shaders);
     if (has_geometry_stage(shaders))
         return profile;
     // The rows of points behind a geometry stage say nothing of these points.
@@ -364,6 +376,11 @@ Profile with_shaders(Profile profile, const ProbeResult& result, const std::file
     profile.raster.viewport = rows.pick("points: viewport, no geometry stage", viewports());
     profile.raster.depth_by_driver_reciprocal = rows.pick("points: depth, no geometry stage", depths());
     profile.not_followed.insert(profile.not_followed.end(), rows.not_followed.begin(), rows.not_followed.end());
+    return profile;
+}
+
+Profile without_precise(Profile profile, const ProbeResult& result) {
+    profile.any_order = fuses_without_precise(result);
     return profile;
 }
 
@@ -378,6 +395,8 @@ std::string describe(const Profile& profile) {
         text += fmt::format("; not followed: {}", fmt::join(profile.not_followed, ", "));
     if (profile.any_order)
         text += "; sums in any order, since a stage says no precise";
+    if (profile.open_corners)
+        text += "; corners of obstacles in any order, since gl_Position is not precise";
     if (const KnownRaster known = measured_operations(profile).raster; !known.points() || !known.triangles())
         text +=
             known.point_window_accurate && known.corner_window_accurate && known.point_grid && known.triangle_grid

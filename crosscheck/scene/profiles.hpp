@@ -27,6 +27,10 @@ Profile measured_profile(const ProbeResult& result, const std::filesystem::path&
 /// without one say; where a fragment stage stores plain floats, the driver converts them.
 Profile with_shaders(Profile profile, const ProbeResult& result, const std::filesystem::path& shaders);
 
+/// `profile`, for stages of which one says `precise` of nothing: their sums may be taken in any order where the driver
+/// fuses them.
+Profile without_precise(Profile profile, const ProbeResult& result);
+
 /// For a reader of a verdict: which fragment stages leave the rounding of what they store to the driver.
 std::vector<std::string> conversion_notes(const Profile& profile, const Switches& switches);
 

@@ -9,6 +9,7 @@
 #include "reference/collision/collision_code.hpp"
 #include "reference/collision/collision_pass.hpp"
 #include "reference/collision/step_stage.hpp"
+#include "reference/legal_interpolation.hpp"
 #include "reference/legal_triangles.hpp"
 #include "reference/model/same_bits.hpp"
 #include "reference/subnormals.hpp"
@@ -106,7 +107,8 @@ template <class A> class Candidates {
         : fp_(fp), params_(params), drawn_(drawn_by_rasteriser(params)), profile_(profile), converts_(known.converts),
           code_(params), arithmetic_(fp, known, profile.other_orders),
           placing_(fp, known_in_step(params.switches, known, profile), profile.other_orders),
-          wanted_(params.width, params.height, texels), candidates_(texels.size()) {}
+          corners_(fp, of_corners(known, profile), profile.other_orders), wanted_(params.width, params.height, texels),
+          candidates_(texels.size()) {}
 
     void add_point(Kind kind, std::size_t index, glm::vec3 drawn_at, glm::vec3 stored) {
         const PointFragment reference = point_fragment(drawn_at, drawn_, profile_);
@@ -190,8 +192,11 @@ template <class A> class Candidates {
         std::vector<glm::vec4> clip(obstacles.positions.size());
         std::transform(obstacles.positions.begin(), obstacles.positions.end(), clip.begin(),
                        [&](glm::vec3 p) { return fp_.transform(params_.collision_proj_view, p); });
-        const LegalTriangles triangles(clip, obstacles.indices, params_.width, params_.height, profile_.raster,
-                                       known().raster, known().points);
+        KnownRaster raster = known().raster;
+        if (corners_open()) // a corner may be where no rounding of the reference's is
+            raster.triangle_window = raster.corner_window_accurate = false;
+        const LegalTriangles triangles(clip, obstacles.indices, params_.width, params_.height, profile_.raster, raster,
+                                       known().points && !corners_open());
         triangles.for_each([&](int x, int y) { return wanted_.slot(x, y) >= 0; },
                            [&](const LegalCover& cover) {
                                add_fragment(obstacles, clip, cover.triangle, cover.rules, cover.x, cover.y,
@@ -257,8 +262,22 @@ template <class A> class Candidates {
             const double error = depth_bound(corners);
             owner.depth = {owner.reference_depth - error, owner.reference_depth + error};
         }
+        glm::vec3 low = position - bound, high = position + bound;
+        if (corners_open()) {
+            const LegalFragment legal =
+                legal_fragment({legal_corner(positions[0]), legal_corner(positions[1]), legal_corner(positions[2])},
+                               positions, x, y, params_.width, params_.height);
+            for (int k = 0; k < 3; ++k) {
+                const Interval& place = legal.position[static_cast<std::size_t>(k)];
+                const float rounding = interpolation_bound(positions[0][k], positions[1][k], positions[2][k]);
+                low[k] = static_cast<float>(place.low) - rounding;
+                high[k] = static_cast<float>(place.high) + rounding;
+            }
+            owner.code_range = {code_.encode(low), code_.encode(high)};
+            owner.depth = {legal.depth.low - depth_bound(corners), legal.depth.high + depth_bound(corners)};
+        }
         if (converts_.triangles)
-            owner.code_range = code_.driver_codes(position - bound, position + bound);
+            owner.code_range = code_.driver_codes(low, high);
         owner.is_reference = covered && rules == profile_.raster;
         owner.sure = sure;
         const NearestSide side = nearest_side(triangle, x, y, rules);
@@ -270,6 +289,16 @@ template <class A> class Candidates {
         add(owner, x, y);
     }
 
+    /// Of the obstacles' vertex stage.
+    static KnownOperations of_corners(KnownOperations known, const Profile& profile) {
+        known.sums = known.sums && !profile.open_corners;
+        return known;
+    }
+    [[nodiscard]] bool corners_open() const { return !corners_.known().sums; }
+    [[nodiscard]] std::array<Interval, 4> legal_corner(glm::vec3 position) const {
+        return corners_.transform(params_.collision_proj_view, corners_.read(position));
+    }
+
     [[nodiscard]] const KnownOperations& known() const { return arithmetic_.known(); }
 
     A fp_;
@@ -279,6 +308,7 @@ template <class A> class Candidates {
     DriverConverts converts_;
     CollisionCode code_;
     LegalArithmetic<A> arithmetic_, placing_; ///< placing_: in the stage that finds the texels of points
+    LegalArithmetic<A> corners_;
     Wanted wanted_;
     std::vector<std::vector<TexelOwner>> candidates_;
 };

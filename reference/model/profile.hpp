@@ -105,6 +105,9 @@ struct Profile {
     /// A stage that runs says `precise` of nothing, and the driver then fuses: + - * / and roots may be taken in any
     /// order, and are held to GLSL's precision.
     bool any_order = false;
+    /// The obstacles' vertex stage says neither `precise` nor `invariant` of gl_Position, and the driver then fuses:
+    /// its sums may be taken in any order.
+    bool open_corners = false;
     OperationErrors errors;
     /// The driver's own 1/x and inversesqrt, where division, square root and normalize were measured to be made of them
     /// (arithmetic DriverRoots); null: the reference rounds them correctly.

@@ -256,4 +256,28 @@ TEST_CASE("driver profiles: a stage without precise is held to no order where th
     const Profile open = with_shaders(profile_from(result), result, plain.path());
     CHECK_FALSE(measured_operations(open).normalize);
     CHECK(describe(open).find("since a stage says no precise") != std::string::npos);
+    // Of a system of its own, whose stages are not the collision system's.
+    CHECK(without_precise(profile_from(result), result).any_order);
+    CHECK_FALSE(without_precise(profile_from(probed("mesa_25_0_7")), probed("mesa_25_0_7")).any_order);
+}
+
+TEST_CASE("driver profiles: corners are held to no order where the driver fuses and gl_Position is not precise") {
+    ProbeResult result = probed("mesa_25_0_7");
+    const auto open = [&](const std::string& declared, const std::string& assigned) {
+        const TemporaryFolder shaders;
+        shaders.write("obstacle_pass.vert", "#version 400 core\nuniform mat4 u_ProjView;\nin vec3 a_Position;\n" +
+                                                declared + "\nvoid main() {\n" + assigned + "\n}\n");
+        return with_shaders(profile_from(result), result, shaders.path()).open_corners;
+    };
+    const std::string plain = "gl_Position = u_ProjView * vec4(a_Position, 1.0);";
+    const std::string copied = "precise vec4 p = u_ProjView * vec4(a_Position, 1.0); gl_Position = p;";
+    CHECK_FALSE(open("", plain)); // this driver computes what is written
+    find(result, "a*b+c", "fused");
+    CHECK(open("", plain));
+    CHECK(open("", copied));
+    CHECK(open("// precise gl_Position;", plain));
+    CHECK_FALSE(open("precise gl_Position;", plain));
+    CHECK_FALSE(open("invariant gl_Position;", plain));
+    CHECK_FALSE(with_shaders(profile_from(result), result, TemporaryFolder().path()).open_corners);
+    CHECK_FALSE(with_shaders(profile_from(result), result, {}).open_corners);
 }

@@ -66,6 +66,46 @@ TEST_CASE("right shaders: no collision pass that is right in another style is di
     CHECK(hints >= 2);
 }
 
+TEST_CASE("right shaders: corners that a vertex stage sums in another order are legal where any order is") {
+    const auto context = test::open_llvmpipe();
+    if (!context)
+        return;
+    const auto by = [](const std::string& position, Legal legal) {
+        const test::TemporaryFolder shaders;
+        shaders.write("obstacle_pass.vert",
+                      "#version 400 core\n"
+                      "uniform mat4 u_ProjView;\n"
+                      "in vec3 a_Position;\n"
+                      "out vec3 v_Position;\n"
+                      "precise gl_Position;\n"
+                      "void main() {\n"
+                      "    v_Position = a_Position;\n"
+                      "    vec4 x = u_ProjView[0] * a_Position.x, y = u_ProjView[1] * a_Position.y;\n"
+                      "    vec4 z = u_ProjView[2] * a_Position.z, w = u_ProjView[3];\n"
+                      "    gl_Position = " +
+                          position +
+                          ";\n"
+                          "}\n");
+        SceneOptions options;
+        options.particles = 300;
+        return test::check_twins(load_scene("data/scenes/lattice.json", options), 1, shaders.path(), CheckMode::resync,
+                                 legal);
+    };
+    CHECK(by("((x + y) + z) + w", Legal::measured).verdict == Verdict::agree);
+    for (const char* const other :
+         {"((w + z) + y) + x", "((x + z) + w) + y", "fma(u_ProjView[2], vec4(a_Position.z), w) + (x + y)"}) {
+        INFO(other);
+        const CheckReport open = by(other, Legal::any_order);
+        CHECK(open.verdict == Verdict::legal);
+        CHECK(by(other, Legal::measured).verdict == Verdict::divergent);
+    }
+    for (const char* const wrong :
+         {"((w + z) + y) + 1.00001 * x", "((w + z) + y) + x + 0.00001", "(w + z) + (y - x)"}) {
+        INFO(wrong);
+        CHECK(by(wrong, Legal::any_order).verdict == Verdict::divergent);
+    }
+}
+
 TEST_CASE("right shaders: no search by octree or in layers that is right in another style is divergent") {
     const auto context = test::open_llvmpipe();
     if (!context)

@@ -1,0 +1,67 @@
+#pragma once
+#include <algorithm>
+#include <array>
+
+#include <glm/vec3.hpp>
+
+#include "reference/interval.hpp"
+
+namespace lockstep {
+
+/// What may be interpolated at a pixel's centre; of the last steps, from shares to a value, rounding comes on top
+/// (interpolation_bound, depth_bound).
+struct LegalFragment {
+    std::array<Interval, 3> position;
+    Interval depth; ///< 0..1
+};
+
+/// TriangleInterpolation (triangle_interpolation.hpp) of corners in clip space that may lie anywhere in sets, as where
+/// the order of a vertex stage's sums is open: + and * are rounded (half an ULP), quotients right to 2.5 ULP and again
+/// rounded. What may be seen edge-on has the whole triangle.
+inline LegalFragment legal_fragment(const std::array<std::array<Interval, 4>, 3>& clip,
+                                    const std::array<glm::vec3, 3>& positions, int x, int y, int width, int height) {
+    using namespace interval;
+    const auto sum_of = [](Interval a, Interval b) { return widen(add(a, b), 0.5); };
+    const auto product_of = [](Interval a, Interval b) { return widen(multiply(a, b), 0.5); };
+    const auto relative = [&](const std::array<Interval, 4>& corner, std::size_t axis, int size, int pixel) {
+        const auto centre = static_cast<double>(2 * pixel + 1 - size), half_pixels = static_cast<double>(size);
+        return add(multiply(corner[axis], {half_pixels, half_pixels}), negate(multiply(corner[3], {centre, centre})));
+    };
+    std::array<Interval, 3> rx, ry;
+    for (std::size_t k = 0; k < 3; ++k) {
+        rx[k] = relative(clip[k], 0, width, x);
+        ry[k] = relative(clip[k], 1, height, y);
+    }
+    const auto edge = [&](std::size_t from, std::size_t to) {
+        return sum_of(product_of(rx[from], ry[to]), negate(product_of(rx[to], ry[from])));
+    };
+    const Interval first = edge(1, 2), second = edge(2, 0), third = edge(0, 1);
+    const Interval sum = sum_of(sum_of(first, second), third);
+    // Clamped as there: the second to 1, the third to what the second leaves.
+    const auto share = [&](Interval side, Interval most) {
+        const Interval quotient = widen(divide(side, sum), 3.0);
+        return quotient.any
+                   ? Interval(0.0, most.high)
+                   : Interval(std::clamp(quotient.low, 0.0, most.low), std::clamp(quotient.high, 0.0, most.high));
+    };
+    const Interval of_second = share(second, 1.0F);
+    const Interval of_third = share(third, widen(add(1.0F, negate(of_second)), 0.5));
+    const auto mix = [&](Interval a, Interval b, Interval c) {
+        const Interval mixed =
+            add(add(a, multiply(of_second, add(b, negate(a)))), multiply(of_third, add(c, negate(a))));
+        const Interval corners = hull(hull(a, b), c);
+        return mixed.any || corners.any
+                   ? corners
+                   : Interval(std::max(mixed.low, corners.low), std::min(mixed.high, corners.high));
+    };
+    LegalFragment fragment;
+    for (int c = 0; c < 3; ++c)
+        fragment.position[static_cast<std::size_t>(c)] = mix(positions[0][c], positions[1][c], positions[2][c]);
+    const Interval ndc = divide(mix(clip[0][2], clip[1][2], clip[2][2]), mix(clip[0][3], clip[1][3], clip[2][3]));
+    fragment.depth =
+        ndc.any ? Interval(0.0, 1.0)
+                : Interval(std::clamp(0.5 * ndc.low + 0.5, 0.0, 1.0), std::clamp(0.5 * ndc.high + 0.5, 0.0, 1.0));
+    return fragment;
+}
+
+} // namespace lockstep

@@ -14,6 +14,7 @@
 #include "gpu/check.hpp"
 #include "gpu/program.hpp"
 #include "gpu/record_buffer.hpp"
+#include "gpu/shader_words.hpp"
 #include "gpu/state_image.hpp"
 #include "gpu/texture.hpp"
 #include "gpu/vertex_capture.hpp"
@@ -185,6 +186,7 @@ struct GlSystem::Parts {
     SmallestTarget target = {};                                  ///< of vertex passes
     GlQuery timer = {};
     bool takes_times = false;
+    bool says_precise = true; ///< each stage that computes, of something
     Seconds seconds = {};
 
     /// What the pass runs in a frame; null where there is nothing.
@@ -247,6 +249,7 @@ GlSystem::GlSystem(const Schema& schema, std::vector<GlPass> passes, std::filesy
         if (pass.draw)
             used.push_back(Stage::fragment);
         const std::vector<ShaderSource> stages = parts_->sources(pass, used, false);
+        parts_->says_precise = parts_->says_precise && says(stages.front().text, "precise");
         const std::vector<Capture> captures =
             captured ? parts_->storages[parts_->first_storage(pass.resource)].layout.captures()
                      : std::vector<Capture>{};
@@ -332,6 +335,8 @@ template <class Work> void GlSystem::Parts::timed(const Work& work) {
 }
 
 GlSystem::Seconds GlSystem::seconds() const { return parts_->seconds; }
+
+bool GlSystem::says_precise() const { return parts_->says_precise; }
 
 void GlSystem::time_steps(bool on) { parts_->takes_times = on; }
 

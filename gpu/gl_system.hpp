@@ -110,6 +110,9 @@ class GlSystem final : public SystemSide {
     void lay_canary(std::size_t pass) override;
     void repeat_step(std::size_t pass, int frame) override;
 
+    /// Whether each stage that computes a part of the state says `precise` of something.
+    [[nodiscard]] bool says_precise() const;
+
     /// Seconds that the last step's draw or dispatch took, nothing else with it: to glFinish, and by the GPU's own
     /// clock (GL_TIME_ELAPSED). Of steps after time_steps(true).
     struct Seconds {

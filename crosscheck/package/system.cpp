@@ -47,7 +47,9 @@ GlSystemSide::GlSystemSide(const Gl& gl, const System& system, std::vector<GlPas
     : gl_(gl), system_((gl ? system : throw Error(gl.missing())).schema, of_twins(std::move(passes), system), shaders,
                        arithmetic) {}
 
-SideDescription GlSystemSide::describe() const { return {gl_.name(), gl_.profile(), {}, {}}; }
+SideDescription GlSystemSide::describe() const {
+    return {gl_.name(), system_.says_precise() ? gl_.profile() : gl_.profile_without_precise(), {}, {}};
+}
 
 MatchResult match_system(SystemSide& gpu, const System& system, const MatchOptions& options) {
     const SideDescription side = gpu.describe();

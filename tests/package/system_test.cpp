@@ -107,6 +107,22 @@ TEST_CASE("own system: explain names the first value that does not follow, and a
     CHECK_THROWS_AS(load_item_capsule(folder.path() / "broken.json", system), Error);
 }
 
+TEST_CASE("own system: whether each stage says precise is known") {
+    if (!gl())
+        return skip(gl().missing());
+    const TemporaryFolder folder;
+    std::ostringstream text;
+    text << std::ifstream(std::string(shipped) + "/grains_step.vert").rdbuf();
+    std::string without = text.str();
+    REQUIRE(without.find("precise") != std::string::npos);
+    for (std::size_t at = 0; (at = without.find("precise ", at)) != std::string::npos;)
+        without.erase(at, std::string_view("precise ").size());
+    folder.write("grains_step.vert", "// precise\n" + without);
+    const System system = grains::system(20);
+    CHECK(GlSystem(system.schema, grains::passes(), shipped).says_precise());
+    CHECK_FALSE(GlSystem(system.schema, grains::passes(), folder.path()).says_precise());
+}
+
 TEST_CASE("own system: what would prove nothing is an error or said") {
     if (!gl())
         return skip(gl().missing());

@@ -16,7 +16,8 @@
 
 namespace lockstep {
 
-/// A system's passes on a context's GL; its profile is the context's, as measured.
+/// A system's passes on a context's GL; its profile is the context's, as measured for shaders that say `precise`, or
+/// for some that do not.
 class GlSystemSide final : public SystemSide {
   public:
     /// `gl` and `system` outlive this. `shaders`: the folder of the passes' files. Throws Error for what is wrong with

@@ -289,7 +289,7 @@ std::vector<ShaderSource> GlSystem::Parts::sources(const GlPass& pass, std::span
     defines.insert(defines.end(), pass.defines.begin(), pass.defines.end());
     if (traced)
         defines.emplace_back("LOCKSTEP_TRACE", "1");
-    return load_stages(shader_folders(shaders, schema->system), pass.name, stages, defines);
+    return load_stages(shader_folders(shaders, schema->system), pass.name, stages, defines, pass.texts);
 }
 
 void GlSystem::upload(const SystemView& state) {

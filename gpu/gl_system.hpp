@@ -65,6 +65,7 @@ struct GlPass {
     /// Of a compute pass: its other storage blocks by name, and what they hold in a frame, float after float.
     std::map<std::string, std::function<std::vector<float>(int frame)>> data = {};
     ShaderDefines defines = {};               ///< besides those of the arithmetic
+    ShaderTexts texts = {};                   ///< files that the host makes
     std::function<bool(int frame)> runs = {}; ///< as ItemPass::runs; empty: in every frame
     bool continues = false; ///< the dispatch of the pass before wrote this buffer as well; there is no shader
     /// Of a vertex pass that draws: the buffer of which each item is an instance, with its fields as attributes. An

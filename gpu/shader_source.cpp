@@ -126,7 +126,9 @@ struct File {
     std::string text;
 };
 
-File find(const ShaderFolders& folders, const std::string& file, const std::string& where) {
+File find(const ShaderFolders& folders, const ShaderTexts& texts, const std::string& file, const std::string& where) {
+    if (const auto made = texts.find(file); made != texts.end())
+        return {file, made->second};
     std::string tried;
     for (const fs::path& folder : folders) {
         if (auto text = text_of(folder / file))
@@ -139,7 +141,8 @@ File find(const ShaderFolders& folders, const std::string& file, const std::stri
 /// Puts one stage together.
 class Assembly {
   public:
-    Assembly(const ShaderFolders& folders, const ShaderDefines& defines) : folders_(folders), defines_(defines) {}
+    Assembly(const ShaderFolders& folders, const ShaderDefines& defines, const ShaderTexts& texts)
+        : folders_(folders), defines_(defines), texts_(texts) {}
 
     ShaderSource assemble(const fs::path& path, const std::string& text, Stage stage) {
         source_.stage = stage;
@@ -186,7 +189,7 @@ class Assembly {
         const std::size_t end = argument.find('"', 1);
         if (!argument.starts_with('"') || end == std::string_view::npos || end == 1)
             throw Error(fmt::format("{}#include needs a file name in double quotes", where));
-        const auto [path, text] = find(folders_, std::string(argument.substr(1, end - 1)), where);
+        const auto [path, text] = find(folders_, texts_, std::string(argument.substr(1, end - 1)), where);
         if (std::find(open_.begin(), open_.end(), path) != open_.end())
             throw Error(fmt::format("{}{} includes itself", where, shown(path)));
         append(path, text);
@@ -194,6 +197,7 @@ class Assembly {
 
     const ShaderFolders& folders_;
     const ShaderDefines& defines_;
+    const ShaderTexts& texts_;
     ShaderSource source_;
     std::vector<fs::path> open_; ///< files being read, outermost first
     bool has_version_ = false;
@@ -257,19 +261,21 @@ ShaderDefines arithmetic_defines(ArithmeticSwitch arithmetic) {
 
 ShaderSource load_stage(const ShaderFolders& folders, std::string_view name, Stage stage,
                         const ShaderDefines& defines) {
-    const auto [path, text] = find(folders, fmt::format("{}{}", name, extension(stage)), "");
-    return Assembly(folders, defines).assemble(path, text, stage);
+    const ShaderTexts none;
+    const auto [path, text] = find(folders, none, fmt::format("{}{}", name, extension(stage)), "");
+    return Assembly(folders, defines, none).assemble(path, text, stage);
 }
 
 std::vector<ShaderSource> load_stages(const ShaderFolders& folders, std::string_view name,
-                                      std::span<const Stage> stages, const ShaderDefines& defines) {
+                                      std::span<const Stage> stages, const ShaderDefines& defines,
+                                      const ShaderTexts& texts) {
     std::vector<ShaderSource> sources;
     for (const Stage stage : stages) {
-        const auto [path, text] = find(folders, fmt::format("{}{}", name, extension(stage)), "");
+        const auto [path, text] = find(folders, texts, fmt::format("{}{}", name, extension(stage)), "");
         if (blank(text) && stage != Stage::geometry)
             throw Error(fmt::format("shader {}: is empty; only a geometry stage can be left out", shown(path)));
         if (!blank(text))
-            sources.push_back(Assembly(folders, defines).assemble(path, text, stage));
+            sources.push_back(Assembly(folders, defines, texts).assemble(path, text, stage));
     }
     return sources;
 }

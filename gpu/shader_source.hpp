@@ -1,6 +1,7 @@
 #pragma once
 #include <cstddef>
 #include <filesystem>
+#include <map>
 #include <span>
 #include <string>
 #include <string_view>
@@ -26,6 +27,9 @@ ShaderFolders shader_folders(const std::filesystem::path& user = {}, std::string
 
 /// Preprocessor definitions, name and value.
 using ShaderDefines = std::vector<std::pair<std::string, std::string>>;
+
+/// Files that are in no folder, by their names.
+using ShaderTexts = std::map<std::string, std::string>;
 
 /// A choice among named values: a number for each value and the one that is chosen, in upper case:
 /// BASE_TEXEL_TRUNCATE 0, BASE_TEXEL_FLOOR 1, BASE_TEXEL BASE_TEXEL_FLOOR.
@@ -55,8 +59,10 @@ ShaderSource load_stage(const ShaderFolders& folders, std::string_view name, Sta
                         const ShaderDefines& defines = {});
 
 /// The stages of one program. A geometry stage's file that holds nothing but white space leaves the stage out, so a
-/// user's folder can do without a built-in one. Throws Error where another stage's file does.
+/// user's folder can do without a built-in one. Throws Error where another stage's file does. `texts` are looked for
+/// first.
 std::vector<ShaderSource> load_stages(const ShaderFolders& folders, std::string_view name,
-                                      std::span<const Stage> stages, const ShaderDefines& defines = {});
+                                      std::span<const Stage> stages, const ShaderDefines& defines = {},
+                                      const ShaderTexts& texts = {});
 
 } // namespace lockstep

@@ -19,5 +19,6 @@ Verb trace_command();
 Verb completion_command();
 Verb manual_command();
 Verb capsule_command();
+Verb graph_command();
 
 } // namespace lockstep

@@ -50,6 +50,10 @@ class JsonValue {
     [[nodiscard]] std::int64_t integer(std::int64_t min, std::int64_t max) const;
     [[nodiscard]] glm::vec3 vector() const;
     [[nodiscard]] bool is_null() const { return value_->is_null(); }
+    [[nodiscard]] bool is_text() const { return value_->is_string(); }
+    [[nodiscard]] bool is_array() const { return value_->is_array(); }
+    [[nodiscard]] bool is_truth() const { return value_->is_boolean(); }
+    [[nodiscard]] bool truth() const { return is_truth() && value_->get<bool>(); }
     [[nodiscard]] std::string text() const;
     /// A text that is only shown: what plain_line (plain_text.hpp) makes of it.
     [[nodiscard]] std::string label() const;

@@ -1,0 +1,102 @@
+#include "reference/model/graph.hpp"
+
+namespace lockstep {
+
+std::string_view graph_type_name(GraphType type) {
+    static constexpr std::array<std::string_view, 6> names{"float", "vec2", "vec3", "vec4", "uint", "bool"};
+    return names[static_cast<std::size_t>(type)];
+}
+
+std::span<const GraphNodeType> graph_node_types() {
+    using enum GraphKind;
+    using W = GraphWants;
+    static const std::vector<GraphPort> one{{"a"}}, two{{"a"}, {"b"}};
+    static const std::vector<GraphPort> two_truths{{"a", W::boolean}, {"b", W::boolean}};
+    static const std::vector<GraphNodeType> all{
+        {constant, "constant", {}},
+        {parameter, "parameter", {}},
+        {input, "input", {}},
+        {add, "add", two},
+        {subtract, "subtract", two},
+        {multiply, "multiply", two},
+        {divide, "divide", two},
+        {negate, "negate", one},
+        {abs, "abs", one},
+        {floor, "floor", one},
+        {fract, "fract", one},
+        {min, "min", two},
+        {max, "max", two},
+        {clamp, "clamp", {{"a"}, {"low", W::shared, 0.0F}, {"high", W::shared, 1.0F}}},
+        {mix, "mix", {{"a"}, {"b"}, {"t", W::real}}},
+        {step, "step", {{"edge"}, {"a"}}},
+        {smoothstep, "smoothstep", {{"low", W::shared, 0.0F}, {"high", W::shared, 1.0F}, {"a"}}},
+        {sqrt, "sqrt", one},
+        {dot, "dot", {{"a", W::vec3}, {"b", W::vec3}}, W::real},
+        {cross, "cross", {{"a", W::vec3}, {"b", W::vec3}}, W::vec3},
+        {length, "length", {{"a", W::vec3}}, W::real},
+        {normalize, "normalize", {{"a", W::vec3}}, W::vec3},
+        {compose, "compose", {{"x", W::real}, {"y", W::real}, {"z", W::part}, {"w", W::part}}, W::vector},
+        {split, "split", {{"a", W::vector}}, W::vector},
+        {less, "less", {{"a", W::real}, {"b", W::real}}, W::boolean},
+        {equal, "equal", {{"a", W::any}, {"b", W::any}}, W::boolean},
+        {logical_and, "and", two_truths, W::boolean},
+        {logical_or, "or", two_truths, W::boolean},
+        {logical_not, "not", {{"a", W::boolean}}, W::boolean},
+        {select, "select", {{"condition", W::boolean}, {"a", W::any}, {"b", W::any}}, W::any},
+        {curve, "curve", {{"t", W::real}}, W::real},
+    };
+    return all;
+}
+
+std::span<const GraphStage> graph_stages() {
+    using enum GraphType;
+    static const std::vector<GraphStage> all{
+        {"simulation",
+         {{"position", vec3},
+          {"velocity", vec3},
+          {"acceleration", vec3},
+          {"remaining", real},
+          {"lifetime", real},
+          {"t", real},
+          {"spawn_time", real},
+          {"time", real},
+          {"tick", real}},
+         {{"acceleration", vec3}, {"drag", real}, {"kill", boolean}, {"velocity", vec3}, {"position", vec3}}},
+        {"emission",
+         {{"serial", uint},
+          {"order_in_frame", uint},
+          {"emitted", uint},
+          {"time", real},
+          {"frame", uint},
+          {"emitter_position", vec3},
+          {"emitter_velocity", vec3}},
+         {{"position", vec3},
+          {"velocity", vec3},
+          {"acceleration", vec3},
+          {"lifetime", real},
+          {"initial_size", real},
+          {"end_size", real},
+          {"initial_color", vec4},
+          {"end_color", vec4}}},
+        {"rendering",
+         {{"position", vec3},
+          {"velocity", vec3},
+          {"acceleration", vec3},
+          {"remaining", real},
+          {"lifetime", real},
+          {"t", real},
+          {"spawn_time", real},
+          {"time", real},
+          {"tick", real},
+          {"initial_size", real},
+          {"end_size", real},
+          {"initial_color", vec4},
+          {"end_color", vec4},
+          {"u", real},
+          {"v", real}},
+         {{"size", real}, {"color", vec4}}},
+    };
+    return all;
+}
+
+} // namespace lockstep

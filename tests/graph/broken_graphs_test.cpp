@@ -1,0 +1,277 @@
+#include <catch2/catch.hpp>
+
+#include <filesystem>
+#include <fstream>
+#include <functional>
+#include <map>
+#include <set>
+#include <string>
+
+#include <nlohmann/json.hpp>
+
+#include "crosscheck/files/json_reader.hpp"
+#include "crosscheck/scene/graph_file.hpp"
+#include "reference/model/error.hpp"
+#include "tests/cli/cli_checks.hpp"
+
+using namespace lockstep;
+using Catch::Contains;
+using nlohmann::json;
+using test::refusal;
+using test::run_lockstep;
+
+namespace {
+
+json node(const std::string& id, const std::string& type, json inputs) {
+    return {{"id", id}, {"type", type}, {"inputs", std::move(inputs)}};
+}
+
+json shipped(const std::string& name) {
+    std::ifstream stream("data/graphs/" + name + ".json");
+    return json::parse(stream);
+}
+
+json small_graph() {
+    return {{"stage", "simulation"},
+            {"nodes",
+             {{{"id", "v"}, {"type", "input"}, {"value", "velocity"}},
+              node("slow", "multiply", {{"a", "v"}, {"b", -0.8}})}},
+            {"outputs", {{"acceleration", "slow"}}}};
+}
+
+/// What reading a text says; empty: nothing is wrong.
+std::string error_of(const std::string& text) {
+    try {
+        const json document = parse_json(text, "graph.json");
+        static_cast<void>(read_graph(JsonValue(document, "graph.json")));
+    } catch (const Error& error) {
+        return error.what();
+    }
+    return "";
+}
+std::string error_of(const json& graph) { return error_of(graph.dump()); }
+
+json& inputs_of(json& graph, const std::string& id) {
+    for (json& one : graph.at("nodes"))
+        if (one.at("id") == id)
+            return one.at("inputs");
+    throw std::runtime_error("no node " + id);
+}
+
+/// A chain of `length` nodes, the last the output.
+json chain(std::size_t length) {
+    json graph = small_graph();
+    for (std::size_t i = 0; i < length; ++i)
+        graph["nodes"].push_back(
+            node("c" + std::to_string(i), "negate", {{"a", i == 0 ? "v" : "c" + std::to_string(i - 1)}}));
+    graph["outputs"]["acceleration"] = "c" + std::to_string(length - 1);
+    return graph;
+}
+
+/// Broken graphs by what is wrong with them; each has to be refused with these words.
+std::vector<std::pair<std::string, std::string>> broken_graphs() {
+    std::vector<std::pair<std::string, std::string>> all;
+    const auto add = [&](const json& graph, const std::string& words) { all.emplace_back(graph.dump(), words); };
+    const json small = small_graph(), fire = shipped("fire"), fade = shipped("fade");
+    // Cycles of every length up to 40, entered from the front and from within.
+    for (std::size_t length = 1; length <= 40; ++length) {
+        json graph = chain(length);
+        inputs_of(graph, "c0")["a"] = "c" + std::to_string(length - 1);
+        add(graph, "the nodes wait for each other: c");
+        graph["outputs"]["acceleration"] = "slow";
+        add(graph, "wait for each other");
+    }
+    // Every node's type, every port and every link misspelt; every needed port left out.
+    for (const json& whole : {fire, fade})
+        for (std::size_t n = 0; n < whole.at("nodes").size(); ++n) {
+            json graph = whole;
+            json& one = graph["nodes"][n];
+            one["type"] = one["type"].get<std::string>() + "s";
+            add(graph, "is no type of a node");
+            graph = whole;
+            graph["nodes"][n]["id"] = n == 0 ? "" : whole["nodes"][0]["id"].get<std::string>();
+            add(graph, n == 0 ? "is no name of a node" : "already");
+            graph = whole;
+            graph["nodes"][n]["colour"] = 1;
+            add(graph, "unknown key");
+            if (!whole["nodes"][n].contains("inputs"))
+                continue;
+            for (const auto& [port, value] : whole["nodes"][n]["inputs"].items()) {
+                graph = whole;
+                graph["nodes"][n]["inputs"]["z" + port] = value;
+                add(graph, "is no port of");
+                graph = whole;
+                graph["nodes"][n]["inputs"][port] = "nobody";
+                add(graph, "is no node");
+                graph = whole;
+                graph["nodes"][n]["inputs"][port] = json::object();
+                add(graph, "is not a finite number");
+                const std::string type = whole["nodes"][n]["type"];
+                const bool standard = (type == "clamp" && port != "a") || (type == "smoothstep" && port != "a") ||
+                                      (type == "compose" && (port == "z" || port == "w"));
+                graph = whole;
+                graph["nodes"][n]["inputs"].erase(port);
+                if (!standard)
+                    add(graph, "has nothing at its port " + port);
+            }
+        }
+    // Types.
+    const json parts = {true, json::array({1, 2}), json::array({1, 2, 3, 4})};
+    for (const char* const type : {"add", "subtract", "multiply", "divide", "min", "max"})
+        for (const json& other : parts) {
+            json graph = small;
+            graph["nodes"].push_back(node("n", type, {{"a", "v"}, {"b", other}}));
+            add(graph, "port b of 'n' gets a");
+        }
+    for (const char* const type : {"dot", "cross"})
+        for (const json& other : parts) {
+            json graph = small;
+            graph["nodes"].push_back(node("n", type, {{"a", "v"}, {"b", other}}));
+            add(graph, "right is a vec3");
+        }
+    for (const char* const type : {"and", "or"}) {
+        json graph = small;
+        graph["nodes"].push_back(node("n", type, {{"a", true}, {"b", "v"}}));
+        add(graph, "port b of 'n' gets a vec3; right is a bool");
+    }
+    for (const char* const type : {"not", "negate", "length", "split", "curve"}) {
+        json graph = small;
+        json one = node("n", type, {{std::string(type) == "curve" ? "t" : "a", "truth"}});
+        if (std::string(type) == "curve")
+            one["keys"] = {{0, 1}};
+        if (std::string(type) == "not")
+            one["inputs"]["a"] = "v";
+        graph["nodes"].push_back(one);
+        graph["nodes"].push_back({{"id", "truth"}, {"type", "constant"}, {"value", true}});
+        add(graph, "of 'n' gets a");
+    }
+    for (const auto& [output, wrong] : std::map<std::string, json>{{"acceleration", true},
+                                                                   {"acceleration", "kill"},
+                                                                   {"drag", "v"},
+                                                                   {"kill", 1.0},
+                                                                   {"kill", "v"},
+                                                                   {"position", json::array({1, 2})}}) {
+        json graph = small;
+        graph["outputs"] = {{output, wrong == "kill" ? json("v2") : wrong}};
+        graph["nodes"].push_back({{"id", "v2"}, {"type", "constant"}, {"value", {1, 2}}});
+        add(graph, "output " + output + " gets a");
+    }
+    // Outputs and inputs of another stage, and of none.
+    for (const char* const name : {"size", "color", "lifetime", "initial_size", "nothing", ""}) {
+        json graph = small;
+        graph["outputs"][name] = "v";
+        add(graph, name == std::string("nothing") || name[0] == 0 ? "is no output of the stage" : "is an output of");
+        graph = small;
+        graph["nodes"][0]["value"] = std::string(name) + "_u";
+        add(graph, "is no input of the stage simulation");
+        graph.erase("stage");
+        add(graph, "no stage has these outputs");
+    }
+    // Values.
+    const auto with = [&](const json& one, const std::string& words) {
+        json graph = small;
+        graph["nodes"].push_back(one);
+        add(graph, words);
+    };
+    with({{"id", "k"}, {"type", "parameter"}, {"value", 5}, {"range", {0, 4}}}, "5 is not within 0 to 4");
+    with({{"id", "k"}, {"type", "parameter"}, {"value", 5}, {"range", {9, 4}}}, "right is the least first");
+    with({{"id", "k"}, {"type", "parameter"}, {"value", 5}, {"range", {9}}}, "right is the least and the greatest");
+    with({{"id", "k"}, {"type", "parameter"}, {"value", {1, 2}}}, "a parameter is a float");
+    with({{"id", "k"}, {"type", "constant"}}, "\"value\" is missing");
+    with({{"id", "k"}, {"type", "constant"}, {"value", {1}}}, "right is two to four");
+    with({{"id", "k"}, {"type", "constant"}, {"value", {1, 2, 3, 4, 5}}}, "right is two to four");
+    with({{"id", "k"}, {"type", "constant"}, {"value", 1e39}}, "is not a finite number");
+    with({{"id", "k"}, {"type", "constant"}, {"value", "v"}}, "is not a finite number");
+    with({{"id", "k"}, {"type", "constant"}, {"value", nullptr}}, "is not a finite number");
+    with({{"id", "k"}, {"type", "constant"}, {"value", 1}, {"inputs", json::object()}}, "is no property of a node");
+    with({{"id", "k"}, {"type", "add"}, {"value", 1}}, "is no property of a node");
+    with({{"id", "k k"}, {"type", "add"}}, "is no name of a node");
+    with({{"id", std::string(41, 'k')}, {"type", "add"}}, "is no name of a node");
+    with({{"id", 7}, {"type", "add"}}, "7 is not a text");
+    for (const json& keys :
+         {json::array(), json{{0, 1}, {0, 2}}, json{{1, 1}, {0, 2}}, json{{0}}, json{{0, 1, 2}}, json{1, 2},
+          json{{"a", 1}}, json{{nullptr, 1}}, json("keys"), json(std::vector(17, json{1, 2}))}) {
+        json one = node("k", "curve", {{"t", 0}});
+        one["keys"] = keys;
+        with(one, "/nodes/2/keys");
+    }
+    with(node("k", "compose", {{"x", 1}, {"y", 1}, {"w", 1}}), "nothing at its port z, and something at w");
+    for (const char* const link : {"v.x", "parts", "parts.w", "parts.xy", "parts.", "parts.x.x", ".x", "."}) {
+        json graph = small;
+        graph["nodes"].push_back(node("parts", "split", {{"a", "v"}}));
+        graph["nodes"].push_back(node("k", "negate", {{"a", link}}));
+        add(graph, "/nodes/3/inputs/a");
+    }
+    // Too much.
+    add(chain(65), "more than 64 nodes behind each other");
+    add(chain(200), "more than 64 nodes behind each other");
+    add(chain(255), "257 nodes; right is at most 256");
+    add(chain(5000), "right is at most 256");
+    // Other shapes than a graph's.
+    for (const char* const text :
+         {"[]", "3", "null", "\"graph\"", "{}", R"({"nodes": 3, "outputs": {}})", R"({"nodes": [], "outputs": {}})",
+          R"({"nodes": [3], "outputs": {}})", R"({"nodes": [[]], "outputs": {}})", R"({"nodes": [{}], "outputs": {}})",
+          R"({"nodes": [], "outputs": []})", R"({"nodes": [], "outputs": {"drag": "a"}})",
+          R"({"nodes": [], "outputs": {"drag": []}})", R"({"nodes": [], "graph": 1})",
+          R"({"stage": "death", "nodes": [], "outputs": {"drag": 1}})",
+          R"({"stage": 3, "nodes": [], "outputs": {"drag": 1}})"})
+        all.emplace_back(text, "graph.json: ");
+    for (const char* const text :
+         {"", "{", "[1,", "{\"nodes\": [", "nul", "{\"a\": 1, \"a\": 2}", "\xff\xfe", "{\"nodes\": 1e999}", "\"\n\""})
+        all.emplace_back(text, "graph.json:");
+    for (const std::size_t depth : {100, 10'000, 300'000})
+        all.emplace_back("{\"nodes\": " + std::string(depth, '[') + std::string(depth, ']') + "}", "64 deep");
+    return all;
+}
+
+} // namespace
+
+TEST_CASE("graphs: each of 300 broken ones is one line of error, with its place, and none a crash") {
+    const auto all = broken_graphs();
+    CHECK(all.size() >= 300);
+    std::set<std::string> texts;
+    for (const auto& [text, words] : all) {
+        texts.insert(text);
+        const std::string error = error_of(text);
+        INFO(text.substr(0, 2000));
+        CHECK_THAT(error, Contains(words) && Catch::StartsWith("graph.json:"));
+        CHECK(error.find('\n') == std::string::npos);
+        CHECK(error.size() < 600);
+    }
+    CHECK(texts.size() >= 300);
+}
+
+TEST_CASE("graphs: what is wrong ends the verb with status 2 and one line") {
+    const test::TemporaryFolder folder;
+    const auto all = broken_graphs();
+    for (std::size_t i = 0; i < all.size(); i += 40) {
+        const std::string file = folder.write("graph.json", all[i].first).string();
+        INFO(all[i].first.substr(0, 500));
+        CHECK_THAT(refusal(run_lockstep({"graph", i % 80 == 0 ? "check" : "glsl", file})), Contains(all[i].second));
+    }
+    CHECK_THAT(refusal(run_lockstep({"graph", "check", folder.path() / "none.json"})), Contains("none.json"));
+    CHECK_THAT(refusal(run_lockstep({"graph", "eval", folder.path()})), Contains("cannot be read"));
+}
+
+TEST_CASE("graphs: a whole graph is right, and what no output needs is checked, not compiled") {
+    CHECK(error_of(small_graph()).empty());
+    CHECK(error_of(shipped("fire")).empty());
+    CHECK(error_of(shipped("fade")).empty());
+    CHECK(error_of(chain(63)).empty());
+    json graph = small_graph();
+    graph["nodes"].push_back(node("unused", "negate", {{"a", "v"}}));
+    const json document = graph;
+    const Graph read = read_graph(JsonValue(document, "graph.json"));
+    CHECK(read.order == std::vector<std::size_t>{0, 1});
+    graph["nodes"][2]["inputs"]["a"] = "nobody";
+    CHECK_THAT(error_of(graph), Contains("/nodes/2/inputs/a: 'nobody' is no node"));
+}
+
+TEST_CASE("graphs: the verb prints the shader and what each node makes") {
+    const auto glsl = run_lockstep({"graph", "glsl", "data/graphs/fire.json"});
+    CHECK(glsl.status == 0);
+    CHECK_THAT(glsl.out, Contains("precise vec3") && Contains("// lift"));
+    const auto eval = run_lockstep({"graph", "eval", "data/graphs/fire.json", "--item", "9"});
+    CHECK(eval.status == 0);
+    CHECK_THAT(eval.out, Contains("lift") && Contains("-> acceleration") && Contains("0x1."));
+}

@@ -10,8 +10,8 @@ layout(triangle_strip, max_vertices = 4) out;
 
 in vec3 v_Position[];
 
-flat out vec4 g_Clip[3];
-flat out vec3 g_Position[3];
+precise flat out vec4 g_Clip[3];
+precise flat out vec3 g_Position[3];
 precise gl_Position;
 
 void emit_corner(vec4 position) {

@@ -5,6 +5,6 @@
 #include "collision_code.glsl"
 
 flat in vec3 out_Position;
-out vec4 o_Texel;
+precise out vec4 o_Texel;
 
 void main() { o_Texel = encode_position(out_Position); }

@@ -16,7 +16,7 @@ layout(std430, binding = 2) readonly buffer Nearest { uint nearest[]; }; // two 
 uniform int u_ClientWidth;
 uniform uint u_ParticleCount;
 
-out vec4 o_Texel;
+precise out vec4 o_Texel;
 
 void main() {
     uint texel = uint(int(gl_FragCoord.y) * u_ClientWidth + int(gl_FragCoord.x));

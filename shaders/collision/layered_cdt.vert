@@ -14,8 +14,8 @@ uniform mat4 u_ProjView;
 uniform int u_Layer;            // the layer that is drawn
 uniform isampler2D u_KeyBefore; // keys in the layer before; the largest there is where that is empty
 
-flat out vec3 v_Position;
-flat out vec4 v_Velocity; // world units a second, and 1 if the particle will search, else 0
+precise flat out vec3 v_Position;
+precise flat out vec4 v_Velocity; // world units a second, and 1 if the particle will search, else 0
 flat out ivec2 v_Key;     // depth, whose bits are ordered like it, and index
 precise gl_Position;
 

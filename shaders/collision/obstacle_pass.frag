@@ -12,7 +12,8 @@ flat in vec3 g_Position[3];
 uniform int u_ClientWidth;
 uniform int u_ClientHeight;
 
-out vec4 o_Texel;
+precise out vec4 o_Texel;
+precise gl_FragDepth;
 
 void main() {
     TriangleFragment fragment =

@@ -7,7 +7,7 @@ in vec3 a_Position;
 
 uniform mat4 u_ProjView;
 
-out vec3 v_Position;
+precise out vec3 v_Position;
 precise gl_Position;
 
 void main() {

@@ -4,6 +4,6 @@
 
 flat in vec3 g_Position;
 
-out vec4 o_Texel;
+precise out vec4 o_Texel;
 
 void main() { o_Texel = encode_position(g_Position); }

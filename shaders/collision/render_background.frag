@@ -6,6 +6,6 @@
 
 uniform int u_ClientHeight;
 
-out vec4 o_Color;
+precise out vec4 o_Color;
 
 void main() { o_Color = quantised(background_color(int(gl_FragCoord.y), u_ClientHeight)); }

@@ -11,7 +11,8 @@ flat in vec3 g_Position[3]; // view space
 uniform int u_ClientWidth;
 uniform int u_ClientHeight;
 
-out vec4 o_Color;
+precise out vec4 o_Color;
+precise gl_FragDepth;
 
 void main() {
     TriangleFragment fragment =

@@ -8,7 +8,7 @@ in vec3 a_Position;
 uniform mat4 u_View;
 uniform mat4 u_Projection;
 
-out vec3 v_Position; // view space
+precise out vec3 v_Position; // view space
 precise gl_Position;
 
 void main() {

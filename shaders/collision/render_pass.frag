@@ -15,7 +15,8 @@ uniform mat4 u_Projection;
 uniform float u_BillboardRadius;
 uniform float u_CollisionTime;
 
-out vec4 o_Color;
+precise out vec4 o_Color;
+precise gl_FragDepth;
 
 void main() {
     precise vec2 off = (floor(gl_FragCoord.xy) + 0.5) - g_WindowCentre;

@@ -15,11 +15,11 @@ in float v_CollideTime[];
 uniform mat4 u_Projection;
 uniform float u_BillboardRadius;
 
-flat out vec3 g_Centre;       // view space
-flat out vec2 g_WindowCentre; // pixels
-flat out vec2 g_WindowHalf;   // pixels, half sides
-flat out float g_Speed;
-flat out float g_CollideTime;
+precise flat out vec3 g_Centre;       // view space
+precise flat out vec2 g_WindowCentre; // pixels
+precise flat out vec2 g_WindowHalf;   // pixels, half sides
+precise flat out float g_Speed;
+precise flat out float g_CollideTime;
 precise gl_Position;
 
 // In front of the camera, between near and far plane, not beside the image. False for NaN.

@@ -9,9 +9,9 @@ in float a_CollideTime;
 
 uniform mat4 u_View;
 
-out vec3 v_Centre; // view space
-out float v_Speed;
-out float v_CollideTime;
+precise out vec3 v_Centre; // view space
+precise out float v_Speed;
+precise out float v_CollideTime;
 
 void main() {
     v_Centre = ls_transform(u_View, a_Position).xyz;

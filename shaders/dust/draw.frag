@@ -5,7 +5,7 @@ flat in vec3 out_Tint;
 flat in int out_Drawn;
 in vec2 out_TexelPlace;
 
-out vec4 o_Color;
+precise out vec4 o_Color;
 
 void main() {
     if (out_Drawn == 0)

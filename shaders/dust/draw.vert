@@ -10,10 +10,10 @@ uniform vec3 cameraRight, cameraUp, cameraBack; // a cube's: the world's axes
 uniform float scale;
 uniform mat4 viewProjection;
 
-out vec4 out_Clip;
-flat out vec3 out_Tint;
+precise out vec4 out_Clip;
+precise flat out vec3 out_Tint;
 flat out int out_Drawn;
-out vec2 out_TexelPlace;
+precise out vec2 out_TexelPlace;
 
 void main() {
     // Sides of 1 around 0.

@@ -4,7 +4,7 @@ in vec4 out_Tint;
 flat in uint out_Drawn;
 in vec2 out_TexelPlace;
 
-out vec4 o_Color;
+precise out vec4 o_Color;
 
 void main() {
     if (out_Drawn == 0u)

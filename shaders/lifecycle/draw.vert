@@ -28,10 +28,10 @@ in float a_InitialSize, a_EndSize;
 
 uniform mat4 u_View, u_Projection;
 
-out vec4 out_Clip;
-out vec4 out_Tint;
+precise out vec4 out_Clip;
+precise out vec4 out_Tint;
 flat out uint out_Drawn;
-out vec2 out_TexelPlace;
+precise out vec2 out_TexelPlace;
 
 // Only what drawing needs.
 void load_instance() {

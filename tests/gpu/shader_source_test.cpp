@@ -2,12 +2,15 @@
 
 #include <algorithm>
 #include <cstdlib>
+#include <fstream>
+#include <sstream>
 
 #include <fmt/format.h>
 
 #include "gpu/collision/collision_shaders.hpp"
 #include "gpu/shader_log.hpp"
 #include "gpu/shader_source.hpp"
+#include "gpu/shader_words.hpp"
 #include "gpu/shaders_read_once.hpp"
 #include "reference/model/error.hpp"
 #include "tests/temporary_folder.hpp"
@@ -232,4 +235,27 @@ TEST_CASE("shader_source: a run finds its folder once") {
         CHECK(shader_folders(path).front() == path);
     }
     CHECK(shader_folders(path).front() == path);
+}
+
+// A driver may fuse what it copies to an output that is not precise, though it was precise before (NVIDIA 580).
+TEST_CASE("shader source: what a shipped stage computes is precise where it is handed on") {
+    std::size_t outputs = 0;
+    for (const auto& file : fs::recursive_directory_iterator("shaders")) {
+        const std::string path = file.path().string();
+        if (!file.is_regular_file() || path.find("/probe/") != std::string::npos)
+            continue;
+        std::ifstream stream(path);
+        const std::string text{std::istreambuf_iterator<char>(stream), {}};
+        if (!says(text, "precise") && !says(text, "arithmetic.glsl"))
+            continue; // it copies
+        std::istringstream lines(text);
+        for (std::string line; std::getline(lines, line);) {
+            const bool is_float = line.find(" float ") != std::string::npos || line.find(" vec") != std::string::npos;
+            const bool is_output = line.starts_with("out ") || line.starts_with("flat out ");
+            INFO(path << ": " << line);
+            CHECK_FALSE((is_float && is_output && line.find("trace_") == std::string::npos));
+            outputs += line.starts_with("precise ") && line.find("out ") != std::string::npos ? 1 : 0;
+        }
+    }
+    CHECK(outputs >= 30);
 }

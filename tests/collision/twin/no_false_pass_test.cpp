@@ -216,7 +216,8 @@ TEST_CASE("no false pass: a fragment stage that writes no output 0 is an error")
         CHECK(refusal(shaders) == "shader " + file + ": no output at location 0 is written; that is what is drawn");
     }
     SECTION("another is") {
-        test::plant(shaders, "collision_pass.frag", "out vec4 o_Texel;", "layout(location = 1) out vec4 o_Texel;");
+        test::plant(shaders, "collision_pass.frag", "precise out vec4 o_Texel;",
+                    "layout(location = 1) out vec4 o_Texel;");
         CHECK(refusal(shaders) == "shader " + file + ": no output at location 0 is written; that is what is drawn");
     }
     SECTION("there is no fragment stage") {

@@ -1,11 +1,14 @@
 #include <catch2/catch.hpp>
 
+#include <array>
+#include <limits>
 #include <stdexcept>
 #include <tuple>
 #include <vector>
 
 #include "crosscheck/judge/item_cause.hpp"
 #include "crosscheck/judge/item_judge.hpp"
+#include "crosscheck/judge/rounding_only.hpp"
 #include "reference/system/item_twin.hpp"
 
 using namespace lockstep;
@@ -119,4 +122,17 @@ TEST_CASE("item cause: two mistakes at once in any pass are found as a pair of n
     ItemCauseFinder seen_elsewhere(named, "sink");
     seen_elsewhere.add(judged, judge_items(judged), [](std::span<const NamedMistake* const>) { return 7; });
     CHECK_FALSE(seen_elsewhere.findings().explains_all());
+}
+
+TEST_CASE("item cause: nothing finite is near what is infinite") {
+    constexpr float infinite = std::numeric_limits<float>::infinity(), none = std::numeric_limits<float>::quiet_NaN();
+    const auto near = [](std::array<float, 2> a, std::array<float, 2> b, std::array<float, 2> before) {
+        return differ_by_rounding(a, b, before);
+    };
+    CHECK_FALSE(near({infinite, 0.0F}, {1.0F, 0.0F}, {0.0F, 0.0F}));
+    CHECK_FALSE(near({1.0F, 2.0F}, {1.0F, 3.0F}, {infinite, 0.0F}));
+    CHECK_FALSE(near({infinite, 0.0F}, {-infinite, 0.0F}, {0.0F, 0.0F}));
+    CHECK_FALSE(near({none, 0.0F}, {1.0F, 0.0F}, {0.0F, 0.0F}));
+    CHECK(near({infinite, 1.0F}, {infinite, 1.0000001F}, {0.0F, 0.0F}));
+    CHECK(near({none, 1.0F}, {none, 1.0F}, {0.0F, 0.0F}));
 }

@@ -25,7 +25,7 @@ class TemporaryFolder {
     [[nodiscard]] const std::filesystem::path& path() const { return path_; }
 
     std::filesystem::path write(const std::string& name, std::string_view text) const {
-        const auto file = path_ / name;
+        auto file = path_ / name;
         std::ofstream(file, std::ios::binary) << text;
         return file;
     }

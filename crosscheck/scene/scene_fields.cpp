@@ -79,9 +79,8 @@ void set_value(std::string_view setting, std::string_view system, std::vector<Sw
     const std::string_view value = equals == setting.npos ? "" : setting.substr(equals + 1);
     const auto found = std::find_if(all.begin(), all.end(), [&](const SwitchValue& one) { return one.name == name; });
     if (found == all.end()) {
-        std::vector<std::string> names;
-        for (const SwitchValue& one : all)
-            names.emplace_back(one.name);
+        std::vector<std::string> names(all.size());
+        std::transform(all.begin(), all.end(), names.begin(), [](const SwitchValue& one) { return one.name; });
         throw Error(fmt::format("there is no switch '{}' of {}; there are {}{}", plain_line(std::string(name)), system,
                                 fmt::join(names, ", "), did_you_mean(std::string(name), names)));
     }

@@ -29,7 +29,7 @@ function expand(files, name, taken) {
 const without330 = (text) =>
   text
     .replace(/^[ \t]*#[ \t]*(version|extension).*$/gm, "")
-    .replace(/^precise gl_Position;$/gm, "")
+    .replace(/^precise gl_(Position|FragDepth);$/gm, "")
     .replace(/\bprecise /g, "")
     .replace(/^((?:flat )?out )/gm, "invariant $1");
 

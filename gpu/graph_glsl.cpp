@@ -14,6 +14,10 @@ constexpr std::string_view parts = "xyzw";
 
 std::string number(float x) { return fmt::format("ls_flush(uintBitsToFloat(0x{:08x}u))", std::bit_cast<unsigned>(x)); }
 
+std::string number(const glm::vec3& v) {
+    return fmt::format("vec3({}, {}, {})", number(v.x), number(v.y), number(v.z));
+}
+
 /// "vec3(a, b, c)"; of one its own.
 std::string vector(const std::vector<std::string>& x) {
     return x.size() == 1 ? x[0] : fmt::format("vec{}({})", x.size(), fmt::join(x, ", "));
@@ -40,6 +44,8 @@ std::string value(const Graph& graph, const GraphSource& source, GraphType type)
     const std::size_t count = graph_components(type);
     if (count == 0)
         return whole(source);
+    if (source.node && source.part < 0 && graph.nodes[*source.node].makes == type)
+        return fmt::format("n{}", *source.node);
     std::vector<std::string> x;
     for (std::size_t c = 0; c < count; ++c)
         x.push_back(part_of(graph, source, c));
@@ -141,6 +147,41 @@ std::string expression(const Graph& graph, const GraphNode& node) {
     case select:
         return fmt::format("{} ? {} : {}", b(0), value(graph, node.inputs[1], node.takes),
                            value(graph, node.inputs[2], node.takes));
+    case sin_turns:
+        return each("sine_cosine({0}).x");
+    case cos_turns:
+        return each("sine_cosine({0}).y");
+    case random:
+        return fmt::format("unit3(pcg3d(uvec3(i_serial, u_Seed, {}u))){}", node.options.channel,
+                           node.makes == GraphType::real   ? ".x"
+                           : node.makes == GraphType::vec2 ? ".xy"
+                                                           : "");
+    case noise:
+        return fmt::format("potentials({}, {}u)", v(0), node.options.seed);
+    case noise_gradient:
+        return fmt::format("potential_gradient({}, {}, {}u)", v(0), node.options.potential - 1, node.options.seed);
+    case curl_noise:
+        return fmt::format("curl_noise(add(mul({}, {}), {}), {}, {}u)", v(0), x(1, 0), v(2), x(3, 0),
+                           node.options.seed);
+    case drag:
+        return fmt::format("sub(vec3(0.0), mul({}, {}))", v(0), x(1, 0));
+    case vortex:
+        return fmt::format("vortex(vec3(0.0), {}, {}, ls_normalize({}), {}, {}, {}.0, {})", v(0), v(2), v(1), x(3, 0),
+                           x(4, 0), node.options.falloff, x(5, 0));
+    case point_attraction:
+        return fmt::format("attracted({}, {}, {}, {}, {}.0, {})", v(0), v(1), x(2, 0), x(3, 0), node.options.falloff,
+                           node.options.inverse_square ? fmt::format("mul({0}, {0})", x(4, 0)) : "-1.0");
+    case point:
+        return v(0);
+    case box:
+        return fmt::format("in_box({}, {}, {})", v(0), v(1), v(2));
+    case sphere:
+        return fmt::format("add({}, mul(on_sphere({}), {}))", v(1), v(0), x(2, 0));
+    case cone: {
+        const Basis& basis = node.options.basis;
+        return fmt::format("in_cone({}, {}, {}, {}, {})", v(0), number(basis.side), number(basis.up),
+                           number(basis.ahead), number(node.options.cone_depth));
+    }
     case curve:
         return lockstep::curve(node, x(0, 0));
     }

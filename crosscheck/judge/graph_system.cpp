@@ -56,7 +56,7 @@ struct GraphTwin {
 
     template <class R> GraphRun<R> run(R& r, const PassInput& in, std::size_t item) const {
         const Graph& graph = *compiled->graph;
-        GraphRun<R> run(r, graph, compiled->sites);
+        GraphRun<R> run(r, graph, compiled->sites, {});
         run.run([&](std::size_t i) {
             GraphNumber<R> value;
             const FieldId id{input_buffer, static_cast<std::uint8_t>(i)};
@@ -156,6 +156,8 @@ SystemScene graph_system(const GraphPtr& graph, const std::string& name, std::si
                   GraphTwin{compiled, &input_sites(*graph->stage)}));
     GlPass pass{.name = "graph", .stage = Stage::compute, .resource = output_buffer};
     pass.texts = graph_texts(*graph);
+    pass.uniforms = [](int) { return Uniforms{{"u_Seed", GraphSurroundings{}.seed}}; };
+    pass.defines = choice_defines("curl_derivative", std::array<std::string_view, 2>{"analytic", "difference"}, 0);
     return {std::move(system), {std::move(pass)}, arithmetic};
 }
 

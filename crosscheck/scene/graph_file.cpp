@@ -1,6 +1,7 @@
 #include "crosscheck/scene/graph_file.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <map>
 #include <string>
 #include <vector>
@@ -10,6 +11,7 @@
 
 #include "crosscheck/files/plain_text.hpp"
 #include "reference/model/near_name.hpp"
+#include "reference/readings/site.hpp"
 
 namespace lockstep {
 namespace {
@@ -98,7 +100,8 @@ class Reader {
         if (all.size() > most_graph_nodes)
             json_.at("nodes").fail(fmt::format("{} nodes; right is at most {}", all.size(), most_graph_nodes));
         for (const JsonValue& node : all) {
-            node.check_keys({"id", "type", "inputs", "value", "range", "keys", "place"});
+            node.check_keys({"id", "type", "inputs", "place", "value", "range", "keys", "channel", "values", "seed",
+                             "potential", "falloff", "law", "direction", "angle"});
             const JsonValue id = node.at("id");
             const std::string name = id.text();
             const auto fits = [](char c) {
@@ -141,28 +144,29 @@ class Reader {
                                      "simulation and rendering");
     }
 
-    void refuse(const Read& node, std::string_view key) const {
-        if (const auto found = node.json.find(key))
-            found->fail(fmt::format("is no property of a node of type {}", node.type->name));
+    /// Properties are its type's; and those that only some have no others'.
+    void check_properties(const Read& read) const {
+        const auto& own = read.type->options;
+        for (const std::string& key : read.json.keys()) {
+            const bool is_common = key == "id" || key == "type" || key == "place" ||
+                                   (key == "inputs" && read.type->kind > GraphKind::input);
+            if (!is_common && std::find(own.begin(), own.end(), key) == own.end())
+                read.json.at(key).fail(fmt::format("is no property of a node of type {}", read.type->name));
+        }
+        if (!read.type->stage.empty() && read.type->stage != graph_.stage->name)
+            read.json.at("type").fail(fmt::format("a node of type {} belongs to the stage {}, not to {}",
+                                                  read.type->name, read.type->stage, graph_.stage->name));
     }
 
     void read_values(std::size_t n) {
         const Read& read = read_[n];
         GraphNode& node = graph_.nodes[n];
-        const bool has_value = node.kind <= GraphKind::input;
-        if (!has_value)
-            refuse(read, "value");
-        if (has_value)
-            refuse(read, "inputs");
-        if (node.kind != GraphKind::parameter)
-            refuse(read, "range");
-        if (node.kind != GraphKind::curve)
-            refuse(read, "keys");
+        check_properties(read);
         if (node.kind == GraphKind::input) {
             node.of_stage = named(read.json.at("value"), graph_.stage->inputs,
                                   fmt::format("input of the stage {}", graph_.stage->name));
             node.makes = graph_.stage->inputs[node.of_stage].type;
-        } else if (has_value) {
+        } else if (node.kind < GraphKind::input) {
             node.value = literal(read.json.at("value"));
             node.makes = node.value.type;
         }
@@ -170,6 +174,43 @@ class Reader {
             read_range(read, node);
         if (node.kind == GraphKind::curve)
             read_keys(read, node);
+        read_options(read, node);
+    }
+
+    void read_options(const Read& read, GraphNode& node) {
+        GraphOptions& options = node.options;
+        const auto whole = [&](std::string_view key, std::int64_t least, std::int64_t most, std::int64_t standard) {
+            const auto given = read.json.find(key);
+            return given ? given->integer(least, most) : standard;
+        };
+        options.seed = static_cast<std::uint32_t>(whole("seed", 0, (1 << 24) - 1, 1));
+        options.potential = static_cast<int>(whole("potential", 1, 3, 1));
+        options.falloff = static_cast<int>(whole("falloff", 0, 2, 1));
+        if (const auto law = read.json.find("law"))
+            options.inverse_square = law->choice({"linear", "inverse_square"}) == 1;
+        if (node.kind == GraphKind::random)
+            read_random(read, node, static_cast<std::uint32_t>(whole("channel", 0, 0xffffffff, name_id(node.id))),
+                        static_cast<int>(whole("values", 1, 3, 1)));
+        if (node.kind == GraphKind::cone)
+            read_cone(read, options);
+    }
+
+    void read_random(const Read& read, GraphNode& node, std::uint32_t channel, int values) {
+        node.options.channel = channel;
+        node.makes = static_cast<GraphType>(values - 1);
+        const auto [other, is_new] = channels_.emplace(channel, node.id);
+        if (!is_new)
+            read.json.fail(fmt::format("'{}' has the numbers of '{}': channel {} is that of both", node.id,
+                                       other->second, channel));
+    }
+
+    static void read_cone(const Read& read, GraphOptions& options) {
+        const JsonValue direction = read.json.at("direction"), angle = read.json.at("angle");
+        const glm::vec3 ahead = direction.vector();
+        if (const float length = glm::length(ahead); !(length > 0.0F && std::isfinite(length)))
+            direction.fail("has no length");
+        options.basis = basis_of(ahead);
+        options.cone_depth = depth_of_cone(angle.number({0.0, 180.0, "a number of degrees from 0 to 180"}));
     }
 
     static void read_range(const Read& read, const GraphNode& node) {
@@ -232,7 +273,7 @@ class Reader {
             graph_.nodes[n].inputs.push_back(source_at(n, port, depth, behind));
         if (behind >= deepest_graph)
             read_[n].json.fail(fmt::format("more than {} nodes behind each other", deepest_graph));
-        if (read_[n].type->kind > GraphKind::input)
+        if (read_[n].type->kind > GraphKind::input && read_[n].type->kind != GraphKind::random)
             fit(n);
         read_[n].depth = behind + 1;
         read_[n].resolved = true;
@@ -423,7 +464,8 @@ class Reader {
     Graph graph_;
     std::vector<Read> read_;
     std::map<std::string, std::size_t> places_;
-    std::vector<std::size_t> open_; ///< being resolved, each for the one before
+    std::map<std::uint32_t, std::string> channels_; ///< of the random nodes
+    std::vector<std::size_t> open_;                 ///< being resolved, each for the one before
 };
 
 } // namespace

@@ -1,6 +1,6 @@
 #pragma once
 #include "reference/lifecycle/particle.hpp"
-#include "reference/lifecycle/turns.hpp"
+#include "reference/system/turns.hpp"
 
 namespace lockstep::lifecycle {
 
@@ -38,16 +38,9 @@ template <class R> class Emission {
     Vec3 random(std::uint32_t serial, int channel, At place = site::channel) const {
         const auto ch = static_cast<int>(r.note(place, typename R::Int(channel)));
         const Bits3 bits = pcg3d({serial, of_.seed, static_cast<std::uint32_t>(ch)});
-        return r.note(site::random, Vec3{R::real(bits[0] >> 8U) * 0x1p-24F, R::real(bits[1] >> 8U) * 0x1p-24F,
-                                         R::real(bits[2] >> 8U) * 0x1p-24F});
+        return r.note(site::random, unit_numbers<R>(bits));
     }
     static Real symmetric(const Real& u) { return u * 2.0F - 1.0F; }
-
-    Vec3 on_circle(const Real& z, const Real& turns) const {
-        const Real radius = r.note(site::circle, r.sqrt(site::circle, Real(1.0F) - z * z));
-        const auto [sine, cosine] = sine_cosine(r, r.note(site::turns, turns));
-        return {radius * cosine, radius * sine, z};
-    }
 
     Vec3 place(std::uint32_t serial, std::uint32_t k, std::uint32_t emitted) const {
         const Vec3 low = r.uniform(site::shape_low, at_.min);
@@ -57,7 +50,7 @@ template <class R> class Emission {
             p = low + u * r.uniform(site::shape_size, at_.max - at_.min);
         } else if (at_.shape == Emitter::Shape::sphere) {
             const Vec3 u = random(serial, 0);
-            p = low + on_circle(symmetric(u.x), u.y) * r.uniform(site::radius, at_.radius);
+            p = low + on_circle(r, symmetric(u.x), u.y) * r.uniform(site::radius, at_.radius);
         }
         p = r.note(site::shape_place, p);
         const Vec3 now = r.uniform(site::origin, of_.origin(frame_));
@@ -70,11 +63,12 @@ template <class R> class Emission {
 
     Vec3 velocity(std::uint32_t serial) const {
         const Vec3 u = random(serial, 1);
-        const Vec3 ahead = r.uniform(site::direction, of_.direction);
+        const Vec3 ahead = r.uniform(site::direction, of_.basis.ahead);
         Vec3 way;
         if (at_.cone >= 0.0F) {
-            const Vec3 local = on_circle(Real(1.0F) - u.x * r.uniform(site::cone_depth, of_.cone_depth), u.y);
-            way = (r.uniform(site::side, of_.side) * local.x + r.uniform(site::up, of_.up) * local.y) + ahead * local.z;
+            const Vec3 local = on_circle(r, Real(1.0F) - u.x * r.uniform(site::cone_depth, of_.cone_depth), u.y);
+            way = (r.uniform(site::side, of_.basis.side) * local.x + r.uniform(site::up, of_.basis.up) * local.y) +
+                  ahead * local.z;
         } else {
             const Real jitter = r.uniform(site::jitter, at_.direction_jitter);
             way = ahead + Vec3{symmetric(u.x) * jitter, symmetric(u.y) * jitter, symmetric(u.z) * jitter};

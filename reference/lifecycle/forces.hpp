@@ -1,14 +1,11 @@
 #pragma once
 #include <span>
 
-#include "reference/lifecycle/noise.hpp"
+#include "reference/lifecycle/sites.hpp"
 #include "reference/model/lifecycle/host.hpp"
+#include "reference/system/force_fields.hpp"
 
 namespace lockstep::lifecycle {
-
-template <class Vec> Vec cross_of(const Vec& a, const Vec& b) {
-    return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
-}
 
 /// What accelerates a particle. Twin of shaders/lifecycle/forces.glsl.
 template <class R> class Forces {
@@ -53,26 +50,15 @@ template <class R> class Forces {
     }
 
   private:
-    Real falloff(const Real& l, const HostForce& force) const {
-        const Real left = r.note(site::left_of_force,
-                                 Real(1.0F) - r.divide(site::left_of_force, l, r.uniform(site::reach, force.radius)));
-        const Real base = r.decide(site::is_in_reach, left > 0.0F) ? left : Real(0.0F);
-        const auto exponent = static_cast<int>(r.uniform(site::exponent, static_cast<int>(force.falloff)));
-        return exponent == 0 ? Real(1.0F) : exponent == 1 ? base : base * base;
+    int exponent(const HostForce& force) const {
+        return static_cast<int>(r.uniform(site::exponent, static_cast<int>(force.falloff)));
     }
 
     void vortex(Motion& m, const HostForce& force, const Vec3& p) const {
-        const Vec3 n = r.uniform(site::axis, force.axis);
-        const Vec3 way = r.note(site::to_centre, p - r.uniform(site::centre, force.centre));
-        const Vec3 q = r.note(site::across, way - n * r.note(site::along_axis, r.dot(site::along_axis, n, way)));
-        const Real l = r.note(site::distance, r.length(site::distance, q));
-        if (!r.decide(site::is_off_axis, l > 0.0F))
-            return;
-        const Real f = falloff(l, force);
-        const Vec3 swirl = cross_of(n, q) * r.divide(site::swirl, r.uniform(site::strength, force.strength) * f, l);
-        m.acceleration = m.acceleration + r.note(site::swirl, swirl);
-        const Vec3 sink = q * r.divide(site::sink, r.uniform(site::pull, force.pull) * f, l);
-        m.acceleration = m.acceleration - r.note(site::sink, sink);
+        const Vortex<R> one{r.uniform(site::centre, force.centre),     r.uniform(site::axis, force.axis),
+                            r.uniform(site::strength, force.strength), r.uniform(site::reach, force.radius),
+                            r.uniform(site::pull, force.pull),         exponent(force)};
+        m.acceleration = one.added(r, m.acceleration, p);
     }
 
     void attraction(Motion& m, const HostForce& force, const Vec3& p) const {
@@ -80,31 +66,19 @@ template <class R> class Forces {
         const Real l = r.note(site::distance, r.length(site::distance, way));
         if (r.decide(site::is_killed, l < r.uniform(site::pull, force.pull)))
             m.killed = true;
-        if (!r.decide(site::is_off_centre, l > 0.0F))
-            return;
-        const Real strength = r.uniform(site::strength, force.strength);
-        Real share;
-        if (force.square < 0.0F) {
-            share = r.divide(site::attraction, strength * falloff(l, force), l);
-        } else {
-            const Real q =
-                r.note(site::spread, r.dot(site::spread, way, way) + r.uniform(site::softening, force.square));
-            share = r.divide(site::attraction, strength, q * r.sqrt(site::spread, q));
-        }
-        m.acceleration = m.acceleration + r.note(site::attraction, way * share);
+        const bool inverse_square = !(force.square < 0.0F);
+        const Attraction<R> one{r.uniform(site::strength, force.strength), r.uniform(site::reach, force.radius),
+                                r.uniform(site::softening, force.square), inverse_square ? 0 : exponent(force),
+                                inverse_square};
+        m.acceleration = one.added(r, m.acceleration, way, l);
     }
 
     Vec3 curl_noise(const HostForce& force, const Vec3& p) const {
         const Vec3 x = r.note(site::noise_place,
                               p * r.uniform(site::frequency, force.radius) + r.uniform(site::offset, force.centre));
-        constexpr float most = 4194304.0F;
-        if (!r.decide(site::is_in_noise, r.abs(x.x) < most) || !r.decide(site::is_in_noise, r.abs(x.y) < most) ||
-            !r.decide(site::is_in_noise, r.abs(x.z) < most))
-            return {};
-        const Noise<R> noise(r, static_cast<std::uint32_t>(force.seed));
-        const Vec3 curl =
-            switches_.curl_derivative == CurlDerivative::analytic ? noise.analytic_curl(x) : noise.difference_curl(x);
-        return r.note(site::curl, curl) * r.uniform(site::strength, force.strength);
+        return lockstep::curl_noise(r, x, r.uniform(site::strength, force.strength),
+                                    static_cast<std::uint32_t>(force.seed),
+                                    switches_.curl_derivative == CurlDerivative::difference);
     }
 
     R& r;

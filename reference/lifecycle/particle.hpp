@@ -4,12 +4,12 @@
 #include <cstdint>
 
 #include "reference/lifecycle/packing.hpp"
-#include "reference/lifecycle/random.hpp"
 #include "reference/model/lifecycle/host.hpp"
 #include "reference/model/lifecycle/layout.hpp"
 #include "reference/model/lifecycle/schema.hpp"
 #include "reference/system/item_pass.hpp"
 #include "reference/system/item_words.hpp"
+#include "reference/system/pcg3d.hpp"
 
 namespace lockstep::lifecycle {
 

@@ -1,8 +1,10 @@
 #pragma once
-#include "reference/readings/site.hpp"
+#include "reference/system/field_sites.hpp"
 
 /// The places of the lifecycle passes' twins. What names a field is known to the shaders by that name.
 namespace lockstep::lifecycle::site {
+
+using namespace field_site;
 
 // A particle, before and after; in packed layouts the codes.
 inline constexpr Site position_before{"position before"}, velocity_before{"velocity before"};
@@ -36,8 +38,7 @@ inline constexpr Site request{"u_Request"}, capacity{"u_Capacity"}, window{"u_Wi
 // Emission.
 inline constexpr Site is_new{"is a newborn"}, fits{"there is room"}, serial{"serial of the newborn"};
 inline constexpr Site emitted{"emitted", "emitted"}, channel{"random channel"};
-inline constexpr Site random{"random numbers"}, turns{"turns"}, quarter{"quarter of the turn"};
-inline constexpr Site circle{"radius on the sphere"}, shape_place{"place in the shape"}, share{"share of the path"};
+inline constexpr Site random{"random numbers"}, shape_place{"place in the shape"}, share{"share of the path"};
 inline constexpr Site place_of_emitter{"place of the emitter"}, direction_of_birth{"direction of birth"};
 inline constexpr Site speed_of_birth{"speed of birth"}, share_of_life{"share of the lifetimes"};
 inline constexpr Site too_short{"shorter than the shortest"}, too_long{"longer than the longest"};
@@ -75,14 +76,7 @@ inline constexpr Site draw_instances{"instances"}, draw_segments{"segments"};
 inline constexpr Site force{"force"}, faster{"velocity after the forces"}, braked{"velocity after drag"};
 inline constexpr Site drag{"drag"}, drag_factor{"factor of drag"}, way{"way of the frame"}, drift{"drift"};
 inline constexpr Site moving_velocity{"velocity that moves"}, aged{"tick of the age"}, not_below_zero{"has time left"};
-inline constexpr Site centre{"centre of the force"}, axis{"axis"}, strength{"strength"}, reach{"radius of the force"};
-inline constexpr Site pull{"pull"}, exponent{"falloff"}, softening{"softening"}, to_centre{"way to the centre"};
-inline constexpr Site across{"way from the axis"}, along_axis{"along the axis"}, distance{"distance to the force"};
-inline constexpr Site is_off_axis{"is off the axis", {}}, is_off_centre{"is off the centre"};
-inline constexpr Site is_killed{"is killed"}, left_of_force{"force left"}, is_in_reach{"is in reach"};
-inline constexpr Site swirl{"swirl"}, sink{"sink"}, attraction{"attraction"}, spread{"softened distance"};
-inline constexpr Site noise_place{"place in the noise"}, frequency{"frequency"}, offset{"offset of the noise"};
-inline constexpr Site is_in_noise{"is in the noise"}, cell{"cell"}, curl{"curl"}, noise{"noise"}, fade{"fade"};
+inline constexpr Site is_killed{"is killed"};
 
 // Ribbons.
 inline constexpr Site is_point{"is a point of the ribbon"}, between_points{"way between points"};

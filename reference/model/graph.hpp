@@ -9,6 +9,8 @@
 #include <string_view>
 #include <vector>
 
+#include "reference/model/basis.hpp"
+
 namespace lockstep {
 
 /// What a value of a graph is. Only a float widens by itself, to a vector of the same number.
@@ -53,6 +55,19 @@ enum class GraphKind : std::uint8_t {
     logical_not,
     select,
     curve,
+    sin_turns,
+    cos_turns,
+    random,
+    noise,
+    noise_gradient,
+    curl_noise,
+    drag,
+    vortex,
+    point_attraction,
+    point,
+    box,
+    sphere,
+    cone,
 };
 
 /// What a port takes, or a node makes.
@@ -77,6 +92,8 @@ struct GraphNodeType {
     std::string_view name;
     std::vector<GraphPort> inputs;
     GraphWants makes = GraphWants::shared;
+    std::vector<std::string_view> options = {}; ///< its properties besides those of every node
+    std::string_view stage = {};                ///< the one that has it; empty: all
 };
 
 /// All there are.
@@ -102,6 +119,17 @@ struct GraphSource {
     std::uint32_t whole = 0; ///< of a uint; of a boolean 0 or 1
 };
 
+/// What nodes are told besides their ports, each as its type has it.
+struct GraphOptions {
+    std::uint32_t channel = 0;   ///< of random
+    std::uint32_t seed = 1;      ///< of noise, below 2^24
+    int falloff = 1;             ///< of a force: 0, 1 or 2
+    bool inverse_square = false; ///< of an attraction; else linear
+    int potential = 1;           ///< of a gradient: 1, 2 or 3
+    Basis basis = {};            ///< of a cone
+    float cone_depth = 0.0F;     ///< 1 - cos of its angle
+};
+
 struct GraphNode {
     std::string id;
     GraphKind kind = GraphKind::constant;
@@ -111,6 +139,7 @@ struct GraphNode {
     GraphSource value;                      ///< of a constant or a parameter
     std::size_t of_stage = 0;               ///< which of the stage's inputs
     std::vector<std::array<float, 2>> keys; ///< of a curve: t rising, value
+    GraphOptions options = {};
 };
 
 /// Nodes that compute what a stage asks for: checked, so that every source is there, of its type, and no node waits for

@@ -7,6 +7,9 @@
 
 #include "reference/model/graph.hpp"
 #include "reference/readings/site.hpp"
+#include "reference/system/force_fields.hpp"
+#include "reference/system/pcg3d.hpp"
+#include "reference/system/turns.hpp"
 
 /// A graph, interpreted: the twin of what gpu/graph_glsl.hpp makes of it.
 namespace lockstep {
@@ -49,6 +52,12 @@ template <class R> struct GraphNumber {
     std::uint32_t whole = 0;
 };
 
+/// What a graph is evaluated for, besides its inputs.
+struct GraphSurroundings {
+    std::uint32_t seed = 1; ///< of random numbers
+    bool difference_curl = false;
+};
+
 /// One invocation of a graph.
 template <class R> class GraphRun {
     using Real = typename R::Real;
@@ -56,11 +65,16 @@ template <class R> class GraphRun {
     using Number = GraphNumber<R>;
 
   public:
-    GraphRun(R& reading, const Graph& graph, const GraphSites& sites) : r(reading), graph_(graph), sites_(sites) {}
+    GraphRun(R& reading, const Graph& graph, const GraphSites& sites, const GraphSurroundings& surroundings)
+        : r(reading), graph_(graph), sites_(sites), around_(surroundings) {}
 
     /// `input(i)`: the stage's i-th. Afterwards `output` gives what the graph makes.
     template <class Input> void run(const Input& input) {
         values_.assign(graph_.nodes.size(), {});
+        const auto& inputs = graph_.stage->inputs;
+        for (std::size_t i = 0; i < inputs.size(); ++i)
+            if (inputs[i].name == "serial")
+                serial_ = input(i).whole;
         for (const std::size_t n : graph_.order)
             values_[n] = noted(n, graph_.nodes[n].kind == GraphKind::input ? input(graph_.nodes[n].of_stage) : made(n));
     }
@@ -139,6 +153,7 @@ template <class R> class GraphRun {
             const Number v = at(port, GraphType::vec3);
             return Vec3{v.x[0], v.x[1], v.x[2]};
         };
+        const auto real = [&](std::size_t port) { return at(port, GraphType::real).x[0]; };
         const auto of_vec3 = [](const Vec3& v) { return Number{{v.x, v.y, v.z}, 0}; };
         const auto of_real = [](const Real& x) { return Number{{x}, 0}; };
         const auto smaller = [&](const Real& a, const Real& b) { return r.decide(site, a < b) ? a : b; };
@@ -248,6 +263,61 @@ template <class R> class GraphRun {
             return truth(at(0, GraphType::boolean).whole == 0);
         case select:
             return at(0, GraphType::boolean).whole != 0 ? shared(1) : shared(2);
+        case sin_turns: {
+            const Number a = shared(0);
+            return each([&](std::size_t c) { return sine_cosine(r, a.x[c]).first; });
+        }
+        case cos_turns: {
+            const Number a = shared(0);
+            return each([&](std::size_t c) { return sine_cosine(r, a.x[c]).second; });
+        }
+        case random:
+            return of_vec3(unit_numbers<R>(pcg3d({serial_, around_.seed, node.options.channel})));
+        case noise:
+        case noise_gradient: {
+            const Vec3 x = vec3(0);
+            if (!in_noise(r, x))
+                return {};
+            const Noise<R> of_seed(r, node.options.seed);
+            if (node.kind == noise)
+                return of_vec3(of_seed.potentials(x));
+            return of_vec3(of_seed.all(x)[static_cast<std::size_t>(node.options.potential - 1)].gradient);
+        }
+        case curl_noise:
+            return of_vec3(lockstep::curl_noise(r, vec3(0) * real(1) + vec3(2), real(3), node.options.seed,
+                                                around_.difference_curl));
+        case drag:
+            return of_vec3(Vec3{} - vec3(0) * real(1));
+        case vortex: {
+            const Vec3 p = vec3(0);
+            const Vortex<R> one{vec3(2), r.normalize(site, vec3(1)), real(3), real(4), real(5), node.options.falloff};
+            return of_vec3(one.added(r, Vec3{}, p));
+        }
+        case point_attraction: {
+            const Vec3 way = vec3(1) - vec3(0);
+            const Real l = r.length(site, way), softening = real(4);
+            const Attraction<R> one{real(2), real(3), softening * softening, node.options.falloff,
+                                    node.options.inverse_square};
+            return of_vec3(one.added(r, Vec3{}, way, l));
+        }
+        case point:
+            return of_vec3(vec3(0));
+        case box: {
+            const Vec3 low = vec3(1);
+            return of_vec3(low + vec3(0) * (vec3(2) - low));
+        }
+        case sphere: {
+            const Vec3 u = vec3(0);
+            return of_vec3(vec3(1) + on_circle(r, u.x * 2.0F - 1.0F, u.y) * real(2));
+        }
+        case cone: {
+            const Vec3 u = vec3(0);
+            const auto given = [&](const glm::vec3& v) { return r.read(sites_.numbers(n), v); };
+            const Real depth = r.read(sites_.numbers(n), node.options.cone_depth);
+            const Vec3 local = on_circle(r, Real(1.0F) - u.x * depth, u.y);
+            const Basis& basis = node.options.basis;
+            return of_vec3((given(basis.side) * local.x + given(basis.up) * local.y) + given(basis.ahead) * local.z);
+        }
         case curve:
             return of_real(curve_at(node, site, n, at(0, GraphType::real).x[0]));
         }
@@ -270,6 +340,8 @@ template <class R> class GraphRun {
     R& r;
     const Graph& graph_;
     const GraphSites& sites_;
+    GraphSurroundings around_;
+    std::uint32_t serial_ = 0; ///< of stages that have one
     std::vector<Number> values_;
 };
 

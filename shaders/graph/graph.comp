@@ -12,6 +12,7 @@ layout(std430) readonly buffer InputWords { Inputs inputs[]; };
 layout(std430) buffer OutputWords { Outputs outputs[]; };
 
 uniform uint u_ItemCount;
+uniform uint u_Seed; // of random numbers
 
 void main() {
     uint i = gl_GlobalInvocationID.x;

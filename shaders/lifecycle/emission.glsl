@@ -12,19 +12,10 @@ uniform vec2 u_Lifetime, u_Sizes;
 uniform vec4 u_Color, u_EndColor;
 uniform float u_Time, u_Tick;
 
-vec3 random3(uint serial, uint channel) {
-    uvec3 bits = pcg3d(uvec3(serial, u_Seed, channel));
-    return vec3(unit(bits.x), unit(bits.y), unit(bits.z));
-}
+vec3 random3(uint serial, uint channel) { return unit3(pcg3d(uvec3(serial, u_Seed, channel))); }
 
 // In [-1, 1).
 float symmetric(float u) { return sub(mul(u, 2.0), 1.0); }
-
-vec3 on_circle(float z, float turns) {
-    float r = ls_sqrt(sub(1.0, mul(z, z)));
-    vec2 sc = sine_cosine(turns);
-    return vec3(mul(r, sc.y), mul(r, sc.x), z);
-}
 
 vec3 born_at(uint serial, uint k, uint emitted) {
 #if SHAPE == SHAPE_POINT

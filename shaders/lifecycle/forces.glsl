@@ -1,5 +1,5 @@
 // What accelerates a particle. Twin: reference/lifecycle/forces.hpp.
-#include "noise.glsl"
+#include "force_fields.glsl"
 
 #define FORCE_DRAG 0
 #define FORCE_VORTEX 1
@@ -24,43 +24,24 @@ layout(std430) readonly buffer Forces { ForceWords forces[]; };
 
 uniform int u_ForceCount;
 
-float powered(float base, float exponent) { return exponent == 0.0 ? 1.0 : exponent == 1.0 ? base : mul(base, base); }
-
-float falloff(float l, float radius, float exponent) {
-    float left = sub(1.0, ls_divide(l, radius));
-    return powered(left > 0.0 ? left : 0.0, exponent);
-}
-
 vec3 of_words(float v[3]) { return ls_flush3(vec3(v[0], v[1], v[2])); }
 
-vec3 vortex(ForceWords force, vec3 a, vec3 p) {
-    vec3 n = of_words(force.axis);
-    vec3 r = sub(p, of_words(force.centre));
-    vec3 q = sub(r, mul(n, ls_dot(n, r)));
-    float l = ls_length(q);
-    if (!(l > 0.0))
-        return a;
-    float f = falloff(l, force.radius, force.falloff);
-    a = add(a, mul(cross_of(n, q), ls_divide(mul(force.strength, f), l)));
-    return sub(a, mul(q, ls_divide(mul(force.pull, f), l)));
+vec3 with_vortex(ForceWords force, vec3 a, vec3 p) {
+    return vortex(a, p, of_words(force.centre), of_words(force.axis), force.strength, force.radius, force.falloff,
+                  force.pull);
 }
 
-vec3 attraction(ForceWords force, vec3 a, vec3 p, inout bool killed) {
-    vec3 r = sub(of_words(force.centre), p);
-    float l = ls_length(r);
+vec3 with_attraction(ForceWords force, vec3 a, vec3 p, inout bool killed) {
+    vec3 way = sub(of_words(force.centre), p);
+    float l = ls_length(way);
     if (l < force.pull)
         killed = true;
-    if (!(l > 0.0))
-        return a;
-    if (force.square < 0.0)
-        return add(a, mul(r, ls_divide(mul(force.strength, falloff(l, force.radius, force.falloff)), l)));
-    float q = add(ls_dot(r, r), force.square);
-    return add(a, mul(r, ls_divide(force.strength, mul(q, ls_sqrt(q)))));
+    return attraction(a, way, l, force.strength, force.radius, force.falloff, force.square);
 }
 
-vec3 curl_noise(ForceWords force, vec3 p) {
+vec3 noise_at(ForceWords force, vec3 p) {
     vec3 x = add(mul(p, force.radius), of_words(force.centre));
-    return in_noise(x) ? mul(curl(x, uint(force.seed)), force.strength) : vec3(0.0);
+    return curl_noise(x, force.strength, uint(force.seed));
 }
 
 struct Motion {
@@ -82,14 +63,14 @@ Motion forced(vec3 p, vec3 v, vec3 a) {
             m.drag = mul(m.drag, force.drag);
 #endif
         } else if (kind == FORCE_VORTEX) {
-            m.acceleration = vortex(force, m.acceleration, p);
+            m.acceleration = with_vortex(force, m.acceleration, p);
         } else if (kind == FORCE_ATTRACTION) {
-            m.acceleration = attraction(force, m.acceleration, p, m.killed);
+            m.acceleration = with_attraction(force, m.acceleration, p, m.killed);
         } else {
 #if CURL_USE == CURL_USE_FORCE
-            m.acceleration = add(m.acceleration, curl_noise(force, p));
+            m.acceleration = add(m.acceleration, noise_at(force, p));
 #else
-            m.drift = add(m.drift, curl_noise(force, p));
+            m.drift = add(m.drift, noise_at(force, p));
 #endif
         }
     }

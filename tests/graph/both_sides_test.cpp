@@ -1,3 +1,4 @@
+#include <array>
 #include <set>
 #include <string>
 
@@ -98,13 +99,45 @@ const char* const every_node = R"({"stage": "rendering", "nodes": [
     {"id": "tinted", "type": "multiply", "inputs": {"a": "color", "b": "tint"}}
   ], "outputs": {"color": "tinted", "size": "its.z"}})";
 
+/// Random numbers, shapes, noise and forces.
+const char* const every_field = R"({"stage": "emission", "nodes": [
+    {"id": "time", "type": "input", "value": "time"},
+    {"id": "from", "type": "input", "value": "emitter_position"},
+    {"id": "speed", "type": "input", "value": "emitter_velocity"},
+    {"id": "u", "type": "random", "values": 3},
+    {"id": "pair", "type": "random", "values": 2, "channel": 7},
+    {"id": "one", "type": "random", "channel": 4294967295},
+    {"id": "both", "type": "split", "inputs": {"a": "pair"}},
+    {"id": "sine", "type": "sin_turns", "inputs": {"a": "from"}},
+    {"id": "cosine", "type": "cos_turns", "inputs": {"a": "time"}},
+    {"id": "middle", "type": "point", "inputs": {"centre": "sine"}},
+    {"id": "crate", "type": "box", "inputs": {"u": "u", "min": "middle", "max": [2, 3, 0.5]}},
+    {"id": "ball", "type": "sphere", "inputs": {"u": "u", "centre": "crate", "radius": "cosine"}},
+    {"id": "jet", "type": "cone", "inputs": {"u": "u"}, "direction": [0.2, 3, -1], "angle": 25},
+    {"id": "psi", "type": "noise", "inputs": {"at": "from"}, "seed": 3},
+    {"id": "slope", "type": "noise_gradient", "inputs": {"at": "from"}, "seed": 4, "potential": 2},
+    {"id": "curl", "type": "curl_noise",
+     "inputs": {"position": "ball", "frequency": 1.7, "offset": "psi", "strength": "cosine"}},
+    {"id": "brake", "type": "drag", "inputs": {"velocity": "jet", "k": "both.x"}},
+    {"id": "swirl", "type": "vortex", "falloff": 2,
+     "inputs": {"position": "ball", "axis": "speed", "centre": [0, 0.1, 0], "strength": 3, "radius": 9, "pull": 0.5}},
+    {"id": "pull", "type": "point_attraction", "inputs": {"position": "ball", "radius": 4, "strength": "one"}},
+    {"id": "fall", "type": "point_attraction", "law": "inverse_square",
+     "inputs": {"position": "ball", "centre": "slope", "softening": "both.y"}},
+    {"id": "a", "type": "add", "inputs": {"a": "swirl", "b": "curl"}},
+    {"id": "b", "type": "add", "inputs": {"a": "pull", "b": "fall"}},
+    {"id": "c", "type": "add", "inputs": {"a": "brake", "b": "slope"}},
+    {"id": "pushed", "type": "add", "inputs": {"a": "b", "b": "c"}}
+  ], "outputs": {"position": "ball", "velocity": "pushed", "acceleration": "a", "initial_size": "cosine",
+                 "end_color": [1, 0, 0, 1], "lifetime": "one"}})";
+
 } // namespace
 
 TEST_CASE("graphs: every node has the same bits as GLSL and interpreted") {
     if (!gl())
         return test::skip(gl().missing());
     for (const ArithmeticSwitch arithmetic : {ArithmeticSwitch::exact, ArithmeticSwitch::plain})
-        for (const GraphPtr& graph : {graph_of(every_node), shipped("fire"), shipped("fade")}) {
+        for (const GraphPtr& graph : {graph_of(every_node), graph_of(every_field), shipped("fire"), shipped("fade")}) {
             const CheckReport report = run(graph, arithmetic);
             INFO(report_text(report, {}));
             CHECK((report.verdict == Verdict::agree ||
@@ -124,6 +157,28 @@ TEST_CASE("graphs: a node that is compiled wrongly is found, and named") {
         run(graph, ArithmeticSwitch::exact, "outputs[i].kill = uint(o_kill);", "outputs[i].kill = 0u;");
     CHECK(never.verdict == Verdict::divergent);
     CHECK(causes_of(never).contains("node dies: never"));
+}
+
+TEST_CASE("graphs: a field that is compiled wrongly is found") {
+    if (!gl())
+        return test::skip(gl().missing());
+    const GraphPtr graph = graph_of(every_field);
+    for (const auto& [what, by, cause] : std::vector<std::array<std::string, 3>>{
+             {"u_Seed, 7u", "u_Seed, 8u", ""},
+             {"n5 = unit3(pcg3d(uvec3(i_serial", "n5 = unit3(pcg3d(uvec3(i_serial + 1u", ""},
+             {"n8 = sine_cosine(n0).y", "n8 = sine_cosine(n0).x", ""},
+             {"n13 = potentials(n1, 3u)", "n13 = potentials(n1, 2u)", ""},
+             {"n14 = potential_gradient(n1, 1, ", "n14 = potential_gradient(n1, 2, ", ""},
+             {"n10 = in_box(n3, ", "n10 = in_box(2.0 * n3, ", ""},
+             {"n16 = sub(vec3(0.0), ", "n16 = add(vec3(0.0), ", "node brake: negated"},
+             {"n17 = ", "n17 = 2.0 * ", "node swirl: doubled"},
+             {"n18 = ", "n18 = -", "node pull: negated"},
+             {"n19 = ", "n19 = 0.0 * ", "node fall: zero"}}) {
+        const CheckReport report = run(graph, ArithmeticSwitch::exact, what, by);
+        INFO(what);
+        CHECK(report.verdict == Verdict::divergent);
+        CHECK((cause.empty() || causes_of(report).contains(cause)));
+    }
 }
 
 TEST_CASE("graphs: nodes are evaluated depth first, ports in their order, each once") {

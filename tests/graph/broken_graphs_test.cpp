@@ -195,6 +195,42 @@ std::vector<std::pair<std::string, std::string>> broken_graphs() {
         one["keys"] = keys;
         with(one, "/nodes/2/keys");
     }
+    // Properties of fields, and what belongs to another stage.
+    const auto property = [&](const std::string& type, json inputs, const std::string& name, const json& value,
+                              const std::string& words) {
+        json one = node("k", type, std::move(inputs));
+        one[name] = value;
+        with(one, words);
+    };
+    property("drag", {{"velocity", "v"}, {"k", 1}}, "seed", 1, "is no property of a node of type drag");
+    property("noise", {{"at", "v"}}, "seed", 16777216, "/nodes/2/seed");
+    property("noise", {{"at", "v"}}, "seed", 0.5, "/nodes/2/seed");
+    property("noise", {{"at", "v"}}, "potential", 1, "is no property of a node of type noise");
+    property("noise_gradient", {{"at", "v"}}, "potential", 4, "/nodes/2/potential");
+    property("vortex", {{"position", "v"}, {"axis", "v"}}, "falloff", 3, "/nodes/2/falloff");
+    property("vortex", {{"position", "v"}}, "falloff", 1, "has nothing at its port axis");
+    property("point_attraction", {{"position", "v"}}, "law", "cubic", "/nodes/2/law");
+    property("cone", {{"u", "v"}, {"direction", "v"}}, "angle", 3, "\"direction\" is missing");
+    json cone = node("k", "cone", {{"u", "v"}});
+    with(cone, "\"direction\" is missing");
+    cone["direction"] = {0, 0, 0};
+    cone["angle"] = 10;
+    with(cone, "/nodes/2/direction: has no length");
+    cone["direction"] = {0, 1, 0};
+    cone["angle"] = 181;
+    with(cone, "is not a number of degrees from 0 to 180");
+    with({{"id", "k"}, {"type", "random"}}, "belongs to the stage emission, not to simulation");
+    with(node("k", "point_attraction", {{"position", true}}), "right is a vec3");
+    with(node("k", "curl_noise", {{"position", "v"}, {"strength", "v"}}), "right is a float");
+    with(node("k", "sin_turns", {{"a", false}}), "right is a float or a vector");
+    for (const json& other : {json(5), json(4294967296), json(-1), json("five"), json(1.5)}) {
+        json graph = small;
+        graph["stage"] = "emission";
+        graph["nodes"] = {{{"id", "a"}, {"type", "random"}, {"channel", 5}},
+                          {{"id", "b"}, {"type", "random"}, {"channel", other}}};
+        graph["outputs"] = {{"lifetime", "a"}};
+        add(graph, other == 5 ? "'b' has the numbers of 'a': channel 5 is that of both" : "/nodes/1/channel");
+    }
     with(node("k", "compose", {{"x", 1}, {"y", 1}, {"w", 1}}), "nothing at its port z, and something at w");
     for (const char* const link : {"v.x", "parts", "parts.w", "parts.xy", "parts.", "parts.x.x", ".x", "."}) {
         json graph = small;

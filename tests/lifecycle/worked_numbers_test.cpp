@@ -7,10 +7,10 @@
 
 #include "reference/arithmetic.hpp"
 #include "reference/lifecycle/forces.hpp"
-#include "reference/lifecycle/noise.hpp"
+#include "reference/system/noise.hpp"
 #include "reference/lifecycle/particle.hpp"
 #include "reference/lifecycle/simulation.hpp"
-#include "reference/lifecycle/turns.hpp"
+#include "reference/system/turns.hpp"
 #include "reference/readings/values.hpp"
 
 /// The specification's own numbers, to the last digit.

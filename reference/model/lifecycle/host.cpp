@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <bit>
 #include <cmath>
+#include <utility>
 
 #include <fmt/format.h>
 #include <glm/geometric.hpp>
@@ -16,7 +17,6 @@ namespace lockstep::lifecycle {
 namespace {
 
 constexpr std::size_t longest_window = std::size_t{1} << 22U;
-constexpr double pi = 3.14159265358979323846;
 
 /// As the layout's time is stored.
 float stored(const Settings& settings, float x) {
@@ -76,13 +76,8 @@ HostEmitter::HostEmitter(const Settings& all, std::size_t number_)
         dies = Dies::none;
     else
         window = *age;
-    const glm::dvec3 ahead = glm::normalize(glm::dvec3(settings_.direction));
-    const glm::dvec3 other = std::abs(ahead.y) < 0.9 ? glm::dvec3(0, 1, 0) : glm::dvec3(1, 0, 0);
-    const glm::dvec3 across = glm::normalize(glm::cross(other, ahead));
-    direction = glm::vec3(ahead);
-    side = glm::vec3(across);
-    up = glm::vec3(glm::cross(ahead, across));
-    cone_depth = static_cast<float>(1.0 - std::cos(std::max(0.0, double{settings_.cone}) * pi / 180.0));
+    basis = basis_of(settings_.direction);
+    cone_depth = depth_of_cone(std::max(0.0F, settings_.cone));
 }
 
 std::uint32_t HostEmitter::request(int frame) const {

@@ -7,6 +7,7 @@
 
 #include <glm/vec3.hpp>
 
+#include "reference/model/basis.hpp"
 #include "reference/model/lifecycle/rates.hpp"
 #include "reference/model/lifecycle/settings.hpp"
 
@@ -42,9 +43,9 @@ class HostEmitter {
     std::size_t first_in_ring = 0, window = 0; ///< W; 0 where it is not asked for
     std::size_t first_key = 0, keys = 0;       ///< of a ribbon that is sorted: a power of two
     Dies dies = Dies::window;
-    bool kills = false;     ///< a force of its may kill
-    std::uint32_t seed = 0; ///< of its random numbers
-    glm::vec3 direction{0.0F}, side{0.0F}, up{0.0F};
+    bool kills = false;      ///< a force of its may kill
+    std::uint32_t seed = 0;  ///< of its random numbers
+    Basis basis;             ///< of the direction
     float cone_depth = 0.0F; ///< 1 - cos of the angle
 
     /// How many particles are asked for in a frame.

@@ -3,12 +3,12 @@
 #include <cmath>
 #include <cstdint>
 
-#include "reference/lifecycle/random.hpp"
-#include "reference/lifecycle/sites.hpp"
+#include "reference/system/field_sites.hpp"
+#include "reference/system/pcg3d.hpp"
 
 /// Gradient noise (Perlin, "Improving noise", 2002) with its analytic derivatives, and the curl of three of them
-/// (Bridson, "Curl-noise for procedural fluid flow", 2007). Twin of shaders/lifecycle/noise.glsl.
-namespace lockstep::lifecycle {
+/// (Bridson, "Curl-noise for procedural fluid flow", 2007). Twin of shaders/noise.glsl.
+namespace lockstep {
 
 /// One of Perlin's 16 edge directions.
 constexpr std::array<float, 3> edge_of(std::uint32_t h) {
@@ -17,6 +17,13 @@ constexpr std::array<float, 3> edge_of(std::uint32_t h) {
     g[first] = (h & 1U) == 0 ? 1.0F : -1.0F;
     g[second] = (h & 2U) == 0 ? 1.0F : -1.0F;
     return g;
+}
+
+/// Whether there is noise at a place: beyond, cells are no whole numbers.
+template <class R> bool in_noise(R& r, const typename R::Vec3& x) {
+    constexpr float most = 4194304.0F;
+    return r.decide(field_site::is_in_noise, r.abs(x.x) < most) &&
+           r.decide(field_site::is_in_noise, r.abs(x.y) < most) && r.decide(field_site::is_in_noise, r.abs(x.z) < most);
 }
 
 template <class R> class Noise {
@@ -43,6 +50,12 @@ template <class R> class Noise {
         return {d3.y - d2.z, d1.z - d3.x, d2.x - d1.y};
     }
 
+    /// All three, at a place.
+    Vec3 potentials(const Vec3& x) const {
+        const auto psi = all(x);
+        return {psi[0].value, psi[1].value, psi[2].value};
+    }
+
     Vec3 difference_curl(const Vec3& x) const {
         constexpr float h = 0.015625F;
         const Real zero(0.0F);
@@ -61,7 +74,7 @@ template <class R> class Noise {
         Cell cell;
         const Vec3 corner{r.floor(x.x), r.floor(x.y), r.floor(x.z)};
         const auto whole = [&](const Real& c) {
-            return static_cast<std::uint32_t>(static_cast<int>(r.to_int(site::cell, c)));
+            return static_cast<std::uint32_t>(static_cast<int>(r.to_int(field_site::cell, c)));
         };
         const Bits3 i{whole(corner.x), whole(corner.y), whole(corner.z)};
         cell.at = x - corner;
@@ -93,24 +106,21 @@ template <class R> class Noise {
             gz[k] = Real(g[2]);
             value[k] = (gx[k] * d.x + gy[k] * d.y) + gz[k] * d.z;
         }
-        const Vec3 u = r.note(site::fade, Vec3{fade(cell.at.x), fade(cell.at.y), fade(cell.at.z)});
+        const Vec3 u = r.note(field_site::fade, Vec3{fade(cell.at.x), fade(cell.at.y), fade(cell.at.z)});
         const Corners& v = value;
         const Real dx = lerp(lerp(v[1] - v[0], v[3] - v[2], u.y), lerp(v[5] - v[4], v[7] - v[6], u.y), u.z);
         const Real dy = lerp(lerp(v[2] - v[0], v[3] - v[1], u.x), lerp(v[6] - v[4], v[7] - v[5], u.x), u.z);
         const Real dz = lerp(lerp(v[4] - v[0], v[5] - v[1], u.x), lerp(v[6] - v[2], v[7] - v[3], u.x), u.y);
-        return {r.note(site::noise,
+        return {r.note(field_site::noise,
                        Vec3{trilerp(gx, u) + fade_slope(cell.at.x) * dx, trilerp(gy, u) + fade_slope(cell.at.y) * dy,
                             trilerp(gz, u) + fade_slope(cell.at.z) * dz}),
                 trilerp(value, u)};
     }
 
-    Vec3 slope(const Vec3& x, const Vec3& h) const {
-        const auto up = all(x + h), down = all(x - h);
-        return Vec3{up[0].value - down[0].value, up[1].value - down[1].value, up[2].value - down[2].value} * 32.0F;
-    }
+    Vec3 slope(const Vec3& x, const Vec3& h) const { return (potentials(x + h) - potentials(x - h)) * 32.0F; }
 
     R& r;
     std::uint32_t seed_;
 };
 
-} // namespace lockstep::lifecycle
+} // namespace lockstep

@@ -1,5 +1,5 @@
 // Gradient noise (Perlin, "Improving noise", 2002) with its analytic derivatives, and the curl of three (Bridson,
-// "Curl-noise for procedural fluid flow", 2007). Twin: reference/lifecycle/noise.hpp.
+// "Curl-noise for procedural fluid flow", 2007). Twin: reference/system/noise.hpp.
 
 // One of the 16 edge directions, by 4 bits.
 vec3 edge_of(uint h) {
@@ -72,6 +72,11 @@ vec4 noise_of(Cell cell, int which) {
                 add(trilerp(gz, u), mul(fade_slope(cell.at.z), dz)), trilerp(value, u));
 }
 
+vec3 all_noise(vec3 x, uint seed) {
+    Cell cell = cell_of(x, seed);
+    return vec3(noise_of(cell, 0).w, noise_of(cell, 1).w, noise_of(cell, 2).w);
+}
+
 #if CURL_DERIVATIVE == CURL_DERIVATIVE_ANALYTIC
 vec3 curl(vec3 x, uint seed) {
     Cell cell = cell_of(x, seed);
@@ -79,10 +84,6 @@ vec3 curl(vec3 x, uint seed) {
     return vec3(sub(d3.y, d2.z), sub(d1.z, d3.x), sub(d2.x, d1.y));
 }
 #else
-vec3 all_noise(vec3 x, uint seed) {
-    Cell cell = cell_of(x, seed);
-    return vec3(noise_of(cell, 0).w, noise_of(cell, 1).w, noise_of(cell, 2).w);
-}
 vec3 slope(vec3 x, vec3 h, uint seed) { return mul(sub(all_noise(add(x, h), seed), all_noise(sub(x, h), seed)), 32.0); }
 vec3 curl(vec3 x, uint seed) {
     vec3 by_x = slope(x, vec3(0.015625, 0.0, 0.0), seed);

@@ -2,8 +2,8 @@
 #include <array>
 #include <cstdint>
 
-/// The numbers that look random. Twin of shaders/lifecycle/random.glsl.
-namespace lockstep::lifecycle {
+/// The numbers that look random. Twin of shaders/random.glsl.
+namespace lockstep {
 
 using Bits3 = std::array<std::uint32_t, 3>;
 
@@ -22,4 +22,9 @@ constexpr Bits3 pcg3d(Bits3 v) {
     return v;
 }
 
-} // namespace lockstep::lifecycle
+/// Three numbers in [0, 1) of such bits.
+template <class R> typename R::Vec3 unit_numbers(const Bits3& bits) {
+    return {R::real(bits[0] >> 8U) * 0x1p-24F, R::real(bits[1] >> 8U) * 0x1p-24F, R::real(bits[2] >> 8U) * 0x1p-24F};
+}
+
+} // namespace lockstep

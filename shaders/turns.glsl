@@ -1,4 +1,4 @@
-// Sine and cosine of turns, of rounded operations alone. Twin: reference/lifecycle/turns.hpp.
+// Sine and cosine of turns, of rounded operations alone. Twin: reference/system/turns.hpp.
 
 vec2 sine_cosine(float x) {
     float r = sub(x, floor(add(x, 0.5)));
@@ -18,4 +18,11 @@ vec2 sine_cosine(float x) {
     vec2 even = quadrant == 0 ? vec2(s, c) : vec2(ls_flush(-s), ls_flush(-c));
     vec2 odd = quadrant == 1 ? vec2(c, ls_flush(-s)) : vec2(ls_flush(-c), s);
     return (quadrant & 1) == 0 ? even : odd;
+}
+
+// On the unit sphere: z, and around it.
+vec3 on_circle(float z, float turns) {
+    float r = ls_sqrt(sub(1.0, mul(z, z)));
+    vec2 sc = sine_cosine(turns);
+    return vec3(mul(r, sc.y), mul(r, sc.x), z);
 }

@@ -92,4 +92,6 @@ bool use_package_data(const fs::path& folder) {
     return true;
 }
 
+const fs::path& package_data_folder() { return package_data(); }
+
 } // namespace lockstep

@@ -16,4 +16,7 @@ std::filesystem::path shipped_scene(std::string_view name);
 /// Makes the folder of an installed package known, share/lockstep; true. <lockstep/lockstep.hpp> calls it.
 bool use_package_data(const std::filesystem::path& folder);
 
+/// That folder; empty: the program is linked with no installed package.
+const std::filesystem::path& package_data_folder();
+
 } // namespace lockstep

@@ -417,8 +417,9 @@ Verb check_command() {
         if (const RegisteredSystem* system = options->trace.empty() ? system_of(options->run) : nullptr) {
             check_options(call, fmt::format("a scene of system {}", name_of(*system)), system_check_options());
             return check_system(*system, options->run,
-                                {options->mode, options->legal, options->rules, options->json, options->power,
-                                 options->quiet, !options->no_render});
+                                {options->mode, options->legal, options->rules, options->json, options->hashes,
+                                 options->images, options->report, options->power, options->quiet,
+                                 !options->no_render});
         }
         return options->trace.empty() ? run_scene(*options) : run_trace(*options);
     };

@@ -6,7 +6,6 @@
 #include "crosscheck/files/output_files.hpp"
 #include "crosscheck/files/png.hpp"
 #include "crosscheck/judge/system_check.hpp"
-#include "crosscheck/report/overlay.hpp"
 #include "crosscheck/report/progress.hpp"
 #include "crosscheck/scene/profiles.hpp"
 #include "reference/model/error.hpp"
@@ -22,12 +21,7 @@ ColorImage render_cpu(const SystemScene& scene, const SystemRender& asked) {
         reference.step(frame);
         progress.show(frame + 1);
     }
-    const SystemPicture picture = scene.picture(reference.state(), asked.frame);
-    ReferenceRun drawn(picture.system, profile);
-    drawn.step(0);
-    ColorImage image = picture.image(drawn.state().view());
-    draw_overlay(image, picture.to_clip, picture.overlay);
-    return image;
+    return reference_picture(scene, reference.state(), asked.frame, profile);
 }
 
 ColorImage render_gpu(const SystemScene& scene, const RunOptions& run, const SystemRender& asked) {
@@ -43,12 +37,7 @@ ColorImage render_gpu(const SystemScene& scene, const RunOptions& run, const Sys
         progress.show(frame + 1);
     }
     side.read(state);
-    const SystemPicture picture = scene.picture(state, asked.frame);
-    GlSystemSide drawn = side_of(gl, picture, scene, run);
-    drawn.upload(picture.system.start.view());
-    ColorImage image = drawn.picture(0, 0, picture.how);
-    draw_overlay(image, picture.to_clip, picture.overlay);
-    return image;
+    return gpu_picture(gl, scene, state, asked.frame, run);
 }
 
 } // namespace

@@ -7,6 +7,8 @@
 #include "crosscheck/files/json_reader.hpp"
 #include "crosscheck/files/plain_text.hpp"
 #include "crosscheck/files/threads.hpp"
+#include "crosscheck/judge/system_check.hpp"
+#include "crosscheck/report/overlay.hpp"
 #include "reference/model/error.hpp"
 
 namespace lockstep {
@@ -47,6 +49,25 @@ GlSystemSide side_of(const Gl& gl, const SystemPicture& picture, const SystemSce
 
 GlSystemSide side_of(const Gl& gl, const SystemScene& scene, const RunOptions& run) {
     return {gl, scene.system, scene.passes, run.shaders.string(), scene.arithmetic};
+}
+
+ColorImage reference_picture(const SystemScene& scene, const SystemState& state, int frame, const Profile& profile) {
+    const SystemPicture picture = scene.picture(state, frame);
+    ReferenceRun drawn(picture.system, profile);
+    drawn.step(0);
+    ColorImage image = picture.image(drawn.state().view());
+    draw_overlay(image, picture.to_clip, picture.overlay);
+    return image;
+}
+
+ColorImage gpu_picture(const Gl& gl, const SystemScene& scene, const SystemState& state, int frame,
+                       const RunOptions& run) {
+    const SystemPicture picture = scene.picture(state, frame);
+    GlSystemSide drawn = side_of(gl, picture, scene, run);
+    drawn.upload(picture.system.start.view());
+    ColorImage image = drawn.picture(0, 0, picture.how);
+    draw_overlay(image, picture.to_clip, picture.overlay);
+    return image;
 }
 
 } // namespace lockstep

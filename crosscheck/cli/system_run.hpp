@@ -33,4 +33,9 @@ GlSystemSide side_of(const Gl& gl, const SystemScene& scene, const RunOptions& r
 
 GlSystemSide side_of(const Gl& gl, const SystemPicture& picture, const SystemScene& scene, const RunOptions& run);
 
+// Pictures of a frame's state, which the scene has.
+ColorImage reference_picture(const SystemScene& scene, const SystemState& state, int frame, const Profile& profile);
+ColorImage gpu_picture(const Gl& gl, const SystemScene& scene, const SystemState& state, int frame,
+                       const RunOptions& run);
+
 } // namespace lockstep

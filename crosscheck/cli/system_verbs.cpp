@@ -12,11 +12,13 @@
 #include "crosscheck/cli/system_run.hpp"
 #include "crosscheck/files/json_text.hpp"
 #include "crosscheck/files/plain_text.hpp"
+#include "crosscheck/files/png.hpp"
 #include "crosscheck/files/shell_words.hpp"
 #include "crosscheck/judge/system_check.hpp"
 #include "crosscheck/record/capsule_parts.hpp"
 #include "crosscheck/record/item_capsule.hpp"
 #include "crosscheck/report/item_text.hpp"
+#include "crosscheck/report/picture_difference.hpp"
 #include "crosscheck/report/power_text.hpp"
 #include "reference/model/error.hpp"
 
@@ -66,32 +68,108 @@ PassRules drawn_rules(PassRules rules) {
     return rules;
 }
 
-std::string drawn_text(const DrawnFrame& drawn, const PassRules& rules) {
+std::string drawn_words(const DrawnFrame& drawn) {
     const CheckReport& report = *drawn.report;
-    if (!passes(report, drawn_rules(rules)))
-        return "\n" + report_text(report, drawn.about);
-    return fmt::format("drawn     {}: {} {}s that frame {} draws; coverage and blending are not judged\n",
-                       verdict_words(report), drawn.items, report.schema.resources.back().item, drawn.frame);
+    return fmt::format("{}: {} {}s that frame {} draws; coverage and blending are not judged", verdict_words(report),
+                       drawn.items, report.schema.resources.back().item, drawn.frame);
+}
+
+std::string drawn_text(const DrawnFrame& drawn, const PassRules& rules) {
+    if (!passes(*drawn.report, drawn_rules(rules)))
+        return "\n" + report_text(*drawn.report, drawn.about);
+    return fmt::format("drawn     {}\n", drawn_words(drawn));
+}
+
+/// Keeps both sides' state of the frame of which pictures are written: the first that differs, else the last.
+class PicturedFrame {
+  public:
+    static constexpr std::array<std::string_view, 3> names{"frame_reference.png", "frame_gpu.png",
+                                                           "frame_difference.png"};
+
+    void keep(int frame, const SystemState& reference, const SystemState& gpu) {
+        if (differs_)
+            return;
+        frame_ = frame;
+        differs_ = state_hash(reference) != state_hash(gpu);
+        reference_ = reference;
+        gpu_ = gpu;
+    }
+
+    void write(OutputFiles& files, const std::filesystem::path& folder, const SystemScene& scene, const Gl& gl,
+               const Profile& profile, const RunOptions& run) const {
+        if (frame_ < 0)
+            return;
+        const ColorImage of_reference = reference_picture(scene, reference_, frame_, profile);
+        const ColorImage of_gpu = gpu_picture(gl, scene, gpu_, frame_, run);
+        files.write(folder / names[0], png(of_reference));
+        files.write(folder / names[1], png(of_gpu));
+        files.write(folder / names[2], png(difference_picture(of_reference, of_gpu)));
+    }
+
+  private:
+    int frame_ = -1;
+    bool differs_ = false;
+    SystemState reference_, gpu_;
+};
+
+/// The file of a capsule with the scene that it is of. Throws Error where it would be too large.
+std::string capsule_text(const ReadScene& read, const RunOptions& run, const ItemCapsule& capsule) {
+    json options{{"set", run.set}};
+    if (run.particles)
+        options["particles"] = *run.particles;
+    if (run.preset)
+        options["preset"] = *run.preset;
+    const System& twins = read.scene.system;
+    const json document{{"lockstep_system_capsule", capsule_version},
+                        {"name", twins.name},
+                        {"scene", read.document},
+                        {"options", options},
+                        {"capsule", json::parse(item_capsule_file(capsule, twins))}};
+    std::string text = document.dump(-1, ' ', false, json::error_handler_t::replace) + "\n";
+    if (text.size() > largest_capsule)
+        throw Error(fmt::format("its capsule would be {} bytes, with the scene; right is at most {}", text.size(),
+                                largest_capsule));
+    return text;
 }
 
 } // namespace
 
 std::span<const std::string_view> system_check_options() {
-    static constexpr std::array<std::string_view, 17> options{"--power",   "--power-at-least", "--json",
-                                                              "scene",     "--particles",      "--preset",
-                                                              "--set",     "--threads",        "--gl",
-                                                              "--shaders", "--frames",         "--allow-unused",
-                                                              "--mode",    "--legal",          "--allow-undefined",
-                                                              "--quiet",   "--no-render"};
+    static constexpr std::array<std::string_view, 20> options{"--power",
+                                                              "--power-at-least",
+                                                              "--json",
+                                                              "scene",
+                                                              "--particles",
+                                                              "--preset",
+                                                              "--set",
+                                                              "--threads",
+                                                              "--gl",
+                                                              "--shaders",
+                                                              "--frames",
+                                                              "--allow-unused",
+                                                              "--mode",
+                                                              "--legal",
+                                                              "--quiet",
+                                                              "--no-render",
+                                                              "--hashes",
+                                                              "--images",
+                                                              "--allow-undefined",
+                                                              "--report"};
     return options;
 }
 
 int check_system(const RegisteredSystem& system, const RunOptions& run, const SystemCheck& asked) {
     const ReadScene read = read_scene(system, run);
     const System& twins = read.scene.system;
+    if (!asked.images.empty() && !read.scene.picture)
+        throw Error(fmt::format("check: --images: scenes of system {} have no pictures", system.name));
     OutputFiles files;
     files.protect(run.scene);
     files.protect(run.shaders);
+    CheckFiles outputs(asked.report, asked.hashes);
+    outputs.expect(files);
+    if (!asked.images.empty())
+        files.expect_folder(asked.images, PicturedFrame::names);
     if (!asked.json.empty())
         files.expect(asked.json);
     ShaderUse shaders = shaders_of(read.scene, run);
@@ -101,16 +179,27 @@ int check_system(const RegisteredSystem& system, const RunOptions& run, const Sy
     options.mode = asked.mode;
     options.frames = run.frames;
     options.known = known_operations(asked.legal, side.describe().profile);
-    CheckReport report = check_shown(twins, side, options, asked.quiet);
+    CheckWatch watch = outputs.watch(twins, side, run.frames);
+    PicturedFrame pictured;
+    if (!asked.images.empty())
+        watch.on_frame = [&pictured, hashes = watch.on_frame](int frame, const SystemState& reference,
+                                                              const SystemState& gpu) {
+            if (hashes)
+                hashes(frame, reference, gpu);
+            pictured.keep(frame, reference, gpu);
+        };
+    CheckReport report = check_shown(twins, side, options, asked.quiet, watch);
     ask_power(report, asked.rules.power_at_least);
 
     const int frames = report.first_frame ? *report.first_frame + 1 : report.frames;
     RunDescription about = describe_run(twins, side.describe(), options, check_line(run, asked, frames));
     about.scene = fmt::format("{} ({})", twins.name, plain_line(read.file));
     about.shaders = std::move(shaders);
+    const auto explain_line = [&](const std::vector<std::string>& words) {
+        return command_line("explain", run, fmt::format("{}", fmt::join(words, " "))) + legal_option_text(asked.legal);
+    };
     if (const auto words = first_item_words(twins, report); !words.empty())
-        about.explain =
-            command_line("explain", run, fmt::format("{}", fmt::join(words, " "))) + legal_option_text(asked.legal);
+        about.explain = explain_line(words);
     const DrawnFrame drawn =
         asked.render && !report.partial() ? judge_drawn(read.scene, gl, side, run, asked, report) : DrawnFrame{};
     if (!asked.quiet) {
@@ -120,13 +209,31 @@ int check_system(const RegisteredSystem& system, const RunOptions& run, const Sy
                    asked.power ? power_text(report.power) : std::string());
         if (drawn.report)
             fmt::print("{}", plain_text(drawn_text(drawn, asked.rules)));
+        std::fflush(stdout);
     }
+    CheckFiles::Told told{{{"This run", check_line(run, asked, report.frames)}},
+                          explain_line,
+                          drawn.report ? drawn_words(drawn) : std::string(),
+                          [](const std::filesystem::path& capsule) {
+                              return fmt::format("lockstep capsule show {}", shell_path(capsule));
+                          }};
+    if (report.first_frame && *report.first_frame + 1 < report.frames)
+        told.commands.push_back({"Up to the first frame that differs", about.repeat});
+    if (!about.explain.empty())
+        told.commands.push_back({"The first item that differs, step by step", about.explain});
+    outputs.write(files, report, about, std::move(told), [&] {
+        const FirstDivergence& first = *report.verdicts->first;
+        SystemRun again(twins, side, *options.known, first.place.frame, first.pass);
+        return capsule_text(read, run, cut_item_capsule(again, first.place.index, side.describe().name));
+    });
     if (!asked.json.empty()) {
         json document = report_json(report, about);
         if (drawn.report)
             document["drawn"] = report_json(*drawn.report, drawn.about);
         files.write(asked.json, json_text(document));
     }
+    if (!asked.images.empty())
+        pictured.write(files, asked.images, read.scene, gl, side.describe().profile, run);
     files.commit();
     if (report.partial())
         return status_interrupted;
@@ -163,21 +270,7 @@ int cut_system(const RegisteredSystem& system, const RunOptions& run, const Syst
     const Gl gl = open_gl(run);
     GlSystemSide side = side_of(gl, read.scene, run);
     const ItemCapsule capsule = cut_item(twins, side, item);
-    json options{{"set", run.set}};
-    if (run.particles)
-        options["particles"] = *run.particles;
-    if (run.preset)
-        options["preset"] = *run.preset;
-    const json document{{"lockstep_system_capsule", capsule_version},
-                        {"name", twins.name},
-                        {"scene", read.document},
-                        {"options", options},
-                        {"capsule", json::parse(item_capsule_file(capsule, twins))}};
-    std::string text = document.dump(-1, ' ', false, json::error_handler_t::replace) + "\n";
-    if (text.size() > largest_capsule)
-        throw Error(fmt::format("its capsule would be {} bytes, with the scene; right is at most {}", text.size(),
-                                largest_capsule));
-    files.write(output, text);
+    files.write(output, capsule_text(read, run, capsule));
     files.commit();
     return status_of(capsule, twins);
 }

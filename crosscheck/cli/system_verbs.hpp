@@ -19,7 +19,7 @@ struct SystemCheck {
     CheckMode mode = CheckMode::resync;
     Legal legal = Legal::measured;
     PassRules rules;
-    std::filesystem::path json;
+    std::filesystem::path json, hashes, images, report;
     bool power = false; ///< list the mistakes that would have shown
     bool quiet = false;
     bool render = true; ///< what the last frame draws is judged, too

@@ -1,5 +1,6 @@
 #include "crosscheck/judge/item_place.hpp"
 
+#include <algorithm>
 #include <array>
 #include <charconv>
 #include <optional>
@@ -46,6 +47,13 @@ std::string item_name(const Resource& resource, const Extent& extent, std::size_
     const auto at = coordinates(resource, extent, item);
     return at.size() == 1 ? fmt::format("{} {}", resource.item, item)
                           : fmt::format("{} ({})", resource.item, fmt::join(at, ", "));
+}
+
+std::string item_key(const Schema& schema, std::uint8_t resource) {
+    const Resource& about = schema.resources[resource];
+    const auto same = std::count_if(schema.resources.begin(), schema.resources.end(),
+                                    [&](const Resource& other) { return other.item == about.item; });
+    return same > 1 ? fmt::format("{}_{}", about.name, about.item) : about.item;
 }
 
 std::string item_argument(const Resource& resource, const Extent& extent, std::size_t item) {

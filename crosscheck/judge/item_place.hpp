@@ -1,5 +1,6 @@
 #pragma once
 #include <cstddef>
+#include <cstdint>
 #include <string>
 #include <string_view>
 
@@ -11,6 +12,9 @@ namespace lockstep {
 /// An item of a buffer by its number, of an image by column, row from the bottom, and layer: "grain 17", "texel (3,
 /// 4)".
 std::string item_name(const Resource& resource, const Extent& extent, std::size_t item);
+
+/// What data call an item: "texel"; where items of another buffer or image are called so, too, "light_texel".
+std::string item_key(const Schema& schema, std::uint8_t resource);
 
 /// The same as an option takes it: "17", "3,4".
 std::string item_argument(const Resource& resource, const Extent& extent, std::size_t item);

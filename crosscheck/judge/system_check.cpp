@@ -47,13 +47,6 @@ void check_system(const System& system) {
     }
 }
 
-std::uint64_t hash_of(const SystemState& state) {
-    std::uint64_t hash = state_hash(state[0]);
-    for (std::uint8_t r = 1; r < state.schema().resources.size(); ++r)
-        hash = combined_hash(hash, state_hash(state[r]));
-    return hash;
-}
-
 /// A frame in which nothing but copies was made proves little.
 std::uint64_t changed_items(const View& before, const View& after) { return differing_items(before, after).size(); }
 
@@ -116,7 +109,28 @@ SystemState left_by(const System& system, std::size_t pass, const SystemState& b
 
 } // namespace
 
-CheckReport check(const System& system, SystemSide& gpu, const CheckOptions& options) {
+std::uint64_t state_hash(const SystemState& state) {
+    std::uint64_t hash = state_hash(state[0]);
+    for (std::uint8_t r = 1; r < state.schema().resources.size(); ++r)
+        hash = combined_hash(hash, state_hash(state[r]));
+    return hash;
+}
+
+std::vector<ToldValue> told_of(SystemSide& gpu, std::size_t pass, const JudgedPass& judged, std::size_t item) {
+    std::vector<ToldValue> told;
+    for (const CapturedVertex& vertex : gpu.trace(pass, judged.frame, item))
+        for (const CapturedOutput& output : vertex.outputs) {
+            ToldValue value{output.name, {}};
+            for (std::size_t c = 0; c < output.words.size(); ++c)
+                value.values.push_back(output.is_float ? output.number(c) : static_cast<float>(output.integer(c)));
+            told.push_back(std::move(value));
+        }
+    const std::vector<ToldValue> written = told_by_state(judged.pass, judged.gpu, item);
+    told.insert(told.end(), written.begin(), written.end());
+    return told;
+}
+
+CheckReport check(const System& system, SystemSide& gpu, const CheckOptions& options, const CheckWatch& watch) {
     check_system(system);
     const Profile profile = gpu.describe().profile;
     const KnownOperations known = options.known.value_or(measured_operations(profile));
@@ -150,10 +164,10 @@ CheckReport check(const System& system, SystemSide& gpu, const CheckOptions& opt
                 gpu.lay_canary(p);
             if (!pass.continues()) {
                 {
-                    const Stopwatch watch(times.gpu);
+                    const Stopwatch timing(times.gpu);
                     gpu.step(p, frame);
                 }
-                const Stopwatch watch(times.readback);
+                const Stopwatch timing(times.readback);
                 gpu.read(now);
                 expect_untouched(system, p, before, now, frame);
             }
@@ -175,7 +189,7 @@ CheckReport check(const System& system, SystemSide& gpu, const CheckOptions& opt
             }
             const SystemView from = judged ? before.view() : reference.view();
             try {
-                const Stopwatch watch(times.reference);
+                const Stopwatch timing(times.reference);
                 run_pass(pass, {from, frame}, profile, made[r]);
             } catch (const OutsideState& error) {
                 // What the GPU left may lead there, and then is the verdict already.
@@ -187,7 +201,7 @@ CheckReport check(const System& system, SystemSide& gpu, const CheckOptions& opt
             }
             Comparison comparison;
             {
-                const Stopwatch watch(times.compare);
+                const Stopwatch timing(times.compare);
                 comparison = compare(std::as_const(made)[r], std::as_const(now)[r]);
                 if (!comparison.agree() || !judged)
                     note_difference(report, frame, comparison);
@@ -196,17 +210,18 @@ CheckReport check(const System& system, SystemSide& gpu, const CheckOptions& opt
                     changed = changed_items(from[r], std::as_const(made)[r]);
             }
             if (judged) {
-                const Stopwatch watch(times.power);
-                const View reference_view = std::as_const(made)[r];
-                power.add({pass, profile, known, frame, from, reference_view, reference_view}, {});
+                const Stopwatch timing(times.power);
+                const View agreed = std::as_const(made)[r];
+                power.add({pass, profile, known, frame, from, agreed, agreed}, {});
             }
+            const SystemView earlier_view = earlier[p] ? earlier[p]->view() : SystemView();
+            const View reference_view = std::as_const(made)[r], gpu_view = std::as_const(now)[r];
+            const JudgedPass one{pass, profile,        known,    frame,
+                                 from, reference_view, gpu_view, earlier[p] ? &earlier_view : nullptr};
+            std::vector<ItemVerdict> verdicts;
             if (judged && comparison.differing(r) > 0) {
-                const Stopwatch watch(times.judge);
-                const SystemView earlier_view = earlier[p] ? earlier[p]->view() : SystemView();
-                const View reference_view = std::as_const(made)[r], gpu_view = std::as_const(now)[r];
-                const JudgedPass one{pass, profile,        known,    frame,
-                                     from, reference_view, gpu_view, earlier[p] ? &earlier_view : nullptr};
-                const std::vector<ItemVerdict> verdicts = judge_items(one);
+                const Stopwatch timing(times.judge);
+                verdicts = judge_items(one);
                 const std::uint64_t divergent_before = summary.total(DifferenceClass::divergent);
                 summary.add(frame, r, verdicts);
                 const bool diverges = summary.total(DifferenceClass::divergent) > divergent_before;
@@ -228,12 +243,16 @@ CheckReport check(const System& system, SystemSide& gpu, const CheckOptions& opt
                 else if (diverges && options.causes)
                     causes[p].add(one, verdicts);
             }
+            if (watch.on_pass)
+                watch.on_pass({p, one, comparison, verdicts});
             reference.swap(r, made);
             earlier[p] = std::move(before);
             before = left_by(system, p, *earlier[p], now);
         }
         report.times.push_back(times);
         report.frames = frame + 1;
+        if (watch.on_frame)
+            watch.on_frame(frame, reference, before);
         if (options.on_frame)
             options.on_frame(report.frames);
     }
@@ -252,8 +271,8 @@ CheckReport check(const System& system, SystemSide& gpu, const CheckOptions& opt
     report.verdict = verdict_on(report);
     if (report.verdict != Verdict::divergent && report.verdict != Verdict::differ)
         report.untried = untried(report, changed);
-    report.reference_hash = hash_of(reference);
-    report.gpu_hash = hash_of(before);
+    report.reference_hash = state_hash(reference);
+    report.gpu_hash = state_hash(before);
     return report;
 }
 
@@ -295,19 +314,7 @@ JudgedPass SystemRun::judged() const {
             before_view_,           reference_view_, gpu_view_, has_earlier_ ? &earlier_view_ : nullptr};
 }
 
-std::vector<ToldValue> SystemRun::told(std::size_t item) {
-    std::vector<ToldValue> told;
-    for (const CapturedVertex& vertex : gpu_.trace(pass_, frame_, item))
-        for (const CapturedOutput& output : vertex.outputs) {
-            ToldValue value{output.name, {}};
-            for (std::size_t c = 0; c < output.words.size(); ++c)
-                value.values.push_back(output.is_float ? output.number(c) : static_cast<float>(output.integer(c)));
-            told.push_back(std::move(value));
-        }
-    const std::vector<ToldValue> written = told_by_state(judged().pass, gpu_view_, item);
-    told.insert(told.end(), written.begin(), written.end());
-    return told;
-}
+std::vector<ToldValue> SystemRun::told(std::size_t item) { return told_of(gpu_, pass_, judged(), item); }
 
 ReferenceRun::ReferenceRun(const System& system, Profile profile)
     : system_(system), profile_(std::move(profile)), state_(system.start), next_(system.start) {
@@ -329,6 +336,6 @@ void ReferenceRun::step_pass(std::size_t pass, int frame) {
     state_.swap(one.resource(), next_);
 }
 
-std::uint64_t ReferenceRun::hash() const { return hash_of(state_); }
+std::uint64_t ReferenceRun::hash() const { return state_hash(state_); }
 
 } // namespace lockstep

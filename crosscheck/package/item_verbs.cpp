@@ -1,8 +1,11 @@
 #include "crosscheck/package/item_verbs.hpp"
 
 #include <algorithm>
+#include <array>
 #include <charconv>
+#include <cstdio>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include <fmt/format.h>
@@ -14,6 +17,7 @@
 #include "crosscheck/files/signals.hpp"
 #include "crosscheck/judge/item_place.hpp"
 #include "crosscheck/report/item_text.hpp"
+#include "crosscheck/report/page/template.hpp"
 #include "crosscheck/report/progress.hpp"
 #include "crosscheck/scene/profiles.hpp"
 #include "gpu/system_side.hpp"
@@ -23,6 +27,8 @@
 
 namespace lockstep {
 namespace {
+
+constexpr std::array<std::string_view, 2> report_files{"report.html", "capsule.json"};
 
 /// The first that runs in the frame where none is named.
 std::size_t pass_named(const std::string& name, const System& system, int frame) {
@@ -114,12 +120,61 @@ void print_hashes(const System& system, const std::string& profile, int frames, 
     }
 }
 
-CheckReport check_shown(const System& system, SystemSide& side, CheckOptions options, bool quiet) {
+CheckReport check_shown(const System& system, SystemSide& side, CheckOptions options, bool quiet,
+                        const CheckWatch& watch) {
     const InterruptHandler handler;
     Progress progress("check", options.frames, !quiet);
     options.stop = &interrupted;
     options.on_frame = [&](int done) { progress.show(done); };
-    return check(system, side, options);
+    return check(system, side, options, watch);
+}
+
+CheckFiles::CheckFiles(std::filesystem::path report, std::filesystem::path hashes)
+    : report_(std::move(report)), hashes_(std::move(hashes)) {}
+
+void CheckFiles::expect(OutputFiles& files) {
+    if (!report_.empty())
+        files.expect_folder(report_, report_files);
+    if (!hashes_.empty())
+        files.expect(hashes_);
+    if (!report_.empty())
+        template_ = report_page_template();
+}
+
+CheckWatch CheckFiles::watch(const System& system, SystemSide& side, int frames) {
+    CheckWatch watch;
+    if (!report_.empty()) {
+        page_.emplace(system, side, frames);
+        watch.on_pass = [this](const CheckedPass& checked) { page_->add(checked); };
+    }
+    if (!hashes_.empty())
+        watch.on_frame = [this](int frame, const SystemState& reference, const SystemState& gpu) {
+            hash_lines_ +=
+                fmt::format("{} {} {}\n", frame, hash_text(state_hash(reference)), hash_text(state_hash(gpu)));
+        };
+    return watch;
+}
+
+void CheckFiles::write(OutputFiles& files, const CheckReport& report, RunDescription run, Told told,
+                       const std::function<std::string()>& capsule) {
+    if (!hashes_.empty())
+        files.write(hashes_, hash_lines_);
+    if (!page_)
+        return;
+    if (report.verdicts && report.verdicts->first &&
+        report.verdicts->first->verdict.kind == DifferenceClass::divergent) {
+        const std::filesystem::path file = report_ / report_files[1];
+        try {
+            files.write(file, capsule());
+            told.commands.push_back(
+                {"The first divergent item's step, from the file beside this page; needs no GL", told.show(file)});
+        } catch (const Error& error) {
+            run.notes.push_back(fmt::format("no capsule of the first divergent item: {}", error.what()));
+            fmt::print(stderr, "note: {}\n", plain_line(run.notes.back()));
+        }
+    }
+    files.write(report_ / report_files[0],
+                page_->text(template_, report, run, told.commands, told.explain, told.drawn));
 }
 
 } // namespace lockstep

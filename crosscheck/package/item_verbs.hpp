@@ -1,15 +1,19 @@
 #pragma once
 #include <cstddef>
+#include <filesystem>
+#include <functional>
 #include <optional>
 #include <string>
 #include <vector>
 
 #include "crosscheck/command/verb.hpp"
+#include "crosscheck/files/output_files.hpp"
 #include "crosscheck/judge/check.hpp"
 #include "crosscheck/judge/legal.hpp"
 #include "crosscheck/judge/system.hpp"
 #include "crosscheck/judge/system_check.hpp"
 #include "crosscheck/record/item_capsule.hpp"
+#include "crosscheck/report/page/system_page.hpp"
 #include "crosscheck/report/value_text.hpp"
 
 /// What verbs do on any system, of a scene file or of a program of its own.
@@ -59,6 +63,37 @@ std::vector<std::string> first_item_words(const System& system, const CheckRepor
 void print_hashes(const System& system, const std::string& profile, int frames, bool every);
 
 /// check() with what it has done so far on a terminal, until it is done or interrupted.
-CheckReport check_shown(const System& system, SystemSide& side, CheckOptions options, bool quiet);
+CheckReport check_shown(const System& system, SystemSide& side, CheckOptions options, bool quiet,
+                        const CheckWatch& watch = {});
+
+/// The report page and the list of hashes that a check leaves, where they are asked for.
+class CheckFiles {
+  public:
+    /// The folder of report.html, and a file; either may be empty.
+    CheckFiles(std::filesystem::path report, std::filesystem::path hashes);
+
+    /// Proves before the run that they can be written. Throws Error where the page is not built.
+    void expect(OutputFiles& files);
+
+    /// To be handed to the check. `system` and `side` outlive this.
+    CheckWatch watch(const System& system, SystemSide& side, int frames);
+
+    /// What is told of a run on its page besides the report.
+    struct Told {
+        std::vector<PageCommand> commands;
+        SystemPage::ExplainLine explain;
+        std::string drawn = {}; ///< of the picture; empty: nothing
+        /// The command that shows the capsule beside the page.
+        std::function<std::string(const std::filesystem::path& capsule)> show;
+    };
+    /// `capsule`: cuts the first divergent item, as a file; told as a note of `run` where it cannot.
+    void write(OutputFiles& files, const CheckReport& report, RunDescription run, Told told,
+               const std::function<std::string()>& capsule);
+
+  private:
+    std::filesystem::path report_, hashes_;
+    std::string template_, hash_lines_;
+    std::optional<SystemPage> page_;
+};
 
 } // namespace lockstep

@@ -36,7 +36,7 @@ struct Options {
     CheckMode mode = CheckMode::resync;
     PassRules rules;
     bool power = false, quiet = false, every = false;
-    std::filesystem::path json, capsule;
+    std::filesystem::path json, capsule, hashes, report;
     std::string profile = "strict";
     SystemItem item;
 };
@@ -91,25 +91,41 @@ int check_verb(const Program& program, const Options& options) {
     for (const auto& output : {options.json, options.capsule})
         if (!output.empty())
             files.expect(output);
+    CheckFiles outputs(options.report, options.hashes);
+    outputs.expect(files);
     OpenSide gpu(program, options);
     CheckOptions check;
     check.mode = options.mode;
     check.frames = options.frames;
     check.known = known_operations(options.item.legal, gpu.side.describe().profile);
-    CheckReport report = check_shown(program.system, gpu.side, check, options.quiet);
+    CheckReport report = check_shown(program.system, gpu.side, check, options.quiet,
+                                     outputs.watch(program.system, gpu.side, options.frames));
     ask_power(report, options.rules.power_at_least);
     RunDescription run = describe_run(program.system, gpu.side.describe(), check, this_program(program.words));
-    if (const auto words = first_item_words(program.system, report); !words.empty()) {
+    const auto explain_line = [&](const std::vector<std::string>& words) {
         std::vector<std::string> explain{"explain"};
         explain.insert(explain.end(), words.begin(), words.end());
         explain.insert(explain.end(), {"--gl", options.gl, "--shaders", options.shaders.string()});
-        run.explain = this_program(explain) + legal_option_text(options.item.legal);
-    }
+        return this_program(explain) + legal_option_text(options.item.legal);
+    };
+    if (const auto words = first_item_words(program.system, report); !words.empty())
+        run.explain = explain_line(words);
     if (!options.quiet)
         fmt::print("{}{}{}",
                    report.partial() ? fmt::format("interrupted after {} of {} frames\n", report.frames, options.frames)
                                     : "",
                    plain_text(report_text(report, run)), options.power ? power_text(report.power) : std::string());
+    std::fflush(stdout);
+    CheckFiles::Told told{{{"This run", run.repeat}}, explain_line, {}, [](const std::filesystem::path& capsule) {
+                              return this_program({"capsule", "show", capsule.string()});
+                          }};
+    if (!run.explain.empty())
+        told.commands.push_back({"The first item that differs, step by step", run.explain});
+    outputs.write(files, report, run, std::move(told), [&] {
+        const FirstDivergence& first = *report.verdicts->first;
+        SystemRun again(program.system, gpu.side, *check.known, first.place.frame, first.pass);
+        return item_capsule_file(cut_item_capsule(again, first.place.index, gpu.side.describe().name), program.system);
+    });
     if (!options.json.empty())
         files.write(options.json, json_text(report_json(report, run)));
     if (!options.capsule.empty())
@@ -167,6 +183,8 @@ Verb verbs_of(const std::string& name, const Program& program, const std::shared
                            "fail where the run would have shown fewer of the mistakes with names: 95%, 0.95"));
     check.add(flag("--power", options->power, "list which mistakes the run would have shown, and why not the others"));
     check.add(path_option("--json", "FILE", options->json, "write the report as JSON"));
+    check.add(path_option("--hashes", "FILE", options->hashes, "write both sides' state hash of every frame"));
+    check.add(path_option("--report", "DIR", options->report, "write report.html, a page that opens in any browser"));
     check.add(path_option("--capsule", "FILE", options->capsule, "keep the first item that is divergent"));
     check.add(flag("--quiet", options->quiet, "no report, only the exit status"));
     check.run = running(check_verb);

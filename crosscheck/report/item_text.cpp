@@ -56,11 +56,14 @@ std::string explain_item(const JudgedPass& pass, std::size_t item, std::span<con
     text.append("\n").append(head_text(pass.profile, width));
     for (const StepRow& row : rows)
         text += row_text(row, format, width);
-    text += "\n";
+    return text + "\n" + item_verdict_text(pass, item, rows);
+}
+
+std::string item_verdict_text(const JudgedPass& pass, std::size_t item, const std::vector<StepRow>& rows) {
     if (same_item(pass.reference, pass.gpu, item))
-        return text + "verdict   every bit agrees\n";
+        return "verdict   every bit agrees\n";
     const ItemVerdict verdict = judge_item(pass, item);
-    text += fmt::format("verdict   {}", class_names[static_cast<std::size_t>(verdict.kind)]);
+    std::string text = fmt::format("verdict   {}", class_names[static_cast<std::size_t>(verdict.kind)]);
     if (verdict.tie)
         text +=
             fmt::format(": {}, margin {:.3g} {}", verdict.tie->kind.name, verdict.tie->margin, verdict.tie->kind.unit);
@@ -73,7 +76,7 @@ std::string explain_item(const JudgedPass& pass, std::size_t item, std::span<con
         text += fmt::format("first     {}: {}\n", first->label, first->reason);
     const auto outcomes = pass.pass.outcomes(pass.input(), item, pass.profile, pass.known, &pass.gpu);
     for (const ItemOutcome& outcome : outcomes)
-        text += fmt::format("legal     {}\n", outcome_text(outcome, about));
+        text += fmt::format("legal     {}\n", outcome_text(outcome, pass.gpu.about()));
     return text;
 }
 

@@ -2,7 +2,9 @@
 #include <cstddef>
 #include <span>
 #include <string>
+#include <vector>
 
+#include "crosscheck/judge/step_row.hpp"
 #include "crosscheck/judge/system_check.hpp"
 #include "crosscheck/report/report.hpp"
 #include "crosscheck/report/value_text.hpp"
@@ -15,6 +17,9 @@ namespace lockstep {
 std::string explain_item(SystemRun& run, std::size_t item, NumberFormat format = NumberFormat::decimal);
 std::string explain_item(const JudgedPass& pass, std::size_t item, std::span<const ToldValue> told,
                          NumberFormat format);
+
+/// The verdict on it, the first of its rows that is wrong, and every legal outcome.
+std::string item_verdict_text(const JudgedPass& pass, std::size_t item, const std::vector<StepRow>& rows);
 
 /// What an outcome's fields may be, and the ties on the way to it.
 std::string outcome_text(const ItemOutcome& outcome, const Resource& about);

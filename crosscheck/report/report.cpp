@@ -194,8 +194,8 @@ std::string growth_text(const CheckReport& r) {
 
 nlohmann::json counts_json(const CheckReport& r) {
     nlohmann::json columns{"frame"};
-    for (const Resource& resource : r.schema.resources)
-        columns.push_back(resource.item + "s");
+    for (std::uint8_t k = 0; k < r.schema.resources.size(); ++k)
+        columns.push_back(item_key(r.schema, k) + "s");
     columns.push_back("worst_ulp");
     nlohmann::json rows = nlohmann::json::array();
     for (const FrameCount& count : r.counts) {
@@ -430,7 +430,7 @@ nlohmann::json report_json(const CheckReport& r, const RunDescription& run) {
                 {"notes", run.notes},
                 {"explain", run.explain.empty() ? json() : json(run.explain)}};
     for (std::uint8_t k = 0; k < r.schema.resources.size(); ++k)
-        report[fmt::format("differing_{}s", r.schema.resources[k].item)] = r.total.differing(k);
+        report[fmt::format("differing_{}s", item_key(r.schema, k))] = r.total.differing(k);
     return report;
 }
 

@@ -144,7 +144,7 @@ nlohmann::json place_json(const Place& place, const Shape& shape) {
     const Resource& resource = shape.schema.resources[place.resource];
     nlohmann::json item =
         nlohmann::json::parse(fmt::format("[{}]", item_argument(resource, shape.extent(place.resource), place.index)));
-    return {{"frame", place.frame}, {resource.item, item.size() == 1 ? item[0] : item}};
+    return {{"frame", place.frame}, {item_key(shape.schema, place.resource), item.size() == 1 ? item[0] : item}};
 }
 
 nlohmann::json cause_json(const CauseFindings& found) {
@@ -249,8 +249,9 @@ nlohmann::json verdict_json(const VerdictSummary& s, const Schema& schema, std::
         {"lean", lean_json(s)},
         {"first", first}};
     for (std::size_t r = 0; r < s.classes.size(); ++r) {
-        verdicts[schema.resources[r].item + "s"] = counts_json(s.classes[r]);
-        verdicts[schema.resources[r].item + "_cause"] = cause_json(s.causes[r]);
+        const std::string key = item_key(schema, static_cast<std::uint8_t>(r));
+        verdicts[key + "s"] = counts_json(s.classes[r]);
+        verdicts[key + "_cause"] = cause_json(s.causes[r]);
     }
     return verdicts;
 }

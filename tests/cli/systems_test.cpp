@@ -1,8 +1,10 @@
+#include <algorithm>
 #include <filesystem>
 #include <fstream>
 #include <iterator>
 
 #include <catch2/catch.hpp>
+#include <nlohmann/json.hpp>
 
 #include "tests/cli/cli_checks.hpp"
 #include "tests/cli/run_program.hpp"
@@ -52,8 +54,8 @@ TEST_CASE("systems: verbs of the collision system refuse another's scene and nam
                    Contains("is a scene of system dust, which bench, capsule, check, explain, hash and render run") ||
                        Contains("-o") || Contains("--output"));
     }
-    CHECK(refusal(run_lockstep({"check", scene, "--report", "page"})) ==
-          "check: --report does not go with a scene of system dust");
+    CHECK(refusal(run_lockstep({"check", scene, "--require-hits"})) ==
+          "check: --require-hits does not go with a scene of system dust");
     CHECK(refusal(run_lockstep({"explain", scene, "--frame", "1", "--particle", "2"})) ==
           "explain: of a scene of system dust, --item I is needed");
 }
@@ -133,6 +135,52 @@ TEST_CASE("systems: check agrees on the shipped kernels and names a planted mist
     mine.write("updat.comp", "#version 430 core\nvoid main() {}\n");
     CHECK_THAT(refusal(run_lockstep(test::joined(check, {"--shaders", mine.path()}))),
                Contains("updat.comp would not run in this scene"));
+}
+
+TEST_CASE("systems: check leaves a page with the first items' steps, a capsule, hashes and pictures") {
+    if (!test::have_software_gl())
+        return;
+    const test::TemporaryFolder data, mine, out;
+    std::filesystem::create_directory_symlink(std::filesystem::absolute("shaders"), data.path() / "shaders");
+    data.write("report.html", "<main></main>\n<!-- lockstep data -->\n");
+    plant(mine);
+    const std::string folder = (out.path() / "page").string(), hashes = (out.path() / "hashes").string();
+    const std::vector<std::string> check =
+        on_gl({"check", scene, "--particles", "200", "--frames", "4", "--report", folder, "--hashes", hashes,
+               "--images", folder, "--shaders", mine.path().string()});
+    const test::Surroundings with_page{.environment = {{"LOCKSTEP_DATA", data.path().string()}}};
+    const test::Outcome outcome = run_lockstep(check, with_page);
+    INFO(outcome.err);
+    REQUIRE(outcome.status == 1);
+    CHECK(test::names_in(folder) == std::vector<std::string>{"capsule.json", "frame_difference.png", "frame_gpu.png",
+                                                             "frame_reference.png", "report.html"});
+    const auto text_of = [](const std::string& file) {
+        std::ifstream stream(file, std::ios::binary);
+        return std::string(std::istreambuf_iterator<char>(stream), {});
+    };
+    const std::string page = text_of(folder + "/report.html");
+    const std::string start = "id=\"lockstep-head\">";
+    const std::size_t from = page.find(start) + start.size();
+    const auto head = nlohmann::json::parse(page.substr(from, page.find("</script>", from) - from));
+    CHECK(head.at("report").at("verdict") == "DIVERGENT");
+    CHECK(head.at("items").size() == 12);
+    CHECK(head.at("items")[0].at("step") == "velocity.y");
+    CHECK(head.at("system").at("passes")[2].at("differing") == 800);
+    CHECK_THAT(head.at("text").get<std::string>(), Contains("gravity_missing"));
+
+    const test::Outcome shown = run_lockstep({"capsule", "show", folder + "/capsule.json"});
+    CHECK(shown.status == 1);
+    CHECK_THAT(shown.out, Contains("grain 0 in frame 0, pass update"));
+    const std::string lines = text_of(hashes);
+    CHECK(std::count(lines.begin(), lines.end(), '\n') == 4);
+    CHECK_THAT(lines, Contains(outcome.out.substr(outcome.out.find("GPU ", outcome.out.find("hash ")) + 4, 16)));
+
+    const std::string in_the_way = out.write("way", "in the").string();
+    CHECK(refusal(run_lockstep(on_gl({"check", scene, "--frames", "1000000", "--report", in_the_way}), with_page)) ==
+          in_the_way + ": cannot be made a folder: a file of that name is in the way");
+    CHECK_THAT(refusal(run_lockstep(on_gl({"check", scene, "--report", folder, "--json", folder + "/report.html"}),
+                                    with_page)),
+               Contains("report.html"));
 }
 
 TEST_CASE("systems: explain shows one item's step in a pass that runs") {

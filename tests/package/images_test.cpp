@@ -6,9 +6,12 @@
 
 #include <catch2/catch.hpp>
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 #include <lockstep/catch.hpp>
 #include <lockstep/system.hpp>
+#include <nlohmann/json.hpp>
 
+#include "crosscheck/report/page/system_page.hpp"
 #include "reference/system/item_words.hpp"
 #include "tests/temporary_folder.hpp"
 
@@ -248,6 +251,33 @@ TEST_CASE("images: what is told of a texel names its column, row and layer, in e
         SystemRun run(twins, side, measured_operations(side.describe().profile), 1, pass);
         CHECK_THAT(explain_item(run, item), Catch::StartsWith(name));
         CHECK_THAT(item_capsule_text(cut_item_capsule(run, item, "here"), twins), Catch::StartsWith(name));
+    }
+}
+
+TEST_CASE("images: the report page of a program of one's own has the texels that differ, by column and row") {
+    if (!gl())
+        return skip(gl().missing());
+    const TemporaryFolder folder;
+    const System twins = system();
+    GlSystemSide side(gl(), twins, passes(), planted(folder, "spread.comp", "0.5 *", "0.25 *"));
+    SystemPage seen(twins, side, 3);
+    CheckOptions options;
+    options.frames = 3;
+    const CheckReport report =
+        check(twins, side, options, {[&](const CheckedPass& checked) { seen.add(checked); }, {}});
+    CHECK(report.verdict == Verdict::divergent);
+    const std::string page = seen.text(
+        "<!-- lockstep data -->", report, {}, {},
+        [](const std::vector<std::string>& words) { return fmt::format("{}", fmt::join(words, " ")); }, "");
+    const std::string start = "id=\"lockstep-head\">";
+    const std::size_t from = page.find(start) + start.size();
+    const auto head = nlohmann::json::parse(page.substr(from, page.find("</script>", from) - from));
+    CHECK(head.at("system").at("extents")[haze] == nlohmann::json{8, 4, 2});
+    REQUIRE(!head.at("items").empty());
+    for (const auto& item : head.at("items")) {
+        CHECK(item.at("pass") == 1);
+        CHECK_THAT(item.at("name").get<std::string>(), Catch::Matches("cell \\(\\d, \\d, \\d\\)"));
+        CHECK_THAT(item.at("command").get<std::string>(), Catch::Contains("--pass spread --item "));
     }
 }
 

@@ -7,29 +7,12 @@
 
 #include "crosscheck/collision/page/live_scene.hpp"
 #include "crosscheck/report/page/blob.hpp"
-#include "crosscheck/report/page/template.hpp"
-#include "crosscheck/scene/schema_json.hpp"
 #include "reference/model/collision/layered_cdt.hpp"
 
 namespace lockstep {
 namespace {
 
 using nlohmann::json;
-
-std::string text_of(const json& data) { return data.dump(-1, ' ', false, json::error_handler_t::replace); }
-
-std::string packed(const json& data) { return base64(deflated(text_of(data))); }
-
-/// JSON that no HTML parser takes for the end of the script element.
-std::string inside_script(std::string text) {
-    for (std::size_t at = 0; (at = text.find('<', at)) != std::string::npos; at += 6)
-        text.replace(at, 1, "\\u003c");
-    return text;
-}
-
-std::string element(std::string_view id, std::string_view type, std::string_view content) {
-    return fmt::format("<script type=\"{}\" id=\"lockstep-{}\">{}</script>\n", type, id, content);
-}
 
 json item_json(const ExplainedItem& explained, int width) {
     const PageItem& item = explained.item;
@@ -71,43 +54,33 @@ void PageCollector::add(const ComparedFrame& frame) {
 std::string report_page(std::string_view page_template, const PageCollector& run, const CheckReport& report,
                         const RunDescription& description, const std::vector<PageCommand>& commands,
                         const std::vector<ExplainedItem>& items, const json& study) {
-    const std::size_t place = page_template.find(page_data_marker);
-
     json tables = json::array(), listed = json::array();
     for (const ExplainedItem& item : items) {
         listed.push_back(item_json(item, run.scene().width));
         tables.push_back(item.told);
     }
     const CollisionImage cdt = empty_cdt(run.scene());
-    json lines = json::array();
-    for (const PageCommand& command : commands)
-        lines.push_back({{"what", command.what}, {"line", command.line}});
-    json head{{"report", report_json(report, description)},
-              {"text", report_text(report, description)},
-              {"schema", schema_json(report.schema)},
-              {"width", cdt.width},
-              {"height", cdt.height},
-              {"plane_height", run.scene().height},
-              {"format", switch_value(run.scene().switches, "cdt_format")},
-              {"commands", lines},
-              {"items", listed},
-              {"study", study}};
+    json head = page_head(report, description, commands);
+    head.update({{"width", cdt.width},
+                 {"height", cdt.height},
+                 {"plane_height", run.scene().height},
+                 {"format", switch_value(run.scene().switches, "cdt_format")},
+                 {"items", listed},
+                 {"study", study}});
     std::string blobs;
-    const auto add = [&](const std::string& id, const std::string& base64) {
-        blobs += element(id, "application/octet-stream", base64);
-    };
-    add("series", packed(run.series().json()));
-    add("tables", packed(tables));
+    const auto add = [&](const std::string& id, const std::string& base64) { blobs += blob_element(id, base64); };
+    add("series", packed_json(run.series().json()));
+    add("tables", packed_json(tables));
     const LiveScene live = live_scene(run.scene(), report.frames, run.profile());
     const std::string arrays = base64(deflated(live.arrays.str()));
     constexpr std::size_t room_for_live = 3'000'000;
     const bool fits = arrays.size() <= room_for_live;
     add("live",
-        packed(fits ? live.head : json{{"unavailable", "its particles and obstacles have no room on the page"}}));
+        packed_json(fits ? live.head : json{{"unavailable", "its particles and obstacles have no room on the page"}}));
     add("live-arrays", fits ? arrays : base64(deflated("")));
 
     constexpr std::size_t of_head = 60'000; // the list of frames is not in it yet
-    const std::size_t used = page_template.size() + blobs.size() + text_of(head).size() + of_head;
+    const std::size_t used = page_template.size() + blobs.size() + page_text(head).size() + of_head;
     json frames = json::array();
     for (const KeptFrame& frame : run.frames().within(largest_page - std::min(used, largest_page))) {
         const std::string& detail = frame.whole.empty() ? frame.detail : frame.whole;
@@ -122,11 +95,7 @@ std::string report_page(std::string_view page_template, const PageCollector& run
     }
     head["frames"] = std::move(frames);
 
-    std::string page(page_template.substr(0, place));
-    page += element("head", "application/json", inside_script(text_of(head)));
-    page += blobs;
-    page += page_template.substr(place + page_data_marker.size());
-    return page;
+    return filled_page(page_template, head, blobs);
 }
 
 } // namespace lockstep

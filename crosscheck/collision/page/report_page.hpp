@@ -9,12 +9,10 @@
 #include "crosscheck/collision/judge/check.hpp"
 #include "crosscheck/collision/page/frame_keeper.hpp"
 #include "crosscheck/collision/page/series.hpp"
+#include "crosscheck/report/page/page_parts.hpp"
 #include "crosscheck/report/report.hpp"
 
 namespace lockstep {
-
-/// Bytes that a report page has at most.
-inline constexpr std::size_t largest_page = 5'000'000;
 
 /// Gathers what the report page shows while a check runs.
 class PageCollector {
@@ -44,12 +42,6 @@ struct ExplainedItem {
     PageItem item;
     std::string command; ///< shows the same in a terminal
     nlohmann::json told; ///< explained(), or null where it could not be made
-};
-
-/// A command line, and what it shows again.
-struct PageCommand {
-    std::string what;
-    std::string line;
 };
 
 /// The page: `page_template` (template.hpp) with the run's data in it; one file, at most largest_page bytes unless the

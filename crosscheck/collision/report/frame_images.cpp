@@ -6,6 +6,7 @@
 #include "crosscheck/collision/judge/render_judge.hpp"
 #include "crosscheck/collision/report/pictures.hpp"
 #include "crosscheck/files/png.hpp"
+#include "crosscheck/report/picture_difference.hpp"
 #include "gpu/collision/render_pass.hpp"
 #include "reference/collision/render_pass.hpp"
 

@@ -65,17 +65,4 @@ ColorImage difference_picture(const CollisionImage& reference, const CollisionIm
     return image;
 }
 
-ColorImage difference_picture(const ColorImage& reference, const ColorImage& gpu) {
-    ColorImage image = reference;
-    for (std::size_t i = 0; i < image.texels.size(); ++i) {
-        Rgba8& pixel = image.texels[i];
-        if (pixel == gpu.texels[i])
-            pixel = {static_cast<std::uint8_t>(pixel.r / 3), static_cast<std::uint8_t>(pixel.g / 3),
-                     static_cast<std::uint8_t>(pixel.b / 3), 255};
-        else
-            pixel = value_differs;
-    }
-    return image;
-}
-
 } // namespace lockstep

@@ -14,7 +14,4 @@ Box code_box(const CollisionImage& cdt);
 /// Where two CDTs differ: grey equal, dark empty on both, red a differing value, yellow drawn on one side only.
 ColorImage difference_picture(const CollisionImage& reference, const CollisionImage& gpu);
 
-/// Where two rendered frames differ, in red on a dimmed copy of the first.
-ColorImage difference_picture(const ColorImage& reference, const ColorImage& gpu);
-
 } // namespace lockstep

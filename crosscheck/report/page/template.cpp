@@ -8,6 +8,7 @@
 
 #include <fmt/format.h>
 
+#include "gpu/data_folder.hpp"
 #include "reference/model/error.hpp"
 
 namespace lockstep {
@@ -19,7 +20,11 @@ std::vector<fs::path> places() {
         return {fs::path(data) / "report.html"};
     std::error_code error;
     const fs::path program = fs::read_symlink("/proc/self/exe", error);
-    return {program.parent_path().parent_path() / "share" / "lockstep" / "report.html", LOCKSTEP_REPORT_PAGE};
+    std::vector<fs::path> all{program.parent_path().parent_path() / "share" / "lockstep" / "report.html"};
+    if (!package_data_folder().empty())
+        all.push_back(package_data_folder() / "report.html");
+    all.emplace_back(LOCKSTEP_REPORT_PAGE);
+    return all;
 }
 
 } // namespace

@@ -5,7 +5,8 @@
 namespace lockstep {
 
 /// The page that scripts/build_report_page.sh builds, without data: $LOCKSTEP_DATA/report.html, else
-/// share/lockstep/report.html of the installation the program is in, else build/report_page/ of its source tree.
+/// share/lockstep/report.html of the installation the program is in, else of the package it was linked with, else
+/// build/report_page/ of its source tree.
 /// Throws Error saying what to run if there is none, or it has no place for data.
 std::string report_page_template();
 

@@ -1,5 +1,6 @@
 // The frame slider, and the CDT of both sides with their difference in the frame it stands on.
 import { h, section } from "./dom.js";
+import { frameSlider } from "./frame_slider.js";
 import { counted, grouped } from "./numbers.js";
 import { CLASS_NAMES, readPicture, SAME } from "./picture.js";
 
@@ -137,34 +138,6 @@ export class Frames {
     return `Pictures of ${of}, ${values[this.kept.detail]}.${untold}`;
   }
 
-  slider() {
-    const { selection } = this;
-    const range = h("input", { type: "range", id: "frame", min: "0", max: String(selection.last), step: "1", value: String(selection.frame), input: () => selection.setFrame(Number(range.value)) });
-    const number = h("input", { type: "number", id: "frame-number", "aria-label": "frame number", min: "0", max: String(selection.last), value: String(selection.frame), change: () => selection.setFrame(Number(number.value)) });
-    const go = (text, words, frame) => h("button", { type: "button", title: words, "aria-label": words, click: () => frame() !== undefined && selection.setFrame(frame()) }, text);
-    const marks = h("div", { class: "marks", "aria-hidden": "true" });
-    const along = (frame) => `left: ${selection.last ? (100 * frame) / selection.last : 0}%`;
-    for (const kept of this.head.frames) marks.append(h("span", { class: kept.differs ? "differs" : "", style: along(kept.frame) }));
-    selection.addEventListener("frame", () => {
-      range.value = number.value = String(selection.frame);
-    });
-    return h(
-      "div",
-      { class: "slider" },
-      h("label", { for: "frame" }, "Frame"),
-      h("div", { class: "track" }, range, marks),
-      number,
-      h(
-        "div",
-        { class: "buttons" },
-        go("‹", "One frame back", () => selection.frame - 1),
-        go("›", "One frame on", () => selection.frame + 1),
-        go("‹ ≠", "The frame before that differs", () => this.differing.findLast((f) => f < selection.frame)),
-        go("≠ ›", "The next frame that differs", () => this.differing.find((f) => f > selection.frame)),
-      ),
-    );
-  }
-
   // One of the three pictures; the pointer and the arrow keys choose a texel, a click or Enter asks for its steps.
   figure(side, title) {
     const { width, height } = this.head;
@@ -257,7 +230,7 @@ export class Frames {
     const part = section(
       "frames",
       "Frame by frame",
-      this.slider(),
+      frameSlider(this.selection, this.head.frames, this.differing),
       statistics,
       h("div", { class: "pictures" }, SIDES.map(([side, title]) => this.figure(side, title))),
       words,

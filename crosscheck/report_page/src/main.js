@@ -1,5 +1,5 @@
 import "./style.css";
-import { causeSection, pageHeader, verdictSection } from "./verdict_section.js";
+import { causeSection, pageHeader, powerSection, verdictSection } from "./verdict_section.js";
 import { chartSection } from "./chart_section.js";
 import { commandsSection } from "./commands_section.js";
 import { jsonBlob, readHead } from "./data.js";
@@ -12,6 +12,7 @@ import { liveSection } from "./live/live_section.js";
 import { Selection } from "./selection.js";
 import { stepsSection } from "./steps_section.js";
 import { studySection } from "./study_section.js";
+import { showSystem } from "./system_sections.js";
 
 // A click on a texel shows the steps of the item there, if they are on the page.
 function openClickedItems(head, frames, selection) {
@@ -44,6 +45,14 @@ async function start() {
   const add = (part) => part && content.append(part);
   add(verdictSection(head));
   add(causeSection(head));
+  if (head.system) {
+    add(powerSection(head));
+    await showSystem(head, add);
+    add(commandsSection(head));
+    document.getElementById("foot").append(h("p", {}, "Written by lockstep."));
+    document.documentElement.dataset.ready = "true";
+    return;
+  }
 
   const series = await jsonBlob("series");
   // A run that did not repeat itself ends before anything is compared.

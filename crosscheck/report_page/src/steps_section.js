@@ -12,7 +12,7 @@ function cell(value) {
   return h("td", { class: "number" }, value.value ?? "", value.hex ? h("span", { class: "hex" }, value.hex) : null, value.text ? h("span", { class: "word" }, value.value ? " " : "", value.text) : null);
 }
 
-function rowsTable(caption, rows, profile) {
+export function rowsTable(caption, rows, profile) {
   let first = true;
   return h(
     "table",
@@ -79,7 +79,7 @@ function neighbourhood(round) {
   );
 }
 
-const valueText = (values) => (values.length === 1 ? values[0].value : `(${values.map((v) => v.value).join(", ")})`);
+export const valueText = (values) => (values.length === 1 ? values[0].value : `(${values.map((v) => v.value).join(", ")})`);
 
 function particlePart(particle, profile) {
   const { before } = particle;

@@ -1,6 +1,7 @@
 // The top of the page: the verdict, what ran where, and where a difference first shows.
-import { commandLine, h, section } from "./dom.js";
+import { commandLine, h, scrolling, section } from "./dom.js";
 import { counted, grouped } from "./numbers.js";
+import { counts, everyItem, placeName } from "./schema.js";
 import { themeButton } from "./theme.js";
 import { VERDICTS } from "./words.js";
 
@@ -13,31 +14,41 @@ export function pageHeader(head) {
   ];
 }
 
+// What of the run is counted: of a system's own all values, of the listing's what happened besides.
+function compared({ report, system }) {
+  const values = Object.values(report.fields).reduce((sum, field) => sum + field.compared, 0);
+  return system ? counted(values, "value") : `${counted(values, "float")}; ${counted(report.hits, "hit")}, ${counted(report.drawn_texels, "texel")} drawn`;
+}
+
 function facts(head) {
-  const { report } = head;
-  const compared = Object.values(report.fields).reduce((sum, field) => sum + field.compared, 0);
+  const { report, schema, system } = head;
   const hash =
     report.hash.reference === report.hash.gpu
       ? `${report.hash.gpu} on both sides`
       : `reference ${report.hash.reference}, GPU ${report.hash.gpu}`;
+  const picture = system ? system.drawn : report.render.text;
   const rows = [
     ["Renderer", report.context],
     ["Shaders", report.shaders.text],
-    ["Rendered frame", report.render.text],
+    ["Rendered frame", picture],
     ["Profile", report.profile],
     ["Switches", report.switches],
-    ["Run", `${counted(report.particles, "particle")}, ${report.partial ? `${report.frames} of ${counted(report.frames_asked, "frame")}` : counted(report.frames, "frame")}, ${report.mode}`],
-    ["Compared", `${counted(compared, "float")}; ${counted(report.hits, "hit")}, ${counted(report.drawn_texels, "texel")} drawn`],
+    ["Run", `${counted(report.particles, schema.resources[0].item)}, ${report.partial ? `${report.frames} of ${counted(report.frames_asked, "frame")}` : counted(report.frames, "frame")}, ${report.mode}`],
+    ["Compared", compared(head)],
     ["State hash", hash],
   ];
-  return h("dl", { class: "facts" }, rows.map(([name, value]) => h("div", {}, h("dt", {}, name), h("dd", {}, value))));
+  return h("dl", { class: "facts" }, rows.filter(([, value]) => value).map(([name, value]) => h("div", {}, h("dt", {}, name), h("dd", {}, value))));
 }
 
+const anyDiffers = ({ report, schema }) => counts(schema).some(({ differing }) => report[differing] > 0);
+
 function differences(head) {
-  const { report } = head;
-  if (report.differing_particles + report.differing_texels === 0)
-    return `${counted(report.particles, "particle")} and the CDT, in ${counted(report.frames, "frame")}.`;
-  return `${counted(report.differing_particles, "particle state")} and ${counted(report.differing_texels, "texel")} differ in ${counted(report.frames, "frame")}, the first in frame ${report.first_frame}.`;
+  const { report, schema } = head;
+  const frames = counted(report.frames, "frame");
+  const [first, ...others] = counts(schema);
+  if (!anyDiffers(head)) return `${[counted(report.particles, first.item), ...others.map(({ title }) => title)].join(" and ")}, in ${frames}.`;
+  const differ = counts(schema).filter(({ differing }) => !head.system || report[differing] > 0);
+  return `${differ.map((of) => counted(report[of.differing], of.state)).join(" and ")} differ in ${frames}, the first in frame ${report.first_frame}.`;
 }
 
 // What the verdict does not say: it is not to be read without.
@@ -61,7 +72,7 @@ export function verdictSection(head) {
       "div",
       { class: `verdict ${tone}` },
       h("p", { class: "word" }, h("span", { class: "mark", "aria-hidden": "true" }, verdict.mark), head.report.verdict, head.report.partial ? " (partial)" : ""),
-      h("div", {}, h("p", { class: "says" }, verdict.says), h("p", { class: "muted" }, differences(head))),
+      h("div", {}, h("p", { class: "says" }, typeof verdict.says === "function" ? verdict.says(everyItem(head.schema)) : verdict.says), h("p", { class: "muted" }, differences(head))),
     ),
     limited.map((text) => h("p", { class: "warning note" }, text)),
     facts(head),
@@ -70,23 +81,24 @@ export function verdictSection(head) {
 }
 
 function classCounts(head) {
-  const { particles, texels } = head.report.verdicts;
-  const rows = Object.keys(particles)
-    .filter((name) => particles[name] + texels[name] > 0)
+  const { verdicts } = head.report;
+  const all = counts(head.schema);
+  const columns = head.system ? all.filter(({ differing }) => head.report[differing] > 0) : all;
+  const rows = Object.keys(verdicts[all[0].classes])
+    .filter((name) => columns.some(({ classes }) => verdicts[classes][name] > 0))
     .map((name) =>
       h(
         "tr",
         {},
         h("th", { scope: "row" }, h("span", { class: `class ${name}` }, name)),
-        h("td", { class: "number" }, grouped(particles[name])),
-        h("td", { class: "number" }, grouped(texels[name])),
+        columns.map(({ classes }) => h("td", { class: "number" }, grouped(verdicts[classes][name]))),
       ),
     );
   return h(
     "table",
     { class: "plain" },
     h("caption", {}, "All that differs, by class"),
-    h("thead", {}, h("tr", {}, ["class", "particle states", "texels"].map((text) => h("th", { scope: "col" }, text)))),
+    h("thead", {}, h("tr", {}, ["class", ...columns.map(({ states }) => states)].map((text) => h("th", { scope: "col" }, text)))),
     h("tbody", {}, rows),
   );
 }
@@ -95,7 +107,7 @@ function firstPlace(head) {
   const { first } = head.report.verdicts;
   if (!first) return null;
   const at = first.place;
-  const where = at.texel ? `texel (${at.texel.join(", ")})` : `particle ${at.particle}`;
+  const where = placeName(head.schema, at);
   const rows = [
     ["Where", `frame ${at.frame}, ${where}, step “${first.step}”`],
     ["Reference", first.operation],
@@ -151,16 +163,33 @@ function causeCard(found, what) {
 
 // Nothing for a run without differences.
 export function causeSection(head) {
-  const verdicts = head.report.verdicts;
-  if (!verdicts || head.report.differing_particles + head.report.differing_texels === 0) return null;
+  const { verdicts } = head.report;
+  if (!verdicts || !anyDiffers(head)) return null;
   return section(
     "cause",
     "What differs, and why",
     h(
       "div",
       { class: "cards" },
-      h("div", { class: "stack" }, causeCard(verdicts.particle_cause, "particles"), causeCard(verdicts.texel_cause, "texels"), h("div", { class: "card" }, classCounts(head))),
+      h("div", { class: "stack" }, counts(head.schema).map(({ cause, many }) => causeCard(verdicts[cause], many)), h("div", { class: "card" }, classCounts(head))),
       firstPlace(head),
     ),
+  );
+}
+
+// Which mistakes with names the run would have shown, and why not the others.
+export function powerSection({ report }) {
+  const { power } = report;
+  if (power.list.length === 0) return null;
+  const rows = power.list.map((mistake) =>
+    h("tr", {}, h("th", { scope: "row" }, mistake.name), h("td", {}, mistake.frame === undefined ? "not" : `frame ${grouped(mistake.frame)}`), h("td", {}, mistake.why_not ?? mistake.meaning)),
+  );
+  const listed = h("table", { class: "plain" }, h("thead", {}, h("tr", {}, ["mistake", "shows first", ""].map((text) => (text ? h("th", { scope: "col" }, text) : h("td", {}))))), h("tbody", {}, rows));
+  return section(
+    "power",
+    "What the run would have shown",
+    h("p", {}, `${power.seen} of ${counted(power.mistakes, "mistake")} with names would have shown in the states that this run had.`),
+    power.unseen.length > 0 ? h("p", { class: "warning note" }, `Not: ${power.unseen.join(", ")}.`) : null,
+    h("details", {}, h("summary", {}, "Each of them"), scrolling("mistakes", listed)),
   );
 }

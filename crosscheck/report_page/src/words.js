@@ -1,7 +1,7 @@
 // Verdicts and classes in plain words.
 
 export const VERDICTS = {
-  AGREE: { tone: "good", mark: "✓", says: "Every bit of every particle and texel is the same on both sides." },
+  AGREE: { tone: "good", mark: "✓", says: (items) => `Every bit of every ${items} is the same on both sides.` },
   LEGAL: {
     tone: "good",
     mark: "≈",

@@ -253,28 +253,23 @@ template <class A> class Candidates {
         const glm::vec3 position = interpolation.mix(fp_, positions, weights);
         owner.code = code_.encode(position);
         owner.reference_depth = interpolation.depth(weights);
-        owner.depth = owner.reference_depth;
-        glm::vec3 bound(0.0F);
-        if (!arithmetic_.known().interpolation) {
-            for (int k = 0; k < 3; ++k)
-                bound[k] = interpolation_bound(positions[0][k], positions[1][k], positions[2][k]);
-            owner.code_range = {code_.encode(position - bound), code_.encode(position + bound)};
-            const double error = depth_bound(corners);
-            owner.depth = {owner.reference_depth - error, owner.reference_depth + error};
-        }
-        glm::vec3 low = position - bound, high = position + bound;
-        if (corners_open()) {
-            const LegalFragment legal =
+        LegalFragment legal{{position.x, position.y, position.z}, owner.reference_depth};
+        if (corners_open())
+            legal =
                 legal_fragment({legal_corner(positions[0]), legal_corner(positions[1]), legal_corner(positions[2])},
                                positions, x, y, params_.width, params_.height);
+        owner.depth = legal.depth;
+        glm::vec3 low = position, high = position;
+        if (corners_open() || !known().interpolation) {
             for (int k = 0; k < 3; ++k) {
                 const Interval& place = legal.position[static_cast<std::size_t>(k)];
-                const float rounding = interpolation_bound(positions[0][k], positions[1][k], positions[2][k]);
-                low[k] = static_cast<float>(place.low) - rounding;
-                high[k] = static_cast<float>(place.high) + rounding;
+                const float bound = interpolation_bound(positions[0][k], positions[1][k], positions[2][k]);
+                low[k] = static_cast<float>(place.low) - bound;
+                high[k] = static_cast<float>(place.high) + bound;
             }
             owner.code_range = {code_.encode(low), code_.encode(high)};
-            owner.depth = {legal.depth.low - depth_bound(corners), legal.depth.high + depth_bound(corners)};
+            const double error = depth_bound(corners);
+            owner.depth = {legal.depth.low - error, legal.depth.high + error};
         }
         if (converts_.triangles)
             owner.code_range = code_.driver_codes(low, high);

@@ -102,6 +102,14 @@ template <class R> class EmitterTwin {
             return false;
         return r.decide(site::survives, Particle<R>(r, host_, words_of(slot_at(place))).remaining() > 0.0F);
     }
+    /// The slot of the `rank`-th survivor of `d` that may die, `seen` of which come before `place`.
+    [[nodiscard]] std::optional<std::uint32_t> survivor(std::uint32_t rank, std::uint32_t d, std::uint32_t place = 0,
+                                                        std::uint32_t seen = 0) const {
+        for (; place < d; ++place)
+            if (survives(place) && seen++ == rank)
+                return slot_at(place);
+        return {};
+    }
     [[nodiscard]] std::uint32_t destroy_groups(std::uint32_t d) const {
         return host_.switches().compaction == Compaction::scan ? blocks_of(d) : groups_of(d);
     }

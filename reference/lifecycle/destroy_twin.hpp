@@ -78,13 +78,10 @@ struct DestroyTwin {
         const std::uint32_t rank = noted(r, site::list_place, emitter.list_place(item)), d = emitter.may_die();
         if (!r.decide(site::is_survivor, rank < emitter.survivors()))
             return listed.record();
-        std::uint32_t block = block_of(in, rank, blocks_of(d));
-        std::uint32_t seen = in.before.word(sum_of_block, of->first_block + block);
-        for (std::uint32_t place = block * 1024U; place < d; ++place)
-            if (emitter.survives(place) && seen++ == rank) {
-                listed.set(site::rank, 0, emitter.slot_at(place));
-                break;
-            }
+        const std::uint32_t block = block_of(in, rank, blocks_of(d));
+        const std::uint32_t seen = in.before.word(sum_of_block, of->first_block + block);
+        if (const auto slot = emitter.survivor(rank, d, block * 1024U, seen))
+            listed.set(site::rank, 0, *slot);
         return listed.record();
     }
 
@@ -109,12 +106,8 @@ struct AppendTwin {
         const EmitterTwin<R> emitter(r, *host, *of, in);
         if (!emitter.may_list(item))
             return listed.record();
-        std::uint32_t seen = 0;
-        for (std::uint32_t place = 0; place < emitter.may_die(); ++place)
-            if (emitter.survives(place) && seen++ == emitter.list_place(item)) {
-                listed.set(site::rank, 0, emitter.slot_at(place));
-                break;
-            }
+        if (const auto slot = emitter.survivor(emitter.list_place(item), emitter.may_die()))
+            listed.set(site::rank, 0, *slot);
         return listed.record();
     }
 };

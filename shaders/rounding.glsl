@@ -15,7 +15,8 @@ float sub(float a, float b) { return ls_add(a, -b); }
 vec3 mul(vec3 v, float s) { return vec3(mul(v.x, s), mul(v.y, s), mul(v.z, s)); }
 vec3 add(vec3 a, vec3 b) { return vec3(add(a.x, b.x), add(a.y, b.y), add(a.z, b.z)); }
 vec3 sub(vec3 a, vec3 b) { return vec3(sub(a.x, b.x), sub(a.y, b.y), sub(a.z, b.z)); }
-vec3 neg(vec3 v) { return vec3(ls_flush(-v.x), ls_flush(-v.y), ls_flush(-v.z)); }
+float neg(float a) { return ls_flush(-a); }
+vec3 neg(vec3 v) { return vec3(neg(v.x), neg(v.y), neg(v.z)); }
 vec3 cross_of(vec3 a, vec3 b) {
     return vec3(sub(mul(a.y, b.z), mul(a.z, b.y)), sub(mul(a.z, b.x), mul(a.x, b.z)), sub(mul(a.x, b.y), mul(a.y, b.x)));
 }

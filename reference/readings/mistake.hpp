@@ -118,7 +118,7 @@ class CameBy {
 /// - of a condition its answer, followed by both operands of each comparison;
 /// - a loop's first, last and step;
 /// - a fetch's x and y, followed by the image's width and height;
-/// - the key by which one is chosen.
+/// - the key by which one is chosen, followed by a second one, 0, by which one is chosen among equals.
 using Formula = void (*)(std::span<float> value, const CameBy& run);
 
 /// One change of a twin at one site.

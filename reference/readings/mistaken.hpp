@@ -268,12 +268,13 @@ template <class A> class Mistaken {
         void offer(At place, const Condition& condition, const Real& key, const Payload& payload) {
             if (!reading_.decide(place, condition))
                 return;
-            std::array<float, 1> by{static_cast<float>(key)};
+            std::array<float, 2> by{static_cast<float>(key), 0.0F};
             if (made_ != nullptr)
                 reading_.ask(*made_, by);
-            if (!better(by[0]))
+            if (!better(by[0]) && !(found_ && by[0] == least_ && by[1] < of_equals_))
                 return;
             least_ = by[0];
+            of_equals_ = by[1];
             turn_ = reading_.loops_begun_;
             const bool adds = change_ == Change::added_up || change_ == Change::units_added_up;
             if (adds && found_)
@@ -309,6 +310,7 @@ template <class A> class Mistaken {
         Change change_;
         const Made* made_;
         float least_;
+        float of_equals_ = 0.0F; ///< what chose among those whose key is the least
         int turn_ = 0;
         std::optional<Payload> found_;
     };

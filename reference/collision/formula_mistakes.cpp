@@ -99,6 +99,27 @@ std::array<float, 3> gravity_of(std::span<const float> before, std::span<const f
             x = 0.0F;
     return g;
 }
+/// One over a whole number where it is near one, as 1/60 s.
+float as_time(float x) {
+    const float rate = std::round(1.0F / x);
+    return rate >= 2.0F && std::abs(1.0F / rate - x) < 1e-4F * x ? 1.0F / rate : written(x);
+}
+std::array<float, 3> counted_of(std::span<const float> before, std::span<const float> after, const Constants&) {
+    return {as_time(before[7] - after[7])};
+}
+std::array<float, 3> moved_for(std::span<const float> before, std::span<const float> after, const Constants&) {
+    std::size_t along = 0;
+    for (std::size_t i = 1; i < 3; ++i)
+        if (std::abs(after[3 + i]) > std::abs(after[3 + along]))
+            along = i;
+    return {as_time((after[along] - before[along]) / (after[3 + along] * after[6]))};
+}
+std::array<float, 3> collide_time_of(std::span<const float>, std::span<const float> after, const Constants&) {
+    return {written(after[7])};
+}
+std::array<float, 3> factor_of(std::span<const float> before, std::span<const float> after, const Constants&) {
+    return {written(after[6] / before[6])};
+}
 template <int axis>
 std::array<float, 3> plane_of(std::span<const float>, std::span<const float> after, const Constants&) {
     return {written(after[axis])};
@@ -271,6 +292,12 @@ void add_fetches(std::vector<FormulaMistake>& all) {
                    holds([](Values v, Run run) { v[0] = run.of(site::neighbour)[2] > 0.0F ? 1.0F : 0.0F; })});
 }
 
+/// Of the neighbour that is offered: its place, counted from the base texel.
+struct Texels {
+    explicit Texels(Run run) : x(run.of(site::own_texel_skipped)[0]), y(run.of(site::own_texel_skipped)[1]) {}
+    float x, y;
+};
+
 /// Which neighbour is answered to.
 void add_choices(std::vector<FormulaMistake>& all) {
     all.push_back({"chebyshev_distance", "the greatest of |x|, |y| and |z| for the distance",
@@ -286,14 +313,38 @@ void add_choices(std::vector<FormulaMistake>& all) {
                    "a row is left at the first in range that is nearest so far",
                    {.site = site::nearest.id, .change = one_a_turn}});
     static const Formula by_texels = [](Values v, Run run) {
-        const auto& offset = run.of(site::own_texel_skipped);
-        v[0] = offset[0] * offset[0] + offset[1] * offset[1];
+        const Texels from_base(run);
+        v[0] = from_base.x * from_base.x + from_base.y * from_base.y;
     };
     static const Mistake last{.site = site::nearest.id, .change = last_of_equals};
     all.push_back({"nearest_in_texels", "the nearest in the image, not in the world",
                    at(site::nearest, chosen_by_formula, by_texels)});
     all.push_back({"last_nearest_in_texels", "the nearest in the image, and the last of equals",
                    at(site::nearest, chosen_by_formula, by_texels, &last)});
+    const auto ends_with = [&](std::string_view name, std::string_view meaning, Formula formula) {
+        all.push_back({name, meaning, at(site::nearest, chosen_by_formula, formula)});
+    };
+    ends_with("search_ends_with_first_ring", "the nearest of the first ring of texels that has one in range",
+              [](Values v, Run run) {
+                  const Texels from_base(run);
+                  v[1] = v[0];
+                  v[0] = std::max(std::abs(from_base.x), std::abs(from_base.y));
+              });
+    ends_with("search_ends_with_first_circle", "the nearest of those in range that are nearest in the image",
+              [](Values v, Run run) {
+                  v[1] = v[0];
+                  by_texels(v, run);
+              });
+    ends_with("search_ends_with_first_row", "the nearest of the first row that has one in range",
+              [](Values v, Run run) {
+                  v[1] = v[0];
+                  v[0] = Texels(run).y;
+              });
+    ends_with("search_ends_with_first_column", "the nearest of the first column that has one in range",
+              [](Values v, Run run) {
+                  v[1] = v[0];
+                  v[0] = Texels(run).x;
+              });
     all.push_back({"range_with_tolerance", "in range up to a tolerance beyond the range",
                    in_range([](Values v, Run run) {
                        v[0] = v[1] < v[2] + run.constants[0] && (v[0] != 0.0F || v[1] != 0.0F) ? 1.0F : 0.0F;
@@ -536,6 +587,17 @@ void add_responses(std::vector<FormulaMistake>& all) {
                    value(site::speed_at_hit, [](Values v, Run run) {
                        v[0] = std::abs(glm::dot(old_velocity(run), unit_away(run))) * params(run).switches.speed_factor;
                    })});
+    static const Formula a_constant = [](Values v, Run run) { v[0] = run.constants[0]; };
+    all.push_back({"collision_time_is_a_constant",
+                   "a constant for u_CollisionTime",
+                   value(site::collide_time_at_hit, a_constant),
+                   {},
+                   collide_time_of});
+    all.push_back({"speed_factor_is_a_constant",
+                   "a constant for u_SpeedFactor",
+                   value(site::speed_factor, a_constant),
+                   {},
+                   factor_of});
     all.push_back({"collide_time_counts_on_at_hit", "at a hit: collide time goes on counting, and is not set",
                    value(site::collide_time_at_hit,
                          [](Values v, Run run) { v[0] = real(run, site::collide_time_before) - tick(run); })});
@@ -591,6 +653,11 @@ void add_fall(std::vector<FormulaMistake>& all) {
                        if (real(run, site::collide_time_before) > 0.0F)
                            set(v, glm::vec3(0.0F));
                    })});
+    all.push_back({"gravity_waits_for_search", "no gravity while the collide time is 0 or above",
+                   value(site::fall, [](Values v, Run run) {
+                       if (real(run, site::collide_time_before) >= 0.0F)
+                           set(v, glm::vec3(0.0F));
+                   })});
     all.push_back({"gravity_only_after_hits", "gravity acts only while the collide time is above 0",
                    value(site::fall, [](Values v, Run run) {
                        if (!(real(run, site::collide_time_before) > 0.0F))
@@ -633,6 +700,18 @@ void add_fall(std::vector<FormulaMistake>& all) {
     all.push_back({"kept_below_z", "positions are kept below a z", plane<2, false>(), {}, plane_of<2>});
     all.push_back({"collide_time_stops_at_zero", "collide time is not counted below 0",
                    value(site::collide_time, [](Values v, Run) { v[0] = std::max(v[0], 0.0F); })});
+    static const Formula a_constant = [](Values v, Run run) { v[0] = run.constants[0]; };
+    all.push_back({"tick_is_a_constant", "a constant for u_Tick", value(site::tick, a_constant), {}, counted_of});
+    all.push_back({"collide_time_counted_by_a_constant",
+                   "no hit: collide time - a constant, not - u_Tick",
+                   value(site::counted, a_constant),
+                   {},
+                   counted_of});
+    all.push_back({"moves_for_a_constant",
+                   "no hit: moves for a constant time, not for u_Tick",
+                   value(site::move, [](Values v, Run run) { set(v, vec3(run, site::step) * run.constants[0]); }),
+                   {},
+                   moved_for});
     all.push_back(
         {"collide_time_counted_by_one", "collide time - 1, not - tick", {.site = site::counted.id, .change = one}});
 }

@@ -119,6 +119,8 @@ glm::vec3 stored_wrongly(glm::vec3 position, const Deviations& deviations, const
         std::swap(position.y, position.z);
     if (deviations.has(stores_x_and_z_swapped))
         std::swap(position.x, position.z);
+    if (deviations.has(position_interpolated))
+        position = position / 3.0F * 3.0F; // as a mean of equal corners may round
     return position;
 }
 

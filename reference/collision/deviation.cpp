@@ -131,6 +131,7 @@ constexpr std::array table{
     DeviationInfo{negative_x_discarded, "negative_x_discarded", "fragments whose position.x < 0 are discarded"},
     DeviationInfo{negative_y_discarded, "negative_y_discarded", "fragments whose position.y < 0 are discarded"},
     DeviationInfo{negative_z_discarded, "negative_z_discarded", "fragments whose position.z < 0 are discarded"},
+    DeviationInfo{position_interpolated, "position_interpolated", "the position is not `flat`, and comes interpolated"},
 };
 static_assert(table.size() == deviation_count);
 

@@ -133,8 +133,9 @@ enum class Deviation {
     negative_x_discarded,
     negative_y_discarded,
     negative_z_discarded,
+    position_interpolated,
 };
-inline constexpr std::size_t deviation_count = static_cast<std::size_t>(Deviation::negative_z_discarded) + 1;
+inline constexpr std::size_t deviation_count = static_cast<std::size_t>(Deviation::position_interpolated) + 1;
 
 /// Whether a run's power is asked about it.
 constexpr bool counts_in_power(Deviation deviation) { return deviation <= Deviation::alpha_missing; }

@@ -1,16 +1,13 @@
 #include "crosscheck/judge/item_cause.hpp"
 
 #include <algorithm>
-#include <array>
+#include <iterator>
 #include <limits>
 #include <numeric>
 #include <span>
 #include <tuple>
 
-#include <fmt/format.h>
-
 #include "crosscheck/judge/item_sample.hpp"
-#include "crosscheck/judge/rounding_only.hpp"
 #include "reference/parallel_blocks.hpp"
 
 namespace lockstep {
@@ -27,10 +24,6 @@ std::vector<std::size_t> spread(const std::vector<std::size_t>& all) {
     return some;
 }
 
-bool sums(const Mistake& mistake) {
-    return mistake.change == Change::added_up || mistake.change == Change::units_added_up;
-}
-
 std::vector<const NamedMistake*> of_pass(const std::vector<NamedMistake>& named, std::string_view pass, bool exact) {
     std::vector<const NamedMistake*> some;
     for (const NamedMistake& one : named)
@@ -42,95 +35,10 @@ std::vector<const NamedMistake*> of_pass(const std::vector<NamedMistake>& named,
 } // namespace
 
 ItemCauseFinder::ItemCauseFinder(const std::vector<NamedMistake>& named, std::string_view pass)
-    : named_(of_pass(named, pass, false)), joint_(of_pass(named, pass, true)) {
+    : named_(of_pass(named, pass, false)), exact_(of_pass(named, pass, true)), joint_(exact_) {
     for (const NamedMistake& one : named)
         if (one.pass == pass && one.describes)
-            describing_.push_back({.mistake = one.mistake, .named = &one});
-}
-
-bool ItemCauseFinder::explains(const Hypothesis& hypothesis, const Trial& trial, std::size_t item) {
-    using Host = Hypothesis::Host;
-    const JudgedPass& p = trial.likeness.pass();
-    const std::vector<Component>& parts = trial.likeness.parts();
-    if (hypothesis.host == Host::unwritten) {
-        const View& before = p.before[p.pass.resource()];
-        return std::all_of(parts.begin(), parts.end(), [&](const Component& c) {
-            return alike(before.value(c.field, item, c.component), p.gpu.value(c.field, item, c.component));
-        });
-    }
-    if (hypothesis.host == Host::field_kept || hypothesis.host == Host::fields_swapped) {
-        const View& before = p.before[p.pass.resource()];
-        return std::all_of(parts.begin(), parts.end(), [&](const Component& c) {
-            const auto [one, other] = hypothesis.fields;
-            const bool kept = hypothesis.host == Host::field_kept;
-            const std::uint8_t from = kept || (c.field != one && c.field != other) ? c.field
-                                      : c.field == one                             ? other
-                                                                                   : one;
-            const View& made = kept && c.field == one ? before : p.reference;
-            return alike(made.value(from, item, c.component), p.gpu.value(c.field, item, c.component));
-        });
-    }
-    const PassInput input{hypothesis.host == Host::earlier_state ? *p.earlier : p.before, p.frame};
-    const auto made = hypothesis.mistake ? std::span(&*hypothesis.mistake, 1) : std::span<const Mistake>();
-    const std::vector<std::uint32_t> words = p.pass.mistaken(input, item, p.profile, made);
-    if (!hypothesis.rounds())
-        return trial.likeness.are_gpus(item, words);
-    return trial.likeness.are_near_gpus(item, words, sums(*hypothesis.mistake) ? summed_ulps : rewritten_ulps);
-}
-
-/// Of one with constants as many as it has.
-void ItemCauseFinder::add_named(std::vector<Hypothesis>& all, const NamedMistake& named, const JudgedPass& pass,
-                                const std::vector<std::size_t>& items) {
-    std::vector<std::array<float, 3>> constants = named.constants;
-    if (named.fit)
-        for (const std::size_t item : sample(items, 4)) {
-            std::vector<float> before, after;
-            for (const Component& c : components(pass.gpu.about())) {
-                before.push_back(pass.before[pass.pass.resource()].value(c.field, item, c.component).real());
-                after.push_back(pass.gpu.value(c.field, item, c.component).real());
-            }
-            const std::array<float, 3> fitted = named.fit(before, after);
-            if (std::find(constants.begin(), constants.end(), fitted) == constants.end())
-                constants.push_back(fitted);
-        }
-    if (constants.empty())
-        all.push_back({.mistake = named.mistake, .named = &named});
-    for (const std::array<float, 3>& c : constants) {
-        Hypothesis& with = all.emplace_back(Hypothesis{.mistake = named.mistake, .named = &named});
-        with.mistake->constants = c;
-        with.text =
-            c[1] == 0.0F && c[2] == 0.0F ? fmt::format(" ({})", c[0]) : fmt::format(" ({}, {}, {})", c[0], c[1], c[2]);
-    }
-}
-
-std::vector<ItemCauseFinder::Hypothesis> ItemCauseFinder::hypotheses(const JudgedPass& pass,
-                                                                     const std::vector<std::size_t>& items) const {
-    std::vector<Hypothesis> all;
-    for (const NamedMistake* named : named_)
-        add_named(all, *named, pass, items);
-    all.push_back({.host = Hypothesis::Host::unwritten, .text = "items_not_written"});
-    if (pass.earlier != nullptr)
-        all.push_back({.host = Hypothesis::Host::earlier_state, .text = "state_of_earlier_frame"});
-    const std::span<const Field> fields = pass.gpu.fields();
-    for (std::uint8_t f = 0; f < fields.size() && fields.size() > 1; ++f) {
-        all.push_back({.host = Hypothesis::Host::field_kept,
-                       .text = fmt::format("{}_not_written", fields[f].name),
-                       .fields = {f}});
-        for (std::uint8_t g = 0; g < f; ++g)
-            if (fields[f].components == fields[g].components && fields[f].scalar == fields[g].scalar)
-                all.push_back({.host = Hypothesis::Host::fields_swapped,
-                               .text = fmt::format("{}_and_{}_swapped", fields[g].name, fields[f].name),
-                               .fields = {g, f}});
-    }
-    std::vector<SeenSite> sites;
-    for (const std::size_t item : items)
-        for (const SeenSite& site : pass.pass.sites(pass.input(), item, pass.profile))
-            if (std::find(sites.begin(), sites.end(), site) == sites.end())
-                sites.push_back(site);
-    for (const Mistake& mistake : mistakes_at(sites))
-        if (std::none_of(all.begin(), all.end(), [&](const Hypothesis& h) { return h.mistake == mistake; }))
-            all.push_back({.mistake = mistake, .text = mistake_text(mistake, sites)});
-    return all;
+            describing_.push_back({.made = {one.mistake}, .named = {&one}});
 }
 
 /// Counts what it explains and what contradicts it, unless its balance is sure to fall below `at_least`: false then.
@@ -140,7 +48,7 @@ bool ItemCauseFinder::hold(Hypothesis& hypothesis, const Trial& trial, std::int6
     for (const std::size_t item : trial.divergent) {
         if (hypothesis.balance() + left-- < at_least)
             return false;
-        if (!explains(hypothesis, trial, item))
+        if (!explains(hypothesis, trial.likeness, item))
             continue;
         ++hypothesis.explained;
         hypothesis.telling += trial.likeness.is_off_by_rounding(item) ? 0 : 1;
@@ -151,7 +59,7 @@ bool ItemCauseFinder::hold(Hypothesis& hypothesis, const Trial& trial, std::int6
     for (const std::size_t item : trial.agreeing) {
         if (hypothesis.balance() < at_least)
             return false;
-        const bool agrees = explains(hypothesis, trial, item);
+        const bool agrees = explains(hypothesis, trial.likeness, item);
         hypothesis.contradicted += agrees ? 0 : 1;
         hypothesis.distinct += agrees && trial.described[item] == 0 ? 1 : 0;
     }
@@ -167,9 +75,9 @@ void ItemCauseFinder::try_all(const Trial& trial) {
     parallel_blocks(static_cast<std::ptrdiff_t>(tried_.size()), [&](std::ptrdiff_t h) {
         const auto at = static_cast<std::size_t>(h);
         for (const std::size_t item : items)
-            if (explains(tried_[at], trial, item))
+            if (explains(tried_[at], trial.likeness, item))
                 ++promise[at];
-            else if (tried_[at].named == nullptr)
+            else if (tried_[at].named.empty())
                 break;
     });
     std::vector<std::size_t> order(tried_.size());
@@ -197,6 +105,72 @@ void ItemCauseFinder::try_all(const Trial& trial) {
         return std::tuple(-a.balance(), a.distinct == 0, a.rank()) <
                std::tuple(-b.balance(), b.distinct == 0, b.rank());
     });
+}
+
+std::vector<Hypothesis> ItemCauseFinder::whole_ones() const {
+    std::vector<Hypothesis> whole;
+    std::copy_if(tried_.begin(), tried_.end(), std::back_inserter(whole),
+                 [&](const Hypothesis& h) { return h.explained == divergent_ && h.contradicted == 0; });
+    return whole;
+}
+
+/// Two at once with names, not both of them exact: of a first frame any, later what explained all before and one more.
+void ItemCauseFinder::try_pairs(const Trial& trial, const std::vector<Hypothesis>& held,
+                                std::uint64_t divergent_before) {
+    constexpr std::size_t few = 16, most_kept = 64;
+    std::vector<Hypothesis> one, other;
+    for (const NamedMistake* named : named_)
+        if (named->constants.empty() && !named->fit)
+            one.push_back({.made = {named->mistake}, .named = {named}});
+    other = one;
+    for (const NamedMistake* named : exact_)
+        other.push_back({.made = {named->mistake}, .named = {named}});
+    if (divergent_before != 0) {
+        one = held;
+        std::erase_if(one, [](const Hypothesis& h) { return h.named.size() != 1 || !h.text.empty(); });
+    }
+    const std::span items(trial.divergent.data(), std::min(few, trial.divergent.size()));
+    std::vector<std::vector<Hypothesis>> kept(one.size());
+    parallel_blocks(static_cast<std::ptrdiff_t>(one.size()), [&](std::ptrdiff_t o) {
+        const auto at = static_cast<std::size_t>(o);
+        for (std::size_t b = divergent_before == 0 ? at + 1 : 0; b < other.size(); ++b) {
+            if (one[at].named == other[b].named)
+                continue;
+            Hypothesis pair{.made = {one[at].made.front(), other[b].made.front()},
+                            .named = {one[at].named.front(), other[b].named.front()}};
+            if (std::all_of(items.begin(), items.end(),
+                            [&](std::size_t item) { return explains(pair, trial.likeness, item); }))
+                kept[at].push_back(std::move(pair));
+        }
+    });
+    std::vector<Hypothesis> pairs;
+    for (const std::vector<Hypothesis>& some : kept)
+        pairs.insert(pairs.end(), some.begin(), some.end());
+    if (pairs.size() > most_kept) // they fit whatever it is
+        return;
+    std::vector<char> stays(pairs.size());
+    parallel_blocks(static_cast<std::ptrdiff_t>(pairs.size()), [&](std::ptrdiff_t p) {
+        const auto at = static_cast<std::size_t>(p);
+        pairs[at].explained = divergent_before;
+        stays[at] = hold(pairs[at], trial, static_cast<std::int64_t>(divergent_)) && needs_both(pairs[at], trial);
+    });
+    for (std::size_t p = pairs.size(); p-- > 0;)
+        if (stays[p] != 0)
+            tried_.insert(tried_.begin(), pairs[p]);
+}
+
+/// Whether enough items speak against either alone.
+bool ItemCauseFinder::needs_both(const Hypothesis& pair, const Trial& trial) {
+    for (std::size_t part = 0; part < pair.made.size(); ++part) {
+        const Hypothesis alone{.made = {pair.made[part]}, .named = {pair.named[part]}};
+        const auto unlike = [&](std::span<const std::size_t> items) {
+            return static_cast<std::uint64_t>(std::count_if(
+                items.begin(), items.end(), [&](std::size_t item) { return !explains(alone, trial.likeness, item); }));
+        };
+        if (unlike(trial.divergent) + unlike(trial.agreeing) < enough_evidence)
+            return false;
+    }
+    return true;
 }
 
 void ItemCauseFinder::add(const JudgedPass& pass, const std::vector<ItemVerdict>& verdicts,
@@ -230,14 +204,18 @@ void ItemCauseFinder::try_single(const JudgedPass& pass, const std::vector<ItemV
         parallel_blocks(static_cast<std::ptrdiff_t>(some.size()), [&](std::ptrdiff_t i) {
             const std::size_t item = some[static_cast<std::size_t>(i)];
             described[item] = std::any_of(describing_.begin(), describing_.end(), [&](const Hypothesis& description) {
-                return explains(description, Trial{likeness, {}, {}, {}}, item);
+                return explains(description, likeness, item);
             });
         });
+    const std::vector<Hypothesis> held = whole_ones();
+    const std::uint64_t divergent_before = divergent_;
     if (first)
-        tried_ = hypotheses(pass, sample(divergent, 16));
+        tried_ = hypotheses_of(named_, pass, sample(divergent, 16));
     if (later && tried_.size() > most_shown + 1)
         tried_.resize(most_shown + 1);
     try_all(part(0, first_items));
+    if (frames_ <= trial_frames && whole_ones().empty() && !joint_.findings().explains_all())
+        try_pairs(part(0, first_items), held, divergent_before);
     if (!tried_.empty() && tried_.front().explained == divergent_)
         try_all(part(first_items, agreeing_items_held));
 }
@@ -254,7 +232,7 @@ CauseFindings ItemCauseFinder::of_single(bool beside_description) const {
         // What has no item to show that the description lacks is another word for it, and fails where that does.
         if (hypothesis.distinct == 0 && !beside_description)
             continue;
-        const bool named = hypothesis.named != nullptr;
+        const bool named = !hypothesis.named.empty();
         // A constant that fits a few is no evidence, nor is one of several that fit as well, but for those fitted.
         const auto is_rival = [&](const Hypothesis& other) {
             return &other != &hypothesis && other.named == hypothesis.named &&
@@ -262,23 +240,11 @@ CauseFindings ItemCauseFinder::of_single(bool beside_description) const {
         };
         if (named && !hypothesis.text.empty() &&
             (hypothesis.explained < enough_evidence ||
-             (!hypothesis.named->fit && std::any_of(tried_.begin(), tried_.end(), is_rival)) ||
+             (!hypothesis.named.front()->fit && std::any_of(tried_.begin(), tried_.end(), is_rival)) ||
              std::any_of(found.best.begin(), found.best.end(),
-                         [&](const Cause& cause) { return cause.mistakes.front() == hypothesis.named->name; })))
+                         [&](const Cause& cause) { return cause.mistakes == hypothesis.names(); })))
             continue;
-        std::string meaning = "a change of the twin at one site";
-        if (hypothesis.host == Hypothesis::Host::unwritten)
-            meaning = "the pass left them as they were";
-        else if (hypothesis.host == Hypothesis::Host::earlier_state)
-            meaning = "the pass read the state of the frame before";
-        else if (hypothesis.host == Hypothesis::Host::field_kept)
-            meaning = "the field is as it was";
-        else if (hypothesis.host == Hypothesis::Host::fields_swapped)
-            meaning = "each of the two fields holds what the other should";
-        found.best.push_back({{named ? hypothesis.named->name : hypothesis.text},
-                              named ? hypothesis.named->meaning + hypothesis.text : meaning,
-                              hypothesis.explained,
-                              hypothesis.contradicted,
+        found.best.push_back({hypothesis.names(), hypothesis.meaning(), hypothesis.explained, hypothesis.contradicted,
                               named || hypothesis.host != Hypothesis::Host::none});
     }
     return found;

@@ -1,14 +1,12 @@
 #pragma once
-#include <array>
 #include <cstddef>
 #include <cstdint>
-#include <optional>
 #include <span>
-#include <string>
 #include <string_view>
 #include <vector>
 
 #include "crosscheck/judge/cause_findings.hpp"
+#include "crosscheck/judge/hypothesis.hpp"
 #include "crosscheck/judge/item_likeness.hpp"
 #include "crosscheck/judge/item_verdict.hpp"
 #include "crosscheck/judge/named_cause.hpp"
@@ -17,9 +15,9 @@
 namespace lockstep {
 
 /// Looks for the mistake in a pass's twin that explains what diverged: the exact ones with names, alone or together
-/// (NamedCauses); and single ones of the others with names, the host's (an old state, nothing written) and every change
-/// that the sites of the divergent items allow. Of these, on the first frames with divergence; what explains all there,
-/// and most_shown beside it, is held against the frames that follow.
+/// (NamedCauses); the others with names, alone or with one more; and single ones of the host's (an old state, nothing
+/// written) and every change that the sites of the divergent items allow. Of these, on the first frames with
+/// divergence; what explains all there, and most_shown beside it, is held against the frames that follow.
 class ItemCauseFinder {
   public:
     static constexpr int trial_frames = 4;
@@ -40,51 +38,22 @@ class ItemCauseFinder {
     [[nodiscard]] CauseFindings findings() const;
 
   private:
-    /// What may have gone wrong.
-    struct Hypothesis {
-        enum class Host : std::uint8_t { none, unwritten, earlier_state, fields_swapped, field_kept };
-        Host host = Host::none;
-        std::optional<Mistake> mistake = {};
-        const NamedMistake* named = nullptr;
-        std::string text = {};                   ///< of one without a name; or the named one's constants
-        std::array<std::uint8_t, 2> fields = {}; ///< of the host's mistake
-        std::uint64_t explained = 0, contradicted = 0;
-        std::uint64_t distinct = 0; ///< of those that it has right, which no description has
-        std::uint64_t telling = 0;  ///< of those explained, which are off by more than rounding
-
-        /// Whether it need only come near: a formula may be written in other orders.
-        [[nodiscard]] bool rounds() const { return mistake && (named == nullptr || named->rounds()); }
-
-        /// Names first, those with constants of their own after the others; then the host's, then a wrong input, then
-        /// all else.
-        [[nodiscard]] int rank() const {
-            if (named != nullptr)
-                return text.empty() ? 0 : 1;
-            if (host != Host::none)
-                return 2;
-            return text.starts_with("u_") ? 3 : 4;
-        }
-        [[nodiscard]] std::int64_t balance() const {
-            return static_cast<std::int64_t>(explained) - static_cast<std::int64_t>(contradicted);
-        }
-    };
     /// The items of a frame that hypotheses are held against.
     struct Trial {
         const ItemLikeness& likeness;
         std::span<const std::size_t> divergent, agreeing;
         std::span<const char> described; ///< by item: whether a mistake that only describes has its words
     };
-    static void add_named(std::vector<Hypothesis>& all, const NamedMistake& named, const JudgedPass& pass,
-                          const std::vector<std::size_t>& items);
-    [[nodiscard]] std::vector<Hypothesis> hypotheses(const JudgedPass& pass,
-                                                     const std::vector<std::size_t>& items) const;
-    static bool explains(const Hypothesis& hypothesis, const Trial& trial, std::size_t item);
     static bool hold(Hypothesis& hypothesis, const Trial& trial, std::int64_t at_least);
+    static bool needs_both(const Hypothesis& pair, const Trial& trial);
     void try_all(const Trial& trial);
+    void try_pairs(const Trial& trial, const std::vector<Hypothesis>& held, std::uint64_t divergent_before);
+    [[nodiscard]] std::vector<Hypothesis> whole_ones() const;
     void try_single(const JudgedPass& pass, const std::vector<ItemVerdict>& verdicts);
     [[nodiscard]] CauseFindings of_single(bool beside_description) const;
 
     std::vector<const NamedMistake*> named_; ///< those that NamedCauses does not try
+    std::vector<const NamedMistake*> exact_; ///< those that it does
     std::vector<Hypothesis> describing_;     ///< those that say what is seen
     NamedCauses joint_;
     int frames_ = 0;

@@ -43,7 +43,7 @@ TEST_CASE("wrong shaders: the cause of each, whatever its style, is told by its 
     if (!context)
         return;
     const std::vector<std::filesystem::path> files = test::files_in("tests/collision/wrong_shaders");
-    CHECK(files.size() >= 24);
+    CHECK(files.size() >= 28);
     for (const std::filesystem::path& file : files) {
         const std::string text = test::content(file), cause = after(text, "// cause: ", ',');
         const test::TemporaryFolder shaders;

@@ -1,0 +1,147 @@
+#include "crosscheck/judge/hypothesis.hpp"
+
+#include <algorithm>
+#include <span>
+
+#include <fmt/format.h>
+
+#include "crosscheck/judge/item_sample.hpp"
+#include "crosscheck/judge/rounding_only.hpp"
+
+namespace lockstep {
+namespace {
+
+using Host = Hypothesis::Host;
+
+bool sums(const Mistake& mistake) {
+    return mistake.change == Change::added_up || mistake.change == Change::units_added_up;
+}
+
+void add_named(std::vector<Hypothesis>& all, const NamedMistake& named, const JudgedPass& pass,
+               const std::vector<std::size_t>& items) {
+    std::vector<std::array<float, 3>> constants = named.constants;
+    if (named.fit)
+        for (const std::size_t item : sample(items, 4)) {
+            std::vector<float> before, after;
+            for (const Component& c : components(pass.gpu.about())) {
+                before.push_back(pass.before[pass.pass.resource()].value(c.field, item, c.component).real());
+                after.push_back(pass.gpu.value(c.field, item, c.component).real());
+            }
+            const std::array<float, 3> fitted = named.fit(before, after);
+            if (std::find(constants.begin(), constants.end(), fitted) == constants.end())
+                constants.push_back(fitted);
+        }
+    if (constants.empty())
+        all.push_back({.made = {named.mistake}, .named = {&named}});
+    for (const std::array<float, 3>& c : constants) {
+        Hypothesis& with = all.emplace_back(Hypothesis{.made = {named.mistake}, .named = {&named}});
+        with.made.front().constants = c;
+        with.text =
+            c[1] == 0.0F && c[2] == 0.0F ? fmt::format(" ({})", c[0]) : fmt::format(" ({}, {}, {})", c[0], c[1], c[2]);
+    }
+}
+
+void add_hosts(std::vector<Hypothesis>& all, const JudgedPass& pass) {
+    all.push_back({.host = Host::unwritten, .text = "items_not_written"});
+    if (pass.earlier != nullptr)
+        all.push_back({.host = Host::earlier_state, .text = "state_of_earlier_frame"});
+    const std::span<const Field> fields = pass.gpu.fields();
+    for (std::uint8_t f = 0; f < fields.size() && fields.size() > 1; ++f) {
+        all.push_back({.host = Host::field_kept, .text = fmt::format("{}_not_written", fields[f].name), .fields = {f}});
+        for (std::uint8_t g = 0; g < f; ++g)
+            if (fields[f].components == fields[g].components && fields[f].scalar == fields[g].scalar)
+                all.push_back({.host = Host::fields_swapped,
+                               .text = fmt::format("{}_and_{}_swapped", fields[g].name, fields[f].name),
+                               .fields = {g, f}});
+    }
+}
+
+} // namespace
+
+bool Hypothesis::rounds() const {
+    if (named.empty())
+        return !made.empty();
+    return std::any_of(named.begin(), named.end(), [](const NamedMistake* one) { return one->rounds(); });
+}
+
+int Hypothesis::rank() const {
+    if (!named.empty())
+        return text.empty() ? 0 : 1;
+    if (host != Host::none)
+        return 2;
+    return text.starts_with("u_") ? 3 : 4;
+}
+
+std::vector<std::string> Hypothesis::names() const {
+    std::vector<std::string> all;
+    for (const NamedMistake* one : named)
+        all.push_back(one->name);
+    return named.empty() ? std::vector{text} : all;
+}
+
+std::string Hypothesis::meaning() const {
+    switch (host) {
+    case Host::unwritten:
+        return "the pass left them as they were";
+    case Host::earlier_state:
+        return "the pass read the state of the frame before";
+    case Host::field_kept:
+        return "the field is as it was";
+    case Host::fields_swapped:
+        return "each of the two fields holds what the other should";
+    case Host::none:
+        break;
+    }
+    std::string meaning;
+    for (const NamedMistake* one : named)
+        meaning += (meaning.empty() ? "" : "; ") + one->meaning;
+    return named.empty() ? "a change of the twin at one site" : meaning + text;
+}
+
+std::vector<Hypothesis> hypotheses_of(const std::vector<const NamedMistake*>& named, const JudgedPass& pass,
+                                      const std::vector<std::size_t>& items) {
+    std::vector<Hypothesis> all;
+    for (const NamedMistake* one : named)
+        add_named(all, *one, pass, items);
+    add_hosts(all, pass);
+    std::vector<SeenSite> sites;
+    for (const std::size_t item : sample(items, 16))
+        for (const SeenSite& site : pass.pass.sites(pass.input(), item, pass.profile))
+            if (std::find(sites.begin(), sites.end(), site) == sites.end())
+                sites.push_back(site);
+    for (const Mistake& mistake : mistakes_at(sites))
+        if (std::none_of(all.begin(), all.end(), [&](const Hypothesis& h) { return h.made == std::vector{mistake}; }))
+            all.push_back({.made = {mistake}, .text = mistake_text(mistake, sites)});
+    return all;
+}
+
+bool explains(const Hypothesis& hypothesis, const ItemLikeness& likeness, std::size_t item) {
+    const JudgedPass& p = likeness.pass();
+    const std::vector<Component>& parts = likeness.parts();
+    if (hypothesis.host == Host::unwritten) {
+        const View& before = p.before[p.pass.resource()];
+        return std::all_of(parts.begin(), parts.end(), [&](const Component& c) {
+            return alike(before.value(c.field, item, c.component), p.gpu.value(c.field, item, c.component));
+        });
+    }
+    if (hypothesis.host == Host::field_kept || hypothesis.host == Host::fields_swapped) {
+        const View& before = p.before[p.pass.resource()];
+        return std::all_of(parts.begin(), parts.end(), [&](const Component& c) {
+            const auto [one, other] = hypothesis.fields;
+            const bool kept = hypothesis.host == Host::field_kept;
+            const std::uint8_t from = kept || (c.field != one && c.field != other) ? c.field
+                                      : c.field == one                             ? other
+                                                                                   : one;
+            const View& made = kept && c.field == one ? before : p.reference;
+            return alike(made.value(from, item, c.component), p.gpu.value(c.field, item, c.component));
+        });
+    }
+    const PassInput input{hypothesis.host == Host::earlier_state ? *p.earlier : p.before, p.frame};
+    const std::vector<std::uint32_t> words = p.pass.mistaken(input, item, p.profile, hypothesis.made);
+    if (!hypothesis.rounds())
+        return likeness.are_gpus(item, words);
+    const bool is_sum = std::any_of(hypothesis.made.begin(), hypothesis.made.end(), sums);
+    return likeness.are_near_gpus(item, words, is_sum ? summed_ulps : rewritten_ulps);
+}
+
+} // namespace lockstep

@@ -60,6 +60,8 @@ test("a system's divergent run: cause, numbers by pass and frame, both sides' va
     await page.locator("#frame").fill("3");
     assert.match(await text(page, "#frame-passes"), /Frame 3[\s\S]*update\s+300\s+300\s+divergent[\s\S]*grain 0, grain 1[\s\S]*and 260 more/);
     assert.match(await text(page, "#frame-passes .values >> nth=0"), /velocity\.y/);
+    assert.equal(await page.locator("#frame-passes table.plain tbody tr").count(), 1);
+    assert.deepEqual(await page.locator("#frame-passes .detail h3").allInnerTexts(), ["Pass update, frame 3"]);
     assert.match(await text(page, "#repeat"), /lockstep check .*--frames 6[\s\S]*--frame 0 --pass update --item 0[\s\S]*capsule show/);
   }));
 

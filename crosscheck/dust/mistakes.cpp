@@ -1,9 +1,16 @@
 #include "crosscheck/dust/mistakes.hpp"
 
+#include <algorithm>
 #include <cmath>
+#include <cstddef>
+#include <cstdint>
 #include <span>
 
+#include "reference/dust/handed.hpp"
+#include "reference/dust/random.hpp"
 #include "reference/dust/sites.hpp"
+#include "reference/model/dust/schema.hpp"
+#include "reference/system/item_pass.hpp"
 
 namespace lockstep::dust {
 namespace {
@@ -20,6 +27,80 @@ void constant_time(std::span<float> value, const CameBy& /*run*/) {
         x = 0.02F;
 }
 
+/// Of a vector's three squares two.
+template <const Site& of> void without_z(std::span<float> value, const CameBy& run) {
+    const auto& v = run.of(of);
+    value[0] = v[0] * v[0] + v[1] * v[1];
+}
+
+/// A velocity of a vec3[], whose elements take the room of four floats. Behind the last there is 0.
+void at_stride_16(std::span<float> value, const CameBy& run) {
+    const View& grains = static_cast<const PassInput*>(run.world)->before[grain_buffer];
+    const auto first = 4 * static_cast<std::size_t>(run.of(site::index)[0]);
+    for (std::size_t c = 0; c < value.size(); ++c) {
+        const std::size_t word = first + c;
+        value[c] = word < 3 * grains.count()
+                       ? grains.value(field::velocity.field, word / 3, static_cast<int>(word % 3)).real()
+                       : 0.0F;
+    }
+}
+
+void by_distance(std::span<float> value, const CameBy& run) {
+    value[0] = run.of(site::cleaner_sqr_force)[0] / std::sqrt(run.of(site::sqr_dist)[0]);
+}
+
+void normal_of_next(std::span<float> value, const CameBy& run) {
+    for (std::size_t c = 0; c < value.size(); ++c)
+        value[c] = run.of(site::from_centre)[c] / run.of(site::reach)[0];
+}
+
+void z_is_y(std::span<float> value, const CameBy& /*run*/) { value[2] = value[1]; }
+
+void colours_swapped(std::span<float> value, const CameBy& run) {
+    const auto &a = run.of(site::colour_a), &b = run.of(site::colour_b);
+    for (std::size_t c = 0; c < value.size(); ++c)
+        value[c] = b[c] + (a[c] - b[c]) * run.of(site::shade)[0];
+}
+
+void one_in_ten(std::span<float> decision, const CameBy& /*run*/) { decision[0] = decision[1] <= 0.1F ? 1.0F : 0.0F; }
+
+/// The number's bits, as its kernel drew them with a generator.
+template <class Pcg> std::uint32_t drawn(const CameBy& run, const Pcg& generator) {
+    const Draw& draw = *static_cast<const Draw*>(run.world);
+    const auto of = [&](const Site& place) { return static_cast<std::uint32_t>(run.of(place)[0]); };
+    return generator(draw.item + generator(of(site::stream) + generator(of(site::drawn_in) + generator(draw.seed))));
+}
+
+void of_32_bits(std::span<float> value, const CameBy& run) {
+    value[0] = static_cast<float>(drawn(run, pcg)) * 0x1p-32F;
+}
+
+void shifted_by_3(std::span<float> value, const CameBy& run) {
+    const auto wrong = [](std::uint32_t x) {
+        const std::uint32_t s = x * 747796405U + 2891336453U;
+        const std::uint32_t y = ((s >> ((s >> 28U) + 3U)) ^ s) * 277803737U;
+        return (y >> 22U) ^ y;
+    };
+    value[0] = static_cast<float>(drawn(run, wrong) >> 8U) * 0x1p-24F;
+}
+
+/// The last grains, which fill no group of so many, stay as they were.
+template <const Site& was> void tail_left_out(std::span<float> value, const CameBy& run) {
+    const std::size_t count = static_cast<const PassInput*>(run.world)->before[grain_buffer].count();
+    const std::size_t group = std::max<std::size_t>(static_cast<std::size_t>(run.constants[0]), 64);
+    if (run.of(site::index)[0] >= static_cast<float>(count - count % group))
+        std::copy_n(run.of(was).begin(), value.size(), value.begin());
+}
+
+Mistake formula_at(const Site& site, Formula formula) {
+    return {.site = site.id, .change = Change::by_formula, .formula = formula};
+}
+
+Mistake with(Mistake mistake, const Mistake& also) {
+    mistake.also = &also;
+    return mistake;
+}
+
 Mistake spoiled_at(const Site& site, Formula formula) {
     return {.site = site.id, .change = Change::spoiled, .formula = formula};
 }
@@ -27,6 +108,11 @@ Mistake spoiled_at(const Site& site, Formula formula) {
 } // namespace
 
 const std::vector<NamedMistake>& mistakes() {
+    static const Mistake next_without_z = spoiled_at(site::sqr_dist_next, without_z<site::mouth_to_forecast>);
+    static const Mistake way_without_z = spoiled_at(site::sqr_way, without_z<site::to_centre>);
+    static const Mistake speed_halved = mistake_at(site::speed_into, Change::halved);
+    static const Mistake speed_negated = mistake_at(site::speed_into, Change::negated);
+    static const Mistake same_velocity = spoiled_at(site::velocity, tail_left_out<site::speed>);
     static const std::vector<NamedMistake> all{
         {"gravity_missing", "gravity is not added", "update", mistake_at(site::gravity, Change::zero)},
         {"drag_missing", "the air does not resist", "update", mistake_at(site::drag, Change::zero)},
@@ -64,10 +150,105 @@ const std::vector<NamedMistake>& mistakes() {
         {"wind_everywhere", "the wind has no cone", "blow_wind", mistake_at(site::in_cone, Change::always)},
         {"blast_everywhere", "the blast has no range", "explode", mistake_at(site::in_range, Change::always)},
         {"blast_not_fading", "the blast is as strong at its rim", "explode", mistake_at(site::share, Change::one)},
+        {"square_without_z", "squared lengths leave z out", "vacuum_up",
+         with(spoiled_at(site::sqr_dist, without_z<site::to_mouth>), next_without_z)},
+        {"square_without_z", "squared lengths leave z out", "blow_wind",
+         spoiled_at(site::sqr_dist, without_z<site::from_mouth>)},
+        {"square_without_z", "squared lengths leave z out", "explode",
+         spoiled_at(site::sqr_dist, without_z<site::from_mouth>)},
+        {"square_without_z", "squared lengths leave z out", "update",
+         with(spoiled_at(site::sqr_dist, without_z<site::from_centre>), way_without_z)},
+        {"suction_by_distance", "the pull fades with the distance, not its square", "vacuum_up",
+         formula_at(site::pull, by_distance)},
+        {"matrices_by_rows", "a matrix is read by rows", "update", mistake_at(site::by_columns, Change::inverted)},
+        {"translation_missing", "places are turned as directions are", "update",
+         mistake_at(site::translation, Change::zero)},
+        {"box_velocity_as_point", "velocities are moved into the box as places are", "update",
+         mistake_at(site::speed_in_box, Change::plus, -1, &site::translation)},
+        {"normal_of_next", "the sphere's normal is that of the next position, not of the contact", "update",
+         formula_at(site::normal, normal_of_next)},
+        {"path_not_cut", "the whole movement is mirrored, not what is left of it", "update",
+         mistake_at(site::rest, Change::instead, -1, &site::movement)},
+        {"reflected_once", "a reflection takes its normal part away once, not twice", "update",
+         with(mistake_at(site::into, Change::halved), speed_halved)},
+        {"reflection_adds", "a reflection adds its normal part", "update",
+         with(mistake_at(site::into, Change::negated), speed_negated)},
+        {"contact_off_the_face", "a contact is not put on its face", "update",
+         mistake_at(site::on_face, Change::inverted)},
+        {"upper_wall_not_alone", "after an upper wall others answer as well", "update",
+         mistake_at(site::upper_alone, Change::inverted)},
+        {"lower_wall_not_alone", "after a lower wall others answer as well", "update",
+         mistake_at(site::lower_alone, Change::inverted)},
+        {"upper_wall_at_the_lower", "upper walls answer from the lower ones' places", "update",
+         mistake_at(site::upper_limit, Change::instead, -1, &site::lower_limit)},
+        {"world_turned_over", "the world's least corner is its greatest", "update",
+         mistake_at(site::world_min, Change::instead, -1, &site::world_max)},
+        {"spheres_padded", "the host pads its spheres' records to 144 bytes", "update",
+         handed_over(Deviation::spheres_padded)},
+        {"boxes_padded", "the host pads its boxes' records to 144 bytes", "update",
+         handed_over(Deviation::boxes_padded)},
+        {"spheres_at_144_bytes", "spheres' records are read 144 bytes apart", "update",
+         handed_over(Deviation::spheres_at_144_bytes)},
+        {"boxes_at_144_bytes", "boxes' records are read 144 bytes apart", "update",
+         handed_over(Deviation::boxes_at_144_bytes)},
+        {"boxes_unturned", "boxes are in their places, but not turned", "update",
+         handed_over(Deviation::boxes_unturned)},
+        {"cone_of_the_angle", "the host hands over a cone's angle, not its cosine", "vacuum_up",
+         handed_over(Deviation::angle_for_cosine)},
+        {"cone_of_the_angle", "the host hands over a cone's angle, not its cosine", "blow_wind",
+         handed_over(Deviation::angle_for_cosine)},
+        {"angle_for_tangent", "the emitter's angle is taken for its tangent", "emit",
+         handed_over(Deviation::angle_for_tangent)},
+        {"first_frame_again", "the chance is drawn for the first frame in every frame", "emit",
+         handed_over(Deviation::first_frame)},
+        {"blast_by_frames", "a blast lasts a frame", "explode", handed_over(Deviation::impulses_of_frame)},
+        {"emitted_by_frames", "an emission lasts a frame", "emit", handed_over(Deviation::impulses_of_frame)},
+        {"tool_a_frame_late", "the tool is where it was in the frame before", "vacuum_up",
+         handed_over(Deviation::pose_late)},
+        {"tool_a_frame_late", "the tool is where it was in the frame before", "emit",
+         handed_over(Deviation::pose_late)},
+        {"tool_a_frame_late", "the tool is where it was in the frame before", "blow_wind",
+         handed_over(Deviation::pose_late)},
+        {"colours_swapped", "from the second colour to the first", "populate",
+         spoiled_at(site::colour, colours_swapped)},
+        {"z_of_y", "z is drawn as y is", "populate", spoiled_at(site::triple, z_is_y)},
+        {"random_of_32_bits", "numbers are made of 32 bits, not of 24", "populate",
+         spoiled_at(site::random, of_32_bits)},
+        {"random_of_32_bits", "numbers are made of 32 bits, not of 24", "emit", spoiled_at(site::random, of_32_bits)},
+        {"pcg_shift", "the generator shifts by 3 more, not by 4", "populate", spoiled_at(site::random, shifted_by_3)},
         {"emitted_all", "every dead grain comes back at once", "emit", mistake_at(site::is_lucky, Change::always)},
+        {"deaths_not_counted", "the count does not know who died", "vacuum_up_count",
+         mistake_at(site::change, Change::zero)},
+        {"deaths_counted_up", "the count rises with each death", "vacuum_up_count",
+         mistake_at(site::change, Change::negated)},
+        {"deaths_counted_twice", "each death counts twice", "vacuum_up_count",
+         mistake_at(site::change, Change::doubled)},
+        {"births_not_counted", "the count does not know who came back", "emit_count",
+         mistake_at(site::change, Change::zero)},
+        {"births_counted_down", "the count falls with each that comes back", "emit_count",
+         mistake_at(site::change, Change::negated)},
+        {"births_counted_twice", "each that comes back counts twice", "emit_count",
+         mistake_at(site::change, Change::doubled)},
+        {"emitted_ten_times",
+         "one dead grain in ten comes back, not one in a hundred",
+         "emit",
+         {.site = site::is_lucky.id, .change = Change::decided_by_formula, .formula = one_in_ten}},
         {"emitted_none", "no grain comes back", "emit", mistake_at(site::is_lucky, Change::never)},
     };
-    return all;
+    static const std::vector<NamedMistake> with_kernels = [] {
+        std::vector<NamedMistake> more = all;
+        for (const char* const kernel : {"update", "vacuum_up", "blow_wind", "explode"}) {
+            more.push_back({"stride_16_read", "velocities are read at a stride of 16 bytes", kernel,
+                            spoiled_at(site::speed, at_stride_16)});
+            more.push_back({.name = "tail_left_out",
+                            .meaning = "the last grains, which fill no group of so many, are left out",
+                            .pass = kernel,
+                            .mistake = with(spoiled_at(site::position, tail_left_out<site::before>), same_velocity),
+                            .constants = {{64.0F}, {128.0F}, {256.0F}, {512.0F}, {1024.0F}}});
+        }
+        return more;
+    }();
+    return with_kernels;
 }
 
 } // namespace lockstep::dust

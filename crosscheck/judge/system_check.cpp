@@ -99,6 +99,16 @@ void find_canary(const ItemPass& pass, const SystemState& now, int frame) {
                                 frame, pass.name(), item_name(view.about(), view.extent, item)));
 }
 
+/// Gives a state, and the GPU, what is right of the buffers that are derived from others.
+void put_right(SystemSide& gpu, SystemState& state, const SystemState& right, std::set<std::uint8_t>& wrong) {
+    if (wrong.empty())
+        return;
+    for (const std::uint8_t r : wrong)
+        state.take(r, right);
+    wrong.clear();
+    gpu.upload(std::as_const(state).view());
+}
+
 /// What the GPU left, but for the buffers of passes that continue `pass`: they were not judged yet.
 SystemState left_by(const System& system, std::size_t pass, const SystemState& before, const SystemState& now) {
     SystemState left = now;
@@ -149,6 +159,7 @@ CheckReport check(const System& system, SystemSide& gpu, const CheckOptions& opt
     SystemState before = system.start, now = system.start, reference = system.start;
     SystemState made = system.start; // the buffer of the pass that runs is the reference's
     std::uint64_t changed = 0;
+    std::set<std::uint8_t> inherited; // buffers that are derived, and not the reference's
     gpu.upload(before.view());
 
     bool stopped = false;
@@ -159,6 +170,8 @@ CheckReport check(const System& system, SystemSide& gpu, const CheckOptions& opt
             if (!pass.runs(frame))
                 continue;
             const std::uint8_t r = pass.resource();
+            if (!pass.continues())
+                put_right(gpu, before, reference, inherited);
             const bool repeat = frame < options.repeated_frames && gpu.repeats() && !pass.continues();
             if (repeat)
                 gpu.lay_canary(p);
@@ -246,6 +259,8 @@ CheckReport check(const System& system, SystemSide& gpu, const CheckOptions& opt
             if (watch.on_pass)
                 watch.on_pass({p, one, comparison, verdicts});
             reference.swap(r, made);
+            if (judged && pass.derived() && comparison.differing(r) > 0)
+                inherited.insert(r);
             earlier[p] = std::move(before);
             before = left_by(system, p, *earlier[p], now);
         }
@@ -285,6 +300,8 @@ SystemRun::SystemRun(const System& system, SystemSide& gpu, const KnownOperation
     if (!system.passes[pass]->runs(frame))
         throw Error(
             fmt::format("{}: pass {} does not run in frame {}", system.name, system.passes[pass]->name(), frame));
+    std::set<std::uint8_t> wrong;
+    SystemState right = system.start;
     gpu.upload(system.start.view());
     for (int f = 0; f <= frame; ++f)
         for (std::size_t p = 0; p < system.passes.size(); ++p) {
@@ -292,9 +309,18 @@ SystemRun::SystemRun(const System& system, SystemSide& gpu, const KnownOperation
                 break;
             if (!system.passes[p]->runs(f))
                 continue;
+            const ItemPass& one = *system.passes[p];
             before_ = p > 0 ? left_by(system, p - 1, before_, now_) : now_;
+            if (!one.continues())
+                put_right(gpu, before_, right, wrong);
             gpu.step(p, f);
             gpu.read(now_);
+            const std::uint8_t r = one.resource();
+            if (one.derived()) {
+                run_pass(one, {std::as_const(before_).view(), f}, profile_, right[r]);
+                if (!differing_items(std::as_const(right)[r], std::as_const(now_)[r]).empty())
+                    wrong.insert(r);
+            }
             if (p == pass && f + 1 == frame) {
                 earlier_ = before_;
                 has_earlier_ = true;

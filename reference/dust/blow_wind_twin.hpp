@@ -1,5 +1,6 @@
 #pragma once
 #include "reference/dust/grain.hpp"
+#include "reference/dust/handed.hpp"
 #include "reference/model/dust/host.hpp"
 
 namespace lockstep::dust {
@@ -10,6 +11,9 @@ struct BlowWindTwin {
     FrameValues values = {}; ///< of the frame
 
     [[nodiscard]] BlowWindTwin at(int frame) const { return {host, host->at(frame)}; }
+    [[nodiscard]] BlowWindTwin handed(std::span<const Mistake> made) const {
+        return {host, dust::handed(*host, values, made)};
+    }
 
     template <class R> Grain<R> operator()(R& r, const PassInput& in, std::size_t item) const {
         Grain<R> grain = grain_before(r, in, item);

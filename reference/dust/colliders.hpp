@@ -15,8 +15,9 @@ template <class R> class ColliderTwin {
     using Axis = Real Vec3::*;
 
   public:
-    ColliderTwin(R& reading, const Host& host)
-        : r(reading), host_(host), switches_(host.switches()), radius_(r.uniform(site::radius, host.radius())),
+    ColliderTwin(R& reading, const Host& host, const Colliders& colliders)
+        : r(reading), host_(host), colliders_(colliders), switches_(host.switches()),
+          radius_(r.uniform(site::radius, host.radius())),
           elasticity_(r.uniform(site::elasticity, host.settings().elasticity)) {}
 
     /// The list's spheres, then its boxes: the first that is hit, or, without one_hit, each.
@@ -24,13 +25,13 @@ template <class R> class ColliderTwin {
         bool hit = false;
         const bool one = r.setting(site::one_hit, switches_.one_hit == OffOn::on);
         if (r.setting(site::has_spheres, true))
-            for (const int k : r.range(site::spheres, 0, static_cast<int>(host_.spheres().size()) - 1))
+            for (const int k : r.range(site::spheres, 0, static_cast<int>(colliders_.spheres.size()) - 1))
                 if (!(one && hit))
-                    hit = sphere(host_.spheres()[static_cast<std::size_t>(k)], m) || hit;
+                    hit = sphere(colliders_.spheres[static_cast<std::size_t>(k)], m) || hit;
         if (r.setting(site::has_boxes, true))
-            for (const int k : r.range(site::boxes, 0, static_cast<int>(host_.boxes().size()) - 1))
+            for (const int k : r.range(site::boxes, 0, static_cast<int>(colliders_.boxes.size()) - 1))
                 if (!(one && hit))
-                    hit = box(host_.boxes()[static_cast<std::size_t>(k)], m) || hit;
+                    hit = box(colliders_.boxes[static_cast<std::size_t>(k)], m) || hit;
     }
 
     void world(Movement<R>& m) const {
@@ -60,7 +61,7 @@ template <class R> class ColliderTwin {
         const Real half = r.note(site::sphere_half, r.uniform(site::sphere_radius, collider.scale.x) * 0.5F);
         const Real reach = r.note(site::reach, radius_ + half);
         const Real sqr_reach = reach * reach;
-        const Real d2 = r.note(site::sqr_dist, squared(m.next - centre));
+        const Real d2 = r.note(site::sqr_dist, squared(r.note(site::from_centre, m.next - centre)));
         const bool touches = switches_.sphere_touch == SphereTouch::less
                                  ? r.decide(site::touches_sphere, d2 < sqr_reach)
                                  : r.decide(site::touches_sphere, d2 <= sqr_reach);
@@ -71,18 +72,20 @@ template <class R> class ColliderTwin {
             push_out(centre, reach, m);
             return true;
         }
-        const Vec3 n = r.note(site::movement_unit, direction_of(r, site::movement_unit, m.next - m.current, switches_));
-        const Vec3 a = centre - m.current;
+        const Vec3 ray = r.note(site::movement, m.next - m.current);
+        const Vec3 n = r.note(site::movement_unit, direction_of(r, site::movement_unit, ray, switches_));
+        const Vec3 a = r.note(site::to_centre, centre - m.current);
         const Real q = r.note(site::closest, r.dot(site::closest, a, n));
-        const Real h = r.note(site::missed, squared(a) - r.note(site::closest_squared, q * q));
+        const Real h = r.note(site::missed, r.note(site::sqr_way, squared(a)) - r.note(site::closest_squared, q * q));
         Real chord = sqr_reach - h;
         if (switches_.root_clamp == OffOn::on && r.decide(site::grazes, chord < 0.0F))
             chord = 0.0F;
         const Real g = r.note(site::root, r.sqrt(site::root, chord));
         const Vec3 contact = r.note(site::contact, m.current + n * (q - g));
         const Vec3 normal = r.note(site::normal, divided(r, site::normal, contact - centre, reach));
-        m.next = r.note(site::landed, contact + reflected(site::into, m.next - contact, normal) *
-                                                    r.note(site::sphere_path_kept, elasticity_));
+        const Vec3 rest = r.note(site::rest, m.next - contact);
+        m.next = r.note(site::landed,
+                        contact + reflected(site::into, rest, normal) * r.note(site::sphere_path_kept, elasticity_));
         m.velocity = r.note(site::bounced, reflected(site::speed_into, m.velocity, normal) *
                                                r.note(site::sphere_speed_kept, elasticity_));
         return true;
@@ -120,7 +123,7 @@ template <class R> class ColliderTwin {
         } else {
             const Vec3 nearest{clamped(m.next.x, min.x, max.x), clamped(m.next.y, min.y, max.y),
                                clamped(m.next.z, min.z, max.z)};
-            if (!r.decide(site::touches_box, r.note(site::sqr_dist, squared(m.next - nearest)) <=
+            if (!r.decide(site::touches_box, r.note(site::sqr_gap, squared(r.note(site::gap, m.next - nearest))) <=
                                                  r.note(site::sqr_radius, radius_ * radius_)))
                 return false;
         }
@@ -187,23 +190,25 @@ template <class R> class ColliderTwin {
             along = r.note(site::movement_unit, r.normalize(site::movement_unit, ray));
         const Real t = r.note(site::time_of_face, r.divide(site::time_of_face, plane - current.*axis, along.*axis));
         Vec3 contact = current + along * t;
-        contact.*axis = plane;
+        if (r.setting(site::on_face, true))
+            contact.*axis = plane;
         return contact;
     }
 
     void walls(Movement<R>& m) const {
         const Real margin = r.note(site::wall_margin, radius_);
-        const Vec3 lo = more(r.uniform(site::world_min, host_.settings().world.min), margin);
         const Vec3 hi = less(r.uniform(site::world_max, host_.settings().world.max), margin);
+        const Vec3 lo = more(r.uniform(site::world_min, host_.settings().world.min), margin);
         for (const Axis axis : {&Vec3::x, &Vec3::y, &Vec3::z}) {
+            const Real low = r.note(site::lower_limit, lo.*axis), high = r.note(site::upper_limit, hi.*axis);
             if (r.decide(site::above_wall, m.next.*axis > hi.*axis)) {
-                wall(m, axis, hi.*axis, m.current.*axis > hi.*axis, true);
-                if (switches_.walls == Walls::first)
+                wall(m, axis, high, m.current.*axis > hi.*axis, true);
+                if (r.setting(site::upper_alone, switches_.walls == Walls::first))
                     return;
             }
             if (r.decide(site::below_wall, m.next.*axis < lo.*axis)) {
-                wall(m, axis, lo.*axis, m.current.*axis < lo.*axis, false);
-                if (switches_.walls == Walls::first)
+                wall(m, axis, low, m.current.*axis < lo.*axis, false);
+                if (r.setting(site::lower_alone, switches_.walls == Walls::first))
                     return;
             }
         }
@@ -242,18 +247,15 @@ template <class R> class ColliderTwin {
     Real clamped(const Real& x, const Real& low, const Real& high) const { return r.min(r.max(x, low), high); }
 
     /// m (v, 1), each operation rounded.
-    static Vec3 place(const glm::mat4& m, const Vec3& v) {
-        const Vec3 turned = direction(m, v);
-        return {turned.x + m[3][0], turned.y + m[3][1], turned.z + m[3][2]};
+    Vec3 place(const glm::mat4& m, const Vec3& v) const {
+        return direction(m, v) + r.note(site::translation, Vec3{m[3][0], m[3][1], m[3][2]});
     }
     /// m (v, 0)
-    static Vec3 direction(const glm::mat4& m, const Vec3& v) {
-        const auto row = [&](int k) { return (v.x * m[0][k] + v.y * m[1][k]) + v.z * m[2][k]; };
-        return {row(0), row(1), row(2)};
-    }
+    Vec3 direction(const glm::mat4& m, const Vec3& v) const { return turned(r, m, v); }
 
     R& r;
     const Host& host_;
+    const Colliders& colliders_;
     const Switches& switches_;
     Real radius_, elasticity_;
 };

@@ -45,7 +45,7 @@ template <class R> class ConeTwin {
                       r.note(site::current_along, r.dot(site::current_along, axis_, b)) > threshold_))
             return false;
         const Real along = r.note(site::next_along, r.dot(site::next_along, axis_, c));
-        const Real d2 = squared(away);
+        const Real d2 = r.note(site::sqr_dist_next, squared(away));
         if (switches_.side_exit == SideExit::keep)
             return r.decide(site::behind, along < 0.0F) || r.decide(site::near_mouth, d2 < sqr_death_);
         return r.decide(site::left_cone, along < threshold_) || r.decide(site::near_mouth, d2 < sqr_death_);

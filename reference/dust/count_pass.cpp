@@ -11,7 +11,8 @@ std::unique_ptr<ItemPass> count_pass(const ItemPass& kernel) {
                       .resource = count_buffer,
                       .stage = PassStage::compute,
                       .runs = [&kernel](int frame) { return kernel.runs(frame); },
-                      .continues = true},
+                      .continues = true,
+                      .derived = true},
                      CountTwin{});
 }
 

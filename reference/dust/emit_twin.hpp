@@ -1,4 +1,5 @@
 #pragma once
+#include "reference/dust/handed.hpp"
 #include "reference/dust/random.hpp"
 
 namespace lockstep::dust {
@@ -9,6 +10,9 @@ struct EmitTwin {
     FrameValues values = {}; ///< of the frame
 
     [[nodiscard]] EmitTwin at(int frame) const { return {host, host->at(frame)}; }
+    [[nodiscard]] EmitTwin handed(std::span<const Mistake> made) const {
+        return {host, dust::handed(*host, values, made)};
+    }
 
     template <class R> Grain<R> operator()(R& r, const PassInput& in, std::size_t item) const {
         using Real = typename R::Real;
@@ -18,23 +22,22 @@ struct EmitTwin {
         if (is_alive(r, grain))
             return grain;
         const bool integer = host->switches().random == Random::integer;
-        const auto seed = static_cast<std::uint32_t>(
-            static_cast<int>(r.uniform(site::random_seed, static_cast<int>(host->settings().seed))));
-        const RandomTwin<R> random(r, host->switches());
+        const RandomTwin<R> random(r, host->switches(), {i, seed_of(r, *host)});
+        const auto frame = static_cast<std::uint32_t>(values.frame);
         const Real f = R::real(i);
-        const Real chance =
-            integer ? random.unit(integer_random(i, Stream::chance, static_cast<std::uint32_t>(in.frame), seed))
-                    : random.r11(r.divide(site::seed, f + r.uniform(site::time, values.time), 79238.288F));
+        const Real chance = integer
+                                ? random.unit(Stream::chance, frame)
+                                : random.r11(r.divide(site::seed, f + r.uniform(site::time, values.time), 79238.288F));
         if (!r.decide(site::is_lucky, r.note(site::chance, chance) <= 0.01F))
             return grain;
         const bool by_time = host->switches().emit_seed == EmitSeed::index_time;
-        const auto drawn_in = static_cast<std::uint32_t>(by_time ? in.frame : 0);
+        const std::uint32_t drawn_in = by_time ? frame : 0;
         Real x{}, y{}, rho{}, tangent{};
         if (integer) {
-            const glm::vec2 direction = host->directions()[integer_random(i, Stream::angle, drawn_in, seed) >> 20U];
+            const glm::vec2 direction = host->directions()[random.integer(Stream::angle, drawn_in) >> 20U];
             x = r.uniform(site::direction_of_table, direction.x);
             y = r.uniform(site::direction_of_table, direction.y);
-            rho = random.unit(integer_random(i, Stream::radius, drawn_in, seed));
+            rho = random.unit(Stream::radius, drawn_in);
             tangent = r.uniform(site::emitter_tangent, values.tangent);
         } else {
             const Real s = r.note(
@@ -52,8 +55,7 @@ struct EmitTwin {
         rho = r.note(site::share_of_radius, rho);
         const Vec3 local = r.note(site::local, Vec3{circle.x * rho * tangent, circle.y * rho * tangent, 1.0F});
         const glm::mat4 m = r.uniform(site::controller_matrix, values.controller_matrix);
-        const auto row = [&](int k) { return (local.x * m[0][k] + local.y * m[1][k]) + local.z * m[2][k]; };
-        const Vec3 direction = r.note(site::emitted, Vec3{row(0), row(1), row(2)});
+        const Vec3 direction = r.note(site::emitted, turned(r, m, local));
         const float force = values.tool == nullptr ? 0.0F : values.tool->force;
         const float distance = values.tool == nullptr ? 0.0F : values.tool->distance;
         grain.velocity = direction * r.uniform(site::emitter_force, force);

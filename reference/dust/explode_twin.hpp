@@ -1,5 +1,6 @@
 #pragma once
 #include "reference/dust/grain.hpp"
+#include "reference/dust/handed.hpp"
 #include "reference/model/dust/host.hpp"
 
 namespace lockstep::dust {
@@ -13,6 +14,9 @@ struct ExplodeTwin {
 
     [[nodiscard]] ExplodeTwin at(int frame) const {
         return {host, ball, host->at(frame), host->explosion(frame, ball)};
+    }
+    [[nodiscard]] ExplodeTwin handed(std::span<const Mistake> made) const {
+        return {host, ball, dust::handed(*host, values, made), explosion};
     }
 
     template <class R> Grain<R> operator()(R& r, const PassInput& in, std::size_t item) const {

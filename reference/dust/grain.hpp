@@ -2,6 +2,8 @@
 #include <cstddef>
 #include <tuple>
 
+#include <glm/mat4x4.hpp>
+
 #include "reference/dust/sites.hpp"
 #include "reference/model/dust/schema.hpp"
 #include "reference/model/dust/switches.hpp"
@@ -18,6 +20,9 @@ template <class R> struct Grain {
 
 /// A grain as a kernel finds it.
 template <class R> Grain<R> grain_before(R& r, const PassInput& in, std::size_t item) {
+    if constexpr (requires { r.foretell(&in); })
+        r.foretell(&in);
+    r.uniform(site::index, static_cast<int>(item));
     return {r.read(site::before, in.before.vec3(field::position, item)),
             r.uniform(site::alive_before, in.before.integer(field::alive, item)),
             r.read(site::speed, in.before.vec3(field::velocity, item)),
@@ -31,6 +36,14 @@ template <class Vec> auto squared(const Vec& v) { return (v.x * v.x + v.y * v.y)
 
 /// a + t (b - a)
 template <class T, class S> T lerp(const T& a, const T& b, const S& t) { return a + (b - a) * t; }
+
+/// m (v, 0), each operation rounded.
+template <class R> typename R::Vec3 turned(R& r, const glm::mat4& m, const typename R::Vec3& v) {
+    const bool columns = r.setting(site::by_columns, true);
+    const auto at = [&](int column, int row) { return columns ? m[column][row] : m[row][column]; };
+    const auto row = [&](int k) { return (v.x * at(0, k) + v.y * at(1, k)) + v.z * at(2, k); };
+    return {row(0), row(1), row(2)};
+}
 
 template <class R> typename R::Vec3 divided(R& r, At place, const typename R::Vec3& v, const typename R::Real& by) {
     return {r.divide(place, v.x, by), r.divide(place, v.y, by), r.divide(place, v.z, by)};

@@ -10,7 +10,6 @@ struct PopulateTwin {
     template <class R> Grain<R> operator()(R& r, const PassInput& in, std::size_t item) const {
         using Real = typename R::Real;
         const auto i = static_cast<std::uint32_t>(item);
-        const RandomTwin<R> random(r, host->switches());
         const auto min = r.uniform(site::spawn_min, host->settings().spawn.min);
         const auto max = r.uniform(site::spawn_max, host->settings().spawn.max);
         Grain<R> grain = grain_before(r, in, item);
@@ -18,12 +17,10 @@ struct PopulateTwin {
         const Real width = max.x - min.x;
         typename R::Vec3 at;
         Real shade{};
+        const RandomTwin<R> random(r, host->switches(), {i, seed_of(r, *host)});
         if (host->switches().random == Random::integer) {
-            const auto seed = static_cast<std::uint32_t>(
-                static_cast<int>(r.uniform(site::random_seed, static_cast<int>(host->settings().seed))));
-            const auto number = [&](Stream stream) { return random.unit(integer_random(i, stream, 0, seed)); };
-            at = {number(Stream::position_x), number(Stream::position_y), number(Stream::position_z)};
-            shade = number(Stream::colour);
+            at = {random.unit(Stream::position_x), random.unit(Stream::position_y), random.unit(Stream::position_z)};
+            shade = random.unit(Stream::colour);
         } else {
             const Real row = r.note(site::row, r.divide(site::row, f, width));
             const Real step =

@@ -23,14 +23,37 @@ constexpr std::uint32_t integer_random(std::uint32_t item, Stream stream, std::u
     return pcg(item + pcg(static_cast<std::uint32_t>(stream) + pcg(frame + pcg(seed))));
 }
 
+/// Who draws.
+struct Draw {
+    std::uint32_t item = 0, seed = 0;
+};
+
+template <class R> std::uint32_t seed_of(R& r, const Host& host) {
+    return static_cast<std::uint32_t>(
+        static_cast<int>(r.uniform(site::random_seed, static_cast<int>(host.settings().seed))));
+}
+
 template <class R> class RandomTwin {
     using Real = typename R::Real;
 
   public:
-    RandomTwin(R& reading, const Switches& switches) : r(reading), driver_(switches.random == Random::sin) {}
+    RandomTwin(R& reading, const Switches& switches, Draw draw)
+        : r(reading), driver_(switches.random == Random::sin), draw_(draw) {
+        if constexpr (requires { r.foretell(&draw_); })
+            r.foretell(&draw_);
+    }
+    RandomTwin(const RandomTwin&) = delete;
+    RandomTwin& operator=(const RandomTwin&) = delete;
 
-    /// In [0, 1).
-    Real unit(std::uint32_t bits) const { return r.note(site::random, r.real(bits >> 8U) * 0x1p-24F); }
+    /// In [0, 1), of those that a frame draws; those that stay are of frame 0.
+    Real unit(Stream stream, std::uint32_t frame = 0) const {
+        r.uniform(site::stream, static_cast<int>(stream));
+        r.uniform(site::drawn_in, static_cast<int>(frame));
+        return r.note(site::random, r.real(integer(stream, frame) >> 8U) * 0x1p-24F);
+    }
+    [[nodiscard]] std::uint32_t integer(Stream stream, std::uint32_t frame = 0) const {
+        return integer_random(draw_.item, stream, frame, draw_.seed);
+    }
 
     /// 0 to 1 from one number.
     Real r11(const Real& s) const { return hashed(s * rd1 + s * rd2); }
@@ -93,6 +116,7 @@ template <class R> class RandomTwin {
 
     R& r;
     bool driver_;
+    Draw draw_;
 };
 
 } // namespace lockstep::dust

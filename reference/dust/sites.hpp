@@ -6,7 +6,7 @@ namespace lockstep::dust::site {
 
 // A grain, before and after.
 inline constexpr Site before{"position before"}, speed{"velocity before"}, alive_before{"alive before"};
-inline constexpr Site colour_before{"colour before"}, is_alive{"grain is alive"};
+inline constexpr Site colour_before{"colour before"}, is_alive{"grain is alive"}, index{"grain's index"};
 inline constexpr Site position{"position", "position", "m"}, velocity{"velocity", "velocity", "m/s"};
 inline constexpr Site alive{"alive", "alive"}, colour{"colour", "colour"};
 
@@ -42,7 +42,8 @@ inline constexpr Site texel_place{"texel_place", "texel_place"};
 // Random numbers.
 inline constexpr Site phase{"sine's argument"}, octant{"sine's octant"}, sine{"sine"}, cosine{"cosine"};
 inline constexpr Site below_zero{"sine's argument is negative"}, random{"random number"}, tangent{"tangent"};
-inline constexpr Site random_seed{"seed of the run"}, triple{"three numbers"}, circle{"direction on the circle"};
+inline constexpr Site stream{"stream of numbers"}, drawn_in{"drawn in frame"}, random_seed{"seed of the run"},
+    triple{"three numbers"}, circle{"direction on the circle"};
 inline constexpr Site seed{"seed"}, row{"row"}, step_of_row{"place in its row"}, shade{"colour's share"};
 inline constexpr Site angle{"angle"}, share_of_radius{"share of the radius"}, chance{"chance"};
 inline constexpr Site direction_of_table{"direction of the table"};
@@ -55,6 +56,7 @@ inline constexpr Site along{"cosine to the axis"}, in_cone{"in the cone"};
 inline constexpr Site force_along{"cosine in the force"}, impulse{"impulse"}, pulled{"velocity pulled"};
 inline constexpr Site pull{"pull"}, force{"force"}, distance{"distance"}, acceleration{"acceleration"};
 inline constexpr Site forecast{"forecast"}, mouth_to_forecast{"way from the mouth to the forecast"};
+inline constexpr Site sqr_dist_next{"squared distance of the forecast"};
 inline constexpr Site current_direction{"direction of the grain"}, next_direction{"direction of the forecast"};
 inline constexpr Site current_along{"grain's cosine"}, next_along{"forecast's cosine"};
 inline constexpr Site was_in_cone{"grain was in the cone"}, left_cone{"forecast is outside the cone"};
@@ -77,10 +79,13 @@ inline constexpr Site spheres{"spheres"}, boxes{"boxes"};
 inline constexpr Site sphere_centre{"sphere's centre"}, sphere_radius{"sphere's radius"};
 inline constexpr Site touches_sphere{"touches the sphere", {}, "m2"}, closest{"nearest of the ray"};
 inline constexpr Site missed{"squared distance of the ray"}, root{"half chord"}, grazes{"ray misses the sphere"};
+inline constexpr Site rest{"rest of the movement"}, to_centre{"way to the sphere's centre"};
+inline constexpr Site sqr_way{"squared way to the sphere's centre"}, from_centre{"way from the sphere's centre"};
 inline constexpr Site normal{"normal"}, into{"movement into the sphere"}, speed_into{"speed into the sphere"};
 inline constexpr Site box_min{"box's least corner"}, box_max{"box's greatest corner"};
 inline constexpr Site touches_box{"touches the box", {}, "m2"}, misses_box{"misses the box", {}, "m"};
 inline constexpr Site box_scale{"box's sides"}, half_box{"half of the box's sides"}, box_centre{"box's centre"};
+inline constexpr Site gap{"way to the box"}, sqr_gap{"squared distance to the box"};
 inline constexpr Site sqr_radius{"radius squared"}, touch_margin{"margin of the touch"};
 inline constexpr Site speed_before_box{"velocity before the box"}, answered{"position at the box"};
 inline constexpr Site speed_answered{"velocity at the box"}, box_mirrored{"mirrored velocity"};
@@ -94,10 +99,14 @@ inline constexpr Site has_spheres{"spheres are looked at"}, has_boxes{"boxes are
 inline constexpr Site one_hit{"one hit a frame"};
 inline constexpr Site half_grain{"grain's radius in the box"};
 inline constexpr Site world_to_local{"worldToLocal"}, local_to_world{"localToWorld"};
+inline constexpr Site by_columns{"matrices are by columns"}, translation{"translation"};
 inline constexpr Site next_in_box{"next position in the box"}, current_in_box{"position in the box"};
 inline constexpr Site speed_in_box{"velocity in the box"};
 inline constexpr Site heads_up{"moves up the axis"}, time_of_face{"share of the way to the face"};
 inline constexpr Site face_x{"enters by an x face"}, face_y{"enters by a y face"}, face_z{"enters by a z face"};
+inline constexpr Site on_face{"contact is on the face"};
+inline constexpr Site upper_limit{"upper limit"}, lower_limit{"lower limit"};
+inline constexpr Site upper_alone{"an upper wall alone answers"}, lower_alone{"a lower wall alone answers"};
 inline constexpr Site above_wall{"beyond an upper wall", {}, "m"}, below_wall{"beyond a lower wall", {}, "m"};
 inline constexpr Site wall_margin{"wall's margin"}, above_floor{"above the floor", {}, "m"};
 inline constexpr Site started_beyond{"started beyond the wall", {}, "m"}, to_wall{"way along the ray"};

@@ -1,6 +1,7 @@
 #pragma once
 #include "reference/dust/colliders.hpp"
 #include "reference/dust/cone.hpp"
+#include "reference/dust/handed.hpp"
 
 namespace lockstep::dust {
 
@@ -9,7 +10,12 @@ struct UpdateTwin {
     HostPtr host;
     FrameValues values = {}; ///< of the frame
 
+    std::optional<Colliders> colliders = {}; ///< instead of the host's
+
     [[nodiscard]] UpdateTwin at(int frame) const { return {host, host->at(frame)}; }
+    [[nodiscard]] UpdateTwin handed(std::span<const Mistake> made) const {
+        return {host, dust::handed(*host, values, made), handed_colliders(*host, made)};
+    }
 
     template <class R> Grain<R> operator()(R& r, const PassInput& in, std::size_t item) const {
         using Vec3 = typename R::Vec3;
@@ -47,14 +53,14 @@ struct UpdateTwin {
             grain.position,
             r.note(site::next, grain.position + r.note(site::way_of_frame, r.note(site::mover, grain.velocity) * dt)),
             grain.velocity};
-        const ColliderTwin<R> colliders(r, *host);
+        const ColliderTwin<R> answer(r, *host, colliders ? *colliders : host->colliders());
         const bool has_world = r.setting(site::has_world, true);
         if (has_world && switches.world_order == WorldOrder::first)
-            colliders.world(m);
+            answer.world(m);
         if (r.setting(site::has_colliders, true))
-            colliders.list(m);
+            answer.list(m);
         if (has_world && switches.world_order == WorldOrder::last)
-            colliders.world(m);
+            answer.world(m);
         if (sucked && cone.kills(grain.position, m.next))
             grain.alive = 0;
         grain.velocity = r.note(site::velocity, m.velocity);

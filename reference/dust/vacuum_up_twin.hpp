@@ -1,5 +1,6 @@
 #pragma once
 #include "reference/dust/cone.hpp"
+#include "reference/dust/handed.hpp"
 
 namespace lockstep::dust {
 
@@ -9,6 +10,9 @@ struct VacuumUpTwin {
     FrameValues values = {}; ///< of the frame
 
     [[nodiscard]] VacuumUpTwin at(int frame) const { return {host, host->at(frame)}; }
+    [[nodiscard]] VacuumUpTwin handed(std::span<const Mistake> made) const {
+        return {host, dust::handed(*host, values, made)};
+    }
 
     template <class R> Grain<R> operator()(R& r, const PassInput& in, std::size_t item) const {
         Grain<R> grain = grain_before(r, in, item);

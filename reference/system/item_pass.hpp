@@ -86,6 +86,10 @@ class ItemPass {
     /// reads what the passes before it left, and its own buffer as it was before the dispatch.
     [[nodiscard]] virtual bool continues() const { return false; }
 
+    /// Whether its items follow from other buffers alone, as a count does from what it counts: a wrong one, judged
+    /// once, is put right before the next pass, which otherwise would inherit it.
+    [[nodiscard]] virtual bool derived() const { return false; }
+
     /// Whether an item of its buffer follows from no other of that buffer: then `after` may be the state that `in`
     /// reads.
     [[nodiscard]] virtual bool in_place() const { return false; }

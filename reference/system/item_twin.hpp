@@ -124,6 +124,7 @@ struct ItemPassOptions {
     std::vector<std::string> outputs = {};
     std::function<bool(int frame)> runs = {}; ///< empty: in every frame
     bool continues = false;                   ///< ItemPass::continues
+    bool derived = false;                     ///< ItemPass::derived
     bool in_place = false;                    ///< ItemPass::in_place
     /// ItemPass::appended; empty: each item has its place.
     std::function<ItemRange(const PassInput& in)> appended = {};
@@ -148,6 +149,7 @@ template <class Twin> class ItemTwin final : public ItemPass {
     [[nodiscard]] PassStage stage() const override { return options_.stage; }
     [[nodiscard]] bool runs(int frame) const override { return !options_.runs || options_.runs(frame); }
     [[nodiscard]] bool continues() const override { return options_.continues; }
+    [[nodiscard]] bool derived() const override { return options_.derived; }
     [[nodiscard]] bool in_place() const override { return options_.in_place; }
     [[nodiscard]] std::optional<ItemRange> appended(const PassInput& in) const override {
         return options_.appended ? std::optional(options_.appended(in)) : std::nullopt;

@@ -82,10 +82,12 @@ TEST_CASE("dust mutants: some of each kernel are found and named, and the shippe
     if (!gl())
         return skip(gl().missing());
     CHECK(run_of("shaders/dust", "").verdict == "AGREE");
-    check_mutants("dust",
-                  {"stride_16_read", "death_not_counted", "death_not_atomic", "spawned_dead", "cone_ignored",
-                   "suction_reversed", "emitted_all", "wind_reversed", "blast_not_fading", "gravity_missing",
-                   "drag_reversed", "sphere_far_side", "faces_turned", "box_velocity_as_point", "wall_path_uncut"},
+    check_mutants("dust", {"stride_16_read",        "death_not_counted", "death_not_atomic", "spawned_dead",
+                           "cone_ignored",          "suction_reversed",  "emitted_all",      "wind_reversed",
+                           "blast_not_fading",      "gravity_missing",   "drag_reversed",    "sphere_far_side",
+                           "sphere_normal_of_next", "reflection_once",   "death_counted_up", "birth_counted_down",
+                           "matrix_transposed",     "random_pcg_shift",  "faces_turned",     "box_velocity_as_point",
+                           "wall_path_uncut"},
                   run_of);
 }
 
@@ -245,14 +247,18 @@ std::vector<HostMutant> host_catalogue() {
          [](Settings& s) {
              s.colliders.erase(s.colliders.begin(), s.colliders.begin() + 2);
              s.colliders.push_back({.position = {0, 0, 0}, .radius = 1e-3F});
-         }},
-        {"colliders_padded_to_144_bytes", {}, floats("boxColliderBuffer", at_stride_36)},
-        {"spheres_padded_to_144_bytes", {}, floats("sphereColliderBuffer", at_stride_36)},
+         },
+         {},
+         "spheres_missing"},
+        {"colliders_padded_to_144_bytes", {}, floats("boxColliderBuffer", at_stride_36), "boxes_padded"},
+        {"spheres_padded_to_144_bytes", {}, floats("sphereColliderBuffer", at_stride_36), "spheres_padded"},
         {"boxes_not_turned",
          [](Settings& s) {
              for (dust::Collider& one : s.colliders)
                  one.rotate = glm::vec3(0.0F);
-         }},
+         },
+         {},
+         "boxes_unturned"},
         {"sphere_scale_is_its_radius",
          [](Settings& s) {
              for (dust::Collider& one : s.colliders)
@@ -283,11 +289,13 @@ std::vector<HostMutant> host_catalogue() {
          "deltaTime: zero"},
         {"world_turned_over",
          {},
-         uniform("update", "worldBoundsMin", [](const Uniforms& all) { return all.at("worldBoundsMax"); })},
+         uniform("update", "worldBoundsMin", [](const Uniforms& all) { return all.at("worldBoundsMax"); }),
+         "world_turned_over"},
         {"tail_not_dispatched",
          {},
          uniform("update", "dustCount",
-                 [](const Uniforms& all) { return std::get<unsigned>(all.at("dustCount")) & ~1023U; })},
+                 [](const Uniforms& all) { return std::get<unsigned>(all.at("dustCount")) & ~1023U; }),
+         "tail_left_out"},
         {"mass_not_set", {}, uniform("vacuum_up", "mass", [](const Uniforms&) { return 1.0F; }), "mass: one"},
         {"suction_not_squared",
          {},
@@ -300,7 +308,8 @@ std::vector<HostMutant> host_catalogue() {
         {"cone_of_the_angle",
          {},
          uniform("vacuum_up", "cleanerDotThreshold",
-                 [](const Uniforms& all) { return number(all, "emitterAngleRad"); })},
+                 [](const Uniforms& all) { return number(all, "emitterAngleRad"); }),
+         "cone_of_the_angle"},
         {"tool_faces_back",
          {},
          uniform("vacuum_up", "controllerForward",
@@ -310,7 +319,9 @@ std::vector<HostMutant> host_catalogue() {
          [](Settings& s) {
              for (dust::Pose& pose : s.controller)
                  pose.frame += 1;
-         }},
+         },
+         {},
+         "tool_a_frame_late"},
         {"death_range_not_squared",
          {},
          uniform("vacuum_up", "cleanerSqrDeathRange", sqrt_of("cleanerSqrDeathRange")),
@@ -322,7 +333,8 @@ std::vector<HostMutant> host_catalogue() {
          "controllerMatrix: transposed"},
         {"emitter_angle_for_tangent",
          {},
-         uniform("emit", "emitterTangent", [](const Uniforms& all) { return number(all, "emitterAngleRad"); })},
+         uniform("emit", "emitterTangent", [](const Uniforms& all) { return number(all, "emitterAngleRad"); }),
+         "angle_for_tangent"},
         {"emitter_distance_left_out",
          {},
          uniform("emit", "emitterDist", [](const Uniforms&) { return 1.0F; }),
@@ -334,17 +346,20 @@ std::vector<HostMutant> host_catalogue() {
         {"seed_not_set", {}, uniform("populate", "seed", [](const Uniforms&) { return 0U; }), "seed of the run: zero"},
         {"spawn_box_of_points",
          {},
-         uniform("populate", "spawnBoundsMax", [](const Uniforms& all) { return all.at("spawnBoundsMin"); })},
+         uniform("populate", "spawnBoundsMax", [](const Uniforms& all) { return all.at("spawnBoundsMin"); }),
+         "spawnBoundsMax: instead spawnBoundsMin"},
         {"colours_changed_over",
          {},
-         uniform("populate", "dustColorB", [](const Uniforms& all) { return all.at("dustColorA"); })},
+         uniform("populate", "dustColorB", [](const Uniforms& all) { return all.at("dustColorA"); }),
+         "colour's share: zero"},
         {"blast_range_not_squared",
          {},
          uniform("explode", "explosionSqrRange", sqrt_of("explosionSqrRange")),
          "blast_range_not_squared"},
         {"blast_of_the_frame",
          {},
-         uniform("explode", "impulseDeltaTime", [](const Uniforms& all) { return all.at("deltaTime"); })},
+         uniform("explode", "impulseDeltaTime", [](const Uniforms& all) { return all.at("deltaTime"); }),
+         "blast_by_frames"},
         {"wind_constant",
          {},
          uniform("blow_wind", "impulseDeltaTime", [](const Uniforms&) { return 0.02F; }),
@@ -355,7 +370,7 @@ std::vector<HostMutant> host_catalogue() {
 
 } // namespace
 
-TEST_CASE("dust mutants: what the host hands over wrongly is found, and in most cases has a cause") {
+TEST_CASE("dust mutants: what the host hands over wrongly is found, and nine in ten have their cause") {
     if (!gl())
         return skip(gl().missing());
     const dust::Settings right = room(false);
@@ -380,5 +395,5 @@ TEST_CASE("dust mutants: what the host hands over wrongly is found, and in most 
         CHECK(outcome.verdict == "DIVERGENT");
         CHECK((mutant.cause.empty() || outcome.names(mutant.cause)));
     }
-    CHECK(with_cause >= 23);
+    CHECK(10 * with_cause >= 9 * all.size());
 }

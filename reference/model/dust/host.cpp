@@ -59,22 +59,28 @@ bool touches(const glm::dvec3& p, const Collider& collider, const ColliderMatric
 
 } // namespace
 
-Host::Host(Settings settings) : settings_(std::move(settings)) {
-    check(settings_);
-    if (switches().gravity_dir == GravityDir::down)
-        settings_.gravity = {0.0F, settings_.gravity.y, 0.0F};
+Colliders colliders_of(const Settings& settings) {
+    Colliders all;
     for (const bool sphere : {true, false}) {
-        std::vector<ColliderMatrices>& list = sphere ? spheres_ : boxes_;
+        std::vector<ColliderMatrices>& list = sphere ? all.spheres : all.boxes;
         bool removed = false;
-        for (const Collider& collider : settings_.colliders)
+        for (const Collider& collider : settings.colliders)
             if (collider.sphere == sphere && collider.removed)
                 removed = true;
             else if (collider.sphere == sphere)
                 list.push_back(matrices(collider));
         // The buffer is gone and the count is still 1: what is read there is 0.
-        if (removed && list.empty() && switches().last_collider == LastCollider::zeros)
+        if (removed && list.empty() && settings.switches.last_collider == LastCollider::zeros)
             list.push_back({glm::mat4(0.0F), glm::mat4(0.0F), glm::vec3(0.0F)});
     }
+    return all;
+}
+
+Host::Host(Settings settings) : settings_(std::move(settings)) {
+    check(settings_);
+    if (switches().gravity_dir == GravityDir::down)
+        settings_.gravity = {0.0F, settings_.gravity.y, 0.0F};
+    colliders_ = colliders_of(settings_);
     for (const Ball& ball : settings_.cannon)
         if (const auto explosion = fly(ball))
             explosions_.push_back(*explosion);
@@ -114,6 +120,7 @@ Host::Host(Settings settings) : settings_(std::move(settings)) {
 
 FrameValues Host::at(int frame) const {
     FrameValues values = poses_[static_cast<std::size_t>(std::min(frame, static_cast<int>(poses_.size()) - 1))];
+    values.frame = frame;
     values.dt = settings_.tick * settings_.timescale;
     values.time = static_cast<float>(double(frame) * double{values.dt});
     const bool constant = switches().impulse_dt != ImpulseDt::frame;

@@ -18,6 +18,14 @@ struct ColliderMatrices {
     glm::vec3 scale{1.0F}; ///< a sphere's is its diameter
 };
 
+/// In the order of the list that they are in.
+struct Colliders {
+    std::vector<ColliderMatrices> spheres, boxes;
+};
+
+/// The host's colliders: those of the settings that are there, or what is left of the last one that was removed.
+Colliders colliders_of(const Settings& settings);
+
 struct Explosion {
     int frame = 0;
     glm::vec3 position{0.0F};
@@ -26,6 +34,7 @@ struct Explosion {
 
 /// What the host hands the kernels in a frame.
 struct FrameValues {
+    int frame = 0;
     float dt = 0.0F, time = 0.0F;
     float tool_dt = 0.0F, wind_dt = 0.0F, explosion_dt = 0.0F; ///< seconds that an impulse lasts
     glm::vec3 controller_pos{0.0F}, controller_forward{0.0F, 0.0F, 1.0F};
@@ -57,8 +66,9 @@ class Host {
     /// The most explosions that a frame has.
     [[nodiscard]] std::size_t most_explosions() const;
 
-    [[nodiscard]] const std::vector<ColliderMatrices>& spheres() const { return spheres_; }
-    [[nodiscard]] const std::vector<ColliderMatrices>& boxes() const { return boxes_; }
+    [[nodiscard]] const Colliders& colliders() const { return colliders_; }
+    [[nodiscard]] const std::vector<ColliderMatrices>& spheres() const { return colliders_.spheres; }
+    [[nodiscard]] const std::vector<ColliderMatrices>& boxes() const { return colliders_.boxes; }
     /// 4,096 directions, evenly round the circle: cosine and sine.
     [[nodiscard]] const std::vector<glm::vec2>& directions() const { return directions_; }
 
@@ -66,7 +76,7 @@ class Host {
     [[nodiscard]] const Tool* tool_at(int frame) const;
     [[nodiscard]] std::optional<Explosion> fly(const Ball& ball) const;
     Settings settings_;
-    std::vector<ColliderMatrices> spheres_, boxes_;
+    Colliders colliders_;
     std::vector<Explosion> explosions_;
     std::vector<FrameValues> poses_; ///< up to the last that differs
     std::vector<glm::vec2> directions_;

@@ -62,7 +62,7 @@ std::string curve(const GraphNode& node, const std::string& t) {
     return fmt::format("!({} < {}) ? {} : ({})", number(keys.front()[0]), t, number(keys.front()[1]), made);
 }
 
-std::string expression(const Graph& graph, const GraphNode& node) {
+std::string expression(const Graph& graph, const GraphNode& node, const std::string& own_uniform) {
     using enum GraphKind;
     const std::size_t count = graph_components(node.takes);
     const auto x = [&](std::size_t port, std::size_t c) { return part_of(graph, node.inputs[port], c); };
@@ -78,8 +78,9 @@ std::string expression(const Graph& graph, const GraphNode& node) {
     };
     switch (node.kind) {
     case constant:
-    case parameter:
         return value(graph, node.value, node.makes);
+    case parameter:
+        return fmt::format("ls_flush({})", own_uniform);
     case input:
         return "i_" + std::string(graph.stage->inputs[node.of_stage].name);
     case add:
@@ -190,12 +191,29 @@ std::string expression(const Graph& graph, const GraphNode& node) {
 
 } // namespace
 
-std::string graph_statements(const Graph& graph, const std::string& indent) {
+std::string graph_uniforms(const Graph& graph, const std::string& parameters) {
+    std::string text;
+    for (const std::size_t n : graph.order)
+        if (graph.nodes[n].kind == GraphKind::parameter)
+            text += fmt::format("uniform float {}{}; // {}\n", parameters, n, graph.nodes[n].id);
+    return text;
+}
+
+std::vector<std::pair<std::string, float>> graph_parameters(const Graph& graph, const std::string& parameters) {
+    std::vector<std::pair<std::string, float>> all;
+    for (const std::size_t n : graph.order)
+        if (graph.nodes[n].kind == GraphKind::parameter)
+            all.emplace_back(fmt::format("{}{}", parameters, n), graph.nodes[n].value.numbers[0]);
+    return all;
+}
+
+std::string graph_statements(const Graph& graph, const std::string& indent, const std::string& parameters) {
     std::string text;
     for (const std::size_t n : graph.order) {
         const GraphNode& node = graph.nodes[n];
         text += fmt::format("{}{}{} n{} = {}; // {}\n", indent, graph_components(node.makes) > 0 ? "precise " : "",
-                            graph_type_name(node.makes), n, expression(graph, node), node.id);
+                            graph_type_name(node.makes), n, expression(graph, node, fmt::format("{}{}", parameters, n)),
+                            node.id);
     }
     return text;
 }
@@ -232,7 +250,8 @@ ShaderTexts graph_texts(const Graph& graph) {
         if (graph_components(type) == 0)
             writes += fmt::format("    outputs[i].{0} = uint(o_{0});\n", name);
     }
-    return {{"graph_words.glsl", fmt::format("struct Inputs {{\n{}}};\nstruct Outputs {{\n{}}};\n", inputs, outputs)},
+    return {{"graph_words.glsl", fmt::format("struct Inputs {{\n{}}};\nstruct Outputs {{\n{}}};\n{}", inputs, outputs,
+                                             graph_uniforms(graph))},
             {"graph_statements.glsl", reads + graph_statements(graph) + writes}};
 }
 

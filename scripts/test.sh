@@ -6,6 +6,7 @@ set -euo pipefail
 cd "$(dirname "$0")/.."
 scripts/install_packages.sh
 scripts/build_report_page.sh
+scripts/build_graph_page.sh
 cmake --preset ci
 cmake --build --preset ci
 scripts/fetch_meshes.sh

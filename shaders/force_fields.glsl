@@ -1,4 +1,6 @@
 // What accelerates a particle at a place. Twin: reference/system/force_fields.hpp.
+#ifndef FORCE_FIELDS_GLSL
+#define FORCE_FIELDS_GLSL
 #include "noise.glsl"
 
 float powered(float base, float exponent) { return exponent == 0.0 ? 1.0 : exponent == 1.0 ? base : mul(base, base); }
@@ -33,3 +35,4 @@ vec3 attraction(vec3 a, vec3 way, float l, float strength, float radius, float e
 vec3 curl_noise(vec3 x, float strength, uint seed) {
     return in_noise(x) ? mul(curl(x, seed), strength) : vec3(0.0);
 }
+#endif

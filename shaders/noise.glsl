@@ -1,5 +1,7 @@
 // Gradient noise (Perlin, "Improving noise", 2002) with its analytic derivatives, and the curl of three (Bridson,
 // "Curl-noise for procedural fluid flow", 2007). Twin: reference/system/noise.hpp.
+#ifndef NOISE_GLSL
+#define NOISE_GLSL
 
 // One of the 16 edge directions, by 4 bits.
 vec3 edge_of(uint h) {
@@ -91,4 +93,5 @@ vec3 curl(vec3 x, uint seed) {
     vec3 by_z = slope(x, vec3(0.0, 0.0, 0.015625), seed);
     return vec3(sub(by_y.z, by_z.y), sub(by_z.x, by_x.z), sub(by_x.y, by_y.x));
 }
+#endif
 #endif

@@ -1,4 +1,6 @@
 // Sine and cosine of turns, of rounded operations alone. Twin: reference/system/turns.hpp.
+#ifndef TURNS_GLSL
+#define TURNS_GLSL
 
 vec2 sine_cosine(float x) {
     float r = sub(x, floor(add(x, 0.5)));
@@ -26,3 +28,4 @@ vec3 on_circle(float z, float turns) {
     vec2 sc = sine_cosine(turns);
     return vec3(mul(r, sc.y), mul(r, sc.x), z);
 }
+#endif

@@ -11,6 +11,7 @@
 #include "crosscheck/files/plain_text.hpp"
 #include "crosscheck/files/shell_words.hpp"
 #include "crosscheck/judge/graph_system.hpp"
+#include "crosscheck/scene/graph_catalogue.hpp"
 #include "crosscheck/scene/graph_file.hpp"
 #include "crosscheck/scene/profiles.hpp"
 #include "gpu/graph_glsl.hpp"
@@ -64,6 +65,17 @@ int print_values(const Options& options) {
     return status_agree;
 }
 
+/// What an editor knows of graphs.
+Verb nodes_verb() {
+    Verb verb("nodes", "print what graphs are made of, for an editor: stages, types of nodes, ports, as JSON");
+    verb.footer = "Example: lockstep graph nodes";
+    verb.run = [](const Call&) {
+        fmt::print("{}", graph_catalogue());
+        return status_agree;
+    };
+    return verb;
+}
+
 Verb of_graph(std::string name, std::string description, const std::shared_ptr<Options>& options,
               int (*run)(const Options&)) {
     Verb verb(std::move(name), std::move(description));
@@ -97,7 +109,7 @@ Verb graph_command() {
     Verb verb{"graph", "check a graph of nodes, which says how particles behave"};
     verb.footer = "Example: lockstep graph check data/graphs/fire.json";
     verb.verbs = {std::move(check_verb), of_graph("glsl", "print the shader that it becomes", options, print_glsl),
-                  std::move(eval)};
+                  std::move(eval), nodes_verb()};
     return verb;
 }
 

@@ -49,8 +49,10 @@ class JsonValue {
     [[nodiscard]] float number(const NumberRule& rule = number::finite) const;
     [[nodiscard]] std::int64_t integer(std::int64_t min, std::int64_t max) const;
     [[nodiscard]] glm::vec3 vector() const;
+    [[nodiscard]] const std::string& file() const { return file_; } ///< as messages name it
     [[nodiscard]] bool is_null() const { return value_->is_null(); }
     [[nodiscard]] bool is_text() const { return value_->is_string(); }
+    [[nodiscard]] bool is_object() const { return value_->is_object(); }
     [[nodiscard]] bool is_array() const { return value_->is_array(); }
     [[nodiscard]] bool is_truth() const { return value_->is_boolean(); }
     [[nodiscard]] bool truth() const { return is_truth() && value_->get<bool>(); }

@@ -156,7 +156,12 @@ SystemScene graph_system(const GraphPtr& graph, const std::string& name, std::si
                   GraphTwin{compiled, &input_sites(*graph->stage)}));
     GlPass pass{.name = "graph", .stage = Stage::compute, .resource = output_buffer};
     pass.texts = graph_texts(*graph);
-    pass.uniforms = [](int) { return Uniforms{{"u_Seed", GraphSurroundings{}.seed}}; };
+    pass.uniforms = [graph](int) {
+        Uniforms all{{"u_Seed", GraphSurroundings{}.seed}};
+        for (const auto& [uniform, value] : graph_parameters(*graph))
+            all[uniform] = value;
+        return all;
+    };
     pass.defines = choice_defines("curl_derivative", std::array<std::string_view, 2>{"analytic", "difference"}, 0);
     return {std::move(system), {std::move(pass)}, arithmetic};
 }

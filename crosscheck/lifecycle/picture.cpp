@@ -8,9 +8,9 @@
 
 namespace lockstep::lifecycle {
 
-SystemPicture picture(const HostPtr& host, const SystemState& state) {
+SystemPicture picture(const HostPtr& host, const SystemState& state, int frame) {
     GlPicture how;
-    const Drawing made = drawing(host->settings(), static_cast<float>(how.width) / static_cast<float>(how.height));
+    const Drawing made = drawing(*host, static_cast<float>(how.width) / static_cast<float>(how.height), frame);
     how.background = {18, 22, 30, 255};
     how.indices.assign(quad_triangles.begin(), quad_triangles.end());
     System system{.name = "picture",

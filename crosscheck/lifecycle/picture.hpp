@@ -5,6 +5,6 @@
 namespace lockstep::lifecycle {
 
 /// How the living are drawn: sprites, and ribbons with a pattern along them.
-SystemPicture picture(const HostPtr& host, const SystemState& state);
+SystemPicture picture(const HostPtr& host, const SystemState& state, int frame);
 
 } // namespace lockstep::lifecycle

@@ -1,6 +1,8 @@
 #include "crosscheck/lifecycle/scene.hpp"
 
 #include <algorithm>
+#include <filesystem>
+#include <memory>
 #include <string_view>
 #include <type_traits>
 
@@ -8,6 +10,7 @@
 #include <fmt/ranges.h>
 #include <glm/geometric.hpp>
 
+#include "crosscheck/scene/graph_file.hpp"
 #include "crosscheck/scene/scene_fields.hpp"
 #include "reference/model/error.hpp"
 
@@ -101,11 +104,43 @@ void read_shape(const JsonValue& json, Emitter& e) {
     refuse(e.shape == Emitter::Shape::point ? "radius" : "position");
 }
 
+/// A graph as it stands, or in a file, found relative to the scene's.
+GraphPtr read_stage(const JsonValue& graphs, std::string_view stage) {
+    const auto given = graphs.find(stage);
+    if (!given)
+        return {};
+    if (!given->is_text())
+        return std::make_shared<const Graph>(read_graph(*given, stage));
+    const std::filesystem::path file = std::filesystem::path(graphs.file()).parent_path() / given->text();
+    const nlohmann::json document = read_json(file);
+    return std::make_shared<const Graph>(read_graph(JsonValue(document, file.string()), stage));
+}
+
 Emitter read_emitter(const JsonValue& json) {
-    json.check_keys(
-        {"capacity", "rate", "bursts",    "lifetime",         "shape", "position",     "centre", "min",          "max",
-         "radius",   "path", "direction", "direction_jitter", "speed", "speed_jitter", "cone",   "acceleration", "size",
-         "color",    "draw", "uv",        "uv_scale",         "forces"});
+    json.check_keys({"capacity",
+                     "rate",
+                     "bursts",
+                     "lifetime",
+                     "shape",
+                     "position",
+                     "centre",
+                     "min",
+                     "max",
+                     "radius",
+                     "path",
+                     "direction",
+                     "direction_jitter",
+                     "speed",
+                     "speed_jitter",
+                     "cone",
+                     "acceleration",
+                     "size",
+                     "color",
+                     "draw",
+                     "uv",
+                     "uv_scale",
+                     "forces",
+                     "graphs"});
     Emitter e;
     read_field(json, "capacity", e.capacity, [](const JsonValue& v) {
         return static_cast<std::size_t>(v.integer(1, static_cast<std::int64_t>(most_particles_of_emitter)));
@@ -142,6 +177,12 @@ Emitter read_emitter(const JsonValue& json) {
     if (const auto forces = json.find("forces"))
         for (const JsonValue& force : forces->items())
             e.forces.push_back(read_force(force));
+    if (const auto graphs = json.find("graphs")) {
+        graphs->check_keys({"emission", "simulation", "rendering"});
+        e.emission = read_stage(*graphs, "emission");
+        e.simulation = read_stage(*graphs, "simulation");
+        e.rendering = read_stage(*graphs, "rendering");
+    }
     return e;
 }
 

@@ -21,6 +21,13 @@ std::string text_of(const Host& host) {
     for (const HostEmitter& of : host.emitters())
         if (host.switches().may_die != MayDie::all && !host.lists() && of.dies == Dies::all)
             text += fmt::format("; of emitter {} anyone may die", of.number);
+    for (const HostEmitter& of : host.emitters()) {
+        const Emitter& e = of.settings();
+        for (const GraphPtr& graph : {e.emission, e.simulation, e.rendering})
+            if (graph)
+                text += fmt::format("; emitter {}: {} by a graph of {} nodes", of.number, graph->stage->name,
+                                    graph->order.size());
+    }
     return text;
 }
 
@@ -59,7 +66,7 @@ System system(const HostPtr& host, const std::string& name) {
 SystemScene load(const JsonValue& scene, const std::string& name, const SceneOptions& options) {
     const auto host = std::make_shared<const Host>(read_scene(scene, options));
     return {system(host, name), passes(host), host->settings().arithmetic,
-            [host](const SystemState& state, int) { return picture(host, state); }};
+            [host](const SystemState& state, int frame) { return picture(host, state, frame); }};
 }
 
 } // namespace lockstep::lifecycle

@@ -26,7 +26,7 @@ std::string shown(std::string_view text) { return plain_line(std::string(text.su
 [[noreturn]] void fail_unknown(const JsonValue& at, std::string_view name, std::string_view what,
                                const std::vector<std::string>& known) {
     const std::string near = did_you_mean(std::string(name), known);
-    if (known.size() > 40)
+    if (known.size() > 40 || known.empty())
         at.fail(fmt::format("'{}' is no {}{}", shown(name), what, near));
     at.fail(fmt::format("'{}' is no {}; there are {}{}", shown(name), what, fmt::join(known, ", "), near));
 }
@@ -71,7 +71,8 @@ GraphSource literal(const JsonValue& json) {
 
 class Reader {
   public:
-    explicit Reader(const JsonValue& json) : json_(json) {}
+    /// `stage`: the one it is for; empty: as it says.
+    Reader(const JsonValue& json, std::string_view stage) : json_(json), asked_(stage) {}
 
     Graph read() {
         json_.check_keys({"stage", "description", "nodes", "outputs"});
@@ -121,10 +122,17 @@ class Reader {
     /// That of the file, or the first that has all that the graph names.
     void find_stage() {
         const auto stages = graph_stages();
+        for (const GraphStage& stage : stages)
+            if (stage.name == asked_)
+                graph_.stage = &stage;
         if (const auto stage = json_.find("stage")) {
-            graph_.stage = &stages[named(*stage, stages, "stage")];
-            return;
+            const GraphStage& own = stages[named(*stage, stages, "stage")];
+            if (graph_.stage != nullptr && graph_.stage != &own)
+                stage->fail(fmt::format("is {}; right is {}", own.name, asked_));
+            graph_.stage = &own;
         }
+        if (graph_.stage != nullptr)
+            return;
         const std::vector<std::string> outputs = json_.at("outputs").keys();
         const auto has = [](const auto& values, const std::string& name) {
             return std::any_of(values.begin(), values.end(), [&](const auto& v) { return v.name == name; });
@@ -461,6 +469,7 @@ class Reader {
     static constexpr int missing_part = -2; ///< of a port of compose that is left out
 
     const JsonValue& json_;
+    std::string_view asked_;
     Graph graph_;
     std::vector<Read> read_;
     std::map<std::string, std::size_t> places_;
@@ -470,7 +479,8 @@ class Reader {
 
 } // namespace
 
-Graph read_graph(const JsonValue& json) { return Reader(json).read(); }
+Graph read_graph(const JsonValue& json) { return read_graph(json, ""); }
+Graph read_graph(const JsonValue& json, std::string_view stage) { return Reader(json, stage).read(); }
 
 Graph load_graph(const std::filesystem::path& file) {
     const nlohmann::json document = read_json(file);

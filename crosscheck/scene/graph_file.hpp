@@ -20,4 +20,7 @@ namespace lockstep {
 Graph read_graph(const JsonValue& json);
 Graph load_graph(const std::filesystem::path& file);
 
+/// One of a certain stage, which the graph need not name, and may not name otherwise.
+Graph read_graph(const JsonValue& json, std::string_view stage);
+
 } // namespace lockstep

@@ -7,6 +7,7 @@
 
 #include <glm/vec2.hpp>
 
+#include "gpu/lifecycle/graphs.hpp"
 #include "reference/model/lifecycle/schema.hpp"
 #include "reference/model/lifecycle/sort_steps.hpp"
 
@@ -26,44 +27,47 @@ std::vector<float> floats_of(const std::vector<HostForce>& forces) {
 Uniforms uniforms(const Host& host, const HostEmitter& of, int frame) {
     const Emitter& e = of.settings();
     const Settings& s = host.settings();
-    return {{"u_Emitter", static_cast<unsigned>(of.number)},
-            {"u_Base", static_cast<unsigned>(of.base)},
-            {"u_Capacity", static_cast<unsigned>(e.capacity)},
-            {"u_FirstBlock", static_cast<unsigned>(of.first_block)},
-            {"u_FirstInRing", static_cast<unsigned>(of.first_in_ring)},
-            {"u_Window", static_cast<unsigned>(of.window)},
-            {"u_FirstKey", static_cast<unsigned>(of.first_key)},
-            {"u_Keys", static_cast<unsigned>(of.keys)},
-            {"u_Request", static_cast<unsigned>(of.request(frame))},
-            {"u_Frame", static_cast<unsigned>(frame)},
-            {"u_Corners", 4U},
-            {"u_View", view_matrix(s.camera)},
-            {"u_UvScale", e.uv_scale},
-            {"u_Seed", of.seed},
-            {"u_Tick", s.tick},
-            {"u_HalfTickSquared", host.half_tick_squared()},
-            {"u_Time", host.time(frame)},
-            {"u_BoxLow", s.box_low},
-            {"u_BoxScale", host.box_scale()},
-            {"u_BoxStep", host.box_step()},
-            {"u_ShapeLow", e.min},
-            {"u_ShapeSize", e.max - e.min},
-            {"u_Radius", e.radius},
-            {"u_Origin", of.origin(frame)},
-            {"u_LastOrigin", of.origin(frame - 1)},
-            {"u_Direction", of.basis.ahead},
-            {"u_Side", of.basis.side},
-            {"u_Up", of.basis.up},
-            {"u_Jitter", e.direction_jitter},
-            {"u_Speed", e.speed},
-            {"u_SpeedJitter", e.speed_jitter},
-            {"u_ConeDepth", of.cone_depth},
-            {"u_Acceleration", e.acceleration},
-            {"u_Lifetime", glm::vec2(e.lifetime[0], e.lifetime[1])},
-            {"u_Sizes", glm::vec2(e.size[0], e.size[1])},
-            {"u_Color", e.color[0]},
-            {"u_EndColor", e.color[1]},
-            {"u_ForceCount", static_cast<int>(e.forces.size())}};
+    Uniforms all{{"u_Emitter", static_cast<unsigned>(of.number)},
+                 {"u_Base", static_cast<unsigned>(of.base)},
+                 {"u_Capacity", static_cast<unsigned>(e.capacity)},
+                 {"u_FirstBlock", static_cast<unsigned>(of.first_block)},
+                 {"u_FirstInRing", static_cast<unsigned>(of.first_in_ring)},
+                 {"u_Window", static_cast<unsigned>(of.window)},
+                 {"u_FirstKey", static_cast<unsigned>(of.first_key)},
+                 {"u_Keys", static_cast<unsigned>(of.keys)},
+                 {"u_Request", static_cast<unsigned>(of.request(frame))},
+                 {"u_Frame", static_cast<unsigned>(frame)},
+                 {"u_Corners", 4U},
+                 {"u_View", view_matrix(s.camera)},
+                 {"u_UvScale", e.uv_scale},
+                 {"u_Seed", of.seed},
+                 {"u_Tick", s.tick},
+                 {"u_HalfTickSquared", host.half_tick_squared()},
+                 {"u_Time", host.time(frame)},
+                 {"u_BoxLow", s.box_low},
+                 {"u_BoxScale", host.box_scale()},
+                 {"u_BoxStep", host.box_step()},
+                 {"u_ShapeLow", e.min},
+                 {"u_ShapeSize", e.max - e.min},
+                 {"u_Radius", e.radius},
+                 {"u_Origin", of.origin(frame)},
+                 {"u_LastOrigin", of.origin(frame - 1)},
+                 {"u_OriginVelocity", of.origin_velocity(frame)},
+                 {"u_Direction", of.basis.ahead},
+                 {"u_Side", of.basis.side},
+                 {"u_Up", of.basis.up},
+                 {"u_Jitter", e.direction_jitter},
+                 {"u_Speed", e.speed},
+                 {"u_SpeedJitter", e.speed_jitter},
+                 {"u_ConeDepth", of.cone_depth},
+                 {"u_Acceleration", e.acceleration},
+                 {"u_Lifetime", glm::vec2(e.lifetime[0], e.lifetime[1])},
+                 {"u_Sizes", glm::vec2(e.size[0], e.size[1])},
+                 {"u_Color", e.color[0]},
+                 {"u_EndColor", e.color[1]},
+                 {"u_ForceCount", static_cast<int>(e.forces.size())}};
+    add_stage_parameters(all, e);
+    return all;
 }
 
 void add(ShaderDefines& all, std::string_view name, std::initializer_list<std::string_view> values,
@@ -105,6 +109,7 @@ class Kernels {
         GlPass pass{.name = std::move(name), .stage = Stage::compute, .resource = resource};
         pass.uniforms = [host = host_, of = &of_](int frame) { return uniforms(*host, *of, frame); };
         pass.defines = defines(*host_, of_);
+        pass.texts = stage_texts(of_.settings());
         const std::size_t at = all_.size();
         all_.push_back(std::move(pass));
         for (const auto& [what, other] : besides)
@@ -220,13 +225,23 @@ GlPass draw_gl_pass(const HostPtr& host, const Drawing& drawing) {
     GlPass pass{.name = "draw", .stage = Stage::vertex, .resource = corner_buffer};
     pass.instances_of = quad_buffer;
     pass.defines = switch_defines(*host);
-    pass.uniforms = [host, drawing](int) -> Uniforms {
-        return {{"u_View", drawing.view},
-                {"u_Projection", drawing.projection},
-                {"u_Frame", 0U},
-                {"u_BoxLow", host->settings().box_low},
-                {"u_BoxScale", host->box_scale()},
-                {"u_BoxStep", host->box_step()}};
+    pass.texts = rendering_texts(*host);
+    const ShaderDefines looks = rendering_defines(*host);
+    pass.defines.insert(pass.defines.end(), looks.begin(), looks.end());
+    if (std::any_of(host->emitters().begin(), host->emitters().end(),
+                    [](const HostEmitter& of) { return of.settings().draw == Emitter::Draw::ribbon; }))
+        pass.defines.emplace_back("SEGMENTS", "1");
+    pass.uniforms = [host, drawing](int) {
+        Uniforms all{{"u_View", drawing.view},
+                     {"u_Projection", drawing.projection},
+                     {"u_Frame", 0U},
+                     {"u_Tick", host->settings().tick},
+                     {"u_Time", drawing.time},
+                     {"u_BoxLow", host->settings().box_low},
+                     {"u_BoxScale", host->box_scale()},
+                     {"u_BoxStep", host->box_step()}};
+        add_rendering_parameters(all, *host);
+        return all;
     };
     return pass;
 }

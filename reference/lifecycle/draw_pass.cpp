@@ -31,11 +31,14 @@ float alpha_at(std::uint32_t kind, const glm::vec2& at) {
 } // namespace
 
 std::unique_ptr<ItemPass> draw_pass(const HostPtr& host, const Drawing& drawing) {
+    std::vector<StageGraph> graphs;
+    for (const HostEmitter& of : host->emitters())
+        graphs.push_back(stage_graph(of.settings().rendering));
     return item_pass({.name = "draw",
                       .resource = corner_buffer,
                       .stage = PassStage::vertex,
                       .arithmetic = host->settings().arithmetic},
-                     DrawTwin{host, drawing});
+                     DrawTwin{host, drawing, std::move(graphs)});
 }
 
 ColorImage draw_image(const SystemView& state, ColorImage background) {

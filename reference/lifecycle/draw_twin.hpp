@@ -1,8 +1,10 @@
 #pragma once
 #include <cstring>
+#include <optional>
 #include <tuple>
+#include <vector>
 
-#include "reference/lifecycle/appearance.hpp"
+#include "reference/lifecycle/graphs.hpp"
 #include "reference/model/lifecycle/drawing.hpp"
 
 namespace lockstep::lifecycle {
@@ -11,6 +13,7 @@ namespace lockstep::lifecycle {
 struct DrawTwin {
     HostPtr host;
     Drawing drawing;
+    std::vector<StageGraph> graphs; ///< of the rendering, one an emitter
 
     template <class R> struct Corner {
         typename R::Vec4 clip, tint;
@@ -35,9 +38,12 @@ struct DrawTwin {
             seen = r.read(site::seen_point, in.before.vec3(edge, quad));
             u = r.read(site::first_u, in.before.real(fields.u, quad, next ? 1 : 0));
             v = Real(right ? 1.0F : 0.0F);
-        } else {
+        }
+        const std::optional<StageRun<R>> look = looks(r, particle, quad, u, v);
+        if (kind != 2) {
             const auto centre = r.transform(site::view, r.uniform(site::view, drawing.view), particle.position());
-            const Real reach = r.note(site::half_width, size_of(r, particle) * 0.5F);
+            const auto size = look ? look->real("size") : std::nullopt;
+            const Real reach = r.note(site::half_width, (size ? *size : size_of(r, particle)) * 0.5F);
             seen = {centre.x + Real(right ? 1.0F : -1.0F) * reach, centre.y + Real(next ? 1.0F : -1.0F) * reach,
                     centre.z};
             if (host->switches().expired == Expired::hidden && !r.decide(site::is_visible, particle.remaining() > 0.0F))
@@ -46,11 +52,30 @@ struct DrawTwin {
         const auto clip = r.transform(site::projection, r.uniform(site::projection, drawing.projection),
                                       r.note(site::seen_corner, seen));
         const auto drawn = r.note(site::drawn, typename R::Int(static_cast<int>(kind)));
-        return {r.note(site::clip, clip), color_of(r, particle), static_cast<std::uint32_t>(static_cast<int>(drawn)),
-                r.note(site::texel_place, typename R::Vec2{u, v})};
+        return {r.note(site::clip, clip), tint_of(r, particle, look),
+                static_cast<std::uint32_t>(static_cast<int>(drawn)), r.note(site::texel_place, typename R::Vec2{u, v})};
     }
 
   private:
+    /// The graph of the quad's emitter, if it has one.
+    template <class R> std::optional<StageRun<R>> looks(R& r, const Particle<R>& particle, std::size_t quad,
+                                                        const typename R::Real& u, const typename R::Real& v) const {
+        for (const HostEmitter& of : host->emitters())
+            if (graphs[of.number] && quad >= of.base && quad - of.base < of.slots)
+                return StageRun<R>(r, *host, of, graphs[of.number], [&](std::string_view name) {
+                    return value_of(r, *host, particle, drawing.time, name, u, v);
+                });
+        return {};
+    }
+
+    template <class R>
+    typename R::Vec4 tint_of(R& r, const Particle<R>& particle, const std::optional<StageRun<R>>& look) const {
+        const auto made = look ? look->number("color") : std::nullopt;
+        if (!made)
+            return color_of(r, particle);
+        return r.note(site::tint, typename R::Vec4{made->x[0], made->x[1], made->x[2], made->x[3]});
+    }
+
     [[nodiscard]] RawWords particle_words(const SystemView& state, std::size_t quad) const {
         static_cast<void>(state.value({quad_buffer, 0}, quad));
         const View& view = state[quad_buffer];

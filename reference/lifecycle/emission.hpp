@@ -1,5 +1,5 @@
 #pragma once
-#include "reference/lifecycle/particle.hpp"
+#include "reference/lifecycle/graphs.hpp"
 #include "reference/system/turns.hpp"
 
 namespace lockstep::lifecycle {
@@ -10,26 +10,49 @@ template <class R> class Emission {
     using Vec3 = typename R::Vec3;
 
   public:
-    Emission(R& reading, const Host& host, const HostEmitter& of, int frame)
-        : r(reading), host_(host), of_(of), at_(of.settings()), frame_(frame) {}
+    Emission(R& reading, const Host& host, const HostEmitter& of, const StageGraph& graph, int frame)
+        : r(reading), host_(host), of_(of), graph_(graph), at_(of.settings()), frame_(frame) {}
 
     /// Particle `k` of this frame's `emitted`, in a slot of the emitter.
     ItemWords<R> particle(std::size_t slot, std::uint32_t serial, std::uint32_t k, std::uint32_t emitted) const {
+        const std::optional<StageRun<R>> graph = run(serial, k, emitted);
+        const auto real = [&](const char* name, const auto& own) {
+            const auto made = graph ? graph->real(name) : std::nullopt;
+            return made ? *made : own();
+        };
+        const auto vec3 = [&](const char* name, const auto& own) {
+            const auto made = graph ? graph->vec3(name) : std::nullopt;
+            return made ? *made : own();
+        };
         Particle<R> born(r, host_);
         born.at(slot, frame_);
-        born.set_position(r.note(site::position, place(serial, k, emitted)));
-        born.set_velocity(r.note(site::velocity, velocity(serial)));
-        born.set_acceleration(r.note(site::acceleration, r.uniform(site::born_acceleration, at_.acceleration)));
-        born.set_birth(life(serial), r.uniform(site::time, host_.time(frame_)), k);
-        born.set_sizes(r.uniform(site::initial_size, at_.size[0]), r.uniform(site::end_size, at_.size[1]));
-        born.set_colors(at_.color[0], at_.color[1]);
+        born.set_position(r.note(site::position, vec3("position", [&] { return place(serial, k, emitted); })));
+        born.set_velocity(r.note(site::velocity, vec3("velocity", [&] { return velocity(serial); })));
+        born.set_acceleration(r.note(site::acceleration, vec3("acceleration", [&] {
+                                         return r.uniform(site::born_acceleration, at_.acceleration);
+                                     })));
+        born.set_birth(within_lifetimes(real("lifetime", [&] { return life(serial); })),
+                       r.uniform(site::time, host_.time(frame_)), k);
+        const Real size = real("initial_size", [&] { return r.uniform(site::initial_size, at_.size[0]); });
+        born.set_sizes(size, real("end_size", [&] { return r.uniform(site::end_size, at_.size[1]); }));
+        for (const bool end : {false, true}) {
+            const auto made = graph ? graph->number(end ? "end_color" : "initial_color") : std::nullopt;
+            const glm::vec4& own = at_.color[end ? 1 : 0];
+            if (made)
+                born.set_color(end, {made->x[0], made->x[1], made->x[2]}, made->x[3]);
+            else
+                born.set_color(end, r.uniform(end ? site::end_color : site::initial_color, glm::vec3(own)),
+                               r.uniform(end ? site::end_opacity : site::initial_opacity, own.a));
+        }
         return born.record();
     }
     /// Whether the place of such a particle is clamped.
     bool clamps(std::size_t slot, std::uint32_t serial, std::uint32_t k, std::uint32_t emitted) const {
         Particle<R> born(r, host_);
         born.at(slot, frame_);
-        born.set_position(place(serial, k, emitted));
+        const std::optional<StageRun<R>> graph = run(serial, k, emitted);
+        const auto made = graph ? graph->vec3("position") : std::nullopt;
+        born.set_position(made ? *made : place(serial, k, emitted));
         return born.was_clamped();
     }
 
@@ -82,17 +105,42 @@ template <class R> class Emission {
         const Real shortest = r.uniform(site::shortest, at_.lifetime[0]);
         const Real longest = r.uniform(site::longest, at_.lifetime[1]);
         const Vec3 share = r.note(site::random_of_life, random(serial, 2, site::channel_of_life));
-        Real life = r.note(site::share_of_life, shortest + share.y * (longest - shortest));
-        if (r.decide(site::too_short, life < shortest))
+        return r.note(site::share_of_life, shortest + share.y * (longest - shortest));
+    }
+
+    /// Whatever a graph says; of NaN the shortest.
+    Real within_lifetimes(Real life) const {
+        const Real shortest = r.uniform(site::shortest, at_.lifetime[0]);
+        const Real longest = r.uniform(site::longest, at_.lifetime[1]);
+        if (!r.decide(site::long_enough, life > shortest))
             life = shortest;
         if (r.decide(site::too_long, life > longest))
             life = longest;
         return life;
     }
 
+    /// Of the graph, where there is one.
+    std::optional<StageRun<R>> run(std::uint32_t serial, std::uint32_t k, std::uint32_t emitted) const {
+        if (!graph_)
+            return {};
+        return StageRun<R>(r, host_, of_, graph_, [&](std::string_view name) {
+            if (name == "time")
+                return graph_number<R>(r.uniform(site::time, host_.time(frame_)));
+            if (name == "emitter_position")
+                return graph_number<R>(r.uniform(site::origin, of_.origin(frame_)));
+            if (name == "emitter_velocity")
+                return graph_number<R>(r.uniform(site::origin_velocity, of_.origin_velocity(frame_)));
+            return graph_number<R>(name == "serial"           ? serial
+                                   : name == "order_in_frame" ? k
+                                   : name == "emitted"        ? emitted
+                                                              : static_cast<std::uint32_t>(frame_));
+        });
+    }
+
     R& r;
     const Host& host_;
     const HostEmitter& of_;
+    const StageGraph& graph_;
     const Emitter& at_;
     int frame_;
 };

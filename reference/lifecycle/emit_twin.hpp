@@ -18,6 +18,7 @@ std::uint32_t emitted_of(R& r, const Host& host, const HostEmitter& of, std::uin
 struct EmitTwin {
     HostPtr host;
     const HostEmitter* of;
+    StageGraph graph = stage_graph(of->settings().emission);
 
     template <class R> ItemWords<R> operator()(R& r, const PassInput& in, std::size_t item) const {
         const EmitterTwin<R> emitter(r, *host, *of, in);
@@ -28,7 +29,8 @@ struct EmitTwin {
         if (!r.decide(site::is_new, slot >= alive && slot - alive < emitted))
             return kept(r, *host, in, item);
         const std::uint32_t first = count_before(r, site::serial, in, *of, counter::serial);
-        return Emission<R>(r, *host, *of, in.frame).particle(slot, first + (slot - alive), slot - alive, emitted);
+        return Emission<R>(r, *host, *of, graph, in.frame)
+            .particle(slot, first + (slot - alive), slot - alive, emitted);
     }
 };
 
@@ -36,9 +38,10 @@ struct EmitTwin {
 struct EmitListedTwin {
     HostPtr host;
     const HostEmitter* of;
+    StageGraph graph = stage_graph(of->settings().emission);
     std::vector<std::uint32_t> places = {}; ///< places_of_dead
 
-    [[nodiscard]] EmitListedTwin at(const PassInput& in) const { return {host, of, places_of_dead(*of, in)}; }
+    [[nodiscard]] EmitListedTwin at(const PassInput& in) const { return {host, of, graph, places_of_dead(*of, in)}; }
 
     template <class R> ItemWords<R> operator()(R& r, const PassInput& in, std::size_t item) const {
         const EmitterTwin<R> emitter(r, *host, *of, in);
@@ -50,7 +53,7 @@ struct EmitListedTwin {
         if (!r.decide(site::is_new, k < emitted))
             return kept(r, *host, in, item);
         const std::uint32_t first = count_before(r, site::serial, in, *of, counter::serial);
-        return Emission<R>(r, *host, *of, in.frame).particle(slot, first + k, k, emitted);
+        return Emission<R>(r, *host, *of, graph, in.frame).particle(slot, first + k, k, emitted);
     }
 };
 
@@ -77,6 +80,7 @@ struct EmitListTwin {
 struct EmitCountersTwin {
     HostPtr host;
     const HostEmitter* of;
+    StageGraph graph = stage_graph(of->settings().emission);
 
     template <class R> ItemWords<R> operator()(R& r, const PassInput& in, std::size_t item) const {
         UintItem<R> counters(r, in.before, counter_buffer, item);
@@ -89,7 +93,7 @@ struct EmitCountersTwin {
             counters.set(site::may_die, counter::may_die, alive + emitted);
         if (host->switches().position_code == PositionCode::box16 && !plan_of(host->switches().layout).floats) {
             std::uint32_t clamped = counters[counter::clamped];
-            const Emission<R> births(r, *host, *of, in.frame);
+            const Emission<R> births(r, *host, *of, graph, in.frame);
             for (std::uint32_t k = 0; k < emitted; ++k)
                 clamped += births.clamps(born_slot(in, alive, k), counters[counter::serial] + k, k, emitted) ? 1U : 0U;
             counters.set(site::clamped, counter::clamped, clamped);

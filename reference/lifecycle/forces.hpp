@@ -1,4 +1,5 @@
 #pragma once
+#include <optional>
 #include <span>
 
 #include "reference/lifecycle/sites.hpp"
@@ -18,12 +19,13 @@ template <class R> class Forces {
         Vec3 drift;      ///< a velocity that moves the particle and is not kept
         Real drag{1.0F}; ///< what is left of the velocity
         bool killed = false;
+        std::optional<Vec3> position = {}, velocity = {}; ///< of a graph that gives them
     };
 
     Forces(R& reading, const Switches& switches) : r(reading), switches_(switches) {}
 
-    Motion motion(std::span<const HostForce> forces, const Vec3& p, const Vec3& v, const Vec3& a) const {
-        Motion m{a, {}};
+    /// `m`: without these forces.
+    Motion motion(std::span<const HostForce> forces, const Vec3& p, const Vec3& v, Motion m) const {
         for (const HostForce& force : forces)
             switch (force.kind) {
             case Force::Kind::drag:

@@ -23,7 +23,7 @@ template <class R> std::optional<std::uint32_t> source_of(R& r, const EmitterTwi
 struct MoveTwin {
     FrameOf frame;
 
-    [[nodiscard]] MoveTwin at(int number) const { return {frame_of(frame.host, *frame.of, number)}; }
+    [[nodiscard]] MoveTwin at(int number) const { return {frame_of(frame, number)}; }
 
     template <class R> ItemWords<R> operator()(R& r, const PassInput& in, std::size_t item) const {
         const Host& host = *frame.host;
@@ -44,7 +44,7 @@ struct MoveTwin {
 struct SimulateTwin {
     FrameOf frame;
 
-    [[nodiscard]] SimulateTwin at(int number) const { return {frame_of(frame.host, *frame.of, number)}; }
+    [[nodiscard]] SimulateTwin at(int number) const { return {frame_of(frame, number)}; }
 
     template <class R> ItemWords<R> operator()(R& r, const PassInput& in, std::size_t item) const {
         const EmitterTwin<R> emitter(r, *frame.host, *frame.of, in);
@@ -63,7 +63,7 @@ struct SimulateListedTwin {
     std::vector<std::uint32_t> places = {}; ///< places_of_living
 
     [[nodiscard]] SimulateListedTwin at(const PassInput& in) const {
-        return {frame_of(frame.host, *frame.of, in.frame), places_of_living(*frame.host, *frame.of, in)};
+        return {frame_of(frame, in.frame), places_of_living(*frame.host, *frame.of, in)};
     }
 
     template <class R> ItemWords<R> operator()(R& r, const PassInput& in, std::size_t item) const {
@@ -82,7 +82,7 @@ struct SimulateListedTwin {
 struct SimulatedCountTwin {
     FrameOf frame;
 
-    [[nodiscard]] SimulatedCountTwin at(int number) const { return {frame_of(frame.host, *frame.of, number)}; }
+    [[nodiscard]] SimulatedCountTwin at(int number) const { return {frame_of(frame, number)}; }
 
     template <class R> ItemWords<R> operator()(R& r, const PassInput& in, std::size_t item) const {
         UintItem<R> counters(r, in.before, counter_buffer, item);

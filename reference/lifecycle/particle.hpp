@@ -112,6 +112,12 @@ template <class R> class Particle {
             return word(site::lifetime, plan_.lifetime);
         return r.note(site::lifetime, counts_ticks() ? R::real(high(3)) : half(high(3)));
     }
+    /// Seconds, or the low 16 bits of the frame.
+    [[nodiscard]] Real spawn_time() const {
+        if (plan_.floats)
+            return word(site::spawn_time, plan_.spawn_time);
+        return r.note(site::spawn_time, counts_ticks() ? R::real(low(5)) : half(low(5)));
+    }
     void set_remaining(const Real& x) {
         if (plan_.floats)
             set(plan_.remaining, x);
@@ -180,14 +186,15 @@ template <class R> class Particle {
             set(plan_.start, x);
     }
 
-    /// Red, green, blue, opacity.
-    void set_colors(const glm::vec4& first, const glm::vec4& end) {
-        if (plan_.float_colors) {
-            set_color(first, plan_.color, plan_.opacity, site::initial_color, site::initial_opacity);
-            return set_color(end, plan_.end_color, plan_.end_opacity, site::end_color, site::end_opacity);
+    /// Red, green, blue; opacity.
+    void set_color(bool end, const Vec3& rgb, const Real& opacity) {
+        const auto word = static_cast<std::size_t>(end ? plan_.end_color : plan_.color);
+        if (!plan_.float_colors) {
+            raw_[word] = code_of(rgb, opacity);
+            return;
         }
-        raw_[static_cast<std::size_t>(plan_.color)] = code_of(first, site::initial_color, site::initial_opacity);
-        raw_[static_cast<std::size_t>(plan_.end_color)] = code_of(end, site::end_color, site::end_opacity);
+        set_words(static_cast<int>(word), rgb);
+        set(end ? plan_.end_opacity : plan_.opacity, opacity);
     }
     [[nodiscard]] std::array<Real, 4> color(bool end) const {
         const auto at_word = static_cast<std::size_t>(end ? plan_.end_color : plan_.color);
@@ -243,18 +250,13 @@ template <class R> class Particle {
         set(w + 1, v.y);
         set(w + 2, v.z);
     }
-    void set_color(const glm::vec4& c, int rgb, int a, At of_rgb, At of_a) {
-        set_words(rgb, r.uniform(of_rgb, glm::vec3(c)));
-        set(a, r.uniform(of_a, c.a));
-    }
-    [[nodiscard]] std::uint32_t code_of(const glm::vec4& c, At place, At opacity) {
+    [[nodiscard]] std::uint32_t code_of(const Vec3& rgb, const Real& opacity) {
         const bool rgba8 = host_.switches().color_code == ColorCode::rgba8;
-        const Vec3 rgb = r.uniform(place, glm::vec3(c));
         const float steps = rgba8 ? 255.0F : 1023.0F;
         const std::uint32_t red = unorm_of(r, site::color_code, rgb.x, steps);
         const std::uint32_t green = unorm_of(r, site::color_code, rgb.y, steps);
         const std::uint32_t blue = unorm_of(r, site::color_code, rgb.z, steps);
-        const std::uint32_t alpha = unorm_of(r, site::color_code, r.uniform(opacity, c.a), rgba8 ? 255.0F : 3.0F);
+        const std::uint32_t alpha = unorm_of(r, site::color_code, opacity, rgba8 ? 255.0F : 3.0F);
         return rgba8 ? red | green << 8U | blue << 16U | alpha << 24U : red | green << 10U | blue << 20U | alpha << 30U;
     }
 

@@ -29,7 +29,8 @@ inline constexpr Site box_low{"u_BoxLow"}, box_scale{"u_BoxScale"}, box_step{"u_
 // Uniforms, by their names.
 inline constexpr Site tick{"u_Tick"}, time{"u_Time"}, half_tick_squared{"u_HalfTickSquared"};
 inline constexpr Site shape_low{"u_ShapeLow"}, shape_size{"u_ShapeSize"}, radius{"u_Radius"};
-inline constexpr Site origin{"u_Origin"}, last_origin{"u_LastOrigin"}, direction{"u_Direction"}, side{"u_Side"};
+inline constexpr Site origin{"u_Origin"}, origin_velocity{"u_OriginVelocity"}, last_origin{"u_LastOrigin"},
+    direction{"u_Direction"}, side{"u_Side"};
 inline constexpr Site up{"u_Up"}, jitter{"u_Jitter"}, speed{"u_Speed"}, speed_jitter{"u_SpeedJitter"};
 inline constexpr Site cone_depth{"u_ConeDepth"}, born_acceleration{"u_Acceleration"};
 inline constexpr Site shortest{"u_Lifetime.x"}, longest{"u_Lifetime.y"};
@@ -41,7 +42,7 @@ inline constexpr Site emitted{"emitted", "emitted"}, channel{"random channel"};
 inline constexpr Site random{"random numbers"}, shape_place{"place in the shape"}, share{"share of the path"};
 inline constexpr Site place_of_emitter{"place of the emitter"}, direction_of_birth{"direction of birth"};
 inline constexpr Site speed_of_birth{"speed of birth"}, share_of_life{"share of the lifetimes"};
-inline constexpr Site too_short{"shorter than the shortest"}, too_long{"longer than the longest"};
+inline constexpr Site long_enough{"longer than the shortest"}, too_long{"longer than the longest"};
 inline constexpr Site channel_of_life{"channel of the lifetime"}, random_of_life{"random numbers of the lifetime"};
 inline constexpr Site sizes{"sizes"};
 inline constexpr Site ticks_of_life{"ticks of the lifetime"};

@@ -1,5 +1,7 @@
 #include "reference/model/graph.hpp"
 
+#include <algorithm>
+
 namespace lockstep {
 
 std::string_view graph_type_name(GraphType type) {
@@ -131,6 +133,20 @@ std::span<const GraphStage> graph_stages() {
          {{"size", real}, {"color", vec4}}},
     };
     return all;
+}
+
+bool reads_input(const Graph& graph, std::string_view name) {
+    return std::any_of(graph.order.begin(), graph.order.end(), [&](std::size_t n) {
+        const GraphNode& node = graph.nodes[n];
+        return node.kind == GraphKind::input && graph.stage->inputs[node.of_stage].name == name;
+    });
+}
+
+const Graph::Output* output_named(const Graph& graph, std::string_view name) {
+    for (const Graph::Output& output : graph.outputs)
+        if (graph.stage->outputs[output.of_stage].name == name)
+            return &output;
+    return nullptr;
 }
 
 } // namespace lockstep

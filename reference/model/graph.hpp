@@ -156,6 +156,12 @@ struct Graph {
 };
 using GraphPtr = std::shared_ptr<const Graph>;
 
+/// Whether what it makes depends on an input of its stage.
+bool reads_input(const Graph& graph, std::string_view name);
+
+/// The output of that name; null: the graph has none.
+const Graph::Output* output_named(const Graph& graph, std::string_view name);
+
 inline constexpr std::size_t most_graph_nodes = 256, deepest_graph = 64, most_curve_keys = 16;
 
 } // namespace lockstep

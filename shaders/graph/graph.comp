@@ -3,7 +3,7 @@
 // before and after, and the statements. Twin: reference/system/graph_twin.hpp.
 
 #include "rounding.glsl"
-#include "nodes.glsl"
+#include "graph_nodes.glsl"
 #include "graph_words.glsl"
 
 layout(local_size_x = 64) in;

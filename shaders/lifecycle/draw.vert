@@ -7,8 +7,10 @@
 #include "appearance.glsl"
 
 in uint a_Kind; // 0: nothing, 1: a sprite, 2: a segment
+#ifdef SEGMENTS
 in vec3 a_Left, a_Right, a_NextLeft, a_NextRight; // of a segment, in view space
 in vec2 a_U;
+#endif
 
 #if LAYOUT == LAYOUT_112
 in vec3 a_Position, a_InitialColor, a_EndColor;
@@ -19,6 +21,9 @@ in float a_InitialLifetime, a_RemainLifetime, a_InitialSize, a_EndSize;
 in uint a_InitialColor, a_EndColor;
 #else
 in uint a_PositionXy, a_PositionZVelocityX, a_Lifetimes, a_InitialColor, a_EndColor;
+#ifdef RENDERING_GRAPH
+in uint a_VelocityYz, a_AccelerationXy, a_AccelerationZSpawn;
+#endif
 #if LAYOUT == LAYOUT_44 || LAYOUT == LAYOUT_40
 in uint a_Sizes;
 #else
@@ -26,7 +31,23 @@ in float a_InitialSize, a_EndSize;
 #endif
 #endif
 
+// Besides, what a graph asks for.
+#if FLOATS
+#ifdef LOOKS_BY_VELOCITY
+in vec3 a_Velocity;
+#endif
+#ifdef LOOKS_BY_ACCELERATION
+in vec3 a_Acceleration;
+#endif
+#ifdef LOOKS_BY_SPAWN_TIME
+in float a_SpawnTime;
+#endif
+#endif
+
 uniform mat4 u_View, u_Projection;
+uniform float u_Tick, u_Time;
+
+#include "rendering_graph.glsl"
 
 precise out vec4 out_Clip;
 precise out vec4 out_Tint;
@@ -41,10 +62,24 @@ void load_instance() {
     set_words(AT_POSITION, a_Position);
     set_word(AT_LIFETIME, a_InitialLifetime);
     set_word(AT_REMAINING, a_RemainLifetime);
+#ifdef LOOKS_BY_VELOCITY
+    set_words(AT_VELOCITY, a_Velocity);
+#endif
+#ifdef LOOKS_BY_ACCELERATION
+    set_words(AT_ACCELERATION, a_Acceleration);
+#endif
+#ifdef LOOKS_BY_SPAWN_TIME
+    set_word(AT_SPAWN, a_SpawnTime);
+#endif
 #else
     w[0] = a_PositionXy;
     w[1] = a_PositionZVelocityX;
     w[3] = a_Lifetimes;
+#ifdef RENDERING_GRAPH
+    w[2] = a_VelocityYz;
+    w[4] = a_AccelerationXy;
+    w[5] = a_AccelerationZSpawn;
+#endif
 #endif
 #if LAYOUT == LAYOUT_44 || LAYOUT == LAYOUT_40
     w[AT_SIZES] = a_Sizes;
@@ -69,21 +104,29 @@ void main() {
     vec2 corner = vec2(right ? 1.0 : -1.0, next ? 1.0 : -1.0);
     out_Drawn = a_Kind;
     vec3 seen;
+    vec4 color = color_now();
+#ifdef SEGMENTS
     if (a_Kind == 2u) {
         seen = ls_flush3(next ? (right ? a_NextRight : a_NextLeft) : (right ? a_Right : a_Left));
         out_TexelPlace = vec2(ls_flush(next ? a_U.y : a_U.x), right ? 1.0 : 0.0);
-    } else {
+        float size = 0.0;
+        graph_look(uint(gl_InstanceID), out_TexelPlace.x, out_TexelPlace.y, size, color);
+    } else
+#endif
+    {
+        out_TexelPlace = vec2(right ? 1.0 : 0.0, next ? 1.0 : 0.0);
         seen = ls_transform(u_View, position()).xyz;
-        float reach = mul(size_now(), 0.5);
+        float size = size_now();
+        graph_look(uint(gl_InstanceID), out_TexelPlace.x, out_TexelPlace.y, size, color);
+        float reach = mul(size, 0.5);
         seen.x = add(seen.x, mul(corner.x, reach));
         seen.y = add(seen.y, mul(corner.y, reach));
-        out_TexelPlace = vec2(right ? 1.0 : 0.0, next ? 1.0 : 0.0);
 #if EXPIRED == EXPIRED_HIDDEN
         if (!(remaining() > 0.0))
             out_Drawn = 0u;
 #endif
     }
     out_Clip = ls_transform(u_Projection, seen);
-    out_Tint = color_now();
+    out_Tint = color;
     gl_Position = out_Clip;
 }

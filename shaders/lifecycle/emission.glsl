@@ -53,8 +53,21 @@ vec3 born_with(uint serial) {
 }
 
 float born_for(uint serial) {
-    float life = add(u_Lifetime.x, mul(random3(serial, 2u).y, sub(u_Lifetime.y, u_Lifetime.x)));
-    life = life < u_Lifetime.x ? u_Lifetime.x : life;
+    return add(u_Lifetime.x, mul(random3(serial, 2u).y, sub(u_Lifetime.y, u_Lifetime.x)));
+}
+
+// What a particle is born with.
+struct Birth {
+    vec3 position, velocity, acceleration;
+    float lifetime;
+    vec2 sizes;
+    vec4 color, end_color;
+};
+#include "emission_graph.glsl"
+
+// Whatever a graph says; of NaN the shortest.
+float within_lifetimes(float life) {
+    life = life > u_Lifetime.x ? life : u_Lifetime.x;
     return life > u_Lifetime.y ? u_Lifetime.y : life;
 }
 
@@ -83,10 +96,19 @@ void be_born(uint slot, uint k, uint emitted) {
     for (uint i = 0u; i < STRIDE; ++i)
         w[i] = 0u;
     dither_slot = slot;
-    set_position(born_at(serial, k, emitted));
-    set_velocity(born_with(serial));
-    set_acceleration(u_Acceleration);
-    set_time_of_birth(born_for(serial), k);
-    set_sizes(u_Sizes);
-    set_colors(u_Color, u_EndColor);
+    Birth b;
+    b.position = born_at(serial, k, emitted);
+    b.velocity = born_with(serial);
+    b.acceleration = u_Acceleration;
+    b.lifetime = born_for(serial);
+    b.sizes = u_Sizes;
+    b.color = u_Color;
+    b.end_color = u_EndColor;
+    graph_birth(b, serial, k, emitted);
+    set_position(b.position);
+    set_velocity(b.velocity);
+    set_acceleration(b.acceleration);
+    set_time_of_birth(within_lifetimes(b.lifetime), k);
+    set_sizes(b.sizes);
+    set_colors(b.color, b.end_color);
 }

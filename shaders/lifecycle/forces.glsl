@@ -49,10 +49,13 @@ struct Motion {
     vec3 drift; // a velocity that moves the particle and is not kept
     float drag; // what is left of the velocity
     bool killed;
+    vec3 position, velocity; // of a graph that gives them
 };
+#include "simulation_graph.glsl"
 
 Motion forced(vec3 p, vec3 v, vec3 a) {
-    Motion m = Motion(a, vec3(0.0), 1.0, false);
+    Motion m = Motion(a, vec3(0.0), 1.0, false, vec3(0.0), vec3(0.0));
+    graph_motion(m, p, v);
     for (int k = 0; k < u_ForceCount; ++k) {
         ForceWords force = forces[k];
         int kind = int(force.kind);

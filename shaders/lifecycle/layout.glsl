@@ -183,6 +183,15 @@ float remaining() {
     return value_of(low(3u));
 #endif
 }
+float spawn_time() {
+#if FLOATS
+    return word(AT_SPAWN);
+#elif TICKS
+    return float(low(5u)); // the frame's low 16 bits
+#else
+    return value_of(low(5u));
+#endif
+}
 void set_remaining(float x) {
 #if FLOATS
     set_word(AT_REMAINING, x);

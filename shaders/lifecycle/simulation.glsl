@@ -1,9 +1,10 @@
 // A tick of the life of the particle at hand. Twin: reference/lifecycle/simulation.hpp.
-#include "forces.glsl"
 
 uniform float u_Tick, u_HalfTickSquared;
 
-void age() {
+#include "forces.glsl"
+
+void grow_older() {
 #if TICKS
     float left = sub(remaining(), 1.0);
     set_remaining(left > 0.0 ? left : 0.0);
@@ -34,12 +35,18 @@ void simulate(uint slot) {
     next = add(next, mul(m.drift, u_Tick));
 #endif
 #endif
+#ifdef GRAPH_VELOCITY
+    faster = m.velocity;
+#endif
+#ifdef GRAPH_POSITION
+    next = m.position;
+#endif
     set_position(next);
     set_velocity(faster);
     if (m.killed) {
         set_remaining(0.0);
         atomicAdd(counters[u_Emitter].killed, 1u);
     } else {
-        age();
+        grow_older();
     }
 }

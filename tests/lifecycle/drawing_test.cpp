@@ -49,7 +49,7 @@ TEST_CASE("drawing: the corners of sprites and segments agree with their twin, f
     s.switches.layout = static_cast<lifecycle::Layout>(layout);
     s.arithmetic = layout % 2 == 0 ? ArithmeticSwitch::exact : ArithmeticSwitch::plain;
     const lifecycle::HostPtr host = host_of(s);
-    const SystemPicture picture = lifecycle::picture(host, state_of(host));
+    const SystemPicture picture = lifecycle::picture(host, state_of(host), 19);
     GlSystemSide side(gl(), picture.system, picture.passes, "shaders/lifecycle", s.arithmetic);
     CheckOptions options;
     options.frames = 1;
@@ -67,7 +67,7 @@ TEST_CASE("drawing: what is drawn are the living, and with expired=hidden none t
         s.switches.expired = expired;
         const lifecycle::HostPtr host = host_of(s);
         const SystemState state = state_of(host);
-        const SystemPicture picture = lifecycle::picture(host, state);
+        const SystemPicture picture = lifecycle::picture(host, state, 19);
         ReferenceRun run = reference_of(picture.system);
         run.step(0);
         Counts of{.alive = state.view().word({lifecycle::counter_buffer, counter::alive}, 0)};
@@ -88,7 +88,7 @@ TEST_CASE("drawing: both sides' pictures are the same but for a few steps") {
         return skip(gl().missing());
     const lifecycle::Settings s = both();
     const lifecycle::HostPtr host = host_of(s);
-    const SystemPicture picture = lifecycle::picture(host, state_of(host));
+    const SystemPicture picture = lifecycle::picture(host, state_of(host), 19);
     ReferenceRun run = reference_of(picture.system);
     run.step(0);
     const ColorImage reference = picture.image(run.state().view());

@@ -7,11 +7,11 @@
 
 #include "reference/arithmetic.hpp"
 #include "reference/lifecycle/forces.hpp"
-#include "reference/system/noise.hpp"
 #include "reference/lifecycle/particle.hpp"
 #include "reference/lifecycle/simulation.hpp"
-#include "reference/system/turns.hpp"
 #include "reference/readings/values.hpp"
+#include "reference/system/noise.hpp"
+#include "reference/system/turns.hpp"
 
 /// The specification's own numbers, to the last digit.
 using namespace lockstep;
@@ -50,7 +50,8 @@ Particle<Reading> example(Reading& r, const Host& host) {
     p.set_sizes(0.05F, 0.2F);
     p.set_from_previous(0.07F);
     p.set_from_start(3.3F);
-    p.set_colors({1.0F, 0.5F, 0.25F, 1.0F}, {0.2F, 0.0F, 0.0F, 0.0F});
+    p.set_color(false, {1.0F, 0.5F, 0.25F}, 1.0F);
+    p.set_color(true, {0.2F, 0.0F, 0.0F}, 0.0F);
     return p;
 }
 

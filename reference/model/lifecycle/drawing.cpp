@@ -83,8 +83,9 @@ SystemState quads_of(const Host& host, const SystemState& state) {
     return quads;
 }
 
-Drawing drawing(const Settings& settings, float aspect) {
-    return {view_matrix(settings.camera), projection_matrix(settings.camera, aspect)};
+Drawing drawing(const Host& host, float aspect, int frame) {
+    const Camera& camera = host.settings().camera;
+    return {view_matrix(camera), projection_matrix(camera, aspect), host.time(frame)};
 }
 
 } // namespace lockstep::lifecycle

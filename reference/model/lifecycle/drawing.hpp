@@ -29,7 +29,8 @@ SystemState quads_of(const Host& host, const SystemState& state);
 /// What the host hands the vertex stage. Made in double, rounded once.
 struct Drawing {
     glm::mat4 view{1.0F}, projection{1.0F};
+    float time = 0.0F; ///< of the frame, s
 };
-Drawing drawing(const Settings& settings, float aspect);
+Drawing drawing(const Host& host, float aspect, int frame);
 
 } // namespace lockstep::lifecycle

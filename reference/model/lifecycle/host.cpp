@@ -66,6 +66,7 @@ HostEmitter::HostEmitter(const Settings& all, std::size_t number_)
         keys = std::bit_ceil(slots);
     kills = std::any_of(settings_.forces.begin(), settings_.forces.end(),
                         [](const Force& f) { return f.kind == Force::Kind::attraction && f.kill_radius > 0.0F; });
+    kills = kills || (settings_.simulation && output_named(*settings_.simulation, "kill") != nullptr);
     const std::optional<std::size_t> age = s.may_die == MayDie::nominal
                                                ? std::optional(nominal_age(settings_.lifetime[0], all.tick))
                                                : dying_age(all, settings_.lifetime[0]);
@@ -112,6 +113,10 @@ glm::vec3 HostEmitter::origin(int frame) const {
             return glm::vec3(from + (to - from) * share);
         }
     return path.back().position;
+}
+
+glm::vec3 HostEmitter::origin_velocity(int frame) const {
+    return glm::vec3((glm::dvec3(origin(frame)) - glm::dvec3(origin(frame - 1))) / tick_);
 }
 
 std::vector<HostForce> HostEmitter::forces(int frame) const {

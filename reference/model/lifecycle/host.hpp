@@ -43,7 +43,7 @@ class HostEmitter {
     std::size_t first_in_ring = 0, window = 0; ///< W; 0 where it is not asked for
     std::size_t first_key = 0, keys = 0;       ///< of a ribbon that is sorted: a power of two
     Dies dies = Dies::window;
-    bool kills = false;      ///< a force of its may kill
+    bool kills = false;      ///< a force or graph of its may kill
     std::uint32_t seed = 0;  ///< of its random numbers
     Basis basis;             ///< of the direction
     float cone_depth = 0.0F; ///< 1 - cos of the angle
@@ -53,6 +53,7 @@ class HostEmitter {
     [[nodiscard]] std::uint32_t largest_request() const;
     /// Where the emitter is; before frame 0 where it is in frame 0.
     [[nodiscard]] glm::vec3 origin(int frame) const;
+    [[nodiscard]] glm::vec3 origin_velocity(int frame) const; ///< since the frame before, units/s
     [[nodiscard]] std::vector<HostForce> forces(int frame) const;
 
   private:

@@ -1,6 +1,8 @@
 #include "reference/model/lifecycle/settings.hpp"
 
+#include <algorithm>
 #include <cmath>
+#include <string>
 
 #include <fmt/format.h>
 #include <glm/geometric.hpp>
@@ -59,11 +61,34 @@ void check(const Emitter& e, const Settings& settings, std::size_t at) {
 
 } // namespace
 
+namespace {
+
+/// A vertex stage has 16 attributes; where ribbons are drawn from 112 bytes, one is free for what graphs read besides.
+void check_attributes(const Settings& settings) {
+    bool ribbons = false;
+    std::string read;
+    std::size_t count = 0;
+    for (const char* const input : {"velocity", "acceleration", "spawn_time"})
+        if (std::any_of(settings.emitters.begin(), settings.emitters.end(),
+                        [&](const Emitter& e) { return e.rendering && reads_input(*e.rendering, input); })) {
+            read += (count++ == 0 ? "" : ", ") + std::string(input);
+        }
+    for (const Emitter& e : settings.emitters)
+        ribbons = ribbons || e.draw == Emitter::Draw::ribbon;
+    if (settings.switches.layout == Layout::bytes_112 && ribbons && count > 1)
+        throw Error(fmt::format("graphs/rendering: {} are more than 16 attributes with ribbons in 112 bytes; right is "
+                                "one of them, or another layout",
+                                read));
+}
+
+} // namespace
+
 void check(const Settings& settings) {
     if (!(std::isfinite(settings.tick) && settings.tick > 0.0F))
         throw Error(fmt::format("tick is {} s; right is above 0", settings.tick));
     if (settings.emitters.empty())
         throw Error("there is no emitter");
+    check_attributes(settings);
     const Switches& s = settings.switches;
     if (s.management == Management::index_lists && s.overflow == Overflow::replace_oldest)
         throw Error("overflow=replace_oldest needs the order of birth; right is drop_new, or management=move_alives");
@@ -85,6 +110,10 @@ void check(const Settings& settings) {
                 fail(e, "uv_anchor=fixed needs the order of birth before death; right is uv_anchor=oldest, or "
                         "management=move_alives");
         }
+        if (one.draw == Emitter::Draw::ribbon && one.rendering && output_named(*one.rendering, "size"))
+            fail(e, "graphs/rendering: size is that of sprites; of a ribbon right is color alone");
+        if (one.simulation && s.drag == Drag::exponential && output_named(*one.simulation, "drag"))
+            fail(e, "graphs/simulation: drag=exponential is made by the host; right is implicit or explicit");
         if (one.draw == Emitter::Draw::ribbon && s.uv_anchor == UvAnchor::fixed && s.compaction == Compaction::atomic &&
             one.lifetime[0] != one.lifetime[1])
             fail(e, "uv_anchor=fixed needs the order of birth; right is compaction=scan, or one lifetime");

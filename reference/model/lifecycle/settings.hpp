@@ -10,6 +10,7 @@
 
 #include "reference/model/arithmetic_switch.hpp"
 #include "reference/model/camera.hpp"
+#include "reference/model/graph.hpp"
 #include "reference/model/lifecycle/switches.hpp"
 
 namespace lockstep::lifecycle {
@@ -61,6 +62,7 @@ struct Emitter {
     Draw draw = Draw::sprite;
     Uv uv = Uv::distance; ///< of a ribbon
     float uv_scale = 1.0F;
+    GraphPtr emission, simulation, rendering; ///< of those stages; null: as above
 };
 
 struct Settings {

@@ -1,4 +1,6 @@
 // What nodes of a graph are made of. Twin: reference/system/graph_twin.hpp.
+#ifndef GRAPH_NODES_GLSL
+#define GRAPH_NODES_GLSL
 
 #include "random.glsl"
 #include "turns.glsl"
@@ -30,3 +32,4 @@ vec3 in_cone(vec3 u, vec3 side, vec3 up, vec3 ahead, float depth) {
     vec3 local = on_circle(sub(1.0, mul(u.x, depth)), u.y);
     return add(add(mul(side, local.x), mul(up, local.y)), mul(ahead, local.z));
 }
+#endif

@@ -90,11 +90,12 @@ CutCapsule cut_recorded(const Options& options) {
 
 int cut(const Options& options, const Call& call) {
     check_scene_or_trace(call, options.run, options.trace);
-    if (const RegisteredSystem* system = options.trace.empty() ? system_of(options.run) : nullptr) {
+    if (const RegisteredSystem* system =
+            options.trace.empty() ? system_of(options.run) : system_of_recording(options.trace)) {
         if (!options.item || options.particle || options.pixel)
             throw Error(fmt::format("capsule cut: of a scene of system {}, --item I is needed", name_of(*system)));
         return cut_system(*system, options.run, {options.frame, options.pass, *options.item, options.legal, false},
-                          options.output);
+                          options.trace, options.output);
     }
     if (options.particle.has_value() == options.pixel.has_value() || options.item || !options.pass.empty())
         throw Error(fmt::format("capsule cut: of a scene of system {}, one of --particle I and --pixel X,Y is needed, "

@@ -342,6 +342,21 @@ int run_trace(Options options) {
                            info.shaders});
 }
 
+SystemCheck system_check(const Options& options) {
+    return {.mode = options.mode,
+            .legal = options.legal,
+            .rules = options.rules,
+            .json = options.json,
+            .hashes = options.hashes,
+            .images = options.images,
+            .report = options.report,
+            .power = options.power,
+            .quiet = options.quiet,
+            .render = !options.no_render,
+            .trace = options.trace,
+            .frames_given = options.frames_given};
+}
+
 void check_stress_options(const Call& call, const Options& options) {
     static constexpr std::array<std::string_view, 16> allowed{
         "--stress",       "--frames", "--preset",          "--set",          "--threads",        "--gl",    "--shaders",
@@ -370,6 +385,8 @@ Verb report_command() {
                   "Example: lockstep report run.h5 -o pages";
     verb.run = [options](const Call& call) {
         options->frames_given = call.has("--frames");
+        if (const RegisteredSystem* system = system_of_recording(options->trace))
+            return check_system(*system, options->run, system_check(*options));
         return run_trace(*options);
     };
     return verb;
@@ -414,12 +431,10 @@ Verb check_command() {
         }
         check_scene_or_trace(call, options->run, options->trace);
         options->frames_given = call.has("--frames");
-        if (const RegisteredSystem* system = options->trace.empty() ? system_of(options->run) : nullptr) {
+        if (const RegisteredSystem* system =
+                options->trace.empty() ? system_of(options->run) : system_of_recording(options->trace)) {
             check_options(call, fmt::format("a scene of system {}", name_of(*system)), system_check_options());
-            return check_system(*system, options->run,
-                                {options->mode, options->legal, options->rules, options->json, options->hashes,
-                                 options->images, options->report, options->power, options->quiet,
-                                 !options->no_render});
+            return check_system(*system, options->run, system_check(*options));
         }
         return options->trace.empty() ? run_scene(*options) : run_trace(*options);
     };

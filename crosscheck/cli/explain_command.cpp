@@ -86,11 +86,14 @@ void explain_trace(const Options& options) {
 }
 
 int run(const Options& options, const Call& call) {
-    if (const RegisteredSystem* system = options.trace.empty() ? system_of(options.run) : nullptr) {
+    if (const RegisteredSystem* system =
+            options.trace.empty() ? system_of(options.run) : system_of_recording(options.trace)) {
         if (!options.item || options.particle || options.texel || options.pixel)
             throw Error(fmt::format("explain: of a scene of system {}, --item I is needed", name_of(*system)));
+        check_scene_or_trace(call, options.run, options.trace);
         return explain_system(*system, options.run,
-                              {options.frame, options.pass, *options.item, options.legal, options.hexadecimal});
+                              {options.frame, options.pass, *options.item, options.legal, options.hexadecimal},
+                              options.trace);
     }
     if (options.item || !options.pass.empty())
         throw Error(fmt::format("explain: --item and --pass do not go with a scene of system {}; --particle, --texel "

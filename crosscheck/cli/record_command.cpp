@@ -7,6 +7,7 @@
 
 #include "crosscheck/cli/commands.hpp"
 #include "crosscheck/cli/run_options.hpp"
+#include "crosscheck/cli/system_verbs.hpp"
 #include "crosscheck/collision/record/trace_writer.hpp"
 #include "crosscheck/command/option_values.hpp"
 #include "crosscheck/files/plain_text.hpp"
@@ -107,7 +108,14 @@ Verb record_command() {
     verb.add(integer_option("--deflate", "LEVEL", {0, 9}, options->deflate, "how hard to compress, 0 to 9"));
     verb.footer = "Example: lockstep record data/scenes/lattice.json --gl egl-device:0 -o run.h5\n"
                   "then, on another machine: lockstep check --trace run.h5";
-    verb.run = [options](const Call&) { return run(*options); };
+    verb.run = [options](const Call& call) {
+        if (const RegisteredSystem* system = system_of(options->run)) {
+            if (call.has("--cdt"))
+                throw Error(fmt::format("record: --cdt goes with scenes of system {}", default_system));
+            return record_system(*system, options->run, options->output, options->deflate);
+        }
+        return run(*options);
+    };
     return verb;
 }
 

@@ -4,8 +4,11 @@
 #include <utility>
 #include <vector>
 
+#include <fmt/format.h>
+
 #include "crosscheck/files/json_reader.hpp"
 #include "crosscheck/files/plain_text.hpp"
+#include "crosscheck/files/shell_words.hpp"
 #include "crosscheck/files/threads.hpp"
 #include "crosscheck/judge/system_check.hpp"
 #include "crosscheck/report/overlay.hpp"
@@ -18,7 +21,82 @@ ReadScene read_scene(const RegisteredSystem& system, const RunOptions& run) {
     const nlohmann::json& document = run.document.of(run.scene);
     const std::string file = run.scene.string(), name = plain_line(run.scene.stem().string());
     SystemScene scene = system.load(JsonValue(document, file), name, {run.particles, run.preset, run.set});
-    return {file, document, std::move(scene)};
+    nlohmann::json options{{"set", run.set}};
+    if (run.particles)
+        options["particles"] = *run.particles;
+    if (run.preset)
+        options["preset"] = *run.preset;
+    return {file, document, std::move(options), std::move(scene)};
+}
+
+ReadScene recorded_scene(const RegisteredSystem& system, const nlohmann::json& scene, const nlohmann::json& options,
+                         const std::string& name, const std::string& file) {
+    const JsonValue document(scene, file);
+    const JsonValue given(options, file);
+    if (system_of_scene(document) != &system)
+        document.fail(fmt::format("is no scene of system {}", system.name));
+    given.check_keys({"set", "particles", "preset"});
+    SceneOptions changes;
+    for (const JsonValue& change : given.at("set").items())
+        changes.set.push_back(change.text());
+    if (const auto count = given.find("particles"))
+        changes.particles = static_cast<std::size_t>(count->integer(1, most_particles));
+    if (const auto preset = given.find("preset"))
+        changes.preset = preset->text();
+    return {file, scene, options, system.load(document, name, changes)};
+}
+
+namespace {
+
+ReadScene read_recorded(const RegisteredSystem& system, const SystemRecording& recording) {
+    if (recording.info().scene.is_null())
+        throw Error(fmt::format("{}: {}: missing; right is the text of a scene file", recording.file(),
+                                "parameters/lockstep/scene"));
+    return recorded_scene(system, recording.info().scene, recording.info().options, recording.info().name,
+                          recording.file());
+}
+
+} // namespace
+
+SystemInput::SystemInput(const RegisteredSystem& system, const RunOptions& run, std::filesystem::path trace)
+    : run_(run), trace_(std::move(trace)),
+      recording_(trace_.empty() ? nullptr : std::make_unique<SystemRecording>(trace_, std::string(system.name))),
+      read_(recording_ ? read_recorded(system, *recording_) : read_scene(system, run)) {
+    if (recording_)
+        start_threads(run.threads);
+}
+
+void SystemInput::protect(OutputFiles& files) const {
+    files.protect(trace_);
+    if (!is_recorded())
+        files.protect(run_.scene);
+    files.protect(run_.shaders);
+}
+
+SystemSide& SystemInput::open() {
+    if (recording_) {
+        recording_->open(system());
+        side_ = std::make_unique<RecordedSide>(*recording_, system());
+        return *side_;
+    }
+    shaders_ = shaders_of(scene(), run_);
+    gl_.emplace(open_gl(run_));
+    side_ = std::make_unique<GlSystemSide>(*gl_, system(), scene().passes, run_.shaders.string(), scene().arithmetic);
+    return *side_;
+}
+
+void SystemInput::describe(RunDescription& about) const {
+    about.scene = fmt::format("{} ({})", system().name, plain_line(read_.file));
+    about.shaders = shaders_;
+    if (!recording_)
+        return;
+    about.shaders_untold = "recorded: " + recording_->info().shaders;
+    about.notes = recording_->warnings();
+}
+
+std::string SystemInput::command(const std::string& verb, const std::string& words) const {
+    return recording_ ? fmt::format("lockstep {} --trace {} {}", verb, shell_path(trace_), words)
+                      : command_line(verb, run_, words);
 }
 
 ShaderUse shaders_of(const SystemScene& scene, const RunOptions& run) {

@@ -1,4 +1,7 @@
 #pragma once
+#include <filesystem>
+#include <memory>
+#include <optional>
 #include <string>
 
 #include <nlohmann/json.hpp>
@@ -6,27 +9,69 @@
 #include "crosscheck/cli/run_options.hpp"
 #include "crosscheck/cli/systems.hpp"
 #include "crosscheck/judge/registered_system.hpp"
+#include "crosscheck/record/system_recording.hpp"
 #include "gpu/shader_use.hpp"
 #include "lockstep/system.hpp"
 
 /// What the verbs on a scene of a registered system begin with.
 namespace lockstep {
 
-/// A scene file, read once.
+/// A scene, of a file or of a recording.
 struct ReadScene {
     std::string file;
     nlohmann::json document;
+    nlohmann::json options; ///< what is changed in it
     SystemScene scene;
 };
 
 /// Reads the scene and sets the thread count.
 ReadScene read_scene(const RegisteredSystem& system, const RunOptions& run);
 
+/// What SystemRecording says of a scene, with `file` for messages.
+ReadScene recorded_scene(const RegisteredSystem& system, const nlohmann::json& scene, const nlohmann::json& options,
+                         const std::string& name, const std::string& file);
+
 /// Whose shaders will run. Throws Error like check_shader_use.
 ShaderUse shaders_of(const SystemScene& scene, const RunOptions& run);
 
 /// Throws Error where the GL that was asked for is not there.
 Gl open_gl(const RunOptions& run);
+
+/// What a verb looks into: a scene that runs here, or a recording of one.
+class SystemInput {
+  public:
+    /// Reads it. `trace`: the recording, instead of run.scene; may be empty.
+    SystemInput(const RegisteredSystem& system, const RunOptions& run, std::filesystem::path trace);
+    SystemInput(const SystemInput&) = delete;
+    SystemInput& operator=(const SystemInput&) = delete;
+
+    [[nodiscard]] const ReadScene& read() const { return read_; }
+    [[nodiscard]] const SystemScene& scene() const { return read_.scene; }
+    [[nodiscard]] const System& system() const { return read_.scene.system; }
+    [[nodiscard]] bool is_recorded() const { return recording_ != nullptr; }
+
+    /// What it reads is no output.
+    void protect(OutputFiles& files) const;
+    /// Opens GL, or the recorded states. Throws Error where neither can be.
+    SystemSide& open();
+    [[nodiscard]] int recorded_frames() const { return recording_->frames(); }
+    [[nodiscard]] SystemRecording* recording() { return recording_.get(); } ///< null: it runs here
+    [[nodiscard]] const Gl& gl() const { return *gl_; }                     ///< of a scene that runs here
+
+    /// Whose shaders ran, what they are told to have been, and warnings.
+    void describe(RunDescription& about) const;
+    /// A command line that runs the verb on it again.
+    [[nodiscard]] std::string command(const std::string& verb, const std::string& words) const;
+
+  private:
+    const RunOptions& run_;
+    std::filesystem::path trace_;
+    std::unique_ptr<SystemRecording> recording_;
+    ReadScene read_;
+    std::optional<ShaderUse> shaders_;
+    std::optional<Gl> gl_;
+    std::unique_ptr<SystemSide> side_;
+};
 
 /// `gl` and `scene` outlive it.
 GlSystemSide side_of(const Gl& gl, const SystemScene& scene, const RunOptions& run);

@@ -29,9 +29,10 @@ using nlohmann::json;
 
 constexpr int capsule_version = 1;
 
-std::string check_line(const RunOptions& run, const SystemCheck& asked, int frames) {
-    return command_line("check", run, frames) + (asked.mode == CheckMode::free ? " --mode free" : "") +
-           legal_option_text(asked.legal) + pass_options_text(asked.rules);
+std::string check_line(const SystemInput& input, const SystemCheck& asked, int frames) {
+    return input.command("check", fmt::format("--frames {}", frames)) +
+           (asked.mode == CheckMode::free ? " --mode free" : "") + legal_option_text(asked.legal) +
+           pass_options_text(asked.rules);
 }
 
 /// What the last frame draws.
@@ -43,20 +44,21 @@ struct DrawnFrame {
 };
 
 /// From the state that the GPU's frames left.
-DrawnFrame judge_drawn(const SystemScene& scene, const Gl& gl, const GlSystemSide& side, const RunOptions& run,
+DrawnFrame judge_drawn(const SystemInput& input, const SystemSide& side, const RunOptions& run,
                        const SystemCheck& asked, const CheckReport& report) {
-    if (!scene.picture)
+    const SystemScene& scene = input.scene();
+    if (!scene.picture || input.is_recorded())
         return {};
     SystemState state = scene.system.start;
     side.read(state);
     const int frame = report.frames - 1;
     const SystemPicture picture = scene.picture(state, frame);
-    GlSystemSide drawn = side_of(gl, picture, scene, run);
+    GlSystemSide drawn = side_of(input.gl(), picture, scene, run);
     CheckOptions options;
     options.frames = 1;
     options.known = known_operations(asked.legal, drawn.describe().profile);
     RunDescription about =
-        describe_run(picture.system, drawn.describe(), options, check_line(run, asked, report.frames));
+        describe_run(picture.system, drawn.describe(), options, check_line(input, asked, report.frames));
     about.scene = fmt::format("what frame {} of {} draws", frame, scene.system.name);
     const std::size_t items = picture.system.start.extent(picture.system.passes.front()->resource()).count();
     return {check(picture.system, drawn, options), std::move(about), frame, items};
@@ -113,17 +115,12 @@ class PicturedFrame {
 };
 
 /// The file of a capsule with the scene that it is of. Throws Error where it would be too large.
-std::string capsule_text(const ReadScene& read, const RunOptions& run, const ItemCapsule& capsule) {
-    json options{{"set", run.set}};
-    if (run.particles)
-        options["particles"] = *run.particles;
-    if (run.preset)
-        options["preset"] = *run.preset;
+std::string capsule_text(const ReadScene& read, const ItemCapsule& capsule) {
     const System& twins = read.scene.system;
     const json document{{"lockstep_system_capsule", capsule_version},
                         {"name", twins.name},
                         {"scene", read.document},
-                        {"options", options},
+                        {"options", read.options},
                         {"capsule", json::parse(item_capsule_file(capsule, twins))}};
     std::string text = document.dump(-1, ' ', false, json::error_handler_t::replace) + "\n";
     if (text.size() > largest_capsule)
@@ -135,46 +132,37 @@ std::string capsule_text(const ReadScene& read, const RunOptions& run, const Ite
 } // namespace
 
 std::span<const std::string_view> system_check_options() {
-    static constexpr std::array<std::string_view, 20> options{"--power",
-                                                              "--power-at-least",
-                                                              "--json",
-                                                              "scene",
-                                                              "--particles",
-                                                              "--preset",
-                                                              "--set",
-                                                              "--threads",
-                                                              "--gl",
-                                                              "--shaders",
-                                                              "--frames",
-                                                              "--allow-unused",
-                                                              "--mode",
-                                                              "--legal",
-                                                              "--quiet",
-                                                              "--no-render",
-                                                              "--hashes",
-                                                              "--images",
-                                                              "--allow-undefined",
-                                                              "--report"};
+    static constexpr std::array<std::string_view, 21> options{
+        "--trace",        "--power",     "--power-at-least", "--json",
+        "scene",          "--particles", "--preset",         "--set",
+        "--threads",      "--gl",        "--shaders",        "--frames",
+        "--allow-unused", "--mode",      "--legal",          "--quiet",
+        "--no-render",    "--hashes",    "--images",         "--allow-undefined",
+        "--report"};
     return options;
 }
 
-int check_system(const RegisteredSystem& system, const RunOptions& run, const SystemCheck& asked) {
-    const ReadScene read = read_scene(system, run);
-    const System& twins = read.scene.system;
-    if (!asked.images.empty() && !read.scene.picture)
+int check_system(const RegisteredSystem& system, RunOptions run, const SystemCheck& asked) {
+    SystemInput input(system, run, asked.trace);
+    const System& twins = input.system();
+    if (!asked.images.empty() && !input.scene().picture)
         throw Error(fmt::format("check: --images: scenes of system {} have no pictures", system.name));
     OutputFiles files;
-    files.protect(run.scene);
-    files.protect(run.shaders);
+    input.protect(files);
     CheckFiles outputs(asked.report, asked.hashes);
     outputs.expect(files);
     if (!asked.images.empty())
         files.expect_folder(asked.images, PicturedFrame::names);
     if (!asked.json.empty())
         files.expect(asked.json);
-    ShaderUse shaders = shaders_of(read.scene, run);
-    const Gl gl = open_gl(run);
-    GlSystemSide side = side_of(gl, read.scene, run);
+    SystemSide& side = input.open();
+    if (input.is_recorded()) {
+        if (!asked.frames_given)
+            run.frames = input.recorded_frames();
+        if (run.frames > input.recorded_frames())
+            throw Error(
+                fmt::format("--frames {}: {} holds {} frames", run.frames, input.read().file, input.recorded_frames()));
+    }
     CheckOptions options;
     options.mode = asked.mode;
     options.frames = run.frames;
@@ -192,16 +180,18 @@ int check_system(const RegisteredSystem& system, const RunOptions& run, const Sy
     ask_power(report, asked.rules.power_at_least);
 
     const int frames = report.first_frame ? *report.first_frame + 1 : report.frames;
-    RunDescription about = describe_run(twins, side.describe(), options, check_line(run, asked, frames));
-    about.scene = fmt::format("{} ({})", twins.name, plain_line(read.file));
-    about.shaders = std::move(shaders);
+    RunDescription about = describe_run(twins, side.describe(), options, check_line(input, asked, frames));
+    input.describe(about);
+    if (input.is_recorded() && run.frames < input.recorded_frames())
+        about.notes.push_back(
+            fmt::format("{} of the {} frames recorded were compared", run.frames, input.recorded_frames()));
     const auto explain_line = [&](const std::vector<std::string>& words) {
-        return command_line("explain", run, fmt::format("{}", fmt::join(words, " "))) + legal_option_text(asked.legal);
+        return input.command("explain", fmt::format("{}", fmt::join(words, " "))) + legal_option_text(asked.legal);
     };
     if (const auto words = first_item_words(twins, report); !words.empty())
         about.explain = explain_line(words);
     const DrawnFrame drawn =
-        asked.render && !report.partial() ? judge_drawn(read.scene, gl, side, run, asked, report) : DrawnFrame{};
+        asked.render && !report.partial() ? judge_drawn(input, side, run, asked, report) : DrawnFrame{};
     if (!asked.quiet) {
         if (report.partial())
             fmt::print("interrupted after {} of {} frames\n", report.frames, run.frames);
@@ -211,7 +201,7 @@ int check_system(const RegisteredSystem& system, const RunOptions& run, const Sy
             fmt::print("{}", plain_text(drawn_text(drawn, asked.rules)));
         std::fflush(stdout);
     }
-    CheckFiles::Told told{{{"This run", check_line(run, asked, report.frames)}},
+    CheckFiles::Told told{{{"This run", check_line(input, asked, report.frames)}},
                           explain_line,
                           drawn.report ? drawn_words(drawn) : std::string(),
                           [](const std::filesystem::path& capsule) {
@@ -224,7 +214,7 @@ int check_system(const RegisteredSystem& system, const RunOptions& run, const Sy
     outputs.write(files, report, about, std::move(told), [&] {
         const FirstDivergence& first = *report.verdicts->first;
         SystemRun again(twins, side, *options.known, first.place.frame, first.pass);
-        return capsule_text(read, run, cut_item_capsule(again, first.place.index, side.describe().name));
+        return capsule_text(input.read(), cut_item_capsule(again, first.place.index, side.describe().name));
     });
     if (!asked.json.empty()) {
         json document = report_json(report, about);
@@ -233,7 +223,7 @@ int check_system(const RegisteredSystem& system, const RunOptions& run, const Sy
         files.write(asked.json, json_text(document));
     }
     if (!asked.images.empty())
-        pictured.write(files, asked.images, read.scene, gl, side.describe().profile, run);
+        pictured.write(files, asked.images, input.scene(), input.gl(), side.describe().profile, run);
     files.commit();
     if (report.partial())
         return status_interrupted;
@@ -242,13 +232,12 @@ int check_system(const RegisteredSystem& system, const RunOptions& run, const Sy
                : status_differ;
 }
 
-int explain_system(const RegisteredSystem& system, const RunOptions& run, const SystemItem& item) {
-    const ReadScene read = read_scene(system, run);
-    static_cast<void>(place_of(item, read.scene.system));
-    static_cast<void>(shaders_of(read.scene, run));
-    const Gl gl = open_gl(run);
-    GlSystemSide side = side_of(gl, read.scene, run);
-    fmt::print("{}", explain_text(read.scene.system, side, item, read.file));
+int explain_system(const RegisteredSystem& system, const RunOptions& run, const SystemItem& item,
+                   const std::filesystem::path& trace) {
+    SystemInput input(system, run, trace);
+    static_cast<void>(place_of(item, input.system()));
+    SystemSide& side = input.open();
+    fmt::print("{}", explain_text(input.system(), side, item, input.read().file));
     return status_agree;
 }
 
@@ -258,21 +247,59 @@ int hash_system(const RegisteredSystem& system, const RunOptions& run, const std
 }
 
 int cut_system(const RegisteredSystem& system, const RunOptions& run, const SystemItem& item,
-               const std::filesystem::path& output) {
-    const ReadScene read = read_scene(system, run);
-    const System& twins = read.scene.system;
-    static_cast<void>(place_of(item, twins));
+               const std::filesystem::path& trace, const std::filesystem::path& output) {
+    SystemInput input(system, run, trace);
+    static_cast<void>(place_of(item, input.system()));
     OutputFiles files;
-    files.protect(run.scene);
-    files.protect(run.shaders);
+    input.protect(files);
     files.expect(output);
-    static_cast<void>(shaders_of(read.scene, run));
-    const Gl gl = open_gl(run);
-    GlSystemSide side = side_of(gl, read.scene, run);
-    const ItemCapsule capsule = cut_item(twins, side, item);
-    files.write(output, capsule_text(read, run, capsule));
+    SystemSide& side = input.open();
+    const ItemCapsule capsule = cut_item(input.system(), side, item);
+    files.write(output, capsule_text(input.read(), capsule));
     files.commit();
-    return status_of(capsule, twins);
+    return status_of(capsule, input.system());
+}
+
+int record_system(const RegisteredSystem& system, const RunOptions& run, const std::filesystem::path& output,
+                  int deflate) {
+    SystemInput input(system, run, {});
+    OutputFiles files;
+    input.protect(files);
+    files.expect(output);
+    SystemSide& side = input.open();
+    RunDescription about = describe_run(input.system(), side.describe(), {}, "");
+    input.describe(about);
+    return record_run(input.system(), side,
+                      {.name = input.system().name,
+                       .scene = input.read().document,
+                       .options = input.read().options,
+                       .shaders = about.shaders ? shaders_text(*about.shaders) : about.shaders_untold,
+                       .frames = run.frames},
+                      output, deflate);
+}
+
+int tell_recording(const RegisteredSystem& system, const std::filesystem::path& file) {
+    const RunOptions run;
+    SystemInput input(system, run, file);
+    SystemSide& side = input.open();
+    fmt::print("{}", plain_text(recording_text(input.system(), side, *input.recording())));
+    return status_agree;
+}
+
+const RegisteredSystem* system_of_recording(const std::filesystem::path& file) {
+    const std::string name = recorded_system(file);
+    if (name.empty())
+        return nullptr;
+    std::vector<std::string> names{std::string(default_system)};
+    for (const RegisteredSystem& system : registered_systems()) {
+        if (system.name == name)
+            return &system;
+        names.emplace_back(system.name);
+    }
+    throw Error(
+        fmt::format("{}: a recording of system '{}', which is none of lockstep's: {}; the program of that system "
+                    "reads it",
+                    file.string(), plain_line(name), fmt::join(names, ", ")));
 }
 
 std::optional<int> show_system(const std::filesystem::path& file, bool hexadecimal) {
@@ -288,16 +315,9 @@ std::optional<int> show_system(const std::filesystem::path& file, bool hexadecim
     const RegisteredSystem* system = system_of_scene(value.at("scene"));
     if (system == nullptr)
         value.at("scene").fail(fmt::format("is of system {}, whose capsules are others", default_system));
-    SceneOptions options;
-    const JsonValue given = value.at("options");
-    given.check_keys({"set", "particles", "preset"});
-    for (const JsonValue& change : given.at("set").items())
-        options.set.push_back(change.text());
-    if (const auto count = given.find("particles"))
-        options.particles = static_cast<std::size_t>(count->integer(1, most_particles));
-    if (const auto preset = given.find("preset"))
-        options.preset = preset->text();
-    const SystemScene scene = system->load(value.at("scene"), value.at("name").label(), options);
+    const SystemScene scene =
+        recorded_scene(*system, document.at("scene"), document.at("options"), value.at("name").label(), file.string())
+            .scene;
     const ItemCapsule capsule = read_item_capsule(value.at("capsule"), scene.system);
     fmt::print("{}", shown_text(capsule, scene.system, number_format(hexadecimal)));
     return status_of(capsule, scene.system);

@@ -22,7 +22,9 @@ struct SystemCheck {
     std::filesystem::path json, hashes, images, report;
     bool power = false; ///< list the mistakes that would have shown
     bool quiet = false;
-    bool render = true; ///< what the last frame draws is judged, too
+    bool render = true;               ///< what the last frame draws is judged, too; of a recording it is not
+    std::filesystem::path trace = {}; ///< the recording; empty: a scene that runs here
+    bool frames_given = false;        ///< else all that were recorded
 };
 
 /// What `lockstep render` is asked of one.
@@ -45,13 +47,22 @@ struct SystemBench {
 std::span<const std::string_view> system_check_options();
 
 // The verbs for a scene of a registered system. Each returns the exit status, or throws Error.
-int check_system(const RegisteredSystem& system, const RunOptions& run, const SystemCheck& asked);
-int explain_system(const RegisteredSystem& system, const RunOptions& run, const SystemItem& item);
+int check_system(const RegisteredSystem& system, RunOptions run, const SystemCheck& asked);
+// `trace`: a recording instead of run.scene; may be empty.
+int explain_system(const RegisteredSystem& system, const RunOptions& run, const SystemItem& item,
+                   const std::filesystem::path& trace);
+int record_system(const RegisteredSystem& system, const RunOptions& run, const std::filesystem::path& output,
+                  int deflate);
+int tell_recording(const RegisteredSystem& system, const std::filesystem::path& file);
 int hash_system(const RegisteredSystem& system, const RunOptions& run, const std::string& profile, bool every);
 int bench_system(const RegisteredSystem& system, const RunOptions& run, const SystemBench& asked);
 int render_system(const RegisteredSystem& system, const RunOptions& run, const SystemRender& asked);
 int cut_system(const RegisteredSystem& system, const RunOptions& run, const SystemItem& item,
-               const std::filesystem::path& output);
+               const std::filesystem::path& trace, const std::filesystem::path& output);
+
+/// The registered system that a recording is of; null where it is a trace of the default one's. Throws Error where it
+/// is of none.
+const RegisteredSystem* system_of_recording(const std::filesystem::path& file);
 
 /// Shows a capsule that cut_system wrote; nothing if `file` is no such capsule.
 std::optional<int> show_system(const std::filesystem::path& file, bool hexadecimal);

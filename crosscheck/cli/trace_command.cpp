@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include "crosscheck/cli/commands.hpp"
+#include "crosscheck/cli/system_verbs.hpp"
 #include "crosscheck/collision/record/trace_reader.hpp"
 #include "crosscheck/command/option_values.hpp"
 #include "crosscheck/files/plain_text.hpp"
@@ -14,6 +15,8 @@ namespace lockstep {
 namespace {
 
 int run(const std::filesystem::path& file) {
+    if (const RegisteredSystem* system = system_of_recording(file))
+        return tell_recording(*system, file);
     TraceReader trace(file);
     const TraceInfo& info = trace.info();
     Particles particles;

@@ -1,7 +1,7 @@
 #include "crosscheck/judge/system_check.hpp"
 
+#include <algorithm>
 #include <optional>
-#include <set>
 #include <utility>
 
 #include <fmt/format.h>
@@ -78,11 +78,9 @@ std::size_t end_of_dispatch(const System& system, std::size_t first) {
 void expect_untouched(const System& system, std::size_t first, const SystemState& before, const SystemState& now,
                       int frame) {
     const ItemPass& pass = *system.passes[first];
-    std::set<std::uint8_t> written;
-    for (std::size_t p = first; p < end_of_dispatch(system, first); ++p)
-        written.insert(system.passes[p]->resource());
+    const std::vector<std::uint8_t> written = written_by(system, first);
     for (std::uint8_t r = 0; r < system.schema.resources.size(); ++r) {
-        if (written.contains(r))
+        if (std::find(written.begin(), written.end(), r) != written.end())
             continue;
         const auto changed = differing_items(before[r], now[r]);
         if (!changed.empty())
@@ -138,6 +136,52 @@ std::vector<ToldValue> told_of(SystemSide& gpu, std::size_t pass, const JudgedPa
     const std::vector<ToldValue> written = told_by_state(judged.pass, judged.gpu, item);
     told.insert(told.end(), written.begin(), written.end());
     return told;
+}
+
+std::vector<std::uint8_t> written_by(const System& system, std::size_t first) {
+    std::vector<std::uint8_t> written;
+    for (std::size_t p = first; p < end_of_dispatch(system, first); ++p)
+        if (const std::uint8_t r = system.passes[p]->resource();
+            std::find(written.begin(), written.end(), r) == written.end())
+            written.push_back(r);
+    return written;
+}
+
+void run_gpu(const System& system, SystemSide& gpu, int frames,
+             const std::function<bool(std::size_t pass, int frame, const SystemState& state)>& work) {
+    check_system(system);
+    SystemState before = system.start, now = system.start;
+    gpu.upload(before.view());
+    const int repeated_frames = gpu.repeats() ? CheckOptions().repeated_frames : 0;
+    for (int frame = 0; frame < frames; ++frame)
+        for (std::size_t p = 0; p < system.passes.size(); ++p) {
+            const ItemPass& pass = *system.passes[p];
+            if (!pass.runs(frame) || pass.continues())
+                continue;
+            if (frame < repeated_frames)
+                gpu.lay_canary(p);
+            gpu.step(p, frame);
+            gpu.read(now);
+            expect_untouched(system, p, before, now, frame);
+            if (frame < repeated_frames) {
+                find_canary(pass, now, frame);
+                SystemState again = now;
+                gpu.repeat_step(p, frame);
+                gpu.read(again);
+                for (const std::uint8_t r : written_by(system, p)) {
+                    const View one = std::as_const(now)[r], other = std::as_const(again)[r];
+                    if (!compare(one, other).agree() &&
+                        !(r == pass.resource() && same_but_for_order(pass, {before.view(), frame}, one, other)))
+                        throw Error(fmt::format("the GPU gave two answers to frame {}, pass {}; check tells where they "
+                                                "differ",
+                                                frame, pass.name()));
+                }
+                now = std::move(again);
+            }
+            if (!work(p, frame, now))
+                return;
+            before = now;
+        }
 }
 
 CheckReport check(const System& system, SystemSide& gpu, const CheckOptions& options, const CheckWatch& watch) {

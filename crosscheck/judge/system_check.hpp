@@ -1,5 +1,6 @@
 #pragma once
 #include <cstddef>
+#include <cstdint>
 #include <functional>
 #include <span>
 #include <vector>
@@ -35,6 +36,15 @@ CheckReport check(const System& system, SystemSide& gpu, const CheckOptions& opt
 
 /// What the GPU's last pass told of an item, and what it wrote there.
 std::vector<ToldValue> told_of(SystemSide& gpu, std::size_t pass, const JudgedPass& judged, std::size_t item);
+
+/// The GPU alone from the start, `work` after each dispatch with the state that it left; `pass` is its first. Of the
+/// first two frames it proves what check() does: each buffer was written, no other changed, and the same state gives
+/// the same bits. Throws Error where not. `work` returns whether to go on.
+void run_gpu(const System& system, SystemSide& gpu, int frames,
+             const std::function<bool(std::size_t pass, int frame, const SystemState& state)>& work);
+
+/// The buffers and images that the dispatch of pass `first` writes, each once.
+std::vector<std::uint8_t> written_by(const System& system, std::size_t first);
 
 /// Of all buffers and images.
 std::uint64_t state_hash(const SystemState& state);

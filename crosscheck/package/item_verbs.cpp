@@ -19,6 +19,7 @@
 #include "crosscheck/report/item_text.hpp"
 #include "crosscheck/report/page/template.hpp"
 #include "crosscheck/report/progress.hpp"
+#include "crosscheck/report/verdict_text.hpp"
 #include "crosscheck/scene/profiles.hpp"
 #include "gpu/system_side.hpp"
 #include "reference/model/error.hpp"
@@ -127,6 +128,73 @@ CheckReport check_shown(const System& system, SystemSide& side, CheckOptions opt
     options.stop = &interrupted;
     options.on_frame = [&](int done) { progress.show(done); };
     return check(system, side, options, watch);
+}
+
+namespace {
+
+/// "500 grains, 1 count, 8 x 4 texels"
+std::string sizes_text(const System& system) {
+    std::string text;
+    for (std::uint8_t r = 0; r < system.schema.resources.size(); ++r) {
+        const Resource& about = system.schema.resources[r];
+        const Extent extent = system.start.extent(r);
+        std::string count = grouped(extent.width);
+        if (about.dimensions > 1)
+            count = fmt::format("{} x {}{}", extent.width, extent.height,
+                                about.dimensions > 2 ? fmt::format(" x {}", extent.depth) : "");
+        text += fmt::format("{}{} {}{}", r == 0 ? "" : ", ", count, about.item, extent.count() == 1 ? "" : "s");
+    }
+    return text;
+}
+
+} // namespace
+
+int record_run(const System& system, SystemSide& side, SystemRunInfo info, const std::filesystem::path& output,
+               int deflate) {
+    const SideDescription about = side.describe();
+    info.settings = system.settings.empty() ? "none" : system.settings;
+    info.renderer = about.name;
+    info.profile = about.profile;
+    SystemRecorder recorder(output, system, info, deflate);
+    {
+        const InterruptHandler handler;
+        Progress progress("record", info.frames, true);
+        run_gpu(system, side, info.frames, [&](std::size_t pass, int frame, const SystemState& state) {
+            recorder.add(pass, frame, state);
+            progress.show(frame + 1);
+            return !interrupted;
+        });
+    }
+    if (interrupted) {
+        fmt::print(stderr, "interrupted: nothing was recorded\n");
+        return status_interrupted;
+    }
+    recorder.commit();
+    fmt::print("{}: {}, {} frames, {} bytes; {}\n", plain_line(output.string()), sizes_text(system), info.frames,
+               grouped(std::filesystem::file_size(output)), plain_line(info.renderer));
+    return status_agree;
+}
+
+std::string recording_text(const System& system, SystemSide& side, const SystemRecording& recording) {
+    const SystemRunInfo& info = recording.info();
+    side.upload(system.start.view());
+    for (int frame = 0; frame < recording.frames(); ++frame)
+        for (std::size_t p = 0; p < system.passes.size(); ++p)
+            side.step(p, frame);
+    std::string text = fmt::format(
+        "{:<10}{}: {} bytes, sealed, every value read\n{:<10}{}\n{:<10}{} ({}): {}, {} frames\n", "recording",
+        recording.file(), grouped(std::filesystem::file_size(recording.file())), "program", recording.program(),
+        "scene", info.name, system.schema.system, sizes_text(system), recording.frames());
+    const auto line = [&](std::string_view key, const std::string& value) {
+        text += fmt::format("{:<10}{}\n", key, plain_line(value));
+    };
+    line("switches", info.settings);
+    line("GL", info.renderer);
+    line("shaders", info.shaders);
+    line("profile", describe(info.profile));
+    for (const std::string& warning : recording.warnings())
+        line("warning", warning);
+    return text;
 }
 
 CheckFiles::CheckFiles(std::filesystem::path report, std::filesystem::path hashes)

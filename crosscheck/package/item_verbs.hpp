@@ -13,6 +13,7 @@
 #include "crosscheck/judge/system.hpp"
 #include "crosscheck/judge/system_check.hpp"
 #include "crosscheck/record/item_capsule.hpp"
+#include "crosscheck/record/system_recording.hpp"
 #include "crosscheck/report/page/system_page.hpp"
 #include "crosscheck/report/value_text.hpp"
 
@@ -61,6 +62,14 @@ std::vector<std::string> first_item_words(const System& system, const CheckRepor
 
 /// Prints the reference's state hash after the last frame, or after `every` one.
 void print_hashes(const System& system, const std::string& profile, int frames, bool every);
+
+/// Records info.frames frames of `side` and says so; its settings, renderer and profile become `info`'s. Gives the exit
+/// status.
+int record_run(const System& system, SystemSide& side, SystemRunInfo info, const std::filesystem::path& output,
+               int deflate);
+
+/// What is in a recording, every value read.
+std::string recording_text(const System& system, SystemSide& side, const SystemRecording& recording);
 
 /// check() with what it has done so far on a terminal, until it is done or interrupted.
 CheckReport check_shown(const System& system, SystemSide& side, CheckOptions options, bool quiet,

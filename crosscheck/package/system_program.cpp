@@ -37,6 +37,10 @@ struct Options {
     PassRules rules;
     bool power = false, quiet = false, every = false;
     std::filesystem::path json, capsule, hashes, report;
+    std::filesystem::path trace; ///< a recording, instead of GL
+    std::filesystem::path output;
+    int deflate = 1;
+    bool frames_given = false;
     std::string profile = "strict";
     SystemItem item;
 };
@@ -53,20 +57,41 @@ void add_item_options(Verb& verb, SystemItem& item) {
     add_legal_option(verb, item.legal);
 }
 
-/// The system's shaders on this machine's GL.
-struct OpenSide {
-    Gl gl;
-    GlSystemSide side;
+/// The system's shaders on this machine's GL, or a recording of them.
+class OpenSide {
+  public:
+    OpenSide(const Program& program, const Options& options) {
+        if (!options.trace.empty()) {
+            recording_.emplace(options.trace, program.system.schema.system);
+            recording_->open(program.system);
+            side_ = std::make_unique<RecordedSide>(*recording_, program.system);
+            return;
+        }
+        gl_.emplace(options.gl);
+        if (!*gl_)
+            throw Error(gl_->missing());
+        side_ = std::make_unique<GlSystemSide>(*gl_, program.system, program.passes, options.shaders.string());
+    }
 
-    OpenSide(const Program& program, const Options& options)
-        : gl(opened(options)), side(gl, program.system, program.passes, options.shaders.string()) {}
+    SystemSide& operator*() { return *side_; }
+    SystemSide* operator->() { return side_.get(); }
+    [[nodiscard]] const SystemRecording* recording() const { return recording_ ? &*recording_ : nullptr; }
 
   private:
-    static Gl opened(const Options& options) {
-        Gl gl(options.gl);
-        return gl ? std::move(gl) : throw Error(gl.missing());
-    }
+    std::optional<SystemRecording> recording_;
+    std::optional<Gl> gl_;
+    std::unique_ptr<SystemSide> side_;
 };
+
+/// How many frames are compared: of a recording all, if it was not said.
+int frames_of(const Options& options, const OpenSide& gpu) {
+    if (gpu.recording() == nullptr)
+        return options.frames;
+    const int recorded = gpu.recording()->frames();
+    if (options.frames_given && options.frames > recorded)
+        throw Error(fmt::format("--frames {}: {} holds {} frames", options.frames, options.trace.string(), recorded));
+    return options.frames_given ? options.frames : recorded;
+}
 
 void keep_capsule(const Program& program, const Options& options, const CheckReport& report, SystemSide& side,
                   OutputFiles& files) {
@@ -88,6 +113,7 @@ void keep_capsule(const Program& program, const Options& options, const CheckRep
 int check_verb(const Program& program, const Options& options) {
     OutputFiles files;
     files.protect(options.shaders);
+    files.protect(options.trace);
     for (const auto& output : {options.json, options.capsule})
         if (!output.empty())
             files.expect(output);
@@ -96,23 +122,30 @@ int check_verb(const Program& program, const Options& options) {
     OpenSide gpu(program, options);
     CheckOptions check;
     check.mode = options.mode;
-    check.frames = options.frames;
-    check.known = known_operations(options.item.legal, gpu.side.describe().profile);
-    CheckReport report = check_shown(program.system, gpu.side, check, options.quiet,
-                                     outputs.watch(program.system, gpu.side, options.frames));
+    check.frames = frames_of(options, gpu);
+    check.known = known_operations(options.item.legal, gpu->describe().profile);
+    CheckReport report =
+        check_shown(program.system, *gpu, check, options.quiet, outputs.watch(program.system, *gpu, check.frames));
     ask_power(report, options.rules.power_at_least);
-    RunDescription run = describe_run(program.system, gpu.side.describe(), check, this_program(program.words));
+    RunDescription run = describe_run(program.system, gpu->describe(), check, this_program(program.words));
+    if (gpu.recording() != nullptr) {
+        run.shaders_untold = "recorded: " + gpu.recording()->info().shaders;
+        run.notes = gpu.recording()->warnings();
+    }
     const auto explain_line = [&](const std::vector<std::string>& words) {
         std::vector<std::string> explain{"explain"};
         explain.insert(explain.end(), words.begin(), words.end());
-        explain.insert(explain.end(), {"--gl", options.gl, "--shaders", options.shaders.string()});
+        if (options.trace.empty())
+            explain.insert(explain.end(), {"--gl", options.gl, "--shaders", options.shaders.string()});
+        else
+            explain.insert(explain.end(), {"--trace", options.trace.string()});
         return this_program(explain) + legal_option_text(options.item.legal);
     };
     if (const auto words = first_item_words(program.system, report); !words.empty())
         run.explain = explain_line(words);
     if (!options.quiet)
         fmt::print("{}{}{}",
-                   report.partial() ? fmt::format("interrupted after {} of {} frames\n", report.frames, options.frames)
+                   report.partial() ? fmt::format("interrupted after {} of {} frames\n", report.frames, check.frames)
                                     : "",
                    plain_text(report_text(report, run)), options.power ? power_text(report.power) : std::string());
     std::fflush(stdout);
@@ -123,13 +156,13 @@ int check_verb(const Program& program, const Options& options) {
         told.commands.push_back({"The first item that differs, step by step", run.explain});
     outputs.write(files, report, run, std::move(told), [&] {
         const FirstDivergence& first = *report.verdicts->first;
-        SystemRun again(program.system, gpu.side, *check.known, first.place.frame, first.pass);
-        return item_capsule_file(cut_item_capsule(again, first.place.index, gpu.side.describe().name), program.system);
+        SystemRun again(program.system, *gpu, *check.known, first.place.frame, first.pass);
+        return item_capsule_file(cut_item_capsule(again, first.place.index, gpu->describe().name), program.system);
     });
     if (!options.json.empty())
         files.write(options.json, json_text(report_json(report, run)));
     if (!options.capsule.empty())
-        keep_capsule(program, options, report, gpu.side, files);
+        keep_capsule(program, options, report, *gpu, files);
     files.commit();
     if (report.partial())
         return status_interrupted;
@@ -139,7 +172,24 @@ int check_verb(const Program& program, const Options& options) {
 int explain_verb(const Program& program, const Options& options) {
     static_cast<void>(place_of(options.item, program.system));
     OpenSide gpu(program, options);
-    fmt::print("{}", explain_text(program.system, gpu.side, options.item, ""));
+    fmt::print("{}", explain_text(program.system, *gpu, options.item, ""));
+    return status_agree;
+}
+
+int record_verb(const Program& program, const Options& options) {
+    OutputFiles files;
+    files.protect(options.shaders);
+    files.expect(options.output);
+    OpenSide gpu(program, options);
+    const RunDescription about = describe_run(program.system, gpu->describe(), {}, "");
+    return record_run(program.system, *gpu,
+                      {.name = program.system.name, .shaders = about.shaders_untold, .frames = options.frames},
+                      options.output, options.deflate);
+}
+
+int trace_verb(const Program& program, const Options& options) {
+    OpenSide gpu(program, options);
+    fmt::print("{}", plain_text(recording_text(program.system, *gpu, *gpu.recording())));
     return status_agree;
 }
 
@@ -147,9 +197,10 @@ int cut_verb(const Program& program, const Options& options) {
     static_cast<void>(place_of(options.item, program.system));
     OutputFiles files;
     files.protect(options.shaders);
+    files.protect(options.trace);
     files.expect(options.capsule);
     OpenSide gpu(program, options);
-    const ItemCapsule capsule = cut_item(program.system, gpu.side, options.item);
+    const ItemCapsule capsule = cut_item(program.system, *gpu, options.item);
     files.write(options.capsule, item_capsule_file(capsule, program.system));
     files.commit();
     return status_of(capsule, program.system);
@@ -169,7 +220,18 @@ int hash_verb(const Program& program, const Options& options) {
 /// As `lockstep` has them for the systems it knows (docs/verbs.md): the same names, words and statuses.
 Verb verbs_of(const std::string& name, const Program& program, const std::shared_ptr<Options>& options) {
     const auto running = [&program, options](int (*run)(const Program&, const Options&)) {
-        return [&program, options, run](const Call&) { return run(program, *options); };
+        return [&program, options, run](const Call& call) {
+            if (!options->trace.empty())
+                for (const char* option : {"--gl", "--shaders"})
+                    if (call.has(option))
+                        throw Error(fmt::format("{}: {} goes with shaders that run here, not with --trace",
+                                                call.verb.name, option));
+            options->frames_given = call.has("--frames");
+            return run(program, *options);
+        };
+    };
+    const auto add_trace_option = [options](Verb& verb) {
+        verb.add(path_option("--trace", "FILE", options->trace, "instead of shaders: a recorded run; needs no GL"));
     };
     Verb check{"check", "run both sides, pass by pass, and compare every bit of every frame"};
     check.add(integer_option("--frames", "N", {1, most_frames}, options->frames, "frames to compare"));
@@ -187,18 +249,38 @@ Verb verbs_of(const std::string& name, const Program& program, const std::shared
     check.add(path_option("--report", "DIR", options->report, "write report.html, a page that opens in any browser"));
     check.add(path_option("--capsule", "FILE", options->capsule, "keep the first item that is divergent"));
     check.add(flag("--quiet", options->quiet, "no report, only the exit status"));
+    add_trace_option(check);
     check.run = running(check_verb);
+
+    Verb record{"record", "write the GPU's states of a run to a file that is checked elsewhere"};
+    add_gl_options(record, *options);
+    record.add(required(path_option("-o,--output", "FILE", options->output, "the recording, HDF5")));
+    record.add(integer_option("--frames", "N", {1, most_frames}, options->frames, "frames to record"));
+    record.add(integer_option("--deflate", "LEVEL", {0, 9}, options->deflate, "how hard to compress, 0 to 9"));
+    record.run = running(record_verb);
+    Verb trace{"trace", "read a recorded run whole, and tell what is in it or what is wrong"};
+    trace.add(required(path_option("trace", "FILE", options->trace, "what `record` wrote")));
+    trace.run = running(trace_verb);
+    Verb report{"report", "check a recorded run, and write report.html about it"};
+    report.add(required(path_option("trace", "FILE", options->trace, "what `record` wrote")));
+    report.add(required(path_option("-o,--output", "DIR", options->report, "where report.html goes")));
+    report.add(integer_option("--frames", "N", {1, most_frames}, options->frames, "frames to compare; else all"));
+    add_legal_option(report, options->item.legal);
+    report.add(flag("--quiet", options->quiet, "the page alone, and the exit status"));
+    report.run = running(check_verb);
 
     Verb explain{"explain", "both sides of one item in one frame, value by value"};
     add_gl_options(explain, *options);
     add_item_options(explain, options->item);
     explain.add(hex_option(options->item.hexadecimal));
+    add_trace_option(explain);
     explain.run = running(explain_verb);
 
     Verb cut{"cut", "cut one out of a run"};
     add_gl_options(cut, *options);
     add_item_options(cut, options->item);
     cut.add(required(path_option("-o,--output", "FILE", options->capsule, "the capsule, JSON, at most 100 kB")));
+    add_trace_option(cut);
     cut.run = running(cut_verb);
     Verb show{"show", "judge one again, and print its table; needs no GL"};
     show.add(required(path_option("capsule", "FILE", options->capsule, "what `capsule cut` or `check` wrote")));
@@ -216,7 +298,7 @@ Verb verbs_of(const std::string& name, const Program& program, const std::shared
     Verb verbs{
         name,
         fmt::format("{}: runs the system's twins beside its shaders, and compares every bit of every frame", name)};
-    verbs.verbs = {check, explain, capsule, hash};
+    verbs.verbs = {check, explain, capsule, hash, record, trace, report};
     verbs.footer = "Exit status: 0 it agrees or is legal, 1 it is not, 2 could not run, 130 ended by Ctrl-C.";
     return verbs;
 }

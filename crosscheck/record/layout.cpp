@@ -11,4 +11,10 @@ std::string group(const Resource& buffer, const Field& field) {
 
 std::string value(const Resource& buffer, const Field& field) { return group(buffer, field) + "/value"; }
 
+std::string state(const Resource& resource) { return fmt::format("state/{}", resource.name); }
+
+std::string state_value(const Resource& resource, const Field& field) {
+    return fmt::format("{}/{}/value", state(resource), field.name);
+}
+
 } // namespace lockstep::layout

@@ -26,6 +26,18 @@ inline constexpr const char* settings = "parameters/lockstep/settings";
 inline constexpr const char* shaders = "parameters/lockstep/shaders";
 inline constexpr const char* probe = "parameters/lockstep/probe";
 
+// Of a run of a registered system, or of one of somebody's own:
+/// "state/light": its group of a buffer or image. `frame` and `pass` there are int32 [rows], of each row the frame and
+/// pass that left it, -1 of row 0, the start.
+std::string state(const Resource& resource);
+/// [rows][items], of an image [rows][layers][height][width], the layers where it has three dimensions; then
+/// [components] where there are several.
+std::string state_value(const Resource& resource, const Field& field);
+inline constexpr const char* system = "parameters/lockstep/system";   ///< its schema's name
+inline constexpr const char* schema = "parameters/lockstep/schema";   ///< JSON (schema_json.hpp)
+inline constexpr const char* options = "parameters/lockstep/options"; ///< JSON: what was changed in the scene
+inline constexpr const char* frames = "parameters/lockstep/frames";   ///< how many, in decimal digits
+
 /// Obstacles in the world: float32 [corners][3], and the three corners of each triangle, uint32 [triangles][3].
 inline constexpr const char* obstacle_positions = "parameters/lockstep/obstacles/positions";
 inline constexpr const char* obstacle_triangles = "parameters/lockstep/obstacles/triangles";

@@ -17,13 +17,19 @@ namespace lockstep {
 ///     bytes SIZE-OF-THE-WHOLE-FILE
 ///     sha256 OF-WHAT-COMES-AFTER-THE-USER-BLOCK
 ///
+/// That of a recording of any other system than the one whose traces these are begins with two lines of its own:
+///
+///     lockstep recording 1
+///     system NAME
+///
 /// It finds what was cut off, damaged, or is something else, before a library that parses the bytes sees them. It is
 /// no defence against a file that was made to do harm: such a file has a good seal.
 inline constexpr std::size_t seal_size = 512;
 
 struct Seal {
     std::uint64_t bytes = 0;
-    std::string sha256; ///< 64 hexadecimal digits
+    std::string sha256;      ///< 64 hexadecimal digits
+    std::string system = {}; ///< empty: of a trace
 };
 
 std::string seal_text(const Seal& seal);
@@ -32,9 +38,13 @@ std::string seal_text(const Seal& seal);
 Seal parse_seal(std::string_view first_bytes, const std::string& name);
 
 /// Writes the seal of a finished file into its user block. Throws Error naming the path.
-void seal_file(const std::filesystem::path& file);
+void seal_file(const std::filesystem::path& file, const std::string& system = {});
 
-/// Throws Error naming the path if the file is cut off, longer than it was, damaged, or not sealed.
-void check_seal(const OpenedFile& file);
+/// The system that the seal names; empty: a trace's. Throws Error where there is no seal.
+std::string sealed_system(const OpenedFile& file);
+
+/// Throws Error naming the path if the file is cut off, longer than it was, damaged, or not sealed, or is of another
+/// system.
+void check_seal(const OpenedFile& file, const std::string& system = {});
 
 } // namespace lockstep

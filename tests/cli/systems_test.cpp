@@ -2,6 +2,7 @@
 #include <filesystem>
 #include <fstream>
 #include <iterator>
+#include <sstream>
 
 #include <catch2/catch.hpp>
 #include <nlohmann/json.hpp>
@@ -48,7 +49,7 @@ TEST_CASE("systems: a scene names its system, and one that there is not is told 
 }
 
 TEST_CASE("systems: verbs of the collision system refuse another's scene and name those that run it") {
-    for (const char* verb : {"debug", "record", "study"}) {
+    for (const char* verb : {"debug", "study"}) {
         INFO(verb);
         CHECK_THAT(refusal(run_lockstep({verb, scene})) + " ",
                    Contains("is a scene of system dust, which bench, capsule, check, explain, hash and render run") ||
@@ -181,6 +182,105 @@ TEST_CASE("systems: check leaves a page with the first items' steps, a capsule, 
     CHECK_THAT(refusal(run_lockstep(on_gl({"check", scene, "--report", folder, "--json", folder + "/report.html"}),
                                     with_page)),
                Contains("report.html"));
+}
+
+namespace {
+
+/// The lines of a report that say what was found, in the order in which they stand there.
+std::string findings(const std::string& report) {
+    std::istringstream lines(report);
+    std::string found;
+    for (std::string line; std::getline(lines, line);)
+        for (const char* key : {"compared", "hash", "power", "verdict", "classes", "outcomes", "ties", "cause", "first",
+                                "  velocity", "  position", "  frame "})
+            if (line.starts_with(key))
+                found += line + "\n";
+    return found;
+}
+
+/// The file with other bytes at a place, and its seal as it was.
+void write_at(const std::string& file, std::streamoff place, const std::string& bytes) {
+    std::fstream stream(file, std::ios::binary | std::ios::in | std::ios::out);
+    stream.seekp(place);
+    stream << bytes;
+}
+
+} // namespace
+
+TEST_CASE("systems: a recorded run is judged as the live one was, and explained, without GL") {
+    if (!test::have_software_gl())
+        return;
+    const test::TemporaryFolder mine, out;
+    plant(mine);
+    const std::string file = (out.path() / "run.h5").string();
+    struct Run {
+        std::string scene;
+        std::vector<std::string> more;
+    };
+    const Run of = GENERATE_REF(Run{scene, {"--shaders", mine.path().string()}},
+                                Run{"data/scenes/lifecycle/births_and_deaths.json", {}});
+    INFO(of.scene);
+    const std::vector<std::string> run =
+        test::joined(on_gl({of.scene, "--particles", "200", "--frames", "5"}), of.more);
+    const test::Outcome live = run_lockstep(test::joined({"check", "--no-render"}, run));
+    const test::Outcome recorded = run_lockstep(test::joined({"record", "-o", file}, run));
+    INFO(recorded.err);
+    REQUIRE(recorded.status == 0);
+    const test::Surroundings no_gl{
+        .environment = {{"LOCKSTEP_OSMESA_LIBRARY", "/nowhere"}, {"LOCKSTEP_EGL_LIBRARY", "/nowhere"}}};
+    const test::Outcome again = run_lockstep({"check", "--trace", file}, no_gl);
+    INFO(again.err);
+    CHECK(again.status == live.status);
+    CHECK(findings(again.out) == findings(live.out));
+    CHECK_THAT(again.out, Contains("GL        recorded: "));
+    CHECK_THAT(run_lockstep({"trace", file}, no_gl).out, Contains("5 frames") && Contains("every value read"));
+
+    const auto place = [](const std::string& shown) { return shown.substr(shown.find("profile ")); };
+    const std::vector<std::string> item{"--frame", "2", "--item", "0"};
+    const test::Outcome explained = run_lockstep(test::joined({"explain", "--trace", file}, item), no_gl);
+    CHECK(explained.status == 0);
+    std::vector<std::string> here = test::joined(on_gl({"explain", of.scene, "--particles", "200"}), item);
+    CHECK(place(explained.out) == place(run_lockstep(test::joined(here, of.more)).out));
+    const std::string capsule = (out.path() / "3.json").string();
+    CHECK(run_lockstep(test::joined({"capsule", "cut", "--trace", file, "-o", capsule}, item), no_gl).status <= 1);
+    CHECK_THAT(run_lockstep({"capsule", "show", capsule}).out, Contains(" 0 in frame 2, pass "));
+}
+
+TEST_CASE("systems: a recording that is damaged, cut off, of another system or of too few frames is one line") {
+    if (!test::have_software_gl())
+        return;
+    const test::TemporaryFolder out;
+    const std::string file = (out.path() / "run.h5").string();
+    REQUIRE(run_lockstep(on_gl({"record", scene, "--particles", "50", "--frames", "3", "-o", file})).status == 0);
+    CHECK(refusal(run_lockstep({"check", "--trace", file, "--frames", "4"})) ==
+          "--frames 4: " + file + " holds 3 frames");
+    CHECK(refusal(run_lockstep({"explain", "--trace", file, "--frame", "3", "--item", "0"})) ==
+          file + " holds frames 0 to 2, not 3");
+    CHECK(refusal(run_lockstep({"explain", "--trace", file, "--frame", "0", "--particle", "0"})) ==
+          "explain: of a scene of system dust, --item I is needed");
+    CHECK_THAT(refusal(run_lockstep({"explain", "--trace", file, "--frame", "0", "--item", "50"})),
+               Contains("there is no grain '50'; physics has 0 to 49"));
+    CHECK(refusal(run_lockstep({"check", "--trace", file, "--images", out.path().string()})) ==
+          "check: --images goes with a scene that is run here, not with --trace");
+    CHECK_THAT(refusal(run_lockstep({"record", scene, "-o", out.path().string() + "/no/where.h5"})),
+               Contains("no/where.h5"));
+    CHECK(refusal(run_lockstep({"record", scene, "--cdt", "-o", file})) ==
+          "record: --cdt goes with scenes of system collision");
+
+    const std::uintmax_t size = std::filesystem::file_size(file);
+    const std::string other = (out.path() / "other.h5").string();
+    const auto damaged = [&](const auto& change) {
+        std::filesystem::copy_file(file, other, std::filesystem::copy_options::overwrite_existing);
+        change();
+        return refusal(run_lockstep({"check", "--trace", other}));
+    };
+    CHECK(damaged([&] { std::filesystem::resize_file(other, size / 2); }) ==
+          other + ": cut off: " + std::to_string(size / 2) + " of its " + std::to_string(size) + " bytes are here");
+    CHECK_THAT(damaged([&] { write_at(other, 2000, "x"); }), Contains(other + ": damaged: its SHA-256 is "));
+    CHECK_THAT(damaged([&] { write_at(other, 0, "lockstep recording 1\nsystem dusk\n"); }),
+               Contains("a recording of system 'dusk', which is none of lockstep's: collision, dust, lifecycle"));
+    CHECK_THAT(damaged([&] { write_at(other, 0, "lockstep recording 1\nsystem \x1b[31\n"); }),
+               Contains("which is none of lockstep's") && !Contains("\x1b"));
 }
 
 TEST_CASE("systems: explain shows one item's step in a pass that runs") {

@@ -66,12 +66,32 @@ says 'first acceleration.'
 ends_with 1 build/grains capsule cut --frame 3 --item 17 --shaders planted -o 17.json
 ends_with 1 build/grains capsule show 17.json --hex
 says 'grain 17 in frame 3, pass grains_step'
+ends_with 2 build/grains check --trace capsule.json
+says 'capsule.json: not a trace'
+succeeds build/grains record --frames 10 --shaders planted -o run.h5
+says '2,000 grains, 10 frames'
+ends_with 1 build/grains check --trace run.h5 --hashes hashes
+says 'verdict DIVERGENT from frame 0 on'
+says 'u_Drag: zero'
+says 'grains explain --frame 0 --pass grains_step --item 0 --trace run.h5'
+[ "$(wc -l <hashes)" = 10 ] || fail 'a hash for each frame'
+succeeds build/grains explain --trace run.h5 --frame 3 --item 17
+says 'grain 17 in frame 3, pass grains_step'
+succeeds build/grains trace run.h5
+says 'every value read'
+ends_with 2 build/grains check --trace run.h5 --frames 11
+says '--frames 11: run.h5 holds 10 frames'
+if [ -f prefix/share/lockstep/report.html ]; then
+    ends_with 1 build/grains report run.h5 -o pages --quiet
+    grep -q '"verdict":"DIVERGENT"' pages/report.html || fail 'the page does not say DIVERGENT'
+    ends_with 1 build/grains capsule show pages/capsule.json
+fi
 succeeds build/grains hash --frames 5
 says '4 '
 ends_with 2 build/grains check --frame 30
 says "unknown option '--frame'; did you mean --frames?"
 ends_with 2 build/grains bench
-says "unknown verb 'bench'; the verbs are check, explain, capsule, hash"
+says "unknown verb 'bench'; the verbs are check, explain, capsule, hash, record, trace, report"
 ends_with 2 build/grains explain --frame 3 --item 2000
 says "there is no grain '2000'; grains has 0 to 1999"
 

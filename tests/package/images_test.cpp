@@ -11,7 +11,9 @@
 #include <lockstep/system.hpp>
 #include <nlohmann/json.hpp>
 
+#include "crosscheck/record/system_recording.hpp"
 #include "crosscheck/report/page/system_page.hpp"
+#include "crosscheck/report/verdict_text.hpp"
 #include "reference/system/item_words.hpp"
 #include "tests/temporary_folder.hpp"
 
@@ -279,6 +281,71 @@ TEST_CASE("images: the report page of a program of one's own has the texels that
         CHECK_THAT(item.at("name").get<std::string>(), Catch::Matches("cell \\(\\d, \\d, \\d\\)"));
         CHECK_THAT(item.at("command").get<std::string>(), Catch::Contains("--pass spread --item "));
     }
+}
+
+TEST_CASE(
+    "images: a recorded run has every pass's image, is judged as it was, and is refused by a system of other sizes") {
+    if (!gl())
+        return skip(gl().missing());
+    const TemporaryFolder folder, out;
+    const System twins = system();
+    GlSystemSide side(gl(), twins, passes(), planted(folder, "spread.comp", "0.5 *", "0.25 *"));
+    CheckOptions options;
+    options.frames = 4;
+    const CheckReport live = check(twins, side, options);
+    const std::string file = (out.path() / "run.h5").string();
+    const SystemRunInfo info{.name = "glow", .profile = side.describe().profile, .frames = 4};
+    SystemRecorder recorder(file, twins, info);
+    run_gpu(twins, side, 4, [&](std::size_t pass, int frame, const SystemState& state) {
+        recorder.add(pass, frame, state);
+        return true;
+    });
+    recorder.commit();
+
+    CHECK(recorded_system(file) == "glow");
+    SystemRecording recording(file, "glow");
+    recording.open(twins);
+    CHECK(recording.frames() == 4);
+    CHECK(recording.warnings().empty());
+    RecordedSide recorded(recording, twins);
+    const CheckReport again = check(twins, recorded, options);
+    CHECK(again.verdict == Verdict::divergent);
+    CHECK(again.gpu_hash == live.gpu_hash);
+    CHECK(again.reference_hash == live.reference_hash);
+    CHECK(verdict_text(*again.verdicts, again.schema, {}) == verdict_text(*live.verdicts, live.schema, {}));
+    CHECK_THROWS_WITH(recorded.step(0, 4), file + " holds frames 0 to 3, not 4");
+
+    CHECK_THROWS_WITH(SystemRecording(file, "gleam"),
+                      file + ": a recording of system glow; right is one of system gleam");
+    const auto refused = [&](const System& other, const std::string& why) {
+        SystemRecording one(file, "glow");
+        CHECK_THROWS_WITH(one.open(other), file + ": " + why);
+    };
+    System larger = system();
+    larger.start = {glow(), {{24}, Extent{4, 8, 1}, deep, flat, flat}};
+    refused(larger, "state/light/light/value: is float32 [5][4][8]; right is float32 [rows][8][4]");
+    System brighter = system();
+    brighter.start.set(power, 7, 9.0F);
+    refused(brighter, "state/lamps: its row 0 is not the start of glow: lamp 7 is another");
+    System shorter = system();
+    shorter.passes.pop_back();
+    refused(shorter, "state/lamps: 4 rows follow those of this system's passes");
+    System swapped = system();
+    std::swap(swapped.passes[0], swapped.passes[1]);
+    refused(swapped, "state/haze: row 1 is of frame 0, pass 1; in this system it is of frame 0, pass 0");
+    static const Schema dimmer = [] {
+        Schema changed = schema();
+        changed.resources[lamps].fields[2].name = "strength";
+        return checked(changed);
+    }();
+    const System renamed{.name = "glow",
+                         .schema = dimmer,
+                         .passes = {},
+                         .mistakes = {},
+                         .start = {dimmer, {{24}, flat, deep, flat, flat}},
+                         .settings = {}};
+    refused(renamed,
+            "parameters/lockstep/schema: the state of glow is another here, first at /resources/0/fields/2/name");
 }
 
 TEST_CASE("images: a texel that a dispatch leaves out is an error, not a value of before") {

@@ -24,53 +24,8 @@
 namespace lockstep {
 namespace {
 
-constexpr std::uint64_t longest_text = std::uint64_t{64} << 20U;               // bytes
 constexpr std::uint64_t largest_mesh = 3 * most_triangles * sizeof(glm::vec3); // bytes
 constexpr std::int64_t most_frames = 100'000'000;
-
-/// Reads the messages of one trace in the order they have to come.
-class Messages {
-  public:
-    Messages(ByteSource& source, const std::string& file) : source_(source), file_(file) {}
-
-    [[noreturn]] void fail(const std::string& what) const { throw Error(fmt::format("{}: {}", file_, what)); }
-
-    /// The size of the next message, which is to be of that kind.
-    std::uint64_t expect(MessageKind kind, std::uint32_t index = 0) {
-        MessageHead head;
-        source_.read(&head, sizeof head);
-        if (head.kind == MessageKind::error)
-            fail(plain_line(text(head.bytes)));
-        if (head.kind != kind || head.index != index)
-            fail("its reading process broke: it answers what nobody asked");
-        return head.bytes;
-    }
-
-    std::string text(std::uint64_t bytes) {
-        if (bytes > longest_text)
-            fail("its reading process broke: it tells a text without end");
-        std::string text(bytes, '\0');
-        source_.read(text.data(), bytes);
-        return text;
-    }
-
-    /// All values of the next message; `most`: bytes.
-    template <class Value> std::vector<Value> values(MessageKind kind, std::uint64_t most) {
-        const std::uint64_t bytes = expect(kind);
-        if (bytes > most || bytes % sizeof(Value) != 0)
-            fail(fmt::format("its reading process broke: {} bytes where at most {} can be", bytes, most));
-        std::vector<Value> all(bytes / sizeof(Value));
-        source_.read(all.data(), bytes);
-        return all;
-    }
-
-    template <class Value> void fill(std::vector<Value>& all) { source_.read(all.data(), all.size() * sizeof(Value)); }
-    void fill(std::byte* bytes, std::size_t count) { source_.read(bytes, count); }
-
-  private:
-    ByteSource& source_;
-    const std::string& file_;
-};
 
 /// The scene without start and stored obstacles.
 Scene read_scene(const JsonValue& contents, const std::string& file) {

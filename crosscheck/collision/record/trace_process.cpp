@@ -1,30 +1,15 @@
 #include "crosscheck/collision/record/trace_process.hpp"
 
-#include <algorithm>
-#include <array>
-#include <cerrno>
-#include <chrono>
-#include <csignal>
 #include <cstddef>
-#include <cstdio>
-#include <cstring>
-#include <exception>
-#include <thread>
+#include <string>
 #include <utility>
 #include <vector>
 
-#include <fcntl.h>
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
-#include <sys/prctl.h>
-#include <sys/resource.h>
-#include <sys/socket.h>
-#include <sys/wait.h>
-#include <unistd.h>
 
-#include "crosscheck/collision/record/trace_messages.hpp"
+#include "crosscheck/record/messages.hpp"
 #include "crosscheck/record/root_offsets.hpp"
-#include "crosscheck/record/syscall_fence.hpp"
 #include "crosscheck/record/trace_file.hpp"
 #include "reference/model/collision/collision_state.hpp"
 #include "reference/model/error.hpp"
@@ -32,102 +17,22 @@
 namespace lockstep {
 namespace {
 
-constexpr std::size_t opening_memory = std::size_t{1} << 30U; // bytes, to look at a file and read its small parts
-constexpr rlim_t seconds_a_request = 60;                      // of processor time
-
-/// Bytes of address space in use.
-std::size_t address_space() {
-    std::size_t pages = 0;
-    if (std::FILE* file = std::fopen("/proc/self/statm", "r")) {
-        if (std::fscanf(file, "%zu", &pages) != 1)
-            pages = 0;
-        std::fclose(file);
-    }
-    return pages * static_cast<std::size_t>(sysconf(_SC_PAGESIZE));
-}
-
-template <class Resource> void limit(Resource resource, rlim_t value) {
-    rlimit limits{};
-    getrlimit(resource, &limits);
-    limits.rlim_cur = std::min(value, limits.rlim_max); // RLIM_INFINITY is the largest
-    setrlimit(resource, &limits);
-}
-
-template <class Resource> void limit_for_good(Resource resource, rlim_t value) {
-    const rlimit limits{value, value};
-    setrlimit(resource, &limits);
-}
-
-/// So much processor time from now on.
-void limit_time() {
-    rusage used{};
-    getrusage(RUSAGE_SELF, &used);
-    limit(RLIMIT_CPU, static_cast<rlim_t>(used.ru_utime.tv_sec + used.ru_stime.tv_sec) + 1 + seconds_a_request);
-}
-
-/// The asking process's handlers are not to run here, and Ctrl-C is its alone.
-void default_signals() {
-    for (int signal = 1; signal < NSIG; ++signal)
-        std::signal(signal, signal == SIGINT ? SIG_IGN : SIG_DFL);
-    sigset_t none;
-    sigemptyset(&none);
-    sigprocmask(SIG_SETMASK, &none, nullptr);
-}
-
-/// Descriptors of the reading process; nothing else that the asking process has open is open there.
-constexpr int requests_from = 3, answers_to = 4, the_file = 5;
-
-void keep_descriptors(int requests, int answers) {
-    const int above = std::max({requests, answers, the_file}) + 1; // not to overwrite one with the other
-    const int kept_requests = fcntl(requests, F_DUPFD, above);
-    const int kept_answers = fcntl(answers, F_DUPFD, above);
-    const int null = open("/dev/null", O_RDWR);
-    for (const int standard : {STDIN_FILENO, STDOUT_FILENO, STDERR_FILENO})
-        dup2(null, standard);
-    dup2(kept_requests, requests_from);
-    dup2(kept_answers, answers_to);
-    close_range(the_file, ~0U, 0);
-}
-
-/// What is left to a process that reads one file. `memory`: bytes of address space. Gives why the kernel puts up no
-/// fence of its own, or an empty text.
-std::string fence(std::size_t memory) {
-    default_signals();
-    prctl(PR_SET_NO_NEW_PRIVS, 1, 0, 0, 0);
-    limit_for_good(RLIMIT_CORE, 0);
-    limit_for_good(RLIMIT_FSIZE, 0);
-    limit_for_good(RLIMIT_NPROC, 0);
-    limit_for_good(RLIMIT_NOFILE, the_file + 1);
-    limit(RLIMIT_AS, memory);
-    limit_time();
-    return put_up_fence(Fence::opening, answers_to);
-}
-
 /// The reading process's work.
 class Reader {
   public:
-    explicit Reader(const OpenedFile& file) : file_(file, collision_schema().resources[collision::particles]) {}
+    Reader(const OpenedFile& file, ReadingEnd& end)
+        : end_(end), file_(file, collision_schema().resources[collision::particles]) {}
 
-    /// `memory`: what opening the file may take.
-    void run(std::size_t memory, std::string unfenced) {
-        if (unfenced.empty())
-            unfenced = put_up_fence(Fence::reading, answers_to);
+    void run() {
+        end_.put_up_fence();
         file_.look_at_contents();
         warnings_ = file_.warnings();
-        if (!unfenced.empty())
-            warnings_.push_back(fmt::format("the kernel puts up no seccomp filter ({}): the process that reads the "
-                                            "trace is held by its limits alone",
-                                            unfenced));
-        limit(RLIMIT_AS, memory + 2 * (file_.particle_bytes() + file_.cdt_bytes()));
+        end_.allow(2 * (file_.particle_bytes() + file_.cdt_bytes()), warnings_);
         send_contents();
         Request request;
-        while (recv(requests_from, &request, sizeof request, MSG_WAITALL) == sizeof request) {
-            limit_time();
+        while (end_.next(request))
             serve(request);
-        }
     }
-
-    static void send_error(const std::string& text) { send({MessageKind::error, 0, text.size()}, text.data()); }
 
   private:
     /// One state, read before it is asked for.
@@ -135,28 +40,6 @@ class Reader {
         std::size_t index = SIZE_MAX;
         std::vector<std::byte> bytes;
     };
-
-    static void write_all(const void* bytes, std::size_t count) {
-        const char* at = static_cast<const char*>(bytes);
-        while (count > 0) {
-            const ssize_t written = write(answers_to, at, count);
-            if (written < 0 && errno == EINTR)
-                continue;
-            if (written <= 0)
-                _exit(0);
-            at += written;
-            count -= static_cast<std::size_t>(written);
-        }
-    }
-
-    static void send(const MessageHead& head, const void* bytes) {
-        write_all(&head, sizeof head);
-        write_all(bytes, head.bytes);
-    }
-
-    template <class Value> static void send(MessageKind kind, const std::vector<Value>& values) {
-        send({kind, 0, values.size() * sizeof(Value)}, values.data());
-    }
 
     void send_contents() {
         const auto positions = file_.obstacle_positions();
@@ -183,14 +66,14 @@ class Reader {
             json["cdt_width"] = file_.cdt_extents()[1];
         }
         const std::string text = json.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace);
-        send({MessageKind::contents, 0, text.size()}, text.data());
+        end_.send(MessageKind::contents, text);
         if (!triangles.empty()) {
-            send(MessageKind::positions, positions);
-            send(MessageKind::triangles, triangles);
+            end_.send(MessageKind::positions, positions);
+            end_.send(MessageKind::triangles, triangles);
         }
         if (has_roots) {
-            send(MessageKind::reciprocals, reciprocals);
-            send(MessageKind::inverse_sqrts, inverse_sqrts);
+            end_.send(MessageKind::reciprocals, reciprocals);
+            end_.send(MessageKind::inverse_sqrts, inverse_sqrts);
         }
         serve({MessageKind::particles, 0});
     }
@@ -216,7 +99,7 @@ class Reader {
             throw Error(fmt::format("row {} was asked for, there are {}", request.index, file_.rows()));
         prepare(request.kind, request.index);
         const std::vector<std::byte>& bytes = (cdt ? cdt_ : particles_).bytes;
-        send({request.kind, request.index, bytes.size()}, bytes.data());
+        end_.send({request.kind, request.index, bytes.size()}, bytes.data());
         const std::size_t row = request.index + (cdt ? 2U : 1U);
         if (cdt != file_.has_cdt() && request.index != 0)
             return; // the CDT of this row is asked for next
@@ -227,73 +110,16 @@ class Reader {
         }
     }
 
+    ReadingEnd& end_;
     TraceFile file_;
     std::vector<std::string> warnings_;
     Prepared particles_, cdt_;
 };
 
-[[noreturn]] void read_trace(const OpenedFile& file, int requests, int answers) {
-    keep_descriptors(requests, answers);
-    const std::size_t memory = address_space() + opening_memory;
-    const std::string unfenced = fence(memory);
-    try {
-        Reader(file).run(memory, unfenced);
-    } catch (const std::bad_alloc&) {
-        Reader::send_error("needs more memory than a trace of its size may");
-    } catch (const std::exception& error) {
-        Reader::send_error(error.what());
-    }
-    _exit(0);
-}
-
 } // namespace
 
-TraceProcess start_trace_process(const OpenedFile& file) {
-    const auto fail = [&] {
-        throw Error(
-            fmt::format("{}: no process to read it can be started: {}", file.path().string(), std::strerror(errno)));
-    };
-    std::array<int, 2> requests{}, answers{};
-    if (socketpair(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC, 0, requests.data()) != 0)
-        fail();
-    if (pipe2(answers.data(), O_CLOEXEC) != 0) {
-        close(requests[0]);
-        close(requests[1]);
-        fail();
-    }
-    fcntl(answers[1], F_SETPIPE_SZ, 1 << 20);
-    const pid_t pid = fork();
-    if (pid == 0) {
-        close(requests[0]);
-        close(answers[0]);
-        read_trace(file, requests[1], answers[1]);
-    }
-    close(requests[1]);
-    close(answers[1]);
-    if (pid < 0) {
-        close(requests[0]);
-        close(answers[0]);
-        fail();
-    }
-    return {pid, requests[0], answers[0]};
-}
-
-int end_trace_process(TraceProcess& process, std::chrono::milliseconds grace) {
-    if (process.pid < 0)
-        return 0;
-    close(std::exchange(process.requests, -1));
-    close(std::exchange(process.answers, -1));
-    const int pid = std::exchange(process.pid, -1);
-    int status = 0;
-    pid_t reaped = 0;
-    for (const auto end = std::chrono::steady_clock::now() + grace;
-         (reaped = waitpid(pid, &status, WNOHANG)) == 0 && std::chrono::steady_clock::now() < end;)
-        std::this_thread::sleep_for(std::chrono::milliseconds(1));
-    if (reaped == pid)
-        return WIFSIGNALED(status) ? WTERMSIG(status) : 0;
-    kill(pid, SIGKILL);
-    waitpid(pid, &status, 0);
-    return 0;
+std::unique_ptr<ReadingProcess> start_trace_process(const OpenedFile& file) {
+    return std::make_unique<ReadingProcess>(file, [&file](ReadingEnd& end) { Reader(file, end).run(); });
 }
 
 } // namespace lockstep

@@ -4,13 +4,14 @@
 
 #include "crosscheck/collision/record/trace_info.hpp"
 #include "crosscheck/files/opened_file.hpp"
+#include "crosscheck/record/reading_process.hpp"
 #include "reference/model/collision/particles.hpp"
 #include "reference/model/image.hpp"
 
 namespace lockstep {
 
 /// A trace, open for reading. The seal is checked first (seal.hpp), then a process of its own reads the same file
-/// (trace_process.hpp), one frame ahead of what is asked for. Every function throws Error naming the file, also where
+/// (reading_process.hpp), one frame ahead of what is asked for. Every function throws Error naming the file, also where
 /// somebody writes it meanwhile.
 class TraceReader {
   public:
@@ -26,10 +27,8 @@ class TraceReader {
     void read(int frame, CollisionImage& cdt); ///< needs info().has_cdt
 
   private:
-    class Process;
-
     OpenedFile file_;
-    std::unique_ptr<Process> process_;
+    std::unique_ptr<ReadingProcess> process_;
     TraceInfo info_;
 };
 

@@ -9,7 +9,8 @@
 
 namespace lockstep {
 
-/// Runs `argv` (`PROGRAM --help` says what there is): check, explain, capsule and hash, on GL with the shaders of
+/// Runs `argv` (`PROGRAM --help` says what there is): check, explain, capsule, hash, record, trace and report, on GL
+/// with the shaders of
 /// `--shaders`, otherwise those of `shaders`. Returns the exit status: 0 what was asked for agrees or is legal, 1 it is
 /// not, 2 a message was printed that says what is wrong, 130 Ctrl-C.
 int run_system_program(int argc, char** argv, const System& system, const std::vector<GlPass>& passes,

@@ -13,7 +13,8 @@ void add_stage_parameters(Uniforms& all, const Emitter& emitter);
 
 /// rendering_graph.glsl, for the quads of all emitters.
 ShaderTexts rendering_texts(const Host& host);
-/// RENDERING_GRAPH where there is one, and LOOKS_BY_VELOCITY and its like for what the graphs read of particles besides.
+/// RENDERING_GRAPH where there is one, and LOOKS_BY_VELOCITY and its like for what the graphs read of particles
+/// besides.
 ShaderDefines rendering_defines(const Host& host);
 void add_rendering_parameters(Uniforms& all, const Host& host);
 

@@ -1,4 +1,5 @@
 #pragma once
+#include <cmath>
 #include <cstdint>
 
 #include <glm/vec2.hpp>
@@ -66,17 +67,22 @@ template <class R> class RandomTwin {
     Real h1(const Real& x, const Real& y) const { return hashed(x * 73.867F + y * 25.241F); }
 
     Real sine(const Real& x) const {
+        if (driver_)
+            return r.note(site::sine, of_driver(site::sine, x, 0));
         const bool negative = r.decide(site::below_zero, x < 0.0F);
-        return r.note(site::sine, of_driver(site::sine, signed_part(x, 0, negative)));
+        return r.note(site::sine, signed_part(x, 0, negative));
     }
-    Real cosine(const Real& x) const { return r.note(site::cosine, of_driver(site::cosine, signed_part(x, 1, false))); }
+    Real cosine(const Real& x) const {
+        return r.note(site::cosine, driver_ ? of_driver(site::cosine, x, 1) : signed_part(x, 1, false));
+    }
 
   private:
     static constexpr float rd1 = 7.8671F, rd2 = 3.3419F, rp1 = 2.1759F, rp2 = 4.7921F;
 
-    /// The driver's own sine is any number: GLSL gives it no precision.
-    Real of_driver(At place, const Real& value) const {
-        return driver_ ? r.unspecified(place, value, -1.0F, 1.0F) : value;
+    /// The driver's own sine is any number: GLSL gives it no precision. The reference's is llvmpipe's, where the
+    /// processor has fused products.
+    Real of_driver(At place, const Real& x, int quarter) const {
+        return r.unspecified(place, r.monotone(x, [quarter](float v) { return fused_part(v, quarter); }), -1.0F, 1.0F);
     }
 
     Real hashed(const Real& argument) const {
@@ -90,28 +96,38 @@ template <class R> class RandomTwin {
         const Real size = r.abs(x);
         const int whole = r.to_int(site::octant, size * 1.27323954473516F);
         const int j = (whole + 1) & ~1;
-        const Real f = r.real(j);
-        Real rest = f * -0.78515625F + size;
-        rest = f * -2.4187564849853515625e-4F + rest;
-        rest = f * -3.77489497744594108e-8F + rest;
-        const Real z = rest * rest;
-        const int quadrant = (j / 2 + quarter) & 3;
-        const Real part = (quadrant & 1) != 0 ? even(z) : odd(z, rest);
-        return ((quadrant & 2) != 0) != negative ? -part : part;
+        const Real part = part_of(size, r.real(j), j / 2 + quarter,
+                                  [](const Real& a, const Real& b, const Real& c) { return a * b + c; });
+        return is_negative(j / 2 + quarter, negative) ? -part : part;
     }
-    Real even(const Real& z) const {
-        Real p = z * 2.443315711809948e-5F + -1.388731625493765e-3F;
-        p = p * z + 4.166664568298827e-2F;
-        p = p * z;
-        p = p * z;
-        p = p - z * 0.5F;
-        return p + 1.0F;
+    /// The same with each product fused into its sum.
+    static float fused_part(float x, int quarter) {
+        const float size = std::abs(x), eighths = size * 1.27323954473516F;
+        const int j = eighths < 1e9F ? (static_cast<int>(eighths) + 1) & ~1 : 0;
+        const float part = part_of(size, static_cast<float>(j), j / 2 + quarter,
+                                   [](float a, float b, float c) { return std::fma(a, b, c); });
+        return is_negative(j / 2 + quarter, quarter == 0 && x < 0.0F) ? -part : part;
     }
-    Real odd(const Real& z, const Real& rest) const {
-        Real q = z * -1.9515295891e-4F + 8.3321608736e-3F;
-        q = q * z + -1.6666654611e-1F;
+    static bool is_negative(int quadrant, bool negative) { return ((quadrant & 2) != 0) != negative; }
+
+    template <class Number, class Mad>
+    static Number part_of(const Number& size, const Number& eighths, int quadrant, const Mad& mad) {
+        Number rest = mad(eighths, Number(-0.78515625F), size);
+        rest = mad(eighths, Number(-2.4187564849853515625e-4F), rest);
+        rest = mad(eighths, Number(-3.77489497744594108e-8F), rest);
+        const Number z = rest * rest;
+        if ((quadrant & 1) != 0) {
+            Number p = mad(z, Number(2.443315711809948e-5F), Number(-1.388731625493765e-3F));
+            p = mad(p, z, Number(4.166664568298827e-2F));
+            p = p * z;
+            p = p * z;
+            p = p - z * Number(0.5F);
+            return p + Number(1.0F);
+        }
+        Number q = mad(z, Number(-1.9515295891e-4F), Number(8.3321608736e-3F));
+        q = mad(q, z, Number(-1.6666654611e-1F));
         q = q * z;
-        return q * rest + rest;
+        return mad(q, rest, rest);
     }
 
     R& r;

@@ -31,6 +31,19 @@ std::vector<std::size_t> items_to_try(const JudgedPass& p, const std::vector<std
     return items;
 }
 
+namespace {
+
+/// Whether an item that comes by these sites may become another by the mistake.
+bool may_change(const std::vector<SeenSite>& sites, const Mistake& made) {
+    for (const Mistake* one = &made; one != nullptr; one = one->also)
+        if (one->site == 0 ||
+            std::any_of(sites.begin(), sites.end(), [&](const SeenSite& seen) { return seen.site->id == one->site; }))
+            return true;
+    return false;
+}
+
+} // namespace
+
 void PowerMeter::add(const JudgedPass& p, const std::vector<std::size_t>& telling) {
     std::vector<std::size_t> unseen;
     std::size_t of_pass = 0;
@@ -58,7 +71,10 @@ void PowerMeter::add(const JudgedPass& p, const std::vector<std::size_t>& tellin
         const std::size_t m = unseen[static_cast<std::size_t>(u)];
         const std::array made{named_[m].mistake};
         tried_[m].reached = tried_[m].reached || reached.contains(made[0].site);
-        for (const std::size_t item : items) {
+        for (std::size_t i = 0; i < items.size(); ++i) {
+            const std::size_t item = items[i];
+            if (!may_change(sites[i], made[0]))
+                continue;
             const MistakenItem is = judge_mistaken(p, item, p.pass.mistaken(p.input(), item, p.profile, made));
             tried_[m].changes = tried_[m].changes || is != MistakenItem::same;
             if (is == MistakenItem::divergent) {

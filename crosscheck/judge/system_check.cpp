@@ -107,6 +107,15 @@ void put_right(SystemSide& gpu, SystemState& state, const SystemState& right, st
     gpu.upload(std::as_const(state).view());
 }
 
+/// Goes on from what the GPU made of one buffer; `earlier` is what its pass started from.
+void go_on(SystemState& before, SystemState& now, SystemState& earlier, std::uint8_t made) {
+    for (std::uint8_t r = 0; r < before.schema().resources.size(); ++r)
+        if (r != made)
+            earlier.take(r, before);
+    earlier.swap(made, before);
+    before.swap(made, now);
+}
+
 /// What the GPU left, but for the buffers of passes that continue `pass`: they were not judged yet.
 SystemState left_by(const System& system, std::size_t pass, const SystemState& before, const SystemState& now) {
     SystemState left = now;
@@ -305,8 +314,14 @@ CheckReport check(const System& system, SystemSide& gpu, const CheckOptions& opt
             reference.swap(r, made);
             if (judged && pass.derived() && comparison.differing(r) > 0)
                 inherited.insert(r);
-            earlier[p] = std::move(before);
-            before = left_by(system, p, *earlier[p], now);
+            // The state that what is derived follows from is the one it was judged in.
+            if (!judged || pass.derived()) {
+                before.swap(r, now);
+                continue;
+            }
+            if (!earlier[p])
+                earlier[p] = system.start;
+            go_on(before, now, *earlier[p], r);
         }
         report.times.push_back(times);
         report.frames = frame + 1;

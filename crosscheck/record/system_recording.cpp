@@ -33,7 +33,8 @@ const char* const texts[] = {layout::system,  layout::schema,   layout::name,   
 /// Where two schemas first differ.
 std::string difference(const json& recorded, const json& here) {
     const json changes = json::diff(recorded, here);
-    return changes.empty() ? "" : changes[0].at("path").get<std::string>();
+    const auto path = changes[0].at("path").get<std::string>();
+    return path.empty() ? "/" : path;
 }
 
 } // namespace
@@ -105,9 +106,9 @@ void SystemRecording::read_info(const std::string& system) {
 
 void SystemRecording::open(const System& system) {
     const json here = schema_json(system.schema);
-    if (const std::string path = difference(schema_, here); !path.empty())
+    if (schema_ != here)
         throw Error(fmt::format("{}: {}: the state of {} is another here, first at {}", file(), layout::schema,
-                                system.schema.system, plain_line(path)));
+                                system.schema.system, plain_line(difference(schema_, here))));
     process_ = std::make_unique<ReadingProcess>(file_, [this, &system](ReadingEnd& end) {
         SystemFile states(file_, system.start);
         states.serve(end);

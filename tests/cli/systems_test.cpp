@@ -51,9 +51,10 @@ TEST_CASE("systems: a scene names its system, and one that there is not is told 
 TEST_CASE("systems: verbs of the collision system refuse another's scene and name those that run it") {
     for (const char* verb : {"debug", "study"}) {
         INFO(verb);
-        CHECK_THAT(refusal(run_lockstep({verb, scene})) + " ",
-                   Contains("is a scene of system dust, which bench, capsule, check, explain, hash and render run") ||
-                       Contains("-o") || Contains("--output"));
+        CHECK_THAT(
+            refusal(run_lockstep({verb, scene})) + " ",
+            Contains("is a scene of system dust, which bench, capsule, check, explain, hash, record and render run") ||
+                Contains("-o") || Contains("--output"));
     }
     CHECK(refusal(run_lockstep({"check", scene, "--require-hits"})) ==
           "check: --require-hits does not go with a scene of system dust");

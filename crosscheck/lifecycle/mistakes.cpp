@@ -118,7 +118,7 @@ std::vector<NamedMistake> made() {
     in({"destroy_reduce", "destroy", "destroy_count"}, "none_survives", "all that may die do",
        mistake_at(site::survives, never));
     in({"destroy_reduce", "destroy", "destroy_count"}, "dead_at_below_zero", "who has exactly 0 left survives",
-       mistake_at(site::survives, or_equal));
+       mistake_at(site::survives, or_equal, 0));
     in({"move", "move_particles"}, "rest_by_one", "who cannot die comes from one slot on, the survivors from theirs",
        mistake_at(site::rest, one_more));
     in({"destroy"}, "listed_one_place_on", "the list begins one place on", mistake_at(site::list_place, one_less));
@@ -220,7 +220,7 @@ std::vector<NamedMistake> made() {
        mistake_at(site::tangent, instead, -1, &site::segment_after));
     in({"ribbon"}, "mitre_missing", "corners are not mitred", mistake_at(site::is_mitred, never));
     in({"ribbon"}, "width_doubled", "the ribbon is twice as wide", mistake_at(site::half_width, doubled));
-    in({"ribbon"}, "side_flipped", "left is right", mistake_at(site::side_of_ribbon, negated));
+    in({"ribbon"}, "side_flipped", "left is right", mistake_at(site::half_width, negated));
     in({"ribbon"}, "uv_scale_missing", "u is not scaled", mistake_at(site::uv_scale, one));
     in({"post_destroy"}, "uv_jump", "the length of the dead is lost", mistake_at(site::way_of_dead, zero));
     return all;

@@ -65,7 +65,8 @@ struct PostEmitTwin {
         UintItem<R> counters(r, in.before, counter_buffer, item);
         if (item != of->number)
             return counters.record();
-        counters.set(site::alive, counter::alive, counters[counter::alive] + counters[counter::emitted]);
+        const std::uint32_t alive = noted(r, site::alive_before, counters[counter::alive]);
+        counters.set(site::alive, counter::alive, alive + counters[counter::emitted]);
         count_emission(r, counters, *of, in);
         return counters.record();
     }

@@ -67,6 +67,8 @@ inline Interval add(Interval a, Interval b) {
     return a.any || b.any ? Interval::anything() : outward(a.low + b.low, a.high + b.high);
 }
 
+inline double middle(Interval v) { return (v.low + v.high) * 0.5; }
+
 inline Interval negate(Interval a) { return a.any ? a : Interval(-a.high, -a.low); }
 
 inline Interval multiply(Interval a, Interval b) {

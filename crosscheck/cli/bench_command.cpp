@@ -1,5 +1,4 @@
 #include <algorithm>
-#include <chrono>
 #include <memory>
 #include <optional>
 #include <span>
@@ -16,6 +15,7 @@
 #include "crosscheck/collision/judge/check.hpp"
 #include "crosscheck/command/judging_options.hpp"
 #include "crosscheck/command/option_values.hpp"
+#include "crosscheck/judge/stopwatch.hpp"
 #include "crosscheck/report/report.hpp"
 #include "crosscheck/report/verdict_text.hpp"
 #include "crosscheck/scene/profiles.hpp"
@@ -32,7 +32,7 @@
 namespace lockstep {
 namespace {
 
-struct Options {
+struct BenchRequest {
     RunOptions run;
     std::vector<std::size_t> counts{50000, 100000, 150000, 200000};
     std::vector<int> radii{1, 4};
@@ -40,8 +40,6 @@ struct Options {
     Legal legal = Legal::measured;
     PassRules rules;
 };
-
-double now() { return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count(); }
 
 /// GPU time of a pass by itself, and of all frames' picture: medians, seconds.
 using PassSeconds = std::vector<std::pair<std::string, double>>;
@@ -88,7 +86,7 @@ PassSeconds time_passes(GpuSimulation& gpu, const Scene& scene, int frames) {
     return passes;
 }
 
-double time_rendering(const GpuSimulation& gpu, const Scene& scene, const Options& options) {
+double time_rendering(const GpuSimulation& gpu, const Scene& scene, const BenchRequest& options) {
     RenderPass pass(scene.switches, options.run.shaders, scene.render_width, scene.render_height);
     const FrameParams params = frame_params(scene, options.run.frames - 1);
     const GlQuery timer;
@@ -141,7 +139,7 @@ std::string within_frames(std::span<const std::size_t> counts, std::span<const d
 
 /// The GL frames alone run before and after the checked ones, so that a machine that warms up or slows down shows on
 /// both sides of the ratio.
-Timing time_run(const Scene& scene, const Profile& profile, const Options& options) {
+Timing time_run(const Scene& scene, const Profile& profile, const BenchRequest& options) {
     GpuSimulation gpu(scene, options.run.shaders);
     std::vector<double> alone, timer, checked, reference, ignored;
     time_alone(gpu, scene, options.warm_up, ignored, ignored);
@@ -176,7 +174,7 @@ std::size_t peak_bytes() {
     return static_cast<std::size_t>(usage.ru_maxrss) * 1024;
 }
 
-int run(const Options& options) {
+int run(const BenchRequest& options) {
     check_scene_exists(options.run.scene);
     if (const RegisteredSystem* system = system_of(options.run))
         return bench_system(*system, options.run, {options.counts, options.warm_up, options.legal, options.rules});
@@ -228,7 +226,7 @@ int run(const Options& options) {
 } // namespace
 
 Verb bench_command() {
-    auto options = std::make_shared<Options>();
+    auto options = std::make_shared<BenchRequest>();
     Verb verb{"bench", "time GL frames, reference and check in one run, with the state hash"};
     add_scene_options(verb, options->run);
     add_gl_options(verb, options->run);

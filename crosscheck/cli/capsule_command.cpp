@@ -25,7 +25,7 @@
 namespace lockstep {
 namespace {
 
-struct Options {
+struct CapsuleRequest {
     RunOptions run;
     std::filesystem::path trace, output, capsule;
     int frame = 0;
@@ -51,7 +51,8 @@ struct CutCapsule {
     int status;
 };
 
-CutCapsule cut_from(FrameRun& run, const Options& options, const std::string& renderer, const std::string& settings) {
+CutCapsule cut_from(FrameRun& run, const CapsuleRequest& options, const std::string& renderer,
+                    const std::string& settings) {
     const std::size_t particle = particle_named(*options.particle, run.scene());
     run.go_to(options.frame);
     const Capsule capsule =
@@ -59,7 +60,7 @@ CutCapsule cut_from(FrameRun& run, const Options& options, const std::string& re
     return {capsule_file(capsule), status_of(capsule)};
 }
 
-CutCapsule cut_live(const Options& options) {
+CutCapsule cut_live(const CapsuleRequest& options) {
     const Scene scene = load(options.run);
     static_cast<void>(shaders_to_run(options.run, scene, options.pixel.has_value()));
     const std::size_t pixel = options.pixel ? pixel_named(*options.pixel, scene) : 0;
@@ -75,7 +76,7 @@ CutCapsule cut_live(const Options& options) {
     return {capsule_file(capsule), status_of(capsule)};
 }
 
-CutCapsule cut_recorded(const Options& options) {
+CutCapsule cut_recorded(const CapsuleRequest& options) {
     if (options.pixel)
         throw Error("capsule cut: --pixel needs a scene: no picture is in a recording; --particle goes with one");
     start_threads(options.run.threads);
@@ -88,7 +89,7 @@ CutCapsule cut_recorded(const Options& options) {
     return cut_from(run, options, fmt::format("recorded: {}", info.renderer), info.settings);
 }
 
-int cut(const Options& options, const Call& call) {
+int cut(const CapsuleRequest& options, const Call& call) {
     check_scene_or_trace(call, options.run, options.trace);
     if (const RegisteredSystem* system =
             options.trace.empty() ? system_of(options.run) : system_of_recording(options.trace)) {
@@ -111,7 +112,7 @@ int cut(const Options& options, const Call& call) {
     return capsule.status;
 }
 
-int show(const Options& options) {
+int show(const CapsuleRequest& options) {
     if (const std::optional<int> status = show_system(options.capsule, options.hexadecimal))
         return *status;
     const NumberFormat format = options.hexadecimal ? NumberFormat::hexadecimal : NumberFormat::decimal;
@@ -127,7 +128,7 @@ int show(const Options& options) {
 } // namespace
 
 Verb capsule_command() {
-    auto options = std::make_shared<Options>();
+    auto options = std::make_shared<CapsuleRequest>();
     Verb cut_verb{"cut", "cut one out of a run, live or recorded"};
     add_scene_options(cut_verb, options->run, SceneArgument::optional);
     add_gl_options(cut_verb, options->run);

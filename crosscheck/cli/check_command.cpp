@@ -46,7 +46,7 @@
 namespace lockstep {
 namespace {
 
-struct Options {
+struct CheckRequest {
     RunOptions run;
     std::filesystem::path trace; ///< instead of a scene and GL
     bool frames_given = false;
@@ -61,7 +61,7 @@ struct Options {
     bool quiet = false;
 };
 
-std::string repeat_line(const Options& options, int frames) {
+std::string repeat_line(const CheckRequest& options, int frames) {
     std::string line = options.trace.empty()
                            ? command_line("check", options.run, frames)
                            : fmt::format("lockstep check --trace {} --frames {}", shell_path(options.trace), frames);
@@ -72,7 +72,7 @@ std::string repeat_line(const Options& options, int frames) {
 }
 
 /// `at`: "--frame 3 --particle 17".
-std::string explain_line(const Options& options, const std::string& at) {
+std::string explain_line(const CheckRequest& options, const std::string& at) {
     return (options.trace.empty() ? command_line("explain", options.run, at)
                                   : fmt::format("lockstep explain --trace {} {}", shell_path(options.trace), at)) +
            legal_option_text(options.legal);
@@ -80,7 +80,7 @@ std::string explain_line(const Options& options, const std::string& at) {
 
 constexpr std::array<std::string_view, 2> report_files{"report.html", "capsule.json"};
 
-void expect_files(const Options& options, OutputFiles& files) {
+void expect_files(const CheckRequest& options, OutputFiles& files) {
     protect_inputs(options.run, files);
     files.protect(options.trace);
     if (!options.images.empty())
@@ -95,7 +95,8 @@ void expect_files(const Options& options, OutputFiles& files) {
         files.expect(options.hashes);
 }
 
-std::vector<PageCommand> page_commands(const Options& options, const RunDescription& run, const CheckReport& report) {
+std::vector<PageCommand> page_commands(const CheckRequest& options, const RunDescription& run,
+                                       const CheckReport& report) {
     std::vector<PageCommand> commands{{"This run", repeat_line(options, report.frames)}};
     if (report.first_frame && *report.first_frame + 1 < report.frames)
         commands.push_back({"Up to the first frame that differs", run.repeat});
@@ -149,7 +150,7 @@ struct SecondLook {
     FirstCapsule capsule;
 };
 
-SecondLook look_again(const Options& options, const Checked& checked, const std::vector<PageItem>& items) {
+SecondLook look_again(const CheckRequest& options, const Checked& checked, const std::vector<PageItem>& items) {
     std::optional<FrameRun> frames;
     const Scene& scene = checked.scene;
     if (scene.switches.search == Search::cdt && !has_remedies(scene.switches) && !items.empty()) {
@@ -178,7 +179,7 @@ SecondLook look_again(const Options& options, const Checked& checked, const std:
     return look;
 }
 
-RunDescription description(const Options& options, const Checked& checked, const CheckReport& report) {
+RunDescription description(const CheckRequest& options, const Checked& checked, const CheckReport& report) {
     const bool free = options.mode == CheckMode::free;
     const bool whole = !report.first_frame || report.state_verdict; // the rendered frame is the last
     const std::string first = first_arguments(report, checked.scene.width);
@@ -196,10 +197,10 @@ RunDescription description(const Options& options, const Checked& checked, const
             checked.shaders ? " (--no-render)" : ": no picture is in a recording"};
 }
 
-bool is_rendered(const Options& options) { return !options.no_render; }
+bool is_rendered(const CheckRequest& options) { return !options.no_render; }
 
 /// Judges the last frame's picture. `earlier`: the particles of the frame before; none where they were not kept.
-void judge_last(const Options& options, const Checked& checked, const Particles& earlier, CheckReport& report) {
+void judge_last(const CheckRequest& options, const Checked& checked, const Particles& earlier, CheckReport& report) {
     Particles last;
     read_side(checked.gpu, checked.scene, last);
     const bool has_earlier = earlier.size() == last.size() && !report.partial();
@@ -209,7 +210,7 @@ void judge_last(const Options& options, const Checked& checked, const Particles&
         report.untried.emplace_back("the rendered frame shows no particle");
 }
 
-int check_and_tell(const Options& options, OutputFiles& files, const Checked& checked) {
+int check_and_tell(const CheckRequest& options, OutputFiles& files, const Checked& checked) {
     const std::string page = options.report.empty() ? std::string() : report_page_template();
     const nlohmann::json study = options.report.empty() ? nlohmann::json() : study_results(options.report);
     HashFile hashes;
@@ -291,7 +292,7 @@ int check_and_tell(const Options& options, OutputFiles& files, const Checked& ch
     return passes(report, options.rules) ? status_agree : status_differ;
 }
 
-int run_scene(const Options& options) {
+int run_scene(const CheckRequest& options) {
     const Scene scene = load(options.run);
     OutputFiles files;
     expect_files(options, files);
@@ -312,7 +313,7 @@ int run_scene(const Options& options) {
                            {}});
 }
 
-int run_trace(Options options) {
+int run_trace(CheckRequest options) {
     start_threads(options.run.threads);
     OutputFiles files;
     expect_files(options, files);
@@ -342,7 +343,7 @@ int run_trace(Options options) {
                            info.shaders});
 }
 
-SystemCheck system_check(const Options& options) {
+SystemCheck system_check(const CheckRequest& options) {
     return {.mode = options.mode,
             .legal = options.legal,
             .rules = options.rules,
@@ -357,7 +358,7 @@ SystemCheck system_check(const Options& options) {
             .frames_given = options.frames_given};
 }
 
-void check_stress_options(const Call& call, const Options& options) {
+void check_stress_options(const Call& call, const CheckRequest& options) {
     static constexpr std::array<std::string_view, 16> allowed{
         "--stress",       "--frames", "--preset",          "--set",          "--threads",        "--gl",    "--shaders",
         "--allow-unused", "--legal",  "--allow-undefined", "--require-hits", "--power-at-least", "--power", "--json",
@@ -370,7 +371,7 @@ void check_stress_options(const Call& call, const Options& options) {
 } // namespace
 
 Verb report_command() {
-    auto options = std::make_shared<Options>();
+    auto options = std::make_shared<CheckRequest>();
     options->report = ".";
     Verb verb{"report", "check a recorded run, and write report.html about it"};
     verb.add(required(path_option("trace", "FILE", options->trace,
@@ -393,7 +394,7 @@ Verb report_command() {
 }
 
 Verb check_command() {
-    auto options = std::make_shared<Options>();
+    auto options = std::make_shared<CheckRequest>();
     Verb verb{"check", "run both sides and compare every bit of every frame"};
     add_scene_options(verb, options->run, SceneArgument::optional);
     add_gl_options(verb, options->run);

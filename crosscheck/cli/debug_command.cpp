@@ -19,7 +19,7 @@
 namespace lockstep {
 namespace {
 
-struct Options {
+struct DebugRequest {
     RunOptions run;
     Legal legal = Legal::measured;
     bool hexadecimal = false;
@@ -51,7 +51,7 @@ void obey_input(DebugSession& session) {
     }
 }
 
-int run(const Options& options) {
+int run(const DebugRequest& options) {
     const auto load_with = [&](const std::vector<std::string>& changes) {
         RunOptions changed = options.run;
         changed.set.insert(changed.set.end(), changes.begin(), changes.end());
@@ -76,7 +76,7 @@ int run(const Options& options) {
 } // namespace
 
 Verb debug_command() {
-    auto options = std::make_shared<Options>();
+    auto options = std::make_shared<DebugRequest>();
     Verb verb{"debug", "walk through both sides by commands, typed or from a pipe"};
     add_scene_options(verb, options->run);
     add_gl_options(verb, options->run);

@@ -25,7 +25,7 @@
 namespace lockstep {
 namespace {
 
-struct Options {
+struct ExplainRequest {
     RunOptions run;
     int frame = 0;
     std::filesystem::path trace; ///< instead of a scene and GL
@@ -35,13 +35,13 @@ struct Options {
     bool hexadecimal = false;
 };
 
-std::size_t item_of(const Options& options, const Scene& scene) {
+std::size_t item_of(const ExplainRequest& options, const Scene& scene) {
     if (options.pixel)
         return pixel_named(*options.pixel, scene);
     return options.particle ? particle_named(*options.particle, scene) : texel_named(*options.texel, scene);
 }
 
-std::string text_of(const Options& options, FrameRun& frames, std::size_t item, NumberFormat format) {
+std::string text_of(const ExplainRequest& options, FrameRun& frames, std::size_t item, NumberFormat format) {
     if (options.texel)
         return explain_texel(frames, item, format);
     if (!options.pixel)
@@ -49,7 +49,7 @@ std::string text_of(const Options& options, FrameRun& frames, std::size_t item, 
     return pixel_text(judged_picture(frames, options.run.shaders).table(item), format);
 }
 
-void tell(const Options& options, FrameRun& frames, const std::string& file, const std::string& settings,
+void tell(const ExplainRequest& options, FrameRun& frames, const std::string& file, const std::string& settings,
           const std::string& renderer) {
     const Scene& scene = frames.scene();
     const std::size_t item = item_of(options, scene);
@@ -60,7 +60,7 @@ void tell(const Options& options, FrameRun& frames, const std::string& file, con
     fmt::print("{}", plain_text(text_of(options, frames, item, format)));
 }
 
-void explain_scene(const Options& options) {
+void explain_scene(const ExplainRequest& options) {
     const Scene scene = load(options.run);
     static_cast<void>(shaders_to_run(options.run, scene, options.pixel.has_value()));
     item_of(options, scene);
@@ -70,7 +70,7 @@ void explain_scene(const Options& options) {
     tell(options, frames, options.run.scene.string(), settings_text(options.run, scene), summary(context.describe()));
 }
 
-void explain_trace(const Options& options) {
+void explain_trace(const ExplainRequest& options) {
     if (options.pixel)
         throw Error("explain: --pixel needs a scene: no picture is in a recording; --particle and --texel go with one");
     start_threads(options.run.threads);
@@ -85,7 +85,7 @@ void explain_trace(const Options& options) {
          fmt::format("recorded: {}", info.renderer.empty() ? "untold" : info.renderer));
 }
 
-int run(const Options& options, const Call& call) {
+int run(const ExplainRequest& options, const Call& call) {
     if (const RegisteredSystem* system =
             options.trace.empty() ? system_of(options.run) : system_of_recording(options.trace)) {
         if (!options.item || options.particle || options.texel || options.pixel)
@@ -112,7 +112,7 @@ int run(const Options& options, const Call& call) {
 } // namespace
 
 Verb explain_command() {
-    auto options = std::make_shared<Options>();
+    auto options = std::make_shared<ExplainRequest>();
     Verb verb{"explain", "both sides of one particle, texel or pixel in one frame, step by step"};
     add_scene_options(verb, options->run, SceneArgument::optional);
     add_gl_options(verb, options->run);

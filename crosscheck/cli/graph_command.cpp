@@ -20,7 +20,7 @@
 namespace lockstep {
 namespace {
 
-struct Options {
+struct GraphRequest {
     std::filesystem::path file;
     std::size_t items = 4096, item = 0, seed = 1;
     bool exact = false, quiet = false;
@@ -28,9 +28,9 @@ struct Options {
     Legal legal = Legal::measured;
 };
 
-GraphPtr graph_of(const Options& options) { return std::make_shared<const Graph>(load_graph(options.file)); }
+GraphPtr graph_of(const GraphRequest& options) { return std::make_shared<const Graph>(load_graph(options.file)); }
 
-int check_graph(const Options& options) {
+int check_graph(const GraphRequest& options) {
     const GraphPtr graph = graph_of(options);
     const ArithmeticSwitch arithmetic = options.exact ? ArithmeticSwitch::exact : ArithmeticSwitch::plain;
     const SystemScene scene =
@@ -54,13 +54,13 @@ int check_graph(const Options& options) {
     return passes(report) ? status_agree : status_differ;
 }
 
-int print_glsl(const Options& options) {
+int print_glsl(const GraphRequest& options) {
     for (const auto& [name, text] : graph_texts(*graph_of(options)))
         fmt::print("// {}\n{}", name, text);
     return status_agree;
 }
 
-int print_values(const Options& options) {
+int print_values(const GraphRequest& options) {
     fmt::print("{}", graph_values(graph_of(options), options.item, options.seed));
     return status_agree;
 }
@@ -76,8 +76,8 @@ Verb nodes_verb() {
     return verb;
 }
 
-Verb of_graph(std::string name, std::string description, const std::shared_ptr<Options>& options,
-              int (*run)(const Options&)) {
+Verb of_graph(std::string name, std::string description, const std::shared_ptr<GraphRequest>& options,
+              int (*run)(const GraphRequest&)) {
     Verb verb(std::move(name), std::move(description));
     Option file = path_option("graph", "FILE", options->file, "the graph, JSON (docs/graphs.md)");
     file.required = true;
@@ -91,7 +91,7 @@ Verb of_graph(std::string name, std::string description, const std::shared_ptr<O
 } // namespace
 
 Verb graph_command() {
-    auto options = std::make_shared<Options>();
+    auto options = std::make_shared<GraphRequest>();
     const auto seed = [&] {
         return integer_option("--seed", "S", {0, 1'000'000'000}, options->seed, "of the inputs that are made up");
     };

@@ -15,13 +15,13 @@
 namespace lockstep {
 namespace {
 
-struct Options {
+struct HashRequest {
     RunOptions run;
     std::string profile = "strict";
     bool every = false;
 };
 
-int run(const Options& options) {
+int run(const HashRequest& options) {
     if (const RegisteredSystem* system = system_of(options.run))
         return hash_system(*system, options.run, options.profile, options.every);
     const Scene scene = load(options.run);
@@ -37,7 +37,7 @@ int run(const Options& options) {
 } // namespace
 
 Verb hash_command() {
-    auto options = std::make_shared<Options>();
+    auto options = std::make_shared<HashRequest>();
     Verb verb{"hash", "run the reference alone and print its state hash; needs no GL"};
     add_scene_options(verb, options->run);
     verb.add(integer_option("--frames", "N", {1, most_frames}, options->run.frames, "frames to run"));

@@ -15,13 +15,13 @@
 namespace lockstep {
 namespace {
 
-struct Options {
+struct ProbeRequest {
     RunOptions run;
     ProbeOptions probe;
     std::filesystem::path json;
 };
 
-int run(const Options& options) {
+int run(const ProbeRequest& options) {
     OutputFiles files;
     if (!options.json.empty())
         files.expect(options.json);
@@ -41,7 +41,7 @@ int run(const Options& options) {
 } // namespace
 
 Verb probe_command() {
-    auto options = std::make_shared<Options>();
+    auto options = std::make_shared<ProbeRequest>();
     Verb verb{"probe", "measure the arithmetic and the rasterisation of a GL driver"};
     verb.add(text_option("--gl", "auto|osmesa|egl|egl-device:N", options->run.gl, "which GL to open"));
     verb.add(path_option("--json", "FILE", options->json, "write the measurements as JSON"));

@@ -24,7 +24,7 @@
 namespace lockstep {
 namespace {
 
-struct Options {
+struct RecordRequest {
     RunOptions run;
     std::filesystem::path output;
     bool cdt = false;
@@ -46,7 +46,7 @@ void prove(GpuSimulation& gpu, const FrameParams& params, const Particles& parti
                                 frame));
 }
 
-TraceInfo info_of(const Options& options, Scene scene, const Context& context, const ShaderUse& shaders) {
+TraceInfo info_of(const RecordRequest& options, Scene scene, const Context& context, const ShaderUse& shaders) {
     const ProbeResult probed = probe(context);
     TraceInfo info;
     info.profile = measured_profile(probed, options.run.shaders);
@@ -61,7 +61,7 @@ TraceInfo info_of(const Options& options, Scene scene, const Context& context, c
     return info;
 }
 
-int run(const Options& options) {
+int run(const RecordRequest& options) {
     Scene scene = load(options.run);
     OutputFiles files;
     protect_inputs(options.run, files);
@@ -98,7 +98,7 @@ int run(const Options& options) {
 } // namespace
 
 Verb record_command() {
-    auto options = std::make_shared<Options>();
+    auto options = std::make_shared<RecordRequest>();
     Verb verb{"record", "write the GPU's states of a run to a file that is checked elsewhere"};
     add_scene_options(verb, options->run);
     add_gl_options(verb, options->run);

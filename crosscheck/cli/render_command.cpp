@@ -23,7 +23,7 @@ namespace {
 
 enum class Side { cpu, gpu };
 
-struct Options {
+struct RenderRequest {
     RunOptions run;
     int frame = 0;
     Side side = Side::cpu;
@@ -31,7 +31,7 @@ struct Options {
     std::string profile = "strict";
 };
 
-ColorImage render_cpu(const Scene& scene, const Options& options) {
+ColorImage render_cpu(const Scene& scene, const RenderRequest& options) {
     const Profile profile = named_profile(options.profile);
     ReferenceSimulation reference(scene, profile);
     Progress progress("render", options.frame + 1, true);
@@ -42,7 +42,7 @@ ColorImage render_cpu(const Scene& scene, const Options& options) {
     return render_pass(reference.particles(), scene.obstacles, frame_params(scene, options.frame), profile);
 }
 
-ColorImage render_gpu(const Scene& scene, const Options& options) {
+ColorImage render_gpu(const Scene& scene, const RenderRequest& options) {
     static_cast<void>(shaders_to_run(options.run, scene, true));
     const Context context(parse_context_request(options.run.gl));
     GpuSimulation gpu(scene, options.run.shaders);
@@ -56,7 +56,7 @@ ColorImage render_gpu(const Scene& scene, const Options& options) {
     return render_on_gpu(particles, scene, frame_params(scene, options.frame), options.run.shaders);
 }
 
-int run(const Options& options) {
+int run(const RenderRequest& options) {
     check_scene_exists(options.run.scene);
     if (const RegisteredSystem* system = system_of(options.run))
         return render_system(*system, options.run,
@@ -74,7 +74,7 @@ int run(const Options& options) {
 } // namespace
 
 Verb render_command() {
-    auto options = std::make_shared<Options>();
+    auto options = std::make_shared<RenderRequest>();
     Verb verb{"render", "run one side to a frame and write its picture"};
     add_scene_options(verb, options->run);
     add_gl_options(verb, options->run);

@@ -38,9 +38,9 @@
 namespace lockstep {
 namespace {
 
-enum class Side { cpu, gpu };
+enum class StudySide { cpu, gpu };
 
-struct Options {
+struct StudyRequest {
     RunOptions run;
     int every = 1;
     std::string profile = "strict";
@@ -49,14 +49,14 @@ struct Options {
     bool recall_table = false;
     bool catalogue = false;
     bool cameras = false;
-    Side side = Side::cpu;
+    StudySide side = StudySide::cpu;
     bool remedies = false;
     bool gl_asked = false;
     bool thesis = false;
     ThesisStudy thesis_study;
 };
 
-void print_recall_table(const Options& options) {
+void print_recall_table(const StudyRequest& options) {
     fmt::print("{}", recall_table_head());
     recall_table(options.scenes, [](const RecallRow& row) {
         fmt::print("{}", recall_row_text(row));
@@ -66,7 +66,7 @@ void print_recall_table(const Options& options) {
 }
 
 /// With --gl on that context, else recall alone.
-void print_remedies(const Options& options) {
+void print_remedies(const StudyRequest& options) {
     const bool gl = options.gl_asked;
     OutputFiles files;
     if (!options.json.empty())
@@ -93,7 +93,7 @@ void print_remedies(const Options& options) {
 }
 
 /// Whether every effect is there.
-bool print_catalogue(const Options& options) {
+bool print_catalogue(const StudyRequest& options) {
     const std::filesystem::path scenes = options.scenes / "catalogue";
     OutputFiles files;
     if (!options.images.empty())
@@ -115,7 +115,7 @@ bool print_catalogue(const Options& options) {
     return all;
 }
 
-void print_cameras(const Options& options, const Scene& scene, const Profile& profile) {
+void print_cameras(const StudyRequest& options, const Scene& scene, const Profile& profile) {
     CameraOptions cameras;
     cameras.frames = options.run.frames;
     cameras.every = options.every;
@@ -128,14 +128,14 @@ void print_cameras(const Options& options, const Scene& scene, const Profile& pr
     fmt::print("\nHoles: of the particles in contact that the viewer sees, those that find no neighbour.\n");
 }
 
-void study_scene(const Options& options) {
+void study_scene(const StudyRequest& options) {
     const Scene scene = load(options.run);
     if (scene.switches.search == Search::octree)
         throw Error("study: search = octree leaves no CDT to study; --thesis has the octree's recall");
     if (!options.chart.empty() && !have_gnuplot())
         throw Error(fmt::format("study: --chart: {}", no_gnuplot));
     std::optional<Context> context;
-    if (options.side == Side::gpu)
+    if (options.side == StudySide::gpu)
         context.emplace(parse_context_request(options.run.gl));
     const Profile profile = context ? measured_profile(*context) : named_profile(options.profile);
     if (options.cameras)
@@ -190,7 +190,7 @@ struct Mode {
     std::vector<std::string_view> options;
 };
 
-Mode mode_of(const Options& options) {
+Mode mode_of(const StudyRequest& options) {
     if (options.recall_table)
         return {"--recall-table", {"--recall-table", "--scenes", "--threads"}};
     if (options.catalogue)
@@ -217,7 +217,7 @@ Mode mode_of(const Options& options) {
     } else {
         add({"--csv", "--json", "--images", "--chart"});
     }
-    if (options.side == Side::gpu) {
+    if (options.side == StudySide::gpu) {
         mode.text += " --side gpu";
         add({"--gl", "--shaders"});
     } else {
@@ -227,7 +227,7 @@ Mode mode_of(const Options& options) {
     return mode;
 }
 
-int run(Options options, const Call& call) {
+int run(StudyRequest options, const Call& call) {
     if (options.thesis && options.run.particles)
         throw Error("study: --thesis has several counts; --counts N,... names them");
     if (options.recall_table || options.catalogue || options.remedies || options.thesis) {
@@ -267,7 +267,7 @@ int run(Options options, const Call& call) {
 } // namespace
 
 Verb study_command() {
-    auto options = std::make_shared<Options>();
+    auto options = std::make_shared<StudyRequest>();
     Verb verb{"study", "compare what the CDT search finds with the exact neighbours, and say "
                        "why it misses what it misses; needs no GL but for --thesis and --side gpu"};
     add_scene_options(verb, options->run, SceneArgument::optional);
@@ -287,8 +287,8 @@ Verb study_command() {
                   "the thesis's failure catalogue as a table; exit status 1 if an effect is not there"));
     verb.add(flag("--cameras", options->cameras,
                   "SCENE with the thesis's collision cameras (chapter 3.4): z offsets, fixed, side, rear"));
-    verb.add(choice_option<Side>("--side", options->side, {{"cpu", Side::cpu}, {"gpu", Side::gpu}},
-                                 "the side that runs SCENE: the reference, or the shaders, read back each frame"));
+    verb.add(choice_option<StudySide>("--side", options->side, {{"cpu", StudySide::cpu}, {"gpu", StudySide::gpu}},
+                                      "the side that runs SCENE: the reference, or the shaders, read back each frame"));
     verb.add(flag("--thesis", options->thesis,
                   "the thesis's tables 4-1 and 5-1 and figures 5-3 and 5-5, CDT and octree, on GL; "
                   "--frames, --json, --csv, --chart, --set and --gl apply"));

@@ -3,6 +3,7 @@
 #include <array>
 #include <cmath>
 #include <functional>
+#include <numbers>
 #include <utility>
 
 #include <glm/geometric.hpp>
@@ -15,7 +16,6 @@
 namespace lockstep::dust {
 namespace {
 
-constexpr double pi = 3.14159265358979323846;
 constexpr Rgba8 sky{196, 208, 220, 255}, cone_colour{214, 96, 32, 255}, collider_colour{36, 92, 170, 255},
     world_colour{128, 138, 150, 255};
 constexpr int spokes = 24;
@@ -26,7 +26,7 @@ using Lines = std::vector<OverlayLine>;
 void add_ring(Lines& lines, const std::function<glm::vec3(double angle)>& at, Rgba8 colour) {
     constexpr int steps = 48;
     for (int i = 0; i < steps; ++i)
-        lines.push_back({at(2.0 * pi * i / steps), at(2.0 * pi * (i + 1) / steps), colour});
+        lines.push_back({at(2.0 * std::numbers::pi * i / steps), at(2.0 * std::numbers::pi * (i + 1) / steps), colour});
 }
 
 void add_box(Lines& lines, const glm::mat4& to_world, const glm::vec3& low, const glm::vec3& high, Rgba8 colour) {
@@ -50,7 +50,7 @@ void add_cone(Lines& lines, const FrameValues& values) {
         return glm::vec3(glm::dmat4(values.controller_matrix) * glm::dvec4(local * range, 1.0));
     };
     for (int i = 0; i < spokes; ++i)
-        lines.push_back({values.controller_pos, on_cap(angle, 2.0 * pi * i / spokes), cone_colour});
+        lines.push_back({values.controller_pos, on_cap(angle, 2.0 * std::numbers::pi * i / spokes), cone_colour});
     for (const double share : {1.0, 2.0 / 3.0, 1.0 / 3.0})
         add_ring(
             lines, [&](double turn) { return on_cap(angle * share, turn); }, cone_colour);

@@ -21,10 +21,10 @@ namespace {
 
 constexpr mode_t permissions = 07777;
 
-[[noreturn]] void fail(const fs::path& path, const std::string& reason) {
+[[noreturn]] void fail_writing(const fs::path& path, const std::string& reason) {
     throw Error(fmt::format("{}: cannot be written: {}", path.string(), reason));
 }
-[[noreturn]] void fail(const fs::path& path) { fail(path, std::strerror(errno)); }
+[[noreturn]] void fail_writing(const fs::path& path) { fail_writing(path, std::strerror(errno)); }
 
 /// Whether all of it was written; else errno says why not.
 bool write_all(int file, std::string_view content) {
@@ -46,7 +46,7 @@ fs::path behind_links(const fs::path& path) {
     std::error_code error;
     for (int link = 0; fs::is_symlink(fs::symlink_status(target, error)); ++link) {
         if (link == most_links)
-            fail(path, std::strerror(ELOOP));
+            fail_writing(path, std::strerror(ELOOP));
         target = target.parent_path() / fs::read_symlink(target, error);
     }
     return target;
@@ -90,13 +90,13 @@ FileIdentity identity_of(const fs::path& file) {
 
 AtomicFile::AtomicFile(fs::path path) : path_(std::move(path)) {
     if (path_ == "-")
-        fail(path_, "/dev/stdout is standard output, and ./- a file of that name");
+        fail_writing(path_, "/dev/stdout is standard output, and ./- a file of that name");
     struct stat status {};
     const bool there = stat(path_.c_str(), &status) == 0;
     if (!there && errno != ENOENT)
-        fail(path_);
+        fail_writing(path_);
     if ((there && S_ISDIR(status.st_mode)) || !path_.has_filename())
-        fail(path_, "it names a folder");
+        fail_writing(path_, "it names a folder");
     target_ = behind_links(path_);
     struct stat resolved {};
     const bool found = there && stat(target_.c_str(), &resolved) == 0 && same_file(status, resolved);
@@ -105,7 +105,7 @@ AtomicFile::AtomicFile(fs::path path) : path_(std::move(path)) {
     if (in_place_)
         open_in_place();
     else if (there && access(target_.c_str(), W_OK) != 0)
-        fail(path_);
+        fail_writing(path_);
     else
         prove_temporary();
 }
@@ -116,9 +116,9 @@ void AtomicFile::prove_temporary() {
     const bool written = write_all(proof, "\n");
     const int error = errno;
     if (close(proof) != 0)
-        fail(path_);
+        fail_writing(path_);
     if (!written)
-        fail(path_, std::strerror(error));
+        fail_writing(path_, std::strerror(error));
     temporary_ = {};
 }
 
@@ -137,10 +137,10 @@ void AtomicFile::open_in_place() {
     stat(path_.c_str(), &status);
     if (const int stream = stream_of(status); stream >= 0 && (S_ISREG(status.st_mode) || S_ISSOCK(status.st_mode))) {
         if (!is_name_of_stream(path_))
-            fail(path_, fmt::format("standard {} goes there", stream == STDOUT_FILENO ? "output" : "error"));
+            fail_writing(path_, fmt::format("standard {} goes there", stream == STDOUT_FILENO ? "output" : "error"));
         descriptor_ = dup(stream);
         if (descriptor_ < 0)
-            fail(path_);
+            fail_writing(path_);
         return;
     }
     // Not to wait for a reader: not before there is something to read.
@@ -149,7 +149,7 @@ void AtomicFile::open_in_place() {
         return;
     // A device that takes nothing (/dev/full) says so.
     if (descriptor_ < 0 || (S_ISCHR(status.st_mode) && ::write(descriptor_, "", 0) != 0))
-        fail(path_);
+        fail_writing(path_);
     fcntl(descriptor_, F_SETFL, 0);
 }
 
@@ -164,7 +164,7 @@ int AtomicFile::make_temporary() {
             continue;
         }
         if (file < 0)
-            fail(path_);
+            fail_writing(path_);
         if (there) {
             const bool own = fchown(file, before.st_uid, before.st_gid) == 0 || before.st_uid == geteuid();
             fchmod(file, before.st_mode & (own ? permissions : mode_t{0777}));
@@ -175,7 +175,7 @@ int AtomicFile::make_temporary() {
 
 fs::path AtomicFile::make() {
     if (in_place_)
-        fail(path_, "it is no regular file");
+        fail_writing(path_, "it is no regular file");
     close(make_temporary());
     return temporary_.path();
 }
@@ -189,9 +189,9 @@ void AtomicFile::write(std::string content) {
     const bool written = write_all(file, content);
     const int error = errno;
     if (close(file) != 0 && written)
-        fail(path_);
+        fail_writing(path_);
     if (!written)
-        fail(path_, std::strerror(error));
+        fail_writing(path_, std::strerror(error));
 }
 
 void AtomicFile::commit() {
@@ -201,11 +201,11 @@ void AtomicFile::commit() {
             descriptor_ = open(path_.c_str(), O_WRONLY | O_NOCTTY | O_CLOEXEC);
         struct stat status {};
         if (descriptor_ < 0 || fstat(descriptor_, &status) != 0 || !write_all(descriptor_, content_))
-            fail(path_);
+            fail_writing(path_);
         if (S_ISREG(status.st_mode) && stream_of(status) < 0 && ftruncate(descriptor_, std::ssize(content_)) != 0)
-            fail(path_);
+            fail_writing(path_);
         if (close(std::exchange(descriptor_, -1)) != 0)
-            fail(path_);
+            fail_writing(path_);
         return;
     }
     const SignalsWait wait;
@@ -213,7 +213,7 @@ void AtomicFile::commit() {
     if (link(target_.c_str(), before.path().c_str()) != 0)
         before.keep();
     if (rename(temporary_.path().c_str(), target_.c_str()) != 0)
-        fail(path_);
+        fail_writing(path_);
     temporary_.keep();
     before_ = std::move(before);
     committed_ = true;

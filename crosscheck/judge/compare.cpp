@@ -68,7 +68,7 @@ bool clean(const View& reference, const View& gpu, std::size_t first, std::size_
     return true;
 }
 
-bool same_item(const View& reference, const View& gpu, std::size_t item) {
+bool has_same_values(const View& reference, const View& gpu, std::size_t item) {
     for (std::size_t f = 0; f < reference.fields().size(); ++f)
         for (int c = 0; c < reference.fields()[f].components; ++c)
             if (!same_bits(reference.value(f, item, c), gpu.value(f, item, c)))
@@ -182,7 +182,7 @@ std::vector<std::size_t> differing_items(const View& reference, const View& gpu)
         if (clean(reference, gpu, first, last - first))
             continue;
         for (std::size_t i = first; i < last; ++i)
-            if (!clean(reference, gpu, i, 1) && !same_item(reference, gpu, i))
+            if (!clean(reference, gpu, i, 1) && !has_same_values(reference, gpu, i))
                 differing.push_back(i);
     }
     return differing;

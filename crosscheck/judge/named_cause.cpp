@@ -15,7 +15,7 @@ namespace {
 constexpr std::size_t first_pair_sample = 8;
 constexpr std::size_t first_pairs_kept = 256;
 constexpr std::size_t pair_sample = 48;
-constexpr std::size_t pairs_kept = 8;
+constexpr std::size_t best_pairs_kept = 8;
 constexpr std::size_t alone_sample = 256;
 
 using Items = std::vector<std::size_t>;
@@ -130,7 +130,7 @@ void NamedCauses::add(const JudgedPass& pass, const std::vector<ItemVerdict>& ve
             }
         };
         keep_best(first_pair_sample, first_pairs_kept);
-        keep_best(pair_sample, pairs_kept);
+        keep_best(pair_sample, best_pairs_kept);
         count(causes, sample(wrong, JointCauses::trial_items));
         return causes;
     };

@@ -3,6 +3,11 @@
 
 namespace lockstep {
 
+/// Seconds of a clock that never goes back.
+inline double now() {
+    return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
+}
+
 /// Adds the seconds until it dies to a sum.
 class Stopwatch {
   public:

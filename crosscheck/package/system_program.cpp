@@ -23,7 +23,7 @@ namespace lockstep {
 namespace {
 
 /// A system with its shaders, as the program was made for.
-struct Program {
+struct OwnProgram {
     const System& system;
     const std::vector<GlPass>& passes;
     std::vector<std::string> words; ///< of the command line, after the program's name
@@ -60,7 +60,7 @@ void add_item_options(Verb& verb, SystemItem& item) {
 /// The system's shaders on this machine's GL, or a recording of them.
 class OpenSide {
   public:
-    OpenSide(const Program& program, const Options& options) {
+    OpenSide(const OwnProgram& program, const Options& options) {
         if (!options.trace.empty()) {
             recording_.emplace(options.trace, program.system.schema.system);
             recording_->open(program.system);
@@ -93,7 +93,7 @@ int frames_of(const Options& options, const OpenSide& gpu) {
     return options.frames_given ? options.frames : recorded;
 }
 
-void keep_capsule(const Program& program, const Options& options, const CheckReport& report, SystemSide& side,
+void keep_capsule(const OwnProgram& program, const Options& options, const CheckReport& report, SystemSide& side,
                   OutputFiles& files) {
     if (!report.verdicts || !report.verdicts->first) {
         fmt::print("capsule   none: nothing is divergent\n");
@@ -110,7 +110,7 @@ void keep_capsule(const Program& program, const Options& options, const CheckRep
                place.frame);
 }
 
-int check_verb(const Program& program, const Options& options) {
+int check_verb(const OwnProgram& program, const Options& options) {
     OutputFiles files;
     files.protect(options.shaders);
     files.protect(options.trace);
@@ -169,14 +169,14 @@ int check_verb(const Program& program, const Options& options) {
     return passes(report, options.rules) ? status_agree : status_differ;
 }
 
-int explain_verb(const Program& program, const Options& options) {
+int explain_verb(const OwnProgram& program, const Options& options) {
     static_cast<void>(place_of(options.item, program.system));
     OpenSide gpu(program, options);
     fmt::print("{}", explain_text(program.system, *gpu, options.item, ""));
     return status_agree;
 }
 
-int record_verb(const Program& program, const Options& options) {
+int record_verb(const OwnProgram& program, const Options& options) {
     OutputFiles files;
     files.protect(options.shaders);
     files.expect(options.output);
@@ -187,13 +187,13 @@ int record_verb(const Program& program, const Options& options) {
                       options.output, options.deflate);
 }
 
-int trace_verb(const Program& program, const Options& options) {
+int trace_verb(const OwnProgram& program, const Options& options) {
     OpenSide gpu(program, options);
     fmt::print("{}", plain_text(recording_text(program.system, *gpu, *gpu.recording())));
     return status_agree;
 }
 
-int cut_verb(const Program& program, const Options& options) {
+int cut_verb(const OwnProgram& program, const Options& options) {
     static_cast<void>(place_of(options.item, program.system));
     OutputFiles files;
     files.protect(options.shaders);
@@ -206,20 +206,20 @@ int cut_verb(const Program& program, const Options& options) {
     return status_of(capsule, program.system);
 }
 
-int show_verb(const Program& program, const Options& options) {
+int show_verb(const OwnProgram& program, const Options& options) {
     const ItemCapsule capsule = load_item_capsule(options.capsule, program.system);
     fmt::print("{}", shown_text(capsule, program.system, number_format(options.item.hexadecimal)));
     return status_of(capsule, program.system);
 }
 
-int hash_verb(const Program& program, const Options& options) {
+int hash_verb(const OwnProgram& program, const Options& options) {
     print_hashes(program.system, options.profile, options.frames, options.every);
     return status_agree;
 }
 
 /// As `lockstep` has them for the systems it knows (docs/verbs.md): the same names, words and statuses.
-Verb verbs_of(const std::string& name, const Program& program, const std::shared_ptr<Options>& options) {
-    const auto running = [&program, options](int (*run)(const Program&, const Options&)) {
+Verb verbs_of(const std::string& name, const OwnProgram& program, const std::shared_ptr<Options>& options) {
+    const auto running = [&program, options](int (*run)(const OwnProgram&, const Options&)) {
         return [&program, options, run](const Call& call) {
             if (!options->trace.empty())
                 for (const char* option : {"--gl", "--shaders"})
@@ -309,7 +309,7 @@ int run_system_program(int argc, char** argv, const System& system, const std::v
                        const std::string& shaders) {
     const std::string name = argc > 0 ? std::filesystem::path(argv[0]).filename().string() : system.schema.system;
     try {
-        const Program program{system, passes, {argv + std::min(argc, 1), argv + argc}};
+        const OwnProgram program{system, passes, {argv + std::min(argc, 1), argv + argc}};
         const auto options = std::make_shared<Options>();
         options->shaders = shaders;
         return run_command_line(verbs_of(name, program, options), argc, argv, status_could_not_run);

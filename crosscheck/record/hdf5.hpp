@@ -39,6 +39,14 @@ using Extents = std::vector<hsize_t>;
 /// Throws Error like Id where the library says that something failed.
 void expect(herr_t status, const std::string& what);
 
+/// The `count` values of a data set. Throws Error.
+template <class Value>
+std::vector<Value> read_all(hid_t set, hid_t memory_type, std::size_t count, const std::string& path) {
+    std::vector<Value> values(count);
+    expect(H5Dread(set, memory_type, H5S_ALL, H5S_ALL, H5P_DEFAULT, values.data()), path);
+    return values;
+}
+
 /// What words of a state are in a file, and here.
 hid_t file_type(Scalar scalar);
 hid_t memory_type(Scalar scalar);

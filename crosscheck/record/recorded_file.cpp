@@ -33,13 +33,6 @@ bool is_of(Scalar scalar, hid_t type) {
                                      : is_integer(type, 4, scalar == Scalar::int32 ? H5T_SGN_2 : H5T_SGN_NONE);
 }
 
-template <class Value>
-std::vector<Value> read_all(hid_t set, hid_t memory_type, std::size_t count, const std::string& path) {
-    std::vector<Value> values(count);
-    expect(H5Dread(set, memory_type, H5S_ALL, H5S_ALL, H5P_DEFAULT, values.data()), path);
-    return values;
-}
-
 } // namespace
 
 namespace hdf5 {
@@ -249,7 +242,7 @@ std::vector<std::int8_t> RecordedFile::root_offsets(const char* path, std::size_
     if (!is_integer(type.get(), 1, H5T_SGN_2) || extents != Extents{count})
         fail(path, fmt::format("is {}; right is int8 [{}]", shape(type_name(type.get()), extents), count));
     expect_stored(set.get(), extents, 1, path);
-    return read_all<std::int8_t>(set.get(), H5T_NATIVE_INT8, count, path);
+    return hdf5::read_all<std::int8_t>(set.get(), H5T_NATIVE_INT8, count, path);
 }
 
 std::vector<std::int32_t> RecordedFile::integers(const std::string& path) const {
@@ -262,7 +255,7 @@ std::vector<std::int32_t> RecordedFile::integers(const std::string& path) const 
         fail(path, fmt::format("is {}; right is int32 [rows]", shape(type_name(type.get()), extents)));
     if (extents[0] > 0)
         expect_stored(set.get(), extents, sizeof(std::int32_t), path);
-    return read_all<std::int32_t>(set.get(), H5T_NATIVE_INT32, extents[0], path);
+    return hdf5::read_all<std::int32_t>(set.get(), H5T_NATIVE_INT32, extents[0], path);
 }
 
 } // namespace lockstep

@@ -40,13 +40,6 @@ std::string field_list(const Resource& buffer) {
     return list;
 }
 
-template <class Value>
-std::vector<Value> read_all(hid_t set, hid_t memory_type, std::size_t count, const std::string& path) {
-    std::vector<Value> values(count);
-    expect(H5Dread(set, memory_type, H5S_ALL, H5S_ALL, H5P_DEFAULT, values.data()), path);
-    return values;
-}
-
 } // namespace
 
 TraceFile::TraceFile(const OpenedFile& file, const Resource& buffer) : RecordedFile(file), buffer_(&buffer) {}
@@ -144,7 +137,7 @@ std::vector<float> TraceFile::obstacle_positions() const {
         fail(path, fmt::format("is {}; right is float32 [corners][3], at most {}",
                                shape(type_name(type.get()), extents), most_corners));
     expect_stored(set.get(), extents, sizeof(float), path);
-    return read_all<float>(set.get(), H5T_NATIVE_FLOAT, extents[0] * 3, path);
+    return hdf5::read_all<float>(set.get(), H5T_NATIVE_FLOAT, extents[0] * 3, path);
 }
 
 std::vector<std::uint32_t> TraceFile::obstacle_triangles() const {
@@ -159,7 +152,7 @@ std::vector<std::uint32_t> TraceFile::obstacle_triangles() const {
         fail(path, fmt::format("is {}; right is uint32 [triangles][3], at most {}",
                                shape(type_name(type.get()), extents), most_triangles));
     expect_stored(set.get(), extents, sizeof(std::uint32_t), path);
-    return read_all<std::uint32_t>(set.get(), H5T_NATIVE_UINT32, extents[0] * 3, path);
+    return hdf5::read_all<std::uint32_t>(set.get(), H5T_NATIVE_UINT32, extents[0] * 3, path);
 }
 
 } // namespace lockstep

@@ -6,7 +6,7 @@
 namespace lockstep {
 namespace {
 
-constexpr Rgba8 value_differs{230, 60, 50, 255};
+constexpr Rgba8 pixel_differs{230, 60, 50, 255};
 
 } // namespace
 
@@ -18,7 +18,7 @@ ColorImage difference_picture(const ColorImage& reference, const ColorImage& gpu
             pixel = {static_cast<std::uint8_t>(pixel.r / 3), static_cast<std::uint8_t>(pixel.g / 3),
                      static_cast<std::uint8_t>(pixel.b / 3), 255};
         else
-            pixel = value_differs;
+            pixel = pixel_differs;
     }
     return image;
 }

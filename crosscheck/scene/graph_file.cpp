@@ -20,15 +20,15 @@ using Wants = GraphWants;
 
 constexpr std::string_view parts = "xyzw";
 
-std::string shown(std::string_view text) { return plain_line(std::string(text.substr(0, 40))); }
+std::string short_line(std::string_view text) { return plain_line(std::string(text.substr(0, 40))); }
 
 /// "'speed' is no node; there are ..."
 [[noreturn]] void fail_unknown(const JsonValue& at, std::string_view name, std::string_view what,
                                const std::vector<std::string>& known) {
     const std::string near = did_you_mean(std::string(name), known);
     if (known.size() > 40 || known.empty())
-        at.fail(fmt::format("'{}' is no {}{}", shown(name), what, near));
-    at.fail(fmt::format("'{}' is no {}; there are {}{}", shown(name), what, fmt::join(known, ", "), near));
+        at.fail(fmt::format("'{}' is no {}{}", short_line(name), what, near));
+    at.fail(fmt::format("'{}' is no {}; there are {}{}", short_line(name), what, fmt::join(known, ", "), near));
 }
 
 template <class Values> std::vector<std::string> names_of(const Values& values) {
@@ -109,7 +109,8 @@ class Reader {
                 return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '_';
             };
             if (name.empty() || name.size() > 40 || !std::all_of(name.begin(), name.end(), fits))
-                id.fail(fmt::format("'{}' is no name of a node; right is 1 to 40 letters, digits and _", shown(name)));
+                id.fail(
+                    fmt::format("'{}' is no name of a node; right is 1 to 40 letters, digits and _", short_line(name)));
             if (!places_.emplace(name, graph_.nodes.size()).second)
                 id.fail(fmt::format("there is a node '{}' already", name));
             const GraphNodeType& type =
@@ -332,10 +333,10 @@ class Reader {
         const std::string port = text.substr(dot + 1);
         const std::size_t part = port.size() == 1 ? parts.find(port[0]) : std::string_view::npos;
         if (from.kind != GraphKind::split)
-            json.fail(
-                fmt::format("'{}' has no port '{}'; right is '{}', or a split of it", from.id, shown(port), from.id));
+            json.fail(fmt::format("'{}' has no port '{}'; right is '{}', or a split of it", from.id, short_line(port),
+                                  from.id));
         if (part == std::string_view::npos || part >= graph_components(from.makes))
-            json.fail(fmt::format("'{}' has no port '{}'; it is split into {}", from.id, shown(port),
+            json.fail(fmt::format("'{}' has no port '{}'; it is split into {}", from.id, short_line(port),
                                   parts.substr(0, graph_components(from.makes))));
         source.part = static_cast<int>(part);
         source.type = GraphType::real;

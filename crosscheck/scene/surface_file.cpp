@@ -20,7 +20,7 @@
 namespace lockstep {
 namespace {
 
-[[noreturn]] void fail(const std::filesystem::path& file, std::string_view what) {
+[[noreturn]] void fail_on(const std::filesystem::path& file, std::string_view what) {
     throw Error(fmt::format("{}: {}", file.string(), what));
 }
 
@@ -50,7 +50,7 @@ PlyHeader read_ply_header(std::istream& stream, const std::filesystem::path& fil
             header.elements += count;
         }
     }
-    fail(file, "not a readable mesh: the PLY header has no end_header");
+    fail_on(file, "not a readable mesh: the PLY header has no end_header");
 }
 
 /// Assimp fills up what a file lacks with copies of its last line, or leaves it out. Gives the faces it has to find.
@@ -58,13 +58,14 @@ std::size_t promised_faces(const std::string& ply, const std::filesystem::path& 
     std::istringstream stream(ply);
     const PlyHeader header = read_ply_header(stream, file);
     if (header.elements > ply.size())
-        fail(file, fmt::format("cut off: its header promises {} elements, in {} bytes", header.elements, ply.size()));
+        fail_on(file,
+                fmt::format("cut off: its header promises {} elements, in {} bytes", header.elements, ply.size()));
     std::size_t lines = 0;
     for (std::string line; header.ascii && lines < header.elements && std::getline(stream, line);)
         lines += line.find_first_not_of(" \t\r") == std::string::npos ? 0 : 1;
     if (header.ascii && lines < header.elements)
-        fail(file,
-             fmt::format("cut off: {} of the {} lines that its header promises are here", lines, header.elements));
+        fail_on(file,
+                fmt::format("cut off: {} of the {} lines that its header promises are here", lines, header.elements));
     return header.faces;
 }
 
@@ -81,21 +82,22 @@ class NoOtherFiles : public Assimp::IOSystem {
 void check(const aiMesh& part, const std::filesystem::path& file) {
     for (unsigned v = 0; v < part.mNumVertices; ++v)
         if (const aiVector3D& p = part.mVertices[v]; !std::isfinite(p.x) || !std::isfinite(p.y) || !std::isfinite(p.z))
-            fail(file, fmt::format("vertex {} is ({}, {}, {}); coordinates are finite numbers", v, p.x, p.y, p.z));
+            fail_on(file, fmt::format("vertex {} is ({}, {}, {}); coordinates are finite numbers", v, p.x, p.y, p.z));
     for (unsigned f = 0; f < part.mNumFaces; ++f) {
         const aiFace& face = part.mFaces[f];
         if (face.mNumIndices == 0)
-            fail(file, fmt::format("face {} has no vertices", f));
+            fail_on(file, fmt::format("face {} has no vertices", f));
         if (face.mNumIndices > most_corners)
-            fail(file, fmt::format("face {} has {} corners; right is at most {}", f, face.mNumIndices, most_corners));
+            fail_on(file,
+                    fmt::format("face {} has {} corners; right is at most {}", f, face.mNumIndices, most_corners));
         for (unsigned k = 0; k < face.mNumIndices; ++k)
             if (face.mIndices[k] >= part.mNumVertices)
-                fail(file, fmt::format("face {} uses vertex {} of {}", f, face.mIndices[k], part.mNumVertices));
+                fail_on(file, fmt::format("face {} uses vertex {} of {}", f, face.mIndices[k], part.mNumVertices));
     }
 }
 
 /// All triangles, each vertex as often as the importer has it.
-Surface read(const std::string& bytes, bool is_ply, const std::filesystem::path& file) {
+Surface read_surface(const std::string& bytes, bool is_ply, const std::filesystem::path& file) {
     const std::size_t promised = is_ply ? promised_faces(bytes, file) : 0;
     Assimp::Importer importer;
     importer.SetIOHandler(std::make_unique<NoOtherFiles>().release()); // the importer deletes it
@@ -106,11 +108,11 @@ Surface read(const std::string& bytes, bool is_ply, const std::filesystem::path&
         faces += scene->mMeshes[m]->mNumFaces;
     }
     if (scene != nullptr && faces < promised)
-        fail(file, fmt::format("cut off: {} of the {} faces that its header promises are here", faces, promised));
+        fail_on(file, fmt::format("cut off: {} of the {} faces that its header promises are here", faces, promised));
     if (scene != nullptr)
         scene = importer.ApplyPostProcessing(aiProcess_Triangulate);
     if (scene == nullptr)
-        fail(file, fmt::format("not a readable mesh: {}", importer.GetErrorString()));
+        fail_on(file, fmt::format("not a readable mesh: {}", importer.GetErrorString()));
     Surface surface;
     for (unsigned m = 0; m < scene->mNumMeshes; ++m) {
         const aiMesh& part = *scene->mMeshes[m];
@@ -144,15 +146,15 @@ Surface merge_equal_vertices(const Surface& surface) {
 Surface load_surface(const std::filesystem::path& file) {
     const auto kind = file.extension();
     if (kind != ".obj" && kind != ".ply")
-        fail(file, "not a mesh file; a mesh is a .obj or .ply");
+        fail_on(file, "not a mesh file; a mesh is a .obj or .ply");
     if (!std::filesystem::is_regular_file(file))
-        fail(file, "no such mesh; scripts/fetch_meshes.sh fetches the bunny and the dragon");
+        fail_on(file, "no such mesh; scripts/fetch_meshes.sh fetches the bunny and the dragon");
     const OpenedFile opened(file, "mesh");
     if (opened.size() > largest_file)
-        fail(file, fmt::format("{} bytes; a mesh file has at most {}", opened.size(), largest_file));
-    const Surface surface = read(opened.text(), kind == ".ply", file);
+        fail_on(file, fmt::format("{} bytes; a mesh file has at most {}", opened.size(), largest_file));
+    const Surface surface = read_surface(opened.text(), kind == ".ply", file);
     if (surface.indices.empty())
-        fail(file, "the mesh has no faces; an obstacle needs at least one triangle");
+        fail_on(file, "the mesh has no faces; an obstacle needs at least one triangle");
     return merge_equal_vertices(surface);
 }
 

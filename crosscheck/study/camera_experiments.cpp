@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 #include <glm/geometric.hpp>
 
+#include "crosscheck/study/statistics.hpp"
 #include "crosscheck/study/study.hpp"
 
 namespace lockstep {
@@ -93,8 +94,6 @@ CameraRow run(const Experiment& experiment, Scene scene, const Profile& profile,
     row.hits = static_cast<double>(searched) / static_cast<double>(frames.size());
     return row;
 }
-
-std::string percent(double part) { return std::isnan(part) ? "-" : fmt::format("{:.1f}", 100.0 * part); }
 
 } // namespace
 

@@ -156,7 +156,7 @@ Rows occluded_neighbour(const Scene& scene) {
 
 Rows off_axis_spread(const Scene& scene) {
     const FrameParams params = frame_params(scene, 0);
-    const Truth truth = find_truth(scene.start.position, scene.constants.collision_range);
+    const TrueNeighbours truth = find_truth(scene.start.position, scene.constants.collision_range);
     const SearchStudy study = study_start(scene, truth, {});
     const auto pixel = [&](std::size_t i) {
         const glm::dvec4 clip = glm::dmat4(params.collision_proj_view) * glm::dvec4(scene.start.position[i], 1.0);

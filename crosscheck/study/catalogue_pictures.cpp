@@ -29,17 +29,17 @@ void from_the_side(Scene& scene) {
 }
 
 /// When an effect shows best, and what brings it about.
-struct View {
+struct Picture {
     std::string_view name;
     int frame;
     void (*bring_about)(Scene&);
 };
 constexpr std::array views{
-    View{"close_up", 1, from_near},        View{"one_sided", 30, as_it_is},
-    View{"overlap_jitter", 120, as_it_is}, View{"horn_growth", 120, ten_times_as_often},
-    View{"camera_drop", 120, as_it_is},    View{"occluded_neighbour", 1, as_it_is},
-    View{"off_axis_spread", 1, as_it_is},  View{"plane_hides", 30, as_it_is},
-    View{"side_view", 100, from_the_side},
+    Picture{"close_up", 1, from_near},        Picture{"one_sided", 30, as_it_is},
+    Picture{"overlap_jitter", 120, as_it_is}, Picture{"horn_growth", 120, ten_times_as_often},
+    Picture{"camera_drop", 120, as_it_is},    Picture{"occluded_neighbour", 1, as_it_is},
+    Picture{"off_axis_spread", 1, as_it_is},  Picture{"plane_hides", 30, as_it_is},
+    Picture{"side_view", 100, from_the_side},
 };
 
 /// Puts `image`, scaled to side x side by repeating pixels, into `picture` from column `left` on.
@@ -52,7 +52,7 @@ void paste(const ColorImage& image, int left, ColorImage& picture) {
 } // namespace
 
 ColorImage catalogue_picture(std::string_view name, const std::filesystem::path& scenes) {
-    const auto view = std::find_if(views.begin(), views.end(), [&](const View& v) { return v.name == name; });
+    const auto view = std::find_if(views.begin(), views.end(), [&](const Picture& v) { return v.name == name; });
     if (view == views.end())
         throw Error(fmt::format("catalogue: nothing is named {}; the effects are {}", name,
                                 fmt::join(catalogue_names(), ", ")));

@@ -34,7 +34,7 @@ std::vector<RecallRow> recall_table(const std::filesystem::path& scenes,
             SceneOptions options;
             options.particles = particles;
             Scene scene = load_scene(scenes / ("cloud_" + cloud + ".json"), options);
-            const Truth truth = find_truth(scene.start.position, scene.constants.collision_range);
+            const TrueNeighbours truth = find_truth(scene.start.position, scene.constants.collision_range);
             for (const float distance : {1.8F, 0.9F}) {
                 scene.camera.eye.z = distance;
                 RecallRow row{cloud, particles, distance, {}};

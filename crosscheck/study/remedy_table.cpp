@@ -1,13 +1,13 @@
 #include "crosscheck/study/remedy_table.hpp"
 
 #include <algorithm>
-#include <chrono>
 
 #include <fmt/format.h>
 #include <glm/geometric.hpp>
 #include <nlohmann/json.hpp>
 
 #include "crosscheck/collision/judge/check.hpp"
+#include "crosscheck/judge/stopwatch.hpp"
 #include "crosscheck/scene/scene_file.hpp"
 #include "crosscheck/study/statistics.hpp"
 #include "crosscheck/study/study.hpp"
@@ -51,8 +51,6 @@ Scene with(Scene scene, const std::vector<Setting>& settings) {
     check_switches(scene.switches);
     return scene;
 }
-
-double now() { return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count(); }
 
 /// A GL run that stands before a frame in which every particle searches.
 class Frames {
@@ -159,7 +157,7 @@ std::vector<RemedyRow> remedy_table(const RemedyOptions& options) {
     scene_options.set = {"texel_collide_range=4"};
     Scene single = load_scene(options.scenes / "cloud_cube.json", scene_options);
     std::fill(single.start.collide_time.begin(), single.start.collide_time.end(), -1.0F);
-    const Truth truth = find_truth(single.start.position, single.constants.collision_range);
+    const TrueNeighbours truth = find_truth(single.start.position, single.constants.collision_range);
     std::vector<RemedyRow> rows;
     for (const std::vector<Setting>& settings : tried()) {
         const Scene scene = with(single, settings);

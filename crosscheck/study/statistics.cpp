@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include <fmt/format.h>
+
 namespace lockstep {
 
 double median(std::vector<double> values) {
@@ -49,5 +51,7 @@ double deviation_from_line(std::span<const std::size_t> counts, std::span<const 
         largest = std::max(largest, std::abs(line.start + line.slope * x[i] - seconds[i]) / seconds[i]);
     return largest;
 }
+
+std::string percent(double part) { return std::isnan(part) ? "-" : fmt::format("{:.1f}", 100.0 * part); }
 
 } // namespace lockstep

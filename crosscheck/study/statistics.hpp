@@ -1,6 +1,7 @@
 #pragma once
 #include <cstddef>
 #include <span>
+#include <string>
 #include <vector>
 
 namespace lockstep {
@@ -14,5 +15,8 @@ double fitted_exponent(std::span<const std::size_t> counts, std::span<const doub
 /// The straight line a + b * count by least squares: how far a time is from it at most, as a fraction of the time. Two
 /// counts or more.
 double deviation_from_line(std::span<const std::size_t> counts, std::span<const double> seconds);
+
+/// "12.3" of 0.123; "-" of NaN.
+std::string percent(double part);
 
 } // namespace lockstep

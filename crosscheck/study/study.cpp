@@ -41,7 +41,7 @@ template <class Simulation> std::vector<StudyFrame> run(const Scene& scene, cons
         const FrameParams params = frame_params(scene, frame);
         const Particles before = simulation.particles();
         if (frame > 0 && (frame - 1) % options.every == 0) {
-            const Truth truth = find_truth(before.position, params.constants.collision_range);
+            const TrueNeighbours truth = find_truth(before.position, params.constants.collision_range);
             const FrameParams drawn = frame_params(scene, frame - 1);
             const SearchStudy study =
                 has_remedies(scene.switches)
@@ -75,7 +75,7 @@ std::vector<StudyFrame> study_run(const Scene& scene, const Profile& profile, Gp
     return run(scene, profile, ReadBack(scene, gpu), options);
 }
 
-SearchStudy study_start(const Scene& scene, const Truth& truth, const Profile& profile) {
+SearchStudy study_start(const Scene& scene, const TrueNeighbours& truth, const Profile& profile) {
     Particles particles = scene.start;
     std::fill(particles.collide_time.begin(), particles.collide_time.end(), -1.0F);
     const FrameParams params = frame_params(scene, 0);

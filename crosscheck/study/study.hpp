@@ -41,7 +41,7 @@ std::vector<StudyFrame> study_run(const Scene& scene, const Profile& profile, Gp
                                   const StudyOptions& options);
 
 /// The study of a scene's start: drawn once as it stands, then every particle searches. `truth` of the start.
-SearchStudy study_start(const Scene& scene, const Truth& truth, const Profile& profile);
+SearchStudy study_start(const Scene& scene, const TrueNeighbours& truth, const Profile& profile);
 SearchStudy study_start(const Scene& scene, const Profile& profile);
 
 } // namespace lockstep

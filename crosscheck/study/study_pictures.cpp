@@ -11,7 +11,7 @@
 namespace lockstep {
 namespace {
 
-constexpr Rgba8 empty{18, 20, 26, 255};
+constexpr Rgba8 no_rank{18, 20, 26, 255};
 constexpr Rgba8 alone{70, 74, 84, 255};
 constexpr Rgba8 recalled{90, 190, 110, 255};
 constexpr std::array<Rgba8, miss_names.size()> miss_colors{{
@@ -74,7 +74,7 @@ ColorImage study_picture(const StudiedState& state, const Profile& profile) {
             int& top = ranks.texels[static_cast<std::size_t>(texels[i])];
             top = std::max(top, rank(state.findings[i]));
         }
-    ColorImage image(ranks.width, ranks.height, empty);
+    ColorImage image(ranks.width, ranks.height, no_rank);
     for (std::size_t t = 0; t < ranks.texels.size(); ++t)
         if (ranks.texels[t] >= 0)
             image.texels[t] = color(ranks.texels[t]);

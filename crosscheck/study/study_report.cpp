@@ -10,6 +10,8 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
+#include "crosscheck/study/statistics.hpp"
+
 namespace lockstep {
 namespace {
 
@@ -73,16 +75,14 @@ nlohmann::json object(const Columns& all) {
     return json;
 }
 
-std::string percent(double part) { return std::isnan(part) ? "-" : fmt::format("{:.1f}", 100.0 * part); }
-
-std::string percent(std::size_t part, std::size_t whole) {
+std::string share(std::size_t part, std::size_t whole) {
     return percent(static_cast<double>(part) / static_cast<double>(whole));
 }
 
 std::string row(std::string_view name, const SearchCounts& n) {
     return fmt::format("{:>7} {:>10} {:>8} {:>9} {:>10} {:>8} {:>8} {:>8} {:>10}", name, n.with_neighbour,
                        percent(n.recall()), percent(n.recall_searching()), percent(n.precision()),
-                       percent(n.true_nearest()), percent(n.non_mutual_rate()), percent(n.owners, n.particles),
+                       percent(n.true_nearest()), percent(n.non_mutual_rate()), share(n.owners, n.particles),
                        std::isnan(n.mean_depth()) ? "-" : fmt::format("{:.5f}", n.mean_depth()));
 }
 
@@ -119,15 +119,15 @@ std::string study_text(std::span<const StudyFrame> frames) {
     for (std::size_t m = 0; m < miss_names.size(); ++m)
         if (sum.missed_pairs[m] + sum.missed_particles[m] > 0)
             out += fmt::format("{:<16} {:>12} {:>7} {:>12} {:>7}\n", miss_names[m], sum.missed_pairs[m],
-                               percent(sum.missed_pairs[m], missed_pairs), sum.missed_particles[m],
-                               percent(sum.missed_particles[m], missed));
+                               share(sum.missed_pairs[m], missed_pairs), sum.missed_particles[m],
+                               share(sum.missed_particles[m], missed));
     out += fmt::format("{:<16} {:>12} {:>7} {:>12} {:>7}\n", "sum", missed_pairs, "", missed, "");
     out += fmt::format("\n{:<16} {:>12} {:>7}\n", "search ends at", "particles", "%");
     for (std::size_t h = 0; h < hit_names.size(); ++h)
         if (sum.hits[h] > 0)
-            out += fmt::format("{:<16} {:>12} {:>7}\n", hit_names[h], sum.hits[h], percent(sum.hits[h], sum.particles));
+            out += fmt::format("{:<16} {:>12} {:>7}\n", hit_names[h], sum.hits[h], share(sum.hits[h], sum.particles));
     if (sum.ignored > 0)
-        out += fmt::format("{:<16} {:>12} {:>7}\n", "(not finite)", sum.ignored, percent(sum.ignored, sum.particles));
+        out += fmt::format("{:<16} {:>12} {:>7}\n", "(not finite)", sum.ignored, share(sum.ignored, sum.particles));
     return out;
 }
 

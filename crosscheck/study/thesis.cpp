@@ -1,11 +1,11 @@
 #include "crosscheck/study/thesis.hpp"
 
 #include <algorithm>
-#include <chrono>
 #include <limits>
 
 #include <fmt/format.h>
 
+#include "crosscheck/judge/stopwatch.hpp"
 #include "crosscheck/scene/scene_file.hpp"
 #include "crosscheck/study/study.hpp"
 #include "gpu/collision/simulation.hpp"
@@ -16,8 +16,6 @@ namespace {
 
 constexpr float full_count = 200'000.0F;
 constexpr int thesis_octree_size = 50; // world units; `set` may say otherwise
-
-double now() { return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count(); }
 
 /// Leaves the particles after the last frame in `last`.
 SystemTimes time_system(const Scene& scene, const ThesisOptions& options, Particles& last) {
@@ -44,7 +42,7 @@ double fixed_time(Scene scene, const ThesisOptions& options) {
 }
 
 /// What shares a leaf is seen.
-double octree_recall(const std::vector<glm::vec3>& positions, const Truth& truth, float size) {
+double octree_recall(const std::vector<glm::vec3>& positions, const TrueNeighbours& truth, float size) {
     std::vector<std::int32_t> leaf(positions.size());
     std::transform(positions.begin(), positions.end(), leaf.begin(),
                    [&](glm::vec3 position) { return octree_leaf(position, size); });
@@ -81,7 +79,7 @@ ThesisCell measure(const std::string& name, std::size_t count, const ThesisOptio
         cell.octree->fixed = fixed_time(scene, options);
     }
     scene.start = last;
-    const Truth truth = find_truth(last.position, scene.constants.collision_range);
+    const TrueNeighbours truth = find_truth(last.position, scene.constants.collision_range);
     cell.cdt.recall = study_start(scene, truth, Profile{}).counts.recall();
     if (cell.octree)
         cell.octree->recall = octree_recall(last.position, truth, scene.constants.octree_size);

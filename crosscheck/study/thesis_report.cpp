@@ -38,28 +38,28 @@ std::string title(std::string_view scene) {
     return fmt::format("{:<7}{}", scene.substr(0, end), scene.back() == 'a' ? 'A' : 'B');
 }
 
-enum class System { cdt, octree };
+enum class ParticleSystem { cdt, octree };
 
 /// The thesis's ms for a scene and count; NaN where it gives none.
-double published_ms(System system, std::string_view scene, std::size_t count) {
+double published_ms(ParticleSystem system, std::string_view scene, std::size_t count) {
     for (const Published& row : published)
         for (std::size_t c = 0; c < published_counts.size(); ++c)
             if (row.scene == scene && published_counts[c] == count) {
-                const double ms = system == System::cdt ? row.cdt[c] : row.octree[c];
+                const double ms = system == ParticleSystem::cdt ? row.cdt[c] : row.octree[c];
                 return ms > 0.0 ? ms : not_a_number;
             }
     return not_a_number;
 }
 
-double measured_ms(System system, const ThesisCell& cell) {
-    if (system == System::octree && !cell.octree)
+double measured_ms(ParticleSystem system, const ThesisCell& cell) {
+    if (system == ParticleSystem::octree && !cell.octree)
         return not_a_number;
-    return 1e3 * (system == System::cdt ? cell.cdt.wall : cell.octree->wall);
+    return 1e3 * (system == ParticleSystem::cdt ? cell.cdt.wall : cell.octree->wall);
 }
 
 /// What the particles add to a frame with one alone; NaN where that was not measured.
-double added_ms(System system, const ThesisCell& cell) {
-    const double fixed = system == System::cdt ? cell.cdt.fixed : cell.octree ? cell.octree->fixed : 0.0;
+double added_ms(ParticleSystem system, const ThesisCell& cell) {
+    const double fixed = system == ParticleSystem::cdt ? cell.cdt.fixed : cell.octree ? cell.octree->fixed : 0.0;
     return fixed > 0.0 ? measured_ms(system, cell) - 1e3 * fixed : not_a_number;
 }
 
@@ -141,7 +141,7 @@ struct Series {
     std::vector<double> ms, added, thesis;
 };
 
-Series series(const ThesisRun& run, System system, std::string_view scene) {
+Series series(const ThesisRun& run, ParticleSystem system, std::string_view scene) {
     Series s;
     for (const ThesisCell* cell : of_scene(run, scene)) {
         s.ms.push_back(measured_ms(system, *cell));
@@ -152,7 +152,7 @@ Series series(const ThesisRun& run, System system, std::string_view scene) {
 }
 
 /// Figure 5-3: bunny and dragon at density B, averaged.
-Series average_of_b(const ThesisRun& run, System system) {
+Series average_of_b(const ThesisRun& run, ParticleSystem system) {
     Series mean = series(run, system, "bunny_b");
     const Series other = series(run, system, "dragon_b");
     for (std::size_t i = 0; i < mean.ms.size(); ++i) {
@@ -179,7 +179,7 @@ std::string ratio_row(std::string_view name, const std::vector<double>& ratios, 
     return line(name, columns);
 }
 
-std::string percent(double part) { return digits_text(100.0 * part, 1); }
+std::string percents(double part) { return digits_text(100.0 * part, 1); }
 
 /// Least and greatest of what is a number.
 std::string range(const std::vector<double>& values, int digits) {
@@ -198,12 +198,12 @@ std::string findings(const ThesisRun& run) {
     std::vector<double> cdt, octree, ratios, cdt_added, octree_added, cdt_off, octree_off;
     double sum = 0.0, particles = 0.0, cells = 0.0;
     for (const std::string_view scene : thesis_scenes) {
-        cdt.push_back(exponent(n, series(run, System::cdt, scene).ms));
-        octree.push_back(exponent(n, series(run, System::octree, scene).ms));
-        cdt_added.push_back(exponent(n, series(run, System::cdt, scene).added));
-        octree_added.push_back(exponent(n, series(run, System::octree, scene).added));
-        cdt_off.push_back(100.0 * off_line(n, series(run, System::cdt, scene).ms));
-        octree_off.push_back(100.0 * off_line(n, series(run, System::octree, scene).ms));
+        cdt.push_back(exponent(n, series(run, ParticleSystem::cdt, scene).ms));
+        octree.push_back(exponent(n, series(run, ParticleSystem::octree, scene).ms));
+        cdt_added.push_back(exponent(n, series(run, ParticleSystem::cdt, scene).added));
+        octree_added.push_back(exponent(n, series(run, ParticleSystem::octree, scene).added));
+        cdt_off.push_back(100.0 * off_line(n, series(run, ParticleSystem::cdt, scene).ms));
+        octree_off.push_back(100.0 * off_line(n, series(run, ParticleSystem::octree, scene).ms));
     }
     bool slower = true;
     for (const ThesisCell& cell : run.cells) {
@@ -211,7 +211,7 @@ std::string findings(const ThesisRun& run) {
         slower = slower && ratios.back() > 1.0;
         if (cell.scene == "x_streams")
             continue;
-        sum += measured_ms(System::cdt, cell);
+        sum += measured_ms(ParticleSystem::cdt, cell);
         particles += static_cast<double>(cell.particles);
         cells += 1.0;
     }
@@ -247,8 +247,10 @@ constexpr std::array csv_columns{
     Column{"octree_recall",
            [](const ThesisCell& c) { return octree_value(c, [](const SystemTimes& t) { return t.recall; }); }},
     Column{"octree_over_cdt", [](const ThesisCell& c) { return c.ratio().value_or(not_a_number); }},
-    Column{"thesis_cdt_ms", [](const ThesisCell& c) { return published_ms(System::cdt, c.scene, c.particles); }},
-    Column{"thesis_octree_ms", [](const ThesisCell& c) { return published_ms(System::octree, c.scene, c.particles); }},
+    Column{"thesis_cdt_ms",
+           [](const ThesisCell& c) { return published_ms(ParticleSystem::cdt, c.scene, c.particles); }},
+    Column{"thesis_octree_ms",
+           [](const ThesisCell& c) { return published_ms(ParticleSystem::octree, c.scene, c.particles); }},
 };
 
 nlohmann::json system_json(const SystemTimes& times) {
@@ -307,7 +309,7 @@ std::string thesis_cell_head() {
 std::string thesis_cell_text(const ThesisCell& cell) {
     const auto system = [](const SystemTimes& t) {
         return fmt::format(" {:>9} {:>9} {:>6} {:>8}", ms_text(1e3 * t.wall), ms_text(gpu_ms(t)), t.frames,
-                           percent(t.recall));
+                           percents(t.recall));
     };
     std::string text = fmt::format("{:<9} {:>9}{}", cell.scene, cell.particles, system(cell.cdt));
     if (cell.octree)
@@ -318,7 +320,7 @@ std::string thesis_cell_text(const ThesisCell& cell) {
 std::string thesis_text(const ThesisRun& run) {
     const std::vector<std::size_t> n = counts(run);
     std::string out = fmt::format("GL {}\nms a frame, mean, until GL has finished; thesis: RTX 2060\n", run.context);
-    const auto table = [&](System system) {
+    const auto table = [&](ParticleSystem system) {
         for (const std::string_view scene : thesis_scenes)
             if (scene != "x_streams") {
                 const Series s = series(run, system, scene);
@@ -326,30 +328,30 @@ std::string thesis_text(const ThesisRun& run) {
             }
     };
     out += "\nTable 4-1, CDT\n" + head(n, true);
-    table(System::cdt);
+    table(ParticleSystem::cdt);
     out += "\nTable 5-1, octree of depth 3\n" + head(n, true);
-    table(System::octree);
+    table(ParticleSystem::octree);
 
-    const Series cdt = average_of_b(run, System::cdt);
-    const Series octree = average_of_b(run, System::octree);
+    const Series cdt = average_of_b(run, ParticleSystem::cdt);
+    const Series octree = average_of_b(run, ParticleSystem::octree);
     out += "\nFigure 5-3, bunny and dragon at density B, averaged\n" + head(n, true);
     out += times_row("CDT", n, cdt.ms, cdt.thesis) + times_row("octree", n, octree.ms, octree.thesis);
     out += "\nFigure 5-5, streams along x\n" + head(n, false);
-    out += times_row("CDT", n, series(run, System::cdt, "x_streams").ms, {});
-    out += times_row("octree", n, series(run, System::octree, "x_streams").ms, {});
+    out += times_row("CDT", n, series(run, ParticleSystem::cdt, "x_streams").ms, {});
+    out += times_row("octree", n, series(run, ParticleSystem::octree, "x_streams").ms, {});
 
     out += "\nOctree / CDT\n" + head(n, true, false);
     for (const std::string_view scene : thesis_scenes) {
-        const Series a = series(run, System::octree, scene);
-        const Series b = series(run, System::cdt, scene);
+        const Series a = series(run, ParticleSystem::octree, scene);
+        const Series b = series(run, ParticleSystem::cdt, scene);
         out += ratio_row(title(scene), quotient(a.ms, b.ms), quotient(a.thesis, b.thesis));
     }
     out += "\nRecall %, CDT / octree\n";
     for (const std::string_view scene : thesis_scenes) {
         std::vector<std::string> columns;
         for (const ThesisCell* cell : of_scene(run, scene))
-            columns.push_back(fmt::format("{} / {}", percent(cell->cdt.recall),
-                                          percent(cell->octree ? cell->octree->recall : not_a_number)));
+            columns.push_back(fmt::format("{} / {}", percents(cell->cdt.recall),
+                                          percents(cell->octree ? cell->octree->recall : not_a_number)));
         out += line(title(scene), columns, 14);
     }
     return out + "\n" + findings(run);
@@ -407,20 +409,20 @@ ThesisRun read_thesis_json(const std::filesystem::path& file) {
 
 std::string thesis_chart(const ThesisRun& run) {
     const std::vector<std::size_t> n = counts(run);
-    const auto ms = [&](System system, std::string_view scene) { return series(run, system, scene).ms; };
+    const auto ms = [&](ParticleSystem system, std::string_view scene) { return series(run, system, scene).ms; };
     std::vector<std::vector<double>> table_4_1, table_5_1;
     std::vector<std::string> names;
     for (const std::string_view scene : thesis_scenes)
         if (scene != "x_streams") {
-            table_4_1.push_back(ms(System::cdt, scene));
-            table_5_1.push_back(ms(System::octree, scene));
+            table_4_1.push_back(ms(ParticleSystem::cdt, scene));
+            table_5_1.push_back(ms(ParticleSystem::octree, scene));
             names.push_back(title(scene));
         }
-    const Series cdt = average_of_b(run, System::cdt);
-    const Series octree = average_of_b(run, System::octree);
+    const Series cdt = average_of_b(run, ParticleSystem::cdt);
+    const Series octree = average_of_b(run, ParticleSystem::octree);
     return data_block("t41", n, table_4_1) + data_block("t51", n, table_5_1) +
            data_block("f53", n, {cdt.ms, octree.ms, cdt.thesis, octree.thesis}) +
-           data_block("f55", n, {ms(System::cdt, "x_streams"), ms(System::octree, "x_streams")}) +
+           data_block("f55", n, {ms(ParticleSystem::cdt, "x_streams"), ms(ParticleSystem::octree, "x_streams")}) +
            fmt::format("set terminal svg size 1100,800 noenhanced background rgb 'white'\n"
                        "set multiplot layout 2,2 title {}\n"
                        "set xlabel 'particles'\nset ylabel 'ms a frame'\nset grid\nset key below\n"

@@ -11,16 +11,12 @@
 #include "gpu/check.hpp"
 #include "gpu/collision/collision_pass.hpp"
 #include "gpu/collision/collision_shaders.hpp"
+#include "gpu/collision/trace_outputs.hpp"
 #include "reference/model/collision/collision_state.hpp"
 #include "reference/model/error.hpp"
 
 namespace lockstep {
 namespace {
-
-constexpr std::string_view prefix = "trace_";
-constexpr std::string_view neighbour_prefix = "trace_neighbour_";
-constexpr std::string_view neighbour_count = "trace_neighbour_count";
-constexpr int most_neighbours = 65536;
 
 std::vector<ShaderSource> trace_build(const Switches& switches, const std::filesystem::path& shaders) {
     ShaderDefines defines = switch_defines(switches);
@@ -92,12 +88,12 @@ CollisionTrace::CollisionTrace(const Switches& switches, const std::filesystem::
     std::vector<Capture> ordinary = particle_records().captures();
     ordinary.push_back({"gl_Position", GL_FLOAT_VEC4});
     if (geometry)
-        append(ordinary, outputs_with(prefix, stages));
+        append(ordinary, outputs_with(trace_prefix, stages));
     whole_pass_ = vertex_captures("trace build of collision_pass", stages, ordinary);
     if (vertex == stages.end())
         return;
     const std::span<const ShaderSource> alone(&*vertex, 1);
-    std::vector<Capture> traced = outputs_with(prefix, alone);
+    std::vector<Capture> traced = outputs_with(trace_prefix, alone);
     for (const std::string handed_on : {"v_", "out_"})
         for (const RecordLayout::Member& member : particle_records().members)
             for (const Capture& output : outputs_with(handed_on + member.name, alone))

@@ -12,6 +12,7 @@
 #include "gpu/collision/collision_pass.hpp"
 #include "gpu/collision/collision_shaders.hpp"
 #include "gpu/collision/compute_collision_pass.hpp"
+#include "gpu/collision/trace_outputs.hpp"
 #include "gpu/glsl_type.hpp"
 #include "reference/model/collision/collision_state.hpp"
 #include "reference/model/error.hpp"
@@ -19,13 +20,9 @@
 namespace lockstep {
 namespace {
 
-constexpr std::string_view prefix = "trace_";
-constexpr std::string_view neighbour_prefix = "trace_neighbour_";
-constexpr std::string_view neighbour_count = "trace_neighbour_count";
-constexpr int most_neighbours = 65536;
 constexpr GLuint nowhere = 0xffffffffU;
 
-Program link(const Switches& switches, const std::filesystem::path& shaders) {
+Program link_trace(const Switches& switches, const std::filesystem::path& shaders) {
     ShaderDefines defines = switch_defines(switches);
     defines.emplace_back("LOCKSTEP_TRACE", "1");
     const std::array stages{Stage::compute};
@@ -75,7 +72,7 @@ CapturedVertex take_neighbour(CapturedVertex& from) {
 } // namespace
 
 ComputeTrace::ComputeTrace(const Switches& switches, const std::filesystem::path& shaders, int width, int height)
-    : program_(link(switches, shaders)), width_(width), height_(height) {
+    : program_(link_trace(switches, shaders)), width_(width), height_(height) {
     std::array<GLint, 3> size{};
     gl::GetProgramiv(program_.id(), GL_COMPUTE_WORK_GROUP_SIZE, size.data());
     group_ = static_cast<std::size_t>(size[0]);
@@ -97,7 +94,7 @@ void ComputeTrace::find_members() {
         std::array<GLint, 3> values{};
         gl::GetProgramResourceiv(program_.id(), GL_BUFFER_VARIABLE, variable, 3, properties.data(), 3, nullptr,
                                  values.data());
-        if (!name.starts_with(prefix) || values[2] <= 0)
+        if (!name.starts_with(trace_prefix) || values[2] <= 0)
             continue;
         stride_ = static_cast<std::size_t>(values[2]);
         members_.push_back({name, static_cast<GLenum>(values[0]), static_cast<std::size_t>(values[1])});

@@ -10,7 +10,7 @@
 namespace lockstep {
 namespace {
 
-std::optional<Program> link(const Switches& switches, const std::filesystem::path& shaders) {
+std::optional<Program> link_obstacles(const Switches& switches, const std::filesystem::path& shaders) {
     if (switches.obstacles_in_cdt == ObstaclesInCdt::off)
         return {};
     const char* name = switches.obstacles_in_cdt == ObstaclesInCdt::triangles ? "obstacle_pass" : "obstacle_vertices";
@@ -21,7 +21,7 @@ std::optional<Program> link(const Switches& switches, const std::filesystem::pat
 } // namespace
 
 ObstaclePass::ObstaclePass(const Switches& switches, const std::filesystem::path& shaders)
-    : kind_(switches.obstacles_in_cdt), program_(link(switches, shaders)) {}
+    : kind_(switches.obstacles_in_cdt), program_(link_obstacles(switches, shaders)) {}
 
 void ObstaclePass::run(const MeshBuffer& obstacles, const FrameParams& params) {
     if (!program_ || obstacles.vertex_count() == 0)

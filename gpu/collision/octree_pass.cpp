@@ -15,7 +15,7 @@
 namespace lockstep {
 namespace {
 
-constexpr GLuint group_size = 64; // local_size_x of the shader
+constexpr GLuint octree_group_size = 64; // local_size_x of the shader
 
 /// The bindings of the shader's buffers.
 enum Binding : GLuint { before, after, nodes, indices, obstacle_vertices, order };
@@ -87,7 +87,7 @@ void OctreePass::run(const FrameParams& params, const ParticleBuffer& from, Part
     gl::BindBufferBase(GL_SHADER_STORAGE_BUFFER, Binding::indices, indices_.id());
     gl::BindBufferBase(GL_SHADER_STORAGE_BUFFER, Binding::obstacle_vertices, obstacle_vertices_.id());
     gl::BindBufferBase(GL_SHADER_STORAGE_BUFFER, Binding::order, order_.id());
-    gl::DispatchCompute((static_cast<GLuint>(from.size()) + group_size - 1) / group_size, 1, 1);
+    gl::DispatchCompute((static_cast<GLuint>(from.size()) + octree_group_size - 1) / octree_group_size, 1, 1);
     gl::MemoryBarrier(GL_BUFFER_UPDATE_BARRIER_BIT | GL_CLIENT_MAPPED_BUFFER_BARRIER_BIT |
                       GL_VERTEX_ATTRIB_ARRAY_BARRIER_BIT | GL_SHADER_STORAGE_BARRIER_BIT);
     check_gl("octree_pass");

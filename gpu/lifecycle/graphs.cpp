@@ -12,42 +12,42 @@
 namespace lockstep::lifecycle {
 namespace {
 
-using Values = std::map<std::string_view, std::string_view>;
+using NamedValues = std::map<std::string_view, std::string_view>;
 
 /// What the stages hand a graph, as their shaders have it.
-const Values& of_birth() {
-    static const Values all{{"serial", "serial"},
-                            {"order_in_frame", "k"},
-                            {"emitted", "emitted"},
-                            {"time", "u_Time"},
-                            {"frame", "u_Frame"},
-                            {"emitter_position", "u_Origin"},
-                            {"emitter_velocity", "u_OriginVelocity"}};
+const NamedValues& of_birth() {
+    static const NamedValues all{{"serial", "serial"},
+                                 {"order_in_frame", "k"},
+                                 {"emitted", "emitted"},
+                                 {"time", "u_Time"},
+                                 {"frame", "u_Frame"},
+                                 {"emitter_position", "u_Origin"},
+                                 {"emitter_velocity", "u_OriginVelocity"}};
     return all;
 }
 
-const Values& of_particle() {
-    static const Values all{{"position", "position()"},
-                            {"velocity", "velocity()"},
-                            {"acceleration", "acceleration()"},
-                            {"remaining", "in_seconds(remaining())"},
-                            {"lifetime", "in_seconds(lifetime())"},
-                            {"t", "age()"},
-                            {"spawn_time", "in_seconds(spawn_time())"},
-                            {"time", "u_Time"},
-                            {"tick", "u_Tick"},
-                            {"initial_size", "sizes().x"},
-                            {"end_size", "sizes().y"},
-                            {"initial_color", "initial_color()"},
-                            {"end_color", "end_color()"},
-                            {"u", "u"},
-                            {"v", "v"}};
+const NamedValues& of_particle() {
+    static const NamedValues all{{"position", "position()"},
+                                 {"velocity", "velocity()"},
+                                 {"acceleration", "acceleration()"},
+                                 {"remaining", "in_seconds(remaining())"},
+                                 {"lifetime", "in_seconds(lifetime())"},
+                                 {"t", "age()"},
+                                 {"spawn_time", "in_seconds(spawn_time())"},
+                                 {"time", "u_Time"},
+                                 {"tick", "u_Tick"},
+                                 {"initial_size", "sizes().x"},
+                                 {"end_size", "sizes().y"},
+                                 {"initial_color", "initial_color()"},
+                                 {"end_color", "end_color()"},
+                                 {"u", "u"},
+                                 {"v", "v"}};
     return all;
 }
 
 /// The statements, between the inputs that they need and `made`, a line for each output: "b.position = {};".
-std::string body(const Graph& graph, const Values& inputs, const Values& outputs, const std::string& parameters,
-                 const std::string& indent) {
+std::string body(const Graph& graph, const NamedValues& inputs, const NamedValues& outputs,
+                 const std::string& parameters, const std::string& indent) {
     std::string text, made;
     bool needs_serial = false;
     const auto declare = [&](const GraphStage::Value& input) {
@@ -75,27 +75,27 @@ std::string body(const Graph& graph, const Values& inputs, const Values& outputs
 }
 
 std::string emission_text(const Graph& graph) {
-    static const Values outputs{{"position", "b.position = {};"},         {"velocity", "b.velocity = {};"},
-                                {"acceleration", "b.acceleration = {};"}, {"lifetime", "b.lifetime = {};"},
-                                {"initial_size", "b.sizes.x = {};"},      {"end_size", "b.sizes.y = {};"},
-                                {"initial_color", "b.color = {};"},       {"end_color", "b.end_color = {};"}};
+    static const NamedValues outputs{{"position", "b.position = {};"},         {"velocity", "b.velocity = {};"},
+                                     {"acceleration", "b.acceleration = {};"}, {"lifetime", "b.lifetime = {};"},
+                                     {"initial_size", "b.sizes.x = {};"},      {"end_size", "b.sizes.y = {};"},
+                                     {"initial_color", "b.color = {};"},       {"end_color", "b.end_color = {};"}};
     return "#include \"graph_nodes.glsl\"\nuniform vec3 u_OriginVelocity;\n" + graph_uniforms(graph, "e") +
            "void graph_birth(inout Birth b, uint serial, uint k, uint emitted) {\n" +
            body(graph, of_birth(), outputs, "e", "    ") + "}\n";
 }
 
 std::string simulation_text(const Graph& graph) {
-    static const Values outputs{{"acceleration", "m.acceleration = {};"},
-                                {"drag",
-                                 "float graph_drag = {};\n"
-                                 "#if DRAG == DRAG_EXPLICIT\n"
-                                 "    m.acceleration = sub(m.acceleration, mul(v, graph_drag));\n"
-                                 "#else\n"
-                                 "    m.drag = mul(m.drag, ls_divide(1.0, add(1.0, mul(graph_drag, u_Tick))));\n"
-                                 "#endif"},
-                                {"kill", "m.killed = {};"},
-                                {"velocity", "m.velocity = {};"},
-                                {"position", "m.position = {};"}};
+    static const NamedValues outputs{{"acceleration", "m.acceleration = {};"},
+                                     {"drag",
+                                      "float graph_drag = {};\n"
+                                      "#if DRAG == DRAG_EXPLICIT\n"
+                                      "    m.acceleration = sub(m.acceleration, mul(v, graph_drag));\n"
+                                      "#else\n"
+                                      "    m.drag = mul(m.drag, ls_divide(1.0, add(1.0, mul(graph_drag, u_Tick))));\n"
+                                      "#endif"},
+                                     {"kill", "m.killed = {};"},
+                                     {"velocity", "m.velocity = {};"},
+                                     {"position", "m.position = {};"}};
     std::string defines;
     for (const char* const name : {"velocity", "position"})
         if (output_named(graph, name) != nullptr)
@@ -134,7 +134,7 @@ void add_stage_parameters(Uniforms& all, const Emitter& emitter) {
 }
 
 ShaderTexts rendering_texts(const Host& host) {
-    static const Values outputs{{"size", "size = {};"}, {"color", "color = {};"}};
+    static const NamedValues outputs{{"size", "size = {};"}, {"color", "color = {};"}};
     std::string uniforms, calls;
     for (const HostEmitter& of : host.emitters())
         if (const GraphPtr& graph = of.settings().rendering) {
@@ -155,9 +155,9 @@ ShaderDefines rendering_defines(const Host& host) {
     for (const HostEmitter& of : host.emitters())
         if (const GraphPtr& graph = of.settings().rendering) {
             names["RENDERING_GRAPH"] = true;
-            for (const auto& [input, define] : Values{{"velocity", "LOOKS_BY_VELOCITY"},
-                                                      {"acceleration", "LOOKS_BY_ACCELERATION"},
-                                                      {"spawn_time", "LOOKS_BY_SPAWN_TIME"}})
+            for (const auto& [input, define] : NamedValues{{"velocity", "LOOKS_BY_VELOCITY"},
+                                                           {"acceleration", "LOOKS_BY_ACCELERATION"},
+                                                           {"spawn_time", "LOOKS_BY_SPAWN_TIME"}})
                 if (reads_input(*graph, input))
                     names[std::string(define)] = true;
         }

@@ -7,7 +7,7 @@
 namespace lockstep::probing {
 namespace {
 
-constexpr std::size_t inputs = 1024;
+constexpr std::size_t chain_inputs = 1024;
 
 struct Chains {
     Floats scaled_twice, scaled_and_divided, divided_and_scaled; ///< three floats an input
@@ -15,8 +15,8 @@ struct Chains {
 
 /// Vectors and two factors each, a factor as often as the vector has components.
 struct Inputs {
-    Vectors v = random_vectors(inputs, 44, {});
-    Floats s = random_floats(inputs, 45, {}), t = random_floats(inputs, 46, {});
+    Vectors v = random_vectors(chain_inputs, 44, {});
+    Floats s = random_floats(chain_inputs, 45, {}), t = random_floats(chain_inputs, 46, {});
     [[nodiscard]] static Floats thrice(const Floats& x) {
         Floats values;
         for (const float value : x)
@@ -32,19 +32,19 @@ Chains in_vertex_stage(const Inputs& in) {
                              {"out_DividedAndScaled", GL_FLOAT_VEC3}});
     const Floats vectors = flat(in.v);
     Floats factors;
-    for (std::size_t i = 0; i < inputs; ++i)
+    for (std::size_t i = 0; i < chain_inputs; ++i)
         factors.insert(factors.end(), {in.s[i], in.t[i]});
     const auto run = [&](std::string_view output) {
-        return stage.run(inputs, {{"a_Vector", 3, vectors.data()}, {"a_Factors", 2, factors.data()}}, output);
+        return stage.run(chain_inputs, {{"a_Vector", 3, vectors.data()}, {"a_Factors", 2, factors.data()}}, output);
     };
     return {run("out_ScaledTwice"), run("out_ScaledAndDivided"), run("out_DividedAndScaled")};
 }
 
 Chains in_compute_stage(const Inputs& in) {
     Floats given;
-    for (std::size_t i = 0; i < inputs; ++i)
+    for (std::size_t i = 0; i < chain_inputs; ++i)
         given.insert(given.end(), {in.v[i].x, in.v[i].y, in.v[i].z, in.s[i], in.t[i]});
-    const Floats results = ComputeStage("probe/chains").run(given, 9 * inputs, inputs);
+    const Floats results = ComputeStage("probe/chains").run(given, 9 * chain_inputs, chain_inputs);
     Chains chains;
     for (std::size_t i = 0; i < results.size(); ++i)
         (i % 9 < 3   ? chains.scaled_twice

@@ -8,7 +8,7 @@
 namespace lockstep::probing {
 namespace {
 
-constexpr std::size_t inputs = 1024;
+constexpr std::size_t compute_inputs = 1024;
 
 /// What the shader makes of x and the operand: u_What.
 enum class Made { product, sum, below };
@@ -20,7 +20,7 @@ Floats computed(const ComputeStage& stage, const Floats& x, float operand, Made 
 }
 
 ProbeRow measure_product(const ComputeStage& stage, const char* name, int exponent, float factor) {
-    const Floats x = random_floats(inputs, 35, {exponent, exponent + 1, true});
+    const Floats x = random_floats(compute_inputs, 35, {exponent, exponent + 1, true});
     Floats kept, flushed, if_unsigned;
     for (const float value : x) {
         kept.push_back(value * factor);
@@ -45,11 +45,12 @@ ProbeRow measure_sum(const ComputeStage& stage, const char* name, const Floats& 
 }
 
 ProbeRow measure_comparison(const ComputeStage& stage, const char* name) {
-    const Floats x = random_floats(inputs, 40, {-135, -130, true});
+    const Floats x = random_floats(compute_inputs, 40, {-135, -130, true});
     Floats kept;
     for (const float value : x)
         kept.push_back(value < 0.0F ? 1.0F : 0.0F);
-    return judge(name, computed(stage, x, 0.0F, Made::below), {{"flushed", Floats(inputs, 0.0F)}, {"kept", kept}});
+    return judge(name, computed(stage, x, 0.0F, Made::below),
+                 {{"flushed", Floats(compute_inputs, 0.0F)}, {"kept", kept}});
 }
 
 constexpr std::size_t results_each = 11;
@@ -71,7 +72,7 @@ template <class Read> Floats each_of(const Vectors& vectors, Read read) {
 
 /// The operations that GLSL leaves open, held against the vertex stage's, whose sequences other rows have.
 void measure_operations(const DriverArithmetic& vertex, Rows& rows) {
-    const Vectors a = random_vectors(inputs, 38, {}), b = random_vectors(inputs, 39, {});
+    const Vectors a = random_vectors(compute_inputs, 38, {}), b = random_vectors(compute_inputs, 39, {});
     const Floats made = operations_of(a, b);
     const auto row = [&](const char* name, std::size_t first, std::size_t count, const Floats& of_vertex) {
         Floats values;
@@ -107,10 +108,12 @@ void measure_compute_arithmetic(const DriverArithmetic& precise, Rows& rows) {
     const ComputeStage stage("probe/product");
     rows.push_back(measure_product(stage, "compute: subnormal operand of *", -130, 0x1p60F));
     rows.push_back(measure_product(stage, "compute: subnormal result of *", -100, 0x1p-32F));
-    rows.push_back(measure_sum(stage, "compute: subnormal operand of +", random_floats(inputs, 36, {-128, -127, true}),
-                               0x1p-125F, [](float) { return 0x1p-125F; }));
-    rows.push_back(measure_sum(stage, "compute: subnormal result of +", random_floats(inputs, 37, {-125, -124, false}),
-                               -0x1.8p-125F, [](float x) { return std::copysign(0.0F, x - 0x1.8p-125F); }));
+    rows.push_back(measure_sum(stage, "compute: subnormal operand of +",
+                               random_floats(compute_inputs, 36, {-128, -127, true}), 0x1p-125F,
+                               [](float) { return 0x1p-125F; }));
+    rows.push_back(measure_sum(stage, "compute: subnormal result of +",
+                               random_floats(compute_inputs, 37, {-125, -124, false}), -0x1.8p-125F,
+                               [](float x) { return std::copysign(0.0F, x - 0x1.8p-125F); }));
     rows.push_back(measure_comparison(stage, "compute: subnormal < 0"));
 }
 

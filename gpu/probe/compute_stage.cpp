@@ -10,7 +10,7 @@ namespace {
 
 constexpr std::size_t group_size = 64; // local_size_x of the shaders
 
-Program link(const std::string& name) {
+Program link_compute_stage(const std::string& name) {
     const std::array stages{Stage::compute};
     return {name, load_stages(shader_folders(), name, stages)};
 }
@@ -43,7 +43,7 @@ class BoundFloats {
 
 } // namespace
 
-ComputeStage::ComputeStage(const std::string& name) : program_(link(name)) {}
+ComputeStage::ComputeStage(const std::string& name) : program_(link_compute_stage(name)) {}
 
 Floats ComputeStage::run(const Floats& given, std::size_t results, std::size_t invocations) const {
     const BoundFloats from(0, given), to(1, Floats(results));

@@ -8,11 +8,11 @@
 namespace lockstep::probing {
 namespace {
 
-constexpr int side = 64;
+constexpr int depth_side = 64;
 
 glm::vec4 centre(int pixel, float z, float w) {
-    const float x = (static_cast<float>(2 * (pixel % side) + 1) / side - 1.0F) * w;
-    const float y = (static_cast<float>(2 * (pixel / side) + 1) / side - 1.0F) * w;
+    const float x = (static_cast<float>(2 * (pixel % depth_side) + 1) / depth_side - 1.0F) * w;
+    const float y = (static_cast<float>(2 * (pixel / depth_side) + 1) / depth_side - 1.0F) * w;
     return {x, y, z, w};
 }
 
@@ -20,7 +20,7 @@ void measure_window_depth(const DriverArithmetic& gl, const IdImage& image, Rows
     Random random(51, 0);
     Floats z, w;
     std::vector<RasterVertex> vertices;
-    for (int pixel = 0; pixel < side * side; ++pixel) {
+    for (int pixel = 0; pixel < depth_side * depth_side; ++pixel) {
         w.push_back(static_cast<float>(1.0 + 7.0 * random.unit()));
         z.push_back(static_cast<float>(random.symmetric()) * w.back() * 0.9375F);
         vertices.push_back({centre(pixel, z.back(), w.back()), static_cast<float>(pixel)});
@@ -55,12 +55,12 @@ void measure_equal_depth(const IdImage& image, const RasterStage& stage, GLenum 
                          Rows& rows) {
     constexpr int times = 8;
     Random random(52, 0);
-    Floats depths(side * side), first, last;
+    Floats depths(depth_side * depth_side), first, last;
     for (float& depth : depths)
         depth = static_cast<float>(random.symmetric());
     std::vector<RasterVertex> vertices;
     for (int i = 0; i < times; ++i)
-        for (int pixel = 0; pixel < side * side; ++pixel)
+        for (int pixel = 0; pixel < depth_side * depth_side; ++pixel)
             vertices.push_back({centre(pixel, depths[static_cast<std::size_t>(pixel)], 1.0F), static_cast<float>(i)});
     image.clear();
     gl::Enable(GL_DEPTH_TEST);
@@ -74,7 +74,7 @@ void measure_equal_depth(const IdImage& image, const RasterStage& stage, GLenum 
 } // namespace
 
 void measure_depth(const DriverArithmetic& plain, Rows& rows) {
-    const IdImage image(side, side);
+    const IdImage image(depth_side, depth_side);
     measure_window_depth(plain, image, rows);
     const RasterStage stage(Primitive::points, true);
     measure_equal_depth(image, stage, GL_LESS, "equal depth, LESS", rows);

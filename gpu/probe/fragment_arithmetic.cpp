@@ -7,8 +7,8 @@
 namespace lockstep::probing {
 namespace {
 
-constexpr int side = 64;
-constexpr std::size_t texels = side * side;
+constexpr int fragment_side = 64;
+constexpr std::size_t texels = fragment_side * fragment_side;
 
 /// x, y, z for the sums, w for quotients and roots.
 Floats texture_inputs(const Vectors& xyz, const Floats& w) {
@@ -39,13 +39,13 @@ void measure_fragment_arithmetic(Rows& rows) {
     const Vectors b = random_vectors(texels, 22, {});
     const Floats p = random_floats(texels, 23, {-30, 30, true});
     const Floats q = random_floats(texels, 24, {-30, 30, true});
-    const GlTexture a_texture = make_texture(rgba32f, side, side, texture_inputs(a, p).data());
-    const GlTexture b_texture = make_texture(rgba32f, side, side, texture_inputs(b, q).data());
-    const GlTexture scalars = make_texture(rgba32f, side, side, nullptr);
-    const GlTexture sums = make_texture(rgba32f, side, side, nullptr);
+    const GlTexture a_texture = make_texture(rgba32f, fragment_side, fragment_side, texture_inputs(a, p).data());
+    const GlTexture b_texture = make_texture(rgba32f, fragment_side, fragment_side, texture_inputs(b, q).data());
+    const GlTexture scalars = make_texture(rgba32f, fragment_side, fragment_side, nullptr);
+    const GlTexture sums = make_texture(rgba32f, fragment_side, fragment_side, nullptr);
     const GlTexture* sources[] = {&a_texture, &b_texture};
     const GlTexture* targets[] = {&scalars, &sums};
-    ImageStage("probe/fragment").run(side, side, sources, targets);
+    ImageStage("probe/fragment").run(fragment_side, fragment_side, sources, targets);
     const auto scalar = read_texture<float>(scalars, rgba32f, texels * 4);
     const auto sum = read_texture<float>(sums, rgba32f, texels * 4);
 

@@ -5,7 +5,7 @@
 namespace lockstep::probing {
 namespace {
 
-Program link(const std::string& fragment_shader) {
+Program link_image_stage(const std::string& fragment_shader) {
     const ShaderFolders folders = shader_folders();
     const ShaderSource stages[] = {load_stage(folders, "probe/image", Stage::vertex),
                                    load_stage(folders, fragment_shader, Stage::fragment)};
@@ -14,7 +14,7 @@ Program link(const std::string& fragment_shader) {
 
 } // namespace
 
-ImageStage::ImageStage(const std::string& fragment_shader) : program_(link(fragment_shader)) {}
+ImageStage::ImageStage(const std::string& fragment_shader) : program_(link_image_stage(fragment_shader)) {}
 
 void ImageStage::run(int width, int height, std::span<const GlTexture* const> sources,
                      std::span<const GlTexture* const> targets) const {

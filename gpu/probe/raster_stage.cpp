@@ -8,7 +8,7 @@
 namespace lockstep::probing {
 namespace {
 
-Program link(Primitive primitive, bool geometry) {
+Program link_raster_stage(Primitive primitive, bool geometry) {
     const ShaderFolders folders = shader_folders();
     std::vector<ShaderSource> stages{load_stage(folders, "probe/raster", Stage::vertex,
                                                 geometry ? ShaderDefines{{"WITH_GEOMETRY", "1"}} : ShaderDefines{})};
@@ -44,7 +44,7 @@ Floats IdImage::depths() const {
 }
 
 RasterStage::RasterStage(Primitive primitive, bool geometry)
-    : primitive_(primitive), program_(link(primitive, geometry)) {}
+    : primitive_(primitive), program_(link_raster_stage(primitive, geometry)) {}
 
 void RasterStage::draw(std::span<const RasterVertex> vertices) const {
     const GlBuffer buffer;

@@ -9,14 +9,15 @@
 namespace lockstep::probing {
 namespace {
 
-constexpr std::size_t inputs = 1024;
+constexpr std::size_t sine_inputs = 1024;
 
 /// Angles for sin up to 2^15, for cos and tan up to 2^10, where Mesa's reduction still holds.
 Floats angles() {
-    const Floats far = random_floats(inputs, 51, {-4, 14, true}), near = random_floats(inputs, 52, {-4, 9, true});
+    const Floats far = random_floats(sine_inputs, 51, {-4, 14, true}),
+                 near = random_floats(sine_inputs, 52, {-4, 9, true});
     Floats all;
-    for (std::size_t i = 0; i < inputs; ++i)
-        all.insert(all.end(), {far[i], near[i], near[inputs - 1 - i]});
+    for (std::size_t i = 0; i < sine_inputs; ++i)
+        all.insert(all.end(), {far[i], near[i], near[sine_inputs - 1 - i]});
     return all;
 }
 
@@ -47,10 +48,10 @@ template <class Mad> float polynomial(float x, int quarter, Mad mad) {
 
 Floats in_vertex_stage(const Floats& given) {
     const VertexStage stage("probe/sines", {}, {{"a_Angles", 3}}, {{"out_Made", GL_FLOAT_VEC3}});
-    return stage.run(inputs, {{"a_Angles", 3, given.data()}}, "out_Made");
+    return stage.run(sine_inputs, {{"a_Angles", 3, given.data()}}, "out_Made");
 }
 
-Floats in_compute_stage(const Floats& given) { return ComputeStage("probe/sines").run(given, inputs); }
+Floats in_compute_stage(const Floats& given) { return ComputeStage("probe/sines").run(given, sine_inputs); }
 
 void judge_sines(const std::string& stage, const Floats& given, const Floats& made, Rows& rows) {
     const auto once = [](float a, float b, float c) { return std::fma(a, b, c); };

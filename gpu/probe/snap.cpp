@@ -12,13 +12,13 @@
 namespace lockstep::probing {
 namespace {
 
-constexpr int side = 512; // a power of two: its viewport transform rounds nothing of what is drawn here
+constexpr int snap_side = 512; // a power of two: its viewport transform rounds nothing of what is drawn here
 constexpr int fewest_bits = 4;
 constexpr int most_bits = 12;
 
 using Pixels = std::vector<int>;
 
-float to_clip(double window) { return static_cast<float>(window / (side / 2) - 1.0); }
+float to_clip(double window) { return static_cast<float>(window / (snap_side / 2) - 1.0); }
 
 /// The best prediction for each number of bits, over all roundings, then the roundings for the best number of bits.
 template <class Predict>
@@ -68,8 +68,8 @@ PointSweep sweep_points(const RasterStage& stage, const IdImage& image, int axis
     PointSweep sweep;
     std::vector<RasterVertex> vertices;
     for (const int edge : {0, 2, 5, 100, 131, 255, 257, 300, 401, 511})
-        for (int row = 0; row < side; ++row) {
-            const double window = edge + (row - side / 2) * 0x1p-12;
+        for (int row = 0; row < snap_side; ++row) {
+            const double window = edge + (row - snap_side / 2) * 0x1p-12;
             if (window < 0.0)
                 continue;
             glm::vec4 clip(0.0F, 0.0F, 0.0F, 1.0F);
@@ -82,17 +82,17 @@ PointSweep sweep_points(const RasterStage& stage, const IdImage& image, int axis
     stage.draw(vertices);
     const Floats ids = image.ids();
     sweep.pixels.assign(sweep.points.size(), -1);
-    for (int i = 0; i < side * side; ++i)
+    for (int i = 0; i < snap_side * snap_side; ++i)
         if (const float id = ids[static_cast<std::size_t>(i)]; id >= 0.0F) {
             int& pixel = sweep.pixels[static_cast<std::size_t>(id)];
-            pixel = pixel == -1 ? (axis == 0 ? i % side : i / side) : -2;
+            pixel = pixel == -1 ? (axis == 0 ? i % snap_side : i / snap_side) : -2;
         }
     return sweep;
 }
 
 void measure_points(Rows& rows) {
     const RasterStage stage(Primitive::points, true);
-    const IdImage image(side, side);
+    const IdImage image(snap_side, snap_side);
     gl::Disable(GL_DEPTH_TEST);
     PointSweep across_x = sweep_points(stage, image, 0);
     for (const int axis : {0, 1}) {
@@ -144,13 +144,13 @@ void measure_fill_rule(const RasterStage& stage, const IdImage& image, Rows& row
     for (const auto& [name, corners] : sides) {
         std::vector<RasterVertex> vertices;
         std::vector<int> pixels;
-        for (int y = 3; y < side; y += cell)
-            for (int x = 5; x < side; x += cell) {
+        for (int y = 3; y < snap_side; y += cell)
+            for (int x = 5; x < snap_side; x += cell) {
                 std::array<Corner, 3> moved = corners;
                 for (Corner& corner : moved)
                     corner += Corner(x, y);
                 append(vertices, moved, static_cast<int>(pixels.size()));
-                pixels.push_back(y * side + x);
+                pixels.push_back(y * snap_side + x);
             }
         image.clear();
         stage.draw(vertices);
@@ -186,9 +186,9 @@ void measure_triangle_snap(const RasterStage& stage, const IdImage& image, bool 
     constexpr int spacing = 4;
     std::vector<std::array<Corner, 3>> triangles;
     std::vector<RasterVertex> vertices;
-    for (int column = 1; column < side; column += spacing) {
+    for (int column = 1; column < snap_side; column += spacing) {
         const double x = column + 0.25 + static_cast<double>(triangles.size()) * 0x1p-12;
-        triangles.push_back({{{x, 0.0}, {column + 2.25, side / 2}, {x + 0.5, side}}});
+        triangles.push_back({{{x, 0.0}, {column + 2.25, snap_side / 2}, {x + 0.5, snap_side}}});
         append(vertices, triangles.back(), static_cast<int>(triangles.size()) - 1);
     }
     image.clear();
@@ -197,12 +197,12 @@ void measure_triangle_snap(const RasterStage& stage, const IdImage& image, bool 
     const auto for_each_pixel = [&](auto visit) {
         Pixels pixels;
         for (std::size_t t = 0; t < triangles.size(); ++t)
-            for (int y = 0; y < side; ++y)
+            for (int y = 0; y < snap_side; ++y)
                 pixels.push_back(visit(t, static_cast<int>(t) * spacing + 1, y) ? 1 : 0);
         return pixels;
     };
     const Pixels measured = for_each_pixel([&](std::size_t t, int x, int y) {
-        return ids[static_cast<std::size_t>(y * side + x)] == static_cast<float>(t);
+        return ids[static_cast<std::size_t>(y * snap_side + x)] == static_cast<float>(t);
     });
     judge_snap(
         "triangles", measured,
@@ -219,7 +219,7 @@ void measure_triangle_snap(const RasterStage& stage, const IdImage& image, bool 
 
 void measure_triangles(Rows& rows) {
     const RasterStage stage(Primitive::triangles, true);
-    const IdImage image(side, side);
+    const IdImage image(snap_side, snap_side);
     gl::Disable(GL_DEPTH_TEST);
     const std::size_t first = rows.size();
     measure_fill_rule(stage, image, rows);

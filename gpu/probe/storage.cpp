@@ -11,24 +11,17 @@
 namespace lockstep::probing {
 namespace {
 
-template <class Function> Floats each(const Floats& x, Function function) {
-    Floats values(x.size());
-    for (std::size_t i = 0; i < x.size(); ++i)
-        values[i] = function(x[i]);
-    return values;
-}
-
-constexpr int side = 64;
-constexpr std::size_t components = side * side * 4;
+constexpr int storage_side = 64;
+constexpr std::size_t storage_components = storage_side * storage_side * 4;
 
 template <class Stored>
 std::vector<Stored> stored(const ImageStage& store, const TexelLayout& layout, const Floats& x) {
-    const GlTexture source = make_texture(rgba32f, side, side, x.data());
-    const GlTexture target = make_texture(layout, side, side, nullptr);
+    const GlTexture source = make_texture(rgba32f, storage_side, storage_side, x.data());
+    const GlTexture target = make_texture(layout, storage_side, storage_side, nullptr);
     const GlTexture* sources[] = {&source};
     const GlTexture* targets[] = {&target};
-    store.run(side, side, sources, targets);
-    return read_texture<Stored>(target, layout, components);
+    store.run(storage_side, storage_side, sources, targets);
+    return read_texture<Stored>(target, layout, storage_components);
 }
 
 Floats stored_halves(const ImageStage& store, const Floats& x) {
@@ -51,7 +44,7 @@ double toward_zero(double x) { return std::trunc(x); }
 
 /// Random values with every other one halfway between two neighbours of the grid.
 Floats halves_and_ties(Range range, std::uint64_t seed) {
-    Floats values = random_floats(components, seed, range);
+    Floats values = random_floats(storage_components, seed, range);
     for (std::size_t i = 0; i < values.size(); i += 2)
         values[i] =
             on_half_grid(values[i], toward_zero) +
@@ -71,7 +64,7 @@ void measure_half_store(const ImageStage& store, Rows& rows) {
                           {"nearest away", each(tiny, [](float x) { return on_half_grid(x, nearest_away); })},
                           {"truncate", each(tiny, [](float x) { return on_half_grid(x, toward_zero); })},
                           {"flushed", each(tiny, [](float x) { return std::copysign(0.0F, x); })}}));
-    const Floats large = random_floats(components, 33, {16, 40, true});
+    const Floats large = random_floats(storage_components, 33, {16, 40, true});
     rows.push_back(judge("float above the largest half", stored_halves(store, large),
                          {{"infinite", each(large, [](float x) { return std::copysign(HUGE_VALF, x); })},
                           {"largest", each(large, [](float x) { return std::copysign(65504.0F, x); })}}));
@@ -79,7 +72,7 @@ void measure_half_store(const ImageStage& store, Rows& rows) {
 
 /// From below 0 to above 1, every other one next to a value halfway between two codes.
 Floats unit_values() {
-    Floats values = random_floats(components, 34, {-10, 1, false});
+    Floats values = random_floats(storage_components, 34, {-10, 1, false});
     for (std::size_t i = 0; i < values.size(); i += 2) {
         const float tie = (static_cast<float>(i / 2 % 255) + 0.5F) / 255.0F;
         const auto step = static_cast<std::uint32_t>(i / 512 % 9) - 4U;

@@ -1,6 +1,7 @@
 #include <cmath>
 
 #include "gpu/probe/driver_arithmetic.hpp"
+#include "gpu/probe/inputs.hpp"
 #include "gpu/probe/rows.hpp"
 #include "gpu/probe/sequences.hpp"
 
@@ -8,30 +9,6 @@ namespace lockstep::probing {
 namespace {
 
 using Predictions = std::vector<Prediction<float>>;
-
-template <class Function> Floats each(const Floats& x, Function function) {
-    Floats values(x.size());
-    for (std::size_t i = 0; i < x.size(); ++i)
-        values[i] = function(x[i]);
-    return values;
-}
-
-template <class Function> Floats each(const Floats& x, const Floats& y, Function function) {
-    Floats values(x.size());
-    for (std::size_t i = 0; i < x.size(); ++i)
-        values[i] = function(x[i], y[i]);
-    return values;
-}
-
-/// Each vector times its own factor, or what else is done to a component with it.
-template <class Function> Floats each(const Vectors& v, const Floats& s, Function function) {
-    Floats values;
-    values.reserve(v.size() * 3);
-    for (std::size_t i = 0; i < v.size(); ++i)
-        for (int c = 0; c < 3; ++c)
-            values.push_back(function(v[i][c], s[i]));
-    return values;
-}
 
 float product(float a, float b) { return a * b; }
 float quotient(float a, float b) { return a / b; }

@@ -16,11 +16,12 @@ GLenum float_type(int components) {
     return types[components - 1];
 }
 
-std::size_t components(GLenum type) {
+std::size_t components_of(GLenum type) {
     return type == GL_FLOAT ? 1 : type == GL_FLOAT_VEC2 ? 2 : type == GL_FLOAT_VEC3 ? 3 : 4;
 }
 
-Program link(const std::string& name, const ShaderDefines& defines, std::span<const Capture> outputs, bool geometry) {
+Program link_vertex_stage(const std::string& name, const ShaderDefines& defines, std::span<const Capture> outputs,
+                          bool geometry) {
     const ShaderFolders folders = shader_folders();
     std::vector<ShaderSource> stages{load_stage(folders, name, Stage::vertex, defines)};
     if (geometry)
@@ -33,7 +34,7 @@ Program link(const std::string& name, const ShaderDefines& defines, std::span<co
 VertexStage::VertexStage(const std::string& name, const ShaderDefines& defines, std::vector<Attribute> attributes,
                          std::vector<Capture> outputs, bool geometry)
     : attributes_(std::move(attributes)), outputs_(std::move(outputs)),
-      program_(link(name, defines, outputs_, geometry)), target_(make_texture(r32f, 1, 1, nullptr)),
+      program_(link_vertex_stage(name, defines, outputs_, geometry)), target_(make_texture(r32f, 1, 1, nullptr)),
       framebuffer_(make_framebuffer(std::array<const GlTexture*, 1>{&target_})) {}
 
 Floats VertexStage::run(std::size_t count, const std::vector<Attribute>& given, std::string_view output) const {
@@ -59,9 +60,9 @@ Floats VertexStage::run(std::size_t count, const std::vector<Attribute>& given, 
     for (const Capture& capture : outputs_) {
         if (capture.name == output) {
             offset = stride;
-            width = components(capture.type);
+            width = components_of(capture.type);
         }
-        stride += components(capture.type);
+        stride += components_of(capture.type);
     }
 
     const GlBuffer captured;

@@ -13,7 +13,7 @@
 namespace lockstep::probing {
 namespace {
 
-constexpr int side = 500; // not a power of two: products with half of it round
+constexpr int viewport_side = 500; // not a power of two: products with half of it round
 
 /// What a vertex gives, and the driver's own 1 / w.
 struct Projected {
@@ -62,7 +62,8 @@ struct Discriminating {
     Projected x;
 };
 
-/// Whether a window coordinate leads to pixel `column` being covered; it changes at `change` pixels from its left side.
+/// Whether a window coordinate leads to pixel `column` being covered; it changes at `change` pixels from its left
+/// side.
 struct Question {
     double change;
     std::function<bool(int column, double window)> covered;
@@ -72,12 +73,12 @@ struct Question {
 std::vector<Discriminating> search(const Question& question) {
     std::vector<Discriminating> found;
     Random random(41, 0);
-    const float half = side / 2.0F;
-    for (int row = 0; row < side; row += 2)
-        for (int column = 4; column < side - 4; column += 12)
+    const float half = viewport_side / 2.0F;
+    for (int row = 0; row < viewport_side; row += 2)
+        for (int column = 4; column < viewport_side - 4; column += 12)
             for (int attempt = 0; attempt < 8; ++attempt) {
                 const auto w = static_cast<float>(1.0 + 7.0 * random.unit());
-                const double ndc = (column + question.change - side / 2.0) / (side / 2.0);
+                const double ndc = (column + question.change - viewport_side / 2.0) / (viewport_side / 2.0);
                 const float nearby = 1.0F + static_cast<float>(random.symmetric()) * 0x1p-22F;
                 const Projected x{static_cast<float>(ndc * static_cast<double>(w)) * nearby, w, 1.0F / w};
                 const auto answer = [&](const Transform& t) {
@@ -94,16 +95,16 @@ std::vector<Discriminating> search(const Question& question) {
 }
 
 float to_clip(double window, float w) {
-    return static_cast<float>((window / (side / 2.0) - 1.0) * static_cast<double>(w));
+    return static_cast<float>((window / (viewport_side / 2.0) - 1.0) * static_cast<double>(w));
 }
 
 /// Places further from the border than glsl_window_accuracy explains, by up to 16 times.
 std::vector<Discriminating> search_beyond(const Question& question) {
     std::vector<Discriminating> found;
     Random random(43, 0);
-    constexpr double half = side / 2.0;
-    for (int row = 0; row < side; row += 2)
-        for (int column = 4; column < side - 4; column += 12) {
+    constexpr double half = viewport_side / 2.0;
+    for (int row = 0; row < viewport_side; row += 2)
+        for (int column = 4; column < viewport_side - 4; column += 12) {
             const auto w = static_cast<float>(1.0 + 7.0 * random.unit());
             const double border = column + question.change;
             const double distance = glsl_window_accuracy.error(border, half) * std::exp2(4.0 * random.unit()) *
@@ -152,7 +153,7 @@ std::vector<int> draw(Primitive primitive, bool geometry, const std::vector<Disc
     const Floats ids = image.ids();
     std::vector<int> covered;
     for (std::size_t i = 0; i < inputs.size(); ++i) {
-        const auto pixel = static_cast<std::size_t>(inputs[i].row * side + inputs[i].column);
+        const auto pixel = static_cast<std::size_t>(inputs[i].row * viewport_side + inputs[i].column);
         covered.push_back(ids[pixel] == static_cast<float>(i) ? 1 : 0);
     }
     return covered;
@@ -168,7 +169,8 @@ void measure(Primitive primitive, const DriverArithmetic& gl, const IdImage& ima
     for (const Transform& transform : transforms) {
         std::vector<int> values;
         for (const auto& [column, row, x] : inputs)
-            values.push_back(question.covered(column, transform.window(x, side / 2.0F, side / 2.0F)) ? 1 : 0);
+            values.push_back(
+                question.covered(column, transform.window(x, viewport_side / 2.0F, viewport_side / 2.0F)) ? 1 : 0);
         predictions.push_back({transform.name, std::move(values)});
     }
     for (const bool geometry : {true, false})
@@ -184,7 +186,8 @@ void measure_accuracy(Primitive primitive, const IdImage& image, const Question&
         const std::vector<int> covered = draw(primitive, geometry, inputs, image);
         measured.insert(measured.end(), covered.begin(), covered.end());
         for (const auto& [column, row, x] : inputs)
-            expected.push_back(question.covered(column, not_rounded(x, side / 2.0F, side / 2.0F)) ? 1 : 0);
+            expected.push_back(
+                question.covered(column, not_rounded(x, viewport_side / 2.0F, viewport_side / 2.0F)) ? 1 : 0);
     }
     rows.push_back(judge(name_of(primitive) + ": window accuracy", measured, {{"as GLSL's", expected}}));
 }
@@ -197,7 +200,7 @@ bool found(const Rows& rows, std::string_view name, std::string_view finding) {
 } // namespace
 
 void measure_viewport(const DriverArithmetic& plain, Rows& rows) {
-    const IdImage image(side, side);
+    const IdImage image(viewport_side, viewport_side);
     gl::Disable(GL_DEPTH_TEST);
 
     const Snap point_snap = found_snap(rows, "points");

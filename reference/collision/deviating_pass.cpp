@@ -20,8 +20,6 @@
 namespace lockstep {
 namespace {
 
-using enum Deviation;
-
 FrameParams stored_as(FrameParams params, CdtFormat format) {
     params.switches.cdt_format = format;
     return params;
@@ -30,7 +28,7 @@ FrameParams stored_as(FrameParams params, CdtFormat format) {
 /// The camera that places the points.
 FrameParams seen_by(const FrameInputs& inputs, const Deviations& deviations) {
     FrameParams params = *inputs.params;
-    if (deviations.has(matrix_of_earlier_frame) && inputs.earlier_params != nullptr)
+    if (deviations.has(Deviation::matrix_of_earlier_frame) && inputs.earlier_params != nullptr)
         params.collision_proj_view = inputs.earlier_params->collision_proj_view;
     return params;
 }
@@ -42,26 +40,26 @@ template <class A> class DeviatingPoint {
                    const RasterRules& rules)
         : fp_(fp), params_(params), deviations_(deviations), rules_(rules), reading_(fp, made),
           image_(reading_, params) {
-        if (has(point_viewport_swapped))
+        if (has(Deviation::point_viewport_swapped))
             std::swap(viewport_width_, viewport_height_);
-        if (has(point_on_upper_pixel))
+        if (has(Deviation::point_on_upper_pixel))
             rules_.point_edge_to_lower = !rules_.point_edge_to_lower;
-        if (has(point_half_pixel_up))
+        if (has(Deviation::point_half_pixel_up))
             shift_ = 1.0F;
-        if (has(point_half_pixel_down))
+        if (has(Deviation::point_half_pixel_down))
             shift_ = -1.0F;
     }
 
     [[nodiscard]] PointFragment operator()(glm::vec3 position) {
         const auto projected = image_.clip({position.x, position.y, position.z});
         glm::vec4 clip(as_float(projected.x), as_float(projected.y), as_float(projected.z), as_float(projected.w));
-        if (has(point_without_divide))
+        if (has(Deviation::point_without_divide))
             clip.w = 1.0F;
-        if (has(point_y_flipped))
+        if (has(Deviation::point_y_flipped))
             clip.y = -clip.y;
-        if (has(point_depth_constant))
+        if (has(Deviation::point_depth_constant))
             clip.z = 0.0F;
-        if (has(point_depth_reversed))
+        if (has(Deviation::point_depth_reversed))
             clip.z = -clip.z;
         if (shift_ != 0.0F) {
             clip.x += clip.w * (shift_ / static_cast<float>(params_.width));
@@ -107,34 +105,34 @@ template <class A> class DeviatingPoint {
 
 /// What a wrong fragment stage stores for a position.
 glm::vec3 stored_wrongly(glm::vec3 position, const Deviations& deviations, const CollisionCode& halves) {
-    if (deviations.has(stores_half_floats))
+    if (deviations.has(Deviation::stores_half_floats))
         position = halves.decode(halves.encode(position));
-    if (deviations.has(stores_srgb))
+    if (deviations.has(Deviation::stores_srgb))
         position = glm::sign(position) * glm::pow(glm::abs(position), glm::vec3(1.0F / 2.2F));
-    if (deviations.has(stores_clamped))
+    if (deviations.has(Deviation::stores_clamped))
         position = glm::clamp(position, 0.0F, 1.0F);
-    if (deviations.has(stores_x_and_y_swapped))
+    if (deviations.has(Deviation::stores_x_and_y_swapped))
         std::swap(position.x, position.y);
-    if (deviations.has(stores_y_and_z_swapped))
+    if (deviations.has(Deviation::stores_y_and_z_swapped))
         std::swap(position.y, position.z);
-    if (deviations.has(stores_x_and_z_swapped))
+    if (deviations.has(Deviation::stores_x_and_z_swapped))
         std::swap(position.x, position.z);
-    if (deviations.has(position_interpolated))
+    if (deviations.has(Deviation::position_interpolated))
         position = position / 3.0F * 3.0F; // as a mean of equal corners may round
     return position;
 }
 
 bool discards(glm::vec3 position, const Deviations& deviations) {
-    return (deviations.has(negative_x_discarded) && position.x < 0.0F) ||
-           (deviations.has(negative_y_discarded) && position.y < 0.0F) ||
-           (deviations.has(negative_z_discarded) && position.z < 0.0F);
+    return (deviations.has(Deviation::negative_x_discarded) && position.x < 0.0F) ||
+           (deviations.has(Deviation::negative_y_discarded) && position.y < 0.0F) ||
+           (deviations.has(Deviation::negative_z_discarded) && position.z < 0.0F);
 }
 
-class DepthTest {
+class DeviatingDepthTest {
   public:
-    explicit DepthTest(const Deviations& deviations)
-        : greater_(deviations.has(depth_greater)), always_(deviations.has(depth_not_tested)),
-          equal_(deviations.has(depth_equal_passes)) {}
+    explicit DeviatingDepthTest(const Deviations& deviations)
+        : greater_(deviations.has(Deviation::depth_greater)), always_(deviations.has(Deviation::depth_not_tested)),
+          equal_(deviations.has(Deviation::depth_equal_passes)) {}
     [[nodiscard]] bool passes(float depth, float stored) const {
         if (always_)
             return true;
@@ -150,8 +148,8 @@ class DepthTest {
 const std::vector<glm::vec3>& drawn_positions(const FrameInputs& inputs, const Particles& after,
                                               const Deviations& deviations) {
     const bool updated = inputs.params->switches.raster_position == RasterPosition::updated
-                             ? !deviations.has(point_of_position_before)
-                             : deviations.has(point_of_position_after);
+                             ? !deviations.has(Deviation::point_of_position_before)
+                             : deviations.has(Deviation::point_of_position_after);
     return updated ? after.position : inputs.before->position;
 }
 
@@ -170,16 +168,16 @@ void draw_earlier_depth(const FrameInputs& inputs, const Profile& profile, const
 void prepare(const FrameInputs& inputs, const Profile& profile, const Deviations& deviations,
              const CollisionImage& obstacles_cdt, const DepthImage& obstacles_depth, CollisionImage& cdt,
              DepthImage& depth) {
-    cdt =
-        deviations.has(obstacles_not_drawn) ? CollisionImage(obstacles_cdt.width, obstacles_cdt.height) : obstacles_cdt;
-    depth = deviations.has(obstacles_not_drawn) || deviations.has(obstacles_never_hide)
+    cdt = deviations.has(Deviation::obstacles_not_drawn) ? CollisionImage(obstacles_cdt.width, obstacles_cdt.height)
+                                                         : obstacles_cdt;
+    depth = deviations.has(Deviation::obstacles_not_drawn) || deviations.has(Deviation::obstacles_never_hide)
                 ? DepthImage(obstacles_depth.width, obstacles_depth.height, 1.0F)
                 : obstacles_depth;
-    if (deviations.has(cdt_not_cleared) && inputs.earlier_cdt != nullptr)
+    if (deviations.has(Deviation::cdt_not_cleared) && inputs.earlier_cdt != nullptr)
         for (std::size_t i = 0; i < cdt.texels.size(); ++i)
             if (cdt.texels[i].a == 0.0F)
                 cdt.texels[i] = inputs.earlier_cdt->texels[i];
-    if (deviations.has(depth_not_cleared) && inputs.earlier_params != nullptr) {
+    if (deviations.has(Deviation::depth_not_cleared) && inputs.earlier_params != nullptr) {
         draw_earlier_depth(inputs, profile, obstacles_depth, depth);
         for (std::size_t i = 0; i < cdt.texels.size(); ++i)
             if (!(obstacles_depth.texels[i] < depth.texels[i]))
@@ -196,9 +194,9 @@ void deviating_draw(const FrameInputs& inputs, const Particles& after, const Pro
     DepthImage depth;
     prepare(inputs, profile, deviations, obstacles_cdt, obstacles_depth, cdt, depth);
     const CollisionCode code(*inputs.params);
-    const bool is_coarse = deviations.has(half_cdt) || deviations.has(unorm8_cdt);
+    const bool is_coarse = deviations.has(Deviation::half_cdt) || deviations.has(Deviation::unorm8_cdt);
     const CollisionCode coarse(
-        stored_as(*inputs.params, deviations.has(half_cdt) ? CdtFormat::rgba16f : CdtFormat::rgba8));
+        stored_as(*inputs.params, deviations.has(Deviation::half_cdt) ? CdtFormat::rgba16f : CdtFormat::rgba8));
     const CollisionCode halves(stored_as(*inputs.params, CdtFormat::rgba16f));
     const auto stored_code = [&](glm::vec3 position) {
         return code.encode(is_coarse ? coarse.decode(coarse.encode(position)) : position);
@@ -207,20 +205,20 @@ void deviating_draw(const FrameInputs& inputs, const Particles& after, const Pro
         for (glm::vec4& texel : cdt.texels)
             if (texel.a != 0.0F)
                 texel = stored_code(code.decode(texel));
-    if (deviations.has(cdt_not_drawn))
+    if (deviations.has(Deviation::cdt_not_drawn))
         return;
     const std::vector<glm::vec3>& positions = drawn_positions(inputs, after, deviations);
-    const std::vector<glm::vec3>& stored = deviations.has(stores_direction)         ? after.direction
-                                           : deviations.has(stores_position_before) ? inputs.before->position
-                                                                                    : after.position;
-    const DepthTest test(deviations);
+    const std::vector<glm::vec3>& stored = deviations.has(Deviation::stores_direction)         ? after.direction
+                                           : deviations.has(Deviation::stores_position_before) ? inputs.before->position
+                                                                                               : after.position;
+    const DeviatingDepthTest test(deviations);
     const std::vector<Mistake> made = mistakes_of(deviations);
     const FrameParams params = seen_by(inputs, deviations);
     with_mistaken_arithmetic<true>(profile, params.switches.arithmetic, made, [&](auto fp) {
         DeviatingPoint fragment(fp, params, made, deviations, profile.raster);
         for (std::size_t i = 0; i < positions.size(); ++i) {
             PointFragment point = fragment(positions[i]);
-            if (deviations.has(fragment_depth_reversed))
+            if (deviations.has(Deviation::fragment_depth_reversed))
                 point.depth = 1.0F - point.depth;
             if (discards(after.position[i], deviations))
                 continue;
@@ -229,9 +227,9 @@ void deviating_draw(const FrameInputs& inputs, const Particles& after, const Pro
             depth.at(point.x, point.y) = point.depth;
             glm::vec4& texel = cdt.at(point.x, point.y);
             texel = stored_code(stored_wrongly(stored[i], deviations, halves));
-            if (deviations.has(alpha_missing))
+            if (deviations.has(Deviation::alpha_missing))
                 texel.a = 0.0F;
-            if (deviations.has(alpha_is_depth))
+            if (deviations.has(Deviation::alpha_is_depth))
                 texel.a = point.depth;
         }
     });

@@ -15,11 +15,11 @@
 namespace lockstep {
 namespace {
 
-struct Inputs {
+struct LayeredInputs {
     const Particles& particles;
     const CollisionImage& cdt;
     const LayeredOwners& owners;
-    const Truth& truth;
+    const TrueNeighbours& truth;
     const FrameParams& params;
     const Profile& profile;
 };
@@ -27,7 +27,7 @@ struct Inputs {
 /// The questions of search_counting.hpp. `A`: the arithmetic (arithmetic.hpp).
 template <class A> class LayeredQuestions {
   public:
-    LayeredQuestions(A fp, const Inputs& in)
+    LayeredQuestions(A fp, const LayeredInputs& in)
         : fp_(fp), in_(in), planes_(cdt_planes(in.params.switches)), code_(in.params), search_(fp, in.cdt, in.params),
           drawn_now_(draw_layered_owners(in.particles, in.params, in.profile).drawn), hit_(in.particles.size()) {
         const auto count = static_cast<std::ptrdiff_t>(hit_.size());
@@ -135,7 +135,7 @@ template <class A> class LayeredQuestions {
     }
 
     A fp_;
-    const Inputs& in_;
+    const LayeredInputs& in_;
     CdtPlanes planes_;
     CollisionCode code_;
     LayeredSearch<A> search_;
@@ -146,8 +146,8 @@ template <class A> class LayeredQuestions {
 } // namespace
 
 SearchStudy study_layered_search(const Particles& particles, const CollisionImage& cdt, const LayeredOwners& owners,
-                                 const Truth& truth, const FrameParams& params, const Profile& profile) {
-    const Inputs in{particles, cdt, owners, truth, params, profile};
+                                 const TrueNeighbours& truth, const FrameParams& params, const Profile& profile) {
+    const LayeredInputs in{particles, cdt, owners, truth, params, profile};
     SearchStudy result = with_arithmetic(profile, params.switches.arithmetic, [&](auto fp) {
         return count_search(LayeredQuestions(fp, in), particles.size(), truth, params, profile);
     });

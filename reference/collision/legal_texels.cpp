@@ -21,14 +21,10 @@
 namespace lockstep {
 namespace {
 
-using Kind = TexelOwner::Kind;
-
-double middle(Interval v) { return (v.low + v.high) * 0.5; }
-
 /// The texels asked for, by their place in the image.
-class Wanted {
+class WantedTexels {
   public:
-    Wanted(int width, int height, std::span<const std::size_t> texels) : slots_(width, height, -1) {
+    WantedTexels(int width, int height, std::span<const std::size_t> texels) : slots_(width, height, -1) {
         for (std::size_t i = 0; i < texels.size(); ++i)
             slots_.texels[texels[i]] = static_cast<std::int32_t>(i);
     }
@@ -61,7 +57,7 @@ std::uint64_t place_of(float x, float y) {
 
 /// A point's square of side 1 covers the centres inside; which of two on its border is open, unless it is known.
 PixelRange pixels_of(Interval window, const KnownRaster& known, const RasterRules& rules) {
-    const double centre = middle(window);
+    const double centre = interval::middle(window);
     const double margin = std::abs(centre - std::round(centre)) * 256.0;
     if (!known.point_grid) {
         const double low = window.low - grid_step(known);
@@ -110,14 +106,14 @@ template <class A> class Candidates {
           corners_(fp, of_corners(known, profile), profile.other_orders), wanted_(params.width, params.height, texels),
           candidates_(texels.size()) {}
 
-    void add_point(Kind kind, std::size_t index, glm::vec3 drawn_at, glm::vec3 stored) {
+    void add_point(TexelOwner::Kind kind, std::size_t index, glm::vec3 drawn_at, glm::vec3 stored) {
         const PointFragment reference = point_fragment(drawn_at, drawn_, profile_);
         const bool drawn = reference.x >= 0;
         if (drawn && !wanted_.near(reference.x, reference.y))
             return;
         TexelOwner owner{.kind = kind, .index = index, .code = code_.encode(stored)};
         owner.reference_depth = reference.depth;
-        if (kind == Kind::particle ? converts_.particles : converts_.vertices)
+        if (kind == TexelOwner::Kind::particle ? converts_.particles : converts_.vertices)
             owner.code_range = code_.driver_codes(stored, stored);
         if (known().points || known().raster.points()) {
             owner.is_reference = true;
@@ -176,7 +172,7 @@ template <class A> class Candidates {
         const Interval depth = placing_.product(doubled(clip[2], true), 0.5F);
         if (x.any || y.any || depth.any || depth.high < 0.0 || depth.low > 1.0)
             return;
-        TexelOwner owner{.kind = Kind::particle, .index = index, .code = code_.encode(stored)};
+        TexelOwner owner{.kind = TexelOwner::Kind::particle, .index = index, .code = code_.encode(stored)};
         owner.reference_depth = reference.depth;
         owner.depth = depth.is_point() ? Interval(reference.depth) : depth;
         owner.place = place_of(x.as_float(), y.as_float());
@@ -213,7 +209,7 @@ template <class A> class Candidates {
             const bool truncated = params_.switches.base_texel == BaseTexel::truncate && x > -1.0 && x < 0.0;
             return truncated ? 0 : static_cast<int>(std::floor(std::clamp(x, -1.0, static_cast<double>(size))));
         };
-        const double centre = middle(place);
+        const double centre = interval::middle(place);
         return {texel(place.low), texel(place.high), std::abs(centre - std::round(centre)) * 256.0};
     }
 
@@ -249,15 +245,14 @@ template <class A> class Candidates {
                                                  obstacles.positions[index[2]]};
         const TriangleInterpolation interpolation(fp_, corners, params_.width, params_.height);
         const auto weights = interpolation.weights(x, y);
-        TexelOwner owner{.kind = Kind::obstacle, .index = triangle.primitive};
+        TexelOwner owner{.kind = TexelOwner::Kind::obstacle, .index = triangle.primitive};
         const glm::vec3 position = interpolation.mix(fp_, positions, weights);
         owner.code = code_.encode(position);
         owner.reference_depth = interpolation.depth(weights);
         LegalFragment legal{{position.x, position.y, position.z}, owner.reference_depth};
         if (corners_open())
-            legal =
-                legal_fragment({legal_corner(positions[0]), legal_corner(positions[1]), legal_corner(positions[2])},
-                               positions, x, y, params_.width, params_.height);
+            legal = legal_fragment({legal_corner(positions[0]), legal_corner(positions[1]), legal_corner(positions[2])},
+                                   positions, x, y, params_.width, params_.height);
         owner.depth = legal.depth;
         glm::vec3 low = position, high = position;
         if (corners_open() || !known().interpolation) {
@@ -304,7 +299,7 @@ template <class A> class Candidates {
     CollisionCode code_;
     LegalArithmetic<A> arithmetic_, placing_; ///< placing_: in the stage that finds the texels of points
     LegalArithmetic<A> corners_;
-    Wanted wanted_;
+    WantedTexels wanted_;
     std::vector<std::vector<TexelOwner>> candidates_;
 };
 
@@ -374,7 +369,7 @@ std::vector<Tie> LegalTexel::ties(const TexelOwner& owner) const {
     if (edge < HUGE_VAL)
         ties.push_back({point_edge_tie, edge});
     else if (reference != owners.end())
-        ties.push_back({depth_tie, std::abs(middle(owner.depth) - middle(reference->depth))});
+        ties.push_back({depth_tie, std::abs(interval::middle(owner.depth) - interval::middle(reference->depth))});
     return ties;
 }
 
@@ -391,7 +386,7 @@ std::vector<LegalTexel> legal_texels(const Mesh& obstacles, const Particles& bef
                 all.add_triangles(obstacles);
             if (params.switches.obstacles_in_cdt == ObstaclesInCdt::vertices)
                 for (std::size_t i = 0; i < obstacles.positions.size(); ++i)
-                    all.add_point(Kind::obstacle, i, obstacles.positions[i], obstacles.positions[i]);
+                    all.add_point(TexelOwner::Kind::obstacle, i, obstacles.positions[i], obstacles.positions[i]);
             if (params.switches.step == Step::compute) {
                 const bool subnormals = known_in_step(params.switches, known, profile).subnormals;
                 const FlushSubnormals in_step = flush_in_step(params.switches, profile, subnormals);
@@ -400,7 +395,7 @@ std::vector<LegalTexel> legal_texels(const Mesh& obstacles, const Particles& bef
                 return all.take();
             }
             for (std::size_t i = 0; i < positions.size(); ++i)
-                all.add_point(Kind::particle, i, positions[i], after.position[i]);
+                all.add_point(TexelOwner::Kind::particle, i, positions[i], after.position[i]);
             return all.take();
         });
     std::vector<LegalTexel> legal;

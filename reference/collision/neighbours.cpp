@@ -22,7 +22,7 @@ CellGrid checked_grid(std::span<const glm::vec3> positions, float range) {
     return sort_into_cells(positions, std::max(range, std::numeric_limits<float>::min()));
 }
 
-struct Hit {
+struct Near {
     double squared_distance;
     std::int32_t index;
 };
@@ -58,7 +58,7 @@ class Surroundings {
     }
 
     /// The neighbours of `point`. Without branches: whether a candidate is one cannot be predicted.
-    std::span<const Hit> neighbours(CellGrid::Point point, double limit) {
+    std::span<const Near> neighbours(CellGrid::Point point, double limit) {
         std::size_t found = 0;
         for (std::size_t k = 0; k < size_; ++k) {
             const double squared = squared_distance(point.position, points_[k].position);
@@ -84,7 +84,7 @@ class Surroundings {
 
     std::vector<CellGrid::Point> points_; ///< `size_` of them, then room
     std::size_t size_ = 0;
-    std::vector<Hit> hits_;
+    std::vector<Near> hits_;
 };
 
 /// Calls visit(index, hits) for each point of the grid, once, from all threads; and upcoming(index) a few visits ahead.
@@ -115,10 +115,10 @@ void for_each_point(const CellGrid& grid, float range, const Upcoming& upcoming,
     }
 }
 
-Neighbourhood summary(std::span<const Hit> hits) {
+Neighbourhood summary(std::span<const Near> hits) {
     Neighbourhood result;
     result.count = static_cast<std::uint32_t>(hits.size());
-    for (const Hit& hit : hits) {
+    for (const Near& hit : hits) {
         const bool nearer = (hit.squared_distance < result.squared_distance) |
                             ((hit.squared_distance == result.squared_distance) & (hit.index < result.nearest));
         result.squared_distance = nearer ? hit.squared_distance : result.squared_distance;
@@ -137,7 +137,7 @@ Neighbourhoods find_neighbourhoods(std::span<const glm::vec3> positions, float r
     // The visits go by cell, so a result may lie anywhere: fetched ahead, no store has to wait for its cache line.
     const auto fetch = [&](std::int32_t index) { __builtin_prefetch(&result.particle[index], 1); };
     for_each_point(grid, range, fetch,
-                   [&](std::int32_t index, std::span<const Hit> hits) { result.particle[index] = summary(hits); });
+                   [&](std::int32_t index, std::span<const Near> hits) { result.particle[index] = summary(hits); });
     return result;
 }
 
@@ -146,14 +146,14 @@ NeighbourLists list_neighbours(std::span<const glm::vec3> positions, float range
     const auto ignore = [](std::int32_t) {};
     NeighbourLists lists;
     lists.start.resize(positions.size() + 1, 0);
-    for_each_point(grid, range, ignore, [&](std::int32_t index, std::span<const Hit> hits) {
+    for_each_point(grid, range, ignore, [&](std::int32_t index, std::span<const Near> hits) {
         lists.start[static_cast<std::size_t>(index) + 1] = hits.size();
     });
     std::partial_sum(lists.start.begin(), lists.start.end(), lists.start.begin());
     lists.neighbours.resize(lists.start.back());
-    for_each_point(grid, range, ignore, [&](std::int32_t index, std::span<const Hit> hits) {
+    for_each_point(grid, range, ignore, [&](std::int32_t index, std::span<const Near> hits) {
         const auto list = lists.neighbours.begin() + static_cast<std::ptrdiff_t>(lists.start[index]);
-        std::transform(hits.begin(), hits.end(), list, [](const Hit& hit) { return hit.index; });
+        std::transform(hits.begin(), hits.end(), list, [](const Near& hit) { return hit.index; });
         std::sort(list, list + std::ssize(hits));
     });
     return lists;

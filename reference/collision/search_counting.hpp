@@ -17,7 +17,7 @@ template <class Enum> constexpr std::size_t place_of(Enum value) { return static
 
 /// Particle i's contribution to the counts.
 template <class Search>
-Finding count_particle(const Search& search, const Truth& truth, std::size_t i, SearchCounts& n) {
+Finding count_particle(const Search& search, const TrueNeighbours& truth, std::size_t i, SearchCounts& n) {
     Finding finding;
     finding.hit = search.hit(i);
     ++n.hits[place_of(finding.hit)];
@@ -54,8 +54,9 @@ Finding count_particle(const Search& search, const Truth& truth, std::size_t i, 
 }
 
 /// All counts but `owners`.
-template <class Search> SearchStudy count_search(const Search& search, std::size_t particles, const Truth& truth,
-                                                 const FrameParams& params, const Profile& profile) {
+template <class Search> SearchStudy count_search(const Search& search, std::size_t particles,
+                                                 const TrueNeighbours& truth, const FrameParams& params,
+                                                 const Profile& profile) {
     SearchStudy result;
     result.findings.resize(particles);
     const auto count = static_cast<std::ptrdiff_t>(particles);

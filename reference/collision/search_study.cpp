@@ -32,11 +32,11 @@ template <std::size_t N> void add(std::array<std::size_t, N>& to, const std::arr
 
 std::size_t index(std::int32_t i) { return static_cast<std::size_t>(i); }
 
-struct Inputs {
+struct StudyInputs {
     const Particles& particles;
     const CollisionImage& cdt;
     const Owners& owners;
-    const Truth& truth;
+    const TrueNeighbours& truth;
     const FrameParams& params;
     const Profile& profile;
 };
@@ -44,7 +44,7 @@ struct Inputs {
 /// The questions of search_counting.hpp, to a CDT of one plane. `A`: the arithmetic (arithmetic.hpp).
 template <class A> class CdtQuestions {
   public:
-    CdtQuestions(A fp, const Inputs& in)
+    CdtQuestions(A fp, const StudyInputs& in)
         : fp_(fp), in_(in), code_(in.params),
           hit_(collision_texels(in.particles.position, in.cdt, in.params, in.profile)),
           drawn_now_(drawn_texels(in.particles.position, in.params, in.profile)), base_(in.particles.size()) {
@@ -162,7 +162,7 @@ template <class A> class CdtQuestions {
     }
 
     A fp_;
-    const Inputs& in_;
+    const StudyInputs& in_;
     CollisionCode code_;
     std::vector<std::int32_t> hit_;       ///< where each would end if it searched
     std::vector<std::int32_t> drawn_now_; ///< where each would be drawn by this frame's camera
@@ -214,8 +214,8 @@ double SearchCounts::mean_depth() const {
     return with_neighbour == 0 ? std::numeric_limits<double>::quiet_NaN() : depth / static_cast<double>(with_neighbour);
 }
 
-Truth find_truth(std::span<const glm::vec3> positions, float range) {
-    Truth truth{find_neighbourhoods(positions, range), {}};
+TrueNeighbours find_truth(std::span<const glm::vec3> positions, float range) {
+    TrueNeighbours truth{find_neighbourhoods(positions, range), {}};
     std::size_t listed = 0;
     for (const Neighbourhood& neighbourhood : truth.nearest.particle)
         listed += neighbourhood.count;
@@ -228,10 +228,10 @@ Truth find_truth(std::span<const glm::vec3> positions, float range) {
 }
 
 SearchStudy study_search(const Particles& particles, const CollisionImage& cdt, const Owners& owners,
-                         const Truth& truth, const FrameParams& params, const Profile& profile) {
+                         const TrueNeighbours& truth, const FrameParams& params, const Profile& profile) {
     assert(owners.drawn.size() == particles.size() && truth.nearest.particle.size() == particles.size());
     assert(cdt.width == params.width && cdt.height == params.height);
-    const Inputs in{particles, cdt, owners, truth, params, profile};
+    const StudyInputs in{particles, cdt, owners, truth, params, profile};
     SearchStudy result = with_arithmetic(profile, params.switches.arithmetic, [&](auto fp) {
         return count_search(CdtQuestions(fp, in), particles.size(), truth, params, profile);
     });

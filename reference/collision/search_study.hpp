@@ -96,25 +96,25 @@ struct SearchStudy {
 };
 
 /// The truth of a state, for several studies of it.
-struct Truth {
+struct TrueNeighbours {
     Neighbourhoods nearest;
     NeighbourLists lists;
 };
 
 /// Throws Error where there are more neighbours to list, counted at both ends.
 inline constexpr std::size_t most_listed_neighbours = 100'000'000;
-Truth find_truth(std::span<const glm::vec3> positions, float range);
+TrueNeighbours find_truth(std::span<const glm::vec3> positions, float range);
 
 /// Studies the search of `particles` (their state before the step) in `cdt`, which `owners` were drawn into.
 /// `params`: of the frame that searches; `truth` within its collision range. All of one size.
 SearchStudy study_search(const Particles& particles, const CollisionImage& cdt, const Owners& owners,
-                         const Truth& truth, const FrameParams& params, const Profile& profile);
+                         const TrueNeighbours& truth, const FrameParams& params, const Profile& profile);
 
 /// The same of a CDT with remedies (layered_cdt.hpp). What is hidden from all cameras counts under what hides it from
 /// the first. Layers leave out no base texel and no particle behind an obstacle; with response = mutual a pair is
 /// missed too where i itself is in no layer (occluded), and where j does not search (cooling_down).
 SearchStudy study_layered_search(const Particles& particles, const CollisionImage& cdt, const LayeredOwners& owners,
-                                 const Truth& truth, const FrameParams& params, const Profile& profile);
+                                 const TrueNeighbours& truth, const FrameParams& params, const Profile& profile);
 
 /// What one step did to the sums over all particles of finite state, beyond what gravity explains; mass 1 each.
 struct Drift {

@@ -8,7 +8,7 @@
 namespace lockstep {
 namespace {
 
-constexpr float nowhere = std::numeric_limits<float>::quiet_NaN();
+constexpr float no_position = std::numeric_limits<float>::quiet_NaN();
 
 } // namespace
 
@@ -28,16 +28,16 @@ StoredPositions stored_positions(const CollisionImage& cdt, const FrameParams& p
         float* y = stored.y.data() + stored.index(0, ty);
         float* z = stored.z.data() + stored.index(0, ty);
         if (ty < 0 || ty >= cdt.height) {
-            std::fill(x - margin, x + cdt.width + margin, nowhere);
+            std::fill(x - margin, x + cdt.width + margin, no_position);
             continue;
         }
-        std::fill(x - margin, x, nowhere);
-        std::fill(x + cdt.width, x + cdt.width + margin, nowhere);
+        std::fill(x - margin, x, no_position);
+        std::fill(x + cdt.width, x + cdt.width + margin, no_position);
         const glm::vec4* texel = &cdt.at(0, ty);
         for (int tx = 0; tx < cdt.width; ++tx) {
             const glm::vec3 position = code.decode(texel[tx]);
             const bool held = phantom || texel[tx].a != 0.0F;
-            x[tx] = held ? position.x : nowhere;
+            x[tx] = held ? position.x : no_position;
             y[tx] = position.y;
             z[tx] = position.z;
         }

@@ -13,7 +13,8 @@
 namespace lockstep::dust {
 namespace {
 
-constexpr FieldId clip{corner_buffer, 0}, tint{corner_buffer, 1}, drawn{corner_buffer, 2}, place{corner_buffer, 3};
+constexpr FieldId clip{corner_buffer, 0}, tint{corner_buffer, 1}, corner_drawn{corner_buffer, 2},
+    place{corner_buffer, 3};
 
 std::uint8_t blended(std::uint8_t under, float colour, float alpha) {
     const float sum = std::clamp(colour, 0.0F, 1.0F) * alpha + static_cast<float>(under) / 255.0F * (1.0F - alpha);
@@ -43,7 +44,7 @@ ColorImage draw_image(const SystemView& state, Mesh mesh, ColorImage background)
     for (std::size_t i = 0; i < count; ++i)
         clips[i] = state.vec4(clip, i);
     for (std::size_t grain = 0; grain < count / each; ++grain)
-        if (state.integer(drawn, grain * each) != 0)
+        if (state.integer(corner_drawn, grain * each) != 0)
             for (const std::uint32_t k : triangles(mesh))
                 indices.push_back(static_cast<std::uint32_t>(grain * each) + k);
     const Profile strict;

@@ -6,78 +6,77 @@
 namespace lockstep {
 namespace {
 
-using enum Change;
-using Kind = SeenSite::Kind;
+constexpr std::array change_names{"as it is",
+                                  "zero",
+                                  "one",
+                                  "negated",
+                                  "doubled",
+                                  "halved",
+                                  "1 / x",
+                                  "1 - x",
+                                  "one more",
+                                  "one less",
+                                  "half more",
+                                  "half less",
+                                  "x and y swapped",
+                                  "x for all",
+                                  "instead",
+                                  "plus",
+                                  "minus",
+                                  "times",
+                                  "y and z swapped",
+                                  "x and z swapped",
+                                  "y, z, x",
+                                  "z, x, y",
+                                  "by a formula",
+                                  "spoiled",
+                                  "decided otherwise",
+                                  "ranged otherwise",
+                                  "fetched elsewhere",
+                                  "chosen otherwise",
+                                  "inverted",
+                                  "always",
+                                  "never",
+                                  "or equal",
+                                  "reversed",
+                                  "dropped",
+                                  "or for and",
+                                  "first skipped",
+                                  "last skipped",
+                                  "backwards",
+                                  "outside is the edge",
+                                  "outside is the other side",
+                                  "outside is zero",
+                                  "left out",
+                                  "transposed",
+                                  "squared",
+                                  "sum of magnitudes",
+                                  "without x",
+                                  "without y",
+                                  "without z",
+                                  "the last taken",
+                                  "the first taken",
+                                  "the greatest taken",
+                                  "the last of equals",
+                                  "one a turn",
+                                  "all added up",
+                                  "all added up as unit vectors",
+                                  "sums left to right",
+                                  "sums right to left",
+                                  "sums fused",
+                                  "products fused",
+                                  "portable arithmetic",
+                                  "subnormals kept",
+                                  "item kept",
+                                  "handed over otherwise"};
+static_assert(change_names.size() == static_cast<std::size_t>(Change::handed_over) + 1);
 
-constexpr std::array names{"as it is",
-                           "zero",
-                           "one",
-                           "negated",
-                           "doubled",
-                           "halved",
-                           "1 / x",
-                           "1 - x",
-                           "one more",
-                           "one less",
-                           "half more",
-                           "half less",
-                           "x and y swapped",
-                           "x for all",
-                           "instead",
-                           "plus",
-                           "minus",
-                           "times",
-                           "y and z swapped",
-                           "x and z swapped",
-                           "y, z, x",
-                           "z, x, y",
-                           "by a formula",
-                           "spoiled",
-                           "decided otherwise",
-                           "ranged otherwise",
-                           "fetched elsewhere",
-                           "chosen otherwise",
-                           "inverted",
-                           "always",
-                           "never",
-                           "or equal",
-                           "reversed",
-                           "dropped",
-                           "or for and",
-                           "first skipped",
-                           "last skipped",
-                           "backwards",
-                           "outside is the edge",
-                           "outside is the other side",
-                           "outside is zero",
-                           "left out",
-                           "transposed",
-                           "squared",
-                           "sum of magnitudes",
-                           "without x",
-                           "without y",
-                           "without z",
-                           "the last taken",
-                           "the first taken",
-                           "the greatest taken",
-                           "the last of equals",
-                           "one a turn",
-                           "all added up",
-                           "all added up as unit vectors",
-                           "sums left to right",
-                           "sums right to left",
-                           "sums fused",
-                           "products fused",
-                           "portable arithmetic",
-                           "subnormals kept",
-                           "item kept",
-                           "handed over otherwise"};
-static_assert(names.size() == static_cast<std::size_t>(handed_over) + 1);
-
-constexpr std::array value_changes{zero,     one,      negated,  doubled,   halved,   reciprocal,
-                                   opposite, one_more, one_less, half_more, half_less};
-constexpr std::array whole_changes{zero, one, negated, halved, doubled, one_more, one_less};
-constexpr std::array taken_from{instead, plus, minus, times};
+constexpr std::array value_changes{Change::zero,     Change::one,        Change::negated,  Change::doubled,
+                                   Change::halved,   Change::reciprocal, Change::opposite, Change::one_more,
+                                   Change::one_less, Change::half_more,  Change::half_less};
+constexpr std::array whole_changes{Change::zero,    Change::one,      Change::negated, Change::halved,
+                                   Change::doubled, Change::one_more, Change::one_less};
+constexpr std::array taken_from{Change::instead, Change::plus, Change::minus, Change::times};
 
 void add_values(std::vector<Mistake>& found, const SeenSite& seen, std::span<const Change> changes) {
     for (const Change change : changes) {
@@ -86,18 +85,20 @@ void add_values(std::vector<Mistake>& found, const SeenSite& seen, std::span<con
             found.push_back({.site = seen.site->id, .change = change, .part = part});
     }
     if (seen.size > 1)
-        for (const Change change : {swapped, x_everywhere})
+        for (const Change change : {Change::swapped, Change::x_everywhere})
             found.push_back({.site = seen.site->id, .change = change});
     if (seen.size == 3)
-        for (const Change change : {yz_swapped, xz_swapped, rotated, rotated_back})
+        for (const Change change : {Change::yz_swapped, Change::xz_swapped, Change::rotated, Change::rotated_back})
             found.push_back({.site = seen.site->id, .change = change});
 }
 
-bool is_value(const SeenSite& seen) { return seen.kind == Kind::value || seen.kind == Kind::whole_value; }
+bool is_value(const SeenSite& seen) {
+    return seen.kind == SeenSite::Kind::value || seen.kind == SeenSite::Kind::whole_value;
+}
 
 } // namespace
 
-std::string_view change_name(Change change) { return names[static_cast<std::size_t>(change)]; }
+std::string_view change_name(Change change) { return change_names[static_cast<std::size_t>(change)]; }
 
 const CameBy::Kept* CameBy::find(std::uint32_t site) const {
     for (std::size_t step = 0; step < places; ++step) {
@@ -122,9 +123,9 @@ void CameBy::keep(std::uint32_t site, std::span<const float> values) {
 }
 
 const std::array<float, CameBy::most_values>& CameBy::of(const Site& site) const {
-    static constexpr std::array<float, most_values> none{};
+    static constexpr std::array<float, most_values> nothing{};
     const Kept* kept = find(site.id);
-    return kept == nullptr ? none : kept->values;
+    return kept == nullptr ? nothing : kept->values;
 }
 
 std::vector<Mistake> mistakes_at(std::span<const SeenSite> sites) {
@@ -136,41 +137,42 @@ std::vector<Mistake> mistakes_at(std::span<const SeenSite> sites) {
                 found.push_back({.site = seen.site->id, .change = change});
         };
         switch (seen.kind) {
-        case Kind::value:
+        case SeenSite::Kind::value:
             add_values(found, seen, value_changes);
             break;
-        case Kind::whole_value:
+        case SeenSite::Kind::whole_value:
             add_values(found, seen, whole_changes);
             break;
-        case Kind::condition:
-            all({inverted, always, never});
+        case SeenSite::Kind::condition:
+            all({Change::inverted, Change::always, Change::never});
             for (int part = 0; part < seen.size; ++part)
-                for (const Change change : {or_equal, reversed, dropped})
-                    if (change != dropped || seen.size > 1)
+                for (const Change change : {Change::or_equal, Change::reversed, Change::dropped})
+                    if (change != Change::dropped || seen.size > 1)
                         found.push_back({.site = seen.site->id, .change = change, .part = part});
             if (seen.size > 1)
-                all({and_is_or});
+                all({Change::and_is_or});
             break;
-        case Kind::setting:
-            all({inverted});
+        case SeenSite::Kind::setting:
+            all({Change::inverted});
             break;
-        case Kind::loop:
-            all({first_skipped, last_skipped, backwards});
+        case SeenSite::Kind::loop:
+            all({Change::first_skipped, Change::last_skipped, Change::backwards});
             break;
-        case Kind::fetch:
-            all({outside_is_edge, outside_is_other_side, outside_is_zero});
+        case SeenSite::Kind::fetch:
+            all({Change::outside_is_edge, Change::outside_is_other_side, Change::outside_is_zero});
             break;
-        case Kind::length:
-            all({squared, sum_of_magnitudes, without_x, without_y, without_z});
+        case SeenSite::Kind::length:
+            all({Change::squared, Change::sum_of_magnitudes, Change::without_x, Change::without_y, Change::without_z});
             break;
-        case Kind::optional_operation:
-            all({not_done});
+        case SeenSite::Kind::optional_operation:
+            all({Change::not_done});
             break;
-        case Kind::matrix:
-            all({transposed});
+        case SeenSite::Kind::matrix:
+            all({Change::transposed});
             break;
-        case Kind::choice:
-            all({last_taken, first_taken, greatest_taken, last_of_equals, one_a_turn, added_up, units_added_up});
+        case SeenSite::Kind::choice:
+            all({Change::last_taken, Change::first_taken, Change::greatest_taken, Change::last_of_equals,
+                 Change::one_a_turn, Change::added_up, Change::units_added_up});
             break;
         }
         if (!is_value(seen))
@@ -180,8 +182,8 @@ std::vector<Mistake> mistakes_at(std::span<const SeenSite> sites) {
             if (source.kind == seen.kind && source.size == seen.size && source.site->id != seen.site->id)
                 for (const Change change : taken_from)
                     found.push_back({.site = seen.site->id, .change = change, .source = source.site->id});
-            else if (source.kind == Kind::value && seen.kind == Kind::value && source.size == 1)
-                found.push_back({.site = seen.site->id, .change = times, .source = source.site->id});
+            else if (source.kind == SeenSite::Kind::value && seen.kind == SeenSite::Kind::value && source.size == 1)
+                found.push_back({.site = seen.site->id, .change = Change::times, .source = source.site->id});
         }
     }
     return found;

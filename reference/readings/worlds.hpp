@@ -390,7 +390,7 @@ template <class A> class Worlds {
                     continue;
                 ways.push_back(rival.number);
                 if (first != nullptr)
-                    gap = std::min(gap, std::abs(middle(rival.key) - middle(first->key)));
+                    gap = std::min(gap, std::abs(interval::middle(rival.key) - interval::middle(first->key)));
                 else
                     first = &rival;
             }
@@ -515,7 +515,6 @@ template <class A> class Worlds {
     }
     static Undefined first_of(Undefined a, Undefined b) { return a != Undefined::none ? a : b; }
     static Interval3 sets(const Vec3& v) { return {v.x.set(), v.y.set(), v.z.set()}; }
-    static double middle(const Interval& v) { return (v.low + v.high) * 0.5; }
 
     template <class Field> static Undefined open_field(const Field& field) {
         if constexpr (std::is_same_v<Field, Real>)
@@ -555,7 +554,7 @@ template <class A> class Worlds {
         if (c.negated)
             std::swap(answer.yes, answer.no);
         if (answer.yes && answer.no)
-            answer.margin = std::abs(middle(a) - middle(b));
+            answer.margin = std::abs(interval::middle(a) - interval::middle(b));
         return answer;
     }
     template <bool all, std::size_t n> static Answer ask(const OpenComparisons<Real, all, n>& condition) {

@@ -397,7 +397,7 @@ TEST_CASE("study: recall of the cube agrees with the other model") {
     Scene scene = load_scene("data/scenes/cloud_cube.json", options);
     RecallRow row{"cube", 50'000, 1.8F, {}};
     REQUIRE(model_recall(row));
-    const Truth truth = find_truth(scene.start.position, scene.constants.collision_range);
+    const TrueNeighbours truth = find_truth(scene.start.position, scene.constants.collision_range);
     for (std::size_t r = 0; r < recall_radii.size(); ++r) {
         scene.constants.texel_collide_range = recall_radii[r];
         row.counts[r] = study_start(scene, truth, {}).counts;

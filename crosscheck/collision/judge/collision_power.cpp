@@ -19,8 +19,6 @@
 namespace lockstep {
 namespace {
 
-using enum Deviation;
-
 constexpr std::size_t looked_at = 16384;     ///< particles of a frame, of those without a hit
 constexpr std::size_t drawn_at_most = 16384; ///< particles, where it does not matter which of two is nearer
 constexpr std::size_t texels_judged = 16;
@@ -32,8 +30,9 @@ bool among(Deviation deviation, std::initializer_list<Deviation> all) {
 
 /// Whether it changes who wins a texel: a few particles alone do not show it.
 bool is_about_depth(Deviation deviation) {
-    return among(deviation, {depth_greater, depth_not_tested, depth_equal_passes, depth_not_cleared,
-                             obstacles_never_hide, cdt_not_cleared});
+    return among(deviation,
+                 {Deviation::depth_greater, Deviation::depth_not_tested, Deviation::depth_equal_passes,
+                  Deviation::depth_not_cleared, Deviation::obstacles_never_hide, Deviation::cdt_not_cleared});
 }
 
 Particles every(const Particles& all, std::size_t stride) {
@@ -138,48 +137,48 @@ class Drawing {
 bool is_no_mistake(Deviation deviation, const Switches& s, const Profile& profile) {
     const bool exact = s.arithmetic == ArithmeticSwitch::exact;
     switch (deviation) {
-    case no_perspective_divide:
+    case Deviation::no_perspective_divide:
         return s.perspective_divide == PerspectiveDivide::off;
-    case truncate_instead_of_floor:
+    case Deviation::truncate_instead_of_floor:
         return s.base_texel == BaseTexel::truncate;
-    case floor_instead_of_truncate:
+    case Deviation::floor_instead_of_truncate:
         return s.base_texel == BaseTexel::floor;
-    case own_position_from_texel:
+    case Deviation::own_position_from_texel:
         return s.self_position == SelfPosition::texel;
-    case own_position_from_vertex:
+    case Deviation::own_position_from_vertex:
         return s.self_position == SelfPosition::vertex;
-    case phantom_origin:
+    case Deviation::phantom_origin:
         return s.empty_texel == EmptyTexel::phantom;
-    case empty_texels_skipped:
+    case Deviation::empty_texels_skipped:
         return s.empty_texel == EmptyTexel::skip;
-    case zero_distance_hits:
+    case Deviation::zero_distance_hits:
         return s.zero_distance == ZeroDistance::hit;
-    case zero_distance_skipped:
+    case Deviation::zero_distance_skipped:
         return s.zero_distance == ZeroDistance::skip;
-    case tick_missing_in_collision_step:
+    case Deviation::tick_missing_in_collision_step:
         return s.collision_step == CollisionStep::full;
-    case tick_added_to_collision_step:
+    case Deviation::tick_added_to_collision_step:
         return s.collision_step == CollisionStep::tick;
-    case half_cdt:
+    case Deviation::half_cdt:
         return s.cdt_format == CdtFormat::rgba16f;
-    case unorm8_cdt:
+    case Deviation::unorm8_cdt:
         return s.cdt_format == CdtFormat::rgba8;
-    case point_of_position_before:
+    case Deviation::point_of_position_before:
         return s.raster_position == RasterPosition::before_step;
-    case point_of_position_after:
+    case Deviation::point_of_position_after:
         return s.raster_position == RasterPosition::updated;
-    case portable_arithmetic:
+    case Deviation::portable_arithmetic:
         return exact;
-    case sums_left_to_right: // exact sums so; of the profile's order a driver sums itself
+    case Deviation::sums_left_to_right: // exact sums so; of the profile's order a driver sums itself
         return exact || profile.dot == DotOrder::left_to_right;
-    case sums_right_to_left:
+    case Deviation::sums_right_to_left:
         return !exact && profile.dot == DotOrder::right_to_left;
-    case sums_fused:
+    case Deviation::sums_fused:
         return exact || profile.dot == DotOrder::fused_chain;
-    case subnormals_kept:
+    case Deviation::subnormals_kept:
         return exact || !(s.step == Step::compute ? profile.compute_flush_subnormals : profile.flush_subnormals);
-    case point_on_upper_pixel:
-    case point_viewport_swapped: // the stage itself finds the texel that it draws to
+    case Deviation::point_on_upper_pixel:
+    case Deviation::point_viewport_swapped: // the stage itself finds the texel that it draws to
         return places_points(s);
     default:
         return false;
@@ -289,46 +288,57 @@ std::string CollisionPower::why_not(Deviation deviation) const {
     const bool no_obstacles =
         scene_.obstacles.indices.empty() || scene_.switches.obstacles_in_cdt == ObstaclesInCdt::off;
     const Reason reasons[] = {
-        {no_obstacles, {obstacles_not_drawn, obstacles_never_hide}, "there are no obstacles in the CDT"},
-        {scene_.width == scene_.height, {width_and_height_swapped, point_viewport_swapped}, "the image is square"},
-        {!camera_moves_, {matrix_of_earlier_frame}, "the camera stands still"},
+        {no_obstacles,
+         {Deviation::obstacles_not_drawn, Deviation::obstacles_never_hide},
+         "there are no obstacles in the CDT"},
+        {scene_.width == scene_.height,
+         {Deviation::width_and_height_swapped, Deviation::point_viewport_swapped},
+         "the image is square"},
+        {!camera_moves_, {Deviation::matrix_of_earlier_frame}, "the camera stands still"},
         {scene_.constants.gravity == glm::vec3(0.0F),
-         {gravity_missing, gravity_doubled, gravity_reversed, gravity_without_tick, moves_before_gravity},
+         {Deviation::gravity_missing, Deviation::gravity_doubled, Deviation::gravity_reversed,
+          Deviation::gravity_without_tick, Deviation::moves_before_gravity},
          "there is no gravity"},
         {none(Situation::left_of_image),
-         {truncate_instead_of_floor, floor_instead_of_truncate},
+         {Deviation::truncate_instead_of_floor, Deviation::floor_instead_of_truncate},
          "no search lay between -1 and 0 in the image"},
         {none(Situation::at_border),
-         {outside_fetched_as_edge, outside_fetched_as_opposite_side, outside_fetched_as_origin},
+         {Deviation::outside_fetched_as_edge, Deviation::outside_fetched_as_opposite_side,
+          Deviation::outside_fetched_as_origin},
          "no search reached over the image's border"},
-        {none(Situation::at_range), {range_included}, "nobody was exactly at the collision range"},
-        {none(Situation::at_no_distance), {zero_distance_hits, zero_distance_skipped}, "nobody was at distance 0"},
+        {none(Situation::at_range), {Deviation::range_included}, "nobody was exactly at the collision range"},
+        {none(Situation::at_no_distance),
+         {Deviation::zero_distance_hits, Deviation::zero_distance_skipped},
+         "nobody was at distance 0"},
         {none(Situation::timer_at_zero),
-         {collide_time_zero_searches},
+         {Deviation::collide_time_zero_searches},
          "no collide time stood at 0 with somebody in range"},
         {none(Situation::waiting),
-         {collide_time_not_tested, collide_time_test_reversed},
+         {Deviation::collide_time_not_tested, Deviation::collide_time_test_reversed},
          "nobody who waited had somebody in range"},
         {none(Situation::hit), {}, "nothing collided"},
         {none(Situation::two_in_range),
-         {last_found_instead_of_nearest, first_found_instead_of_nearest, farthest_instead_of_nearest},
+         {Deviation::last_found_instead_of_nearest, Deviation::first_found_instead_of_nearest,
+          Deviation::farthest_instead_of_nearest},
          "no hit had two in range"},
         {true,
-         {last_found_instead_of_nearest, first_found_instead_of_nearest, farthest_instead_of_nearest},
+         {Deviation::last_found_instead_of_nearest, Deviation::first_found_instead_of_nearest,
+          Deviation::farthest_instead_of_nearest},
          "no hit with two in range would have ended otherwise"},
-        {none(Situation::equally_near), {less_or_equal_for_less}, "no hit had two equally near"},
-        {true, {phantom_origin}, "no search was in range of the origin"},
-        {true, {subnormals_kept}, "nothing was subnormal"},
-        {true, {depth_equal_passes}, "no two had the same depth in a texel"},
-        {true, {point_on_upper_pixel}, "no point lay on a pixel's edge"},
+        {none(Situation::equally_near), {Deviation::less_or_equal_for_less}, "no hit had two equally near"},
+        {true, {Deviation::phantom_origin}, "no search was in range of the origin"},
+        {true, {Deviation::subnormals_kept}, "nothing was subnormal"},
+        {true, {Deviation::depth_equal_passes}, "no two had the same depth in a texel"},
+        {true, {Deviation::point_on_upper_pixel}, "no point lay on a pixel's edge"},
         {true,
-         {outside_fetched_as_edge, outside_fetched_as_opposite_side, outside_fetched_as_origin},
+         {Deviation::outside_fetched_as_edge, Deviation::outside_fetched_as_opposite_side,
+          Deviation::outside_fetched_as_origin},
          "nobody in range would have been found outside the image"},
     };
     if (tried_[static_cast<std::size_t>(deviation)].changes)
         return "what it changes is legal, too";
     for (const Reason& reason : reasons) {
-        const bool of_hit = reason.of.size() == 0 && changes_step(deviation) && deviation < gravity_missing;
+        const bool of_hit = reason.of.size() == 0 && changes_step(deviation) && deviation < Deviation::gravity_missing;
         if (reason.holds && (of_hit || among(deviation, reason.of)))
             return std::string(reason.text);
     }

@@ -6,7 +6,7 @@
 
 namespace lockstep {
 
-std::optional<Neighbourhood> neighbourhood(const StepTable& table, int reach) {
+std::optional<SearchedTexels> neighbourhood(const StepTable& table, int reach) {
     const StepTrace& reference = table.reference;
     const glm::ivec2 base(reference.base.x, reference.base.y);
     const glm::ivec2 gpu_base = table.gpu.vertex.integers("trace_base_texel").value_or(base);
@@ -27,7 +27,7 @@ std::optional<Neighbourhood> neighbourhood(const StepTable& table, int reach) {
     const bool both = std::abs(a.x - b.x) <= widest && std::abs(a.y - b.y) <= widest;
     const glm::ivec2 low = both ? glm::min(a, b) - reach : a - reach;
     const glm::ivec2 high = both ? glm::max(a, b) + reach : a + reach;
-    return Neighbourhood{low, high, base, gpu_base, pick, gpu_pick};
+    return SearchedTexels{low, high, base, gpu_base, pick, gpu_pick};
 }
 
 } // namespace lockstep

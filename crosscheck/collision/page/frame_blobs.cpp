@@ -16,9 +16,9 @@
 namespace lockstep {
 namespace {
 
-bool drawn(glm::vec4 texel) { return texel.a != 0.0F; }
+bool is_drawn(glm::vec4 texel) { return texel.a != 0.0F; }
 
-std::uint8_t shade(float value, float low, float high) {
+std::uint8_t blob_shade(float value, float low, float high) {
     if (!std::isfinite(value))
         return 0;
     const float across = high > low ? std::clamp((value - low) / (high - low), 0.0F, 1.0F) : 0.5F;
@@ -29,7 +29,7 @@ std::uint8_t shade(float value, float low, float high) {
 void add_shades(Blob& blob, const std::vector<glm::vec4>& texels, const Box& box) {
     for (int c = 0; c < 3; ++c)
         for (const glm::vec4& texel : texels)
-            blob.byte(shade(texel[c], box.min[c], box.max[c]));
+            blob.byte(blob_shade(texel[c], box.min[c], box.max[c]));
 }
 
 void fill_classes(std::vector<std::uint8_t>& classes, const std::vector<std::size_t>& differing,
@@ -104,9 +104,9 @@ Blob picture_blob(const ComparedFrame& frame, const FrameClasses& classes, const
     for (const glm::vec3& corner : {box.min, box.max})
         for (int c = 0; c < 3; ++c)
             blob.word(bits(corner[c]));
-    blob.bits(reference.size(), [&](std::size_t i) { return drawn(reference[i]); });
+    blob.bits(reference.size(), [&](std::size_t i) { return is_drawn(reference[i]); });
     std::vector<glm::vec4> shown;
-    std::copy_if(reference.begin(), reference.end(), std::back_inserter(shown), drawn);
+    std::copy_if(reference.begin(), reference.end(), std::back_inserter(shown), is_drawn);
     add_shades(blob, shown, box);
 
     std::vector<std::size_t> differ;
@@ -118,10 +118,10 @@ Blob picture_blob(const ComparedFrame& frame, const FrameClasses& classes, const
         return blob;
     blob.bits(reference.size(), [&](std::size_t i) { return classes.texels[i] != class_same; });
     add_classes(blob, differ, classes.texels);
-    blob.bits(differ.size(), [&](std::size_t i) { return drawn(gpu[differ[i]]); });
+    blob.bits(differ.size(), [&](std::size_t i) { return is_drawn(gpu[differ[i]]); });
     shown.clear();
     for (const std::size_t i : differ)
-        if (drawn(gpu[i]))
+        if (is_drawn(gpu[i]))
             shown.push_back(gpu[i]);
     add_shades(blob, shown, box);
     return blob;
@@ -149,7 +149,7 @@ BothOwners owners_of(const ComparedFrame& frame, const Particles& before, const 
         if (owner == obstacle_owner && same_bits(frame.reference_cdt.texels[i], stored))
             continue;
         const auto found = particle_of.find(hash_of(stored));
-        owners.gpu[i] = !drawn(stored) ? empty_owner : found != particle_of.end() ? found->second : owner_unknown;
+        owners.gpu[i] = !is_drawn(stored) ? empty_owner : found != particle_of.end() ? found->second : owner_unknown;
     }
     return owners;
 }
@@ -157,7 +157,7 @@ BothOwners owners_of(const ComparedFrame& frame, const Particles& before, const 
 Selection whole_frame(const ComparedFrame& frame) {
     Selection all;
     for (std::size_t i = 0; i < frame.reference_cdt.texels.size(); ++i)
-        if (drawn(frame.reference_cdt.texels[i]) || drawn(frame.gpu_cdt.texels[i]))
+        if (is_drawn(frame.reference_cdt.texels[i]) || is_drawn(frame.gpu_cdt.texels[i]))
             all.texels.push_back(i);
     all.particles.resize(frame.reference.size());
     std::iota(all.particles.begin(), all.particles.end(), std::size_t{0});

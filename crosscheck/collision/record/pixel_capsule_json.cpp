@@ -15,7 +15,7 @@ namespace {
 
 using nlohmann::json;
 
-constexpr std::int64_t version = 1;
+constexpr std::int64_t pixel_version = 1;
 constexpr std::string_view mark = "lockstep_pixel_capsule";
 
 /// [number in the run, state, state a frame before].
@@ -95,7 +95,7 @@ std::string capsule_file(const PixelCapsule& cut) {
     const auto width = static_cast<std::size_t>(capsule.scene.render_width);
     const std::string place =
         fmt::format("pixel {},{} in frame {}", capsule.pixel % width, capsule.pixel / width, capsule.frame);
-    const json document{{mark, version},
+    const json document{{mark, pixel_version},
                         {"scene", capsule.scene.name},
                         {"settings", settings_json(capsule.scene)},
                         {"renderer", capsule.renderer},
@@ -129,7 +129,7 @@ std::string capsule_file(const PixelCapsule& cut) {
 bool is_pixel_capsule(const JsonValue& value) { return value.find(mark).has_value(); }
 
 PixelCapsule read_pixel_capsule(const JsonValue& value) {
-    static_cast<void>(value.at(mark).integer(version, version));
+    static_cast<void>(value.at(mark).integer(pixel_version, pixel_version));
     value.check_keys({mark, "scene", "settings", "renderer", "switches", "frame", "pixel", "profile", "roots", "known",
                       "particles", "triangles", "gpu", "divergent", "causes"});
     PixelCapsule capsule;

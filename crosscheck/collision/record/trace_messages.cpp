@@ -25,7 +25,7 @@ namespace lockstep {
 namespace {
 
 constexpr std::uint64_t largest_mesh = 3 * most_triangles * sizeof(glm::vec3); // bytes
-constexpr std::int64_t most_frames = 100'000'000;
+constexpr std::int64_t most_trace_frames = 100'000'000;
 
 /// The scene without start and stored obstacles.
 Scene read_scene(const JsonValue& contents, const std::string& file) {
@@ -86,7 +86,7 @@ TraceInfo read_contents(ByteSource& source, const std::string& file, std::uint64
     const JsonValue contents(document, file);
     TraceInfo info;
     info.file = file;
-    info.frames = static_cast<int>(contents.at("rows").integer(2, most_frames + 1) - 1);
+    info.frames = static_cast<int>(contents.at("rows").integer(2, most_trace_frames + 1) - 1);
     const auto particles = static_cast<std::size_t>(contents.at("particles").integer(1, most_particles));
     info.renderer = contents.at("renderer").label();
     info.settings = contents.at("settings").label();

@@ -27,7 +27,8 @@ std::string trimmed(std::string_view text) {
     return std::string(text.substr(first, text.find_last_not_of(white_space) + 1 - first));
 }
 
-int number(std::string_view command, const std::string& text, int least, int most, std::optional<int> otherwise = {}) {
+int number_in(std::string_view command, const std::string& text, int least, int most,
+              std::optional<int> otherwise = {}) {
     if (text.empty() && otherwise)
         return *otherwise;
     int value = 0;
@@ -126,7 +127,7 @@ std::string DebugSession::frame_summary() {
 }
 
 std::string DebugSession::frame(const std::string& argument) {
-    go_to(number("frame", argument, 0, most_frames));
+    go_to(number_in("frame", argument, 0, most_frames));
     return frame_summary();
 }
 
@@ -146,11 +147,11 @@ std::string DebugSession::show(const std::string&) {
 }
 
 std::string DebugSession::step(const std::string& argument) {
-    return move_by(number("step", argument, 1, 1'000'000, 1));
+    return move_by(number_in("step", argument, 1, 1'000'000, 1));
 }
 
 std::string DebugSession::back(const std::string& argument) {
-    return move_by(-number("back", argument, 1, 1'000'000, 1));
+    return move_by(-number_in("back", argument, 1, 1'000'000, 1));
 }
 
 std::string DebugSession::move_by(std::ptrdiff_t rows) {

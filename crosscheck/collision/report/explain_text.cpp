@@ -134,7 +134,7 @@ std::string particle_head(const StepTable& table, NumberFormat format) {
 }
 
 std::string neighbourhood_picture(const JudgedFrame& frame, const StepTable& table) {
-    const std::optional<Neighbourhood> round = neighbourhood(table, frame.params.constants.texel_collide_range);
+    const std::optional<SearchedTexels> round = neighbourhood(table, frame.params.constants.texel_collide_range);
     if (!round)
         return "";
     const auto& [low, high, base, gpu_base, pick, gpu_pick] = *round;

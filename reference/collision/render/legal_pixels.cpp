@@ -19,9 +19,6 @@ namespace {
 
 using A = PlainArithmetic;
 using Legal = LegalOperations<A>;
-using Kind = PixelOwner::Kind;
-
-double middle(Interval v) { return (v.low + v.high) * 0.5; }
 
 /// In a stage whose operations nobody measured: GLSL's rules.
 KnownOperations geometry_stage(const KnownOperations& known) {
@@ -68,7 +65,7 @@ struct Cover {
 };
 
 /// What may be drawn to a wanted pixel, in drawing order.
-struct Wanted {
+struct WantedPixel {
     int x, y;
     std::vector<Cover> covers;
     std::vector<std::uint32_t> particles;
@@ -91,7 +88,7 @@ template <class Sites> class LegalPixels {
 
     /// Of pixels of the image, once it is as it is stored.
     std::vector<LegalPixel> at(std::span<const std::size_t> pixels) const {
-        const std::vector<Wanted> wanted = wanted_at(pixels);
+        const std::vector<WantedPixel> wanted = wanted_at(pixels);
         std::vector<LegalPixel> legal(pixels.size());
         const auto count = static_cast<std::ptrdiff_t>(pixels.size());
 #pragma omp parallel for schedule(dynamic, 64)
@@ -109,8 +106,8 @@ template <class Sites> class LegalPixels {
     }
 
   private:
-    std::vector<Wanted> wanted_at(std::span<const std::size_t> pixels) const {
-        std::vector<Wanted> wanted;
+    std::vector<WantedPixel> wanted_at(std::span<const std::size_t> pixels) const {
+        std::vector<WantedPixel> wanted;
         Image<std::vector<std::int32_t>> slots(width_, height_);
         for (std::size_t i = 0; i < pixels.size(); ++i) {
             const auto columns = static_cast<std::size_t>(width_);
@@ -125,19 +122,21 @@ template <class Sites> class LegalPixels {
         };
         const LegalTriangles triangles(clip_, obstacles_.indices, width_, height_, profile_.raster, raster_,
                                        known_.points && known_.sums);
-        triangles.for_each(
-            [&](int x, int y) { return !slots.at(x, y).empty(); },
-            [&](const LegalCover& c) {
-                const double margin = c.sure ? HUGE_VAL
-                                             : std::ldexp(nearest_side(c.triangle, c.x, c.y, c.rules).distance,
-                                                          8 - c.rules.subpixel_bits);
-                each(c.x, c.y, [&](Wanted& pixel) { pixel.covers.push_back({c.triangle.primitive, c.sure, margin}); });
-            });
+        triangles.for_each([&](int x, int y) { return !slots.at(x, y).empty(); },
+                           [&](const LegalCover& c) {
+                               const double margin =
+                                   c.sure ? HUGE_VAL
+                                          : std::ldexp(nearest_side(c.triangle, c.x, c.y, c.rules).distance,
+                                                       8 - c.rules.subpixel_bits);
+                               each(c.x, c.y, [&](WantedPixel& pixel) {
+                                   pixel.covers.push_back({c.triangle.primitive, c.sure, margin});
+                               });
+                           });
         for (std::uint32_t i = 0; i < particles_.size(); ++i) {
             const LegalSprite seen = sprite(particles_.position[i]);
             for (int y = seen.rows.first_may; y < seen.rows.end_may; ++y)
                 for (int x = seen.columns.first_may; x < seen.columns.end_may; ++x)
-                    each(x, y, [&](Wanted& pixel) { pixel.particles.push_back(i); });
+                    each(x, y, [&](WantedPixel& pixel) { pixel.particles.push_back(i); });
         }
         return wanted;
     }
@@ -198,13 +197,13 @@ template <class Sites> class LegalPixels {
         const Interval low_side = window(low), high_side = window(high);
         const auto [first_may, first_sure] = first(low_side);
         const auto [end_sure, end_may] = first(high_side);
-        return {std::max(first_may, 0),  std::max(first_sure, 0), std::min(end_sure, size),
-                std::min(end_may, size), middle(low_side),        middle(high_side)};
+        return {std::max(first_may, 0),  std::max(first_sure, 0),    std::min(end_sure, size),
+                std::min(end_may, size), interval::middle(low_side), interval::middle(high_side)};
     }
 
     /// All that may be drawn to a pixel, in drawing order; of what is surely hidden, what hides it. `every`: hidden
     /// ones too.
-    [[nodiscard]] std::vector<PixelFragment> fragments_of(const Wanted& wanted, bool every) const {
+    [[nodiscard]] std::vector<PixelFragment> fragments_of(const WantedPixel& wanted, bool every) const {
         struct Fragment {
             PixelCandidate candidate;
             Vec3<LegalNumber<A>> normal = {};
@@ -212,7 +211,7 @@ template <class Sites> class LegalPixels {
         const float cleared = sites_.depth_test() == DepthTest::greater ? 0.0F : 1.0F;
         std::vector<Fragment> fragments{{{.depth = cleared}}};
         for (const Cover& cover : wanted.covers)
-            fragments.push_back({{.owner = {Kind::obstacle, cover.triangle},
+            fragments.push_back({{.owner = {PixelOwner::Kind::obstacle, cover.triangle},
                                   .depth = triangle_depth(cover.triangle, wanted.x, wanted.y),
                                   .sure = cover.sure,
                                   .edge_margin = cover.margin}});
@@ -223,7 +222,8 @@ template <class Sites> class LegalPixels {
             if (!at.inside.yes)
                 continue;
             const bool covers = seen.columns.surely(wanted.x) && seen.rows.surely(wanted.y);
-            PixelCandidate candidate{.owner = {Kind::particle, i}, .open = at.depth.open(), .depth = at.depth.set()};
+            PixelCandidate candidate{
+                .owner = {PixelOwner::Kind::particle, i}, .open = at.depth.open(), .depth = at.depth.set()};
             candidate.sure = seen.surely_visible && covers && at.inside.sure();
             if (!covers)
                 candidate.edge_margin = std::min(seen.columns.margin(wanted.x), seen.rows.margin(wanted.y));
@@ -248,10 +248,11 @@ template <class Sites> class LegalPixels {
         return told;
     }
 
-    [[nodiscard]] double rim_margin(const LegalSprite& sprite, const Wanted& pixel) const {
-        const double half_x = middle(sprite.window.half.x.set()), half_y = middle(sprite.window.half.y.set());
-        const double x = (pixel.x + 0.5 - middle(sprite.window.centre.x.set())) / half_x;
-        const double y = (pixel.y + 0.5 - middle(sprite.window.centre.y.set())) / half_y;
+    [[nodiscard]] double rim_margin(const LegalSprite& sprite, const WantedPixel& pixel) const {
+        const double half_x = interval::middle(sprite.window.half.x.set()),
+                     half_y = interval::middle(sprite.window.half.y.set());
+        const double x = (pixel.x + 0.5 - interval::middle(sprite.window.centre.x.set())) / half_x;
+        const double y = (pixel.y + 0.5 - interval::middle(sprite.window.centre.y.set())) / half_y;
         return 256.0 * std::abs(1.0 - std::hypot(x, y)) * std::min(half_x, half_y);
     }
 
@@ -284,13 +285,13 @@ template <class Sites> class LegalPixels {
 
     void color(PixelCandidate& candidate, const Vec3<LegalNumber<A>>& normal, int y) const {
         Vec3<LegalNumber<A>> shade;
-        if (candidate.owner.kind == Kind::background) {
+        if (candidate.owner.kind == PixelOwner::Kind::background) {
             if (!sites_.draws_background()) {
                 candidate.low = candidate.high = {};
                 return;
             }
             shade = shading_.background(y, sites_.size(width_, height_, false).y);
-        } else if (candidate.owner.kind == Kind::obstacle) {
+        } else if (candidate.owner.kind == PixelOwner::Kind::obstacle) {
             const std::uint32_t* index = &obstacles_.indices[std::size_t{candidate.owner.index} * 3];
             const auto corner = [&](std::size_t k) { return fragment_.taken(to_view(obstacles_.positions[index[k]])); };
             shade = shading_.obstacle({corner(0), corner(1), corner(2)});
@@ -308,7 +309,7 @@ template <class Sites> class LegalPixels {
         const auto [r0, r1] = code(shade.x);
         const auto [g0, g1] = code(shade.y);
         const auto [b0, b1] = code(shade.z);
-        const bool of_particle = candidate.owner.kind == Kind::particle;
+        const bool of_particle = candidate.owner.kind == PixelOwner::Kind::particle;
         candidate.low = sites_.stored({r0, g0, b0, 255}, of_particle);
         candidate.high = sites_.stored({r1, g1, b1, 255}, of_particle);
     }

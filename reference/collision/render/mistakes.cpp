@@ -12,79 +12,80 @@
 namespace lockstep {
 namespace {
 
-using enum RenderMistake;
+constexpr std::array mistake_infos = [] {
+    using enum RenderMistake;
+    return std::array{
+        RenderMistakeInfo{frame_not_drawn, "frame_not_drawn", "nothing is drawn, nor a background"},
+        RenderMistakeInfo{sprites_not_drawn, "sprites_not_drawn", "no particle is drawn"},
+        RenderMistakeInfo{obstacles_not_drawn, "obstacles_not_drawn", "no obstacle is drawn"},
+        RenderMistakeInfo{background_not_drawn, "background_not_drawn", "no background is drawn"},
+        RenderMistakeInfo{only_background_drawn, "only_background_drawn", "neither particles nor obstacles are drawn"},
+        RenderMistakeInfo{sprites_half_size, "sprites_half_size", "squares and spheres of half the radius"},
+        RenderMistakeInfo{sprites_twice_size, "sprites_twice_size", "squares and spheres of twice the radius"},
+        RenderMistakeInfo{quads_half_size, "quads_half_size", "a sphere of full size on a square of half the size"},
+        RenderMistakeInfo{radius_halved, "radius_halved", "u_BillboardRadius is halved"},
+        RenderMistakeInfo{radius_doubled, "radius_doubled", "u_BillboardRadius is doubled"},
+        RenderMistakeInfo{sprites_square, "sprites_square", "fragments outside the disc are kept"},
+        RenderMistakeInfo{sprites_square_and_flat, "sprites_square_and_flat",
+                          "fragments outside the disc are kept, with a normal of z = 0"},
+        RenderMistakeInfo{y_flipped, "y_flipped", "the image is upside down"},
+        RenderMistakeInfo{x_flipped, "x_flipped", "left and right are swapped"},
+        RenderMistakeInfo{x_and_y_swapped, "x_and_y_swapped", "rows and columns are swapped"},
+        RenderMistakeInfo{depth_not_tested, "depth_not_tested", "no depth test: what is drawn last stays"},
+        RenderMistakeInfo{depth_reversed, "depth_reversed", "depth test GREATER, from 0: the farthest stays"},
+        RenderMistakeInfo{depth_equal_passes, "depth_equal_passes", "depth test LEQUAL"},
+        RenderMistakeInfo{sphere_is_flat_in_depth, "sphere_is_flat_in_depth", "the depth is the centre's"},
+        RenderMistakeInfo{sphere_reversed_in_depth, "sphere_reversed_in_depth", "the depth is the sphere's far side's"},
+        RenderMistakeInfo{normal_flipped, "normal_flipped", "the sphere's normal points inwards"},
+        RenderMistakeInfo{normal_x_flipped, "normal_x_flipped", "the sphere's normal has -x"},
+        RenderMistakeInfo{normal_y_flipped, "normal_y_flipped", "the sphere's normal has -y"},
+        RenderMistakeInfo{normal_z_flipped, "normal_z_flipped", "the sphere's normal has -z"},
+        RenderMistakeInfo{half_pixel_off, "half_pixel_off", "the sphere is half a pixel off: no + 0.5 at the fragment"},
+        RenderMistakeInfo{colour_swapped, "colour_swapped", "red and blue are swapped"},
+        RenderMistakeInfo{sprite_colour_swapped, "sprite_colour_swapped", "red and blue of particles are swapped"},
+        RenderMistakeInfo{alpha_missing, "alpha_missing", "stores alpha 0"},
+        RenderMistakeInfo{sprite_alpha_missing, "sprite_alpha_missing", "particles store alpha 0"},
+        RenderMistakeInfo{colour_of_speed_missing, "colour_of_speed_missing", "every particle has the colour of rest"},
+        RenderMistakeInfo{colour_of_collision_missing, "colour_of_collision_missing", "no particle has just collided"},
+        RenderMistakeInfo{speed_not_halved, "speed_not_halved", "white at a speed of 1, not 2"},
+        RenderMistakeInfo{sphere_unlit, "sphere_unlit", "a sphere is as bright everywhere as where it faces the light"},
+        RenderMistakeInfo{gleam_missing, "gleam_missing", "no highlight"},
+        RenderMistakeInfo{glow_missing, "glow_missing", "what has just collided is lit as the others are"},
+        RenderMistakeInfo{background_flipped, "background_flipped", "the background is upside down"},
+        RenderMistakeInfo{background_black, "background_black", "the background is black"},
+        RenderMistakeInfo{obstacles_unlit, "obstacles_unlit", "an obstacle is as bright as where it faces the light"},
+        RenderMistakeInfo{obstacles_lit_from_one_side, "obstacles_lit_from_one_side",
+                          "an obstacle's normal is not turned to the camera"},
+        RenderMistakeInfo{obstacle_normal_flipped, "obstacle_normal_flipped", "an obstacle's normal points away"},
+        RenderMistakeInfo{view_transposed, "view_transposed", "u_View is transposed"},
+        RenderMistakeInfo{projection_transposed, "projection_transposed", "u_Projection is transposed"},
+        RenderMistakeInfo{width_and_height_swapped, "width_and_height_swapped",
+                          "u_ClientWidth and u_ClientHeight are swapped"},
+        RenderMistakeInfo{sprite_width_and_height_swapped, "sprite_width_and_height_swapped",
+                          "u_ClientWidth and u_ClientHeight are swapped for particles"},
+        RenderMistakeInfo{view_of_earlier_frame, "view_of_earlier_frame", "u_View is still the frame before's"},
+        RenderMistakeInfo{state_of_earlier_frame, "state_of_earlier_frame", "draws the particles of the frame before"},
+    };
+}();
+static_assert(mistake_infos.size() == render_mistake_count);
 
-constexpr std::array table{
-    RenderMistakeInfo{frame_not_drawn, "frame_not_drawn", "nothing is drawn, nor a background"},
-    RenderMistakeInfo{sprites_not_drawn, "sprites_not_drawn", "no particle is drawn"},
-    RenderMistakeInfo{obstacles_not_drawn, "obstacles_not_drawn", "no obstacle is drawn"},
-    RenderMistakeInfo{background_not_drawn, "background_not_drawn", "no background is drawn"},
-    RenderMistakeInfo{only_background_drawn, "only_background_drawn", "neither particles nor obstacles are drawn"},
-    RenderMistakeInfo{sprites_half_size, "sprites_half_size", "squares and spheres of half the radius"},
-    RenderMistakeInfo{sprites_twice_size, "sprites_twice_size", "squares and spheres of twice the radius"},
-    RenderMistakeInfo{quads_half_size, "quads_half_size", "a sphere of full size on a square of half the size"},
-    RenderMistakeInfo{radius_halved, "radius_halved", "u_BillboardRadius is halved"},
-    RenderMistakeInfo{radius_doubled, "radius_doubled", "u_BillboardRadius is doubled"},
-    RenderMistakeInfo{sprites_square, "sprites_square", "fragments outside the disc are kept"},
-    RenderMistakeInfo{sprites_square_and_flat, "sprites_square_and_flat",
-                      "fragments outside the disc are kept, with a normal of z = 0"},
-    RenderMistakeInfo{y_flipped, "y_flipped", "the image is upside down"},
-    RenderMistakeInfo{x_flipped, "x_flipped", "left and right are swapped"},
-    RenderMistakeInfo{x_and_y_swapped, "x_and_y_swapped", "rows and columns are swapped"},
-    RenderMistakeInfo{depth_not_tested, "depth_not_tested", "no depth test: what is drawn last stays"},
-    RenderMistakeInfo{depth_reversed, "depth_reversed", "depth test GREATER, from 0: the farthest stays"},
-    RenderMistakeInfo{depth_equal_passes, "depth_equal_passes", "depth test LEQUAL"},
-    RenderMistakeInfo{sphere_is_flat_in_depth, "sphere_is_flat_in_depth", "the depth is the centre's"},
-    RenderMistakeInfo{sphere_reversed_in_depth, "sphere_reversed_in_depth", "the depth is the sphere's far side's"},
-    RenderMistakeInfo{normal_flipped, "normal_flipped", "the sphere's normal points inwards"},
-    RenderMistakeInfo{normal_x_flipped, "normal_x_flipped", "the sphere's normal has -x"},
-    RenderMistakeInfo{normal_y_flipped, "normal_y_flipped", "the sphere's normal has -y"},
-    RenderMistakeInfo{normal_z_flipped, "normal_z_flipped", "the sphere's normal has -z"},
-    RenderMistakeInfo{half_pixel_off, "half_pixel_off", "the sphere is half a pixel off: no + 0.5 at the fragment"},
-    RenderMistakeInfo{colour_swapped, "colour_swapped", "red and blue are swapped"},
-    RenderMistakeInfo{sprite_colour_swapped, "sprite_colour_swapped", "red and blue of particles are swapped"},
-    RenderMistakeInfo{alpha_missing, "alpha_missing", "stores alpha 0"},
-    RenderMistakeInfo{sprite_alpha_missing, "sprite_alpha_missing", "particles store alpha 0"},
-    RenderMistakeInfo{colour_of_speed_missing, "colour_of_speed_missing", "every particle has the colour of rest"},
-    RenderMistakeInfo{colour_of_collision_missing, "colour_of_collision_missing", "no particle has just collided"},
-    RenderMistakeInfo{speed_not_halved, "speed_not_halved", "white at a speed of 1, not 2"},
-    RenderMistakeInfo{sphere_unlit, "sphere_unlit", "a sphere is as bright everywhere as where it faces the light"},
-    RenderMistakeInfo{gleam_missing, "gleam_missing", "no highlight"},
-    RenderMistakeInfo{glow_missing, "glow_missing", "what has just collided is lit as the others are"},
-    RenderMistakeInfo{background_flipped, "background_flipped", "the background is upside down"},
-    RenderMistakeInfo{background_black, "background_black", "the background is black"},
-    RenderMistakeInfo{obstacles_unlit, "obstacles_unlit", "an obstacle is as bright as where it faces the light"},
-    RenderMistakeInfo{obstacles_lit_from_one_side, "obstacles_lit_from_one_side",
-                      "an obstacle's normal is not turned to the camera"},
-    RenderMistakeInfo{obstacle_normal_flipped, "obstacle_normal_flipped", "an obstacle's normal points away"},
-    RenderMistakeInfo{view_transposed, "view_transposed", "u_View is transposed"},
-    RenderMistakeInfo{projection_transposed, "projection_transposed", "u_Projection is transposed"},
-    RenderMistakeInfo{width_and_height_swapped, "width_and_height_swapped",
-                      "u_ClientWidth and u_ClientHeight are swapped"},
-    RenderMistakeInfo{sprite_width_and_height_swapped, "sprite_width_and_height_swapped",
-                      "u_ClientWidth and u_ClientHeight are swapped for particles"},
-    RenderMistakeInfo{view_of_earlier_frame, "view_of_earlier_frame", "u_View is still the frame before's"},
-    RenderMistakeInfo{state_of_earlier_frame, "state_of_earlier_frame", "draws the particles of the frame before"},
-};
-static_assert(table.size() == render_mistake_count);
-
-constexpr bool in_order() {
-    for (std::size_t i = 0; i < table.size(); ++i)
-        if (static_cast<std::size_t>(table[i].mistake) != i)
+static_assert([] {
+    for (std::size_t i = 0; i < mistake_infos.size(); ++i)
+        if (static_cast<std::size_t>(mistake_infos[i].mistake) != i)
             return false;
     return true;
-}
-static_assert(in_order());
+}());
 
 const Particles no_particles;
 const Mesh no_obstacles;
 
 } // namespace
 
-std::span<const RenderMistakeInfo> render_mistakes() { return table; }
+std::span<const RenderMistakeInfo> render_mistakes() { return mistake_infos; }
 
 MistakenInputs::MistakenInputs(const RenderInputs& inputs, RenderMistake mistake)
     : particles_(&inputs.particles), obstacles_(&inputs.obstacles), params_(inputs.params) {
+    using enum RenderMistake;
     const bool nothing = mistake == frame_not_drawn || mistake == only_background_drawn;
     if (nothing || mistake == sprites_not_drawn)
         particles_ = &no_particles;

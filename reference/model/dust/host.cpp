@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 #include <utility>
 
 #include <glm/geometric.hpp>
@@ -10,12 +11,11 @@
 namespace lockstep::dust {
 namespace {
 
-constexpr double pi = 3.14159265358979323846;
 constexpr float constant_dt = 0.02F;
 constexpr double ball_life = 5.0; // seconds
 
 glm::dmat3 turned(const glm::vec3& degrees) {
-    const glm::dvec3 angle = glm::dvec3(degrees) * (pi / 180.0);
+    const glm::dvec3 angle = glm::dvec3(degrees) * (std::numbers::pi / 180.0);
     const double cx = std::cos(angle.x), sx = std::sin(angle.x), cy = std::cos(angle.y), sy = std::sin(angle.y);
     const double cz = std::cos(angle.z), sz = std::sin(angle.z);
     const glm::dmat3 about_x(1, 0, 0, 0, cx, sx, 0, -sx, cx), about_y(cy, 0, -sy, 0, 1, 0, sy, 0, cy);
@@ -115,7 +115,8 @@ Host::Host(Settings settings) : settings_(std::move(settings)) {
         poses_.push_back(values);
     }
     for (int i = 0; i < 4096; ++i)
-        directions_.emplace_back(std::cos(2.0 * pi * i / 4096.0), std::sin(2.0 * pi * i / 4096.0));
+        directions_.emplace_back(std::cos(2.0 * std::numbers::pi * i / 4096.0),
+                                 std::sin(2.0 * std::numbers::pi * i / 4096.0));
 }
 
 FrameValues Host::at(int frame) const {

@@ -52,6 +52,8 @@ class TexelTrials {
         for (std::size_t texel = 0; texel < expected.texels.size(); ++texel)
             if (same_bits(expected.texels[texel], frame.gpu_cdt.texels[texel]))
                 agreeing_.push_back(texel);
+        for (const std::size_t texel : agreeing_)
+            particles_agree_ = particles_agree_ || is_particle(expected, texel);
     }
 
     void count(std::vector<TriedCause>& causes, const std::vector<std::size_t>& divergent) const {
@@ -64,11 +66,12 @@ class TexelTrials {
             const CollisionImage drawn = draw(deviations);
             // GLSL's pow, and a depth that went through fixed function, round as they like.
             const bool rounds = deviations.has(Deviation::stores_srgb) || deviations.has(Deviation::alpha_is_depth);
-            const bool interpolates = deviations.has(Deviation::position_interpolated);
+            // Interpolating rounds some positions and not others.
+            const bool interpolates = deviations.has(Deviation::position_interpolated) && particles_agree_;
             const auto equal = [&](const std::vector<std::size_t>& texels) {
                 return static_cast<std::uint64_t>(std::count_if(texels.begin(), texels.end(), [&](std::size_t texel) {
                     const glm::vec4 &a = drawn.texels[texel], &b = frame_.gpu_cdt.texels[texel];
-                    const bool near = rounds || (interpolates && !same_bits(a, obstacles_cdt_.texels[texel]));
+                    const bool near = rounds || (interpolates && is_particle(drawn, texel));
                     return same_bits(a, b) || (near && differ_by_rounding(std::span(&a.x, 4), std::span(&b.x, 4), {}));
                 }));
             };
@@ -87,6 +90,9 @@ class TexelTrials {
     }
 
   private:
+    [[nodiscard]] bool is_particle(const CollisionImage& drawn, std::size_t texel) const {
+        return drawn.texels[texel].a != 0.0F && !same_bits(drawn.texels[texel], obstacles_cdt_.texels[texel]);
+    }
     [[nodiscard]] CollisionImage draw(const Deviations& deviations) const {
         CollisionImage cdt;
         deviating_draw(inputs_, frame_.gpu, frame_.profile, deviations, obstacles_cdt_, obstacles_depth_, cdt);
@@ -96,6 +102,7 @@ class TexelTrials {
     const JudgedFrame& frame_;
     const FrameInputs& inputs_;
     std::vector<std::size_t> agreeing_;
+    bool particles_agree_ = false; ///< in any texel
     CollisionImage obstacles_cdt_;
     DepthImage obstacles_depth_;
 };

@@ -71,8 +71,6 @@ void explain_scene(const ExplainRequest& options) {
 }
 
 void explain_trace(const ExplainRequest& options) {
-    if (options.pixel)
-        throw Error("explain: --pixel needs a scene: no picture is in a recording; --particle and --texel go with one");
     start_threads(options.run.threads);
     TraceReader trace(options.trace);
     const TraceInfo& info = trace.info();
@@ -86,6 +84,8 @@ void explain_trace(const ExplainRequest& options) {
 }
 
 int run(const ExplainRequest& options, const Call& call) {
+    if (options.pixel && !options.trace.empty())
+        throw Error("explain: --pixel needs a scene: no picture is in a recording; --particle and --texel go with one");
     if (const RegisteredSystem* system =
             options.trace.empty() ? system_of(options.run) : system_of_recording(options.trace)) {
         if (!options.item || options.particle || options.texel || options.pixel)

@@ -1,11 +1,13 @@
 #include "crosscheck/judge/item_cause.hpp"
 
 #include <algorithm>
+#include <functional>
 #include <iterator>
 #include <limits>
 #include <numeric>
 #include <span>
 #include <tuple>
+#include <utility>
 
 #include "crosscheck/judge/item_sample.hpp"
 #include "reference/parallel_blocks.hpp"
@@ -134,7 +136,8 @@ void ItemCauseFinder::try_pairs(const Trial& trial, const std::vector<Hypothesis
     parallel_blocks(static_cast<std::ptrdiff_t>(one.size()), [&](std::ptrdiff_t o) {
         const auto at = static_cast<std::size_t>(o);
         for (std::size_t b = divergent_before == 0 ? at + 1 : 0; b < other.size(); ++b) {
-            if (one[at].named == other[b].named)
+            if (one[at].named == other[b].named ||
+                (one[at].named.front()->of_window && other[b].named.front()->of_window))
                 continue;
             Hypothesis pair{.made = {one[at].made.front(), other[b].made.front()},
                             .named = {one[at].named.front(), other[b].named.front()}};
@@ -175,11 +178,18 @@ bool ItemCauseFinder::needs_both(const Hypothesis& pair, const Trial& trial) {
 
 void ItemCauseFinder::add(const JudgedPass& pass, const std::vector<ItemVerdict>& verdicts,
                           const SeenElsewhere& elsewhere) {
+    std::vector<Hypothesis> whole; // exact ones
+    if (const CauseFindings found = joint_.findings(); found.explains_all())
+        for (const Cause& cause : found.best)
+            for (const NamedMistake* named : exact_)
+                if (cause.mistakes == std::vector{named->name})
+                    whole.push_back({.made = {named->mistake}, .named = {named}});
     joint_.add(pass, verdicts, elsewhere);
-    try_single(pass, verdicts);
+    try_single(pass, verdicts, std::move(whole));
 }
 
-void ItemCauseFinder::try_single(const JudgedPass& pass, const std::vector<ItemVerdict>& verdicts) {
+void ItemCauseFinder::try_single(const JudgedPass& pass, const std::vector<ItemVerdict>& verdicts,
+                                 std::vector<Hypothesis> held) {
     const std::vector<std::size_t> divergent = divergent_items(verdicts);
     if (divergent.empty())
         return;
@@ -207,14 +217,17 @@ void ItemCauseFinder::try_single(const JudgedPass& pass, const std::vector<ItemV
                 return explains(description, likeness, item);
             });
         });
-    const std::vector<Hypothesis> held = whole_ones();
+    const std::vector<Hypothesis> whole = whole_ones();
+    held.insert(held.end(), whole.begin(), whole.end());
     const std::uint64_t divergent_before = divergent_;
     if (first)
         tried_ = hypotheses_of(named_, pass, sample(divergent, 16));
     if (later && tried_.size() > most_shown + 1)
         tried_.resize(most_shown + 1);
     try_all(part(0, first_items));
-    if (frames_ <= trial_frames && whole_ones().empty() && !joint_.findings().explains_all())
+    const CauseFindings joint = joint_.findings();
+    if (frames_ <= trial_frames && whole_ones().empty() &&
+        !(joint.explains_all() && joint.best.front().mistakes.size() == 1))
         try_pairs(part(0, first_items), held, divergent_before);
     if (!tried_.empty() && tried_.front().explained == divergent_)
         try_all(part(first_items, agreeing_items_held));
@@ -256,8 +269,18 @@ CauseFindings ItemCauseFinder::findings() const {
     const CauseFindings single = of_single(one_name);
     if (!one_name) {
         // Among thousands of changes without a name one explains a few items by chance.
-        if (single.explains_all() && (single.best.front().has_name || single.divergent >= enough_evidence))
-            return single;
+        if (single.explains_all() && (single.best.front().has_name || single.divergent >= enough_evidence)) {
+            if (!found.explains_all() || single.best.front().mistakes.size() == 1)
+                return single;
+            const auto is_told = [&](const Cause& cause) {
+                return std::any_of(found.best.begin(), found.best.end(), [&](const Cause& told) {
+                    return std::is_permutation(told.mistakes.begin(), told.mistakes.end(), cause.mistakes.begin(),
+                                               cause.mistakes.end());
+                });
+            };
+            std::copy_if(single.best.begin(), single.best.end(), std::back_inserter(found.best), std::not_fn(is_told));
+            return found;
+        }
         const bool is_part = found.best.empty() && !single.best.empty() && single.best.front().contradicted == 0 &&
                              single.best.front().explained >= enough_evidence;
         return is_part ? single : found;

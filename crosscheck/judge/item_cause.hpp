@@ -49,7 +49,8 @@ class ItemCauseFinder {
     void try_all(const Trial& trial);
     void try_pairs(const Trial& trial, const std::vector<Hypothesis>& held, std::uint64_t divergent_before);
     [[nodiscard]] std::vector<Hypothesis> whole_ones() const;
-    void try_single(const JudgedPass& pass, const std::vector<ItemVerdict>& verdicts);
+    /// `held`: exact ones that explained all before.
+    void try_single(const JudgedPass& pass, const std::vector<ItemVerdict>& verdicts, std::vector<Hypothesis> held);
     [[nodiscard]] CauseFindings of_single(bool beside_description) const;
 
     std::vector<const NamedMistake*> named_; ///< those that NamedCauses does not try

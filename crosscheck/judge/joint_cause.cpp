@@ -37,9 +37,13 @@ bool JointCauses::describes(const TriedCause& cause) const {
                        [&](std::size_t mistake) { return mistakes_[mistake].describes; });
 }
 
-/// `better`, with a description before its equals.
+/// `better`, with what holds a description before its equals.
 bool JointCauses::before(const TriedCause& a, const TriedCause& b) const {
-    return better(a, b) || (!better(b, a) && describes(a) && !describes(b));
+    const auto says_what_is_seen = [&](const TriedCause& cause) {
+        return std::any_of(cause.mistakes.begin(), cause.mistakes.end(),
+                           [&](std::size_t mistake) { return mistakes_[mistake].describes; });
+    };
+    return better(a, b) || (!better(b, a) && says_what_is_seen(a) && !says_what_is_seen(b));
 }
 
 std::vector<TriedCause> JointCauses::best_of(std::vector<TriedCause> causes, std::size_t count) const {

@@ -24,6 +24,8 @@ struct NamedMistake {
     bool describes = false;
     /// Made in shaders that write the rest in their own way, too, which rounds otherwise.
     bool freely_written = false;
+    /// Changes what a search looks at. Two of these together may be a third one that has no name.
+    bool of_window = false;
 
     /// Whether it need only come near what it explains.
     [[nodiscard]] bool rounds() const { return freely_written || mistake.rounds(); }

@@ -134,6 +134,10 @@ template <int axis, bool floor> Mistake plane() {
 void add_windows(std::vector<FormulaMistake>& all) {
     all.push_back({"cross_searched", "only the base texel's row and column are searched",
                    skipped([](Floats v, Run) { skip_too(v, [](int x, int y) { return x != 0 && y != 0; }); })});
+    all.push_back({"own_row_searched", "only the base texel's row is searched",
+                   skipped([](Floats v, Run) { skip_too(v, [](int, int y) { return y != 0; }); })});
+    all.push_back({"own_column_searched", "only the base texel's column is searched",
+                   skipped([](Floats v, Run) { skip_too(v, [](int x, int) { return x != 0; }); })});
     all.push_back({"diagonals_searched", "only the base texel's diagonals are searched", skipped([](Floats v, Run) {
                        skip_too(v, [](int x, int y) { return std::abs(x) != std::abs(y); });
                    })});
@@ -289,6 +293,10 @@ void add_fetches(std::vector<FormulaMistake>& all) {
                    holds([](Floats v, Run run) { v[0] = run.of(site::neighbour)[1] != 0.0F ? 1.0F : 0.0F; })});
     all.push_back({"zero_z_is_empty", "a texel is empty where its z is 0",
                    holds([](Floats v, Run run) { v[0] = run.of(site::neighbour)[2] != 0.0F ? 1.0F : 0.0F; })});
+    all.push_back({"positive_x_is_valid", "a texel holds a particle where its x is above 0",
+                   holds([](Floats v, Run run) { v[0] = run.of(site::neighbour)[0] > 0.0F ? 1.0F : 0.0F; })});
+    all.push_back({"positive_y_is_valid", "a texel holds a particle where its y is above 0",
+                   holds([](Floats v, Run run) { v[0] = run.of(site::neighbour)[1] > 0.0F ? 1.0F : 0.0F; })});
     all.push_back({"positive_z_is_valid", "a texel holds a particle where its z is above 0",
                    holds([](Floats v, Run run) { v[0] = run.of(site::neighbour)[2] > 0.0F ? 1.0F : 0.0F; })});
 }
@@ -400,6 +408,16 @@ void add_base_texels(std::vector<FormulaMistake>& all) {
          })});
     all.push_back(
         {"height_for_width", "u_ClientHeight scales x, too", value(site::scale, [](Floats v, Run) { v[0] = v[1]; })});
+    all.push_back(
+        {"width_for_height", "u_ClientWidth scales y, too", value(site::scale, [](Floats v, Run) { v[1] = v[0]; })});
+    all.push_back({"half_size_after_cast", "the base texel is ivec2(ndc * size / 2) + size / 2",
+                   value(site::base_texel, [](Floats v, Run run) {
+                       const auto& ndc = run.of(site::ndc);
+                       const std::array size{params(run).width, params(run).height};
+                       for (std::size_t c = 0; c < 2; ++c)
+                           v[c] = std::trunc(ndc[c] * (0.5F * static_cast<float>(size[c]))) +
+                                  static_cast<float>(size[c] / 2);
+                   })});
     static const auto aspect_in = [](Floats v, Run run, bool divided) {
         const auto w = static_cast<float>(params(run).width), h = static_cast<float>(params(run).height);
         const auto which = static_cast<int>(run.constants[0]);
@@ -612,6 +630,10 @@ void add_fall(std::vector<FormulaMistake>& all) {
     all.push_back({"moves_by_mean_velocity", "no hit: moves by the mean of old and new velocity",
                    value(site::step, [](Floats v, Run run) {
                        set(v, 0.5F * (vec3(run, site::velocity_before) + vec3(run, site::velocity)));
+                   })});
+    all.push_back({"moves_by_speed_before", "no hit: moves along the new direction by the old speed",
+                   value(site::step, [](Floats v, Run run) {
+                       set(v, vec3(run, site::direction) * real(run, site::speed_before));
                    })});
     static const auto half_gt2 = [](Run run) { return 0.5F * tick(run) * fall(run); };
     all.push_back({"half_gt2_added", "no hit: half g t^2 is added to the move by the new velocity",

@@ -132,7 +132,7 @@ TEST_CASE("check trace: what is no trace, or was damaged, is refused in a line")
         };
         CHECK_THAT(told(scene), Contains("scene.json: not a trace"));
         CHECK_THAT(told((folder.path() / "none").string()), Contains("none: cannot be opened"));
-        CHECK_THAT(told(folder.path().string()), Contains("a folder, not a trace"));
+        CHECK_THAT(told(folder.path().string()), Contains("a folder, not a recording"));
     }
 }
 

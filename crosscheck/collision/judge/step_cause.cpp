@@ -1,6 +1,8 @@
 #include "crosscheck/collision/judge/step_cause.hpp"
 
 #include <algorithm>
+#include <array>
+#include <cstdint>
 #include <iterator>
 #include <optional>
 #include <span>
@@ -16,6 +18,7 @@
 #include "reference/collision/deviating_pass.hpp"
 #include "reference/collision/formula_mistakes.hpp"
 #include "reference/collision/obstacle_pass.hpp"
+#include "reference/collision/sites.hpp"
 #include "reference/model/same_bits.hpp"
 
 namespace lockstep {
@@ -140,6 +143,14 @@ std::uint64_t seen_in_texels(std::span<const NamedMistake* const> made, const Ju
     return trials->contradicted(deviations);
 }
 
+/// Whether it changes which texels are looked at, or which of them is taken.
+bool is_of_window(const Mistake& mistake) {
+    using namespace lockstep::site;
+    static constexpr std::array<std::uint32_t, 6> of_window{own_texel_skipped.id,   rows.id,   columns.id, neighbour.id,
+                                                            texel_collide_range.id, nearest.id};
+    return std::find(of_window.begin(), of_window.end(), mistake.site) != of_window.end();
+}
+
 } // namespace
 
 std::vector<NamedMistake> named_mistakes(const Scene& scene, const Profile& profile) {
@@ -152,13 +163,15 @@ std::vector<NamedMistake> named_mistakes(const Scene& scene, const Profile& prof
                                  .meaning = std::string(info.meaning),
                                  .pass = pass,
                                  .mistake = *mistake,
-                                 .describes = info.deviation == Deviation::never_collides});
+                                 .describes = info.deviation == Deviation::never_collides,
+                                 .of_window = is_of_window(*mistake)});
     for (const SearchMistake& m : search_mistakes())
         named.push_back({std::string(m.name), std::string(m.meaning), std::string(m.pass), m.mistake});
     for (const FormulaMistake& m : formula_mistakes()) {
         NamedMistake& added =
             named.emplace_back(NamedMistake{std::string(m.name), std::string(m.meaning), "collision_pass", m.mistake});
         added.freely_written = true;
+        added.of_window = is_of_window(m.mistake);
         for (const float constant : m.constants)
             added.constants.push_back({constant});
         if (m.fit != nullptr)

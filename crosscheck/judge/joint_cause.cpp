@@ -37,13 +37,13 @@ bool JointCauses::describes(const TriedCause& cause) const {
                        [&](std::size_t mistake) { return mistakes_[mistake].describes; });
 }
 
-/// `better`, with what holds a description before its equals.
+/// `better`, with what says more of what is seen before its equals.
 bool JointCauses::before(const TriedCause& a, const TriedCause& b) const {
-    const auto says_what_is_seen = [&](const TriedCause& cause) {
-        return std::any_of(cause.mistakes.begin(), cause.mistakes.end(),
-                           [&](std::size_t mistake) { return mistakes_[mistake].describes; });
+    const auto guesses = [&](const TriedCause& cause) {
+        return std::count_if(cause.mistakes.begin(), cause.mistakes.end(),
+                             [&](std::size_t mistake) { return !mistakes_[mistake].describes; });
     };
-    return better(a, b) || (!better(b, a) && says_what_is_seen(a) && !says_what_is_seen(b));
+    return better(a, b) || (!better(b, a) && guesses(a) < guesses(b));
 }
 
 std::vector<TriedCause> JointCauses::best_of(std::vector<TriedCause> causes, std::size_t count) const {

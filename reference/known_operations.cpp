@@ -16,8 +16,9 @@ bool followed(const Profile& profile, std::initializer_list<std::string_view> na
     });
 }
 
-/// Rows about what no pass leaves to the driver: their findings are told, and decide nothing.
-constexpr std::array told_only{std::string_view("transform feedback order")};
+/// Rows about what no operation rests on: of the first kind nothing does, of the second some passes, which say so
+/// themselves (reference/system/pass_by_driver.hpp).
+constexpr std::array told_only{std::string_view("transform feedback order"), std::string_view("image: ")};
 
 constexpr std::array sums{std::string_view("mat4*vec4"), std::string_view("x*x+y*y+z*z"), std::string_view("a*b+c"),
                           std::string_view("x*a+x*b"), std::string_view("cross")};
@@ -76,6 +77,12 @@ KnownOperations measured_operations(const Profile& profile) {
         known.sums = known.divide = known.square_root = known.dot = known.normalize = false;
     known.raster = measured_raster(profile);
     known.points = known.raster.points() && known.raster.triangles();
+    return known;
+}
+
+KnownOperations in_fragment_stage(KnownOperations known) {
+    known.divide = known.divide && known.interpolation;
+    known.square_root = known.dot = known.normalize = false;
     return known;
 }
 

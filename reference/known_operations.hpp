@@ -52,6 +52,9 @@ struct KnownOperations {
 /// what it is about, and nothing else; a row that is not known by name here takes away everything.
 KnownOperations measured_operations(const Profile& profile);
 
+/// What of `known` holds in the fragment stage, of which the probe measures division and `a * b + c` alone.
+KnownOperations in_fragment_stage(KnownOperations known);
+
 /// What of `known` holds in the compute stage, where the probe found that it computes otherwise than the vertex stage.
 KnownOperations in_compute_stage(KnownOperations known, const Profile& profile);
 

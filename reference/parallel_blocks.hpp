@@ -1,31 +1,21 @@
 #pragma once
-#include <atomic>
+#include <algorithm>
 #include <cstddef>
-#include <exception>
+#include <functional>
 
 namespace lockstep {
 
 /// Calls `work(i)` for i from 0 to count - 1, on all threads and in any order. Of what is thrown, that of the least i
 /// is thrown on, whatever the number of threads: an exception may not leave a parallel loop by itself.
-template <class Work> void parallel_blocks(std::ptrdiff_t count, const Work& work) {
-    std::atomic<std::ptrdiff_t> failed{count};
-    std::exception_ptr error;
-#pragma omp parallel for schedule(dynamic) if (count > 1)
-    for (std::ptrdiff_t i = 0; i < count; ++i) {
-        if (i > failed)
-            continue;
-        try {
-            work(i);
-        } catch (...) {
-#pragma omp critical(lockstep_parallel_blocks)
-            if (i < failed) {
-                failed = i;
-                error = std::current_exception();
-            }
-        }
-    }
-    if (error)
-        std::rethrow_exception(error);
+void parallel_blocks(std::ptrdiff_t count, const std::function<void(std::ptrdiff_t)>& work);
+
+/// Calls `work(first, last)` for ranges of 1024 that make up 0 to count, the last excluded, as parallel_blocks does.
+template <class Work> void parallel_ranges(std::size_t count, const Work& work) {
+    constexpr std::size_t block = 1024;
+    parallel_blocks(static_cast<std::ptrdiff_t>((count + block - 1) / block), [&](std::ptrdiff_t b) {
+        const std::size_t first = static_cast<std::size_t>(b) * block;
+        work(first, std::min(first + block, count));
+    });
 }
 
 } // namespace lockstep

@@ -462,9 +462,9 @@ void add_base_texels(std::vector<FormulaMistake>& all) {
         projects(v, run, before(run) + (old_velocity(run) + fall(run)) * tick(run));
     };
     all.push_back(
-        {"base_texel_of_position_ahead", "searches round where position + velocity * tick lies",
+        {"base_texel_of_position_ahead", "searches around where position + velocity * tick lies",
          value(site::clip, [](Floats v, Run run) { projects(v, run, before(run) + old_velocity(run) * tick(run)); })});
-    all.push_back({"base_texel_of_predicted_position", "searches round where free fall would lead to",
+    all.push_back({"base_texel_of_predicted_position", "searches around where free fall would lead to",
                    value(site::clip, projects_predicted)});
     all.push_back({"all_of_predicted_position", "searches as if it were where free fall would lead to",
                    value(site::clip, projects_predicted, &own_predicted)});
@@ -567,7 +567,7 @@ void add_responses(std::vector<FormulaMistake>& all) {
                    hit_position([](Floats v, Run run) { set(v, get(v) + fall(run)); })});
     static const auto neighbour = [](Run run) { return before(run) - vec3(run, site::away); };
     static const auto hit_step = [](Run run) { return vec3(run, site::moves_along) * real(run, site::moves_by); };
-    all.push_back({"pushed_out_to_range", "at a hit: set on the sphere of the range round the neighbour",
+    all.push_back({"pushed_out_to_range", "at a hit: set on the sphere of the range around the neighbour",
                    hit_position([](Floats v, Run run) {
                        set(v, neighbour(run) + unit_away(run) * params(run).constants.collision_range);
                    })});

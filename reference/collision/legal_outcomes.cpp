@@ -99,6 +99,8 @@ std::vector<LegalOutcome> legal_outcomes(const ParticleState& before, const Coll
     std::vector<LegalOutcome> outcomes;
     with_plain_arithmetic(profile, params.switches.arithmetic, [&]<class A>(A fp) {
         Worlds<A> worlds(fp, of_stage, profile.other_orders);
+        if (profile.roots != nullptr)
+            worlds.take_roots_by_tables();
         if (observed != nullptr) {
             worlds.tell(site::direction.output, {&observed->direction.x, 3});
             worlds.tell(site::speed.output, {&observed->speed, 1});

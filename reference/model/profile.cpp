@@ -18,11 +18,12 @@ std::span<const std::string_view> dot_order_names() {
 namespace {
 
 /// The rows not followed of the stages that draw; what the compute stage does otherwise has no part in a name, nor what
-/// becomes of functions.
+/// becomes of functions, nor what only some systems' images rest on.
 std::vector<std::string> drawing_rows(const Profile& profile) {
     std::vector<std::string> rows = profile.not_followed;
-    std::erase_if(
-        rows, [](const std::string& row) { return row.starts_with("compute:") || row.ends_with(", in functions"); });
+    std::erase_if(rows, [](const std::string& row) {
+        return row.starts_with("compute:") || row.starts_with("image: ") || row.ends_with(", in functions");
+    });
     return rows;
 }
 

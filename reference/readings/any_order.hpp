@@ -2,13 +2,37 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <cstdint>
 #include <limits>
+#include <optional>
 #include <span>
 #include <vector>
 
 #include "reference/interval.hpp"
 
 namespace lockstep {
+
+/// The sum of floats whose partial sums are all floats, whatever the order: multiples of one power of two, whose
+/// magnitudes add up to at most 2^24 of it. Nothing where that is not so.
+inline std::optional<float> exact_sum(std::span<const Interval> terms) {
+    int lowest = 128;
+    double sum = 0.0, magnitude = 0.0;
+    for (const Interval& term : terms) {
+        if (!term.is_point() || !std::isfinite(term.low))
+            return {};
+        if (term.low == 0.0)
+            continue;
+        int exponent = 0;
+        auto digits = static_cast<std::int64_t>(std::ldexp(std::frexp(term.low, &exponent), 53));
+        for (exponent -= 53; digits % 2 == 0; digits /= 2)
+            ++exponent;
+        lowest = std::min(lowest, exponent);
+        sum += term.low;
+        magnitude += std::abs(term.low);
+    }
+    const bool exact = magnitude == 0.0 || (lowest >= -126 && magnitude <= std::ldexp(1.0, lowest + 24));
+    return exact ? std::optional(static_cast<float>(sum)) : std::nullopt;
+}
 
 /// What a sum may give whose terms are added one after another in an order that nothing fixes, as atomics and blending
 /// add them. `arithmetic` (LegalArithmetic) says what one addition gives.
@@ -23,6 +47,8 @@ template <class Arithmetic> Interval any_order_sum(const Arithmetic& arithmetic,
         return {0.0F};
     if (std::any_of(terms.begin(), terms.end(), [](const Interval& t) { return t.any || std::isnan(t.low); }))
         return Interval::anything();
+    if (const auto sum = exact_sum(terms))
+        return {*sum};
     const std::size_t n = terms.size();
     if (n <= most_exact) {
         std::vector<Interval> sums(std::size_t{1} << n);

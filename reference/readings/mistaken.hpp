@@ -217,6 +217,12 @@ template <class A> class Mistaken {
     template <class Function> static Real monotone(Real a, const Function& f) { return f(static_cast<float>(a)); }
     static Real unspecified(At, Real value, float /*lowest*/, float /*highest*/) { return value; }
     static Real floor(Real a) { return std::floor(static_cast<float>(a)); }
+    static Real any_order_sum(At, std::span<const Real> terms) {
+        Real sum(0.0F);
+        for (const Real& term : terms)
+            sum = sum + term;
+        return sum;
+    }
     Real dot(At, const Vec3& a, const Vec3& b) const { return fp_.dot(floats(a), floats(b)); }
     Real length(At p, const Vec3& v) {
         see(p, Kind::length);

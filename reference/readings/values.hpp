@@ -4,6 +4,7 @@
 #include <concepts>
 #include <cstdint>
 #include <optional>
+#include <span>
 #include <utility>
 
 #include <glm/mat4x4.hpp>
@@ -88,6 +89,13 @@ template <class A> class Values {
     /// to highest.
     static Real unspecified(At, Real value, float /*lowest*/, float /*highest*/) { return value; }
     static Real floor(Real a) { return std::floor(static_cast<float>(a)); }
+    /// Terms added to 0 one after another in an order that nothing fixes: the reference takes theirs (any_order.hpp).
+    static Real any_order_sum(At, std::span<const Real> terms) {
+        Real sum(0.0F);
+        for (const Real& term : terms)
+            sum = sum + term;
+        return sum;
+    }
     Real dot(At, const Vec3& a, const Vec3& b) const { return fp_.dot(floats(a), floats(b)); }
     Real length(At, const Vec3& v) const { return fp_.length(floats(v)); }
     Vec3 normalize(At, const Vec3& v) const { return vector(fp_.normalize(floats(v))); }

@@ -19,6 +19,7 @@
 
 #include "reference/legal_arithmetic.hpp"
 #include "reference/model/image.hpp"
+#include "reference/readings/any_order.hpp"
 #include "reference/readings/condition.hpp"
 #include "reference/readings/values.hpp"
 #include "reference/undefined.hpp"
@@ -133,12 +134,21 @@ template <class A> class Worlds {
     Worlds(A arithmetic, const KnownOperations& known, const OtherOrders& other_orders = {})
         : fp_(arithmetic), arithmetic_(arithmetic, known, other_orders),
           free_order_(arithmetic, {.sums = false, .subnormals = arithmetic_.known().subnormals}),
+          of_sets_(arithmetic, without_roots(arithmetic_.known()), other_orders),
           one_order_(other_orders == OtherOrders()) {}
     Worlds(const Worlds&) = delete;
     Worlds& operator=(const Worlds&) = delete;
 
     /// What was captured of a shader's output: where it is legal and + - * are known, runs go on from it.
     void tell(std::string_view output, std::span<const float> values) { told_.push_back({name_id(output), values}); }
+
+    /// The compiler may multiply by a constant's reciprocal (constant_divisor.hpp): where a division by others is
+    /// known, one by a constant is either.
+    void open_constant_divisors() { constant_divisors_open_ = known().divide; }
+
+    /// The arithmetic's quotients and roots are a driver's own, by tables: known of floats, but of a set no more than
+    /// GLSL says, since nothing promises that they rise with their operands.
+    void take_roots_by_tables() { roots_by_tables_ = true; }
 
     /// Runs `twin` every way. At the end of each `ended(state, forks, undefined)` is called: the state, null where the
     /// run came to something open; the forks on the way, of type Fork; why something is open.
@@ -245,6 +255,15 @@ template <class A> class Worlds {
         quotient.of_factors_ = known().factors_reordered;
         return quotient;
     }
+    bool by_reciprocal(At place) {
+        if (!constant_divisors_open_)
+            return false;
+        if (next_answer_ == log_.size()) {
+            log_.push_back(0);
+            fork({{{{&place.site, 0.0, place.where}}}}, {0, 1});
+        }
+        return log_[next_answer_++] != 0;
+    }
     Real sqrt(At, Real a) {
         if (known().square_root && a.is_float())
             if (const float root = fp_.sqrt(a.point_); is_sure(root))
@@ -281,6 +300,14 @@ template <class A> class Worlds {
         return make({a}, [&](const auto&) {
             const Interval v = a.set();
             return v.any || std::isnan(v.low) ? v : Interval(std::floor(v.low), std::floor(v.high));
+        });
+    }
+    Real any_order_sum(At, std::span<const Real> terms) {
+        return make({}, [&](const auto& fp) {
+            std::vector<Interval> sets;
+            for (const Real& term : terms)
+                sets.push_back(term.set());
+            return lockstep::any_order_sum(fp, sets);
         });
     }
     Real dot(At, const Vec3& a, const Vec3& b) {
@@ -477,19 +504,27 @@ template <class A> class Worlds {
             return Interval(pick(x.low, y.low), pick(x.high, y.high));
         });
     }
+    static KnownOperations without_roots(KnownOperations known) {
+        known.divide = known.square_root = known.normalize = false;
+        return known;
+    }
+    [[nodiscard]] const LegalArithmetic<A>& arithmetic_of(std::initializer_list<Real> operands) const {
+        const auto is_point = [](const Real& x) { return x.set().is_point(); };
+        return roots_by_tables_ && !std::all_of(operands.begin(), operands.end(), is_point) ? of_sets_ : arithmetic_;
+    }
     template <class Compute>
     Real make(std::initializer_list<Real> operands, const Compute& compute, Undefined own = Undefined::not_a_number) {
         const auto id = static_cast<std::uint32_t>(next_value_++);
         if (values_.empty())
             values_.reserve(128);
         if (id == values_.size())
-            put(compute(arithmetic_), operands, own);
+            put(compute(arithmetic_of(operands)), operands, own);
         return at(id);
     }
     template <class Vector, class Compute>
     Vector make_all(const Vec3& operand, const Compute& compute, Undefined own = Undefined::not_a_number) {
         if (next_value_ == values_.size())
-            for (const Interval& set : compute(arithmetic_))
+            for (const Interval& set : compute(arithmetic_of({operand.x, operand.y, operand.z})))
                 put(set, {operand.x, operand.y, operand.z}, own);
         Vector vector;
         std::apply([&](auto&... field) { ((field = at(static_cast<std::uint32_t>(next_value_++))), ...); },
@@ -521,6 +556,8 @@ template <class A> class Worlds {
             return field.why();
         else if constexpr (std::is_integral_v<Field>)
             return Undefined::none;
+        else if constexpr (requires { field.word; })
+            return field.set.any ? Undefined::not_a_number : Undefined::none;
         else if constexpr (requires { field.size(); }) {
             Undefined reason = Undefined::none;
             field.for_each([&](const auto& part) { reason = first_of(reason, open_field(part)); });
@@ -677,7 +714,10 @@ template <class A> class Worlds {
 
     A fp_;
     LegalArithmetic<A> arithmetic_, free_order_; ///< as known, and with + - * in any order
-    bool one_order_;                             ///< no others of sums in dot, length and normalize
+    LegalArithmetic<A> of_sets_;                 ///< as known, but for roots and quotients
+    bool roots_by_tables_ = false;
+    bool one_order_; ///< no others of sums in dot, length and normalize
+    bool constant_divisors_open_ = false;
     std::vector<Told> told_;
     std::vector<Value> values_; ///< of this run, and of the one before up to where they part
     std::vector<int> log_;      ///< answers, likewise

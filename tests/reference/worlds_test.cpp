@@ -1,11 +1,13 @@
 #include <catch2/catch.hpp>
 
+#include <bit>
 #include <chrono>
 #include <cmath>
 #include <random>
 #include <set>
 #include <string>
 
+#include "reference/readings/constant_divisor.hpp"
 #include "reference/readings/worlds.hpp"
 
 #include "reference/arithmetic.hpp"
@@ -211,4 +213,72 @@ TEST_CASE("worlds: 24 equally near neighbours are 24 outcomes, in a millisecond"
         CHECK(outcome.hit);
     INFO(fastest * 1e6 << " us");
     CHECK(fastest < 1e-3);
+}
+
+namespace {
+
+/// Tables of 1/x and inversesqrt whose values are off by up to `most` ULP, up and down from one to the next.
+RootTables uneven_tables(int most) {
+    RootTables tables;
+    std::mt19937 random(3);
+    const auto off = [&](double rounded) {
+        const auto ulp = static_cast<double>(std::nextafter(static_cast<float>(rounded), 2.0F)) - rounded;
+        return static_cast<float>(rounded + ulp * (static_cast<int>(random() % (2U * most + 1U)) - most));
+    };
+    for (std::uint32_t i = 0; i < (1U << 23U); ++i)
+        tables.reciprocal.push_back(off(1.0 / (1.0 + i * 0x1p-23)));
+    for (std::uint32_t i = 0; i < (1U << 24U); ++i)
+        tables.inverse_sqrt.push_back(off(1.0 / std::sqrt(double{std::bit_cast<float>(0x3f800000U + i)})));
+    return tables;
+}
+
+} // namespace
+
+TEST_CASE(
+    "worlds: of a set, quotients and roots by a driver's tables are all that its floats have, in the middle too") {
+    const RootTables tables = uneven_tables(1);
+    const DriverRoots fp(tables);
+    const auto missed = [&](bool by_tables) {
+        Worlds<DriverRoots> reading(fp, KnownOperations::all());
+        if (by_tables)
+            reading.take_roots_by_tables();
+        std::size_t count = 0;
+        for (float low = 1.01F; low < 3.9F; low *= 1.01F) {
+            float high = low;
+            for (int k = 0; k < 20; ++k)
+                high = std::nextafter(high, 4.0F);
+            Interval root, quotient;
+            reading.run(
+                [&] {
+                    const auto set = reading.unspecified(x, 0.0F, low, high);
+                    root = reading.sqrt(x, set).legal();
+                    quotient = reading.divide(x, set, 2.7F).legal();
+                    return set;
+                },
+                [](const auto*, std::span<const Fork>, Undefined) {});
+            for (float v = low; v <= high; v = std::nextafter(v, 4.0F))
+                count += (root.contains(fp.sqrt(v)) ? 0U : 1U) + (quotient.contains(fp.divide(v, 2.7F)) ? 0U : 1U);
+        }
+        return count;
+    };
+    CHECK(missed(false) > 0);
+    CHECK(missed(true) == 0);
+}
+
+TEST_CASE("worlds: a division by a constant is one float, or, where the compiler may multiply, one of two") {
+    for (const bool open : {false, true}) {
+        Reading reading(Strict{}, KnownOperations::all());
+        if (open)
+            reading.open_constant_divisors();
+        std::set<float> found;
+        for (const Ended& one : run(reading, [&] {
+                 const auto quotient = divided_by(reading, x, reading.read(x, 12357.0F), 82801.277F);
+                 return State{quotient, quotient};
+             }))
+            found.insert(one.a.as_float());
+        std::set<float> right{12357.0F / 82801.277F};
+        if (open)
+            right.insert(12357.0F * (1.0F / 82801.277F));
+        CHECK(found == right);
+    }
 }

@@ -48,6 +48,14 @@ ProbeResult probe(const Context& context, const ProbeOptions& options) {
         probing::measure_compute_sines(result.rows);
     }
     probing::measure_storage(result.rows);
+    if (result.context.compute)
+        probing::measure_image_store(result.rows);
+    probing::measure_blending(result.rows);
+    probing::measure_filtering(result.rows);
+    probing::measure_srgb(result.rows);
+    probing::measure_point_coord(result.rows);
+    if (result.context.compute)
+        probing::measure_atomics(result.rows);
     probing::measure_order(result.rows);
     probing::measure_snapping(result.rows);
     probing::measure_viewport(plain, result.rows);

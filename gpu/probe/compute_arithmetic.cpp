@@ -1,4 +1,6 @@
+#include <array>
 #include <cmath>
+#include <utility>
 
 #include "gpu/probe/compute_stage.hpp"
 #include "gpu/probe/driver_arithmetic.hpp"
@@ -53,7 +55,7 @@ ProbeRow measure_comparison(const ComputeStage& stage, const char* name) {
                  {{"flushed", Floats(compute_inputs, 0.0F)}, {"kept", kept}});
 }
 
-constexpr std::size_t results_each = 11;
+constexpr std::size_t results_each = 15;
 
 /// What shaders/probe/arithmetic.comp makes of each pair, `results_each` floats.
 Floats operations_of(const Vectors& a, const Vectors& b) {
@@ -70,6 +72,25 @@ template <class Read> Floats each_of(const Vectors& vectors, Read read) {
     return values;
 }
 
+/// Divisions by constants of the shader's text, places 11 to 14: as by any number, or by their reciprocals.
+ProbeRow measure_constant_divisors(const DriverArithmetic& vertex, const Vectors& a, const Vectors& b,
+                                   const Floats& made) {
+    Floats dividends, divisors, products, values;
+    for (std::size_t i = 0; i < a.size(); ++i) {
+        const std::array<std::pair<float, float>, 4> pairs{
+            {{a[i].x, 79238.288F}, {a[i].y, 3.0F}, {a[i].z, 255.0F}, {b[i].x, 82801.277F}}};
+        for (std::size_t k = 0; k < pairs.size(); ++k) {
+            const auto [x, c] = pairs[k];
+            dividends.push_back(x);
+            divisors.push_back(c);
+            products.push_back(x * (1.0F / c));
+            values.push_back(made[results_each * i + 11 + k]);
+        }
+    }
+    return judge("compute: a/c, c constant", values,
+                 {{"as a/b", vertex.divide(dividends, divisors)}, {"a*(1/c), 1/c rounded", products}});
+}
+
 /// The operations that GLSL leaves open, held against the vertex stage's, whose sequences other rows have.
 void measure_operations(const DriverArithmetic& vertex, Rows& rows) {
     const Vectors a = random_vectors(compute_inputs, 38, {}), b = random_vectors(compute_inputs, 39, {});
@@ -83,6 +104,7 @@ void measure_operations(const DriverArithmetic& vertex, Rows& rows) {
     };
     const auto x = [](glm::vec3 v) { return v.x; };
     row("compute: a/b", 0, 1, vertex.divide(each_of(a, x), each_of(b, x)));
+    rows.push_back(measure_constant_divisors(vertex, a, b, made));
     row("compute: 1/b", 1, 1, vertex.reciprocal(each_of(b, [](glm::vec3 v) { return v.y; })));
     row("compute: sqrt", 2, 1, vertex.sqrt(each_of(a, [](glm::vec3 v) { return std::abs(v.y); })));
     row("compute: inversesqrt", 3, 1, vertex.inverse_sqrt(each_of(a, [](glm::vec3 v) { return std::abs(v.z); })));

@@ -12,6 +12,8 @@ class ImageStage {
   public:
     explicit ImageStage(const std::string& fragment_shader);
 
+    [[nodiscard]] const Program& program() const { return program_; }
+
     /// Draws into `targets`, all of width x height texels.
     void run(int width, int height, std::span<const GlTexture* const> sources,
              std::span<const GlTexture* const> targets) const;

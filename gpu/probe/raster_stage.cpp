@@ -8,14 +8,15 @@
 namespace lockstep::probing {
 namespace {
 
-Program link_raster_stage(Primitive primitive, bool geometry) {
+Program link_raster_stage(Primitive primitive, bool geometry, bool point_coord) {
     const ShaderFolders folders = shader_folders();
     std::vector<ShaderSource> stages{load_stage(folders, "probe/raster", Stage::vertex,
                                                 geometry ? ShaderDefines{{"WITH_GEOMETRY", "1"}} : ShaderDefines{})};
     if (geometry)
         stages.push_back(
             load_stage(folders, primitive == Primitive::points ? "probe/points" : "probe/triangles", Stage::geometry));
-    stages.push_back(load_stage(folders, "probe/raster", Stage::fragment));
+    stages.push_back(load_stage(folders, "probe/raster", Stage::fragment,
+                                point_coord ? ShaderDefines{{"WITH_POINT_COORD", "1"}} : ShaderDefines{}));
     return {"probe/raster", stages};
 }
 
@@ -43,8 +44,8 @@ Floats IdImage::depths() const {
     return read_texture<float>(depth_, depth32f, static_cast<std::size_t>(width_) * static_cast<std::size_t>(height_));
 }
 
-RasterStage::RasterStage(Primitive primitive, bool geometry)
-    : primitive_(primitive), program_(link_raster_stage(primitive, geometry)) {}
+RasterStage::RasterStage(Primitive primitive, bool geometry, bool point_coord)
+    : primitive_(primitive), program_(link_raster_stage(primitive, geometry, point_coord)) {}
 
 void RasterStage::draw(std::span<const RasterVertex> vertices) const {
     const GlBuffer buffer;

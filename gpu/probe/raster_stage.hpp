@@ -41,8 +41,9 @@ enum class Primitive { points, triangles };
 /// Fixed-function rasterisation behind a vertex stage that computes nothing.
 class RasterStage {
   public:
-    /// `geometry`: with a geometry stage that passes primitives on, as the passes have one.
-    RasterStage(Primitive primitive, bool geometry);
+    /// `geometry`: with a geometry stage that passes primitives on, as the passes have one. `point_coord`: fragments
+    /// put out gl_PointCoord, the number and 1 instead of the number alone.
+    RasterStage(Primitive primitive, bool geometry, bool point_coord = false);
 
     /// Draws without clearing; depth test as it is set.
     void draw(std::span<const RasterVertex> vertices) const;

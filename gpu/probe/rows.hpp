@@ -35,6 +35,25 @@ void measure_compute_sines(Rows& rows);
 /// Halves and 8-bit codes, on their way into an image and out of it; texels outside it.
 void measure_storage(Rows& rows);
 
+/// Halves on their way into an image by imageStore. The context has compute shaders.
+void measure_image_store(Rows& rows);
+
+/// Sums that blending makes, GL_ONE and GL_ONE, of floats and of halves.
+void measure_blending(Rows& rows);
+
+/// GL_LINEAR in a texture of three dimensions: weights, and how they are used.
+void measure_filtering(Rows& rows);
+
+/// What GL_FRAMEBUFFER_SRGB makes of floats.
+void measure_srgb(Rows& rows);
+
+/// gl_PointCoord of points of several sizes.
+void measure_point_coord(Rows& rows);
+
+/// Whether floats can be added by atomics, and in which order those come that shaders add by compare-and-swap. The
+/// context has compute shaders.
+void measure_atomics(Rows& rows);
+
 /// The order in which transform feedback writes primitives.
 void measure_order(Rows& rows);
 

@@ -3,6 +3,8 @@
 
 #include <glm/gtc/packing.hpp>
 
+#include "gpu/probe/compute_stage.hpp"
+#include "gpu/probe/half_grid.hpp"
 #include "gpu/probe/image_stage.hpp"
 #include "gpu/probe/inputs.hpp"
 #include "gpu/probe/rows.hpp"
@@ -24,23 +26,12 @@ std::vector<Stored> stored(const ImageStage& store, const TexelLayout& layout, c
     return read_texture<Stored>(target, layout, storage_components);
 }
 
-Floats stored_halves(const ImageStage& store, const Floats& x) {
+Floats halves(const std::vector<std::uint16_t>& codes) {
     Floats values;
-    for (const std::uint16_t half : stored<std::uint16_t>(store, rgba16f, x))
+    for (const std::uint16_t half : codes)
         values.push_back(glm::unpackHalf1x16(half));
     return values;
 }
-
-/// On the grid of halves with no largest value: 2^-10 of the power of two below, 2^-24 for subnormals.
-template <class Round> float on_half_grid(float x, Round round) {
-    const int exponent = std::max(std::ilogb(x), -14);
-    const double unit = std::ldexp(1.0, exponent - 10);
-    return static_cast<float>(round(static_cast<double>(x) / unit) * unit);
-}
-
-double nearest_even(double x) { return std::nearbyint(x); }
-double nearest_away(double x) { return std::round(x); }
-double toward_zero(double x) { return std::trunc(x); }
 
 /// Random values with every other one halfway between two neighbours of the grid.
 Floats halves_and_ties(Range range, std::uint64_t seed) {
@@ -52,20 +43,21 @@ Floats halves_and_ties(Range range, std::uint64_t seed) {
     return values;
 }
 
-void measure_half_store(const ImageStage& store, Rows& rows) {
+/// `store`: what becomes of as many floats. Rows are named after `prefix`.
+template <class Store> void measure_half_store(const std::string& prefix, const Store& store, Rows& rows) {
     const Floats normal = halves_and_ties({-14, 15, true}, 31);
-    rows.push_back(judge("float to half", stored_halves(store, normal),
+    rows.push_back(judge(prefix + " to half", store(normal),
                          {{"nearest even", each(normal, [](float x) { return on_half_grid(x, nearest_even); })},
                           {"nearest away", each(normal, [](float x) { return on_half_grid(x, nearest_away); })},
                           {"truncate", each(normal, [](float x) { return on_half_grid(x, toward_zero); })}}));
     const Floats tiny = halves_and_ties({-23, -14, true}, 32);
-    rows.push_back(judge("float to subnormal half", stored_halves(store, tiny),
+    rows.push_back(judge(prefix + " to subnormal half", store(tiny),
                          {{"nearest even", each(tiny, [](float x) { return on_half_grid(x, nearest_even); })},
                           {"nearest away", each(tiny, [](float x) { return on_half_grid(x, nearest_away); })},
                           {"truncate", each(tiny, [](float x) { return on_half_grid(x, toward_zero); })},
                           {"flushed", each(tiny, [](float x) { return std::copysign(0.0F, x); })}}));
     const Floats large = random_floats(storage_components, 33, {16, 40, true});
-    rows.push_back(judge("float above the largest half", stored_halves(store, large),
+    rows.push_back(judge(prefix + " above the largest half", store(large),
                          {{"infinite", each(large, [](float x) { return std::copysign(HUGE_VALF, x); })},
                           {"largest", each(large, [](float x) { return std::copysign(65504.0F, x); })}}));
 }
@@ -164,11 +156,25 @@ void measure_outside(const VertexStage& fetch, Rows& rows) {
 
 void measure_storage(Rows& rows) {
     const ImageStage store("probe/store");
-    measure_half_store(store, rows);
+    measure_half_store(
+        "float", [&](const Floats& x) { return halves(stored<std::uint16_t>(store, rgba16f, x)); }, rows);
     measure_unorm_store(store, rows);
     const VertexStage fetch("probe/fetch", {}, {{"a_Texel", 2}}, {{"out_Texel", GL_FLOAT_VEC4}});
     measure_loads(fetch, rows);
     measure_outside(fetch, rows);
+}
+
+void measure_image_store(Rows& rows) {
+    const ComputeStage store("probe/store");
+    const auto stored_by_image = [&](const Floats& x) {
+        const GlTexture target = make_texture(rgba16f, storage_side, storage_side, nullptr);
+        gl::BindImageTexture(0, target.id(), 0, GL_FALSE, 0, GL_WRITE_ONLY, GL_RGBA16F);
+        store.program().set_unit("u_Target", 0, GL_IMAGE_2D);
+        static_cast<void>(store.run(x, 1, storage_components / 4));
+        gl::MemoryBarrier(GL_TEXTURE_UPDATE_BARRIER_BIT);
+        return halves(read_texture<std::uint16_t>(target, rgba16f, storage_components));
+    };
+    measure_half_store("image: store", stored_by_image, rows);
 }
 
 } // namespace lockstep::probing

@@ -3,7 +3,7 @@
 layout(local_size_x = 64) in;
 
 layout(std430, binding = 0) readonly buffer Inputs { float inputs[]; };    // two vec3 each
-layout(std430, binding = 1) writeonly buffer Results { float results[]; }; // eleven each
+layout(std430, binding = 1) writeonly buffer Results { float results[]; }; // fifteen each
 
 float product(float a, float b) {
     precise float p = a * b;
@@ -26,8 +26,13 @@ void main() {
     precise float dotted = dot(a, b);
     precise float len = length(b);
     precise vec3 unit = normalize(a);
-    float written[11] = float[11](quotient, reciprocal, root, inverse, dotted, len, unit.x, unit.y, unit.z,
-                                  sum(product(a.x, a.y), a.z), sum(b.z, -product(b.x, b.y)));
-    for (uint k = 0u; k < 11u; ++k)
-        results[11u * i + k] = written[k];
+    precise float thousandths = a.x / 79238.288;
+    precise float thirds = a.y / 3.0;
+    precise float codes = a.z / 255.0;
+    precise float seeds = b.x / 82801.277;
+    float written[15] = float[15](quotient, reciprocal, root, inverse, dotted, len, unit.x, unit.y, unit.z,
+                                  sum(product(a.x, a.y), a.z), sum(b.z, -product(b.x, b.y)),
+                                  thousandths, thirds, codes, seeds);
+    for (uint k = 0u; k < 15u; ++k)
+        results[15u * i + k] = written[k];
 }

@@ -57,6 +57,7 @@ inline constexpr ExpectedRow llvmpipe_rows[] = {
     {"fragment a*b+c", "each rounded"},
     {"fragment a*b+c, precise", "each rounded"},
     {"compute: a/b", "as in the vertex stage"},
+    {"compute: a/c, c constant", "as a/b"},
     {"compute: 1/b", "as in the vertex stage"},
     {"compute: sqrt", "as in the vertex stage"},
     {"compute: inversesqrt", "as in the vertex stage"},
@@ -83,6 +84,17 @@ inline constexpr ExpectedRow llvmpipe_rows[] = {
     {"unorm8 to float", "c*(1/255)"},
     {"half to float", "exact"},
     {"texelFetch outside", "zero"},
+    {"image: store to half", "truncate"},
+    {"image: store to subnormal half", "truncate"},
+    {"image: store above the largest half", "largest"},
+    {"image: blend rgba32f", "each sum rounded, in order"},
+    {"image: blend rgba16f", "each sum truncated"},
+    {"image: linear filter, weights", "all bits"},
+    {"image: sRGB store", "none known"},
+    {"image: sRGB store, accuracy", "one of the two next codes"},
+    {"image: gl_PointCoord", "none known"},
+    {"image: gl_PointCoord, accuracy", "to 1/256 pixel, from above"},
+    {"image: float atomics", "offered"},
     {"transform feedback order", "as drawn"},
     {"points: edge in x", "lower pixel"},
     {"points: edge in y", "lower pixel"},
@@ -132,6 +144,8 @@ struct ProcessorRow {
 inline constexpr ProcessorRow processor_rows[] = {
     {"points: viewport, no geometry stage", "fma(clip*(1/w), scale, offset)", "(clip*(1/w))*scale + offset"},
     {"triangles: viewport, no geometry stage", "fma(clip*(1/w), scale, offset)", "(clip*(1/w))*scale + offset"},
+    {"image: linear filter", "fma(f, b - a, a), all bits", "a + f*(b - a), all bits"},
+    {"image: linear filter, border of 0", "fma(f, b - a, a), all bits", "a + f*(b - a), all bits"},
     {"sin, to 32768", "polynomial, fused", "polynomial, each rounded"},
     {"cos, to 1024", "polynomial, fused", "polynomial, each rounded"},
     {"tan, to 1024", "polynomial, fused", "polynomial, each rounded"},
@@ -142,5 +156,8 @@ inline constexpr ProcessorRow processor_rows[] = {
     {"exp2", "none known", "none known"},
     {"pow(x,2.2)", "none known", "none known"},
 };
+
+/// Rows that are another thing in each run: their names.
+inline constexpr std::string_view open_rows[] = {"image: compare-and-swap, order"};
 
 } // namespace lockstep::test

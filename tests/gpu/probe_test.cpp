@@ -52,7 +52,10 @@ void check_rows(const ProbeResult& result, bool fused) {
     }
     for (const test::ProcessorRow& expected : test::processor_rows)
         CHECK(result.row(expected.name).finding == (fused ? expected.fused : expected.separate));
-    CHECK(result.rows.size() == std::size(test::llvmpipe_rows) + std::size(test::processor_rows));
+    for (const std::string_view open : test::open_rows)
+        CHECK(result.has(open));
+    CHECK(result.rows.size() ==
+          std::size(test::llvmpipe_rows) + std::size(test::processor_rows) + std::size(test::open_rows));
 }
 
 bool uses_own_reciprocal(const std::string& candidate) {
@@ -119,10 +122,29 @@ TEST_CASE("probe: tells sequences apart") {
     const ProbeResult result = probe(*context);
     // Only one candidate may explain everything, or the finding would be a matter of their order. Not asked of those
     // made of r, the driver's own reciprocal, which is the rounded one where the driver divides correctly.
-    for (const char* name :
-         {"dot(vec3)", "mat4*vec4", "a*b+c", "x*a+x*b", "cross", "fma", "unorm8 to float", "float to half",
-          "float to unorm8", "points: snap", "points: sub-pixel bits", "triangles: sub-pixel bits",
-          "triangles: left side", "points: viewport", "triangles: viewport", "points: depth", "equal depth, LESS"}) {
+    for (const char* name : {"dot(vec3)",
+                             "mat4*vec4",
+                             "a*b+c",
+                             "x*a+x*b",
+                             "cross",
+                             "fma",
+                             "unorm8 to float",
+                             "float to half",
+                             "float to unorm8",
+                             "points: snap",
+                             "points: sub-pixel bits",
+                             "triangles: sub-pixel bits",
+                             "triangles: left side",
+                             "points: viewport",
+                             "triangles: viewport",
+                             "points: depth",
+                             "equal depth, LESS",
+                             "image: store to half",
+                             "image: blend rgba32f",
+                             "image: blend rgba16f",
+                             "image: linear filter, weights",
+                             "image: linear filter",
+                             "image: linear filter, border of 0"}) {
         const ProbeRow& row = result.row(name);
         INFO(name);
         if (row.finding == none_known)

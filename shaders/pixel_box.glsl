@@ -23,6 +23,23 @@ ivec4 pixel_box(vec2 low, vec2 high) {
 
 bool is_empty(ivec4 box) { return box.x >= box.z || box.y >= box.w; }
 
+bool is_finite(vec4 v) {
+    ivec4 magnitude = floatBitsToInt(v) & 0x7fffffff;
+    return all(lessThan(magnitude, ivec4(0x7f800000)));
+}
+
+// The pixels a triangle may cover: all, if a part of it lies behind the camera; none, if a corner is not finite.
+ivec4 triangle_box(vec4 a, vec4 b, vec4 c) {
+    if (!is_finite(a) || !is_finite(b) || !is_finite(c) || max(max(a.w, b.w), c.w) <= 0.0)
+        return ivec4(0);
+    if (min(min(a.w, b.w), c.w) <= 0.0)
+        return ivec4(0, 0, u_ClientWidth, u_ClientHeight);
+    vec2 at = window_place(a.xy, a.w);
+    vec2 bt = window_place(b.xy, b.w);
+    vec2 ct = window_place(c.xy, c.w);
+    return pixel_box(min(min(at, bt), ct), max(max(at, bt), ct));
+}
+
 // The corners in clip space, as a triangle strip.
 vec4 box_corner(ivec4 box, int i) {
     int x = (i & 1) == 0 ? box.x : box.z;

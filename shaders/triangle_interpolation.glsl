@@ -1,6 +1,7 @@
 // Coverage and perspective-correct interpolation of a triangle in homogeneous coordinates (Olano and Greer, "Triangle
 // scan conversion using 2D homogeneous coordinates", 1997), at pixel centres and in a written order of operations, so
-// that nothing depends on the driver's interpolator, nor, in the exact preset, on its rasteriser.
+// that nothing depends on the driver's interpolator, nor, in the exact preset or where COVERAGE_BY_FRAGMENT is defined,
+// on its rasteriser.
 // Twin: reference/triangle_interpolation.hpp. Needs arithmetic.glsl and clamp_to.glsl.
 
 struct TriangleEdges {
@@ -69,7 +70,7 @@ struct TriangleFragment {
     float depth; // window, 0..1
 };
 
-#if ARITHMETIC == ARITHMETIC_EXACT
+#if ARITHMETIC == ARITHMETIC_EXACT || defined(COVERAGE_BY_FRAGMENT)
 
 // A closed triangle, so that triangles that share a side leave no gap: a centre on the side belongs to both, and the
 // depth test decides. Nothing that is seen edge-on, behind the camera or beyond the near or far plane.
@@ -81,7 +82,7 @@ TriangleFragment triangle_fragment(vec4 clip[3], ivec2 pixel, ivec2 size) {
     precise float depth = ls_divide(clip_z, clip_w) * 0.5 + 0.5;
 
     int sum = floatBitsToInt(edges.sum);
-    bool finite = sum != 0 && (sum & ls_magnitude) < ls_infinity;
+    bool finite = sum != 0 && (sum & 0x7fffffff) < 0x7f800000;
     bool counterclockwise = edges.first >= 0.0 && edges.second >= 0.0 && edges.third >= 0.0;
     bool clockwise = edges.first <= 0.0 && edges.second <= 0.0 && edges.third <= 0.0;
     bool in_front = floatBitsToInt(clip_w) > 0 && in_unit_interval(depth);

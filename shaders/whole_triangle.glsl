@@ -1,7 +1,7 @@
 // A geometry stage that hands all three corners of a triangle to each of its fragments, which interpolate by themselves.
-// In the exact preset they also decide by themselves which of them the triangle covers (triangle_interpolation.glsl):
-// the stage then draws all pixels that may be. Needs arithmetic.glsl.
-#if ARITHMETIC == ARITHMETIC_EXACT
+// In the exact preset, or where COVERAGE_BY_FRAGMENT is defined, they also decide by themselves which of them the triangle
+// covers (triangle_interpolation.glsl): the stage then draws all pixels that may be. Needs arithmetic.glsl.
+#if ARITHMETIC == ARITHMETIC_EXACT || defined(COVERAGE_BY_FRAGMENT)
 #include "pixel_box.glsl"
 #endif
 
@@ -23,25 +23,7 @@ void emit_corner(vec4 position) {
     EmitVertex();
 }
 
-#if ARITHMETIC == ARITHMETIC_EXACT
-
-bool is_finite(vec4 v) {
-    ivec4 magnitude = floatBitsToInt(v) & ls_magnitude;
-    return all(lessThan(magnitude, ivec4(ls_infinity)));
-}
-
-// The pixels the triangle may cover: all, if a part of it lies behind the camera; none, if a corner is not finite.
-ivec4 triangle_box(vec4 a, vec4 b, vec4 c) {
-    bool finite = is_finite(a) && is_finite(b) && is_finite(c);
-    if (!finite || max(max(a.w, b.w), c.w) <= 0.0)
-        return ivec4(0);
-    if (min(min(a.w, b.w), c.w) <= 0.0)
-        return ivec4(0, 0, u_ClientWidth, u_ClientHeight);
-    vec2 at = window_place(a.xy, a.w);
-    vec2 bt = window_place(b.xy, b.w);
-    vec2 ct = window_place(c.xy, c.w);
-    return pixel_box(min(min(at, bt), ct), max(max(at, bt), ct));
-}
+#if ARITHMETIC == ARITHMETIC_EXACT || defined(COVERAGE_BY_FRAGMENT)
 
 void main() {
     ivec4 box = triangle_box(gl_in[0].gl_Position, gl_in[1].gl_Position, gl_in[2].gl_Position);

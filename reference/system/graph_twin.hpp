@@ -14,9 +14,11 @@
 /// A graph, interpreted: the twin of what gpu/graph_glsl.hpp makes of it.
 namespace lockstep {
 
+inline constexpr Site unnamed_node{"a node"};
+
 /// A place that is known at run time alone. `label` outlives it.
 inline Site site_named(std::string_view label) {
-    Site site{"a node"};
+    Site site = unnamed_node;
     site.label = label;
     site.id = name_id(label);
     return site;

@@ -1,6 +1,5 @@
 #include "reference/system/item_pass.hpp"
 
-#include <algorithm>
 #include <cmath>
 
 #include "reference/parallel_blocks.hpp"
@@ -25,12 +24,10 @@ bool ItemOutcome::contains(std::span<const std::uint32_t> words, const Resource&
 void run_pass(const ItemPass& pass, const PassInput& in, const Profile& profile, const WritableView& after) {
     if (!pass.runs(in.frame))
         return;
-    constexpr std::size_t block = 1024;
-    const auto blocks = static_cast<std::ptrdiff_t>((after.count() + block - 1) / block);
-    parallel_blocks(blocks, [&](std::ptrdiff_t b) {
-        const std::size_t first = static_cast<std::size_t>(b) * block;
-        pass.run(in, profile, first, std::min(first + block, after.count()), after);
-    });
+    if (pass.run_all(in, profile, after))
+        return;
+    parallel_ranges(after.count(),
+                    [&](std::size_t first, std::size_t last) { pass.run(in, profile, first, last, after); });
 }
 
 } // namespace lockstep

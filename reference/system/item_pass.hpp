@@ -26,7 +26,7 @@ struct PassInput {
 };
 
 /// The stage that a pass's shader runs in: drivers treat subnormals by stage.
-enum class PassStage : std::uint8_t { vertex, compute };
+enum class PassStage : std::uint8_t { vertex, compute, fragment };
 
 /// A decision that could have gone another way, and how far its operands are from the border, in the site's unit.
 struct OpenSite {
@@ -98,12 +98,21 @@ class ItemPass {
     /// Nothing: each item has its place.
     [[nodiscard]] virtual std::optional<ItemRange> appended(const PassInput& /*in*/) const { return {}; }
 
+    /// Whether atomics or blending add in an order that nothing fixes: two runs of it may then differ, each being one
+    /// of its outcomes.
+    [[nodiscard]] virtual bool unordered() const { return false; }
+
     /// The output by which the twin's sites know a field of the buffer.
     [[nodiscard]] virtual std::string_view output(const Resource& about, std::uint8_t field) const = 0;
 
     /// Items first to last, the last excluded, into `after`.
     virtual void run(const PassInput& in, const Profile& profile, std::size_t first, std::size_t last,
                      const WritableView& after) const = 0;
+
+    /// All items at once, where the twin has a faster way to its bits; false: it has none.
+    virtual bool run_all(const PassInput& /*in*/, const Profile& /*profile*/, const WritableView& /*after*/) const {
+        return false;
+    }
 
     /// Every legal outcome. `observed`: the state to be judged; values that it tells of, named like a site's output,
     /// are gone on from where they are legal. Null: nothing was told.

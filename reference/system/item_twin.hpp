@@ -1,4 +1,5 @@
 #pragma once
+#include <algorithm>
 #include <bit>
 #include <concepts>
 #include <functional>
@@ -11,6 +12,7 @@
 #include <vector>
 
 #include "reference/model/error.hpp"
+#include "reference/parallel_blocks.hpp"
 #include "reference/plain_arithmetic.hpp"
 #include "reference/readings/following.hpp"
 #include "reference/readings/mistaken.hpp"
@@ -48,6 +50,8 @@ template <class State> constexpr std::size_t numbers_in() {
 template <class Number> std::uint32_t word_of(const Number& x) {
     if constexpr (std::is_same_v<Number, std::uint32_t>)
         return x;
+    else if constexpr (requires { x.word; })
+        return x.word;
     else if constexpr (std::is_convertible_v<Number, int> && !std::is_floating_point_v<Number>)
         return static_cast<std::uint32_t>(static_cast<int>(x));
     else
@@ -57,8 +61,10 @@ template <class Number> std::uint32_t word_of(const Number& x) {
 template <class Number> Interval set_of(const Number& x) {
     if constexpr (requires { x.legal(); })
         return x.legal();
-    else
+    else if constexpr (requires { static_cast<double>(x); })
         return {static_cast<double>(x), static_cast<double>(x)};
+    else
+        return Interval(static_cast<float>(x));
 }
 
 /// A word of which no item of all such words is right: the greatest float, less its last bit.
@@ -126,6 +132,7 @@ struct ItemPassOptions {
     bool continues = false;                   ///< ItemPass::continues
     bool derived = false;                     ///< ItemPass::derived
     bool in_place = false;                    ///< ItemPass::in_place
+    bool unordered = false;                   ///< ItemPass::unordered
     /// ItemPass::appended; empty: each item has its place.
     std::function<ItemRange(const PassInput& in)> appended = {};
     /// A faster way to the twin's bits, held to them by a test: makes those of items first to last, the last excluded,
@@ -137,7 +144,9 @@ struct ItemPassOptions {
 
 /// A twin as an ItemPass: `twin(r, in, item)`, a template over the reading R& r (values.hpp), pure, returning a struct
 /// whose fields() are those of the buffer's items, in order, or ItemWords (item_words.hpp). `twin.at(frame)` or
-/// `twin.at(in)`, where there is one, is called in its place (in_frame).
+/// `twin.at(in)`, where there is one, is called in its place (in_frame). `twin.all(values, in, after)`, where there is
+/// one, makes all items at once with the same bits, or returns false; `twin.part(values, in, k, after)`, k from 0 to
+/// `twin.parts()` - 1, makes them in so many parts, on all threads. A test holds either to the items' bits.
 template <class Twin> class ItemTwin final : public ItemPass {
   public:
     ItemTwin(ItemPassOptions options, Twin twin) : options_(std::move(options)), twin_(std::move(twin)) {
@@ -151,6 +160,7 @@ template <class Twin> class ItemTwin final : public ItemPass {
     [[nodiscard]] bool continues() const override { return options_.continues; }
     [[nodiscard]] bool derived() const override { return options_.derived; }
     [[nodiscard]] bool in_place() const override { return options_.in_place; }
+    [[nodiscard]] bool unordered() const override { return options_.unordered; }
     [[nodiscard]] std::optional<ItemRange> appended(const PassInput& in) const override {
         return options_.appended ? std::optional(options_.appended(in)) : std::nullopt;
     }
@@ -161,34 +171,32 @@ template <class Twin> class ItemTwin final : public ItemPass {
 
     void run(const PassInput& in, const Profile& profile, std::size_t first, std::size_t last,
              const WritableView& after) const override {
-        const FlushSubnormals guard = flush(profile);
-        const std::vector<item_twin::WordColumn> columns = item_twin::word_columns(after);
+        run_made(item_twin::in_frame(twin_, in), in, profile, first, last, after);
+    }
+
+    bool run_all(const PassInput& in, const Profile& profile, const WritableView& after) const override {
         const auto& twin = item_twin::in_frame(twin_, in);
-        with_arithmetic_of(profile, [&]<class A>(A fp) {
+        return with_arithmetic_of(profile, [&]<class A>(A fp) {
             Values<A> values(fp);
-            using State = decltype(twin(values, in, first));
-            if constexpr (!requires(const State& state) { state.size(); })
-                item_twin::check_size(options_.name, after.about(), item_twin::numbers_in<State>());
-            const auto make = [&](std::size_t item) {
-                const State state = twin(values, in, item);
-                if constexpr (requires { state.size(); })
-                    item_twin::check_size(options_.name, after.about(), state.size());
-                const item_twin::WordColumn* column = columns.data();
-                item_twin::for_each_number(state, [&](const auto& x) {
-                    const std::uint32_t word = item_twin::word_of(x);
-                    std::memcpy(column->first + item * column->stride, &word, sizeof word);
-                    ++column;
+            if constexpr (requires { twin.part(values, in, std::size_t{0}, after); }) {
+                parallel_blocks(static_cast<std::ptrdiff_t>(twin.parts()), [&](std::ptrdiff_t part) {
+                    const FlushSubnormals guard = flush(profile);
+                    Values<A> own(fp);
+                    twin.part(own, in, static_cast<std::size_t>(part), after);
                 });
-            };
-            if (options_.fast) {
-                std::vector<std::size_t> left;
-                options_.fast(in, profile, first, last, after, left);
-                for (const std::size_t item : left)
-                    make(item);
-                return;
+                return true;
+            } else if constexpr (requires { twin.all(values, in, after); }) {
+                const FlushSubnormals guard = flush(profile);
+                return twin.all(values, in, after);
+            } else if constexpr (
+                requires { twin_.at(in); } || requires { twin_.at(in.frame); }) {
+                parallel_ranges(after.count(), [&](std::size_t first, std::size_t last) {
+                    run_made(twin, in, profile, first, last, after);
+                });
+                return true;
+            } else {
+                return false;
             }
-            for (std::size_t item = first; item < last; ++item)
-                make(item);
         });
     }
 
@@ -199,6 +207,7 @@ template <class Twin> class ItemTwin final : public ItemPass {
         const auto& twin = item_twin::in_frame(twin_, in);
         with_arithmetic_of(profile, [&]<class A>(A fp) {
             Worlds<A> worlds(fp, of_stage(known, profile), profile.other_orders);
+            tell_of_driver(worlds, profile);
             std::vector<std::vector<float>> kept;
             if (observed != nullptr)
                 tell(worlds, *observed, item, kept);
@@ -233,6 +242,7 @@ template <class Twin> class ItemTwin final : public ItemPass {
         const auto& twin = item_twin::in_frame(twin_, in);
         return with_arithmetic_of(profile, [&]<class A>(A fp) {
             Following<A> reading(fp, of_stage(known, profile), profile.other_orders);
+            tell_of_driver(reading, profile);
             std::map<std::string_view, int> occurrences;
             for (const ToldValue& value : told)
                 if (value.turn < 0)
@@ -293,13 +303,54 @@ template <class Twin> class ItemTwin final : public ItemPass {
     [[nodiscard]] const Resource& about(const PassInput& in) const { return in.before[options_.resource].about(); }
 
     [[nodiscard]] KnownOperations of_stage(const KnownOperations& known, const Profile& profile) const {
-        return options_.stage == PassStage::compute && options_.arithmetic == ArithmeticSwitch::plain
-                   ? in_compute_stage(known, profile)
-                   : known;
+        if (options_.arithmetic != ArithmeticSwitch::plain || options_.stage == PassStage::vertex)
+            return known;
+        return options_.stage == PassStage::compute ? in_compute_stage(known, profile) : in_fragment_stage(known);
+    }
+
+    /// Items first to last, by the twin that at() made.
+    template <class Made> void run_made(const Made& twin, const PassInput& in, const Profile& profile,
+                                        std::size_t first, std::size_t last, const WritableView& after) const {
+        const FlushSubnormals guard = flush(profile);
+        const std::vector<item_twin::WordColumn> columns = item_twin::word_columns(after);
+        with_arithmetic_of(profile, [&]<class A>(A fp) {
+            Values<A> values(fp);
+            using State = decltype(twin(values, in, first));
+            if constexpr (!requires(const State& state) { state.size(); })
+                item_twin::check_size(options_.name, after.about(), item_twin::numbers_in<State>());
+            const auto make = [&](std::size_t item) {
+                const State state = twin(values, in, item);
+                if constexpr (requires { state.size(); })
+                    item_twin::check_size(options_.name, after.about(), state.size());
+                const item_twin::WordColumn* column = columns.data();
+                item_twin::for_each_number(state, [&](const auto& x) {
+                    const std::uint32_t word = item_twin::word_of(x);
+                    std::memcpy(column->first + item * column->stride, &word, sizeof word);
+                    ++column;
+                });
+            };
+            if (options_.fast) {
+                std::vector<std::size_t> left;
+                options_.fast(in, profile, first, last, after, left);
+                for (const std::size_t item : left)
+                    make(item);
+                return;
+            }
+            for (std::size_t item = first; item < last; ++item)
+                make(item);
+        });
+    }
+
+    template <class Reading> void tell_of_driver(Reading& reading, const Profile& profile) const {
+        if (profile.roots != nullptr)
+            reading.take_roots_by_tables();
+        if (options_.stage == PassStage::compute && options_.arithmetic == ArithmeticSwitch::plain &&
+            std::ranges::find(profile.not_followed, "compute: a/c, c constant") != profile.not_followed.end())
+            reading.open_constant_divisors();
     }
 
     [[nodiscard]] FlushSubnormals flush(const Profile& profile, bool known = true) const {
-        if (options_.stage == PassStage::vertex)
+        if (options_.stage != PassStage::compute)
             return FlushSubnormals(known && profile.flush_subnormals);
         return {known && profile.compute_flush_subnormals,
                 known && profile.compute_flush_results.value_or(profile.compute_flush_subnormals)};

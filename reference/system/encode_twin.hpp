@@ -1,0 +1,67 @@
+#pragma once
+#include <cmath>
+
+#include "reference/model/srgb_table.hpp"
+#include "reference/readings/site.hpp"
+#include "reference/system/item_twin.hpp"
+#include "reference/system/item_words.hpp"
+
+namespace lockstep {
+
+/// The places of the twin.
+namespace encode_site {
+inline constexpr Site radiance_in{"lit value"}, threshold{"threshold"}, at_least{"at least the threshold"},
+    code_value{"code before rounding"}, code{"code"};
+} // namespace encode_site
+
+/// sRGB's curve (IEC 61966-2-1) of 0..1.
+inline double srgb_curve(double x) { return x <= 0.0031308 ? 12.92 * x : 1.055 * std::pow(x, 1.0 / 2.4) - 0.055; }
+
+/// An image of numbers, r g b a, to one of codes of 8 bits. Twin of shaders/encode_pass.comp and encode_by_gl_pass.*.
+struct EncodeTwin {
+    Encoding encoding;
+    FieldId numbers;
+
+    template <class R> ItemWords<R> operator()(R& r, const PassInput& in, std::size_t item) const {
+        using Real = typename R::Real;
+        ItemWords<R> words;
+        const auto v = r.read(encode_site::radiance_in, glm::vec3(in.before.vec4(numbers, item)));
+        for (const Real& x : {v.x, v.y, v.z}) {
+            const Real clamped = r.min(Real(1.0F), r.max(Real(0.0F), x));
+            const typename R::Int k = r.note(encode_site::code, code_of(r, clamped));
+            words.add(static_cast<std::uint32_t>(static_cast<int>(k)));
+        }
+        words.add(std::uint32_t{255});
+        return words;
+    }
+
+  private:
+    template <class R> typename R::Int code_of(R& r, const typename R::Real& x) const {
+        using Real = typename R::Real;
+        if (encoding == Encoding::linear8)
+            return r.to_int(encode_site::code_value,
+                            r.floor(r.note(encode_site::code_value, Real(255.0F) * x + Real(0.5F))));
+        if (encoding == Encoding::srgb_hw)
+            return r.to_int(encode_site::code_value, encoded_by_gl(r, x));
+        int code = 0;
+        for (int step = 128; step > 0; step /= 2)
+            if (r.decide(encode_site::at_least,
+                         r.uniform(encode_site::threshold, srgb_threshold(static_cast<std::size_t>(code + step - 1))) <=
+                             x))
+                code += step;
+        return code;
+    }
+    /// The curve right to 1 part in 10^5 (GL 4.5, 2.3.4.1), and either of the two codes next to it (2.3.5.2).
+    template <class R> typename R::Real encoded_by_gl(R& r, const typename R::Real& x) const {
+        using Real = typename R::Real;
+        const Interval set = item_twin::set_of(x);
+        const double value = 255.0 * srgb_curve(double{set.as_float()});
+        const double low = 255.0 * srgb_curve(set.low) * (1.0 - 1e-5),
+                     high = 255.0 * srgb_curve(set.high) * (1.0 + 1e-5);
+        return r.unspecified(encode_site::code_value, Real(static_cast<float>(std::floor(value + 0.5))),
+                             static_cast<float>(std::floor(low)),
+                             static_cast<float>(std::fmin(std::ceil(high), 255.0)));
+    }
+};
+
+} // namespace lockstep

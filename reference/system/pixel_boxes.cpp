@@ -1,0 +1,70 @@
+#include "reference/system/pixel_boxes.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+namespace lockstep {
+namespace {
+
+bool is_empty(const PixelRect& box) { return box.x0 >= box.x1 || box.y0 >= box.y1; }
+
+/// Calls `visit` with every tile that a box touches.
+template <class Visit> void for_each_tile(const PixelRect& box, std::size_t columns, const Visit& visit) {
+    constexpr int side = BoxesByTile::side;
+    if (is_empty(box))
+        return;
+    for (int y = box.y0 / side; y <= (box.y1 - 1) / side; ++y)
+        for (int x = box.x0 / side; x <= (box.x1 - 1) / side; ++x)
+            visit(static_cast<std::size_t>(y) * columns + static_cast<std::size_t>(x));
+}
+
+} // namespace
+
+PixelRect RoughWindow::box(const glm::dvec2& low, const glm::dvec2& high) const {
+    constexpr double room = 2.0;
+    if (!std::isfinite(low.x + low.y + high.x + high.y))
+        return {};
+    const auto clamped = [](double at, int size) { return static_cast<int>(std::clamp(at, 0.0, double(size))); };
+    return {clamped(std::floor(low.x - room), width), clamped(std::floor(low.y - room), height),
+            clamped(std::ceil(high.x + room), width), clamped(std::ceil(high.y + room), height)};
+}
+
+std::vector<PixelRect> triangle_boxes(const RoughWindow& window, const SystemView& state, FieldId corners) {
+    std::vector<PixelRect> all;
+    for (std::size_t t = 0; t < state[corners.resource].count() / 3; ++t) {
+        constexpr double far = 1e9;
+        glm::dvec2 low(far), high(-far);
+        bool behind = false;
+        for (std::size_t k = 0; k < 3; ++k) {
+            const glm::dvec4 clip = window.clip(state.vec3(corners, 3 * t + k));
+            behind = behind || !(clip.w > 1e-3);
+            const glm::dvec2 at = window.place(clip);
+            low = {std::min(low.x, at.x), std::min(low.y, at.y)};
+            high = {std::max(high.x, at.x), std::max(high.y, at.y)};
+        }
+        all.push_back(behind ? window.all() : window.box(low, high));
+    }
+    return all;
+}
+
+BoxesByTile::BoxesByTile(std::vector<PixelRect> boxes, int width, int height)
+    : boxes_(std::move(boxes)), width_(width), height_(height),
+      columns_(static_cast<std::size_t>((width + side - 1) / side)),
+      starts_(columns_ * static_cast<std::size_t>((height + side - 1) / side) + 1) {
+    for (const PixelRect& box : boxes_)
+        for_each_tile(box, columns_, [&](std::size_t tile) { ++starts_[tile + 1]; });
+    for (std::size_t tile = 1; tile < starts_.size(); ++tile)
+        starts_[tile] += starts_[tile - 1];
+    numbers_.resize(starts_.back());
+    std::vector<std::size_t> next(starts_.begin(), starts_.end() - 1);
+    for (std::uint32_t i = 0; i < boxes_.size(); ++i)
+        for_each_tile(boxes_[i], columns_, [&](std::size_t tile) { numbers_[next[tile]++] = i; });
+}
+
+PixelRect BoxesByTile::tile(std::size_t tile) const {
+    const int x = static_cast<int>(tile % columns_) * side, y = static_cast<int>(tile / columns_) * side;
+    return {x, y, std::min(x + side, width_), std::min(y + side, height_)};
+}
+
+} // namespace lockstep

@@ -11,12 +11,12 @@
 #include <glm/gtc/matrix_transform.hpp>
 #include <nlohmann/json.hpp>
 
+#include "crosscheck/collision/study/recall_table.hpp"
+#include "crosscheck/collision/study/study.hpp"
+#include "crosscheck/collision/study/study_pictures.hpp"
+#include "crosscheck/collision/study/study_report.hpp"
+#include "crosscheck/report/gnuplot.hpp"
 #include "crosscheck/scene/scene_file.hpp"
-#include "crosscheck/study/gnuplot.hpp"
-#include "crosscheck/study/recall_table.hpp"
-#include "crosscheck/study/study.hpp"
-#include "crosscheck/study/study_pictures.hpp"
-#include "crosscheck/study/study_report.hpp"
 #include "reference/collision/collision_code.hpp"
 #include "reference/collision/collision_pass.hpp"
 #include "reference/collision/obstacle_pass.hpp"

@@ -1,7 +1,7 @@
 #include <catch2/catch.hpp>
 
+#include "crosscheck/collision/study/camera_experiments.hpp"
 #include "crosscheck/scene/scene_file.hpp"
-#include "crosscheck/study/camera_experiments.hpp"
 
 using namespace lockstep;
 

@@ -7,9 +7,9 @@
 #include <sstream>
 #include <string>
 
-#include "crosscheck/study/catalogue.hpp"
-#include "crosscheck/study/catalogue_pictures.hpp"
-#include "crosscheck/study/study_pictures.hpp"
+#include "crosscheck/collision/study/catalogue.hpp"
+#include "crosscheck/collision/study/catalogue_pictures.hpp"
+#include "crosscheck/collision/study/study_pictures.hpp"
 #include "reference/model/error.hpp"
 
 using namespace lockstep;

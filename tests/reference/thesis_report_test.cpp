@@ -10,8 +10,8 @@
 
 #include <nlohmann/json.hpp>
 
-#include "crosscheck/study/statistics.hpp"
-#include "crosscheck/study/thesis_report.hpp"
+#include "crosscheck/collision/study/thesis_report.hpp"
+#include "crosscheck/report/statistics.hpp"
 #include "tests/temporary_folder.hpp"
 
 using namespace lockstep;

@@ -1,7 +1,7 @@
 #include <catch2/catch.hpp>
 
-#include "crosscheck/study/study.hpp"
-#include "crosscheck/study/study_report.hpp"
+#include "crosscheck/collision/study/study.hpp"
+#include "crosscheck/collision/study/study_report.hpp"
 #include "tests/collision/twin/llvmpipe.hpp"
 #include "tests/collision/twin/twin_scenes.hpp"
 

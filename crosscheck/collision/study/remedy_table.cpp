@@ -1,4 +1,4 @@
-#include "crosscheck/study/remedy_table.hpp"
+#include "crosscheck/collision/study/remedy_table.hpp"
 
 #include <algorithm>
 
@@ -7,10 +7,10 @@
 #include <nlohmann/json.hpp>
 
 #include "crosscheck/collision/judge/check.hpp"
+#include "crosscheck/collision/study/study.hpp"
 #include "crosscheck/judge/stopwatch.hpp"
+#include "crosscheck/report/statistics.hpp"
 #include "crosscheck/scene/scene_file.hpp"
-#include "crosscheck/study/statistics.hpp"
-#include "crosscheck/study/study.hpp"
 #include "gpu/collision/simulation.hpp"
 #include "reference/collision/simulation.hpp"
 #include "reference/model/collision/layered_cdt.hpp"

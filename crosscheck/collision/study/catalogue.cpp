@@ -1,4 +1,4 @@
-#include "crosscheck/study/catalogue.hpp"
+#include "crosscheck/collision/study/catalogue.hpp"
 
 #include <algorithm>
 #include <array>
@@ -9,8 +9,8 @@
 #include <fmt/ranges.h>
 #include <glm/geometric.hpp>
 
+#include "crosscheck/collision/study/study.hpp"
 #include "crosscheck/scene/scene_file.hpp"
-#include "crosscheck/study/study.hpp"
 #include "reference/collision/collision_pass.hpp"
 #include "reference/collision/render_pass.hpp"
 #include "reference/collision/simulation.hpp"

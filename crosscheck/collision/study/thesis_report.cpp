@@ -1,4 +1,4 @@
-#include "crosscheck/study/thesis_report.hpp"
+#include "crosscheck/collision/study/thesis_report.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -8,8 +8,8 @@
 #include <nlohmann/json.hpp>
 
 #include "crosscheck/files/json_reader.hpp"
-#include "crosscheck/study/gnuplot.hpp"
-#include "crosscheck/study/statistics.hpp"
+#include "crosscheck/report/gnuplot.hpp"
+#include "crosscheck/report/statistics.hpp"
 
 namespace lockstep {
 namespace {

@@ -1,4 +1,4 @@
-#include "crosscheck/study/catalogue_pictures.hpp"
+#include "crosscheck/collision/study/catalogue_pictures.hpp"
 
 #include <algorithm>
 #include <array>
@@ -6,10 +6,10 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include "crosscheck/collision/study/catalogue.hpp"
+#include "crosscheck/collision/study/study.hpp"
+#include "crosscheck/collision/study/study_pictures.hpp"
 #include "crosscheck/scene/scene_file.hpp"
-#include "crosscheck/study/catalogue.hpp"
-#include "crosscheck/study/study.hpp"
-#include "crosscheck/study/study_pictures.hpp"
 #include "reference/collision/render_pass.hpp"
 #include "reference/model/error.hpp"
 

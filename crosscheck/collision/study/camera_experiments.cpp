@@ -1,4 +1,4 @@
-#include "crosscheck/study/camera_experiments.hpp"
+#include "crosscheck/collision/study/camera_experiments.hpp"
 
 #include <array>
 #include <cmath>
@@ -6,8 +6,8 @@
 #include <fmt/format.h>
 #include <glm/geometric.hpp>
 
-#include "crosscheck/study/statistics.hpp"
-#include "crosscheck/study/study.hpp"
+#include "crosscheck/collision/study/study.hpp"
+#include "crosscheck/report/statistics.hpp"
 
 namespace lockstep {
 namespace {

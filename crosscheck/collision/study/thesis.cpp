@@ -1,13 +1,13 @@
-#include "crosscheck/study/thesis.hpp"
+#include "crosscheck/collision/study/thesis.hpp"
 
 #include <algorithm>
 #include <limits>
 
 #include <fmt/format.h>
 
+#include "crosscheck/collision/study/study.hpp"
 #include "crosscheck/judge/stopwatch.hpp"
 #include "crosscheck/scene/scene_file.hpp"
-#include "crosscheck/study/study.hpp"
 #include "gpu/collision/simulation.hpp"
 #include "reference/collision/octree_pass.hpp"
 

@@ -4,7 +4,7 @@
 
 #include <nlohmann/json_fwd.hpp>
 
-#include "crosscheck/study/study.hpp"
+#include "crosscheck/collision/study/study.hpp"
 
 namespace lockstep {
 

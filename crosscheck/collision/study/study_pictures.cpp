@@ -1,11 +1,11 @@
-#include "crosscheck/study/study_pictures.hpp"
+#include "crosscheck/collision/study/study_pictures.hpp"
 
 #include <algorithm>
 #include <array>
 
 #include <fmt/format.h>
 
-#include "crosscheck/study/gnuplot.hpp"
+#include "crosscheck/report/gnuplot.hpp"
 #include "reference/collision/collision_pass.hpp"
 
 namespace lockstep {

@@ -1,4 +1,4 @@
-#include "crosscheck/study/study_report.hpp"
+#include "crosscheck/collision/study/study_report.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -10,13 +10,13 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
-#include "crosscheck/study/statistics.hpp"
+#include "crosscheck/report/statistics.hpp"
 
 namespace lockstep {
 namespace {
 
-using Value = std::variant<std::size_t, double>;
-using Columns = std::vector<std::pair<std::string, Value>>;
+using CountOrShare = std::variant<std::size_t, double>;
+using Columns = std::vector<std::pair<std::string, CountOrShare>>;
 
 /// Every number of a frame, by name.
 Columns columns(const SearchCounts& n) {
@@ -57,7 +57,7 @@ Columns columns(const StudyFrame& frame) {
     return all;
 }
 
-std::string cell(const Value& value) {
+std::string cell(const CountOrShare& value) {
     if (const auto* count = std::get_if<std::size_t>(&value))
         return std::to_string(*count);
     const double number = std::get<double>(value);

@@ -1,4 +1,4 @@
-#include "crosscheck/study/study.hpp"
+#include "crosscheck/collision/study/study.hpp"
 
 #include <algorithm>
 

@@ -3,7 +3,7 @@
 #include <string>
 #include <string_view>
 
-#include "crosscheck/study/study.hpp"
+#include "crosscheck/collision/study/study.hpp"
 
 namespace lockstep {
 

@@ -5,7 +5,7 @@
 
 #include <nlohmann/json_fwd.hpp>
 
-#include "crosscheck/study/thesis.hpp"
+#include "crosscheck/collision/study/thesis.hpp"
 
 namespace lockstep {
 

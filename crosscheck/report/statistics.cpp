@@ -1,4 +1,4 @@
-#include "crosscheck/study/statistics.hpp"
+#include "crosscheck/report/statistics.hpp"
 
 #include <algorithm>
 #include <cmath>

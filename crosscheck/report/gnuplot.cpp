@@ -1,4 +1,4 @@
-#include "crosscheck/study/gnuplot.hpp"
+#include "crosscheck/report/gnuplot.hpp"
 
 #include <array>
 #include <cerrno>

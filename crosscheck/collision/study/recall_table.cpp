@@ -1,9 +1,9 @@
-#include "crosscheck/study/recall_table.hpp"
+#include "crosscheck/collision/study/recall_table.hpp"
 
 #include <fmt/format.h>
 
+#include "crosscheck/collision/study/study.hpp"
 #include "crosscheck/scene/scene_file.hpp"
-#include "crosscheck/study/study.hpp"
 
 namespace lockstep {
 namespace {

@@ -1,18 +1,19 @@
-#include <cstdio>
-#include <iostream>
 #include <memory>
+#include <optional>
 #include <string>
 
 #include <fmt/format.h>
-#include <unistd.h>
 
 #include "crosscheck/cli/commands.hpp"
 #include "crosscheck/cli/run_options.hpp"
-#include "crosscheck/collision/report/debug_session.hpp"
+#include "crosscheck/cli/system_verbs.hpp"
+#include "crosscheck/collision/record/trace_side.hpp"
+#include "crosscheck/collision/report/collision_debug_run.hpp"
 #include "crosscheck/command/judging_options.hpp"
 #include "crosscheck/command/option_values.hpp"
-#include "crosscheck/files/plain_text.hpp"
+#include "crosscheck/files/threads.hpp"
 #include "crosscheck/scene/profiles.hpp"
+#include "crosscheck/scene/scene_settings.hpp"
 #include "gpu/context.hpp"
 #include "reference/model/error.hpp"
 
@@ -21,37 +22,19 @@ namespace {
 
 struct DebugRequest {
     RunOptions run;
+    std::filesystem::path trace; ///< instead of a scene and GL
     Legal legal = Legal::measured;
     bool hexadecimal = false;
 };
 
-/// Obeys standard input line by line. On a terminal an error is told and the session goes on; a script ends at its
-/// first error, which names the line.
-void obey_input(DebugSession& session) {
-    const bool terminal = isatty(STDIN_FILENO) == 1;
-    std::string line;
-    for (int number = 1; !session.ended(); ++number) {
-        if (terminal) {
-            fmt::print("(lockstep) ");
-            std::fflush(stdout);
-        }
-        if (!std::getline(std::cin, line)) {
-            if (terminal)
-                fmt::print("\n");
-            return;
-        }
-        try {
-            fmt::print("{}", plain_text(session.obey(line)));
-            std::fflush(stdout);
-        } catch (const Error& error) {
-            if (!terminal)
-                throw Error(fmt::format("line {}: {}", number, error.what()));
-            fmt::print("{}\n", plain_line(error.what()));
-        }
-    }
+DebugSetup setup_of(const DebugRequest& options) {
+    DebugSetup setup;
+    setup.frames = options.run.frames;
+    setup.format = number_format(options.hexadecimal);
+    return setup;
 }
 
-int run(const DebugRequest& options) {
+int debug_scene(const DebugRequest& options) {
     const auto load_with = [&](const std::vector<std::string>& changes) {
         RunOptions changed = options.run;
         changed.set.insert(changed.set.end(), changes.begin(), changes.end());
@@ -60,17 +43,36 @@ int run(const DebugRequest& options) {
     static_cast<void>(shaders_to_run(options.run, load_with({})));
     const Context context(parse_context_request(options.run.gl));
     const Profile profile = measured_profile(context, options.run.shaders);
-    DebugSession session({.load = load_with,
-                          .start =
-                              [&](Scene scene) {
-                                  return std::make_unique<FrameRun>(std::move(scene), profile,
-                                                                    known_operations(options.legal, profile),
-                                                                    options.run.shaders);
-                              },
-                          .frames = options.run.frames,
-                          .format = options.hexadecimal ? NumberFormat::hexadecimal : NumberFormat::decimal});
-    obey_input(session);
-    return status_agree;
+    DebugSetup setup = setup_of(options);
+    setup.start = [&](const std::vector<std::string>& changes) {
+        return std::make_unique<CollisionDebugRun>(std::make_unique<FrameRun>(
+            load_with(changes), profile, known_operations(options.legal, profile), options.run.shaders));
+    };
+    return debug_run(std::move(setup));
+}
+
+int debug_trace(const DebugRequest& options) {
+    start_threads(options.run.threads);
+    TraceReader trace(options.trace);
+    TraceSide recorded(trace);
+    DebugSetup setup = setup_of(options);
+    setup.recorded = trace.info().frames;
+    setup.unchangeable = recorded_is_fixed;
+    setup.start = [&](const std::vector<std::string>&) {
+        return std::make_unique<CollisionDebugRun>(
+            std::make_unique<FrameRun>(trace.info().scene, followed_profile(trace.info()),
+                                       known_operations(trace.info(), options.legal), recorded));
+    };
+    return debug_run(std::move(setup));
+}
+
+int run(const DebugRequest& options, const Call& call) {
+    const RegisteredSystem* system =
+        options.trace.empty() ? system_of(options.run) : system_of_recording(options.trace);
+    check_scene_or_trace(call, options.run, options.trace);
+    if (system != nullptr)
+        return debug_system(*system, options.run, options.legal, setup_of(options), options.trace);
+    return options.trace.empty() ? debug_scene(options) : debug_trace(options);
 }
 
 } // namespace
@@ -78,17 +80,19 @@ int run(const DebugRequest& options) {
 Verb debug_command() {
     auto options = std::make_shared<DebugRequest>();
     Verb verb{"debug", "walk through both sides by commands, typed or from a pipe"};
-    add_scene_options(verb, options->run);
+    add_scene_options(verb, options->run, SceneArgument::optional);
     add_gl_options(verb, options->run);
-    verb.add(
-        integer_option("--frames", "N", {1, most_frames}, options->run.frames, "how many frames `next` looks through"));
+    add_trace_option(verb, options->trace);
+    verb.add(integer_option("--frames", "N", {1, most_frames}, options->run.frames,
+                            "how many frames `next` and `continue` look through"));
     add_legal_option(verb, options->legal);
-    verb.add(flag("--hex", options->hexadecimal, "hexadecimal floats instead of decimal ones"));
-    verb.footer = "Commands: frame, particle, texel, show, step, back, next fetch|difference|divergence|nan, why, "
+    verb.add(hex_option(options->hexadecimal));
+    verb.footer = "Commands: frame, particle, texel or pass, item; show, step, back,\n"
+                  "next fetch|difference|divergence|nan, why, print, history, break, continue,\n"
                   "set NAME=VALUE, list divergent, help, quit; # starts a comment.\n"
-                  "Exit status: 0 told, 2 could not run, or a command of a script could not be done.\n"
+                  "Exit status: 0 reported, 2 could not run, or a command of a script could not be done.\n"
                   "Example: printf 'next difference\\nwhy\\n' | lockstep debug data/scenes/lattice.json --shaders mine";
-    verb.run = [options](const Call&) { return run(*options); };
+    verb.run = [options](const Call& call) { return run(*options, call); };
     return verb;
 }
 

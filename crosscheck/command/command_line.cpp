@@ -108,7 +108,7 @@ int run_command_line(const Verb& program, int argc, char** argv, int misused) {
                              "Print the version and exit");
     describe(app, program);
     app.failure_message([&program](const CLI::App* root, const CLI::Error& error) {
-        return fmt::format("{0}: {1} ({0} --help tells more)\n", program.name,
+        return fmt::format("{0}: {1} ({0} --help says more)\n", program.name,
                            plain_line(usage_error(program, *root, error)));
     });
     try {

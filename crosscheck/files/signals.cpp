@@ -100,6 +100,11 @@ void leave_main() { in_main = false; }
 InterruptHandler::InterruptHandler() { interrupts_are_noted = true; }
 InterruptHandler::~InterruptHandler() { interrupts_are_noted = false; }
 
+void InterruptHandler::again() {
+    interrupted = false;
+    interrupts_are_noted = true;
+}
+
 SignalsWait::SignalsWait() : outermost_(waiting++ == 0) {
     if (!outermost_)
         return;

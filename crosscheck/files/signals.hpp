@@ -20,6 +20,9 @@ class InterruptHandler {
     ~InterruptHandler();
     InterruptHandler(const InterruptHandler&) = delete;
     InterruptHandler& operator=(const InterruptHandler&) = delete;
+
+    /// Forgets a Ctrl-C; the next one is the first again.
+    void again();
 };
 
 /// While one lives, signals wait: for a few system calls that belong together.

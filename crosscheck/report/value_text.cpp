@@ -13,6 +13,10 @@ std::string exact_text(Value value) {
     return value.scalar == Scalar::float32 ? fmt::format("{:a}", value.real()) : std::to_string(value.integer());
 }
 
+std::string decimal_text(Value value) {
+    return value.scalar == Scalar::float32 ? fmt::format("{:.9g}", value.real()) : std::to_string(value.integer());
+}
+
 std::string value_text(Value value) {
     return value.scalar == Scalar::float32 ? fmt::format("{:.9g} ({:a})", value.real(), value.real())
                                            : fmt::format("{} ({:#x})", value.integer(), value.bits);
@@ -46,7 +50,7 @@ std::string distance_text(const Difference& difference) {
 
 std::string difference_text(const Schema& schema, const Difference& difference) {
     return fmt::format("{}: reference {}, GPU {}", component_name(schema[difference.field], difference.component),
-                       exact_text(difference.reference), exact_text(difference.gpu));
+                       decimal_text(difference.reference), decimal_text(difference.gpu));
 }
 
 std::string color_text(Rgba8 c) {

@@ -15,6 +15,9 @@ enum class NumberFormat { decimal, hexadecimal };
 /// "0.1 (0x1.99999ap-4)"; an integer "17 (0x11)".
 std::string value_text(Value value);
 
+/// "0.1", nine digits, which no other float has; an integer "17".
+std::string decimal_text(Value value);
+
 /// "0x1.99999ap-4"; an integer "17".
 std::string exact_text(Value value);
 
@@ -30,7 +33,7 @@ std::string distance_text(const Difference& difference);
 /// Whether the floats' distance is mostly that to 0 and back: `ulp` of more than an octave.
 bool of_other_sign(float reference, float gpu, std::int64_t ulp);
 
-/// "position.x: reference 0x1p+0, GPU 0x1.000002p+0".
+/// "position.x: reference 1, GPU 1.00000012".
 std::string difference_text(const Schema& schema, const Difference& difference);
 
 /// "#3a6bd2", or with an alpha that is not 255 "#3a6bd2 alpha 0".

@@ -1,6 +1,8 @@
 #include <catch2/catch.hpp>
 
 #include <algorithm>
+#include <fstream>
+#include <iterator>
 #include <sstream>
 #include <string>
 #include <vector>
@@ -148,8 +150,9 @@ TEST_CASE("debug_command: help names every command; quit, and the end of the inp
     const Setting setting;
     const std::string help = setting.told("help\n");
     for (const char* command :
-         {"frame F ", "particle I ", "texel X,Y ", "show ", "step [N] ", "back [N] ",
-          "next fetch|difference|divergence|nan ", "why ", "set NAME=VALUE ", "list divergent|", "help ", "quit "})
+         {"frame, f F ", "particle I ", "texel X,Y ", "show ", "step, s [N] ", "back [N] ",
+          "next, n fetch|difference|divergence|nan ", "why, w ", "print, p NAME ", "history [NAME] ",
+          "break, b [NAME < NUMBER] ", "continue, c ", "set NAME=VALUE ", "list, l divergent|", "help, h ", "quit, q "})
         CHECK_THAT(help, Catch::Contains(command));
     CHECK(setting.told("# a comment\n\n  \nquit # the end\nnonsense\n").empty());
     CHECK(setting.told("").empty());
@@ -159,12 +162,114 @@ TEST_CASE("debug_command: what cannot be done is told with the line of the scrip
     if (!test::have_software_gl())
         return;
     const Setting setting;
-    CHECK(setting.error("\n# first\nnonsense\n") == "line 3: unknown command 'nonsense'; the commands are frame, "
-                                                    "particle, texel, show, step, back, next, why, set, "
-                                                    "list, help, quit");
+    CHECK(setting.error("\n# first\nnonsense\n") ==
+          "line 3: unknown command 'nonsense'; the commands are frame, particle, texel, show, step, back, next, why, "
+          "print, history, break, continue, set, list, help, quit");
+    CHECK_THAT(setting.error("fram 2\n"), Catch::EndsWith("; did you mean frame?"));
+    CHECK(setting.error("continue\n") == "line 1: continue: there is no break; `break NAME < NUMBER` makes one");
+    CHECK(setting.error("break speed near 0.1\n") ==
+          "line 1: break: 'speed near 0.1' is not NAME < NUMBER; <=, >, >=, ==, != go as well");
+    CHECK(setting.error("break sped < 0.1\n") == "line 1: break: frame 0 particle 0: there is no row 'sped' with a "
+                                                 "number; did you mean speed?; `show` lists them");
+    CHECK_THAT(setting.error("print clipp.x\n"),
+               Catch::StartsWith("line 1: print: frame 0 particle 0: ") && Catch::Contains("did you mean clip.x?"));
+    CHECK_THAT(setting.error("history colour\n"),
+               Catch::StartsWith("line 1: history: particle has no 'colour'; it has position.x, "));
     CHECK_THAT(setting.error("set arithmetic=loose\n"), Catch::StartsWith("line 1: ") && Catch::Contains("exact"));
     const test::Outcome outcome = setting.obey("frame 1\nnonsense\nframe 2\n");
     CHECK(outcome.out == "frame 1: particles: none differ; texels: none differ\n");
+}
+
+TEST_CASE("debug_command: break and continue go on to the frame where a row of the item is so") {
+    if (!test::have_software_gl())
+        return;
+    const Setting setting;
+    const std::string told = setting.told("particle 17\nbreak position.y < 0.1\nb position.y>0.2\nbreak\n");
+    CHECK_THAT(told, Catch::EndsWith("break where position.y < 0.1\nbreak where position.y > 0.2\n"
+                                     "position.y < 0.1\nposition.y > 0.2\n"));
+    const std::string first = setting.told("particle 17\nhistory position.y\n");
+    const auto y = std::stof(first.substr(first.rfind("position.y ") + 11));
+    // It moves for eight frames; what it passes on the way is found, whichever way that is.
+    const std::string after = setting.told("particle 17\nframe 7\nhistory position.y\n");
+    const auto end = std::stof(after.substr(after.rfind("position.y ") + 11));
+    REQUIRE(y != end);
+    const std::string condition =
+        "break position.y " + std::string(end > y ? "> " : "< ") + std::to_string((y + end) / 2);
+    const std::string found = setting.told("particle 17\n" + condition + "\nc\nprint position.y\n");
+    CHECK_THAT(found, Catch::Matches("(.|\n)*frame [1-7] particle 17\nposition.y [<>] [-0-9.]+ holds: (.|\n)*"));
+    CHECK_THAT(setting.error("break speed == 77\ncontinue\n", {"--frames", "4"}),
+               Catch::StartsWith("line 2: frame 0 particle 0: no further break up to frame 3; --frames"));
+}
+
+TEST_CASE("debug_command: history has a line for each frame, and both sides where they differ") {
+    if (!test::have_software_gl())
+        return;
+    const Setting setting;
+    CHECK(lines(setting.told("frame 3\nparticle 5\nhistory\n")).size() >= 5);
+    const std::string told = setting.told("frame 3\nparticle 5\nhistory speed\nprint position\n");
+    CHECK_THAT(told, Catch::Contains("particle 5: the GPU's values, and the reference's where they differ\n"
+                                     "     0  speed ") &&
+                         Catch::Contains("\n     3  speed ") && !Catch::Contains("\n     4  speed "));
+    CHECK_THAT(told, Catch::Contains("  position.x ") && Catch::Contains("  position.z "));
+    test::plant(setting.shaders, "collision_pass.vert", "v_Dir = ls_normalize(temp);", "v_Dir = -ls_normalize(temp);");
+    CHECK_THAT(setting.told("history direction.y\n"), Catch::Contains("(reference "));
+}
+
+TEST_CASE("debug_command: a recording is walked through without GL, as far as it goes") {
+    if (!test::have_software_gl())
+        return;
+    const Setting setting;
+    setting.plant_last_found();
+    const std::string file = (setting.folder.path() / "run.h5").string();
+    REQUIRE(run_lockstep({"record", setting.scene, "--frames", "8", "--gl", test::software_gl(), "--shaders",
+                          setting.shaders.path(), "-o", file})
+                .status == 0);
+    const auto obey = [&](const std::string& script) {
+        return run_lockstep({"debug", "--trace", file}, {.standard_input = script});
+    };
+    const test::Outcome found = obey("next divergence\nframe 7\n");
+    CHECK(found.status == 0);
+    CHECK_THAT(found.out, Catch::Matches("frame \\d+ particle \\d+\n> (.|\n)*DIVERGENT(.|\n)*frame 7: (.|\n)*"));
+    CHECK_THAT(obey("frame 8\n").err, Catch::Contains("line 1: frame 8: the recording holds frames 0 to 7"));
+    CHECK_THAT(obey("set tick=1\n").err, Catch::Contains("line 1: set: what was recorded stays what it is"));
+    CHECK(refusal(run_lockstep({"debug", setting.scene, "--trace", file})).find("--trace") != std::string::npos);
+}
+
+TEST_CASE("debug_command: of another system's scene passes and items are walked through") {
+    if (!test::have_software_gl())
+        return;
+    const test::TemporaryFolder folder, shaders;
+    const std::string scene = "data/scenes/dust/physics.json";
+    const auto obey = [&](const std::string& script, std::vector<std::string> options = {}) {
+        return run_lockstep(test::joined({"debug", scene, "--particles", "200", "--gl", test::software_gl()},
+                                         test::joined(test::shader_options(shaders), std::move(options))),
+                            {.standard_input = script});
+    };
+    const test::Outcome right = obey("frame 4\npass update\nitem 17\nshow\nhistory position\nwhy\n");
+    CHECK(right.err.empty());
+    CHECK_THAT(right.out, Catch::Contains("frame 4: ") && Catch::Contains("update: none differ") &&
+                              Catch::Contains("\nframe 4 update, grain 17\ngrain 17 in frame 4, pass update\n") &&
+                              Catch::Contains("\n     4  position.x ") &&
+                              Catch::Contains("update, grain 17 in frame 4\nverdict   every bit agrees\n"));
+    const test::Outcome explained = run_lockstep({"explain", scene, "--particles", "200", "--gl", test::software_gl(),
+                                                  "--frame", "4", "--pass", "update", "--item", "17"});
+    CHECK_THAT(right.out, Catch::Contains(explained.out.substr(explained.out.find("grain 17 in frame"))));
+    CHECK_THAT(obey("frame 2\nset tick=0.01\n").err + obey("frame 2\nset preset=exact\n").err,
+               Catch::Contains("line 2: "));
+    CHECK_THAT(obey("pass updat\n").err,
+               Catch::Contains("there is no pass 'updat'; there are ") && Catch::Contains("did you mean update?"));
+    CHECK_THAT(obey("item 200\n").err, Catch::Contains("there is no grain '200'; "));
+
+    std::ifstream shipped("shaders/dust/update.comp");
+    std::string text((std::istreambuf_iterator<char>(shipped)), {});
+    const std::string gravity = "add(a, gravity)";
+    const std::size_t use = text.find(gravity);
+    REQUIRE(use != std::string::npos);
+    text.replace(use, gravity.size(), "add(a, 2.0 * gravity)");
+    shaders.write("update.comp", text);
+    const test::Outcome wrong = obey("next divergence\nwhy\nlist divergent\n");
+    CHECK_THAT(wrong.out, Catch::StartsWith("frame 0 update, grain ") && Catch::Contains("DIVERGENT") &&
+                              Catch::Contains("verdict   divergent") && Catch::Contains("and 180 more"));
 }
 
 TEST_CASE("debug_command: on a terminal there is a prompt, and an error does not end it") {
@@ -175,4 +280,26 @@ TEST_CASE("debug_command: on a terminal there is a prompt, and an error does not
         run_lockstep_on_terminal(setting.command(), "(lockstep) ", "nonsense\nframe 1\nquit\n").out;
     CHECK_THAT(shown, Catch::Contains("unknown command 'nonsense'; the commands are frame,") &&
                           Catch::Contains("frame 1: particles: none differ"));
+}
+
+TEST_CASE("debug_command: at the prompt Tab completes, arrows repeat, Ctrl-C stops a command and not the session") {
+    if (!test::have_software_gl() || !test::have_terminal())
+        return;
+    const Setting setting;
+    const std::string prompt = "(lockstep) ", up = "\x1b[A", ctrl_c = "\x03";
+    const std::string shown =
+        run_lockstep_on_terminal(setting.command({"--frames", "100000"}), {{prompt, "fra\t2\n"},
+                                                                           {"frame 2: particles", ""},
+                                                                           {prompt, up + "\n"},
+                                                                           {"frame 2: particles", ""},
+                                                                           {prompt, "half a li" + ctrl_c},
+                                                                           {prompt, "next na\t\n"},
+                                                                           {"next na", ""},
+                                                                           {"n \r\n", ctrl_c},
+                                                                           {"stopped in frame ", ""},
+                                                                           {prompt, "frame 1\nquit\n"}})
+            .out;
+    CHECK_THAT(shown, Catch::Contains("frame 2 particle 0: stopped in frame "));
+    CHECK_THAT(shown, Catch::Contains("frame 1: particles: none differ"));
+    CHECK_THAT(shown, !Catch::Contains("unknown command"));
 }

@@ -12,6 +12,7 @@
 #include "crosscheck/collision/judge/side_state.hpp"
 #include "crosscheck/collision/judge/step_cause.hpp"
 #include "crosscheck/collision/judge/step_judge.hpp"
+#include "crosscheck/judge/agreeing_frames.hpp"
 #include "crosscheck/judge/item_cause.hpp"
 #include "crosscheck/judge/power.hpp"
 #include "crosscheck/judge/stopwatch.hpp"
@@ -139,6 +140,8 @@ class RunJudge {
     [[nodiscard]] PowerSummary power() const {
         return is_listing(scene_.switches) ? listing_power_.summary() : power_.summary();
     }
+
+    [[nodiscard]] const std::vector<NamedMistake>& mistakes() const { return named_; }
 
     /// By which what diverges is legal, where that is judged by what was measured.
     [[nodiscard]] std::optional<Legal> wider_rule() const { return hint_.rule(); }
@@ -308,6 +311,7 @@ CheckReport check(const Scene& scene, const Profile& profile, GpuSide& gpu, cons
         report.verdicts = judge.summary();
         report.wider_rule = judge.wider_rule();
         report.power = judge.power();
+        refute_causes(report, judge.mistakes());
     }
     report.verdict = verdict_on(report);
     if (report.verdict != Verdict::divergent && report.verdict != Verdict::differ)

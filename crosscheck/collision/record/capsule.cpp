@@ -139,7 +139,7 @@ Capsule cut_capsule(const JudgedFrame& frame, const CapsuleSource& source) {
 
     const LonelyFrame alone(capsule);
     if (why_particle(frame, source.particle, "it") != why_particle(alone.judged(), 0, "it"))
-        throw Error(fmt::format("{}: its verdict rests on more than the texels round it, so no capsule of it can be "
+        throw Error(fmt::format("{}: its verdict rests on more than the texels around it, so no capsule of it can be "
                                 "cut; a trace holds the whole run",
                                 name_of(capsule)));
     return capsule;

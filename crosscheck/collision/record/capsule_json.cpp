@@ -154,7 +154,7 @@ std::string capsule_file(const Capsule& cut) {
     const json back = parse_json(text, "capsule");
     if (capsule_text(read_capsule(JsonValue(back, "capsule")), NumberFormat::hexadecimal) !=
         capsule_text(capsule, NumberFormat::hexadecimal))
-        throw Error(fmt::format("particle {} in frame {}: read back, its capsule tells something else; this is a bug",
+        throw Error(fmt::format("particle {} in frame {}: read back, its capsule says something else; this is a bug",
                                 capsule.particle, capsule.frame));
     return text;
 }

@@ -122,7 +122,7 @@ std::string capsule_file(const PixelCapsule& cut) {
     const json back = parse_json(text, "capsule");
     if (capsule_text(read_pixel_capsule(JsonValue(back, "capsule")), NumberFormat::hexadecimal) !=
         capsule_text(capsule, NumberFormat::hexadecimal))
-        throw Error(fmt::format("{}: read back, its capsule tells something else; this is a bug", place));
+        throw Error(fmt::format("{}: read back, its capsule says something else; this is a bug", place));
     return text;
 }
 

@@ -5,7 +5,8 @@
 
 #include <catch2/catch.hpp>
 
-#include "crosscheck/collision/report/debug_session.hpp"
+#include "crosscheck/collision/report/collision_debug_run.hpp"
+#include "crosscheck/report/debug_session.hpp"
 #include "reference/model/error.hpp"
 #include "tests/collision/twin/llvmpipe.hpp"
 #include "tests/collision/twin/twin_scenes.hpp"
@@ -16,21 +17,17 @@ using namespace lockstep;
 namespace {
 
 DebugSession session_of(const test::TemporaryFolder& shaders, int frames = 4) {
-    return DebugSession({.load =
-                             [](const std::vector<std::string>& changes) {
-                                 Scene scene = test::crowded_scene(300, 61, 47);
-                                 for (const std::string& change : changes)
-                                     set_switch(scene.switches, change.substr(0, change.find('=')),
-                                                change.substr(change.find('=') + 1));
-                                 return scene;
-                             },
-                         .start =
-                             [&shaders](Scene scene) {
-                                 const Profile profile = test::llvmpipe_profile(shaders.path());
-                                 return std::make_unique<FrameRun>(std::move(scene), profile,
-                                                                   measured_operations(profile), shaders.path());
-                             },
-                         .frames = frames});
+    DebugSetup setup;
+    setup.frames = frames;
+    setup.start = [&shaders](const std::vector<std::string>& changes) {
+        Scene scene = test::crowded_scene(300, 61, 47);
+        for (const std::string& change : changes)
+            set_switch(scene.switches, change.substr(0, change.find('=')), change.substr(change.find('=') + 1));
+        const Profile profile = test::llvmpipe_profile(shaders.path());
+        return std::make_unique<CollisionDebugRun>(
+            std::make_unique<FrameRun>(std::move(scene), profile, measured_operations(profile), shaders.path()));
+    };
+    return DebugSession(std::move(setup));
 }
 
 std::string error_of(DebugSession& session, const std::string& line) {
@@ -54,7 +51,7 @@ TEST_CASE("debug_session: a command that cannot be done says why and changes not
     const std::pair<const char*, const char*> wrong[] = {
         {"nonsense",
          "unknown command 'nonsense'; the commands are frame, particle, texel, show, step, back, next, why, "
-         "set, list, help, quit"},
+         "print, history, break, continue, set, list, help, quit"},
         {"frame", "frame: '' is not an integer from 0 to 100000000"},
         {"frame -1", "frame: '-1' is not an integer from 0 to 100000000"},
         {"frame 1.5", "frame: '1.5' is not an integer from 0 to 100000000"},
@@ -62,6 +59,9 @@ TEST_CASE("debug_session: a command that cannot be done says why and changes not
         {"particle 300", "there is no particle '300'; crowded has 0 to 299"},
         {"texel", "there is no texel ''; the CDT has 0,0 to 60,46"},
         {"texel 61,1", "there is no texel '61,1'; the CDT has 0,0 to 60,46"},
+        {"print", "print: the name of a row is missing; `show` lists them"},
+        {"continue on", "continue: takes no argument, not 'on'"},
+        {"break speed < ", "break: 'speed <' is not NAME < NUMBER; <=, >, >=, ==, != go as well"},
         {"show me", "show: takes no argument, not 'me'"},
         {"step 0", "step: '0' is not an integer from 1 to 1000000"},
         {"back x", "back: 'x' is not an integer from 1 to 1000000"},

@@ -1,0 +1,48 @@
+#include "crosscheck/command/session_input.hpp"
+
+#include <cstdio>
+#include <iostream>
+#include <optional>
+
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include "crosscheck/command/line_editor.hpp"
+#include "crosscheck/files/plain_text.hpp"
+#include "reference/model/error.hpp"
+
+namespace lockstep {
+namespace {
+
+void obey_terminal(const Session& session) {
+    LineEditor editor("(lockstep) ", session.complete);
+    while (!session.ended()) {
+        const std::optional<std::string> line = editor.line();
+        if (!line)
+            return;
+        try {
+            fmt::print("{}", plain_text(session.obey(*line)));
+        } catch (const Error& error) {
+            fmt::print("{}\n", plain_line(error.what()));
+        }
+        std::fflush(stdout);
+    }
+}
+
+} // namespace
+
+void obey_input(const Session& session) {
+    if (isatty(STDIN_FILENO) == 1 && isatty(STDOUT_FILENO) == 1)
+        return obey_terminal(session);
+    std::string line;
+    for (int number = 1; !session.ended() && std::getline(std::cin, line); ++number) {
+        try {
+            fmt::print("{}", plain_text(session.obey(line)));
+            std::fflush(stdout);
+        } catch (const Error& error) {
+            throw Error(fmt::format("line {}: {}", number, error.what()));
+        }
+    }
+}
+
+} // namespace lockstep

@@ -1,0 +1,67 @@
+#pragma once
+#include <compare>
+#include <cstddef>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "crosscheck/judge/item_verdict.hpp"
+#include "crosscheck/judge/step_row.hpp"
+#include "crosscheck/report/value_text.hpp"
+#include "reference/model/state_view.hpp"
+
+namespace lockstep {
+
+/// One item of a frame: of which group (DebugRun::groups), and its number there.
+struct DebugItem {
+    std::size_t group = 0, index = 0;
+    auto operator<=>(const DebugItem&) const = default;
+};
+
+/// A command that chooses an item: "particle I".
+struct DebugSelector {
+    std::string_view name, argument, meaning;
+};
+
+/// Both sides of a run in resync, one frame at a time, as a debugging session walks through it. What is judged together
+/// is a group of items: the particles, the texels, or what one pass wrote. Every function throws Error where the run
+/// cannot be made.
+class DebugRun {
+  public:
+    DebugRun() = default;
+    virtual ~DebugRun() = default;
+    DebugRun(const DebugRun&) = delete;
+    DebugRun& operator=(const DebugRun&) = delete;
+
+    /// Runs to the end of frame `frame`, counted from 0; back ones from the start again.
+    virtual void go_to(int frame) = 0;
+    [[nodiscard]] virtual int frame() const = 0;
+
+    /// Their names, in the order in which a frame makes them.
+    [[nodiscard]] virtual std::vector<std::string> groups() const = 0;
+    [[nodiscard]] virtual std::vector<DebugSelector> selectors() const = 0;
+    /// The item that selectors()[selector] chooses where `now` was looked at. Throws Error where there is none.
+    [[nodiscard]] virtual DebugItem select(std::size_t selector, const std::string& argument, DebugItem now) = 0;
+    /// The item itself, or the first of the next group that this frame makes.
+    [[nodiscard]] virtual DebugItem nearest(DebugItem item) { return item; }
+
+    /// "particle 17", "update, grain 17"
+    [[nodiscard]] virtual std::string name(DebugItem item) const = 0;
+    /// What is told when a session comes to it, whole lines.
+    [[nodiscard]] virtual std::string head(DebugItem item, NumberFormat format) = 0;
+    [[nodiscard]] virtual std::string show(DebugItem item, NumberFormat format) = 0;
+    [[nodiscard]] virtual std::string why(DebugItem item) = 0;
+    [[nodiscard]] virtual std::vector<StepRow> rows(DebugItem item) = 0;
+
+    /// On what differs in this frame, in order; empty for a group that it does not make.
+    [[nodiscard]] virtual std::vector<ItemVerdict> verdicts(std::size_t group) = 0;
+
+    struct States {
+        View reference, gpu;
+    };
+    /// What both sides made of a group in this frame; of no items where it does not make it. Views end with the next
+    /// call.
+    [[nodiscard]] virtual States states(std::size_t group) = 0;
+};
+
+} // namespace lockstep

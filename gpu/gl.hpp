@@ -24,6 +24,7 @@
     X(BindFramebuffer)                                                                                                 \
     X(BindTexture)                                                                                                     \
     X(BindVertexArray)                                                                                                 \
+    X(BindSampler)                                                                                                     \
     X(BlendFunc)                                                                                                       \
     X(BlitFramebuffer)                                                                                                 \
     X(BufferData)                                                                                                      \
@@ -47,6 +48,7 @@
     X(DeleteFramebuffers)                                                                                              \
     X(DeleteProgram)                                                                                                   \
     X(DeleteQueries)                                                                                                   \
+    X(DeleteSamplers)                                                                                                  \
     X(DeleteShader)                                                                                                    \
     X(DeleteSync)                                                                                                      \
     X(DeleteTextures)                                                                                                  \
@@ -77,10 +79,14 @@
     X(GenBuffers)                                                                                                      \
     X(GenFramebuffers)                                                                                                 \
     X(GenQueries)                                                                                                      \
+    X(GenSamplers)                                                                                                     \
     X(GenTextures)                                                                                                     \
     X(GenVertexArrays)                                                                                                 \
     X(GetActiveAttrib)                                                                                                 \
     X(GetActiveUniform)                                                                                                \
+    X(GetActiveUniformBlockName)                                                                                       \
+    X(GetActiveUniformBlockiv)                                                                                         \
+    X(GetActiveUniformsiv)                                                                                             \
     X(GetAttribLocation)                                                                                               \
     X(GetBooleanv)                                                                                                     \
     X(GetBufferParameteriv)                                                                                            \
@@ -116,6 +122,7 @@
     X(QueryCounter)                                                                                                    \
     X(ReadBuffer)                                                                                                      \
     X(ReadPixels)                                                                                                      \
+    X(SamplerParameteri)                                                                                               \
     X(Scissor)                                                                                                         \
     X(ShaderSource)                                                                                                    \
     X(TexBuffer)                                                                                                       \
@@ -134,6 +141,7 @@
     X(Uniform3iv)                                                                                                      \
     X(Uniform4fv)                                                                                                      \
     X(Uniform4iv)                                                                                                      \
+    X(UniformBlockBinding)                                                                                             \
     X(UniformMatrix4fv)                                                                                                \
     X(UnmapBuffer)                                                                                                     \
     X(UseProgram)                                                                                                      \

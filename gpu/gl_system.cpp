@@ -10,6 +10,7 @@
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
+#include <glm/gtc/type_ptr.hpp>
 
 #include "gpu/check.hpp"
 #include "gpu/program.hpp"
@@ -101,16 +102,16 @@ void check_stage(const GlPass& pass, const Schema& schema) {
         throw Error(fmt::format("{}: {} has no buffer {}", pass.name, schema.system, pass.resource));
     const Resource& made = schema.resources[pass.resource];
     const bool is_image = made.dimensions > 1, draws = pass.draw.has_value();
+    if (pass.continues && is_image)
+        return;
     if (pass.stage == Stage::vertex && is_image != draws)
         throw Error(fmt::format("{}: a vertex shader makes {} {}", pass.name, made.title,
                                 is_image ? "where it says how it draws" : "by transform feedback, and draws nothing"));
-    if (draws && (pass.stage != Stage::vertex || made.dimensions != 2 || pass.draw->buffer >= schema.resources.size() ||
+    if (draws && (pass.stage != Stage::vertex || pass.draw->buffer >= schema.resources.size() ||
                   schema.resources[pass.draw->buffer].dimensions != 1 || pass.instances_of))
-        throw Error(
-            fmt::format("{}: a vertex shader draws items of a buffer into an image of two dimensions", pass.name));
-    if (is_image && (pass.continues || pass.invocations || pass.indirect))
-        throw Error(
-            fmt::format("{}: {} are made by a dispatch of their own, an invocation a texel", pass.name, made.title));
+        throw Error(fmt::format("{}: a vertex shader draws items of a buffer into an image", pass.name));
+    if (is_image && pass.indirect)
+        throw Error(fmt::format("{}: {} are made by a dispatch of a known size", pass.name, made.title));
     const bool in_place = !made.fields.front().block.empty();
     if (pass.stage == Stage::vertex && in_place)
         throw Error(
@@ -185,6 +186,9 @@ struct GlSystem::Parts {
     std::map<std::uint8_t, std::vector<StateImage>> images = {}; ///< two a resource
     SmallestTarget target = {};                                  ///< of vertex passes
     GlQuery timer = {};
+    std::optional<std::size_t> canary_laid = {}; ///< in what this pass will write: its next step keeps what it read
+    std::optional<std::size_t> kept = {};        ///< the pass of the last step, where that is there to be repeated from
+    std::array<GlSampler, 2> samplers = {};      ///< by GlFilter
     bool takes_times = false;
     bool says_precise = true; ///< each stage that computes, of something
     Seconds seconds = {};
@@ -192,11 +196,19 @@ struct GlSystem::Parts {
     /// What the pass runs in a frame; null where there is nothing.
     [[nodiscard]] const Linked* running(std::size_t pass, int frame) const;
     void run(const Linked& linked, int frame);
+    void step(std::size_t pass, int frame, bool keeps);
+    /// Whether all of it is changed in place, without a copy of what was there where nothing is to be kept.
+    [[nodiscard]] bool in_place(std::uint8_t resource) const {
+        return !is_image(resource) && std::all_of(storages.begin(), storages.end(), [&](const Storage& storage) {
+            return storage.layout.resource != resource || !storage.block.empty();
+        });
+    }
     void capture(const Linked& linked);
     void draw(const Linked& linked);
     void dispatch_image(const Linked& linked);
     /// Lends the program the state's images, as the pass before left them.
-    void lend_images(const Program& program, std::size_t first_unit = 0) const;
+    void lend_images(const Program& program, const GlPass& pass) const;
+    [[nodiscard]] GLuint sampler(GlFilter filter) const;
     [[nodiscard]] bool is_image(std::uint8_t resource) const { return schema->resources[resource].dimensions > 1; }
     [[nodiscard]] StateImage& image_from(std::uint8_t resource) { return images.at(resource)[current[resource]]; }
     [[nodiscard]] StateImage& image_to(std::uint8_t resource) { return images.at(resource)[1 - current[resource]]; }
@@ -246,6 +258,8 @@ GlSystem::GlSystem(const Schema& schema, std::vector<GlPass> passes, std::filesy
         const bool compute = pass.stage == Stage::compute;
         const bool captured = !compute && !pass.draw;
         std::vector<Stage> used{pass.stage};
+        if (pass.draw && pass.draw->has_geometry)
+            used.push_back(Stage::geometry);
         if (pass.draw)
             used.push_back(Stage::fragment);
         const std::vector<ShaderSource> stages = parts_->sources(pass, used, false);
@@ -340,13 +354,26 @@ bool GlSystem::says_precise() const { return parts_->says_precise; }
 
 void GlSystem::time_steps(bool on) { parts_->takes_times = on; }
 
-void GlSystem::Parts::lend_images(const Program& program, std::size_t first_unit) const {
+GLuint GlSystem::Parts::sampler(GlFilter filter) const {
+    const GlSampler& one = samplers.at(static_cast<std::size_t>(filter));
+    const GLint wrap = filter == GlFilter::linear ? GL_CLAMP_TO_EDGE : GL_CLAMP_TO_BORDER; // the border is 0
+    for (const GLenum axis : {GL_TEXTURE_WRAP_S, GL_TEXTURE_WRAP_T, GL_TEXTURE_WRAP_R})
+        gl::SamplerParameteri(one.id(), axis, wrap);
+    for (const GLenum filters : {GL_TEXTURE_MIN_FILTER, GL_TEXTURE_MAG_FILTER})
+        gl::SamplerParameteri(one.id(), filters, GL_LINEAR);
+    return one.id();
+}
+
+void GlSystem::Parts::lend_images(const Program& program, const GlPass& pass) const {
+    std::size_t first_unit = 0;
     for (const auto& [resource, two] : images) {
         const Resource& about = schema->resources[resource];
         const auto unit = static_cast<int>(first_unit++);
         program.set_unit("u_" + shader_name(about.name) + "Before", unit, sampler_type(about));
         gl::ActiveTexture(GL_TEXTURE0 + static_cast<GLenum>(unit));
         gl::BindTexture(two.front().target(), two[current[resource]].id());
+        const auto filter = pass.filters.find(resource);
+        gl::BindSampler(static_cast<GLuint>(unit), filter == pass.filters.end() ? 0 : sampler(filter->second));
     }
     gl::ActiveTexture(GL_TEXTURE0 + 31); // where what follows may bind as it likes
 }
@@ -365,21 +392,29 @@ GlVertexArray GlSystem::Parts::inputs(const GlPass& pass, const Program& program
 void GlSystem::Parts::draw(const Linked& linked) {
     const GlPass& pass = linked.pass;
     const GlDraw& how = *pass.draw;
+    for (const std::uint8_t r : linked.resources)
+        if (how.clears)
+            image_to(r).clear();
+        else
+            image_to(r).copy(image_from(r));
     StateImage& image = image_to(pass.resource);
-    if (how.clears)
-        image.clear();
-    else
-        image.copy(image_from(pass.resource));
     const auto width = static_cast<GLsizei>(image.extent().width), height = static_cast<GLsizei>(image.extent().height);
     const GlFramebuffer framebuffer;
     gl::BindFramebuffer(GL_FRAMEBUFFER, framebuffer.id());
-    gl::FramebufferTexture2D(GL_FRAMEBUFFER, GL_COLOR_ATTACHMENT0, GL_TEXTURE_2D, image.id(), 0);
+    std::vector<GLenum> outputs;
+    for (const std::uint8_t r : linked.resources) {
+        outputs.push_back(GL_COLOR_ATTACHMENT0 + static_cast<GLenum>(outputs.size()));
+        gl::FramebufferTexture(GL_FRAMEBUFFER, outputs.back(), image_to(r).id(), 0);
+    }
+    gl::DrawBuffers(static_cast<GLsizei>(outputs.size()), outputs.data());
     const GlTexture depth;
     if (how.has_depth) {
         allocate_texture(depth.id(), depth32f, width, height);
         gl::FramebufferTexture2D(GL_FRAMEBUFFER, GL_DEPTH_ATTACHMENT, GL_TEXTURE_2D, depth.id(), 0);
     }
     check_framebuffer(GL_FRAMEBUFFER, fmt::format("{}: image of {} x {} texels", pass.name, width, height));
+    for (std::size_t i = 0; i < how.cleared_to.size(); ++i)
+        gl::ClearBufferfv(GL_COLOR, static_cast<GLint>(i), glm::value_ptr(how.cleared_to[i]));
     gl::Viewport(0, 0, width, height);
     const float far_plane = 1.0F;
     if (how.has_depth) {
@@ -393,23 +428,31 @@ void GlSystem::Parts::draw(const Linked& linked) {
         how.blend == GlDraw::Blend::added ? gl::BlendFunc(GL_ONE, GL_ONE)
                                           : gl::BlendFunc(GL_SRC_ALPHA, GL_ONE_MINUS_SRC_ALPHA);
     }
+    if (how.sized)
+        gl::Enable(GL_PROGRAM_POINT_SIZE);
+    const bool encodes = image.format().layout.internal == GL_SRGB8_ALPHA8;
+    if (encodes)
+        gl::Enable(GL_FRAMEBUFFER_SRGB);
     const RecordBuffer& buffer = from(first_storage(how.buffer));
     const RecordBuffer* const one[] = {&buffer};
-    const GlVertexArray vertices =
-        how.vertices > 0 ? instance_array(one, linked.program) : vertex_array(buffer, linked.program);
+    const GlVertexArray vertices = how.once           ? GlVertexArray()
+                                   : how.vertices > 0 ? instance_array(one, linked.program)
+                                                      : vertex_array(buffer, linked.program);
     linked.program.check_interface();
     linked.program.use();
     gl::BindVertexArray(vertices.id());
     const GLenum primitive = how.primitive == GlDraw::Primitive::points ? GL_POINTS : GL_TRIANGLES;
-    const auto items = static_cast<GLsizei>(buffer.size());
+    const auto items = static_cast<GLsizei>(how.once ? 1 : buffer.size());
     timed([&] {
-        if (how.vertices > 0)
+        if (how.instances > 0)
+            gl::DrawArraysInstanced(primitive, 0, items, static_cast<GLsizei>(how.instances));
+        else if (how.vertices > 0)
             gl::DrawArraysInstanced(primitive, 0, static_cast<GLsizei>(how.vertices), items);
         else
             gl::DrawArrays(primitive, 0, items);
     });
-    gl::Disable(GL_BLEND);
-    gl::Disable(GL_DEPTH_TEST);
+    for (const GLenum state : {GL_BLEND, GL_DEPTH_TEST, GL_FRAMEBUFFER_SRGB, GL_PROGRAM_POINT_SIZE})
+        gl::Disable(state);
     gl::BindVertexArray(0);
 }
 
@@ -461,7 +504,7 @@ ColorImage GlSystem::Parts::picture(const Linked& linked, int frame, const GlPic
     gl::Enable(GL_BLEND);
     gl::BlendFunc(GL_SRC_ALPHA, GL_ONE_MINUS_SRC_ALPHA);
     set_uniforms(program, pass, items(pass.resource), frame);
-    lend_images(program);
+    lend_images(program, pass);
     const GlVertexArray vertices = inputs(pass, program);
     program.check_interface();
     program.use();
@@ -518,8 +561,9 @@ std::optional<GLintptr> GlSystem::Parts::group_counts(const GroupCounts& of) {
 void GlSystem::Parts::dispatch(const Linked& linked, int frame) {
     using Kind = Bound::Kind;
     linked.program.check_interface();
+    const auto is_copied = [&](std::uint8_t resource) { return kept || !in_place(resource); };
     for (std::size_t s = 0; s < storages.size(); ++s)
-        if ((!storages[s].block.empty() || linked.pass.keeps()) &&
+        if ((!storages[s].block.empty() || linked.pass.keeps()) && is_copied(storages[s].layout.resource) &&
             std::count(linked.resources.begin(), linked.resources.end(), storages[s].layout.resource) > 0)
             to(s).copy(from(s));
     std::vector<GlBuffer> given; // lives until the dispatch is done
@@ -536,7 +580,8 @@ void GlSystem::Parts::dispatch(const Linked& linked, int frame) {
         } else {
             const std::uint8_t resource = storages[bound.storage].layout.resource;
             const bool written = std::count(linked.resources.begin(), linked.resources.end(), resource) > 0;
-            const bool after = bound.kind == Kind::after || (bound.kind == Kind::in_place && written);
+            const bool after =
+                bound.kind == Kind::after || (bound.kind == Kind::in_place && written && is_copied(resource));
             buffer = (after ? to(bound.storage) : from(bound.storage)).id();
         }
         gl::BindBufferBase(GL_SHADER_STORAGE_BUFFER, static_cast<GLuint>(b), buffer);
@@ -549,7 +594,7 @@ void GlSystem::Parts::dispatch(const Linked& linked, int frame) {
     timed([&] {
         if (place >= 0)
             gl::DispatchComputeIndirect(place);
-        else if (is_image(linked.pass.resource))
+        else if (is_image(linked.pass.resource) && !linked.pass.invocations)
             dispatch_image(linked);
         else
             gl::DispatchCompute(static_cast<GLuint>((items + linked.invocations - 1) / linked.invocations), 1, 1);
@@ -557,7 +602,8 @@ void GlSystem::Parts::dispatch(const Linked& linked, int frame) {
     gl::BindBuffer(GL_DISPATCH_INDIRECT_BUFFER, 0);
     gl::MemoryBarrier(GL_COMMAND_BARRIER_BIT | GL_BUFFER_UPDATE_BARRIER_BIT | GL_CLIENT_MAPPED_BUFFER_BARRIER_BIT |
                       GL_VERTEX_ATTRIB_ARRAY_BARRIER_BIT | GL_SHADER_STORAGE_BARRIER_BIT |
-                      GL_TEXTURE_FETCH_BARRIER_BIT | GL_TEXTURE_UPDATE_BARRIER_BIT | GL_FRAMEBUFFER_BARRIER_BIT);
+                      GL_TEXTURE_FETCH_BARRIER_BIT | GL_SHADER_IMAGE_ACCESS_BARRIER_BIT |
+                      GL_TEXTURE_UPDATE_BARRIER_BIT | GL_FRAMEBUFFER_BARRIER_BIT);
 }
 
 void GlSystem::Parts::dispatch_image(const Linked& linked) {
@@ -572,12 +618,20 @@ void GlSystem::Parts::dispatch_image(const Linked& linked) {
 void GlSystem::Parts::run(const Linked& linked, int frame) {
     const std::uint8_t resource = linked.pass.resource;
     set_uniforms(linked.program, linked.pass, items(resource), frame);
-    lend_images(linked.program);
+    lend_images(linked.program, linked.pass);
     if (linked.pass.stage == Stage::compute && is_image(resource)) {
-        const StateImage& after = image_to(resource);
-        linked.program.set_unit("u_" + shader_name(schema->resources[resource].name) + "After", 0,
-                                image_type(schema->resources[resource]));
-        gl::BindImageTexture(0, after.id(), 0, GL_TRUE, 0, GL_WRITE_ONLY, after.format().layout.internal);
+        const bool words = linked.pass.writes_words;
+        for (std::size_t i = 0; i < linked.resources.size(); ++i) {
+            StateImage& after = image_to(linked.resources[i]);
+            if (linked.pass.invocations)
+                after.copy(image_from(linked.resources[i]));
+            const Resource& about = schema->resources[linked.resources[i]];
+            linked.program.set_unit("u_" + shader_name(about.name) + "After", static_cast<int>(i),
+                                    words ? GL_UNSIGNED_INT_IMAGE_3D : image_type(about));
+            gl::BindImageTexture(static_cast<GLuint>(i), after.id(), 0, GL_TRUE, 0,
+                                 linked.pass.invocations ? GL_READ_WRITE : GL_WRITE_ONLY,
+                                 words ? GL_R32UI : after.format().layout.internal);
+        }
     }
     if (linked.pass.draw)
         draw(linked);
@@ -588,6 +642,8 @@ void GlSystem::Parts::run(const Linked& linked, int frame) {
     gl::UseProgram(0);
     gl::Finish();
     check_gl(linked.pass.name);
+    if (takes_times) // a buffer that is read may be moved to where kernels are slow
+        return;
     for (std::size_t s = 0; s < storages.size(); ++s)
         for (const RecordBuffer& buffer : buffers[s])
             if (!buffer.spare_holds(canary_word))
@@ -597,26 +653,42 @@ void GlSystem::Parts::run(const Linked& linked, int frame) {
                                 buffer.size()));
 }
 
-void GlSystem::step(std::size_t pass, int frame) {
-    const Parts::Linked* linked = parts_->running(pass, frame);
+void GlSystem::Parts::step(std::size_t pass, int frame, bool keeps) {
+    const Linked* linked = running(pass, frame);
     if (linked == nullptr)
         return;
-    parts_->run(*linked, frame);
+    kept = keeps ? std::optional(pass) : std::nullopt;
+    run(*linked, frame);
     for (const std::uint8_t r : linked->resources)
-        parts_->current[r] = 1 - parts_->current[r];
+        if (keeps || !in_place(r))
+            current[r] = 1 - current[r];
+}
+
+void GlSystem::step(std::size_t pass, int frame) {
+    parts_->step(pass, frame, std::exchange(parts_->canary_laid, std::nullopt) == pass);
 }
 
 void GlSystem::repeat_step(std::size_t pass, int frame) {
-    if (const Parts::Linked* linked = parts_->running(pass, frame); linked != nullptr)
-        for (const std::uint8_t r : linked->resources)
-            parts_->current[r] = 1 - parts_->current[r];
-    step(pass, frame);
+    const Parts::Linked* linked = parts_->running(pass, frame);
+    if (linked == nullptr)
+        return;
+    const bool in_place = std::any_of(linked->resources.begin(), linked->resources.end(),
+                                      [&](std::uint8_t r) { return parts_->in_place(r); });
+    if (in_place && parts_->kept != pass)
+        throw Error(
+            fmt::format("{}: changed its state in place; right is lay_canary before a step that is to be repeated",
+                        linked->pass.name));
+    for (const std::uint8_t r : linked->resources)
+        parts_->current[r] = 1 - parts_->current[r];
+    parts_->step(pass, frame, true);
 }
 
 void GlSystem::lay_canary(std::size_t pass) {
+    parts_->canary_laid = pass;
     if (const std::optional<Parts::Linked>& linked = parts_->passes.at(pass);
         linked && parts_->is_image(linked->pass.resource))
-        parts_->image_to(linked->pass.resource).fill(canary_word);
+        for (const std::uint8_t r : linked->resources)
+            parts_->image_to(r).fill(canary_word);
     else if (linked)
         for (std::size_t s = 0; s < parts_->storages.size(); ++s)
             if (parts_->storages[s].layout.resource == linked->pass.resource)
@@ -648,7 +720,7 @@ std::vector<CapturedVertex> GlSystem::trace(std::size_t pass, int frame, std::si
     gl::Enable(GL_RASTERIZER_DISCARD);
     for (const VertexCapture& part : *linked.traced) {
         set_uniforms(part.program(), linked.pass, source.size(), frame);
-        parts_->lend_images(part.program());
+        parts_->lend_images(part.program(), linked.pass);
         const CapturedVertex one = part.run(source, item, 1).front();
         all.outputs.insert(all.outputs.end(), one.outputs.begin(), one.outputs.end());
     }

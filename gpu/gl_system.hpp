@@ -24,7 +24,8 @@
 namespace lockstep {
 
 /// A uniform's value; its type in GLSL is this one.
-using UniformValue = std::variant<float, int, unsigned, glm::vec2, glm::vec3, glm::vec4, glm::ivec2, glm::mat4>;
+using UniformValue =
+    std::variant<float, int, unsigned, glm::vec2, glm::vec3, glm::vec4, glm::ivec2, glm::ivec3, glm::mat4>;
 using Uniforms = std::map<std::string, UniformValue>;
 
 /// Three words of an item that say how many groups a dispatch has.
@@ -33,16 +34,26 @@ struct GroupCounts {
     std::size_t item = 0;
 };
 
-/// How a vertex pass with NAME.frag draws an image of two dimensions: output 0 of each fragment goes into a texel.
+/// How a shader's texture() reads an image of the state: GL_LINEAR, at its edges clamped or with 0 beyond them.
+enum class GlFilter : std::uint8_t { linear, linear_in_black };
+
+/// How a vertex pass with NAME.frag draws images: output i of each fragment goes into a texel of the pass's image, or
+/// of the i-th pass that continues it. One of three dimensions is drawn in layers: NAME.geom writes gl_Layer. What is
+/// drawn into srgb8_alpha8 is encoded by GL (GL_FRAMEBUFFER_SRGB).
 struct GlDraw {
     enum class Primitive : std::uint8_t { points, triangles };
     enum class Blend : std::uint8_t { none, added, by_alpha }; ///< GL_ONE, GL_ONE; GL_SRC_ALPHA, GL_ONE_MINUS_SRC_ALPHA
     std::uint8_t buffer = 0; ///< whose items are the vertices, with its fields as attributes
     Primitive primitive = Primitive::points;
     Blend blend = Blend::none;
-    bool has_depth = false;   ///< tested LESS, in a depth buffer (32 bits) of the draw's own, 1 at first
-    bool clears = true;       ///< texels are 0 before; else as the pass before left them
-    std::size_t vertices = 0; ///< of an instance, gl_VertexID; then each item is an instance. 0: each is a vertex
+    bool sized = false;                     ///< points are gl_PointSize pixels wide; else 1
+    bool has_depth = false;                 ///< tested LESS, in a depth buffer (32 bits) of the draw's own, 1 at first
+    bool clears = true;                     ///< texels are 0 before; else as the pass before left them
+    std::vector<glm::vec4> cleared_to = {}; ///< by output, instead of 0
+    std::size_t vertices = 0;  ///< of an instance, gl_VertexID; then each item is an instance. 0: each is a vertex
+    bool has_geometry = false; ///< there is a NAME.geom
+    bool once = false;         ///< one instance without attributes, of `vertices`
+    std::size_t instances = 0; ///< how often the items, each a vertex, are drawn: gl_InstanceID. 0: once
 };
 
 /// A pass on GL: a shader that makes every item of a buffer or image anew.
@@ -55,7 +66,8 @@ struct GlDraw {
 ///
 /// An image of the state (Resource::format, gpu/state_image.hpp) is read by any stage as a sampler, `light` by
 /// u_LightBefore with texelFetch. A compute pass of an image writes u_LightAfter, an image uniform, by imageStore, and
-/// has at least an invocation a texel, along each axis. A vertex pass of an image draws it (`draw`).
+/// has at least an invocation a texel, along each axis; with `invocations`, along one axis, it changes the image in
+/// place, by atomics, in a copy of what the pass before left. A vertex pass of an image draws it (`draw`).
 struct GlPass {
     std::string name;
     Stage stage = Stage::vertex; ///< or compute
@@ -76,6 +88,11 @@ struct GlPass {
     /// Of a compute pass: how many invocations a frame has, at least; empty: one an item of `resource`. Items that none
     /// makes stay as they were.
     std::function<std::size_t(int frame)> invocations = {};
+    /// Images that it reads by texture(), filtered.
+    std::map<std::uint8_t, GlFilter> filters = {};
+    /// Of a compute pass of an image of one 32-bit component: the shader declares it r32ui, and atomics change its
+    /// bits.
+    bool writes_words = false;
     /// Of a compute pass: where its group counts lie, for an indirect dispatch. Items that no group makes stay as they
     /// were.
     std::optional<GroupCounts> indirect = {};

@@ -27,6 +27,7 @@ template <auto& Generate, auto& Delete> class GlObject {
 using GlBuffer = GlObject<gl::GenBuffers, gl::DeleteBuffers>;
 using GlTexture = GlObject<gl::GenTextures, gl::DeleteTextures>;
 using GlFramebuffer = GlObject<gl::GenFramebuffers, gl::DeleteFramebuffers>;
+using GlSampler = GlObject<gl::GenSamplers, gl::DeleteSamplers>;
 using GlVertexArray = GlObject<gl::GenVertexArrays, gl::DeleteVertexArrays>;
 using GlQuery = GlObject<gl::GenQueries, gl::DeleteQueries>;
 

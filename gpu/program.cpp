@@ -1,8 +1,11 @@
 #include "gpu/program.hpp"
 
 #include <algorithm>
+#include <array>
+#include <cstring>
 #include <filesystem>
 #include <iterator>
+#include <map>
 #include <set>
 
 #include <fmt/format.h>
@@ -14,7 +17,6 @@
 #include "gpu/shader_log.hpp"
 #include "gpu/shader_words.hpp"
 #include "reference/model/error.hpp"
-#include "reference/model/near_name.hpp"
 
 namespace lockstep {
 namespace {
@@ -63,6 +65,22 @@ class Shader {
   private:
     GLuint id_ = 0;
 };
+
+/// Those that lie beside the stages; null where there are none.
+const Bindings* bindings_of(std::span<const ShaderSource> stages) {
+    for (const ShaderSource& stage : stages)
+        if (stage.bindings != nullptr)
+            return stage.bindings.get();
+    return nullptr;
+}
+
+std::vector<Capture> by_their_names(std::span<const Capture> captured, const Bindings* bindings) {
+    std::vector<Capture> outputs(captured.begin(), captured.end());
+    if (bindings != nullptr)
+        for (Capture& output : outputs)
+            output.name = bindings->output(output.name);
+    return outputs;
+}
 
 bool link(GLuint program, std::span<const Capture> captured) {
     std::vector<const char*> names;
@@ -120,24 +138,24 @@ std::string link_failure(GLuint program, std::span<const ShaderSource> stages, s
     return fmt::format("does not link ({}): {}", fmt::join(files, ", "), reason);
 }
 
-using GetActive = void (*)(GLuint, GLuint, GLsizei, GLsizei*, GLint*, GLenum*, GLchar*);
-using GetLocation = GLint (*)(GLuint, const GLchar*);
-
-/// Calls `visit(name, type, location)` for every active uniform or attribute.
-template <class Visit> void for_each_active(GLuint program, GLenum count_name, GLenum length_name, GetActive get,
-                                            GetLocation locate, const Visit& visit) {
+void add_attributes(GLuint program, std::span<const ShaderSource> stages, const Bindings* bindings,
+                    ProgramInterface& attributes) {
     GLint count = 0;
-    GLint length = 0;
-    gl::GetProgramiv(program, count_name, &count);
-    gl::GetProgramiv(program, length_name, &length);
-    std::string buffer(static_cast<std::size_t>(length) + 1, '\0');
+    gl::GetProgramiv(program, GL_ACTIVE_ATTRIBUTES, &count);
     for (GLuint i = 0; i < static_cast<GLuint>(count); ++i) {
-        GLsizei written = 0;
+        char name[256] = {};
         GLint size = 0;
-        GLenum type = 0;
-        get(program, i, static_cast<GLsizei>(buffer.size()), &written, &size, &type, buffer.data());
-        const std::string name(buffer.data(), static_cast<std::size_t>(written));
-        visit(name, type, locate(program, name.c_str()));
+        ProgramVariable variable;
+        gl::GetActiveAttrib(program, i, sizeof name, nullptr, &size, &variable.type, name);
+        variable.name = name;
+        variable.location = gl::GetAttribLocation(program, name);
+        variable.declared = find_declaration(stages, "in", std::string_view(name).substr(0, variable.name.find('[')));
+        if (bindings != nullptr)
+            if (const auto bound = bindings->attributes.find(variable.name); bound != bindings->attributes.end()) {
+                attributes.add(std::move(variable), bound->second);
+                continue;
+            }
+        attributes.add(std::move(variable));
     }
 }
 
@@ -147,11 +165,6 @@ Capture linked_capture(GLuint program, GLuint index) {
     gl::GetTransformFeedbackVarying(program, index, sizeof name, nullptr, &capture.size, &capture.type, name);
     capture.name = name;
     return capture;
-}
-
-/// Of an active variable: GL calls an array's first element by the array's name and [0].
-Declaration declaration(std::span<const ShaderSource> stages, std::string_view qualifier, const std::string& name) {
-    return find_declaration(stages, qualifier, std::string_view(name).substr(0, name.find_first_of("[.")));
 }
 
 void check_capture_type(GLuint program, GLuint index, const Capture& capture, std::span<const ShaderSource> stages) {
@@ -223,16 +236,8 @@ std::vector<std::pair<std::string, std::string>> blocks(std::string_view kind, s
     return found;
 }
 
-/// No pass binds a uniform block, and only a compute stage has storage buffers that are not `given`.
-void check_blocks(GLuint program, std::span<const ShaderSource> stages, std::span<const std::string_view> given) {
-    GLint uniform_blocks = 0;
-    gl::GetProgramiv(program, GL_ACTIVE_UNIFORM_BLOCKS, &uniform_blocks);
-    if (uniform_blocks > 0) {
-        const auto declared = blocks("uniform", stages);
-        throw Error(fmt::format("shader {}: nothing is given for uniform block {}; uniforms are set one by one",
-                                declared.empty() ? stages.front().files.front() : declared.front().second,
-                                declared.empty() ? std::string() : declared.front().first));
-    }
+/// Only a compute stage has storage buffers that are not `given`.
+void check_storage(GLuint program, std::span<const ShaderSource> stages, std::span<const std::string_view> given) {
     if (stages.front().stage == Stage::compute)
         return;
     for (const auto& [name, place] : blocks("buffer", stages))
@@ -312,7 +317,8 @@ void check_fragment_output(GLuint program, std::span<const ShaderSource> stages)
 
 } // namespace
 
-void check_nothing_lost(std::span<const ShaderSource> stages, std::span<const Capture> captured) {
+void check_nothing_lost(std::span<const ShaderSource> stages, std::span<const Capture> by_our_names) {
+    const std::vector<Capture> captured = by_their_names(by_our_names, bindings_of(stages));
     const ShaderSource* last = last_vertex_stage(stages);
     if (last == nullptr)
         return;
@@ -358,30 +364,26 @@ Program::Program(std::string name, std::span<const ShaderSource> stages, std::sp
     std::vector<Shader> shaders;
     for (const ShaderSource& stage : stages)
         shaders.emplace_back(stage);
+    const Bindings* const bindings = bindings_of(stages);
+    const std::vector<Capture> outputs = by_their_names(captured, bindings);
     id_ = gl::CreateProgram();
     try {
         for (const Shader& shader : shaders)
             gl::AttachShader(id_, shader.id());
-        if (!link(id_, captured))
-            throw Error(fmt::format("{}: {}", name_, link_failure(id_, stages, captured)));
-        if (!captured.empty())
+        if (!link(id_, outputs))
+            throw Error(fmt::format("{}: {}", name_, link_failure(id_, stages, outputs)));
+        if (!outputs.empty())
             check_geometry_stage(id_, stages);
-        for (std::size_t i = 0; i < captured.size(); ++i)
-            check_capture_type(id_, static_cast<GLuint>(i), captured[i], stages);
-        check_blocks(id_, stages, storage_buffers);
+        for (std::size_t i = 0; i < outputs.size(); ++i)
+            check_capture_type(id_, static_cast<GLuint>(i), outputs[i], stages);
+        check_storage(id_, stages, storage_buffers);
         check_geometry_inputs(stages);
         check_fragment_inputs(stages);
         check_fragment_output(id_, stages);
         for (const Shader& shader : shaders)
             gl::DetachShader(id_, shader.id());
-        for_each_active(id_, GL_ACTIVE_UNIFORMS, GL_ACTIVE_UNIFORM_MAX_LENGTH, gl::GetActiveUniform,
-                        gl::GetUniformLocation, [&](const std::string& variable, GLenum type, GLint where) {
-                            uniforms_.active[variable] = {where, type, declaration(stages, "uniform", variable)};
-                        });
-        for_each_active(id_, GL_ACTIVE_ATTRIBUTES, GL_ACTIVE_ATTRIBUTE_MAX_LENGTH, gl::GetActiveAttrib,
-                        gl::GetAttribLocation, [&](const std::string& variable, GLenum type, GLint where) {
-                            attributes_.active[variable] = {where, type, declaration(stages, "in", variable)};
-                        });
+        uniforms_.emplace(id_, stages, bindings);
+        add_attributes(id_, stages, bindings, attributes_);
         check_gl(name_);
     } catch (...) {
         gl::DeleteProgram(id_);
@@ -408,85 +410,65 @@ Program::~Program() {
 
 void Program::use() const { gl::UseProgram(id_); }
 
-GLint Program::Interface::location(std::string_view variable, GLenum type) const {
-    if (!asked_for.contains(variable))
-        asked_for.emplace(variable, type);
-    const auto found = active.find(variable);
-    if (found == active.end())
-        return -1;
-    const Variable& known = found->second;
-    if (known.type != type)
-        throw Error(fmt::format("shader {}: {} {} is {}, but is to be {}", known.declared.place, kind, variable,
-                                type_name(known.type), type_name(type)));
-    return known.location;
-}
-
-std::string Program::Interface::meant_by(std::string_view name, GLenum type) const {
-    std::string nearest;
-    std::size_t fewest = std::max<std::size_t>(2, name.size() / 3) + 1; // a slip, not another name
-    for (const auto& [known, known_type] : asked_for) {
-        const std::size_t distance = edits(known, name) + (known_type == type ? 0 : 1); // a slip in the type as well
-        if (distance >= fewest)
-            continue;
-        fewest = distance;
-        nearest = fmt::format("; did you mean {} {}?", type_name(known_type), known);
-    }
-    return nearest;
-}
-
-std::vector<std::string> Program::Interface::unknown() const {
-    std::vector<std::string> told;
-    for (const auto& [name, variable] : active)
-        if (!asked_for.contains(name) && !variable.declared.is_initialised && !name.starts_with("gl_"))
-            told.push_back(fmt::format("{}: nothing is given for {} {}{}", variable.declared.place, kind, name,
-                                       meant_by(name, variable.type)));
-    return told;
-}
-
 void Program::check_interface() const {
-    std::vector<std::string> unknown = uniforms_.unknown();
+    std::vector<std::string> unknown = uniforms_->unknown();
     std::ranges::move(attributes_.unknown(), std::back_inserter(unknown));
     if (!unknown.empty())
         throw Error(fmt::format("shader {}", fmt::join(unknown, "; ")));
+    uniforms_->bind();
 }
 
-GLint Program::use_uniform(std::string_view uniform, GLenum type) const {
-    const GLint where = uniforms_.location(uniform, type);
+void Program::set_words(std::string_view uniform, GLenum type, std::span<const std::uint32_t> words) const {
     use();
-    return where;
+    uniforms_->set(uniform, type, words);
 }
 
-// glUniform ignores location -1, an unused uniform's.
-void Program::set(std::string_view uniform, float value) const { gl::Uniform1f(use_uniform(uniform, GL_FLOAT), value); }
+namespace {
 
-void Program::set(std::string_view uniform, int value) const { gl::Uniform1i(use_uniform(uniform, GL_INT), value); }
+/// The bits of a value's components.
+template <std::size_t count> std::array<std::uint32_t, count> words_of(const auto* components) {
+    static_assert(sizeof *components == sizeof(std::uint32_t));
+    std::array<std::uint32_t, count> words{};
+    std::memcpy(words.data(), components, sizeof words);
+    return words;
+}
+
+} // namespace
+
+void Program::set(std::string_view uniform, float value) const { set_words(uniform, GL_FLOAT, words_of<1>(&value)); }
+
+void Program::set(std::string_view uniform, int value) const { set_words(uniform, GL_INT, words_of<1>(&value)); }
 
 void Program::set(std::string_view uniform, unsigned value) const {
-    gl::Uniform1ui(use_uniform(uniform, GL_UNSIGNED_INT), value);
+    set_words(uniform, GL_UNSIGNED_INT, words_of<1>(&value));
 }
 
 void Program::set(std::string_view uniform, glm::vec2 value) const {
-    gl::Uniform2fv(use_uniform(uniform, GL_FLOAT_VEC2), 1, glm::value_ptr(value));
+    set_words(uniform, GL_FLOAT_VEC2, words_of<2>(glm::value_ptr(value)));
 }
 
 void Program::set(std::string_view uniform, glm::vec3 value) const {
-    gl::Uniform3fv(use_uniform(uniform, GL_FLOAT_VEC3), 1, glm::value_ptr(value));
+    set_words(uniform, GL_FLOAT_VEC3, words_of<3>(glm::value_ptr(value)));
 }
 
 void Program::set(std::string_view uniform, glm::vec4 value) const {
-    gl::Uniform4fv(use_uniform(uniform, GL_FLOAT_VEC4), 1, glm::value_ptr(value));
+    set_words(uniform, GL_FLOAT_VEC4, words_of<4>(glm::value_ptr(value)));
 }
 
 void Program::set(std::string_view uniform, glm::ivec2 value) const {
-    gl::Uniform2iv(use_uniform(uniform, GL_INT_VEC2), 1, glm::value_ptr(value));
+    set_words(uniform, GL_INT_VEC2, words_of<2>(glm::value_ptr(value)));
+}
+
+void Program::set(std::string_view uniform, glm::ivec3 value) const {
+    set_words(uniform, GL_INT_VEC3, words_of<3>(glm::value_ptr(value)));
 }
 
 void Program::set(std::string_view uniform, const glm::mat4& value) const {
-    gl::UniformMatrix4fv(use_uniform(uniform, GL_FLOAT_MAT4), 1, GL_FALSE, glm::value_ptr(value));
+    set_words(uniform, GL_FLOAT_MAT4, words_of<16>(glm::value_ptr(value)));
 }
 
 void Program::set_unit(std::string_view uniform, int unit, GLenum type) const {
-    gl::Uniform1i(use_uniform(uniform, type), unit);
+    set_words(uniform, type, words_of<1>(&unit));
 }
 
 bool Program::uses_storage(GLuint binding) const {
@@ -503,7 +485,8 @@ bool Program::uses_storage(GLuint binding) const {
 }
 
 GLint Program::attribute(std::string_view attribute, GLenum type) const {
-    return attributes_.location(attribute, type);
+    const auto given = attributes_.asked(attribute, type);
+    return given.empty() ? -1 : attributes_[given.front().variable].location;
 }
 
 } // namespace lockstep

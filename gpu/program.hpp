@@ -1,5 +1,6 @@
 #pragma once
-#include <map>
+#include <cstdint>
+#include <optional>
 #include <span>
 #include <string>
 #include <string_view>
@@ -10,8 +11,8 @@
 #include <glm/vec3.hpp>
 #include <glm/vec4.hpp>
 
-#include "gpu/declaration.hpp"
 #include "gpu/gl.hpp"
+#include "gpu/program_interface.hpp"
 #include "gpu/shader_source.hpp"
 
 namespace lockstep {
@@ -32,7 +33,8 @@ std::vector<Capture> outputs_with(std::string_view prefix, std::span<const Shade
 void check_nothing_lost(std::span<const ShaderSource> stages, std::span<const Capture> captured);
 
 /// A linked program. Whatever is wrong with a shader is an Error of one line: `shader FILE:LINE: ...` where a stage
-/// does not compile or declares something as another type, `NAME: ...` for the rest.
+/// does not compile or declares something as another type, `NAME: ...` for the rest. Where bindings lie beside the
+/// stages, uniforms, attributes and captured outputs go by the names that are given there.
 class Program {
   public:
     /// Links `stages`; `captured` outputs of the last vertex-processing stage go interleaved, in this order, into the
@@ -55,6 +57,7 @@ class Program {
     void set(std::string_view uniform, glm::vec3 value) const;
     void set(std::string_view uniform, glm::vec4 value) const;
     void set(std::string_view uniform, glm::ivec2 value) const;
+    void set(std::string_view uniform, glm::ivec3 value) const;
     void set(std::string_view uniform, const glm::mat4& value) const;
 
     /// Reads a sampler or image uniform from texture (or image) unit `unit`.
@@ -74,28 +77,12 @@ class Program {
     [[nodiscard]] GLuint id() const { return id_; }
 
   private:
-    struct Variable {
-        GLint location = -1;
-        GLenum type = 0;
-        Declaration declared;
-    };
-    /// The uniforms, or attributes, of the program, and those that its owner asked for.
-    struct Interface {
-        std::string_view kind;
-        std::map<std::string, Variable, std::less<>> active;
-        mutable std::map<std::string, GLenum, std::less<>> asked_for;
-
-        [[nodiscard]] GLint location(std::string_view variable, GLenum type) const;
-        /// "; did you mean float u_Tick?", or nothing where no name is near.
-        [[nodiscard]] std::string meant_by(std::string_view unknown, GLenum type) const;
-        [[nodiscard]] std::vector<std::string> unknown() const; ///< what is wrong with each
-    };
-    [[nodiscard]] GLint use_uniform(std::string_view uniform, GLenum type) const;
+    void set_words(std::string_view uniform, GLenum type, std::span<const std::uint32_t> words) const;
 
     std::string name_;
     GLuint id_ = 0;
-    Interface uniforms_{"uniform", {}, {}};
-    Interface attributes_{"attribute", {}, {}};
+    std::optional<UniformValues> uniforms_;
+    ProgramInterface attributes_{"attribute"};
 };
 
 } // namespace lockstep

@@ -146,12 +146,15 @@ void RecordBuffer::upload(const View& state) {
     assert(state.count() == count_);
     if (count_ == 0)
         return;
-    with_mapped<std::byte>(*this, overwrite, [&](std::byte* records) {
-        in_blocks(*layout_, count_, [&](Block& block, std::size_t first, std::size_t count) {
-            block.gather(state, first, count);
-            std::memcpy(records + first * layout_->bytes(), block.records(), count * layout_->bytes());
-        });
+    // Not mapped: a driver keeps in the host's memory what was, and kernels then work across the bus.
+    std::vector<std::byte> records(count_ * layout_->bytes());
+    in_blocks(*layout_, count_, [&](Block& block, std::size_t first, std::size_t count) {
+        block.gather(state, first, count);
+        std::memcpy(records.data() + first * layout_->bytes(), block.records(), count * layout_->bytes());
     });
+    gl::BindBuffer(GL_COPY_READ_BUFFER, buffer_.id());
+    gl::BufferSubData(GL_COPY_READ_BUFFER, 0, static_cast<GLsizeiptr>(records.size()), records.data());
+    check_gl(fmt::format("upload of {}s", layout_->about().item));
 }
 
 void RecordBuffer::read(const WritableView& state) const {

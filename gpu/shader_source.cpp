@@ -138,6 +138,29 @@ File find(const ShaderFolders& folders, const ShaderTexts& texts, const std::str
     throw Error(fmt::format("{}no shader file {} in {}", where, file, tried));
 }
 
+/// All that the shaders of a folder consist of.
+std::vector<std::string> words_in(const fs::path& folder) {
+    static constexpr std::array<std::string_view, 5> endings{".vert", ".geom", ".frag", ".comp", ".glsl"};
+    std::set<std::string, std::less<>> found;
+    for (const fs::directory_entry& entry : fs::directory_iterator(folder)) {
+        if (std::find(endings.begin(), endings.end(), entry.path().extension().string()) == endings.end())
+            continue;
+        const std::optional<std::string> text = text_of(entry.path());
+        if (!text)
+            continue;
+        for (ShaderWords words(*text); words.next();)
+            found.emplace(words.token());
+    }
+    return {found.begin(), found.end()};
+}
+
+/// Null where there are none.
+std::shared_ptr<const Bindings> bindings_beside(const fs::path& file) {
+    const fs::path bindings = file.parent_path() / bindings_file;
+    const std::optional<std::string> text = text_of(bindings);
+    return text ? parse_bindings(shown(bindings), *text, words_in(file.parent_path())) : nullptr;
+}
+
 /// Puts one stage together.
 class Assembly {
   public:
@@ -146,6 +169,7 @@ class Assembly {
 
     ShaderSource assemble(const fs::path& path, const std::string& text, Stage stage) {
         source_.stage = stage;
+        source_.bindings = bindings_beside(path);
         append(path, text);
         if (!has_version_)
             throw Error(fmt::format("shader {}:1: no #version line; GLSL 330 or later is needed", shown(path)));

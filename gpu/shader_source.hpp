@@ -2,12 +2,14 @@
 #include <cstddef>
 #include <filesystem>
 #include <map>
+#include <memory>
 #include <span>
 #include <string>
 #include <string_view>
 #include <utility>
 #include <vector>
 
+#include "gpu/bindings.hpp"
 #include "reference/model/arithmetic_switch.hpp"
 
 namespace lockstep {
@@ -35,6 +37,16 @@ using ShaderTexts = std::map<std::string, std::string>;
 /// BASE_TEXEL_TRUNCATE 0, BASE_TEXEL_FLOOR 1, BASE_TEXEL BASE_TEXEL_FLOOR.
 ShaderDefines choice_defines(std::string_view name, std::span<const std::string_view> values, std::size_t chosen);
 
+/// The choices of all switches of a system, whose for_each_switch lies beside them.
+template <class Switches> ShaderDefines switch_defines(const Switches& switches) {
+    ShaderDefines all;
+    for_each_switch(switches, [&](std::string_view name, auto value, const std::vector<std::string_view>& names) {
+        const ShaderDefines one = choice_defines(name, names, static_cast<std::size_t>(value));
+        all.insert(all.end(), one.begin(), one.end());
+    });
+    return all;
+}
+
 /// What arithmetic.glsl asks for.
 ShaderDefines arithmetic_defines(ArithmeticSwitch arithmetic);
 
@@ -51,6 +63,7 @@ struct ShaderSource {
     std::string text;
     std::vector<Origin> origins;    ///< one a line of text
     std::vector<std::string> files; ///< the stage's own file first; shipped ones as "shaders/NAME", wherever they lie
+    std::shared_ptr<const Bindings> bindings = {}; ///< that lie beside the stage's own file; null: none
 };
 
 /// Throws Error naming the folders if a file is in none of them; FILE:LINE if an include is malformed, missing or

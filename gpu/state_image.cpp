@@ -33,6 +33,7 @@ constexpr std::array formats{
     NamedFormat{"r32ui", {{GL_R32UI, GL_RED_INTEGER, GL_UNSIGNED_INT}, Scalar::uint32, 1, 4}},
     NamedFormat{"rgba32ui", {{GL_RGBA32UI, GL_RGBA_INTEGER, GL_UNSIGNED_INT}, Scalar::uint32, 4, 4}},
     NamedFormat{"r8", {{GL_R8, GL_RED, GL_UNSIGNED_BYTE}, Scalar::uint32, 1, 1}},
+    NamedFormat{"srgb8_alpha8", {{GL_SRGB8_ALPHA8, GL_RGBA, GL_UNSIGNED_BYTE}, Scalar::uint32, 4, 1}},
     NamedFormat{"rgba8", {{GL_RGBA8, GL_RGBA, GL_UNSIGNED_BYTE}, Scalar::uint32, 4, 1}},
 };
 

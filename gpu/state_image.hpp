@@ -17,8 +17,9 @@ struct ImageFormat {
     int bytes = 4; ///< of a component; fewer than 4: what a pass did not write cannot be told from what it did
 };
 
-/// r32f, rg32f, rgba32f, r16f, rg16f and rgba16f have floats; r32i, rgba32i integers; r32ui, rgba32ui, and r8 and
-/// rgba8, which have codes, unsigned ones. Throws Error naming these, or the type that the field should have.
+/// r32f, rg32f, rgba32f, r16f, rg16f and rgba16f have floats; r32i, rgba32i integers; r32ui, rgba32ui, and r8, rgba8
+/// and srgb8_alpha8, which have codes, unsigned ones. Throws Error naming these, or the type that the field should
+/// have.
 ImageFormat image_format(const Resource& image);
 
 /// The types of what a shader reads and writes it by: GL_UNSIGNED_INT_SAMPLER_3D, GL_IMAGE_2D.

@@ -77,18 +77,8 @@ void add(ShaderDefines& all, std::string_view name, std::initializer_list<std::s
     all.insert(all.end(), one.begin(), one.end());
 }
 
-ShaderDefines switch_defines(const Host& host) {
-    ShaderDefines all;
-    for_each_switch(host.switches(),
-                    [&](std::string_view name, auto value, const std::vector<std::string_view>& names) {
-                        const ShaderDefines one = choice_defines(name, names, static_cast<std::size_t>(value));
-                        all.insert(all.end(), one.begin(), one.end());
-                    });
-    return all;
-}
-
 ShaderDefines defines(const Host& host, const HostEmitter& of) {
-    ShaderDefines all = switch_defines(host);
+    ShaderDefines all = switch_defines(host.switches());
     add(all, "shape", {"point", "box", "sphere"}, static_cast<std::size_t>(of.settings().shape));
     add(all, "dies", {"window", "none", "all"}, static_cast<std::size_t>(of.dies));
     add(all, "uv", {"segment", "stretched", "distance"}, static_cast<std::size_t>(of.settings().uv));
@@ -224,7 +214,7 @@ std::vector<GlPass> passes(const HostPtr& host) {
 GlPass draw_gl_pass(const HostPtr& host, const Drawing& drawing) {
     GlPass pass{.name = "draw", .stage = Stage::vertex, .resource = corner_buffer};
     pass.instances_of = quad_buffer;
-    pass.defines = switch_defines(*host);
+    pass.defines = switch_defines(host->switches());
     pass.texts = rendering_texts(*host);
     const ShaderDefines looks = rendering_defines(*host);
     pass.defines.insert(pass.defines.end(), looks.begin(), looks.end());

@@ -100,3 +100,18 @@ TEST_CASE("appended in any order: items that several may have made are given rou
     REQUIRE(wrong_append(appended));
     CHECK(wrong_append(appended)->item == 2U);
 }
+
+TEST_CASE("sums in any order: of multiples of one power of two that cannot be rounded there is one, however many") {
+    Random random(9);
+    std::vector<float> some;
+    for (int i = 0; i < 4000; ++i)
+        some.push_back(std::ldexp(static_cast<float>(static_cast<int>(random.below(2001)) - 1000), -10));
+    const Interval legal = legal_sum(some);
+    CHECK(legal.is_point());
+    CHECK(legal.low == std::accumulate(some.begin(), some.end(), 0.0));
+    some.back() = 0x1p14F; // and one unit in the last place of the sums above it is more than theirs
+    CHECK_FALSE(legal_sum(some).is_point());
+    CHECK(exact_sum(std::vector<Interval>(20, 1.0F)) == 20.0F);
+    CHECK_FALSE(exact_sum(std::vector<Interval>{1.0F, 0x1p-24F}));
+    CHECK_FALSE(exact_sum(std::vector<Interval>{1.0F, Interval(0.5, 1.0)}));
+}

@@ -171,7 +171,9 @@ TEST_CASE("no false pass: a block that nobody binds is an error with its name") 
     SECTION("uniform block, whose member has a name that is set") {
         test::plant(shaders, "collision_pass.vert", "uniform float u_Tick;", "uniform Step { float u_Tick; };");
         CHECK(refusal(shaders) ==
-              "shader " + file + ":23: nothing is given for uniform block Step; uniforms are set one by one");
+              "shader " + file +
+                  ":23: nothing is given for uniform block Step; bindings.json beside the shader binds its members "
+                  "(docs/own_shader.md)");
     }
     SECTION("storage buffer") {
         test::plant(shaders, "collision_pass.vert", "#version 330 core", "#version 430 core");

@@ -1,0 +1,122 @@
+#include "gpu/bindings.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <set>
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+#include <nlohmann/json.hpp>
+
+#include "reference/model/error.hpp"
+#include "reference/model/near_name.hpp"
+
+namespace lockstep {
+namespace {
+
+using nlohmann::json;
+
+constexpr std::array<std::string_view, 4> sections{"uniforms", "uniform_blocks", "attributes", "outputs"};
+
+class Reader {
+  public:
+    Reader(const std::string& file, const std::vector<std::string>& words) : words_(words) { made_.file = file; }
+
+    Bindings read(const std::string& text) {
+        const json document = json::parse(text, nullptr, false);
+        if (document.is_discarded())
+            fail("", "is no JSON");
+        check_object("", document);
+        for (const auto& [name, value] : document.items()) {
+            const std::string path = "/" + name;
+            if (std::find(sections.begin(), sections.end(), name) == sections.end())
+                fail(path, fmt::format("is none of {}{}", fmt::join(sections, ", "),
+                                       did_you_mean(name, {sections.begin(), sections.end()})));
+            check_object(path, value);
+            if (name == "uniforms")
+                read_uniforms(path, "", value);
+            else if (name == "uniform_blocks")
+                for (const auto& [block, members] : value.items()) {
+                    check_object(path + "/" + block, members);
+                    check_word(path + "/" + block, block);
+                    made_.blocks.push_back(block);
+                    read_uniforms(path + "/" + block, block + ".", members);
+                }
+            else
+                read_names(path, value, name == "outputs" ? made_.outputs : made_.attributes);
+        }
+        return std::move(made_);
+    }
+
+  private:
+    [[noreturn]] void fail(const std::string& path, const std::string& what) const {
+        throw Error(fmt::format("{}: {}{}{}", made_.file, path, path.empty() ? "" : ": ", what));
+    }
+
+    void check_object(const std::string& path, const json& value) const {
+        if (!value.is_object())
+            fail(path, "is no object of names; right is { \"name in the shader\": \"name here\" }");
+    }
+
+    /// The shaders beside the file have the name.
+    void check_word(const std::string& path, const std::string& name) const {
+        if (std::find(words_.begin(), words_.end(), name) == words_.end())
+            fail(path, fmt::format("no shader beside it has the name {}{}", name, did_you_mean(name, words_)));
+    }
+
+    void read_names(const std::string& path, const json& value,
+                    std::map<std::string, std::string, std::less<>>& names) const {
+        std::set<std::string> given;
+        for (const auto& [theirs, ours] : value.items()) {
+            const std::string at = path + "/" + theirs;
+            check_word(at, theirs);
+            if (!ours.is_string())
+                fail(at, "is no name");
+            names[theirs] = ours.get<std::string>();
+            if (!given.insert(names[theirs]).second)
+                fail(at, fmt::format("{} has a name already", names[theirs]));
+        }
+    }
+
+    void read_uniforms(const std::string& path, const std::string& block, const json& value) {
+        for (const auto& [theirs, given] : value.items()) {
+            UniformBinding binding{path + "/" + theirs, {}};
+            check_word(binding.path, theirs);
+            binding.by_component = given.is_array();
+            for (const json& one : given.is_array() ? given : json::array({given})) {
+                if (one.is_string())
+                    binding.names.push_back(one.get<std::string>());
+                else if (one.is_number() && std::isfinite(one.get<double>()))
+                    binding.numbers.push_back(one.get<double>());
+                else
+                    fail(binding.path, "is neither a name nor a number, nor a list of one of these");
+            }
+            if (binding.names.empty() == binding.numbers.empty())
+                fail(binding.path, "is to be names or numbers, one at least");
+            made_.uniforms.emplace(block + theirs, std::move(binding));
+        }
+    }
+
+    const std::vector<std::string>& words_;
+    Bindings made_;
+};
+
+} // namespace
+
+bool Bindings::binds_block(std::string_view block) const {
+    return std::find(blocks.begin(), blocks.end(), block) != blocks.end();
+}
+
+std::string Bindings::output(std::string_view ours) const {
+    const auto found =
+        std::find_if(outputs.begin(), outputs.end(), [&](const auto& one) { return one.second == ours; });
+    return found == outputs.end() ? std::string(ours) : found->first;
+}
+
+std::shared_ptr<const Bindings> parse_bindings(const std::string& file, const std::string& text,
+                                               const std::vector<std::string>& words) {
+    return std::make_shared<const Bindings>(Reader(file, words).read(text));
+}
+
+} // namespace lockstep

@@ -1,0 +1,39 @@
+#pragma once
+#include <filesystem>
+#include <map>
+#include <memory>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace lockstep {
+
+/// What a uniform of a shader from elsewhere gets: one of ours, several as its components, or numbers of its own.
+struct UniformBinding {
+    std::string path;                 ///< in the file: "/uniforms/resolution"
+    std::vector<std::string> names;   ///< ours; empty: numbers
+    std::vector<double> numbers = {}; ///< one a component
+    bool by_component = false;        ///< a list of names: one a component, whatever its type
+};
+
+/// The names of a shader from elsewhere beside ours (docs/own_shader.md).
+struct Bindings {
+    std::string file;
+    /// By the shader's names, of a member of a uniform block "Frame.tick".
+    std::map<std::string, UniformBinding, std::less<>> uniforms;
+    std::map<std::string, std::string, std::less<>> attributes, outputs; ///< ours by the shader's
+    std::vector<std::string> blocks;                                     ///< uniform blocks that are bound by member
+
+    [[nodiscard]] bool binds_block(std::string_view block) const;
+    /// The shader's name of one of our outputs; the same where none is given.
+    [[nodiscard]] std::string output(std::string_view ours) const;
+};
+
+inline constexpr std::string_view bindings_file = "bindings.json";
+
+/// What `text` says, the text of that file; `words`: all that the shaders beside it consist of. Throws Error with FILE:
+/// and the JSON path for what is no such thing, and for a name that no shader has.
+std::shared_ptr<const Bindings> parse_bindings(const std::string& file, const std::string& text,
+                                               const std::vector<std::string>& words);
+
+} // namespace lockstep

@@ -35,6 +35,10 @@ struct SystemScene {
     ArithmeticSwitch arithmetic = ArithmeticSwitch::plain;
     /// Of a frame's end. Empty: the system has no pictures.
     std::function<SystemPicture(const SystemState& state, int frame)> picture = {};
+    /// The picture that the passes themselves made, where an image of the state is one. Empty: none is.
+    std::function<ColorImage(const SystemState& state)> image = {};
+
+    [[nodiscard]] bool has_pictures() const { return picture || image; }
 };
 
 /// A system that scene files name: `"system": "dust"`. The verbs know no other thing of it.

@@ -2,6 +2,8 @@
 #include <cstddef>
 #include <cstdint>
 #include <functional>
+#include <optional>
+#include <set>
 #include <span>
 #include <vector>
 
@@ -71,8 +73,14 @@ class ReferenceRun {
 /// What a run of both sides came to in one pass of one frame, for a look into it.
 class SystemRun {
   public:
-    /// Runs to pass `pass` of frame `frame`. `system` and `gpu` outlive this. The GPU starts again from the start.
+    /// Before its first frame. `system` and `gpu` outlive this.
+    SystemRun(const System& system, SystemSide& gpu, const KnownOperations& known);
+    /// Runs to pass `pass` of frame `frame`.
     SystemRun(const System& system, SystemSide& gpu, const KnownOperations& known, int frame, std::size_t pass);
+
+    /// Runs on to pass `pass` of frame `frame`; to one that lies behind again from the start. Throws Error where there
+    /// is no such pass, or it does not run in that frame.
+    void go_to(int frame, std::size_t pass);
 
     [[nodiscard]] JudgedPass judged() const;
     [[nodiscard]] const System& system() const { return system_; }
@@ -81,16 +89,26 @@ class SystemRun {
     [[nodiscard]] std::vector<ToldValue> told(std::size_t item);
 
   private:
+    void start_again();
+    void step(int frame, std::size_t pass);
+
     const System& system_;
     SystemSide& gpu_;
     Profile profile_;
     KnownOperations known_;
-    int frame_;
-    std::size_t pass_;
-    SystemState before_, earlier_, reference_, now_;
+    int frame_ = -1; ///< -1: nothing has run
+    std::size_t pass_ = 0;
+    SystemState before_, reference_, now_;
+    SystemState right_;            ///< of buffers that are derived
+    std::set<std::uint8_t> wrong_; ///< which of them the GPU made otherwise
+    struct Started {
+        int frame = -1;
+        SystemState state;
+    };
+    std::vector<Started> started_; ///< what each pass started from in the last two frames, as far as it was kept
+    std::optional<SystemState> earlier_;
     SystemView before_view_, earlier_view_;
     View reference_view_, gpu_view_;
-    bool has_earlier_ = false;
 };
 
 } // namespace lockstep

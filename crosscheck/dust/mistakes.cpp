@@ -5,6 +5,8 @@
 #include <cstddef>
 #include <cstdint>
 #include <span>
+#include <string>
+#include <utility>
 
 #include "reference/dust/handed.hpp"
 #include "reference/dust/random.hpp"
@@ -64,6 +66,75 @@ void colours_swapped(std::span<float> value, const CameBy& run) {
 
 void one_in_ten(std::span<float> decision, const CameBy& /*run*/) { decision[0] = decision[1] <= 0.1F ? 1.0F : 0.0F; }
 
+/// Gravity first, then drag of what it made.
+void drag_after_gravity(std::span<float> value, const CameBy& run) {
+    const float dt = run.of(site::dt)[0];
+    for (std::size_t c = 0; c < value.size(); ++c) {
+        const float fallen = run.of(site::speed)[c] + run.of(site::gravity)[c] * dt;
+        value[c] = fallen - fallen * run.of(site::air_resistance)[0] * dt;
+    }
+}
+
+void drag_squared(std::span<float> value, const CameBy& run) {
+    const auto& v = run.of(site::speed);
+    const float length = std::sqrt(v[0] * v[0] + v[1] * v[1] + v[2] * v[2]);
+    for (float& x : value)
+        x *= length;
+}
+
+/// Of the velocities before the frame and after it.
+void mean_velocity(std::span<float> value, const CameBy& run) {
+    for (std::size_t c = 0; c < value.size(); ++c)
+        value[c] = 0.5F * (run.of(site::speed)[c] + value[c]);
+}
+
+void way_of_constant_time(std::span<float> value, const CameBy& run) {
+    for (std::size_t c = 0; c < value.size(); ++c)
+        value[c] = run.of(site::fall)[c] * 0.02F;
+}
+
+/// A bounce slows the normal part alone: (1 + e) times it is taken away, not twice.
+void slowed_normal_part(std::span<float> value, const CameBy& run) {
+    value[0] *= 0.5F * (1.0F + run.of(site::elasticity)[0]);
+}
+
+float left_of_range(const CameBy& run, const Site& sqr_range) {
+    return 1.0F - run.of(site::sqr_dist)[0] / run.of(sqr_range)[0];
+}
+
+void suction_to_the_rim(std::span<float> value, const CameBy& run) {
+    value[0] = run.of(site::cleaner_sqr_force)[0] * left_of_range(run, site::cleaner_sqr_dist);
+}
+
+void wind_to_the_rim(std::span<float> value, const CameBy& run) {
+    for (float& x : value)
+        x *= left_of_range(run, site::blower_sqr_dist);
+}
+
+/// A force along the tool's axis, not along the way to the grain.
+template <int sign> void along_the_axis(std::span<float> value, const CameBy& run) {
+    for (std::size_t c = 0; c < value.size(); ++c)
+        value[c] = sign * run.of(site::controller_forward)[c] * run.of(site::pull)[0] * run.of(site::along)[0];
+}
+
+void both_cones(std::span<float> decision, const CameBy& /*run*/) {
+    decision[0] = std::abs(decision[1]) > decision[2] ? 1.0F : 0.0F;
+}
+
+void forecast_of_a_second(std::span<float> value, const CameBy& run) {
+    for (std::size_t c = 0; c < value.size(); ++c)
+        value[c] = run.of(site::before)[c] + run.of(site::pulled)[c];
+}
+
+void blast_by_distance(std::span<float> value, const CameBy& run) {
+    value[0] = 1.0F - std::sqrt(run.of(site::sqr_dist)[0] / run.of(site::explosion_sqr_range)[0]);
+}
+
+void upwards(std::span<float> value, const CameBy& /*run*/) {
+    value[0] = value[2] = 0.0F;
+    value[1] = 1.0F;
+}
+
 /// The number's bits, as its kernel drew them with a generator.
 template <class Pcg> std::uint32_t drawn(const CameBy& run, const Pcg& generator) {
     const Draw& draw = *static_cast<const Draw*>(run.world);
@@ -105,11 +176,21 @@ Mistake spoiled_at(const Site& site, Formula formula) {
     return {.site = site.id, .change = Change::spoiled, .formula = formula};
 }
 
+/// One that a shader with a formula of its own makes, which rounds in its own way.
+NamedMistake free_formula(std::string name, std::string meaning, std::string pass, const Mistake& mistake) {
+    return {.name = std::move(name),
+            .meaning = std::move(meaning),
+            .pass = std::move(pass),
+            .mistake = mistake,
+            .freely_written = true};
+}
+
 } // namespace
 
 const std::vector<NamedMistake>& mistakes() {
     static const Mistake next_without_z = spoiled_at(site::sqr_dist_next, without_z<site::mouth_to_forecast>);
     static const Mistake way_without_z = spoiled_at(site::sqr_way, without_z<site::to_centre>);
+    static const Mistake sphere_keeps_speed = mistake_at(site::sphere_speed_kept, Change::one);
     static const Mistake speed_halved = mistake_at(site::speed_into, Change::halved);
     static const Mistake speed_negated = mistake_at(site::speed_into, Change::negated);
     static const Mistake same_velocity = spoiled_at(site::velocity, tail_left_out<site::speed>);
@@ -234,6 +315,38 @@ const std::vector<NamedMistake>& mistakes() {
          "emit",
          {.site = site::is_lucky.id, .change = Change::decided_by_formula, .formula = one_in_ten}},
         {"emitted_none", "no grain comes back", "emit", mistake_at(site::is_lucky, Change::never)},
+        {"moved_by_old_velocity", "grains move by the velocity before the frame, not by the new one", "update",
+         mistake_at(site::mover, Change::instead, -1, &site::speed)},
+        free_formula("moved_by_mean_velocity", "grains move by the mean of the old and the new velocity", "update",
+                     spoiled_at(site::mover, mean_velocity)),
+        free_formula("moved_by_constant_time", "grains move for 0.02 s, whatever a frame takes", "update",
+                     spoiled_at(site::way_of_frame, way_of_constant_time)),
+        free_formula("drag_after_gravity", "the air resists what gravity made of the velocity", "update",
+                     spoiled_at(site::fall, drag_after_gravity)),
+        free_formula("drag_squared", "the air resists by the square of the speed", "update",
+                     spoiled_at(site::drag, drag_squared)),
+        free_formula("bounce_slows_normal_part", "a sphere slows the normal part of the velocity alone", "update",
+                     with(spoiled_at(site::speed_into, slowed_normal_part), sphere_keeps_speed)),
+        {"spheres_without_grain", "spheres are met by the grains' centres", "update",
+         mistake_at(site::reach, Change::minus, -1, &site::radius)},
+        free_formula("suction_to_the_rim", "the pull fades evenly to the rim of the range", "vacuum_up",
+                     spoiled_at(site::pull, suction_to_the_rim)),
+        free_formula("suction_along_the_axis", "the vacuum pulls along its axis, not to its mouth", "vacuum_up",
+                     spoiled_at(site::force, along_the_axis<-1>)),
+        {"both_cones",
+         "the vacuum has a second cone behind it",
+         "vacuum_up",
+         {.site = site::in_cone.id, .change = Change::decided_by_formula, .formula = both_cones}},
+        free_formula("forecast_of_a_second", "the forecast is of a second, not of a frame", "vacuum_up",
+                     spoiled_at(site::forecast, forecast_of_a_second)),
+        free_formula("wind_to_the_rim", "the wind fades to the rim of its range as well", "blow_wind",
+                     spoiled_at(site::force, wind_to_the_rim)),
+        free_formula("wind_along_the_axis", "the wind blows along its axis, not away from the mouth", "blow_wind",
+                     spoiled_at(site::force, along_the_axis<1>)),
+        free_formula("blast_by_distance", "the blast fades with the distance, not its square", "explode",
+                     spoiled_at(site::share, blast_by_distance)),
+        free_formula("blast_upwards", "the blast throws everything straight up", "explode",
+                     spoiled_at(site::blast_direction, upwards)),
     };
     static const std::vector<NamedMistake> with_kernels = [] {
         std::vector<NamedMistake> more = all;

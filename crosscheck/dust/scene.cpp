@@ -1,6 +1,5 @@
 #include "crosscheck/dust/scene.hpp"
 
-#include <algorithm>
 #include <string_view>
 #include <type_traits>
 
@@ -125,21 +124,12 @@ Settings read_scene(const JsonValue& json, const SceneOptions& options) {
             version->fail(error.what());
         }
     }
-    std::vector<SwitchValue> switches = switch_values(settings.switches);
-    if (const auto written = json.find("switches")) {
-        read_values(*written, switches, {"radius_of_scale"});
+    read_switches(json, options.set, "dust", settings.switches, {"radius_of_scale"});
+    if (const auto written = json.find("switches"))
         read_field(*written, "radius_of_scale", settings.switches.radius_of_scale);
-    }
-    for (const std::string& one : options.set)
-        set_value(one, "dust", switches);
-    take_values(settings.switches, switches);
     read_dust(dust, settings);
     settings.count = options.particles.value_or(settings.count);
-    try {
-        check(settings);
-    } catch (const Error& error) {
-        json.fail(error.what());
-    }
+    check_settings(json, settings);
     return settings;
 }
 

@@ -79,15 +79,6 @@ Uniforms uniforms(const Host& host, Kernel kernel, int frame) {
     return all;
 }
 
-ShaderDefines defines(const Switches& switches) {
-    ShaderDefines all;
-    for_each_switch(switches, [&](std::string_view name, auto value, const std::vector<std::string_view>& names) {
-        const ShaderDefines one = choice_defines(name, names, static_cast<std::size_t>(value));
-        all.insert(all.end(), one.begin(), one.end());
-    });
-    return all;
-}
-
 } // namespace
 
 std::vector<GlPass> passes(const HostPtr& host) {
@@ -95,7 +86,7 @@ std::vector<GlPass> passes(const HostPtr& host) {
     for (const Kernel& kernel : frame_order(*host)) {
         GlPass pass{.name = std::string(kernel.name), .stage = Stage::compute, .resource = grain_buffer};
         pass.uniforms = [host, kernel](int frame) { return uniforms(*host, kernel, frame); };
-        pass.defines = defines(host->switches());
+        pass.defines = switch_defines(host->switches());
         pass.runs = [host, kernel](int frame) { return runs(*host, kernel, frame); };
         if (kernel.name == "update") {
             pass.data["sphereColliderBuffer"] = [host](int) { return floats_of(host->spheres()); };
@@ -115,7 +106,7 @@ std::vector<GlPass> passes(const HostPtr& host) {
 GlPass draw_gl_pass(const HostPtr& host, const Drawing& drawing) {
     GlPass pass{.name = "draw", .stage = Stage::vertex, .resource = corner_buffer};
     pass.instances_of = grain_buffer;
-    pass.defines = defines(host->switches());
+    pass.defines = switch_defines(host->switches());
     pass.uniforms = [scale = host->settings().scale, drawing](int) -> Uniforms {
         return {{"cameraRight", drawing.right},
                 {"cameraUp", drawing.up},

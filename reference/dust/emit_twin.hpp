@@ -1,6 +1,7 @@
 #pragma once
 #include "reference/dust/handed.hpp"
 #include "reference/dust/random.hpp"
+#include "reference/readings/constant_divisor.hpp"
 
 namespace lockstep::dust {
 
@@ -25,9 +26,9 @@ struct EmitTwin {
         const RandomTwin<R> random(r, host->switches(), {i, seed_of(r, *host)});
         const auto frame = static_cast<std::uint32_t>(values.frame);
         const Real f = R::real(i);
-        const Real chance = integer
-                                ? random.unit(Stream::chance, frame)
-                                : random.r11(r.divide(site::seed, f + r.uniform(site::time, values.time), 79238.288F));
+        const Real chance =
+            integer ? random.unit(Stream::chance, frame)
+                    : random.r11(divided_by(r, site::seed, f + r.uniform(site::time, values.time), 79238.288F));
         if (!r.decide(site::is_lucky, r.note(site::chance, chance) <= 0.01F))
             return grain;
         const bool by_time = host->switches().emit_seed == EmitSeed::index_time;
@@ -40,8 +41,9 @@ struct EmitTwin {
             rho = random.unit(Stream::radius, drawn_in);
             tangent = r.uniform(site::emitter_tangent, values.tangent);
         } else {
-            const Real s = r.note(
-                site::seed, r.divide(site::seed, by_time ? f + r.uniform(site::time, values.time) : f, 82801.277F));
+            const Real s =
+                r.note(site::seed,
+                       divided_by(r, site::seed, by_time ? f + r.uniform(site::time, values.time) : f, 82801.277F));
             const Real turn = r.note(site::angle, lerp(Real(-6.28318530F), Real(6.28318530F), random.r11(s)));
             x = random.cosine(turn);
             y = random.sine(turn);

@@ -93,12 +93,19 @@ template <class R> class RandomTwin {
 
     /// Cody and Waite's reduction to an eighth of a turn, then a polynomial; each operation rounded.
     Real signed_part(const Real& x, int quarter, bool negative) const {
-        const Real size = r.abs(x);
-        const int whole = r.to_int(site::octant, size * 1.27323954473516F);
+        const Real size = r.abs(x), eighths = size * 1.27323954473516F;
+        if constexpr (requires { eighths.set(); })
+            if (spreads(eighths.set()))
+                return r.unspecified(site::octant, eighths, -1.0F, 1.0F);
+        const int whole = r.to_int(site::octant, eighths);
         const int j = (whole + 1) & ~1;
         const Real part = part_of(size, r.real(j), j / 2 + quarter,
                                   [](const Real& a, const Real& b, const Real& c) { return a * b + c; });
         return is_negative(j / 2 + quarter, negative) ? -part : part;
+    }
+    /// Whether a set has angles all around, of which nothing follows but that a sine is one.
+    template <class Set> static bool spreads(const Set& eighths) {
+        return !eighths.any && eighths.high - eighths.low >= 3.0 && eighths.high < 0x1p30;
     }
     /// The same with each product fused into its sum.
     static float fused_part(float x, int quarter) {

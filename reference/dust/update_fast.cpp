@@ -5,7 +5,11 @@
 #include <cstdint>
 #include <cstring>
 #include <limits>
+#include <optional>
 
+#include <glm/common.hpp>
+
+#include "reference/dust/fast_blocks.hpp"
 #include "reference/model/dust/schema.hpp"
 #include "reference/plain_arithmetic.hpp"
 #include "reference/readings/number.hpp"
@@ -36,10 +40,15 @@ struct OrientedBox {
     glm::vec3 half_grain{0.0F}; ///< in the box's own units
 };
 
+/// Grown by a grain and by more than rounding: who is outside does not touch the box.
+struct AlignedBox {
+    glm::vec3 low{0.0F}, high{0.0F};
+};
+
 struct Block {
     alignas(64) std::array<float, words> position, velocity, next;
     std::array<std::uint32_t, words> at_wall;
-    std::array<std::uint32_t, block_size> touches; ///< a collider
+    std::array<std::uint32_t, block_size> touches; ///< a collider, or may be sucked
     std::array<std::int32_t, block_size> alive;
 };
 
@@ -61,9 +70,7 @@ template <class Number> Flight flight_of(const Host& host, const FrameValues& va
         low[axis] = static_cast<float>(Number(s.world.min[k]) + Number(host.radius()));
         high[axis] = static_cast<float>(Number(s.world.max[k]) - Number(host.radius()));
     }
-    if (host.switches().world == World::floor_clamp)
-        low[1] = 0.0F;
-    else if (host.switches().world == World::floor_radius || host.switches().world == World::floor_bounce)
+    if (host.switches().world == World::floor_bounce)
         low[1] = host.radius();
     return {of_axes(a), of_axes(low), of_axes(high), s.air_resistance, values.dt};
 }
@@ -80,6 +87,13 @@ template <class A> OrientedBox box_of(A fp, const Host& host, const ColliderMatr
     return {collider.world_to_local,
             {fp.divide(radius, collider.scale.x), fp.divide(radius, collider.scale.y),
              fp.divide(radius, collider.scale.z)}};
+}
+
+AlignedBox aligned_box_of(const Host& host, const ColliderMatrices& collider) {
+    const glm::vec3 centre(collider.local_to_world[3]);
+    const glm::vec3 margin = 1e-3F * (glm::abs(centre) + collider.scale + host.radius());
+    const glm::vec3 reach = collider.scale * 0.5F + host.radius() + margin;
+    return {centre - reach, centre + reach};
 }
 
 template <class Number> void fly(Block& block, const Flight& flight) {
@@ -126,6 +140,34 @@ template <class Number> void meet(Block& block, const OrientedBox& box) {
     }
 }
 
+/// A floor that only stops: nothing else changes there.
+LOCKSTEP_VECTOR_CLONES void stop(Block& block, float floor) {
+    LOCKSTEP_VECTOR_LOOP
+    for (std::size_t i = 0; i < block_size; ++i) {
+        const float y = block.next[3 * i + 1];
+        block.next[3 * i + 1] = y > floor ? y : floor;
+    }
+}
+
+/// The height of a floor that only stops.
+std::optional<float> stopping_floor(const Host& host) {
+    if (host.switches().world == World::floor_clamp)
+        return 0.0F;
+    return host.switches().world == World::floor_radius ? std::optional(host.radius()) : std::nullopt;
+}
+
+LOCKSTEP_VECTOR_CLONES void meet(Block& block, const AlignedBox& box) {
+    LOCKSTEP_VECTOR_LOOP
+    for (std::size_t i = 0; i < block_size; ++i) {
+        std::uint32_t misses = 0;
+        for (int k = 0; k < 3; ++k) {
+            const float x = block.next[3 * i + static_cast<std::size_t>(k)];
+            misses |= static_cast<std::uint32_t>(x < box.low[k]) | static_cast<std::uint32_t>(x > box.high[k]);
+        }
+        block.touches[i] |= 1U - misses;
+    }
+}
+
 LOCKSTEP_VECTOR_CLONES void fly_plain(Block& block, const Flight& flight) { fly<float>(block, flight); }
 LOCKSTEP_VECTOR_CLONES void fly_exact(Block& block, const Flight& flight) {
     fly<FlushingNumber<Portable>>(block, flight);
@@ -145,36 +187,29 @@ template <std::size_t size> void flush(std::array<float, size>& values) {
         x = Portable::flush(x);
 }
 
-/// Where a field's words of a grain lie.
-template <class Byte> Byte* place(const BasicView<Byte>& view, FieldId field, std::size_t grain) {
-    return view.columns[field.field] +
-           grain * static_cast<std::size_t>(view.fields()[field.field].components) * sizeof(float);
-}
-
 /// Grains first to last of the block, the last excluded, are those of the state from `to` on.
 void store(const Block& block, std::size_t first, std::size_t last, const View& before, const WritableView& after,
            std::size_t to, bool exact) {
     const std::size_t bytes = 3 * (last - first) * sizeof(float);
-    std::memcpy(place(after, field::position, to), block.next.data() + 3 * first, bytes);
-    std::memcpy(place(after, field::velocity, to), block.velocity.data() + 3 * first, bytes);
-    std::byte* colour = place(after, field::colour, to);
+    std::memcpy(words_at(after, field::position, to), block.next.data() + 3 * first, bytes);
+    std::memcpy(words_at(after, field::velocity, to), block.velocity.data() + 3 * first, bytes);
+    std::byte* colour = words_at(after, field::colour, to);
     if (exact) {
         std::array<float, words> flushed{};
-        std::memcpy(flushed.data(), place(before, field::colour, to), bytes);
+        std::memcpy(flushed.data(), words_at(before, field::colour, to), bytes);
         flush(flushed);
         std::memcpy(colour, flushed.data(), bytes);
-    } else if (const std::byte* kept = place(before, field::colour, to); kept != colour) {
+    } else if (const std::byte* kept = words_at(before, field::colour, to); kept != colour) {
         std::memcpy(colour, kept, bytes);
     }
-    std::memcpy(place(after, field::alive, to), block.alive.data() + first, (last - first) * sizeof(std::int32_t));
+    std::memcpy(words_at(after, field::alive, to), block.alive.data() + first, (last - first) * sizeof(std::int32_t));
 }
 
 } // namespace
 
 bool has_update_fast(const Host& host) {
     const Switches& s = host.switches();
-    return s.drag == Drag::free && s.drag_implicit == OffOn::off && s.suction != Suction::force_in_update &&
-           (host.boxes().empty() || s.box_kind == BoxKind::obb);
+    return s.drag == Drag::free && s.drag_implicit == OffOn::off;
 }
 
 void update_fast(const Host& host, const PassInput& in, const Profile& profile, std::size_t first, std::size_t last,
@@ -182,25 +217,38 @@ void update_fast(const Host& host, const PassInput& in, const Profile& profile, 
     const bool exact = host.settings().arithmetic == ArithmeticSwitch::exact;
     const FrameValues values = host.at(in.frame);
     const Flight flight = exact ? flight_of<FlushingNumber<Portable>>(host, values) : flight_of<float>(host, values);
+    const bool sucks = host.switches().suction == Suction::force_in_update && host.is_on(Tool::Kind::vacuum, in.frame);
+    const Reach cone = cone_of(values);
+    const std::optional<float> floor = stopping_floor(host);
     const PlainArithmetic plain(profile.dot, profile.length_order(), profile.normalize_order(), profile.roots.get());
     const View& before = in.before[grain_buffer];
     Block block{};
     for (; first < last; first += block_size) {
         const std::size_t count = std::min(block_size, last - first), bytes = 3 * count * sizeof(float);
-        std::memcpy(block.position.data(), place(before, field::position, first), bytes);
-        std::memcpy(block.velocity.data(), place(before, field::velocity, first), bytes);
-        std::memcpy(block.alive.data(), place(before, field::alive, first), count * sizeof(std::int32_t));
+        std::memcpy(block.position.data(), words_at(before, field::position, first), bytes);
+        std::memcpy(block.velocity.data(), words_at(before, field::velocity, first), bytes);
+        std::memcpy(block.alive.data(), words_at(before, field::alive, first), count * sizeof(std::int32_t));
         if (exact) {
             flush(block.position);
             flush(block.velocity);
         }
         exact ? fly_exact(block, flight) : fly_plain(block, flight);
-        block.touches.fill(0);
+        if (sucks)
+            mark(cone, block.position.data(), block.touches.data());
+        else
+            block.touches.fill(0);
+        if (floor && host.switches().world_order == WorldOrder::first)
+            stop(block, *floor);
         for (const ColliderMatrices& one : host.spheres())
             exact ? meet_exact(block, sphere_of<FlushingNumber<Portable>>(host, one))
                   : meet_plain(block, sphere_of<float>(host, one));
         for (const ColliderMatrices& one : host.boxes())
-            exact ? meet_exact(block, box_of(Portable{}, host, one)) : meet_plain(block, box_of(plain, host, one));
+            if (host.switches().box_kind == BoxKind::aabb)
+                meet(block, aligned_box_of(host, one));
+            else
+                exact ? meet_exact(block, box_of(Portable{}, host, one)) : meet_plain(block, box_of(plain, host, one));
+        if (floor && host.switches().world_order == WorldOrder::last)
+            stop(block, *floor);
         std::size_t stored = 0;
         for (std::size_t i = 0; i <= count; ++i) {
             const bool flies =

@@ -15,8 +15,8 @@ void main() {
     float d2 = squared(way);
     if (!(d2 < blowerSqrDist))
         return;
-#if SAFE_DIRECTION == SAFE_DIRECTION_ON
-    if (!(d2 > 0.0))
+#if SAFE_DIRECTION == SAFE_DIRECTION_ON || ARITHMETIC == ARITHMETIC_EXACT
+    if (!(d2 > 0.0)) // as in cone.glsl
         return;
 #endif
     vec3 n = ls_normalize(way);

@@ -10,8 +10,8 @@ bool suction_force(vec3 position, out vec3 force) {
     float d2 = squared(way);
     if (!(d2 < cleanerSqrDist))
         return false;
-#if SAFE_DIRECTION == SAFE_DIRECTION_ON
-    if (!(d2 > 0.0))
+#if SAFE_DIRECTION == SAFE_DIRECTION_ON || ARITHMETIC == ARITHMETIC_EXACT
+    if (!(d2 > 0.0)) // NaN below is beside no cone, but an H200 has it inside
         return false;
 #endif
     vec3 n = ls_normalize(way);

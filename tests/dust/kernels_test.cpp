@@ -1,7 +1,9 @@
 #include <cstdlib>
 #include <string>
 
+#include "crosscheck/dust/scene.hpp"
 #include "tests/dust/dust_run.hpp"
+#include "tests/dust/shaders_with.hpp"
 
 using namespace lockstep;
 using namespace lockstep::test;
@@ -30,7 +32,57 @@ void expect_agreement(const dust::Settings& settings, int frames) {
     }
 }
 
+/// The shaders of this machine's GL, of which another driver's rows are told.
+class OtherDriver final : public SystemSide {
+  public:
+    OtherDriver(const System& system, const dust::HostPtr& host, const std::string& shaders,
+                std::vector<std::string> not_followed)
+        : side_(gl(), system, dust::passes(host), shaders), not_followed_(std::move(not_followed)) {}
+
+    [[nodiscard]] SideDescription describe() const override {
+        SideDescription told = side_.describe();
+        told.profile.not_followed = not_followed_;
+        return told;
+    }
+    void upload(const SystemView& state) override { side_.upload(state); }
+    void step(std::size_t pass, int frame) override { side_.step(pass, frame); }
+    void read(SystemState& state) const override { side_.read(state); }
+
+  private:
+    GlSystemSide side_;
+    std::vector<std::string> not_followed_;
+};
+
 } // namespace
+
+TEST_CASE("dust: a driver that multiplies by a constant's reciprocal is legal where its row says so, and not where the "
+          "row says that it divides") {
+    if (!gl())
+        return skip(gl().missing());
+    dust::Settings s = dust::load_scene("data/scenes/dust/cube_limit.json", {.particles = 60'000});
+    s.tools[0] = {
+        .kind = dust::Tool::Kind::vacuum, .from = 0, .to = 2, .range = 1000.0F, .angle = 90.0F, .death_range = 1000.0F};
+    s.tools[1].from = 2;
+    const dust::HostPtr host = host_of(s);
+    const System system = dust::system(host);
+    const auto check_with = [&](const std::string& divisor, std::vector<std::string> not_followed) {
+        const TemporaryFolder shaders;
+        copy_replacing("shaders/dust", shaders, "emit.comp", "ls_divide(seed_of_ray, 82801.277)",
+                       "mul(seed_of_ray, 1.0 / " + divisor + ")");
+        OtherDriver side(system, host, shaders.path(), std::move(not_followed));
+        CheckOptions options;
+        options.frames = 8;
+        return check(system, side, options);
+    };
+    const CheckReport open = check_with("82801.277", {"compute: a/c, c constant"});
+    INFO(report_text(open, {}));
+    CHECK(open.verdict == Verdict::legal);
+    const CheckReport any_factors =
+        check_with("82801.277", {"compute: a/c, c constant", "compute: v*s*t, in functions"});
+    CHECK(any_factors.verdict == Verdict::legal); // sets that go around the circle are no reason to say undefined
+    CHECK(check_with("82801.277", {}).verdict == Verdict::divergent);
+    CHECK(check_with("82801.3", {"compute: a/c, c constant"}).verdict == Verdict::divergent);
+}
 
 TEST_CASE("dust: grains fall, bounce off the walls and lie, as their twins do") {
     if (!gl())

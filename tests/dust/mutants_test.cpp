@@ -8,6 +8,7 @@
 #include <fmt/ranges.h>
 #include <glm/matrix.hpp>
 
+#include "crosscheck/dust/picture.hpp"
 #include "reference/dust/sites.hpp"
 #include "tests/dust/dust_run.hpp"
 #include "tests/text_mutants.hpp"
@@ -82,12 +83,34 @@ TEST_CASE("dust mutants: some of each kernel are found and named, and the shippe
     if (!gl())
         return skip(gl().missing());
     CHECK(run_of("shaders/dust", "").verdict == "AGREE");
-    check_mutants("dust", {"stride_16_read",        "death_not_counted", "death_not_atomic", "spawned_dead",
-                           "cone_ignored",          "suction_reversed",  "emitted_all",      "wind_reversed",
-                           "blast_not_fading",      "gravity_missing",   "drag_reversed",    "sphere_far_side",
-                           "sphere_normal_of_next", "reflection_once",   "death_counted_up", "birth_counted_down",
-                           "matrix_transposed",     "random_pcg_shift",  "faces_turned",     "box_velocity_as_point",
-                           "wall_path_uncut"},
+    check_mutants("dust",
+                  {"stride_16_read",
+                   "death_not_counted",
+                   "death_not_atomic",
+                   "spawned_dead",
+                   "cone_ignored",
+                   "suction_reversed",
+                   "emitted_all",
+                   "wind_reversed",
+                   "blast_not_fading",
+                   "gravity_missing",
+                   "drag_reversed",
+                   "sphere_far_side",
+                   "sphere_normal_of_next",
+                   "reflection_once",
+                   "death_counted_up",
+                   "birth_counted_down",
+                   "matrix_transposed",
+                   "random_pcg_shift",
+                   "faces_turned",
+                   "box_velocity_as_point",
+                   "wall_path_uncut",
+                   "moved_for_constant_time",
+                   "air_resists_by_the_square",
+                   "bounce_slows_normal_alone",
+                   "suction_along_the_axis",
+                   "wind_fades_to_the_rim",
+                   "blast_fades_by_distance"},
                   run_of);
 }
 
@@ -177,6 +200,26 @@ TEST_CASE("dust mutants: a mistake in any kernel's twin, with the shader right, 
         options.frames = frames;
         options.mode = CheckMode::free;
         CHECK(check(system, side, options).verdict == Verdict::differ);
+    }
+}
+
+TEST_CASE("dust mutants: a mistake in the twin of the draw's vertex stage is found as well") {
+    if (!gl())
+        return skip(gl().missing());
+    const dust::HostPtr host = host_of(room(false));
+    const System kernels = dust::system(host);
+    ReferenceRun run(kernels, named_profile("strict"));
+    run.step(0);
+    for (const bool wrong : {false, true}) {
+        SystemPicture picture = dust::picture(host, run.state(), 0);
+        if (wrong)
+            picture.system.passes[0] = std::make_unique<WrongTwin>(
+                std::move(picture.system.passes[0]), mistake_at(dust::site::world_corner, Change::negated));
+        GlSystemSide side(gl(), picture.system, picture.passes, "shaders/dust");
+        CheckOptions options;
+        options.frames = 1;
+        options.mode = CheckMode::free;
+        CHECK(check(picture.system, side, options).verdict == (wrong ? Verdict::differ : Verdict::agree));
     }
 }
 

@@ -1,4 +1,7 @@
 #pragma once
+#include <cstddef>
+#include <cstdint>
+#include <span>
 #include <string_view>
 
 #include <glm/vec3.hpp>
@@ -31,6 +34,21 @@ class Grains {
             if (pass->name() == kernel || pass->name() == std::string(kernel) + "_count") {
                 const SystemState before = state;
                 run_pass(*pass, {before.view(), frame}, strict, state[pass->resource()]);
+            }
+    }
+
+    /// Grain 0 through a kernel that makes a mistake.
+    void run_mistaken(std::string_view kernel, const Mistake& mistake, int frame) {
+        for (const auto& pass : passes_)
+            if (pass->name() == kernel) {
+                const SystemState before = state;
+                const auto words =
+                    pass->mistaken({before.view(), frame}, 0, named_profile("strict"), std::span(&mistake, 1));
+                const WritableView to = state[pass->resource()];
+                std::size_t word = 0;
+                for (std::size_t f = 0; f < to.fields().size(); ++f)
+                    for (int c = 0; c < to.fields()[f].components; ++c)
+                        state.set({pass->resource(), static_cast<std::uint8_t>(f)}, 0, words[word++], c);
             }
     }
 

@@ -245,8 +245,10 @@ dust::Settings furnished(std::size_t count) {
     s.world = {glm::vec3(-20.0F), glm::vec3(20.0F)};
     s.colliders = {{.position = {3.0F, 2.0F, 1.0F}, .radius = 5.0F},
                    {.sphere = false, .position = {-8.0F, -3.0F, 2.0F}, .scale = {6, 3, 8}}};
-    s.tools = {tool(dust::Tool::Kind::vacuum)};
+    s.tools = {tool(dust::Tool::Kind::vacuum, 12), tool(dust::Tool::Kind::wind)};
     s.controller = {{0, {0.5F, -8.0F, -3.0F}, {0.3F, 0.4F, 1.0F}}};
+    for (const int frame : {2, 9})
+        s.cannon.push_back({.frame = frame, .position = {4.0F, 2.5F, 1.0F}, .speed = 0.0F, .range = 15.0F});
     return s;
 }
 
@@ -264,7 +266,7 @@ TEST_CASE("dust oracle: grains in another order have the same fates, bit for bit
         other.place(order[i], any_vector(i) * 19.0F, any_vector(i, 5) * 60.0F);
     }
     for (int frame = 0; frame < 20; ++frame)
-        for (const char* kernel : {"vacuum_up", "update"}) {
+        for (const char* kernel : {"explode", "vacuum_up", "blow_wind", "update"}) {
             one.run(kernel, frame);
             other.run(kernel, frame);
         }
@@ -282,6 +284,8 @@ TEST_CASE("dust oracle: a mirrored room has mirrored grains, bit for bit but for
     dust::Settings mirrored = s;
     for (dust::Collider& collider : mirrored.colliders)
         collider.position.x = -collider.position.x;
+    for (dust::Ball& ball : mirrored.cannon)
+        ball.position.x = -ball.position.x;
     for (dust::Pose& pose : mirrored.controller) {
         pose.position.x = -pose.position.x;
         pose.forward.x = -pose.forward.x;
@@ -293,7 +297,7 @@ TEST_CASE("dust oracle: a mirrored room has mirrored grains, bit for bit but for
         other.place(i, turned * (any_vector(i) * 19.0F), turned * (any_vector(i, 5) * 60.0F));
     }
     for (int frame = 0; frame < 20; ++frame)
-        for (const char* kernel : {"vacuum_up", "update"}) {
+        for (const char* kernel : {"explode", "vacuum_up", "blow_wind", "update"}) {
             one.run(kernel, frame);
             other.run(kernel, frame);
         }

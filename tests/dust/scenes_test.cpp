@@ -1,7 +1,9 @@
 #include <algorithm>
 #include <filesystem>
 #include <fstream>
+#include <functional>
 #include <iostream>
+#include <limits>
 #include <map>
 #include <string>
 
@@ -114,6 +116,21 @@ TEST_CASE("dust scenes: what is wrong with a file is said in one line, with its 
         {R"("controller": [])", "there is no keyframe"},
         {R"("controller": [{"forward": [0, 0, 0]}])", "keyframe 0: forward has no length"},
         {R"("colour": 3)", "colour"},
+        {R"("mass": -1)", "mass is -1; right is above 0"},
+        {R"("scale": 0)", "scale is 0; right is above 0"},
+        {R"("elasticity": 1.5)", "elasticity is 1.5; right is 0 to 1"},
+        {R"("mass": 1e999)", "number overflow"},
+        {R"("gravity": [0, -9.8, 0])", "gravity"},
+        {R"("tools": [{"tool": "vacuum", "force": 1e20}])", "right is 0 to 1.8e19, since they are squared"},
+        {R"("tools": [{"tool": "vacuum", "death_range": -1}])", "death_range -1"},
+        {R"("tools": [{"tool": "emit", "angle": 0}])", "angle of 0 degrees; right is 0.01 to 90"},
+        {R"("colliders": [{"shape": "sphere", "radius": 1e20}])", "sphere 0 has radius 1e+20"},
+        {R"("colliders": [{"shape": "box", "scale": [1, -1, 1]}])", "box 0 has scale 1 -1 1"},
+        {R"("cannon": [{"range": 1e20}])", "cannon: ball 0"},
+        {R"("cannon": [{"forward": [0, 0, 0]}])", "cannon: ball 0 has no direction"},
+        {R"("controller": [{"frame": 5}, {"frame": 5}])", "keyframe 1 is of frame 5; right is after 5"},
+        {R"("controller": [{"forward": [0, 0, 1]}, {"frame": 9, "forward": [0, 0, -2]}])",
+         "keyframes 0 and 1 face opposite ways; right is one between them"},
     };
     for (const auto& [inside, words] : wrong) {
         const std::string error = error_of(of_dust(inside));
@@ -121,6 +138,14 @@ TEST_CASE("dust scenes: what is wrong with a file is said in one line, with its 
         CHECK_THAT(error, Catch::Contains(words) && Catch::StartsWith("scene.json"));
         CHECK(error.find('\n') == std::string::npos);
     }
+    const auto of_constants = [](const std::string& inside) {
+        return R"({"system": "dust", "constants": {)" + inside + R"(}, "dust": {"cannon": [{}]}})";
+    };
+    CHECK_THAT(error_of(of_constants(R"("tick": -1)")), Catch::Contains("tick is -1 s; right is 0 or above"));
+    CHECK_THAT(error_of(of_constants(R"("timescale": 2)")), Catch::Contains("timescale is 2; right is 0 to 1"));
+    CHECK_THAT(error_of(of_constants(R"("tick": 1e-7)")), Catch::Contains("right is 0 or at least 1e-05 s"));
+    CHECK_THROWS_WITH(dust::load_scene(folder + "obb.json", {.particles = 4'194'241}),
+                      Catch::Contains("count is 4194241; right is 1 to 4194240, 65535 groups of 64"));
     CHECK_THAT(error_of(R"({"system": "dust", "switches": {"suction": "hard"}, "dust": {}})"),
                Catch::Contains("/switches/suction"));
     CHECK_THAT(error_of(R"({"system": "dusk", "dust": {}})"), Catch::Contains("/system"));
@@ -128,4 +153,89 @@ TEST_CASE("dust scenes: what is wrong with a file is said in one line, with its 
                       "one_hit: 'maybe' is not one of off, on");
     CHECK_THROWS_WITH(dust::load_scene(folder + "obb.json", {.set = {"two_hits=on"}}),
                       Catch::Contains("there is no switch 'two_hits' of dust"));
+}
+
+TEST_CASE("dust scenes: numbers that are not finite are refused of a host that is no file, too") {
+    constexpr float nan = std::numeric_limits<float>::quiet_NaN(), infinite = std::numeric_limits<float>::infinity();
+    const auto error_of = [](const std::function<void(dust::Settings&)>& change) -> std::string {
+        dust::Settings s;
+        s.tools.resize(1);
+        s.colliders = {{}, {.sphere = false}};
+        s.cannon.resize(1);
+        dust::check(s);
+        change(s);
+        try {
+            dust::check(s);
+        } catch (const Error& error) {
+            return error.what();
+        }
+        return "";
+    };
+    for (const float bad : {nan, infinite, -infinite}) {
+        const std::function<void(dust::Settings&)> changes[] = {
+            [&](auto& s) { s.mass = bad; },
+            [&](auto& s) { s.tick = bad; },
+            [&](auto& s) { s.timescale = bad; },
+            [&](auto& s) { s.air_resistance = bad; },
+            [&](auto& s) { s.scale = bad; },
+            [&](auto& s) { s.elasticity = bad; },
+            [&](auto& s) { s.gravity.y = bad; },
+            [&](auto& s) { s.colour_b.x = bad; },
+            [&](auto& s) { s.switches.radius_of_scale = bad; },
+            [&](auto& s) { s.spawn.max.y = bad; },
+            [&](auto& s) { s.world.min.z = bad; },
+            [&](auto& s) { s.controller[0].position.x = bad; },
+            [&](auto& s) { s.controller[0].forward.x = bad; },
+            [&](auto& s) { s.tools[0].force = bad; },
+            [&](auto& s) { s.tools[0].range = bad; },
+            [&](auto& s) { s.tools[0].angle = bad; },
+            [&](auto& s) { s.tools[0].death_range = bad; },
+            [&](auto& s) { s.tools[0].distance = bad; },
+            [&](auto& s) { s.colliders[0].position.x = bad; },
+            [&](auto& s) { s.colliders[0].radius = bad; },
+            [&](auto& s) { s.colliders[1].scale.z = bad; },
+            [&](auto& s) { s.colliders[1].rotate.y = bad; },
+            [&](auto& s) { s.cannon[0].position.y = bad; },
+            [&](auto& s) { s.cannon[0].forward.y = bad; },
+            [&](auto& s) { s.cannon[0].speed = bad; },
+            [&](auto& s) { s.cannon[0].range = bad; },
+            [&](auto& s) { s.cannon[0].force = bad; },
+        };
+        for (std::size_t k = 0; k < std::size(changes); ++k) {
+            const std::string error = error_of(changes[k]);
+            INFO("number " << k << " of " << bad << ": " << error);
+            CHECK_THAT(error, Catch::StartsWith("dust: "));
+            CHECK(error.find('\n') == std::string::npos);
+        }
+    }
+}
+
+TEST_CASE("dust scenes: huge numbers run, overflow as they must, and both sides agree") {
+    if (!gl())
+        return skip(gl().missing());
+    const auto with = [](const std::function<void(dust::Settings&)>& change) {
+        dust::Settings s = scene("vacuum_and_back", "exact");
+        s.count = 500;
+        s.tools[0].to = 10;
+        s.tools[1].from = 10;
+        change(s);
+        return run_dust(s, 30);
+    };
+    const CheckReport reports[] = {
+        with([](auto& s) { s.tools[0].force = s.tools[1].force = 1.8e19F; }),
+        with([](auto& s) { s.gravity.y = -3e38F; }),
+        with([](auto& s) { s.tick = 1e30F; }),
+        with([](auto& s) { s.air_resistance = 3e38F; }),
+        with([](auto& s) { s.mass = 1e-38F; }),
+        with([](auto& s) { s.scale = 1e30F; }),
+        with([](auto& s) {
+            s.world = {glm::vec3(0.0F), glm::vec3(0.01F)};
+        }), // thinner than a grain
+        with([](auto& s) { s.colliders[0].radius = 1.8e19F; }),
+        with([](auto& s) { s.tools[1].to = std::numeric_limits<int>::max(); }),
+    };
+    for (const CheckReport& report : reports) {
+        INFO(report_text(report, {}));
+        CHECK(report.verdict == Verdict::agree);
+    }
 }

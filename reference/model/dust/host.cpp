@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <numbers>
 #include <utility>
 
@@ -84,43 +85,34 @@ Host::Host(Settings settings) : settings_(std::move(settings)) {
     for (const Ball& ball : settings_.cannon)
         if (const auto explosion = fly(ball))
             explosions_.push_back(*explosion);
-    int last = settings_.controller.back().frame;
-    for (const Tool& tool : settings_.tools)
-        last = std::max(last, tool.to);
-    for (int frame = 0; frame <= last; ++frame) {
-        FrameValues values;
-        const auto& poses = settings_.controller;
-        std::size_t next = 0;
-        while (next < poses.size() && poses[next].frame <= frame)
-            ++next;
-        const Pose& a = poses[next == 0 ? 0 : next - 1];
-        const Pose& b = poses[std::min(next, poses.size() - 1)];
-        const double t = b.frame > a.frame ? double(frame - a.frame) / double(b.frame - a.frame) : 0.0;
-        const glm::dvec3 at = glm::dvec3(a.position) + t * (glm::dvec3(b.position) - glm::dvec3(a.position));
-        const glm::dvec3 forward =
-            glm::normalize(glm::dvec3(a.forward) + t * (glm::dvec3(b.forward) - glm::dvec3(a.forward)));
-        values.controller_pos = glm::vec3(at);
-        values.controller_forward = glm::vec3(forward);
-        values.controller_matrix = facing(at, forward);
-        values.tool = tool_at(frame);
-        if (const Tool* tool = values.tool) {
-            values.sqr_force = tool->force * tool->force;
-            values.sqr_range = tool->range * tool->range;
-            values.threshold = threshold_of(tool->angle);
-            const bool unset = switches().death_range == DeathRange::unset && has_update();
-            values.sqr_death_range = unset ? 0.0F : tool->death_range * tool->death_range;
-            values.angle_rad = tool->angle * 0.0174532924F;
-            values.tangent = static_cast<float>(std::tan(double{values.angle_rad}));
-        }
-        poses_.push_back(values);
-    }
     for (int i = 0; i < 4096; ++i)
         directions_.emplace_back(std::cos(2.0 * std::numbers::pi * i / 4096.0),
                                  std::sin(2.0 * std::numbers::pi * i / 4096.0));
 }
 
 FrameValues Host::at(int frame) const {
-    FrameValues values = poses_[static_cast<std::size_t>(std::min(frame, static_cast<int>(poses_.size()) - 1))];
+    FrameValues values;
+    const auto& poses = settings_.controller;
+    const auto next = std::find_if(poses.begin(), poses.end(), [&](const Pose& pose) { return pose.frame > frame; });
+    const Pose& a = next == poses.begin() ? *next : *std::prev(next);
+    const Pose& b = next == poses.end() ? poses.back() : *next;
+    const double t = b.frame > a.frame ? double(frame - a.frame) / double(b.frame - a.frame) : 0.0;
+    const glm::dvec3 at = glm::dvec3(a.position) + t * (glm::dvec3(b.position) - glm::dvec3(a.position));
+    const glm::dvec3 forward =
+        glm::normalize(glm::dvec3(a.forward) + t * (glm::dvec3(b.forward) - glm::dvec3(a.forward)));
+    values.controller_pos = glm::vec3(at);
+    values.controller_forward = glm::vec3(forward);
+    values.controller_matrix = facing(at, forward);
+    values.tool = tool_at(frame);
+    if (const Tool* tool = values.tool) {
+        values.sqr_force = tool->force * tool->force;
+        values.sqr_range = tool->range * tool->range;
+        values.threshold = threshold_of(tool->angle);
+        const bool unset = switches().death_range == DeathRange::unset && has_update();
+        values.sqr_death_range = unset ? 0.0F : tool->death_range * tool->death_range;
+        values.angle_rad = tool->angle * 0.0174532924F;
+        values.tangent = static_cast<float>(std::tan(double{values.angle_rad}));
+    }
     values.frame = frame;
     values.dt = settings_.tick * settings_.timescale;
     values.time = static_cast<float>(double(frame) * double{values.dt});
@@ -168,13 +160,17 @@ std::optional<Explosion> Host::fly(const Ball& ball) const {
     const double dt = double{settings_.tick} * double{settings_.timescale};
     glm::dvec3 position(ball.position);
     glm::dvec3 velocity = glm::normalize(glm::dvec3(ball.forward)) * double{ball.speed};
+    std::vector<std::pair<Collider, ColliderMatrices>> obstacles;
+    for (const Collider& collider : settings_.colliders)
+        if (!collider.removed)
+            obstacles.emplace_back(collider, matrices(collider));
     for (int step = 0; step * dt < ball_life && dt > 0.0; ++step) {
         velocity += glm::dvec3(settings_.gravity) * dt;
         position += velocity * dt;
         bool hit = glm::any(glm::lessThan(position, glm::dvec3(settings_.world.min))) ||
                    glm::any(glm::greaterThan(position, glm::dvec3(settings_.world.max)));
-        for (const Collider& collider : settings_.colliders)
-            hit = hit || (!collider.removed && touches(position, collider, matrices(collider)));
+        for (const auto& [collider, made] : obstacles)
+            hit = hit || touches(position, collider, made);
         if (hit)
             return Explosion{ball.frame + step + 1, glm::vec3(position), ball.range * ball.range, ball.force};
     }

@@ -78,7 +78,6 @@ class Host {
     Settings settings_;
     Colliders colliders_;
     std::vector<Explosion> explosions_;
-    std::vector<FrameValues> poses_; ///< up to the last that differs
     std::vector<glm::vec2> directions_;
 };
 

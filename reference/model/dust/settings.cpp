@@ -3,26 +3,82 @@
 #include <cmath>
 
 #include <fmt/format.h>
+#include <glm/geometric.hpp>
 
 #include "reference/model/error.hpp"
 
 namespace lockstep::dust {
 namespace {
 
+constexpr double shortest_flight_step = 1e-5; ///< seconds
+
 template <class... Parts> void expect(bool right, fmt::format_string<Parts...> text, Parts&&... parts) {
     if (!right)
         throw Error("dust: " + fmt::format(text, std::forward<Parts>(parts)...));
 }
+
+bool is_finite(const glm::vec3& v) { return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z); }
 
 bool is_direction(const glm::vec3& v) {
     const float squared = v.x * v.x + v.y * v.y + v.z * v.z;
     return squared > 0.0F && std::isfinite(squared);
 }
 
+/// Whether a number is 0 or above and has a square.
+bool is_squared(float x) { return x >= 0.0F && std::isfinite(x * x); }
+
+/// Whether the straight way from one direction to another comes by no direction at all.
+bool turns_over(const glm::vec3& from, const glm::vec3& to) {
+    const glm::dvec3 a = glm::normalize(glm::dvec3(from)), b = glm::normalize(glm::dvec3(to));
+    return glm::length(a + b) < 1e-6;
+}
+
 void check_box(const char* name, const Box& box) {
+    expect(is_finite(box.min) && is_finite(box.max), "{}: a corner is not finite", name);
     for (int axis = 0; axis < 3; ++axis)
         expect(box.min[axis] <= box.max[axis], "{}: min.{} is {}, above max, {}", name, "xyz"[axis], box.min[axis],
                box.max[axis]);
+}
+
+void check_controller(const std::vector<Pose>& poses) {
+    expect(!poses.empty(), "controller: there is no keyframe; right is at least one");
+    for (std::size_t k = 0; k < poses.size(); ++k) {
+        expect(is_finite(poses[k].position), "controller: keyframe {}: position is not finite", k);
+        expect(is_direction(poses[k].forward), "controller: keyframe {}: forward has no length", k);
+        expect(k == 0 || poses[k].frame > poses[k - 1].frame,
+               "controller: keyframe {} is of frame {}; right is after {}", k, poses[k].frame,
+               k == 0 ? 0 : poses[k - 1].frame);
+        expect(k == 0 || !turns_over(poses[k - 1].forward, poses[k].forward),
+               "controller: keyframes {} and {} face opposite ways; right is one between them", k == 0 ? 0 : k - 1, k);
+    }
+}
+
+void check_tool(const Tool& tool, std::size_t k) {
+    expect(tool.from <= tool.to, "tools: {} is on from {} to {}; right is upwards", k, tool.from, tool.to);
+    expect(tool.angle > 0.0F && tool.angle <= 90.0F, "tools: {} has an angle of {} degrees; right is 0.01 to 90", k,
+           tool.angle);
+    expect(tool.range >= 0.0F && tool.force >= 0.0F, "tools: {} has a negative force or range", k);
+    expect(
+        is_squared(tool.range) && is_squared(tool.force) && is_squared(tool.death_range) && is_squared(tool.distance),
+        "tools: {} has force {}, range {}, death_range {}, distance {}; right is 0 to 1.8e19, since they are squared",
+        k, tool.force, tool.range, tool.death_range, tool.distance);
+}
+
+void check_collider(const Collider& c, std::size_t k) {
+    expect(is_finite(c.position) && is_finite(c.rotate), "colliders: {} has a position or rotate that is not finite",
+           k);
+    if (c.sphere)
+        expect(c.radius > 0.0F && is_squared(c.radius),
+               "colliders: sphere {} has radius {}; right is above 0, to 1.8e19", k, c.radius);
+    else
+        expect(c.scale.x > 0.0F && c.scale.y > 0.0F && c.scale.z > 0.0F && is_finite(c.scale),
+               "colliders: box {} has scale {} {} {}; right is above 0", k, c.scale.x, c.scale.y, c.scale.z);
+}
+
+void check_ball(const Ball& ball, std::size_t k) {
+    expect(is_direction(ball.forward) && ball.range > 0.0F, "cannon: ball {} has no direction or no range", k);
+    expect(is_finite(ball.position) && std::isfinite(ball.speed) && std::isfinite(ball.force) && is_squared(ball.range),
+           "cannon: ball {} has a number that is not finite, or a range beyond 1.8e19, which is squared", k);
 }
 
 } // namespace
@@ -36,6 +92,10 @@ void check(const Settings& s) {
     expect(s.air_resistance >= 0.0F && std::isfinite(s.air_resistance), "air_resistance is {}; right is 0 or above",
            s.air_resistance);
     expect(s.scale > 0.0F && std::isfinite(s.scale), "scale is {}; right is above 0", s.scale);
+    expect(is_finite(s.gravity), "gravity is {} {} {}; right is finite", s.gravity.x, s.gravity.y, s.gravity.z);
+    expect(is_finite(s.colour_a) && is_finite(s.colour_b), "colours: a channel is not finite");
+    expect(std::isfinite(s.switches.radius_of_scale) && s.switches.radius_of_scale >= 0.0F,
+           "radius_of_scale is {}; right is 0 or above", s.switches.radius_of_scale);
     expect(s.elasticity >= 0.0F && s.elasticity <= 1.0F, "elasticity is {}; right is 0 to 1", s.elasticity);
     check_box("spawn", s.spawn);
     check_box("world", s.world);
@@ -46,31 +106,16 @@ void check(const Settings& s) {
                "spawn: {} m wide in x, by which the sine hash divides; right is at least {} m, or random integer",
                width, std::sqrt(static_cast<float>(s.count) * 12.0F / 32700.0F));
     }
-    expect(!s.controller.empty(), "controller: there is no keyframe; right is at least one");
-    for (std::size_t k = 0; k < s.controller.size(); ++k) {
-        expect(is_direction(s.controller[k].forward), "controller: keyframe {}: forward has no length", k);
-        expect(k == 0 || s.controller[k].frame > s.controller[k - 1].frame,
-               "controller: keyframe {} is of frame {}; right is after {}", k, s.controller[k].frame,
-               k == 0 ? 0 : s.controller[k - 1].frame);
-    }
-    for (std::size_t k = 0; k < s.tools.size(); ++k) {
-        const Tool& tool = s.tools[k];
-        expect(tool.from <= tool.to, "tools: {} is on from {} to {}; right is upwards", k, tool.from, tool.to);
-        expect(tool.angle > 0.0F && tool.angle <= 90.0F, "tools: {} has an angle of {} degrees; right is 0.01 to 90", k,
-               tool.angle);
-        expect(tool.range >= 0.0F && tool.force >= 0.0F, "tools: {} has a negative force or range", k);
-    }
-    for (std::size_t k = 0; k < s.colliders.size(); ++k) {
-        const Collider& c = s.colliders[k];
-        if (c.sphere)
-            expect(c.radius > 0.0F, "colliders: sphere {} has radius {}; right is above 0", k, c.radius);
-        else
-            expect(c.scale.x > 0.0F && c.scale.y > 0.0F && c.scale.z > 0.0F,
-                   "colliders: box {} has scale {} {} {}; right is above 0", k, c.scale.x, c.scale.y, c.scale.z);
-    }
+    check_controller(s.controller);
+    for (std::size_t k = 0; k < s.tools.size(); ++k)
+        check_tool(s.tools[k], k);
+    for (std::size_t k = 0; k < s.colliders.size(); ++k)
+        check_collider(s.colliders[k], k);
     for (std::size_t k = 0; k < s.cannon.size(); ++k)
-        expect(is_direction(s.cannon[k].forward) && s.cannon[k].range > 0.0F,
-               "cannon: ball {} has no direction or no range", k);
+        check_ball(s.cannon[k], k);
+    const double dt = double{s.tick} * double{s.timescale};
+    expect(s.cannon.empty() || dt == 0.0 || dt >= shortest_flight_step,
+           "cannon: a frame of {} s; right is 0 or at least {} s, as balls fly for five", dt, shortest_flight_step);
     expect(s.switches.box_kind == BoxKind::aabb || s.switches.box_detect == BoxDetect::boxed,
            "box_detect rounded goes with box_kind aabb; right for obb is boxed");
 }

@@ -76,8 +76,9 @@ struct Settings {
 inline constexpr std::size_t most_grains = 4'194'240;
 
 /// Throws Error, one line, for what no run can start from: no grains or too many, a mass of 0, an angle outside 0 to
-/// 90, a spawn box without width where numbers come of it, a collider without size. Drag is not bounded: beyond 1 / dt
-/// velocities alternate, beyond 2 / dt they grow until they are infinite.
+/// 90, a spawn box without width where numbers come of it, a collider without size, a number that is not finite or
+/// whose square is not. Drag is not bounded: beyond 1 / dt velocities alternate, beyond 2 / dt they grow until they are
+/// infinite. Other numbers may be as large as floats are; what overflows is infinite or NaN on both sides.
 void check(const Settings& settings);
 
 } // namespace lockstep::dust

@@ -1,6 +1,7 @@
 #include "crosscheck/package/folded_text.hpp"
 
 #include <algorithm>
+#include <array>
 #include <sstream>
 #include <string_view>
 #include <vector>
@@ -70,6 +71,36 @@ std::string folded_text(const std::string& text, std::size_t width, std::size_t 
     for (const std::string& line : lines)
         folded += line + "\n";
     return folded;
+}
+
+std::string line_of(const std::string& report, std::string_view name) {
+    std::istringstream stream(report);
+    for (std::string line; std::getline(stream, line);)
+        if (line.starts_with(name) && line.size() > key_columns && line[name.size()] == ' ')
+            return line.substr(key_columns);
+    return {};
+}
+
+std::string failure_first(const std::string& report) {
+    constexpr std::array<std::string_view, 7> keys{"verdict",          "cause", "closest", "first", "note",
+                                                   "          again:", "repeat"};
+    std::array<std::string, keys.size()> first;
+    std::string rest;
+    std::string* block = &rest; // to which lines belong that are indented
+    std::istringstream stream(report);
+    for (std::string line; std::getline(stream, line);) {
+        const auto key =
+            std::find_if(keys.begin(), keys.end(), [&](std::string_view k) { return line.starts_with(k); });
+        if (key != keys.end())
+            block = &first[static_cast<std::size_t>(key - keys.begin())];
+        else if (line.empty() || line.front() != ' ')
+            block = &rest;
+        *block += line + "\n";
+    }
+    std::string text;
+    for (const std::string& one : first)
+        text += one;
+    return text + rest;
 }
 
 } // namespace lockstep

@@ -13,6 +13,7 @@
 
 #include "crosscheck/command/exit_status.hpp"
 #include "crosscheck/command/option_values.hpp"
+#include "crosscheck/command/session_input.hpp"
 #include "crosscheck/files/plain_text.hpp"
 #include "crosscheck/files/signals.hpp"
 #include "crosscheck/judge/item_place.hpp"
@@ -84,6 +85,17 @@ std::string explain_text(const System& system, SystemSide& side, const SystemIte
            plain_text(explain_item(run, index, number_format(item.hexadecimal)));
 }
 
+std::string explain_drawn_text(const System& picture, SystemSide& drawn, const SystemItem& item,
+                               const std::string& file) {
+    const auto [pass, index] = place_of(item, picture);
+    const SideDescription about = drawn.describe();
+    SystemRun run(picture, drawn, known_operations(item.legal, about.profile), 0, pass);
+    JudgedPass of_frame = run.judged();
+    of_frame.frame = item.frame;
+    return heading(picture, file, about.name, about.profile) +
+           plain_text(explain_item(of_frame, index, run.told(index), number_format(item.hexadecimal)));
+}
+
 ItemCapsule cut_item(const System& system, SystemSide& side, const SystemItem& item) {
     const auto [pass, index] = place_of(item, system);
     const SideDescription about = side.describe();
@@ -100,12 +112,12 @@ int status_of(const ItemCapsule& capsule, const System& system) {
     return judge(capsule, system).kind >= DifferenceClass::undefined ? status_differ : status_agree;
 }
 
-std::vector<std::string> first_item_words(const System& system, const CheckReport& report) {
+std::vector<std::string> first_item_words(const System& system, const CheckReport& report, std::optional<int> frame) {
     if (!report.verdicts || !report.verdicts->first)
         return {};
     const Place& place = report.verdicts->first->place;
     return {"--frame",
-            std::to_string(place.frame),
+            std::to_string(frame.value_or(place.frame)),
             "--pass",
             std::string(system.passes[report.verdicts->first->pass]->name()),
             "--item",
@@ -195,6 +207,15 @@ std::string recording_text(const System& system, SystemSide& side, const SystemR
     for (const std::string& warning : recording.warnings())
         line("warning", warning);
     return text;
+}
+
+int debug_run(DebugSetup setup) {
+    setup.stop = [] { return interrupted.load(); };
+    DebugSession session(std::move(setup));
+    obey_input({.obey = [&](const std::string& line) { return session.obey(line); },
+                .ended = [&] { return session.ended(); },
+                .complete = [&](const std::string& line) { return session.completions(line); }});
+    return status_agree;
 }
 
 CheckFiles::CheckFiles(std::filesystem::path report, std::filesystem::path hashes)

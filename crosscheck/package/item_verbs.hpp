@@ -4,6 +4,7 @@
 #include <functional>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "crosscheck/command/verb.hpp"
@@ -14,6 +15,7 @@
 #include "crosscheck/judge/system_check.hpp"
 #include "crosscheck/record/item_capsule.hpp"
 #include "crosscheck/record/system_recording.hpp"
+#include "crosscheck/report/debug_session.hpp"
 #include "crosscheck/report/page/system_page.hpp"
 #include "crosscheck/report/value_text.hpp"
 
@@ -48,6 +50,10 @@ ItemPlace place_of(const SystemItem& item, const System& system);
 /// The run of both sides to that frame, and what `explain` prints of the item. `file`: the scene's; empty: it has none.
 std::string explain_text(const System& system, SystemSide& side, const SystemItem& item, const std::string& file);
 
+/// The same of what a frame's picture draws, a system of its own (SystemPicture) whose only frame is 0.
+std::string explain_drawn_text(const System& picture, SystemSide& drawn, const SystemItem& item,
+                               const std::string& file);
+
 ItemCapsule cut_item(const System& system, SystemSide& side, const SystemItem& item);
 
 /// What `capsule show` prints.
@@ -57,8 +63,9 @@ std::string shown_text(const ItemCapsule& capsule, const System& system, NumberF
 int status_of(const ItemCapsule& capsule, const System& system);
 
 /// The options of `explain` for a run's first divergence: "--frame", "3", "--pass", "update", ...; none where there is
-/// none.
-std::vector<std::string> first_item_words(const System& system, const CheckReport& report);
+/// none. `frame` stands for the run's own, where that is another run's last.
+std::vector<std::string> first_item_words(const System& system, const CheckReport& report,
+                                          std::optional<int> frame = {});
 
 /// Prints the reference's state hash after the last frame, or after `every` one.
 void print_hashes(const System& system, const std::string& profile, int frames, bool every);
@@ -74,6 +81,12 @@ std::string recording_text(const System& system, SystemSide& side, const SystemR
 /// check() with what it has done so far on a terminal, until it is done or interrupted.
 CheckReport check_shown(const System& system, SystemSide& side, CheckOptions options, bool quiet,
                         const CheckWatch& watch = {});
+
+/// Why `set` changes nothing of a recording.
+inline constexpr std::string_view recorded_is_fixed = "what was recorded stays what it is";
+
+/// A session of commands from standard input. Gives the exit status.
+int debug_run(DebugSetup setup);
 
 /// The report page and the list of hashes that a check leaves, where they are asked for.
 class CheckFiles {

@@ -82,6 +82,13 @@ std::string MatchResult::text(std::size_t width) const {
     return width == 0 ? text : folded_text(text, width, most_lines);
 }
 
+std::string MatchResult::verdict() const { return line_of(report_text(report_, run_), "verdict"); }
+
+std::string MatchResult::failure(std::size_t width) const {
+    const std::string text = failure_first(report_text(report_, run_));
+    return width == 0 ? text : folded_text(text, width, most_lines);
+}
+
 MatchResult match_reference(GpuSide& gpu, const Scene& scene, const MatchOptions& options) {
     const auto* shaders = dynamic_cast<const UserShaders*>(&gpu);
     if (options.render && shaders == nullptr)

@@ -18,6 +18,7 @@
 #include "crosscheck/files/plain_text.hpp"
 #include "crosscheck/judge/item_place.hpp"
 #include "crosscheck/package/item_verbs.hpp"
+#include "crosscheck/report/system_debug_run.hpp"
 
 namespace lockstep {
 namespace {
@@ -176,6 +177,26 @@ int explain_verb(const OwnProgram& program, const Options& options) {
     return status_agree;
 }
 
+int debug_verb(const OwnProgram& program, const Options& options) {
+    OpenSide gpu(program, options);
+    DebugSetup setup;
+    setup.frames = options.frames;
+    setup.format = number_format(options.item.hexadecimal);
+    setup.unchangeable = "this program's system has no switches";
+    if (gpu.recording() != nullptr) {
+        setup.recorded = gpu.recording()->frames();
+        setup.unchangeable = recorded_is_fixed;
+    }
+    // They outlive the session.
+    const std::shared_ptr<const System> system(std::shared_ptr<void>(), &program.system);
+    const std::shared_ptr<SystemSide> side(std::shared_ptr<void>(), &*gpu);
+    setup.start = [&](const std::vector<std::string>&) {
+        return std::make_unique<SystemDebugRun>(system, side,
+                                                known_operations(options.item.legal, gpu->describe().profile));
+    };
+    return debug_run(std::move(setup));
+}
+
 int record_verb(const OwnProgram& program, const Options& options) {
     OutputFiles files;
     files.protect(options.shaders);
@@ -258,7 +279,7 @@ Verb verbs_of(const std::string& name, const OwnProgram& program, const std::sha
     record.add(integer_option("--frames", "N", {1, most_frames}, options->frames, "frames to record"));
     record.add(integer_option("--deflate", "LEVEL", {0, 9}, options->deflate, "how hard to compress, 0 to 9"));
     record.run = running(record_verb);
-    Verb trace{"trace", "read a recorded run whole, and tell what is in it or what is wrong"};
+    Verb trace{"trace", "read a recorded run whole, and report what is in it or what is wrong"};
     trace.add(required(path_option("trace", "FILE", options->trace, "what `record` wrote")));
     trace.run = running(trace_verb);
     Verb report{"report", "check a recorded run, and write report.html about it"};
@@ -275,6 +296,16 @@ Verb verbs_of(const std::string& name, const OwnProgram& program, const std::sha
     explain.add(hex_option(options->item.hexadecimal));
     add_trace_option(explain);
     explain.run = running(explain_verb);
+
+    Verb debug{"debug", "walk through both sides by commands, typed or from a pipe"};
+    add_gl_options(debug, *options);
+    debug.add(integer_option("--frames", "N", {1, most_frames}, options->frames,
+                             "how many frames `next` and `continue` look through"));
+    add_legal_option(debug, options->item.legal);
+    debug.add(hex_option(options->item.hexadecimal));
+    add_trace_option(debug);
+    debug.footer = "`help` lists the commands.";
+    debug.run = running(debug_verb);
 
     Verb cut{"cut", "cut one out of a run"};
     add_gl_options(cut, *options);
@@ -298,7 +329,7 @@ Verb verbs_of(const std::string& name, const OwnProgram& program, const std::sha
     Verb verbs{
         name,
         fmt::format("{}: runs the system's twins beside its shaders, and compares every bit of every frame", name)};
-    verbs.verbs = {check, explain, capsule, hash, record, trace, report};
+    verbs.verbs = {check, explain, debug, capsule, hash, record, trace, report};
     verbs.footer = "Exit status: 0 it agrees or is legal, 1 it is not, 2 could not run, 130 ended by Ctrl-C.";
     return verbs;
 }

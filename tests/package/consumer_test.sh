@@ -29,6 +29,7 @@ succeeds cmake --build build
 # Without GL.
 succeeds env -u LOCKSTEP_REQUIRE_GL LOCKSTEP_GL=egl-device:99 ctest --test-dir build -V
 says 'skipped: no GL context: egl-device:99: '
+if [ -x build/gtest_tests ]; then says 'gtest.Shaders.AWallKeepsHalf'; fi
 says '(Skipped)'
 ends_with 8 env LOCKSTEP_REQUIRE_GL=1 LOCKSTEP_GL=egl-device:99 ctest --test-dir build -V
 says 'LOCKSTEP_REQUIRE_GL is set, but no GL context: egl-device:99: '
@@ -43,9 +44,25 @@ says 'verdict DIVERGENT from frame '
 says 'cause all 12 particles are explained by last_found_instead_of_nearest'
 says "again: lockstep explain $work/prefix/share/lockstep/scenes/x_streams.json --particles 10000 --frame "
 says "repeat lockstep check $work/prefix/share/lockstep/scenes/x_streams.json --particles 10000 --frames "
-sed -n '/^  repeat    /,/^$/p' out.txt | sed 's/repeat    //' >repeat.sh
+sed -n '/^  repeat    /,/[^\\]$/p' out.txt | sed 's/repeat    //' >repeat.sh
 PATH="$work/prefix/bin:$PATH" ends_with 1 bash repeat.sh
 says 'verdict DIVERGENT from frame '
+
+# Other frameworks show the same: verdict, cause, first difference and the command that repeats it come first.
+for framework in gtest doctest; do
+    [ -x build/${framework}_tests ] || continue
+    case $framework in
+    gtest) broken=(--gtest_also_run_disabled_tests '--gtest_filter=*DISABLED*' --gtest_output=xml:junit.xml) ;;
+    doctest) broken=(--no-skip '--test-case=*the last') ;;
+    esac
+    ends_with 1 build/${framework}_tests "${broken[@]}"
+    says 'DIVERGENT from frame '
+    grep -n 'verdict  \|cause  \|first  \|repeat  \|scene  ' out.txt | sed 's/.*\(verdict\|cause\|first\|repeat\|scene\)  .*/\1/' | tr '\n' ' ' >order
+    grep -q 'verdict cause first repeat scene' order || fail "$framework shows another order: $(cat order)"
+    ! grep -q 'nobody comes by here' out.txt || fail "$framework: LOCKSTEP_REQUIRE goes on"
+    [ $framework = gtest ] || build/doctest_tests "${broken[@]}" --reporters=junit >junit.xml || true
+    grep -q '<failure message="[^"]*DIVERGENT from frame ' junit.xml || fail "the JUnit message of $framework is no verdict"
+done
 
 # A system of its own, with every verb on a planted mistake.
 succeeds build/grains check --frames 30
@@ -61,6 +78,13 @@ says 'grains explain --frame 0 --pass grains_step --item 0'
 grep -q '"verdict": "DIVERGENT"' report.json || fail 'the JSON report does not say DIVERGENT'
 succeeds build/grains explain --frame 3 --item 17 --shaders planted
 says 'first acceleration.'
+printf 'next divergence\nitem 17\nhistory\nwhy\n' >walk
+ends_with 0 build/grains debug --shaders planted <walk
+says 'frame 0 grains_step, grain 17'
+says 'verdict divergent'
+printf 'set tick=1\n' >walk
+ends_with 2 build/grains debug <walk
+says "line 1: set: this program's system has no switches"
 ends_with 1 build/grains capsule show capsule.json
 says 'first acceleration.'
 ends_with 1 build/grains capsule cut --frame 3 --item 17 --shaders planted -o 17.json
@@ -91,9 +115,31 @@ says '4 '
 ends_with 2 build/grains check --frame 30
 says "unknown option '--frame'; did you mean --frames?"
 ends_with 2 build/grains bench
-says "unknown verb 'bench'; the verbs are check, explain, capsule, hash, record, trace, report"
+says "unknown verb 'bench'; the verbs are check, explain, debug, capsule, hash, record, trace, report"
 ends_with 2 build/grains explain --frame 3 --item 2000
 says "there is no grain '2000'; grains has 0 to 1999"
+
+# A system that lockstep began: DIVERGENT until its twin is written, then not, and a planted bug has its name.
+# A name that is a function of C's, too.
+succeeds prefix/bin/lockstep new system signal
+says 'signal: a system with one pass'
+ends_with 2 prefix/bin/lockstep new system signal
+says 'signal is there and not empty'
+ends_with 2 prefix/bin/lockstep new system 'Two words'
+says "'Two words' is no name for one"
+succeeds cmake -S signal -B signal/build "-DCMAKE_PREFIX_PATH=$work/prefix" "$@"
+succeeds cmake --build signal/build
+ends_with 1 signal/build/signal check --frames 5
+says 'verdict DIVERGENT from frame 0 on'
+ends_with 8 ctest --test-dir signal/build
+sed -i -e '/TO BE WRITTEN/d' -e 's|^        //     |        |' signal/signal.hpp
+succeeds cmake --build signal/build
+succeeds signal/build/signal check --frames 30
+says 'verdict AGREE'
+succeeds ctest --test-dir signal/build
+sed -i 's/a_Velocity + u_Gravity \* u_Tick/a_Velocity/' signal/signal_step.vert
+ends_with 1 signal/build/signal check --frames 5
+says 'explained by gravity_missing'
 
 # The shaders are the package's.
 echo 'not GLSL' >>prefix/share/lockstep/shaders/collision/collision_pass.frag

@@ -2,6 +2,7 @@
 
 #include "crosscheck/package/folded_text.hpp"
 
+using lockstep::failure_first;
 using lockstep::folded_text;
 
 TEST_CASE("folded text: what fits stays as it is, but for empty lines") {
@@ -38,4 +39,35 @@ TEST_CASE("folded text: what is too much is left out above the last line") {
     CHECK(folded_text("a\nb\nc\nd\ne\nrepeat    f\n", 80, 4) == "a\nb\n  ...\nrepeat    f\n");
     CHECK(folded_text("a\nb\nc\nd\nrepeat    lockstep check a.json\n", 26, 4) ==
           "a\n  ...\nrepeat    lockstep check \\\n            a.json\n");
+}
+
+TEST_CASE("failure first: verdict, cause, first difference and the repeat line, then the rest as it was") {
+    CHECK(failure_first("scene     a\n"
+                        "power     88 of 101\n"
+                        "          not: this\n"
+                        "note      of rows\n"
+                        "verdict   DIVERGENT\n"
+                        "classes   3 divergent\n"
+                        "first     frame 1\n"
+                        "          reference: 1\n"
+                        "cause     all 3\n"
+                        "          again: lockstep explain\n"
+                        "\n"
+                        "  worst of frame 1\n"
+                        "\n"
+                        "repeat    lockstep check\n") == "verdict   DIVERGENT\n"
+                                                         "cause     all 3\n"
+                                                         "first     frame 1\n"
+                                                         "          reference: 1\n"
+                                                         "note      of rows\n"
+                                                         "          again: lockstep explain\n"
+                                                         "repeat    lockstep check\n"
+                                                         "scene     a\n"
+                                                         "power     88 of 101\n"
+                                                         "          not: this\n"
+                                                         "classes   3 divergent\n"
+                                                         "\n"
+                                                         "  worst of frame 1\n"
+                                                         "\n");
+    CHECK(failure_first("") == "");
 }

@@ -13,7 +13,6 @@
 #include <catch2/reporters/catch_reporter_registrars.hpp>
 #endif
 
-#include <cstdlib>
 #include <iostream>
 #include <string>
 #include <utility>
@@ -46,8 +45,7 @@ int skipped_tests = 0;
 }
 
 void lockstep::skip(const std::string& reason, const std::string& required_by) {
-    const char* required = std::getenv(required_by.c_str());
-    if (required != nullptr && *required != '\0' && std::string(required) != "0")
+    if (is_required(required_by))
         FAIL(required_by << " is set, but " << reason);
     ++skipped_tests;
     test_notes().skipped = reason;

@@ -74,8 +74,7 @@ class JUnitReporter : public CatchReporter {
         if (!result.isOk() && !problem_)
             problem_ = Problem{result.getResultType() == Catch::ResultWas::ThrewException ||
                                    result.getResultType() == Catch::ResultWas::FatalErrorCondition,
-                               result.hasExpression() ? result.getExpression() : std::string(result.getMessage()),
-                               failure_text(stats)};
+                               message_of(result), failure_text(stats)};
     }
 
     void testCaseEnded(const Catch::TestCaseStats& stats) override {
@@ -112,6 +111,17 @@ class JUnitReporter : public CatchReporter {
         [[nodiscard]] bool skipped() const { return !problem && !notes.skipped.empty(); }
     };
     using Properties = std::map<std::string, std::string>;
+
+    /// The verdict where a match failed.
+    static std::string message_of(const Catch::AssertionResult& result) {
+        if (!result.hasExpression())
+            return std::string(result.getMessage());
+        const std::string expanded = result.getExpandedExpression();
+        const std::string& verdict = test_notes().verdict;
+        const bool is_match = !verdict.empty() &&
+                              (expanded == verdict || expanded.find("is to match the reference") != std::string::npos);
+        return is_match ? verdict : result.getExpression();
+    }
 
     static std::string failure_text(const Catch::AssertionStats& stats) {
         const Catch::AssertionResult& result = stats.assertionResult;

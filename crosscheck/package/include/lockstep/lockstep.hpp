@@ -133,6 +133,14 @@ class MatchResult {
     /// repeats it where something differs. Lines that are longer than `width` columns are folded; 0: none is.
     [[nodiscard]] std::string text(std::size_t width = 0) const;
 
+    /// The report's line `verdict`: "DIVERGENT from frame 3 on: 1 particle states in 8 frames, which no legal run
+    /// explains".
+    [[nodiscard]] std::string verdict() const;
+
+    /// The same report as text() for a test that failed: verdict, cause, first difference and the command that repeats
+    /// it stand first.
+    [[nodiscard]] std::string failure(std::size_t width = 0) const;
+
     [[nodiscard]] const CheckReport& report() const { return report_; }
 
     /// Renderer, profile and the rest of a report's heading.

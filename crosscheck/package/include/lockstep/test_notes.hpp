@@ -8,6 +8,7 @@ namespace lockstep {
 struct TestNotes {
     std::string skipped;                           ///< why it could not be run; empty: it was
     std::map<std::string, std::string> properties; ///< renderer, profile, verdict
+    std::string verdict;                           ///< of the last match: the line `verdict`
     std::string repeat;                            ///< the command that Catch2 3 would break, until it is told
 };
 

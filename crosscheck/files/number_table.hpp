@@ -1,0 +1,35 @@
+#pragma once
+#include <cstddef>
+#include <cstdint>
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "reference/model/schema.hpp"
+
+namespace lockstep {
+
+/// A column of a table: numbers, or vectors of them.
+struct TableColumn {
+    std::string name;
+    Scalar scalar = Scalar::float32; ///< or int32
+    int components = 1;              ///< to 4
+    bool optional = false;
+};
+
+/// Rows of numbers from a file.
+struct NumberTable {
+    std::string file;                              ///< as messages name it
+    std::size_t rows = 0;                          ///< at least one
+    std::vector<std::vector<std::uint32_t>> words; ///< of each column row after row, as bits; none where it is left out
+    std::vector<std::size_t> lines;                ///< where each row stands, from 1; of JSON none
+};
+
+/// Reads FILE.json, an array of objects by the columns' names, or a CSV file with a heading, a component a column
+/// (`velocity.x`); a line that begins with # is left out. A number is the float nearest to it; `inf`, `nan` and
+/// hexadecimal floats (0x1.8p-3) are numbers, in JSON as texts. `taker`: who takes the columns, for messages. Throws
+/// Error with FILE:LINE, or the place in the JSON, and what would be right.
+NumberTable read_number_table(const std::filesystem::path& file, const std::vector<TableColumn>& columns,
+                              const std::string& taker);
+
+} // namespace lockstep

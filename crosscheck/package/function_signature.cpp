@@ -1,0 +1,172 @@
+#include "crosscheck/package/function_signature.hpp"
+
+#include <algorithm>
+#include <fstream>
+#include <iterator>
+#include <set>
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include "crosscheck/files/plain_text.hpp"
+#include "gpu/shader_words.hpp"
+#include "reference/model/error.hpp"
+#include "reference/model/near_name.hpp"
+
+namespace lockstep::function_twin {
+namespace {
+
+struct Word {
+    std::string text;
+    std::size_t line = 1;
+};
+
+std::vector<Word> words_of(const std::string& text) {
+    std::vector<Word> all;
+    for (ShaderWords words(text); words.next();)
+        all.push_back({std::string(words.token()), words.line()});
+    return all;
+}
+
+const std::set<std::string, std::less<>> qualifiers{"in", "const", "highp", "mediump", "lowp", "precise"};
+
+/// Of the words between a definition's brackets.
+std::vector<Parameter> parameters_of(const std::vector<Word>& words, std::size_t first, std::size_t last) {
+    std::vector<Parameter> found;
+    std::vector<std::string> one;
+    const auto end_one = [&] {
+        if (!one.empty() && !(one.size() == 1 && one.front() == "void"))
+            found.push_back({one.front(), one.size() > 1 ? fmt::format("{}", fmt::join(one.begin() + 1, one.end(), ""))
+                                                         : std::string()});
+        one.clear();
+    };
+    for (std::size_t w = first; w < last; ++w)
+        if (words[w].text == ",")
+            end_one();
+        else if (!qualifiers.contains(words[w].text))
+            one.push_back(words[w].text);
+    end_one();
+    return found;
+}
+
+/// The definitions of functions, outside of any braces: TYPE NAME ( ... ) {
+std::vector<std::pair<std::string, Signature>> definitions_in(const std::string& text) {
+    const std::vector<Word> words = words_of(text);
+    std::vector<std::pair<std::string, Signature>> found;
+    int depth = 0;
+    for (std::size_t w = 0; w < words.size(); ++w) {
+        if (words[w].text == "{")
+            ++depth;
+        if (words[w].text == "}")
+            --depth;
+        if (depth != 0 || words[w].text != "(" || w < 2)
+            continue;
+        const auto close = std::find_if(words.begin() + static_cast<std::ptrdiff_t>(w), words.end(),
+                                        [](const Word& word) { return word.text == ")"; });
+        const auto end = static_cast<std::size_t>(close - words.begin());
+        if (end + 1 < words.size() && words[end + 1].text == "{")
+            found.push_back(
+                {words[w - 1].text, {words[w - 2].text, parameters_of(words, w + 1, end), words[w - 1].line}});
+    }
+    return found;
+}
+
+/// Each uniform outside of blocks: its type and name.
+std::vector<Parameter> uniforms_in(const std::string& text) {
+    const std::vector<Word> words = words_of(text);
+    std::vector<Parameter> found;
+    for (std::size_t w = 0; w + 2 < words.size(); ++w) {
+        if (words[w].text != "uniform")
+            continue;
+        std::size_t at = w + 1;
+        while (at + 1 < words.size() && qualifiers.contains(words[at].text))
+            ++at;
+        const std::string type = words[at].text;
+        int depth = 0;
+        bool named = false; // of a declarator, what comes after its name is its array and its value
+        for (++at; at < words.size() && words[at].text != ";"; ++at) {
+            const std::string& word = words[at].text;
+            if (word == "{" && !named)
+                break; // a block: its members go by it
+            depth += word == "(" || word == "[" ? 1 : word == ")" || word == "]" ? -1 : 0;
+            if (word == "," && depth == 0)
+                named = false;
+            else if (!named) {
+                found.push_back({type, word});
+                named = true;
+            }
+        }
+    }
+    return found;
+}
+
+} // namespace
+
+std::string type_of(const Column& column) {
+    if (column.scalar == Scalar::int32)
+        return "int";
+    return column.components == 1 ? "float" : fmt::format("vec{}", column.components);
+}
+
+std::optional<Column> column_of(const std::string& type) {
+    for (const Column& column : {Column{Scalar::int32, 1}, Column{Scalar::float32, 1}, Column{Scalar::float32, 2},
+                                 Column{Scalar::float32, 3}, Column{Scalar::float32, 4}})
+        if (type == type_of(column))
+            return column;
+    return {};
+}
+
+std::string shader_text(const std::string& file) {
+    std::ifstream stream(file, std::ios::binary);
+    std::string text((std::istreambuf_iterator<char>(stream)), {});
+    if (!stream.is_open() || stream.bad())
+        throw Error(fmt::format("shader {}: cannot be read", plain_line(file)));
+    return text;
+}
+
+Signature signature_of(const GlslFunction& function, const std::string& text) {
+    std::vector<Signature> found;
+    std::vector<std::string> names;
+    for (const auto& [name, signature] : definitions_in(text)) {
+        names.push_back(name);
+        if (name == function.name)
+            found.push_back(signature);
+    }
+    if (found.empty())
+        throw Error(fmt::format("shader {}: defines no function {}{}{}", plain_line(function.file),
+                                plain_line(function.name),
+                                names.empty() ? "" : fmt::format("; it has {}", fmt::join(names, ", ")),
+                                did_you_mean(function.name, names)));
+    if (found.size() > 1)
+        throw Error(fmt::format("shader {}:{}: {} is defined more than once; right is one of the name",
+                                plain_line(function.file), found[1].line, function.name));
+    return found.front();
+}
+
+std::string shown(const std::string& name, const Signature& signature) {
+    std::vector<std::string> types;
+    for (const Parameter& parameter : signature.parameters)
+        types.push_back(parameter.type);
+    return fmt::format("{} {}({})", signature.result, name, fmt::join(types, ", "));
+}
+
+std::string uniform_type(const std::string& text, const std::string& name) {
+    for (const Parameter& one : uniforms_in(text))
+        if (one.name == name)
+            return one.type;
+    return "";
+}
+
+std::vector<std::string> uniform_names(const std::string& text) {
+    std::vector<std::string> names;
+    for (const Parameter& one : uniforms_in(text))
+        names.push_back(one.name);
+    return names;
+}
+
+void fail(const GlslFunction& function, const Signature& signature, const std::string& what) {
+    throw Error(fmt::format("shader {}:{}: {}: {}", plain_line(function.file), signature.line,
+                            shown(function.name, signature), what));
+}
+
+} // namespace lockstep::function_twin

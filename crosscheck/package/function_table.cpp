@@ -1,0 +1,178 @@
+#include "lockstep/function_table.hpp"
+
+#include <bit>
+
+#include <fmt/format.h>
+
+#include "crosscheck/files/plain_text.hpp"
+#include "crosscheck/report/value_text.hpp"
+#include "reference/model/error.hpp"
+#include "reference/system/item_words.hpp"
+
+namespace lockstep {
+namespace {
+
+namespace site {
+constexpr Site expected{"expected"};
+} // namespace site
+
+LegalWord exact(std::int32_t value) {
+    return {static_cast<std::uint32_t>(value), {static_cast<double>(value), static_cast<double>(value)}};
+}
+
+/// Leaves the arguments as they are and returns the result that is expected of the row.
+struct ExpectedResult {
+    std::vector<function_twin::Column> columns; ///< the arguments', and last the result's
+    std::vector<std::uint32_t> results;
+
+    template <class R> ItemWords<R> operator()(R& r, const PassInput& in, std::size_t item) const {
+        ItemWords<R> row;
+        for (std::size_t f = 0; f + 1 < columns.size(); ++f)
+            for (int c = 0; c < columns[f].components; ++c) {
+                const FieldId field{0, static_cast<std::uint8_t>(f)};
+                if (columns[f].scalar == Scalar::int32)
+                    row.add(exact(in.before.integer(field, item, c)));
+                else
+                    row.add(r.uniform(function_twin::site::argument, in.before.real(field, item, c)));
+            }
+        const auto components = static_cast<std::size_t>(columns.back().components);
+        const std::uint32_t* const words = results.data() + item * components;
+        const auto at = [&](std::size_t c) { return r.uniform(site::expected, std::bit_cast<float>(words[c])); };
+        const auto add = [&](const auto&... numbers) { (row.add(numbers), ...); };
+        const Site& noted = function_twin::site::result;
+        if (columns.back().scalar == Scalar::int32) {
+            add(exact(static_cast<std::int32_t>(words[0])));
+        } else if (components == 1) {
+            add(r.note(noted, typename R::Real(at(0))));
+        } else if (components == 2) {
+            const auto v = r.note(noted, typename R::Vec2{at(0), at(1)});
+            add(v.x, v.y);
+        } else if (components == 3) {
+            const auto v = r.note(noted, typename R::Vec3{at(0), at(1), at(2)});
+            add(v.x, v.y, v.z);
+        } else {
+            const auto v = r.note(noted, typename R::Vec4{at(0), at(1), at(2), at(3)});
+            add(v.x, v.y, v.z, v.w);
+        }
+        return row;
+    }
+};
+
+std::vector<function_twin::Column> all_columns(const Schema& schema) {
+    std::vector<function_twin::Column> columns;
+    for (const Field& field : schema.resources.front().fields)
+        columns.push_back({field.scalar, field.components});
+    return columns;
+}
+
+std::size_t words_of(const std::vector<function_twin::Column>& columns) {
+    std::size_t words = 0;
+    for (const function_twin::Column& column : columns)
+        words += static_cast<std::size_t>(column.components);
+    return words;
+}
+
+SystemState start_of(const Schema& schema, const FunctionRows& rows) {
+    SystemState start(schema, {{rows.count()}});
+    std::size_t next = 0;
+    for (std::size_t row = 0; row < rows.count(); ++row)
+        for (std::size_t f = 0; f < rows.columns.size(); ++f)
+            for (int c = 0; c < rows.columns[f].components; ++c) {
+                const FieldId field{0, static_cast<std::uint8_t>(f)};
+                if (rows.columns[f].scalar == Scalar::int32)
+                    start.set(field, row, rows.words[next++], c);
+                else
+                    start.set(field, row, std::bit_cast<float>(rows.words[next++]), c);
+            }
+    return start;
+}
+
+/// A function as the system of its one pass, on a table.
+System system_of(const GlslFunction& function, const function_twin::Called& called, const FunctionRows& rows,
+                 std::vector<std::uint32_t> results) {
+    System system{.name = function.name,
+                  .schema = called.schema,
+                  .passes = {},
+                  .mistakes = {},
+                  .start = start_of(called.schema, rows),
+                  .settings = {}};
+    system.passes.push_back(item_pass({.name = std::string(function_twin::pass_name)},
+                                      ExpectedResult{all_columns(called.schema), std::move(results)}));
+    return system;
+}
+
+/// What the function returns of each row.
+std::vector<std::uint32_t> returned(const Gl& gl, const GlslFunction& function, const FunctionRows& rows) {
+    const function_twin::Called called = function_twin::called(function, rows.columns);
+    const System system = system_of(function, called, rows, {});
+    GlSystemSide gpu(gl, system, called.passes, called.folder);
+    gpu.upload(system.start.view());
+    gpu.step(0, 0);
+    SystemState after = system.start;
+    gpu.read(after);
+    const FieldId result{0, static_cast<std::uint8_t>(rows.columns.size())};
+    std::vector<std::uint32_t> words;
+    const SystemView view = after.view();
+    for (std::size_t row = 0; row < rows.count(); ++row)
+        for (int c = 0; c < called.schema[result].components; ++c)
+            words.push_back(view.word(result, row, c));
+    return words;
+}
+
+/// "row 7 (walls.csv:9): velocity (1, -2, 0), n (0, 1, 0)"
+std::string row_text(const FunctionRows& rows, std::size_t row) {
+    std::string text = fmt::format("row {}", row);
+    if (row < rows.lines.size())
+        text += fmt::format(" ({}:{})", rows.file, rows.lines[row]);
+    const std::uint32_t* word = rows.words.data() + row * rows.width();
+    for (std::size_t f = 0; f < rows.columns.size(); ++f) {
+        std::string values;
+        for (int c = 0; c < rows.columns[f].components; ++c, ++word)
+            values += fmt::format("{}{}", c == 0 ? "" : ", ", value_text(Value{rows.columns[f].scalar, *word}));
+        text += fmt::format("{} {} {}", f == 0 ? ":" : ",", rows.names[f],
+                            rows.columns[f].components == 1 ? values : fmt::format("({})", values));
+    }
+    return text;
+}
+
+MatchResult match_results(const Gl& gl, const GlslFunction& function, const FunctionRows& rows,
+                          std::vector<std::uint32_t> results, const std::string& expected, MatchOptions options) {
+    const function_twin::Called called = function_twin::called(function, rows.columns);
+    constexpr std::size_t most = ItemWords<Values<PlainArithmetic>>::most;
+    if (words_of(all_columns(called.schema)) > most)
+        throw Error(fmt::format("{}: {} takes and returns more than {} numbers", plain_line(function.file),
+                                function.name, most));
+    System system = system_of(function, called, rows, std::move(results));
+    system.settings = expected;
+    GlSystemSide gpu(gl, system, called.passes, called.folder);
+    options.frames = 1;
+    const MatchResult result = match_system(gpu, system, options);
+    RunDescription about = result.run();
+    about.scene = fmt::format("{} ({}, {})", function.name, plain_line(function.file), rows.file);
+    if (const auto& verdicts = result.report().verdicts; verdicts && verdicts->first)
+        about.notes.push_back("first: " + row_text(rows, verdicts->first->place.index));
+    return {result.report(), std::move(about), result.passed()};
+}
+
+} // namespace
+
+MatchResult match_function(const Gl& gl, const GlslFunction& function, const FunctionRows& rows, MatchOptions options) {
+    if (!rows.results)
+        throw Error(fmt::format("{}: no column result, so nothing is expected of {}", rows.file, function.name));
+    return match_results(gl, function, rows, *rows.results, "results of the table", std::move(options));
+}
+
+MatchResult match_function(const Gl& gl, const GlslFunction& function, const FunctionRows& rows,
+                           const GlslFunction& like, MatchOptions options) {
+    const function_twin::Called one = function_twin::called(function, rows.columns);
+    const function_twin::Called other = function_twin::called(like, rows.columns);
+    const Field& wanted = one.schema.resources.front().fields.back();
+    const Field& given = other.schema.resources.front().fields.back();
+    if (wanted.scalar != given.scalar || wanted.components != given.components)
+        throw Error(fmt::format("{}: {} returns another type than {} of {}", plain_line(like.file), like.name,
+                                function.name, plain_line(function.file)));
+    return match_results(gl, function, rows, returned(gl, like, rows),
+                         fmt::format("results of {} ({})", like.name, plain_line(like.file)), std::move(options));
+}
+
+} // namespace lockstep

@@ -1,0 +1,133 @@
+#pragma once
+/// One function of a shader, held against a twin of it on a table of arguments (docs/functions.md):
+///
+///     const auto result = match_function(gl, {"shaders/bounce.glsl", "bounce"}, table,
+///                                        [](auto& r, const auto& velocity, const auto& normal, const auto& kept) {
+///                                            return velocity - normal * (r.dot(bounce_site, velocity, normal) * kept);
+///                                        });
+///     CHECK(result.passed());
+#include <array>
+#include <cstddef>
+#include <string>
+#include <string_view>
+#include <tuple>
+#include <utility>
+#include <vector>
+
+#include <glm/vec2.hpp>
+#include <glm/vec3.hpp>
+#include <glm/vec4.hpp>
+
+#include "lockstep/system.hpp"
+
+namespace lockstep {
+
+/// A function of a shader. It is called from a vertex stage, once a row of a table.
+struct GlslFunction {
+    std::string file; ///< that defines it: functions alone, or a whole stage, whose main is then left out
+    std::string name;
+    Uniforms uniforms = {};     ///< that it reads
+    ShaderDefines defines = {}; ///< what its file is compiled with
+};
+
+/// A table of arguments: float, int, glm::vec2, vec3 or vec4 each, of the function's own types.
+template <class... Arguments> using FunctionTable = std::vector<std::tuple<Arguments...>>;
+
+namespace function_twin {
+
+/// What the table's columns are.
+struct Column {
+    Scalar scalar = Scalar::float32;
+    int components = 1;
+};
+template <class Argument> constexpr Column column_of() {
+    if constexpr (std::is_same_v<Argument, int>)
+        return {Scalar::int32, 1};
+    else if constexpr (std::is_same_v<Argument, float>)
+        return {Scalar::float32, 1};
+    else
+        return {Scalar::float32, Argument::length()};
+}
+
+/// The function as a system: an item a row, whose fields are the arguments and, last, the result.
+struct Called {
+    Schema schema;
+    std::vector<GlPass> passes;
+    std::string folder;
+};
+
+/// Throws Error with FILE:LINE where there is no such function, or where it takes or returns something else.
+Called called(const GlslFunction& function, const std::vector<Column>& columns);
+
+namespace site {
+inline constexpr Site argument{"argument"}, result{"result", "result"};
+} // namespace site
+
+inline constexpr std::string_view pass_name = "function";
+
+template <class R, class Argument> auto read(R& r, const SystemView& state, FieldId field, std::size_t item) {
+    if constexpr (std::is_same_v<Argument, int>) {
+        return r.uniform(site::argument, state.integer(field, item));
+    } else if constexpr (std::is_same_v<Argument, float>) {
+        return r.read(site::argument, state.real(field, item));
+    } else if constexpr (std::is_same_v<Argument, glm::vec3>) {
+        return r.read(site::argument, state.vec3(field, item));
+    } else {
+        const auto c = [&](int component) { return r.read(site::argument, state.real(field, item, component)); };
+        if constexpr (std::is_same_v<Argument, glm::vec2>)
+            return typename R::Vec2{c(0), c(1)};
+        else
+            return typename R::Vec4{c(0), c(1), c(2), c(3)};
+    }
+}
+
+template <class Given, class Result> struct Row {
+    Given given;
+    Result result;
+    auto fields() const {
+        return std::tuple_cat(std::apply([](const auto&... one) { return std::tie(one...); }, given), std::tie(result));
+    }
+};
+
+template <class Twin, class... Arguments> struct RowTwin {
+    Twin twin;
+
+    template <class R> auto operator()(R& r, const PassInput& in, std::size_t item) const {
+        return [&]<std::size_t... i>(std::index_sequence<i...>) {
+            auto given = std::tuple{read<R, Arguments>(r, in.before, {0, static_cast<std::uint8_t>(i)}, item)...};
+            auto result = std::apply([&](const auto&... one) { return twin(r, one...); }, given);
+            if constexpr (!std::is_integral_v<decltype(result)>)
+                result = r.note(site::result, result);
+            return Row<decltype(given), decltype(result)>{std::move(given), std::move(result)};
+        }
+        (std::index_sequence_for<Arguments...>{});
+    }
+};
+
+} // namespace function_twin
+
+/// Runs both on every row. `twin(r, arguments...)`: the function in the words of a twin (docs/own_system.md), a generic
+/// lambda; it returns a number or vector of the reading's. Throws Error where the function cannot be run so.
+template <class... Arguments, class Twin> MatchResult match_function(const Gl& gl, const GlslFunction& function,
+                                                                     const FunctionTable<Arguments...>& table,
+                                                                     Twin twin, MatchOptions options = {}) {
+    const function_twin::Called called = function_twin::called(function, {function_twin::column_of<Arguments>()...});
+    System system{.name = function.name,
+                  .schema = called.schema,
+                  .passes = {},
+                  .mistakes = {},
+                  .start = {called.schema, {{table.size()}}},
+                  .settings = {}};
+    system.passes.push_back(item_pass({.name = std::string(function_twin::pass_name)},
+                                      function_twin::RowTwin<Twin, Arguments...>{std::move(twin)}));
+    for (std::size_t row = 0; row < table.size(); ++row)
+        [&]<std::size_t... i>(std::index_sequence<i...>) {
+            (system.start.set({0, static_cast<std::uint8_t>(i)}, row, std::get<i>(table[row])), ...);
+        }
+    (std::index_sequence_for<Arguments...>{});
+    GlSystemSide gpu(gl, system, called.passes, called.folder);
+    options.frames = 1;
+    return match_system(gpu, system, options);
+}
+
+} // namespace lockstep

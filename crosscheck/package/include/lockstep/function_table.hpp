@@ -1,0 +1,46 @@
+#pragma once
+/// One function of a shader, held against a table of results, or against another function of GLSL, on a table of
+/// arguments from a file (docs/functions.md); `lockstep function` does no more:
+///
+///     const GlslFunction bounce{"shaders/wall.glsl", "bounce", {{"u_Kept", 0.5F}}};
+///     CHECK(match_function(gl, bounce, read_function_rows(bounce, "walls.csv")).passed());
+#include <cstddef>
+#include <cstdint>
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "lockstep/function.hpp"
+
+namespace lockstep {
+
+/// A function's arguments, row by row, and what it is to return.
+struct FunctionRows {
+    std::string file;
+    std::vector<function_twin::Column> columns;             ///< of the arguments, in their order
+    std::vector<std::string> names;                         ///< of the arguments, as the shader has them
+    std::vector<std::uint32_t> words;                       ///< row after row, component by component: bits
+    std::vector<std::size_t> lines;                         ///< where each row stands in the file, from 1; of JSON none
+    std::optional<std::vector<std::uint32_t>> results = {}; ///< row after row; nothing: the file has no such column
+
+    [[nodiscard]] std::size_t width() const; ///< words of a row
+    [[nodiscard]] std::size_t count() const { return words.size() / width(); }
+};
+
+/// Reads FILE.json, an array of objects by the arguments' names, or a CSV file with a heading of these names, a column
+/// a component (`velocity.x`). `result` is what the function is to return, the same in every row or in none. A number
+/// is the float nearest to it; `inf`, `nan` and hexadecimal floats (0x1.8p-3) are numbers, in JSON as texts. Throws
+/// Error with FILE:LINE, or the place in the JSON, and what would be right.
+FunctionRows read_function_rows(const GlslFunction& function, const std::filesystem::path& file);
+
+/// Runs the function on every row and holds what it returns against the results of the rows; another bit is divergent.
+/// Throws Error where the rows have none.
+MatchResult match_function(const Gl& gl, const GlslFunction& function, const FunctionRows& rows,
+                           MatchOptions options = {});
+
+/// The same against what another function with the same arguments returns on the same GL.
+MatchResult match_function(const Gl& gl, const GlslFunction& function, const FunctionRows& rows,
+                           const GlslFunction& like, MatchOptions options = {});
+
+} // namespace lockstep

@@ -1,0 +1,198 @@
+#include <cmath>
+#include <cstdint>
+#include <fstream>
+#include <string>
+#include <vector>
+
+#include <catch2/catch.hpp>
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include "tests/cli/cli_checks.hpp"
+#include "tests/cli/run_program.hpp"
+
+using namespace lockstep;
+using namespace lockstep::test;
+using Catch::Contains;
+
+namespace {
+
+const std::string wall = "uniform float u_Kept;\n"
+                         "vec3 bounce(vec3 velocity, const in vec3 n) {\n"
+                         "    precise float into = velocity.x * n.x + (velocity.y * n.y + velocity.z * n.z);\n"
+                         "    precise vec3 left = velocity - n * (into * (1.0 + u_Kept));\n"
+                         "    return left;\n"
+                         "}\n";
+
+/// What the function returns of walls that axes are normal to: every operation is exact.
+const std::string walls = "velocity.x,velocity.y,velocity.z,n.x,n.y,n.z,result.x,result.y,result.z\n"
+                          "1, -2, 0, 0, 1, 0, 1, 1, 0\n"
+                          "# from above\n"
+                          "3, -4, 0.5, 0, 1, 0, 3, 2, 0.5\n"
+                          "0x1.8p1, 0, -8, 0, 0, 1, 3, 0, 4\n";
+
+/// A shader, a table, and the verb on both.
+struct Setting {
+    TemporaryFolder folder;
+    std::string shader = folder.write("wall.glsl", wall).string();
+
+    [[nodiscard]] std::string file(const std::string& name, const std::string& text) const {
+        return folder.write(name, text).string();
+    }
+    [[nodiscard]] std::vector<std::string> command(const std::string& table,
+                                                   const std::vector<std::string>& more = {}) const {
+        return joined(
+            {"function", shader, "bounce", "--table", table, "--uniform", "u_Kept=0.5", "--gl", software_gl()}, more);
+    }
+    [[nodiscard]] Outcome run(const std::string& table, const std::vector<std::string>& more = {}) const {
+        return run_lockstep(command(table, more));
+    }
+};
+
+std::string replaced(std::string text, const std::string& what, const std::string& by) {
+    const std::size_t at = text.find(what);
+    REQUIRE(at != std::string::npos);
+    return text.replace(at, what.size(), by);
+}
+
+} // namespace
+
+TEST_CASE("function: the results of a table agree, from CSV and from JSON") {
+    if (!have_software_gl())
+        return;
+    const Setting setting;
+    const Outcome csv = setting.run(setting.file("walls.csv", walls));
+    INFO(csv.out << csv.err);
+    CHECK(csv.status == 0);
+    CHECK_THAT(csv.out, Contains("verdict   AGREE: every bit of 3 rows"));
+    const Outcome json =
+        setting.run(setting.file("walls.json", R"([{"velocity": [1, -2, 0], "n": [0, 1, 0], "result": [1, 1, 0]},
+                          {"n": [0, 0, 1], "result": [3, 0, "0x1p2"], "velocity": ["3", 0, -8]}])"));
+    INFO(json.out << json.err);
+    CHECK(json.status == 0);
+    CHECK_THAT(json.out, Contains("verdict   AGREE: every bit of 2 rows"));
+}
+
+TEST_CASE("function: a wrong result is told with its row, its line and its arguments, and repeated") {
+    if (!have_software_gl())
+        return;
+    const Setting setting;
+    const std::string table = setting.file("walls.csv", replaced(walls, "3, 2, 0.5", "3, 2.0000002, 0.5"));
+    const std::string report = (setting.folder.path() / "report.json").string();
+    const Outcome outcome = setting.run(table, {"--json", report});
+    INFO(outcome.out << outcome.err);
+    CHECK(outcome.status == 1);
+    CHECK_THAT(outcome.out, Contains("verdict   DIVERGENT"));
+    CHECK_THAT(outcome.out, Contains("walls.csv:4): velocity (3") && Contains("-4"));
+    CHECK_THAT(outcome.out, Contains("step function, result") && Contains("1 ULP outside"));
+    CHECK_THAT(outcome.out, Contains(fmt::format("repeat    lockstep function {} bounce --table {} --uniform "
+                                                 "u_Kept=0.5 --gl {}",
+                                                 setting.shader, table, software_gl())));
+    std::ifstream stream(report);
+    CHECK(nlohmann::json::parse(stream).at("verdict") == "DIVERGENT");
+    const Outcome quiet = setting.run(table, {"--quiet"});
+    CHECK(quiet.status == 1);
+    CHECK(quiet.out.empty());
+}
+
+TEST_CASE("function: another shader's function gives the results") {
+    if (!have_software_gl())
+        return;
+    const Setting setting;
+    std::string rows = "n.x,n.y,n.z,velocity.x,velocity.y,velocity.z\n";
+    for (int i = 0; i < 200; ++i)
+        rows += fmt::format("{},{},{},{},{},{}\n", std::sin(i), std::cos(i), 0.3, std::sin(7 * i), std::cos(3 * i),
+                            std::sin(2 * i));
+    const std::string table = setting.file("rows.csv", rows);
+    const std::string same = setting.file(
+        "same.vert", "#version 400 core\n" +
+                         replaced(replaced(wall, "bounce(", "reflected("), "uniform float", "uniform highp float") +
+                         "void main() { gl_Position = vec4(0.0); }\n");
+    const Outcome agrees = setting.run(table, {"--like", same, "--like-name", "reflected"});
+    INFO(agrees.out << agrees.err);
+    CHECK(agrees.status == 0);
+    CHECK_THAT(agrees.out, Contains("AGREE: every bit of 200 rows") && Contains("results of reflected ("));
+    const std::string other =
+        setting.file("other.glsl", replaced(wall, "velocity.x * n.x + (velocity.y * n.y + velocity.z * n.z)",
+                                            "(velocity.x * n.x + velocity.y * n.y) + velocity.z * n.z"));
+    const Outcome differs = setting.run(table, {"--like", other});
+    INFO(differs.out << differs.err);
+    CHECK(differs.status == 1);
+    CHECK_THAT(differs.out, Contains("DIVERGENT") && Contains("rows.csv:"));
+}
+
+TEST_CASE("function: integers, single numbers, infinities and NaN") {
+    if (!have_software_gl())
+        return;
+    const Setting setting;
+    const std::string shader = setting.file("more.glsl", "uniform ivec2 u_Size;\nuniform mat4 u_Turn;\n"
+                                                         "int texel(vec2 at, int row) { return int(at.x) + u_Size.x * "
+                                                         "(row + u_Size.y); }\n"
+                                                         "float kept(float x) { return x; }\n"
+                                                         "vec4 turned(vec4 v) { return u_Turn[1] + v * 0.0; }\n");
+    const auto run = [&](const std::string& name, const std::string& rows, const std::vector<std::string>& more) {
+        return run_lockstep(joined(
+            {"function", shader, name, "--table", setting.file(name + ".csv", rows), "--gl", software_gl()}, more));
+    };
+    const std::string texels = "row,at.x,at.y,result\n2,1.5,0,701\n-3,7,0,-793\n";
+    const Outcome texel = run("texel", texels, {"--uniform", "u_Size=100,5"});
+    INFO(texel.out << texel.err);
+    CHECK(texel.status == 1); // 1 + 100 * (2 + 5) is 701, 7 + 100 * (-3 + 5) is 207
+    CHECK_THAT(texel.out, Contains("texel.csv:3): at (7") && Contains("207"));
+    CHECK(run("texel", replaced(texels, "-793", "207"), {"--uniform", "u_Size=100,5"}).status == 0);
+    CHECK(run("kept", "x,result\ninf,inf\n-inf,-INF\nnan,nan\n-0,0\n3.4e38,3.4e38\n", {}).status == 0);
+    CHECK(run("kept", "x,result\ninf,nan\n", {}).status == 1);
+    CHECK(run("turned", "v.x,v.y,v.z,v.w,result.x,result.y,result.z,result.w\n1,2,3,4,5,6,7,8\n",
+              {"--uniform", "u_Turn=1,2,3,4,5,6,7,8,9,10,11,12,13,14,15,16"})
+              .status == 0);
+}
+
+TEST_CASE("function: what cannot be run is one line that says what would be right") {
+    if (!have_software_gl())
+        return;
+    const Setting setting;
+    const auto of_table = [&](const std::string& text, const std::string& name = "walls.csv") {
+        return refusal(setting.run(setting.file(name, text)));
+    };
+    CHECK_THAT(of_table(replaced(walls, "velocity.y", "velocty.y")),
+               Contains("walls.csv:1: column velocty.y is none of vec3 bounce(vec3, vec3)'s; right is velocity.x, ") &&
+                   Contains("did you mean velocity.y?"));
+    CHECK_THAT(of_table(replaced(walls, "n.z,", "n.x,")), Contains("walls.csv:1: column n.x stands there twice"));
+    CHECK_THAT(of_table("velocity.x,velocity.y,velocity.z,n.x,n.y\n1,2,3,4,5\n"),
+               Contains("walls.csv:1: column n.z is missing"));
+    CHECK_THAT(of_table("velocity.x,velocity.y,velocity.z,n.x,n.y,n.z,result.x\n1,2,3,4,5,6,7\n"),
+               Contains("walls.csv:1: column result.y is missing"));
+    CHECK_THAT(of_table(replaced(walls, ", 2, 0.5", ", 2")), Contains("walls.csv:4: 8 values for 9 columns"));
+    CHECK_THAT(of_table(replaced(walls, "-4", "-4.0.0")),
+               Contains("walls.csv:4: column velocity.y: '-4.0.0' is no float; right is 0.25"));
+    CHECK_THAT(of_table("velocity.x\n"), Contains("walls.csv: it has no rows; right is"));
+    CHECK_THAT(of_table("velocity.x,velocity.y,velocity.z,n.x,n.y,n.z\n1,2,3,4,5,6\n"),
+               Contains("walls.csv has no column result; right is one, or --like FILE"));
+    CHECK_THAT(of_table(R"([{"velocity": [1, 2], "n": [1, 2, 3], "result": [1, 2, 3]}])", "walls.json"),
+               Contains("walls.json: /0/velocity: velocity is a vec3; right is an array of 3 numbers"));
+    CHECK_THAT(of_table(R"([{"velocity": [1, 2, 3], "m": [1, 2, 3], "result": [1, 2, 3]}])", "walls.json"),
+               Contains("walls.json: /0: unknown key \"m\"; the keys here are velocity, n, result"));
+    CHECK_THAT(of_table(R"([{"velocity": [1, 2, 3], "n": [1, 2, 3], "result": [1, 2, 3]},
+                            {"velocity": [1, 2, 3], "n": [1, 2, 3]}])",
+                        "walls.json"),
+               Contains("walls.json: /1: result is in some rows and not in others"));
+    CHECK_THAT(of_table("[]", "walls.json"), Contains("walls.json: /: it has no rows"));
+
+    const std::string table = setting.file("walls.csv", walls);
+    const auto of_options = [&](const std::vector<std::string>& options) {
+        return refusal(run_lockstep(joined({"function"}, options)));
+    };
+    CHECK_THAT(of_options({setting.shader, "bounse", "--table", table}), Contains("did you mean bounce?"));
+    CHECK_THAT(of_options({setting.shader, "bounce", "--table", table, "--uniform", "u_Kep=1"}),
+               Contains("--uniform u_Kep=1:") && Contains("declares no uniform u_Kep; did you mean u_Kept?"));
+    CHECK_THAT(of_options({setting.shader, "bounce", "--table", table, "--uniform", "u_Kept=1,2"}),
+               Contains("'1,2' is no float; right is NAME=NUMBER"));
+    CHECK_THAT(of_options({setting.shader, "bounce", "--table", table, "--gl", software_gl()}),
+               Contains("nothing is given for uniform u_Kept"));
+    CHECK_THAT(of_options({setting.shader, "bounce", "--table", table, "--like", setting.shader}),
+               Contains("has results, and --like gives others"));
+    CHECK_THAT(of_options({setting.shader, "bounce", "--table", table, "--like-name", "other"}),
+               Contains("--like-name goes with --like"));
+    CHECK_THAT(of_options({setting.shader, "bounce", "--table", "nothing.csv", "--uniform", "u_Kept=1"}),
+               Contains("nothing.csv"));
+}

@@ -17,6 +17,7 @@ demo=(
     libassimp-dev libmeshoptimizer-dev            # meshes: reading, decimation
     libhdf5-dev libaec-dev                        # traces: H5MD
     libdeflate-dev nettle-dev                     # reading them fast, their seal
+    libedit-dev                                   # typed commands: editing, history, completion
     libseccomp-dev                                # the fence around the process that reads one
     libgl-dev libegl-dev                          # GL headers; the libraries are opened at run time
     libegl1 libgl1-mesa-dri                       # contexts without a GPU
@@ -26,6 +27,7 @@ page=()
 command -v node >/dev/null || page+=(nodejs)
 command -v npm >/dev/null || page+=(npm)
 tests=(
+    libgtest-dev doctest-dev                      # the other test frameworks there are headers for
     libnanoflann-dev                              # the oracle for neighbours
     libbenchmark-dev                              # benchmarks
     gnuplot-nox                                   # charts of lockstep study

@@ -1,0 +1,107 @@
+#include <algorithm>
+#include <array>
+#include <fstream>
+#include <iterator>
+#include <memory>
+#include <string>
+
+#include <fmt/format.h>
+
+#include "crosscheck/cli/commands.hpp"
+#include "crosscheck/command/option_values.hpp"
+#include "crosscheck/files/output_files.hpp"
+#include "crosscheck/files/plain_text.hpp"
+#include "crosscheck/files/shell_words.hpp"
+#include "gpu/data_folder.hpp"
+#include "reference/model/error.hpp"
+
+namespace lockstep {
+namespace {
+
+namespace fs = std::filesystem;
+
+struct NewRequest {
+    std::string name;
+    fs::path folder; ///< empty: NAME
+};
+
+/// A file of the skeleton, and what it is called in a system of that name.
+struct SkeletonFile {
+    std::string_view file, before, after;
+};
+constexpr std::array<SkeletonFile, 5> skeleton{{{"CMakeLists.txt", "CMakeLists.txt", ""},
+                                                {"system.hpp", "", ".hpp"},
+                                                {"system_step.vert", "", "_step.vert"},
+                                                {"main.cpp", "main.cpp", ""},
+                                                {"system_test.cpp", "", "_test.cpp"}}};
+
+std::string name_in(const SkeletonFile& file, const std::string& system) {
+    return file.before.empty() ? system + std::string(file.after) : std::string(file.before);
+}
+
+/// Beside the shaders, in an installation or in the source tree.
+std::string text_of(std::string_view file) {
+    const fs::path data = built_in_shaders().parent_path();
+    for (const fs::path& folder : {data / "skeleton", data / "data" / "skeleton"}) {
+        std::ifstream stream(folder / fmt::format("{}.in", file), std::ios::binary);
+        if (stream.is_open())
+            return {std::istreambuf_iterator<char>(stream), {}};
+    }
+    throw Error(
+        fmt::format("{} has no skeleton/{}.in; the installation is not whole", plain_line(data.string()), file));
+}
+
+void check_name(const std::string& name) {
+    const auto is_small = [](char c) { return c >= 'a' && c <= 'z'; };
+    const bool fits = !name.empty() && name.size() <= 40 && is_small(name.front()) &&
+                      std::all_of(name.begin(), name.end(),
+                                  [&](char c) { return is_small(c) || (c >= '0' && c <= '9') || c == '_'; });
+    constexpr std::array<std::string_view, 8> taken{"lockstep", "all",     "clean",   "edit_cache",
+                                                    "help",     "install", "package", "test"};
+    if (!fits || std::find(taken.begin(), taken.end(), name) != taken.end())
+        throw Error(fmt::format("new system: '{}' is no name for one; right is a word of small letters, digits and _, "
+                                "at most 40, that is not lockstep nor a target of CMake's own: sparks, heat_map",
+                                plain_line(name)));
+}
+
+int make(const NewRequest& options) {
+    check_name(options.name);
+    const fs::path folder = options.folder.empty() ? fs::path(options.name) : options.folder;
+    std::error_code ignored;
+    if (fs::exists(folder, ignored) && !fs::is_empty(folder, ignored))
+        throw Error(fmt::format("new system: {} is there and not empty; right is a folder that is to be made",
+                                plain_line(folder.string())));
+    OutputFiles files;
+    files.expect_folder(folder);
+    for (const SkeletonFile& file : skeleton) {
+        std::string text = text_of(file.file);
+        constexpr std::string_view mark = "@NAME@";
+        for (std::size_t at = text.find(mark); at != std::string::npos; at = text.find(mark, at))
+            text.replace(at, mark.size(), options.name);
+        files.write(folder / name_in(file, options.name), std::move(text));
+    }
+    files.commit();
+    const std::string shown = shell_path(folder);
+    fmt::print("{0}: a system with one pass, whose twin is to be written in {1}.hpp. Build and run it:\n\n"
+               "    cmake -S {0} -B {0}/build && cmake --build {0}/build && {0}/build/{1} check\n\n"
+               "It says DIVERGENT until the twin does what {1}_step.vert does. docs/own_system.md goes on from here.\n",
+               shown, options.name);
+    return status_agree;
+}
+
+} // namespace
+
+Verb new_command() {
+    auto options = std::make_shared<NewRequest>();
+    Verb system{"system", "write a system's schema, twin, shader, program and test"};
+    system.add(required(text_option("name", "NAME", options->name, "what it is called: small letters, digits and _")));
+    system.add(path_option("-o,--output", "DIR", options->folder, "the folder that is made; else NAME"));
+    system.footer = "Exit status: 0 written, 2 could not be.\nExample: lockstep new system sparks";
+    system.run = [options](const Call&) { return make(*options); };
+    Verb verb{"new", "begin something of your own"};
+    verb.verbs = {system};
+    verb.footer = "Example: lockstep new system sparks";
+    return verb;
+}
+
+} // namespace lockstep

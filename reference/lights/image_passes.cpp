@@ -1,0 +1,21 @@
+#include "reference/lights/glow_twin.hpp"
+#include "reference/lights/passes.hpp"
+#include "reference/system/encode_twin.hpp"
+
+namespace lockstep::lights {
+
+void add_image_passes(const HostPtr& host, std::vector<std::unique_ptr<ItemPass>>& all) {
+    const ArithmeticSwitch arithmetic = host->settings().arithmetic;
+    if (host->switches().glow == OffOn::on)
+        all.push_back(item_pass(
+            {.name = "glow_pass", .resource = lit_image, .stage = PassStage::fragment, .arithmetic = arithmetic},
+            GlowTwin{host}));
+    const bool by_gl = host->switches().encoding == Encoding::srgb_hw;
+    all.push_back(item_pass({.name = by_gl ? "encode_by_gl_pass" : "encode_pass",
+                             .resource = encoded_image,
+                             .stage = by_gl ? PassStage::fragment : PassStage::compute,
+                             .arithmetic = arithmetic},
+                            EncodeTwin{host->switches().encoding, field::pixel}));
+}
+
+} // namespace lockstep::lights

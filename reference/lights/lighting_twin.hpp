@@ -1,0 +1,138 @@
+#pragma once
+#include "reference/half.hpp"
+#include "reference/lights/sampling.hpp"
+#include "reference/lights/surface.hpp"
+#include "reference/system/item_words.hpp"
+
+namespace lockstep::lights {
+
+/// What a point of normal n and albedo a sends to the eye. Twin of shaders/lights/lighting.glsl.
+template <class R>
+typename R::Vec3 radiance(R& r, const Host& host, const SystemView& state, const Surface<R>& surface) {
+    using Real = typename R::Real;
+    using Vec3 = typename R::Vec3;
+    const Switches& on = host.switches();
+    const Vec3 u = r.note(site::grid_place, (surface.position - r.uniform(site::low, host.grid().origin)) *
+                                                r.uniform(site::inv_voxel, host.inv_voxel()));
+    const Sample<R> s = SamplingTwin<R>(r, host, state).mean_at(u);
+    const Vec3 d = r.note(site::sampled_direction, Vec3{s[4], s[5], s[6]});
+    const Vec3 colour_at = r.note(site::sampled_colour, Vec3{s[0], s[1], s[2]});
+    const Real m = r.note(site::length2, (d.x * d.x + d.y * d.y) + d.z * d.z);
+    Real diffuse{};
+    const bool has_answer = on.zero_direction != ZeroDirection::undefined;
+    if (r.setting(site::no_direction, has_answer) && r.decide(site::no_direction, m == Real(0.0F))) {
+        diffuse = on.zero_direction == ZeroDirection::isotropic ? 0.25F : 0.0F;
+    } else {
+        const Real length = r.note(site::direction_length, r.sqrt(site::direction_length, m));
+        const Vec3 l = r.note(site::to_lights, d * r.divide(site::to_lights, Real(1.0F), length));
+        const Vec3& n = surface.normal;
+        const Real cosine = r.note(site::cosine, (n.x * l.x + n.y * l.y) + n.z * l.z);
+        if (r.setting(site::faces_light, true))
+            diffuse = r.max(Real(0.0F), cosine);
+        else
+            diffuse = cosine;
+        diffuse = r.note(site::lambert, diffuse);
+        if (on.shading == Shading::directionality) {
+            const Real k =
+                r.note(site::directionality, r.min(Real(1.0F), r.divide(site::directionality, length, s[7])));
+            diffuse = k * diffuse + (Real(1.0F) - k) * Real(0.25F);
+        }
+    }
+    diffuse = r.note(site::diffuse, diffuse);
+    const Vec3 ambient = r.uniform(site::ambient, host.settings().ambient);
+    return r.note(site::radiance, surface.albedo * (ambient + colour_at * diffuse));
+}
+
+template <class R> typename R::Vec4 lit_pixel(R& r, const typename R::Vec3& v) {
+    return r.note(site::lit, typename R::Vec4{v.x, v.y, v.z, typename R::Real(1.0F)});
+}
+template <class R> typename R::Vec4 background_pixel(R& r, const Host& host) {
+    return lit_pixel(r, r.uniform(site::background, host.settings().background));
+}
+template <class R> ItemWords<R> words_of(const typename R::Vec4& v) {
+    ItemWords<R> words;
+    for (const auto& part : {v.x, v.y, v.z, v.w})
+        words.add(part);
+    return words;
+}
+
+/// The images that drawing the obstacles makes.
+enum class Drawn { lit, depth, position, normal, albedo };
+
+/// Twin of shaders/lights/forward_light_pass.*, and of gbuffer_pass.*.
+struct DrawnTwin {
+    HostPtr host;
+    Drawn image;
+    BoxesByTile boxes = {};
+
+    [[nodiscard]] DrawnTwin at(const PassInput& in) const { return {host, image, triangle_boxes(*host, in.before)}; }
+
+    template <class R> ItemWords<R> operator()(R& r, const PassInput& in, std::size_t item) const {
+        using Real = typename R::Real;
+        const auto surface = SurfaceTwin<R>(r, *host, boxes, in.before).at(Pixel::of(host->settings().width, item));
+        ItemWords<R> words;
+        switch (image) {
+        case Drawn::lit:
+            return words_of<R>(surface ? lit_pixel(r, radiance(r, *host, in.before, *surface))
+                                       : background_pixel(r, *host));
+        case Drawn::depth:
+            words.add(r.note(site::depth, surface ? surface->depth : Real(1.0F)));
+            return words;
+        case Drawn::albedo:
+            add_codes(r, words, surface);
+            return words;
+        default:
+            break;
+        }
+        typename R::Vec4 v{};
+        if (surface) {
+            const typename R::Vec3& part = image == Drawn::position ? surface->position : surface->normal;
+            v = {stored(r, part.x), stored(r, part.y), stored(r, part.z), r.note(site::valid, Real(1.0F))};
+        }
+        return words_of<R>(r.note(image == Drawn::position ? site::stored_position : site::stored_normal, v));
+    }
+
+  private:
+    template <class R, class Real> Real stored(R& r, const Real& x) const {
+        return host->switches().gbuffer_format == Format::rgba16f ? r.monotone(x, half_round) : x;
+    }
+    template <class R> static void add_codes(R& r, ItemWords<R>& words, const std::optional<Surface<R>>& surface) {
+        const auto code = [&](const typename R::Real& x) {
+            const int k = static_cast<int>(r.to_int(site::albedo, x * typename R::Real(256.0F)));
+            words.add(static_cast<std::uint32_t>(k));
+        };
+        if (surface) {
+            code(surface->albedo.x);
+            code(surface->albedo.y);
+            code(surface->albedo.z);
+        } else {
+            for (int c = 0; c < 3; ++c)
+                words.add(std::uint32_t{0});
+        }
+        words.add(std::uint32_t{surface ? 255U : 0U});
+    }
+};
+
+/// Twin of shaders/lights/deferred_light_pass.comp.
+struct DeferredTwin {
+    HostPtr host;
+
+    template <class R> ItemWords<R> operator()(R& r, const PassInput& in, std::size_t item) const {
+        using Real = typename R::Real;
+        const Real valid = r.read(site::valid, in.before.real(field::texel_position, item, 3));
+        if (!r.decide(site::is_valid, valid != Real(0.0F)))
+            return words_of<R>(background_pixel(r, *host));
+        const auto part = [&](const Site& place, FieldId field) {
+            const glm::vec4 v = in.before.vec4(field, item);
+            return r.read(place, glm::vec3(v));
+        };
+        Surface<R> surface;
+        surface.position = part(site::surface_point, field::texel_position);
+        surface.normal = part(site::surface_normal, field::texel_normal);
+        const auto code = [&](int c) { return static_cast<float>(in.before.word(field::texel_albedo, item, c)); };
+        surface.albedo = r.read(site::albedo, glm::vec3(code(0), code(1), code(2)) / 256.0F);
+        return words_of<R>(lit_pixel(r, radiance(r, *host, in.before, surface)));
+    }
+};
+
+} // namespace lockstep::lights

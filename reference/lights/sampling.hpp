@@ -1,0 +1,218 @@
+#pragma once
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+
+#include "reference/lights/contribution.hpp"
+#include "reference/system/item_twin.hpp"
+
+namespace lockstep::lights {
+
+/// (C, count) and (D, W) of a texel, or of what is between texels.
+template <class R> using Sample = std::array<typename R::Real, 8>;
+
+/// What is read of both textures at a place in the grid, in voxels. Twin of shaders/lights/sampling.glsl.
+template <class R> class SamplingTwin {
+    using Real = typename R::Real;
+    using Vec3 = typename R::Vec3;
+
+  public:
+    SamplingTwin(R& r, const Host& host, const SystemView& state) : r_(r), host_(host), state_(state) {}
+
+    /// The mean over S^3 points in a voxel around `u`.
+    [[nodiscard]] Sample<R> mean_at(const Vec3& u) const {
+        const int count = samples(host_.switches().supersample);
+        if (count == 1)
+            return at(u);
+        Sample<R> sum{};
+        for (int k = 0; k < count * count * count; ++k) {
+            const auto offset = [&](int i) {
+                return r_.uniform(site::sample_offset,
+                                  (static_cast<float>(i) + 0.5F) / static_cast<float>(count) - 0.5F);
+            };
+            const Vec3 place{u.x + offset(k % count), u.y + offset(k / count % count),
+                             u.z + offset(k / (count * count))};
+            const Sample<R> one = at(r_.note(site::sample_place, place));
+            for (std::size_t c = 0; c < sum.size(); ++c)
+                sum[c] = k == 0 ? one[c] : sum[c] + one[c];
+        }
+        const Real share = r_.uniform(site::sample_mean, 1.0F / static_cast<float>(count * count * count));
+        for (Real& value : sum)
+            value = value * share;
+        return sum;
+    }
+
+    [[nodiscard]] Sample<R> at(const Vec3& u) const {
+        switch (host_.switches().interpolation) {
+        case Interpolation::nearest:
+            return texel(whole(r_.floor(u.x)), whole(r_.floor(u.y)), whole(r_.floor(u.z)));
+        case Interpolation::trilinear_hw:
+            return filtered(u);
+        case Interpolation::tricubic:
+            return cubic(u);
+        default:
+            return linear(u);
+        }
+    }
+
+  private:
+    /// The texel before a place, and how far the place is behind its point.
+    struct Axis {
+        int base;
+        Real f;
+    };
+
+    [[nodiscard]] int whole(const Real& x) const {
+        return static_cast<int>(r_.to_int(site::base, r_.note(site::base, x)));
+    }
+    [[nodiscard]] Axis axis(const Real& u) const {
+        const Real t = u - r_.uniform(site::half_texel, 0.5F);
+        const int base = whole(r_.floor(t));
+        Real f = r_.note(site::fraction, t - r_.real(base));
+        if (host_.switches().interpolation == Interpolation::trilinear8)
+            f = r_.note(site::fraction8, r_.floor(Real(256.0F) * f + Real(0.5F)) * Real(1.0F / 256.0F));
+        return {base, f};
+    }
+
+    [[nodiscard]] Sample<R> texel(int x, int y, int z) const {
+        const glm::ivec3 size = host_.grid().size;
+        const Voxel v = clamped_cell(host_.grid(), {x, y, z});
+        const bool inside = x >= 0 && y >= 0 && z >= 0 && x < size.x && y < size.y && z < size.z;
+        Sample<R> found{};
+        if (host_.switches().outside == Outside::black && !r_.decide(site::in_grid, inside))
+            return found;
+        const std::size_t i = v.index(host_.grid());
+        for (int c = 0; c < 4; ++c) {
+            found[static_cast<std::size_t>(c)] = r_.read(site::texel, state_.real(field::voxel_colour, i, c));
+            found[static_cast<std::size_t>(c) + 4] = r_.read(site::texel, state_.real(field::voxel_direction, i, c));
+        }
+        return found;
+    }
+
+    static Sample<R> lerp(const Sample<R>& a, const Sample<R>& b, const Real& f) {
+        const Real rest = Real(1.0F) - f;
+        Sample<R> made;
+        for (std::size_t c = 0; c < made.size(); ++c)
+            made[c] = a[c] * rest + b[c] * f;
+        return made;
+    }
+    [[nodiscard]] Sample<R> linear(const Vec3& u) const {
+        const Axis x = axis(u.x), y = axis(u.y), z = axis(u.z);
+        const auto along_x = [&](int dy, int dz) {
+            return lerp(texel(x.base, y.base + dy, z.base + dz), texel(x.base + 1, y.base + dy, z.base + dz), x.f);
+        };
+        const auto along_y = [&](int dz) { return lerp(along_x(0, dz), along_x(1, dz), y.f); };
+        return lerp(along_y(0), along_y(1), z.f);
+    }
+
+    [[nodiscard]] std::array<Real, 4> weights(const Real& f) const {
+        const Real half(0.5F), one(1.0F), ff = f * f;
+        return {r_.note(site::weight_before, f * (Real(-0.5F) + f * (one - f * half))),
+                one + ff * (Real(-2.5F) + Real(1.5F) * f), f * (half + f * (Real(2.0F) - Real(1.5F) * f)),
+                ff * (Real(-0.5F) + half * f)};
+    }
+    [[nodiscard]] Sample<R> cubic(const Vec3& u) const {
+        const Axis x = axis(u.x), y = axis(u.y), z = axis(u.z);
+        const std::array<Real, 4> wx = weights(x.f), wy = weights(y.f), wz = weights(z.f);
+        const auto add = [](Sample<R>& sum, const Sample<R>& one, const Real& w, bool first) {
+            for (std::size_t c = 0; c < sum.size(); ++c)
+                sum[c] = first ? one[c] * w : sum[c] + one[c] * w;
+        };
+        Sample<R> sum{};
+        for (int k = 0; k < 4; ++k) {
+            Sample<R> plane{};
+            for (int j = 0; j < 4; ++j) {
+                Sample<R> row{};
+                for (int i = 0; i < 4; ++i)
+                    add(row, texel(x.base - 1 + i, y.base - 1 + j, z.base - 1 + k), wx[static_cast<std::size_t>(i)],
+                        i == 0);
+                add(plane, row, wy[static_cast<std::size_t>(j)], j == 0);
+            }
+            add(sum, plane, wz[static_cast<std::size_t>(k)], k == 0);
+        }
+        for (std::size_t c = 0; c < 3; ++c)
+            sum[c] = r_.setting(site::not_below, true) ? r_.max(Real(0.0F), sum[c]) : sum[c];
+        return sum;
+    }
+
+    /// The texture unit's own: fma(f, b - a, a) along x, y, z, with f of full precision. Legal is what weights of 8
+    /// fraction bits give, cut or rounded, at a coordinate that is right to 1 part in 10^5, with results right to that
+    /// (GL 4.5, 2.3.4.1).
+    [[nodiscard]] Sample<R> filtered(const Vec3& u) const {
+        const std::array<Interval, 3> place{item_twin::set_of(u.x), item_twin::set_of(u.y), item_twin::set_of(u.z)};
+        Sample<R> found{};
+        std::array<std::array<double, 5>, 3> tried{};
+        std::array<std::size_t, 3> tries{};
+        std::array<float, 3> t{};
+        for (std::size_t axis = 0; axis < 3; ++axis) {
+            t[axis] = place[axis].as_float() - 0.5F;
+            const double free = 0x1p-8 + 1e-5 * (std::abs(place[axis].low) + 0.5);
+            const double low = place[axis].low - 0.5 - free, high = place[axis].high - 0.5 + free;
+            tried[axis][tries[axis]++] = low;
+            tried[axis][tries[axis]++] = high;
+            for (double whole_at = std::ceil(low); whole_at <= high && tries[axis] < 5; whole_at += 1.0)
+                tried[axis][tries[axis]++] = whole_at;
+        }
+        for (std::size_t c = 0; c < found.size(); ++c) {
+            const double far = HUGE_VAL;
+            double low = far, high = -far, largest = 0.0;
+            for (std::size_t i = 0; i < tries[0]; ++i)
+                for (std::size_t j = 0; j < tries[1]; ++j)
+                    for (std::size_t k = 0; k < tries[2]; ++k) {
+                        const double one = exact(tried[0][i], tried[1][j], tried[2][k], c, largest);
+                        low = std::min(low, one);
+                        high = std::max(high, one);
+                    }
+            const double error = 1e-5 * largest;
+            found[c] = r_.note(site::filtered,
+                               r_.unspecified(site::filtered, Real(fused(t, c)), static_cast<float>(low - error),
+                                              static_cast<float>(high + error)));
+        }
+        return found;
+    }
+    [[nodiscard]] float raw(int x, int y, int z, std::size_t c) const {
+        const glm::ivec3 size = host_.grid().size;
+        const bool inside = x >= 0 && y >= 0 && z >= 0 && x < size.x && y < size.y && z < size.z;
+        if (!inside && host_.switches().outside == Outside::black)
+            return 0.0F;
+        const std::size_t i = clamped_cell(host_.grid(), {x, y, z}).index(host_.grid());
+        return c < 4 ? state_.real(field::voxel_colour, i, static_cast<int>(c))
+                     : state_.real(field::voxel_direction, i, static_cast<int>(c) - 4);
+    }
+    [[nodiscard]] float fused(const std::array<float, 3>& t, std::size_t c) const {
+        const std::array<int, 3> b{static_cast<int>(std::floor(t[0])), static_cast<int>(std::floor(t[1])),
+                                   static_cast<int>(std::floor(t[2]))};
+        const auto f = [&](std::size_t axis) { return t[axis] - static_cast<float>(b[axis]); };
+        const auto mixed = [](float from, float to, float share) { return std::fma(share, to - from, from); };
+        const auto along_x = [&](int dy, int dz) {
+            return mixed(raw(b[0], b[1] + dy, b[2] + dz, c), raw(b[0] + 1, b[1] + dy, b[2] + dz, c), f(0));
+        };
+        const auto along_y = [&](int dz) { return mixed(along_x(0, dz), along_x(1, dz), f(1)); };
+        return mixed(along_y(0), along_y(1), f(2));
+    }
+    [[nodiscard]] double exact(double x, double y, double z, std::size_t c, double& largest) const {
+        const std::array<double, 3> t{x, y, z};
+        std::array<int, 3> b{};
+        for (std::size_t axis = 0; axis < 3; ++axis)
+            b[axis] = static_cast<int>(std::floor(t[axis]));
+        double sum = 0.0;
+        for (int k = 0; k < 8; ++k) {
+            double weight = 1.0;
+            for (std::size_t axis = 0; axis < 3; ++axis) {
+                const double f = t[axis] - b[axis];
+                weight *= (k >> axis & 1) != 0 ? f : 1.0 - f;
+            }
+            const double value = double{raw(b[0] + (k & 1), b[1] + (k >> 1 & 1), b[2] + (k >> 2 & 1), c)};
+            largest = std::max(largest, std::abs(value));
+            sum += weight * value;
+        }
+        return sum;
+    }
+
+    R& r_;
+    const Host& host_;
+    const SystemView& state_;
+};
+
+} // namespace lockstep::lights

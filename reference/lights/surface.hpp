@@ -1,0 +1,68 @@
+#pragma once
+#include <optional>
+
+#include "reference/lights/sites.hpp"
+#include "reference/model/lights/host.hpp"
+#include "reference/model/lights/schema.hpp"
+#include "reference/system/drawn_triangles.hpp"
+#include "reference/system/item_pass.hpp"
+#include "reference/system/pixel_boxes.hpp"
+
+namespace lockstep::lights {
+
+/// Of each triangle or glow of a state the pixels that it may cover: what lies outside is not tried.
+BoxesByTile triangle_boxes(const Host& host, const SystemView& state);
+BoxesByTile glow_boxes(const Host& host, const SystemView& state);
+
+/// What a pixel shows.
+template <class R> struct Surface {
+    typename R::Vec3 position, normal, albedo;
+    typename R::Real depth;
+};
+
+/// The obstacles at a pixel. Twin of shaders/lights/surface.glsl.
+template <class R> class SurfaceTwin {
+    using Real = typename R::Real;
+    using Vec3 = typename R::Vec3;
+
+  public:
+    SurfaceTwin(R& r, const Host& host, const BoxesByTile& boxes, const SystemView& state)
+        : r_(r), host_(host), state_(state), triangles_(r, {state, field::corner_position, host.view_projection(),
+                                                            host.settings().width, host.settings().height, boxes}) {}
+
+    [[nodiscard]] std::optional<Surface<R>> at(const Pixel& pixel) const {
+        const std::optional<TriangleHit<R>> hit = triangles_.nearest(pixel);
+        if (!hit)
+            return {};
+        return surface_of(*hit);
+    }
+
+  private:
+    [[nodiscard]] Surface<R> surface_of(const TriangleHit<R>& hit) const {
+        const auto [a, b, c] = triangles_.corners(hit.triangle);
+        Surface<R> surface;
+        surface.depth = hit.depth;
+        surface.position = triangles_.position(hit);
+        const Vec3 u = b - a, v = c - a;
+        const Vec3 cross =
+            r_.note(site::normal_sum, Vec3{u.y * v.z - u.z * v.y, u.z * v.x - u.x * v.z, u.x * v.y - u.y * v.x});
+        const Real length2 = (cross.x * cross.x + cross.y * cross.y) + cross.z * cross.z;
+        const Real inverse = r_.divide(site::normal_length, Real(1.0F), r_.sqrt(site::normal_length, length2));
+        surface.normal = cross * inverse;
+        const Vec3 to_eye = r_.uniform(site::eye, host_.settings().camera.eye) - a;
+        const Real side = (surface.normal.x * to_eye.x + surface.normal.y * to_eye.y) + surface.normal.z * to_eye.z;
+        if (r_.decide(site::faces_away, side < Real(0.0F)))
+            surface.normal = -surface.normal;
+        surface.normal = r_.note(site::surface_normal, surface.normal);
+        surface.albedo =
+            r_.read(site::albedo, state_.vec3(field::corner_albedo, 3 * static_cast<std::size_t>(hit.triangle)));
+        return surface;
+    }
+
+    R& r_;
+    const Host& host_;
+    const SystemView& state_;
+    DrawnTriangles<R> triangles_;
+};
+
+} // namespace lockstep::lights

@@ -1,0 +1,410 @@
+#pragma once
+#include <array>
+#include <cmath>
+#include <cstring>
+#include <vector>
+
+#include "reference/half.hpp"
+#include "reference/lights/contribution.hpp"
+#include "reference/lights/light_order.hpp"
+#include "reference/system/item_twin.hpp"
+#include "reference/system/item_words.hpp"
+
+namespace lockstep::lights {
+
+/// Every word 0. Twin of shaders/lights/light_volume_clear.comp.
+struct ClearTwin {
+    HostPtr host;
+    template <class R> ItemWords<R> operator()(R& r, const PassInput& in, std::size_t item) const {
+        ItemWords<R> words;
+        const std::uint32_t before = in.before.word(field::word, item);
+        words.add(r.setting(site::is_cleared, true) ? std::uint32_t{0} : before);
+        return words;
+    }
+};
+
+/// A sum of integers, and the least and greatest that it may be; `any` where a shader's conversion is undefined.
+struct FixedSum {
+    std::int64_t value = 0, low = 0, high = 0;
+    bool any = false;
+
+    void start(std::int64_t from) { value = low = high = from; }
+
+    /// The interval of a float, rounded by `to_fixed`, which never falls.
+    template <class ToFixed> void add(float x, const Interval& set, double most, const ToFixed& to_fixed) {
+        any = any || set.any || !(std::abs(set.low) < most) || !(std::abs(set.high) < most);
+        if (!(std::abs(x) < most))
+            return;
+        value += to_fixed(double{x});
+        if (!any) {
+            low += to_fixed(set.low);
+            high += to_fixed(set.high);
+        }
+    }
+    /// 32 bits of it, from `shift` upwards.
+    [[nodiscard]] LegalWord word(int shift) const {
+        const auto part = [&](std::int64_t sum) { return static_cast<std::uint32_t>(sum >> shift); };
+        LegalWord legal{part(value), Interval::anything()};
+        const bool same_above = shift == 32 || (low >> 32) == (high >> 32);
+        if (any)
+            return legal;
+        const bool in_order = same_above && part(low) <= part(high);
+        legal.set = in_order ? Interval{static_cast<double>(part(low)), static_cast<double>(part(high))}
+                             : Interval{0.0, 0x1p32};
+        return legal;
+    }
+};
+
+/// floor(x 2^32): bits under 2^-32 are cut.
+inline std::int64_t to_fixed64(double x) { return static_cast<std::int64_t>(std::floor(x * 0x1p32)); }
+
+/// The place of a channel of a voxel: r g b, x y z, W.
+inline const Site& channel_site(std::size_t k) {
+    static constexpr std::array<const Site*, 7> all{&site::red,   &site::green, &site::blue,      &site::sum_x,
+                                                    &site::sum_y, &site::sum_z, &site::sum_weight};
+    return *all[k];
+}
+
+/// One word of the accumulator: a channel of a voxel. Twin of shaders/lights/light_volume_scatter.comp, whose
+/// invocations are lights.
+struct ScatterTwin {
+    HostPtr host;
+    std::vector<std::uint32_t> order = {};
+
+    [[nodiscard]] ScatterTwin at(const PassInput& in) const { return {host, light_order(*host, in.before)}; }
+
+    template <class R> ItemWords<R> operator()(R& r, const PassInput& in, std::size_t item) const {
+        const std::size_t voxels = host->grid().count(), word = item / voxels;
+        const Voxel v = Voxel::of(host->grid(), item % voxels);
+        ItemWords<R> words;
+        const Accumulate how = host->switches().accumulate;
+        if (adds_floats(how))
+            words.add(float_sum(r, in, item, v, word));
+        else if (word == (how == Accumulate::fixed64 ? 14U : 7U))
+            words.add(counted(r, in, item, v));
+        else if (how == Accumulate::fixed64)
+            words.add(fixed64_word(r, in, item % voxels, v, word));
+        else
+            words.add(fixed32_word(r, in, item, v, word));
+        return words;
+    }
+
+    template <class R> bool all(R& r, const PassInput& in, const WritableView& after) const {
+        const std::size_t voxels = host->grid().count();
+        std::memcpy(after.columns[0], in.before[accumulator_image].columns[0], after.count() * sizeof(std::uint32_t));
+        const auto get = [&](std::size_t word) {
+            std::uint32_t bits = 0;
+            std::memcpy(&bits, after.columns[0] + word * sizeof bits, sizeof bits);
+            return bits;
+        };
+        const auto put = [&](std::size_t word, std::uint32_t bits) {
+            std::memcpy(after.columns[0] + word * sizeof bits, &bits, sizeof bits);
+        };
+        const Accumulate how = host->switches().accumulate;
+        scatter(r, *host, in.before, order, [&](std::size_t voxel, const Contribution<R>& made) {
+            const auto channels = made.channels();
+            for (std::size_t k = 0; k < channels.size(); ++k) {
+                const auto x = static_cast<float>(channels[k]);
+                if (adds_floats(how)) {
+                    const auto sum = typename R::Real(std::bit_cast<float>(get(voxel + k * voxels))) + channels[k];
+                    put(voxel + k * voxels, std::bit_cast<std::uint32_t>(static_cast<float>(sum)));
+                } else if (how == Accumulate::fixed64) {
+                    if (!(std::abs(x) < 0x1p31F))
+                        continue;
+                    const std::size_t low = voxel + 2 * k * voxels, high = low + voxels;
+                    const std::uint64_t sum = (std::uint64_t{get(high)} << 32U | get(low)) +
+                                              static_cast<std::uint64_t>(to_fixed64(double{x}));
+                    put(low, static_cast<std::uint32_t>(sum));
+                    put(high, static_cast<std::uint32_t>(sum >> 32U));
+                } else {
+                    const auto q = static_cast<float>(r.floor(channels[k] * scale() + typename R::Real(0.5F)));
+                    if (std::abs(q) < 0x1p31F)
+                        put(voxel + k * voxels,
+                            get(voxel + k * voxels) +
+                                static_cast<std::uint32_t>(static_cast<std::int32_t>(static_cast<std::int64_t>(q))));
+                }
+            }
+            const std::size_t last = voxel + (how == Accumulate::fixed64 ? 14 : 7) * voxels;
+            put(last, adds_floats(how) ? std::bit_cast<std::uint32_t>(std::bit_cast<float>(get(last)) + 1.0F)
+                                       : get(last) + 1);
+        });
+        return true;
+    }
+
+  private:
+    [[nodiscard]] float scale() const { return std::ldexp(1.0F, host->fixed_bits()); }
+
+    /// Calls `add` with what each light that reaches the voxel adds to it.
+    template <class R, class Add> void for_each(R& r, const PassInput& in, const Voxel& v, const Add& add) const {
+        const auto point = voxel_point(r, *host, v);
+        for (const auto i : r.range(site::all_lights, 0, static_cast<int>(order.size()) - 1))
+            if (const auto made =
+                    contribution(r, *host, in.before, order[static_cast<std::size_t>(static_cast<int>(i))], point, v))
+                add(*made);
+    }
+    template <class R>
+    typename R::Real float_sum(R& r, const PassInput& in, std::size_t item, const Voxel& v, std::size_t word) const {
+        using Real = typename R::Real;
+        std::vector<Real> terms;
+        if (const float before = in.before.real(field::word, item); before != 0.0F)
+            terms.push_back(r.read(site::word, before));
+        for_each(r, in, v, [&](const Contribution<R>& made) {
+            terms.push_back(word == 7 ? r.uniform(site::one_more, 1.0F)
+                                      : r.note(channel_site(word), made.channels()[word]));
+        });
+        Real sum = r.any_order_sum(site::sum, terms);
+        if (host->switches().accumulate == Accumulate::racing)
+            sum = r.unspecified(site::sum, sum, -HUGE_VALF, HUGE_VALF);
+        return r.note(site::sum, sum);
+    }
+    template <class R> LegalWord counted(R& r, const PassInput& in, std::size_t item, const Voxel& v) const {
+        std::uint32_t count = in.before.word(field::word, item);
+        for_each(r, in, v, [&](const Contribution<R>&) {
+            count += static_cast<std::uint32_t>(static_cast<int>(r.uniform(site::one_more, 1)));
+        });
+        return LegalWord::exactly(count);
+    }
+    template <class R>
+    LegalWord fixed64_word(R& r, const PassInput& in, std::size_t voxel, const Voxel& v, std::size_t word) const {
+        const std::size_t voxels = host->grid().count(), low = voxel + (word & ~std::size_t{1}) * voxels;
+        FixedSum sum;
+        sum.start(static_cast<std::int64_t>(std::uint64_t{in.before.word(field::word, low + voxels)} << 32U |
+                                            in.before.word(field::word, low)));
+        std::uint32_t without_carries = in.before.word(field::word, low + voxels);
+        for_each(r, in, v, [&](const Contribution<R>& made) {
+            const auto x = r.note(channel_site(word / 2), made.channels()[word / 2]);
+            const Interval set = item_twin::set_of(x);
+            const auto value = set.any ? 0.0F : set.as_float();
+            const bool no_borrow = !r.setting(site::borrows, true) && value < 0.0F && value != std::floor(value);
+            sum.add(value, set, 0x1p31, [&](double n) { return to_fixed64(n) + (no_borrow ? 0x100000000 : 0); });
+            if (std::abs(value) < 0x1p31F)
+                without_carries += static_cast<std::uint32_t>(to_fixed64(double{value}) >> 32);
+        });
+        if (!r.setting(site::carries, true) && word % 2 == 1)
+            return LegalWord::exactly(without_carries);
+        return sum.word(word % 2 == 1 ? 32 : 0);
+    }
+    template <class R>
+    LegalWord fixed32_word(R& r, const PassInput& in, std::size_t item, const Voxel& v, std::size_t word) const {
+        using Real = typename R::Real;
+        FixedSum sum;
+        sum.start(in.before.integer(field::word, item));
+        for_each(r, in, v, [&](const Contribution<R>& made) {
+            const Real x = r.note(channel_site(word), made.channels()[word]);
+            const Real q = r.note(
+                site::quantum, r.floor(x * r.uniform(site::fixed_scale, scale()) + r.uniform(site::half_unit, 0.5F)));
+            const Interval set = item_twin::set_of(q);
+            sum.add(set.any ? 0.0F : set.as_float(), set, 0x1p31,
+                    [](double n) { return static_cast<std::int64_t>(n); });
+        });
+        return sum.word(0);
+    }
+};
+
+/// The words of a voxel as numbers, or what gathering and blending add up: (C, count) or (D, W).
+enum class Texture { colour, direction };
+
+template <class R> void add_texel(R& r, ItemWords<R>& words, Texture of, Format format, typename R::Vec4 v) {
+    if (format == Format::rgba16f)
+        v = {r.monotone(v.x, half_round), r.monotone(v.y, half_round), r.monotone(v.z, half_round),
+             r.monotone(v.w, half_round)};
+    v = r.note(of == Texture::colour ? site::volume_colour : site::volume_direction, v);
+    for (const auto& part : {v.x, v.y, v.z, v.w})
+        words.add(part);
+}
+
+/// Words to floats. Twin of shaders/lights/light_volume_resolve.comp.
+struct ResolveTwin {
+    HostPtr host;
+    Texture texture;
+
+    template <class R> ItemWords<R> operator()(R& r, const PassInput& in, std::size_t item) const {
+        const bool colour_of = texture == Texture::colour;
+        ItemWords<R> words;
+        const auto at = [&](std::size_t k) { return channel(r, in, item, k); };
+        typename R::Vec4 v;
+        if (colour_of)
+            v = {at(0), at(1), at(2), counted(r, in, item)};
+        else
+            v = {at(3), at(4), at(5), at(6)};
+        add_texel(r, words, texture, host->switches().volume_format, v);
+        return words;
+    }
+
+  private:
+    template <class R> typename R::Real whole(R& r, std::int32_t bits) const {
+        using Real = typename R::Real;
+        return r.note(site::high_word, r.real(bits >> 12) * Real(4096.0F) + r.real(bits & 4095));
+    }
+    template <class R> typename R::Real channel(R& r, const PassInput& in, std::size_t item, std::size_t k) const {
+        using Real = typename R::Real;
+        const std::size_t voxels = host->grid().count();
+        const Accumulate how = host->switches().accumulate;
+        Real value{};
+        if (adds_floats(how)) {
+            value = r.read(site::word, in.before.real(field::word, item + k * voxels));
+        } else if (how == Accumulate::fixed64) {
+            const std::uint32_t low = in.before.word(field::word, item + 2 * k * voxels);
+            const std::int32_t high = in.before.integer(field::word, item + (2 * k + 1) * voxels);
+            value = whole(r, high) + r.note(site::low_word, r.real(low >> 8U)) * Real(0x1p-24F);
+        } else {
+            value = whole(r, in.before.integer(field::word, item + k * voxels)) *
+                    r.uniform(site::fixed_scale, std::ldexp(1.0F, -host->fixed_bits()));
+        }
+        return r.note(channel_site(k), value);
+    }
+    template <class R> typename R::Real counted(R& r, const PassInput& in, std::size_t item) const {
+        const std::size_t voxels = host->grid().count();
+        const Accumulate how = host->switches().accumulate;
+        if (adds_floats(how))
+            return r.note(site::count, r.read(site::word, in.before.real(field::word, item + 7 * voxels)));
+        const std::size_t last = how == Accumulate::fixed64 ? 14 : 7;
+        return r.note(site::count, r.real(in.before.word(field::word, item + last * voxels)));
+    }
+};
+
+/// A voxel's lights, added as floats in one order. Twin of shaders/lights/light_volume_gather.comp, and of
+/// light_volume_blend.*, where each sum is GL's own.
+struct GatherTwin {
+    HostPtr host;
+    Texture texture;
+    std::vector<std::uint32_t> order = {};
+
+    [[nodiscard]] GatherTwin at(const PassInput& in) const { return {host, texture, light_order(*host, in.before)}; }
+
+    template <class R> ItemWords<R> operator()(R& r, const PassInput& in, std::size_t item) const {
+        using Real = typename R::Real;
+        const Voxel v = Voxel::of(host->grid(), item);
+        const auto point = voxel_point(r, *host, v);
+        std::array<std::vector<Real>, 4> terms;
+        for (const auto i : r.range(site::all_lights, 0, static_cast<int>(order.size()) - 1))
+            if (const auto made =
+                    contribution(r, *host, in.before, order[static_cast<std::size_t>(static_cast<int>(i))], point, v))
+                for (std::size_t c = 0; c < 4; ++c)
+                    terms[c].push_back(addend(r, *made, c));
+        typename R::Vec4 sum{added(r, terms[0]), added(r, terms[1]), added(r, terms[2]), added(r, terms[3])};
+        sum = r.note(site::sum, sum);
+        ItemWords<R> words;
+        add_texel(r, words, texture, stored_format(), sum);
+        return words;
+    }
+
+    template <class R> bool all(R& r, const PassInput& in, const WritableView& after) const {
+        using Real = typename R::Real;
+        std::vector<std::array<Real, 4>> sums(host->grid().count());
+        scatter(r, *host, in.before, order, [&](std::size_t voxel, const Contribution<R>& made) {
+            for (std::size_t c = 0; c < 4; ++c)
+                sums[voxel][c] = next(sums[voxel][c], addend(r, made, c));
+        });
+        for (std::size_t voxel = 0; voxel < sums.size(); ++voxel) {
+            ItemWords<R> words;
+            const std::array<Real, 4>& s = sums[voxel];
+            add_texel(r, words, texture, stored_format(), {s[0], s[1], s[2], s[3]});
+            std::byte* to = after.columns[0] + voxel * 4 * sizeof(float);
+            words.for_each([&](const auto& x) {
+                const std::uint32_t word = item_twin::word_of(x);
+                std::memcpy(to, &word, sizeof word);
+                to += sizeof word;
+            });
+        }
+        return true;
+    }
+
+  private:
+    [[nodiscard]] bool blends_halves() const {
+        return blends(host->switches().accumulate) && host->switches().volume_format == Format::rgba16f;
+    }
+    /// What is blended is rounded by GL, sum by sum.
+    [[nodiscard]] Format stored_format() const {
+        return blends_halves() ? Format::rgba32f : host->switches().volume_format;
+    }
+    template <class R> typename R::Real addend(R& r, const Contribution<R>& made, std::size_t c) const {
+        using Real = typename R::Real;
+        if (texture == Texture::colour && c == 3)
+            return r.uniform(site::one_more, 1.0F);
+        const std::size_t k = c + (texture == Texture::direction ? 3 : 0);
+        Real x = r.note(channel_site(k), made.channels()[k]);
+        if (host->switches().accumulate == Accumulate::blend_exact) {
+            const float scale = std::ldexp(1.0F, host->fixed_bits());
+            const Real q = r.floor(x * r.uniform(site::fixed_scale, scale) + r.uniform(site::half_unit, 0.5F));
+            x = r.note(site::quantum, q * Real(1.0F / scale));
+        }
+        return x;
+    }
+    template <class Real> Real next(const Real& sum, const Real& x) const {
+        return blends_halves() ? Real(half_truncated(static_cast<float>(sum + x))) : sum + x;
+    }
+    template <class R> typename R::Real added(R& r, const std::vector<typename R::Real>& terms) const {
+        using Real = typename R::Real;
+        if (blends_halves())
+            return blended_halves(r, terms);
+        if (blends(host->switches().accumulate))
+            return r.any_order_sum(site::sum, terms);
+        Real sum(0.0F);
+        for (const Real& x : terms)
+            sum = sum + x;
+        return sum;
+    }
+    /// Rounded toward zero each, and legally to either neighbour.
+    template <class R> typename R::Real blended_halves(R& r, const std::vector<typename R::Real>& terms) const {
+        using Real = typename R::Real;
+        float value = 0.0F, low = 0.0F, high = 0.0F;
+        for (const Real& x : terms) {
+            const Interval set = item_twin::set_of(x);
+            const auto down = [](double sum) { return half_toward(static_cast<float>(sum), false); };
+            const auto up = [](double sum) { return half_toward(static_cast<float>(sum), true); };
+            low = set.any ? -HUGE_VALF : std::fmin(down(double{low} + set.low), down(double{low} + down(set.low)));
+            high = set.any ? HUGE_VALF : std::fmax(up(double{high} + set.high), up(double{high} + up(set.high)));
+            value = half_truncated(value + (set.any ? 0.0F : set.as_float()));
+        }
+        return r.unspecified(site::sum, Real(value), low, high);
+    }
+};
+
+/// How many lights a cell has, and where they begin among all. Twin of shaders/lights/light_sort_pass.comp.
+struct CellTwin {
+    HostPtr host;
+    std::vector<std::uint32_t> counts = {}, starts = {};
+
+    [[nodiscard]] CellTwin at(const PassInput& in) const {
+        CellTwin made{host, std::vector<std::uint32_t>(host->grid().count()), {}};
+        for (const std::uint32_t i : by_cell(*host, in.before)) {
+            const Voxel v = cell_of(host->grid(), in.before.vec3(field::light_position, i));
+            ++made.counts[clamped_cell(host->grid(), v).index(host->grid())];
+        }
+        std::uint32_t sum = 0;
+        for (const std::uint32_t count : made.counts) {
+            made.starts.push_back(sum);
+            sum += count;
+        }
+        return made;
+    }
+    template <class R> ItemWords<R> operator()(R& r, const PassInput& /*in*/, std::size_t item) const {
+        ItemWords<R> words;
+        const auto add = [&](const Site& place, std::uint32_t number) {
+            const typename R::Int noted = r.note(place, typename R::Int(static_cast<int>(number)));
+            words.add(static_cast<std::uint32_t>(static_cast<int>(noted)));
+        };
+        add(site::cell_count, counts[item]);
+        add(site::cell_start, starts[item]);
+        return words;
+    }
+};
+
+/// The light at a place of the order by cells; behind the last of them what was there.
+struct SortTwin {
+    HostPtr host;
+    std::vector<std::uint32_t> order = {};
+
+    [[nodiscard]] SortTwin at(const PassInput& in) const { return {host, by_cell(*host, in.before)}; }
+
+    template <class R> ItemWords<R> operator()(R& r, const PassInput& in, std::size_t item) const {
+        const std::uint32_t light = item < order.size() ? order[item] : in.before.word(field::place, item);
+        const typename R::Int noted = r.note(site::sorted, typename R::Int(static_cast<int>(light)));
+        ItemWords<R> words;
+        words.add(static_cast<std::uint32_t>(static_cast<int>(noted)));
+        return words;
+    }
+};
+
+} // namespace lockstep::lights

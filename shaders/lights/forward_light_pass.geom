@@ -1,0 +1,3 @@
+#version 430 core
+// The pixels that a triangle may cover.
+#include "covering.glsl"

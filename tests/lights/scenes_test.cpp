@@ -1,0 +1,113 @@
+#include <algorithm>
+#include <filesystem>
+#include <fstream>
+#include <iostream>
+#include <map>
+#include <string>
+
+#include <nlohmann/json.hpp>
+
+#include "crosscheck/lights/scene.hpp"
+#include "reference/model/state_hash.hpp"
+#include "tests/lights/lights_run.hpp"
+
+using namespace lockstep;
+using namespace lockstep::test;
+namespace lights = lockstep::lights;
+
+namespace {
+
+constexpr int frames = 3;
+constexpr std::size_t count = 256;
+const std::string folder = "data/scenes/lights/";
+
+std::vector<std::string> scenes() {
+    std::vector<std::string> names;
+    for (const auto& entry : std::filesystem::directory_iterator(folder))
+        if (entry.path().extension() == ".json")
+            names.push_back(entry.path().stem());
+    std::sort(names.begin(), names.end());
+    return names;
+}
+
+/// With few lights and a small image: of the benchmark as of the others.
+lights::Settings scene(const std::string& name, const std::string& preset) {
+    const std::string file = folder + name + ".json";
+    const auto written = lights::load_scene(file).lights.size();
+    lights::Settings s = lights::load_scene(file, {.particles = std::min(count, written), .preset = preset, .set = {}});
+    s.width = 64;
+    s.height = 36;
+    if (name == "crowd" || name == "hall")
+        s.grid = {.size = {32, 8, 32}, .voxel = 4.0F, .origin = {-64.0F, 0.0F, -64.0F}};
+    return s;
+}
+
+std::string reference_hash(const lights::Settings& settings) {
+    const System system = lights::system(host_of(settings));
+    ReferenceRun run(system, named_profile("strict"));
+    for (int frame = 0; frame < frames; ++frame)
+        run.step(frame);
+    return hash_text(run.hash());
+}
+
+std::map<std::string, std::string> golden() {
+    std::ifstream stream("data/golden/lights/exact.json");
+    const nlohmann::json file = nlohmann::json::parse(stream);
+    REQUIRE(file.at("frames") == frames);
+    REQUIRE(file.at("lights") == count);
+    return file.at("hashes");
+}
+
+} // namespace
+
+TEST_CASE("lights scenes: each has its kept hash in preset exact") {
+    const std::map<std::string, std::string> kept = golden();
+    const std::vector<std::string> all = scenes();
+    CHECK(all.size() == kept.size());
+    for (const std::string& name : all) {
+        INFO(name);
+        REQUIRE(kept.contains(name));
+        CHECK(reference_hash(scene(name, "exact")) == kept.at(name));
+    }
+}
+
+TEST_CASE("lights scenes: both sides have the kept hash of the hall") {
+    if (!gl())
+        return skip(gl().missing());
+    const CheckReport report = run_lights(scene("hall", "exact"), frames, CheckMode::free);
+    CHECK(report.verdict == Verdict::agree);
+    CHECK(hash_text(report.gpu_hash) == golden().at("hall"));
+}
+
+TEST_CASE("lights scenes: what is wrong in a scene is one line that names the place") {
+    const nlohmann::json right = read_json(folder + "one_light.json");
+    const auto told = [&](const std::string& pointer, const nlohmann::json& wrong) {
+        nlohmann::json changed = right;
+        changed[nlohmann::json::json_pointer(pointer)] = wrong;
+        try {
+            static_cast<void>(lights::read_scene(JsonValue(changed, "x.json")));
+            return std::string("nothing");
+        } catch (const Error& error) {
+            return std::string(error.what());
+        }
+    };
+    using Catch::Contains;
+    CHECK_THAT(told("/grid/size", {15, 8, 16}), Contains("15 voxels along x; right is a power of two, 2 to 256"));
+    CHECK_THAT(told("/grid/voxel", 0.75), Contains("a voxel of 0.75 m; right is a power of two, 0.25 to 4"));
+    CHECK_THAT(told("/grid/origin", {0.5, 0, 0}), Contains("origin.x is 0.5 m; right is a multiple of a voxel, 1 m"));
+    CHECK_THAT(told("/lights/0/range", 15), Contains("a range of 15 m; right is up to 14 voxels, 14 m"));
+    CHECK_THAT(told("/lights/0/range", 0), Contains("a range of 0 m; right is above 0"));
+    CHECK_THAT(told("/obstacles/0/albedo", {0.3, 0.5, 0.5}), Contains("three multiples of 1/256, below 1"));
+    CHECK_THAT(told("/obstacles/0/albedo", {1, 0.5, 0.5}), Contains("three multiples of 1/256, below 1"));
+    CHECK_THAT(told("/switches/shading", "directional"), Contains("/switches/shading"));
+    CHECK_THAT(told("/lights/0/shape", "ring"), Contains("/lights/0/shape"));
+    CHECK(told("/seed", 4) == "nothing");
+}
+
+/// Writes the kept hashes anew: lockstep_tests_lights "[golden]"
+TEST_CASE("lights scenes: the kept hashes, made anew", "[.][golden]") {
+    nlohmann::json file{{"frames", frames}, {"lights", count}, {"hashes", nlohmann::json::object()}};
+    for (const std::string& name : scenes())
+        file["hashes"][name] = reference_hash(scene(name, "exact"));
+    std::ofstream("data/golden/lights/exact.json") << file.dump(2) << "\n";
+}

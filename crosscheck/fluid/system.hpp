@@ -1,0 +1,15 @@
+#pragma once
+#include <string>
+
+#include "crosscheck/judge/registered_system.hpp"
+#include "reference/model/fluid/host.hpp"
+
+namespace lockstep::fluid {
+
+/// The twins of a run with its start and its named mistakes.
+System system(const HostPtr& host, const std::string& name = "fluid");
+
+/// A scene file of system fluid on both sides.
+SystemScene load(const JsonValue& scene, const std::string& name, const SceneOptions& options);
+
+} // namespace lockstep::fluid

@@ -1,0 +1,53 @@
+#pragma once
+#include "reference/fluid/curvature_flow.hpp"
+#include "reference/fluid/narrow_range.hpp"
+#include "reference/fluid/weighted_mean.hpp"
+#include "reference/system/item_words.hpp"
+#include "reference/system/pixel_boxes.hpp"
+
+namespace lockstep::fluid {
+
+/// A pass of the filter. Twin of shaders/fluid/depth_filter_pass.comp.
+struct DepthFilterTwin {
+    HostPtr host;
+    FilterStep step;
+
+    template <class R> ItemWords<R> operator()(R& r, const PassInput& in, std::size_t item) const {
+        using Real = typename R::Real;
+        const Pixel pixel = Pixel::of(host->settings().width, item);
+        const DepthMap<R> map(r, *host, in.before, step.of_spheres ? field::depth : field::smooth_depth);
+        const Real centre = map.at(site::centre_depth, pixel.x, pixel.y);
+        ItemWords<R> words;
+        words.add(r.note(site::smooth_depth, filtered(r, map, pixel, centre)));
+        return words;
+    }
+
+  private:
+    template <class R>
+    typename R::Real filtered(R& r, const DepthMap<R>& map, const Pixel& pixel, const typename R::Real& centre) const {
+        using Real = typename R::Real;
+        if (map.is_empty(site::centre_empty, centre))
+            return centre;
+        if (map.is_black(centre))
+            return Real(0.0F);
+        const DepthCode<R>& code = map.code();
+        switch (host->switches().filter) {
+        case Filter::narrow_range: {
+            const NarrowRange<R> filter(r, *host, map);
+            return code.stored(filter.at(pixel.x, pixel.y, step, code.decoded(centre)));
+        }
+        case Filter::curvature_flow: {
+            const CurvatureFlow<R> filter(r, *host, map);
+            return code.stored(filter.at(pixel.x, pixel.y, code.decoded(centre)));
+        }
+        default:
+            break;
+        }
+        const WeightedMean<R> filter(r, *host, map);
+        if (filter.is_metric())
+            return code.stored(filter.at(pixel.x, pixel.y, step, code.decoded(centre)));
+        return code.coded(filter.at(pixel.x, pixel.y, step, centre));
+    }
+};
+
+} // namespace lockstep::fluid

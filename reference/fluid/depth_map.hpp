@@ -1,0 +1,78 @@
+#pragma once
+#include <algorithm>
+
+#include "reference/fluid/depth_code.hpp"
+#include "reference/fluid/linear_fetch.hpp"
+#include "reference/model/fluid/schema.hpp"
+#include "reference/readings/exponential.hpp"
+#include "reference/system/item_pass.hpp"
+
+namespace lockstep::fluid {
+
+/// The image that normals and shading take their depth from.
+inline FieldId last_depth(const Host& host) { return host.filter_steps().empty() ? field::depth : field::smooth_depth; }
+
+/// A depth image as a pass reads it. Twin of shaders/fluid/source.glsl.
+template <class R> class DepthMap {
+    using Real = typename R::Real;
+
+  public:
+    DepthMap(R& r, const Host& host, const SystemView& state, FieldId from)
+        : r_(r), host_(host), state_(state), from_(from), code_(r, host) {}
+
+    /// What is stored at a pixel, the nearest one of the image.
+    [[nodiscard]] Real at(At place, int x, int y) const {
+        if (host_.switches().depth_fetch == DepthFetch::linear)
+            return filtered(place, x, y);
+        return r_.note(place, r_.read(place, raw(std::clamp(x, 0, host_.settings().width - 1),
+                                                 std::clamp(y, 0, host_.settings().height - 1))));
+    }
+    [[nodiscard]] bool is_empty(At place, const Real& stored) const {
+        return r_.decide(place, stored == Real(code_.empty()));
+    }
+    /// What NDC depth makes of fluid that is too near.
+    [[nodiscard]] bool is_black(const Real& stored) const {
+        return !code_.is_metric() && r_.decide(site::is_black, stored <= Real(0.0F));
+    }
+    [[nodiscard]] bool has(int x, int y) const {
+        return x >= 0 && y >= 0 && x < host_.settings().width && y < host_.settings().height;
+    }
+    [[nodiscard]] const DepthCode<R>& code() const { return code_; }
+
+  private:
+    [[nodiscard]] float raw(int x, int y) const {
+        return state_.real(from_, static_cast<std::size_t>(y) * static_cast<std::size_t>(host_.settings().width) +
+                                      static_cast<std::size_t>(x));
+    }
+    [[nodiscard]] Real filtered(At place, int x, int y) const {
+        const Settings& s = host_.settings();
+        const auto along = [&](int i, int size, At size_at) {
+            const Real extent = r_.uniform(size_at, static_cast<float>(size));
+            return r_.divide(place, r_.real(i) + Real(0.5F), extent) * extent;
+        };
+        const auto texel = [this](int tx, int ty) { return raw(tx, ty); };
+        return linear_fetch(r_, place, {along(x, s.width, site::width), along(y, s.height, site::height)},
+                            Texels<decltype(texel)>{s.width, s.height, texel});
+    }
+
+    R& r_;
+    const Host& host_;
+    const SystemView& state_;
+    FieldId from_;
+    DepthCode<R> code_;
+};
+
+/// e^x of x <= 0, as `transcendentals` has it.
+template <class R> typename R::Real exponential_of(R& r, const Host& host, const typename R::Real& x) {
+    if (host.switches().transcendentals == Transcendentals::portable)
+        return portable_exponential(r, site::in_exponent, x);
+    return built_in_exponential(r, site::exponent, x);
+}
+/// x^n of x >= 0.
+template <class R> typename R::Real power_of(R& r, const Host& host, const typename R::Real& x, int n) {
+    if (host.switches().transcendentals == Transcendentals::portable)
+        return product_power(x, n);
+    return built_in_power(r, site::exponent, x, n);
+}
+
+} // namespace lockstep::fluid

@@ -1,0 +1,144 @@
+#pragma once
+#include <array>
+#include <cstddef>
+
+#include "reference/fluid/depth_map.hpp"
+
+namespace lockstep::fluid {
+
+/// The narrow-range filter (Truong and Yuksel, "A Narrow-Range Filter for Screen-Space Fluid Rendering", 2018) at a
+/// pixel, of depths in view space. Twin of shaders/fluid/narrow_range.glsl.
+template <class R> class NarrowRange {
+    using Real = typename R::Real;
+
+  public:
+    NarrowRange(R& r, const Host& host, const DepthMap<R>& map) : r_(r), host_(host), map_(map) {}
+
+    [[nodiscard]] Real at(int x, int y, const FilterStep& step, const Real& z) const {
+        const int n = reach(z);
+        Sums sums{z, Real(1.0F)};
+        if (step.shape == FilterStep::Shape::along)
+            along(sums, x, y, step, n, z);
+        else if (host_.switches().narrow_cleanup == NarrowCleanup::quadrants)
+            quadrants(sums, x, y, n, z);
+        else
+            plane(sums, x, y, n, z);
+        return r_.note(site::mean, r_.divide(site::mean, sums.weighted, sums.weights));
+    }
+
+    /// Of a sample so many pixels aside, of a filter of n.
+    [[nodiscard]] Real weight(int dx, int dy, int n) const {
+        const Real twice_squared = r_.real(2 * n * n);
+        Real nine_times = r_.real(9 * (dx * dx + dy * dy));
+        if (host_.switches().narrow_weights == NarrowWeights::texcoord) {
+            const auto squared = [&](int d) {
+                const Real u = r_.divide(site::screen_width, r_.real(d),
+                                         r_.uniform(site::screen_width, static_cast<float>(host_.settings().width)));
+                return u * u;
+            };
+            nine_times = (squared(dx) + squared(dy)) * Real(9.0F);
+        }
+        const Real x = r_.note(site::exponent, r_.divide(site::exponent, nine_times, twice_squared));
+        return r_.note(site::weight, exponential_of(r_, host_, -x));
+    }
+
+  private:
+    struct Sums {
+        Real weighted, weights;
+    };
+    /// What samples are taken as they are: those farther are drawn in, those nearer refused.
+    struct Range {
+        Real high, low;
+    };
+    struct Sample {
+        bool is_empty;
+        Real z, weight;
+    };
+
+    [[nodiscard]] Real delta() const { return r_.uniform(site::delta, host_.narrow_delta()); }
+    [[nodiscard]] Range around(const Real& z) const {
+        return {r_.note(site::high, z + delta()), r_.note(site::low, z - delta())};
+    }
+    [[nodiscard]] int reach(const Real& z) const {
+        const Real pixels = r_.divide(site::reach, r_.uniform(site::narrow_scale, host_.narrow_scale()), r_.abs(z));
+        const Real most = r_.uniform(site::most_reach, 20.0F);
+        return static_cast<int>(r_.to_int(site::reach, r_.note(site::reach, r_.min(most, -r_.floor(-pixels)))));
+    }
+    [[nodiscard]] Sample sample(int x, int y, const Real& w) const {
+        const Real stored = map_.at(site::sample, x, y);
+        if (map_.is_empty(site::empty, stored))
+            return {true, stored, w};
+        return {false, map_.code().decoded(stored), w};
+    }
+    /// Draws a sample in, widens the range by it, or refuses it with its partner.
+    void judge(Sample& own, Sample& partner, Range& range, const Real& z) const {
+        if (!own.is_empty && r_.decide(site::too_near, own.z > range.high)) {
+            own.weight = r_.note(site::own_weight, Real(0.0F));
+            if (r_.setting(site::partner_weight, true))
+                partner.weight = Real(0.0F);
+        } else if (own.is_empty || r_.decide(site::too_far, own.z < range.low)) {
+            own.z = r_.note(site::clamped_sample, z - r_.uniform(site::mu, host_.narrow_mu()));
+        } else {
+            range.high = r_.note(site::high, r_.max(range.high, own.z + delta()));
+            range.low = r_.note(site::low, r_.min(range.low, own.z - delta()));
+        }
+    }
+    template <std::size_t n> void add(Sums& sums, const std::array<Sample, n>& samples) const {
+        Real weighted = samples[0].z * samples[0].weight, weights = samples[0].weight;
+        for (std::size_t i = 1; i < n; ++i) {
+            weighted = weighted + samples[i].z * samples[i].weight;
+            weights = weights + samples[i].weight;
+        }
+        sums.weighted = r_.note(site::weighted_sum, sums.weighted + weighted);
+        sums.weights = r_.note(site::sum_of_weights, sums.weights + weights);
+    }
+
+    void along(Sums& sums, int x, int y, const FilterStep& step, int n, const Real& z) const {
+        const auto direction = r_.uniform(site::blur_direction, step.direction);
+        Range ahead = around(z), behind = ahead;
+        for (const auto i : r_.range(site::samples, 1, n)) {
+            const int j = static_cast<int>(i), dx = j * static_cast<int>(direction.x),
+                      dy = j * static_cast<int>(direction.y);
+            const Real w = weight(dx, dy, n);
+            std::array<Sample, 2> pair{sample(x + dx, y + dy, w), sample(x - dx, y - dy, w)};
+            judge(pair[0], pair[1], ahead, z);
+            judge(pair[1], pair[0], behind, z);
+            add(sums, pair);
+        }
+    }
+    /// The four samples of each offset, but never those straight above or beside the pixel.
+    void quadrants(Sums& sums, int x, int y, int n, const Real& z) const {
+        Range range = around(z);
+        for (const auto column : r_.range(site::rows, 1, n))
+            for (const auto row : r_.range(site::samples, 1, n)) {
+                const int dx = static_cast<int>(column), dy = static_cast<int>(row);
+                const Real w = weight(dx, dy, n);
+                std::array<Sample, 4> four{sample(x + dx, y + dy, w), sample(x + dx, y - dy, w),
+                                           sample(x - dx, y + dy, w), sample(x - dx, y - dy, w)};
+                for (std::size_t k = 0; k < 4; ++k)
+                    judge(four[k], four[3 - k], range, z);
+                add(sums, four);
+            }
+    }
+    /// Every sample of the square, in pairs through the pixel.
+    void plane(Sums& sums, int x, int y, int n, const Real& z) const {
+        Range range = around(z);
+        for (const auto row : r_.range(site::rows, -n, 0))
+            for (const auto column : r_.range(site::samples, -n, n)) {
+                const int dx = static_cast<int>(column), dy = static_cast<int>(row);
+                if (!(dy < 0 || dx < 0))
+                    continue;
+                const Real w = weight(dx, dy, n);
+                std::array<Sample, 2> pair{sample(x + dx, y + dy, w), sample(x - dx, y - dy, w)};
+                judge(pair[0], pair[1], range, z);
+                judge(pair[1], pair[0], range, z);
+                add(sums, pair);
+            }
+    }
+
+    R& r_;
+    const Host& host_;
+    const DepthMap<R>& map_;
+};
+
+} // namespace lockstep::fluid

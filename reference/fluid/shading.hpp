@@ -1,0 +1,110 @@
+#pragma once
+#include <cstddef>
+
+#include "reference/fluid/depth_map.hpp"
+#include "reference/fluid/refracted_scene.hpp"
+#include "reference/readings/constant_divisor.hpp"
+#include "reference/system/pixel_boxes.hpp"
+
+namespace lockstep::fluid {
+
+/// t t (3 - 2 t) of the share t that x has of a to b.
+template <class R, class Real> Real step(R& r, float a, float b, const Real& x) {
+    const Real t =
+        r.note(site::share, r.min(Real(1.0F), r.max(Real(0.0F), divided_by(r, site::share, x - Real(a), b - a))));
+    return (t * t) * (Real(3.0F) - Real(2.0F) * t);
+}
+template <class Vec3, class Real> Vec3 mixed(const Vec3& a, const Vec3& b, const Real& share) {
+    return a * (Real(1.0F) - share) + b * share;
+}
+
+/// What the surface at a pixel sends to the eye.
+template <class R> struct Shading {
+    using Real = typename R::Real;
+    using Vec3 = typename R::Vec3;
+    R& r;
+    const Host& host;
+    const SystemView& state;
+
+    [[nodiscard]] Vec3 at(const Pixel& pixel, std::size_t item, const Real& z) const {
+        const Vec3 e = point_at(r, host, pixel.x, pixel.y, z);
+        const Vec3 n = r.read(site::normal_in, glm::vec3(state.vec4(field::normal, item)));
+        const Vec3 to_eye = r.note(site::to_eye, -r.normalize(site::to_eye, e));
+        const auto g4 = r.transform(site::world, r.uniform(site::inverse_view, host.inverse_view()), e);
+        const Vec3 world = r.note(site::world, Vec3{g4.x, g4.y, g4.z});
+        const Vec3 light = r.uniform(site::light, glm::vec3(host.view()[1]));
+        const Vec3 colour = r.uniform(site::colour, glm::vec3(fluid_colour[0], fluid_colour[1], fluid_colour[2]));
+        const Real alpha = r.uniform(site::alpha, fluid_colour[3]), one(1.0F);
+
+        const Vec3 refracted = r.note(site::refracted, seen_through(pixel, n, world) * transmission(item, colour));
+        const Vec3 diffuse = r.note(site::diffuse, lambert(light, n, world, colour) * (one - alpha));
+        const Real cosine = r.note(site::cosine, r.max(Real(0.0F), r.dot(site::cosine, n, to_eye)));
+        const Vec3 surface = r.note(site::surface, mixed(refracted, sky(to_eye, n), fresnel(cosine)));
+        const Real shine = specular(light, n, to_eye);
+        return diffuse + (surface + Vec3{shine, shine, shine}) * alpha;
+    }
+
+    [[nodiscard]] Real specular(const Vec3& light, const Vec3& n, const Vec3& to_eye) const {
+        const Vec3 h = r.note(site::halfway, r.normalize(site::halfway, to_eye + light));
+        const Real shine = r.note(site::shine, r.max(Real(0.0F), r.dot(site::shine, n, h)));
+        return r.note(site::specular, power_of(r, host, shine, 500));
+    }
+    /// The scene behind, as far aside as the normal leans.
+    [[nodiscard]] Vec3 seen_through(const Pixel& pixel, const Vec3& n, const Vec3& world) const {
+        const Real bend = r.note(site::bend_of, Real(0.03325F) * step(r, 0.1F, 0.4F, world.y));
+        const Settings& s = host.settings();
+        const auto place = [&](At at, int i, const Real& offset, At size_at, int size) {
+            return r.note(at, (r.real(i) + Real(0.5F)) + offset * r.uniform(size_at, static_cast<float>(size)));
+        };
+        const Real x = r.note(site::offset, (bend * Real(0.75F)) * n.x), y = r.note(site::offset, bend * n.y);
+        return r.note(site::seen, RefractedScene<R>(r, host, state)
+                                      .at({place(site::fetch_x, pixel.x, x, site::width, s.width),
+                                           place(site::fetch_y, pixel.y, y, site::height, s.height)}));
+    }
+    /// Beer and Lambert's.
+    [[nodiscard]] Vec3 transmission(std::size_t item, const Vec3& colour) const {
+        const Real thickness =
+            host.switches().thickness_sum == ThicknessSum::fixed
+                ? r.note(site::thickness_in, r.real(state.word(field::thickness, item)) * Real(1.0F / 65536.0F))
+                : r.note(site::thickness_in, r.read(site::thickness_in, state.real(field::thickness, item)));
+        const Real dark = r.note(
+            site::dark, r.max(r.uniform(site::floor_of_thickness, host.settings().shading.thickness_floor), thickness));
+        const auto through = [&](const Real& k) {
+            const Real x = r.note(site::absorbed, (Real(1.0F) - k) * dark);
+            return exponential_of(r, host, r.note(site::exponent, -x));
+        };
+        return r.note(site::transmission, Vec3{through(colour.x), through(colour.y), through(colour.z)});
+    }
+    /// Half of it from all around, in a spot under the zenith.
+    [[nodiscard]] Vec3 lambert(const Vec3& light, const Vec3& n, const Vec3& world, const Vec3& colour) const {
+        const Real zero(0.0F), one(1.0F), half(0.5F);
+        const Vec3 down = r.note(site::down, r.normalize(site::down, world - Vec3{zero, Real(1000.0F), zero}));
+        const Real spot = r.note(site::spot, r.max(step(r, 0.95F, 1.0F, r.abs(down.y)), Real(0.05F)));
+        const Real facing = r.note(site::lambert, r.dot(site::lambert, light, n));
+        const Real share = r.note(site::wrapped, (facing * spot) * half + half);
+        const Vec3 dark{Real(0.29F), Real(0.379F), Real(0.59F)};
+        return colour * mixed(dark, Vec3{one, one, one}, share);
+    }
+    /// Schlick's.
+    [[nodiscard]] Real fresnel(const Real& cosine) const {
+        const Real one(1.0F), r0 = r.uniform(site::r0, host.settings().shading.fresnel_r0);
+        const Real raised = r.note(site::raised, power_of(r, host, r.note(site::grazing, one - cosine),
+                                                          host.settings().shading.fresnel_power));
+        return r.note(site::fresnel, r0 + (one - r0) * raised);
+    }
+    [[nodiscard]] Vec3 sky(const Vec3& to_eye, const Vec3& n) const {
+        const bool published = r.setting(site::mirrors_to_eye, host.switches().mirror == Mirror::as_published);
+        const Vec3 incident = r.note(site::incident, published ? to_eye : -to_eye);
+        const Real twice = r.note(site::along_normal, Real(2.0F) * r.dot(site::along_normal, n, incident));
+        const Vec3 m = r.note(site::mirrored, incident - n * twice);
+        const glm::mat4& to_world = host.inverse_view();
+        const Vec3 row = r.uniform(site::inverse_view, glm::vec3(to_world[0][1], to_world[1][1], to_world[2][1]));
+        const Real height = r.note(site::mirror_y, (row.x * m.x + row.y * m.y) + row.z * m.z);
+        const Real share = r.note(site::sky_share, step(r, 0.15F, 0.25F, height));
+        const Real bias = r.uniform(site::sky_bias, host.settings().shading.sky_bias);
+        const Vec3 low{Real(0.1F), Real(0.1F), Real(0.2F)}, high{Real(0.12F), Real(0.24F), Real(0.96F)};
+        return r.note(site::sky, Vec3{bias, bias, bias} + mixed(low, high, share));
+    }
+};
+
+} // namespace lockstep::fluid

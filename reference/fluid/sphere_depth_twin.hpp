@@ -1,0 +1,118 @@
+#pragma once
+#include <cstdint>
+#include <cstring>
+#include <optional>
+#include <tuple>
+
+#include "reference/fluid/sprite.hpp"
+#include "reference/system/item_twin.hpp"
+#include "reference/system/item_words.hpp"
+
+namespace lockstep::fluid {
+
+/// What a sphere leaves at a pixel.
+template <class R> struct SphereAt {
+    typename R::Real stored;
+    auto fields() { return std::tie(stored); }
+    auto fields() const { return std::tie(stored); }
+};
+
+/// The nearest sphere of each pixel. Twin of shaders/fluid/sphere_depth_pass.*.
+struct SphereDepthTwin {
+    HostPtr host;
+    BoxesByTile boxes = {};
+
+    [[nodiscard]] SphereDepthTwin at(const PassInput& in) const {
+        return {host, sprite_boxes(*host, in.before, spheres())};
+    }
+
+    template <class R> ItemWords<R> operator()(R& r, const PassInput& in, std::size_t item) const {
+        using Real = typename R::Real;
+        const Pixel pixel = Pixel::of(host->settings().width, item);
+        const SpriteTwin<R> sprite(r, *host, in.before, spheres());
+        auto nearest = least<SphereAt<R>>(r, site::nearest_sphere, 1.0F);
+        for (const std::uint32_t i : boxes.near(pixel))
+            if (pixel.is_in(boxes.box(i)))
+                if (const auto ball = sprite.ball(i))
+                    offer(r, in.before, sprite, *ball, pixel, item,
+                          [&](const auto& condition, const Real& key, const Real& stored) {
+                              nearest.offer(site::sphere_here, condition, key, SphereAt<R>{stored});
+                          });
+        const std::optional<SphereAt<R>> found = nearest.take();
+        ItemWords<R> words;
+        words.add(r.note(site::depth, found ? found->stored : Real(DepthCode<R>(r, *host).empty())));
+        return words;
+    }
+
+    // Sphere by sphere, a row of tiles at a time.
+    [[nodiscard]] std::size_t parts() const { return boxes.rows(); }
+    template <class R> void part(R& r, const PassInput& in, std::size_t row, const WritableView& after) const {
+        using Real = typename R::Real;
+        struct Texel {
+            Real key, stored;
+        };
+        const SpriteTwin<R> sprite(r, *host, in.before, spheres());
+        const Texel empty{Real(1.0F), Real(DepthCode<R>(r, *host).empty())};
+        boxes.template draw<Texel>(
+            row, empty, [&](std::uint32_t i) { return sprite.ball(i); },
+            [&](Texel& texel, const Ball<R>& ball, const Pixel& pixel, std::size_t item) {
+                offer(r, in.before, sprite, ball, pixel, item,
+                      [&](bool condition, const Real& key, const Real& stored) {
+                          if (condition && key < texel.key)
+                              texel = {key, stored};
+                      });
+            },
+            [&](const Texel& texel, std::size_t item) {
+                const std::uint32_t word = item_twin::word_of(texel.stored);
+                std::memcpy(after.columns[0] + item * sizeof word, &word, sizeof word);
+            });
+    }
+
+  private:
+    [[nodiscard]] Spheres spheres() const { return {host->switches().sphere, host->settings().radius}; }
+
+    /// Calls `made(condition, key, stored)` where the sphere may cover the pixel.
+    template <class R, class Made> void offer(R& r, const SystemView& state, const SpriteTwin<R>& sprite,
+                                              const Ball<R>& ball, const Pixel& pixel, std::size_t item,
+                                              const Made& made) const {
+        using Real = typename R::Real;
+        const DepthCode<R> code(r, *host);
+        const Real zero(0.0F), one(1.0F);
+        const auto offer_at = [&](const Real& height_of, const auto& covered) {
+            const Real z = r.note(site::surface_z, height_of), stored = code.stored(z);
+            made(covered && z < zero && before_scene(r, *host, state, item, code.window(z)), code.tested(z, stored),
+                 stored);
+        };
+        if (host->switches().sphere == Sphere::ray) {
+            const RayOfPixel<R> ray = ray_at(r, sprite, ball, pixel);
+            if (!r.decide(site::off_sphere, ray.chord < zero))
+                offer_at(-(ray.middle - half_chord(r, ray)), ray.chord >= zero);
+            return;
+        }
+        const Real squared = sprite.squared(ball, pixel);
+        // A point's edge is open: one fork among all spheres, not one for each.
+        if (host->switches().sprite == Sprite::points || !r.decide(site::off_disc, squared > one))
+            offer_at(ball.centre.z + sprite.radius() * sprite.height(squared), squared <= one);
+    }
+
+    /// A pixel's ray through a sphere: where its middle lies, and the square of half its chord.
+    template <class R> struct RayOfPixel { typename R::Real squared, middle, chord; };
+    template <class R> static auto half_chord(R& r, const RayOfPixel<R>& ray) {
+        return r.note(site::half_chord, r.sqrt(site::half_chord, r.divide(site::half_chord, ray.chord, ray.squared)));
+    }
+    template <class R>
+    RayOfPixel<R> ray_at(R& r, const SpriteTwin<R>& sprite, const Ball<R>& ball, const Pixel& pixel) const {
+        using Real = typename R::Real;
+        using Vec3 = typename R::Vec3;
+        const auto slope = pixel_slope(r, *host, pixel.x, pixel.y);
+        const Vec3 d{slope.x, slope.y, Real(-1.0F)};
+        const Real a = r.note(site::ray_squared, r.dot(site::ray_squared, d, d)),
+                   b = r.note(site::ray_centre, r.dot(site::ray_centre, d, ball.centre));
+        const Real k = r.note(site::along, r.divide(site::along, b, a));
+        const Vec3 l = r.note(site::to_ray, ball.centre - d * k);
+        const Real m = r.note(site::chord, sprite.radius() * sprite.radius() - r.dot(site::to_ray, l, l));
+        return {a, k, m};
+    }
+};
+
+} // namespace lockstep::fluid

@@ -1,0 +1,50 @@
+#include "reference/fluid/sprite.hpp"
+
+#include <utility>
+#include <vector>
+
+#include <glm/geometric.hpp>
+
+namespace lockstep::fluid {
+namespace {
+
+/// The pixels of a ray's sphere: its corners' slopes (Mara and McGuire, "2D polyhedral bounds of a clipped,
+/// perspective-projected 3D sphere", 2013).
+PixelRect ray_box(const Host& host, const RoughWindow& window, const glm::dvec3& c, double radius) {
+    const double q = -c.z, r2 = radius * radius, below = q * q - r2;
+    if (!(below > 0.0))
+        return {};
+    const auto bound = [&](double along, double sign) {
+        return (along * q + sign * radius * std::sqrt(along * along + below)) / below;
+    };
+    const glm::dmat4 p(host.projection());
+    const auto place = [&](double x, double y) {
+        return glm::dvec2((x * p[0][0] + 1.0) * 0.5 * window.width, (y * p[1][1] + 1.0) * 0.5 * window.height);
+    };
+    return window.box(place(bound(c.x, -1.0), bound(c.y, -1.0)), place(bound(c.x, 1.0), bound(c.y, 1.0)));
+}
+
+} // namespace
+
+BoxesByTile sprite_boxes(const Host& host, const SystemView& state, const Spheres& spheres) {
+    const Settings& s = host.settings();
+    const RoughWindow window{glm::dmat4(host.view_projection()), s.width, s.height};
+    const glm::dmat4 view(host.view());
+    std::vector<PixelRect> all;
+    all.reserve(state[particle_buffer].count());
+    for (std::size_t i = 0; i < state[particle_buffer].count(); ++i) {
+        const glm::vec3 p(state.vec4(field::position, i));
+        const glm::dvec3 c(view * glm::dvec4(glm::dvec3(p), 1.0));
+        const double away = host.switches().point_size == PointSize::clip_w ? -c.z : glm::length(c);
+        if (!(-c.z > 0.5 * double{host.near_plane()}))
+            all.emplace_back();
+        else if (spheres.shape == Sphere::ray)
+            all.push_back(ray_box(host, window, c, double{spheres.radius}));
+        else
+            all.push_back(
+                window.disc(window.place(window.clip(p)), 0.5 * double{host.point_scale()} * spheres.radius / away));
+    }
+    return {std::move(all), s.width, s.height};
+}
+
+} // namespace lockstep::fluid

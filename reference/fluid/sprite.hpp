@@ -1,0 +1,116 @@
+#pragma once
+#include <cmath>
+#include <cstdint>
+#include <optional>
+#include <tuple>
+
+#include "reference/fluid/depth_code.hpp"
+#include "reference/model/fluid/schema.hpp"
+#include "reference/system/item_twin.hpp"
+#include "reference/system/pixel_boxes.hpp"
+
+namespace lockstep::fluid {
+
+/// The spheres of a pass: flat or met by rays, and how large, m.
+struct Spheres {
+    Sphere shape = Sphere::flat;
+    float radius = 0.0F;
+};
+
+/// Of each particle the pixels that its sphere may cover: what lies outside is not tried.
+BoxesByTile sprite_boxes(const Host& host, const SystemView& state, const Spheres& spheres);
+
+/// A particle before the camera.
+template <class R> struct Ball {
+    typename R::Vec3 centre; ///< in view space
+    typename R::Real w;      ///< -z
+    // Of a flat one, pixels:
+    typename R::Real x{}, y{}; ///< its middle
+    typename R::Real half{};   ///< of its side
+};
+
+/// A particle as a sprite, at pixels. Twin of shaders/fluid/sprite.glsl.
+template <class R> class SpriteTwin {
+    using Real = typename R::Real;
+    using Vec3 = typename R::Vec3;
+
+  public:
+    SpriteTwin(R& r, const Host& host, const SystemView& state, const Spheres& spheres)
+        : r_(r), host_(host), state_(state), spheres_(spheres) {}
+
+    [[nodiscard]] Real radius() const { return r_.uniform(site::radius, spheres_.radius); }
+
+    /// Nothing of one that is not drawn: it is no number, or too near.
+    [[nodiscard]] std::optional<Ball<R>> ball(std::uint32_t particle) const {
+        const glm::vec3 p(state_.vec4(field::position, particle));
+        if (!(std::isfinite(p.x) && std::isfinite(p.y) && std::isfinite(p.z)))
+            return {};
+        const auto view = r_.transform(site::centre, r_.uniform(site::view, host_.view()), r_.read(site::before, p));
+        Ball<R> ball{r_.note(site::centre, Vec3{view.x, view.y, view.z}), {}};
+        ball.w = r_.note(site::w, -ball.centre.z);
+        const bool is_ray = spheres_.shape == Sphere::ray;
+        const Real near = r_.uniform(site::near, host_.near_plane());
+        if (!r_.decide(site::beyond_near, ball.w > (is_ray ? radius() + near : near)))
+            return {};
+        if (!is_ray)
+            place(ball);
+        return ball;
+    }
+
+    /// The squared distance of a pixel's centre from the sprite's middle; above 1 it is not covered.
+    [[nodiscard]] Real squared(const Ball<R>& ball, const Pixel& pixel) const {
+        const bool is_point = host_.switches().sprite == Sprite::points;
+        const auto along = [&](At at, const Real& centre, const Real& middle) {
+            const Real from = r_.divide(at, centre - middle, ball.half);
+            return r_.note(at, is_point ? point_coordinate(at, from, ball) : from);
+        };
+        const Real nx = along(site::nx, r_.note(site::pixel_x, r_.real(pixel.x) + Real(0.5F)), ball.x),
+                   ny = along(site::ny, r_.note(site::pixel_y, r_.real(pixel.y) + Real(0.5F)), ball.y);
+        return r_.note(site::magnitude, nx * nx + ny * ny);
+    }
+    /// How far the surface is before the middle, of the radius. Of pixels that are not covered 0.
+    [[nodiscard]] Real height(const Real& squared) const {
+        return r_.note(site::nz, r_.sqrt(site::nz, r_.max(Real(0.0F), Real(1.0F) - squared)));
+    }
+
+  private:
+    void place(Ball<R>& ball) const {
+        const Settings& s = host_.settings();
+        const bool by_w = host_.switches().point_size == PointSize::clip_w;
+        const Real away = by_w ? ball.w : r_.note(site::distance, r_.length(site::distance, ball.centre));
+        const Real scale = r_.note(site::sprite_scale, r_.uniform(site::point_scale, host_.point_scale()) * radius());
+        const Real size = r_.note(site::size, r_.divide(site::size, scale, away));
+        ball.half = r_.note(site::half, Real(0.5F) * size);
+        const auto window = [&](At at, At scale_at, At size_at, const Real& along, float unit, int pixels) {
+            const Real clip = r_.uniform(scale_at, unit) * along;
+            return r_.note(at, (r_.divide(at, clip, ball.w) + Real(1.0F)) * Real(0.5F) *
+                                   r_.uniform(size_at, static_cast<float>(pixels)));
+        };
+        ball.x = window(site::window_x, site::p00, site::width, ball.centre.x, host_.projection()[0][0], s.width);
+        ball.y = window(site::window_y, site::p11, site::height, ball.centre.y, host_.projection()[1][1], s.height);
+    }
+    /// GL takes gl_PointCoord from the exact place, but fixes no arithmetic (4.5, 14.4.1): up to 2/256 of a pixel off.
+    [[nodiscard]] Real point_coordinate(At at, const Real& from, const Ball<R>& ball) const {
+        const Interval set = item_twin::set_of(from), half = item_twin::set_of(ball.half);
+        if (set.any || half.any || !(half.low > 0.0))
+            return from;
+        const double free = 2.0 / 256.0 / half.low + 0x1p-22;
+        return r_.unspecified(at, from, static_cast<float>(set.low - free), static_cast<float>(set.high + free));
+    }
+
+    R& r_;
+    const Host& host_;
+    const SystemView& state_;
+    Spheres spheres_;
+};
+
+/// The condition under which `scene_depth` lets what lies at a window depth be seen.
+template <class R>
+auto before_scene(R& r, const Host& host, const SystemView& state, std::size_t item, const typename R::Real& window) {
+    using Real = typename R::Real;
+    const bool tests = r.setting(site::tests_scene, host.switches().scene_depth == SceneDepth::test);
+    const Real scene = tests ? r.read(site::scene_depth_in, state.real(field::scene_depth, item)) : Real(HUGE_VALF);
+    return window < scene;
+}
+
+} // namespace lockstep::fluid

@@ -1,0 +1,119 @@
+#pragma once
+#include <bit>
+#include <cmath>
+#include <cstdint>
+#include <cstring>
+#include <optional>
+#include <vector>
+
+#include "reference/fluid/sprite.hpp"
+#include "reference/system/item_twin.hpp"
+#include "reference/system/item_words.hpp"
+
+namespace lockstep::fluid {
+
+/// No thickness. Twin of shaders/fluid/thickness_clear_pass.comp.
+struct ThicknessClearTwin {
+    template <class R> ItemWords<R> operator()(R& r, const PassInput& in, std::size_t item) const {
+        ItemWords<R> words;
+        words.add(r.setting(site::is_cleared, true) ? std::uint32_t{0} : in.before.word(field::thickness, item));
+        return words;
+    }
+};
+
+/// The spheres of each pixel, added up. Twin of shaders/fluid/thickness_pass.*.
+struct ThicknessTwin {
+    HostPtr host;
+    BoxesByTile boxes = {};
+
+    [[nodiscard]] ThicknessTwin at(const PassInput& in) const {
+        return {host, sprite_boxes(*host, in.before, spheres())};
+    }
+
+    template <class R> ItemWords<R> operator()(R& r, const PassInput& in, std::size_t item) const {
+        using Real = typename R::Real;
+        const Pixel pixel = Pixel::of(host->settings().width, item);
+        const SpriteTwin<R> sprite(r, *host, in.before, spheres());
+        std::vector<Real> terms;
+        const std::span<const std::uint32_t> near = boxes.near(pixel);
+        for (const auto k : r.range(site::spheres, 0, static_cast<int>(near.size()) - 1)) {
+            const std::uint32_t i = near[static_cast<std::size_t>(static_cast<int>(k))];
+            if (!pixel.is_in(boxes.box(i)))
+                continue;
+            if (const auto ball = sprite.ball(i))
+                if (const auto t = addend(r, in.before, sprite, *ball, pixel, item))
+                    terms.push_back(*t);
+        }
+        ItemWords<R> words;
+        if (is_fixed())
+            words.add(units_of(in.before.word(field::thickness, item), terms));
+        else
+            words.add(r.note(site::thickness, r.any_order_sum(site::thickness, terms)));
+        return words;
+    }
+
+    // Sphere by sphere, a row of tiles at a time.
+    [[nodiscard]] std::size_t parts() const { return boxes.rows(); }
+    template <class R> void part(R& r, const PassInput& in, std::size_t row, const WritableView& after) const {
+        using Real = typename R::Real;
+        struct Texel {
+            Real sum;
+            std::uint32_t units;
+        };
+        const SpriteTwin<R> sprite(r, *host, in.before, spheres());
+        boxes.template draw<Texel>(
+            row, Texel{Real(0.0F), 0}, [&](std::uint32_t i) { return sprite.ball(i); },
+            [&](Texel& texel, const Ball<R>& ball, const Pixel& pixel, std::size_t item) {
+                if (const auto t = addend(r, in.before, sprite, ball, pixel, item)) {
+                    if (is_fixed())
+                        texel.units += static_cast<std::uint32_t>(static_cast<float>(*t));
+                    else
+                        texel.sum = texel.sum + *t;
+                }
+            },
+            [&](const Texel& texel, std::size_t item) {
+                const std::uint32_t word =
+                    is_fixed() ? in.before.word(field::thickness, item) + texel.units : item_twin::word_of(texel.sum);
+                std::memcpy(after.columns[0] + item * sizeof word, &word, sizeof word);
+            });
+    }
+
+  private:
+    [[nodiscard]] Spheres spheres() const { return {Sphere::flat, host->thickness_radius()}; }
+    [[nodiscard]] bool is_fixed() const { return host->switches().thickness_sum == ThicknessSum::fixed; }
+
+    /// Metres, or units of 2^-16 of a fixed sum.
+    template <class R> std::optional<typename R::Real> addend(R& r, const SystemView& state,
+                                                              const SpriteTwin<R>& sprite, const Ball<R>& ball,
+                                                              const Pixel& pixel, std::size_t item) const {
+        using Real = typename R::Real;
+        const Real squared = sprite.squared(ball, pixel);
+        if (r.decide(site::off_disc, squared > Real(1.0F)))
+            return {};
+        if (host->switches().scene_depth == SceneDepth::test &&
+            !r.decide(site::nearer_than_scene,
+                      before_scene(r, *host, state, item, DepthCode<R>(r, *host).window(ball.centre.z))))
+            return {};
+        const Real t = r.note(site::addend, r.uniform(site::gain, host->thickness_gain()) * sprite.height(squared));
+        if (host->switches().thickness_sum == ThicknessSum::blend)
+            return t;
+        const Real q =
+            r.note(site::quantum, r.floor(r.uniform(site::units, 65536.0F) * t + r.uniform(site::half_unit, 0.5F)));
+        return is_fixed() ? q : q * Real(1.0F / 65536.0F);
+    }
+    /// Whole numbers are added whatever the order.
+    template <class Real> static LegalWord units_of(std::uint32_t before, const std::vector<Real>& terms) {
+        LegalWord sum = LegalWord::exactly(before);
+        for (const Real& term : terms) {
+            const Interval set = item_twin::set_of(term);
+            if (set.any)
+                return {sum.word, Interval::anything()};
+            sum.word += static_cast<std::uint32_t>(set.as_float());
+            sum.set.low += set.low;
+            sum.set.high += set.high;
+        }
+        return sum;
+    }
+};
+
+} // namespace lockstep::fluid

@@ -1,0 +1,192 @@
+#include <functional>
+#include <string>
+#include <variant>
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+#include <glm/matrix.hpp>
+
+#include "tests/fluid/fluid_run.hpp"
+#include "tests/text_mutants.hpp"
+
+using namespace lockstep;
+using namespace lockstep::test;
+namespace fluid = lockstep::fluid;
+
+namespace {
+
+constexpr int frames = 1;
+
+/// In which the change has something to do.
+fluid::Settings settings_of(const std::string& run) {
+    fluid::Settings s = heap(5);
+    s.filter_radius = 3;
+    s.flow_iterations = 2;
+    fluid::Switches& on = s.switches;
+    if (run == "ray") {
+        on.sphere = fluid::Sphere::ray;
+    } else if (run == "ndc" || run == "d24") {
+        on.depth_value = fluid::DepthValue::ndc;
+        on.depth_format = run == "d24" ? fluid::DepthFormat::d24 : fluid::DepthFormat::r32f;
+    } else if (run == "near_ndc") {
+        on.depth_value = fluid::DepthValue::ndc;
+        on.filter_constants = fluid::FilterConstants::published;
+        s.camera.near_plane = 1.0F;
+    } else if (run == "full2d") {
+        on.filter_shape = fluid::FilterShape::full2d;
+    } else if (run == "narrow" || run == "quadrants") {
+        on.filter = fluid::Filter::narrow_range;
+        on.narrow_cleanup = run == "narrow" ? fluid::NarrowCleanup::full : fluid::NarrowCleanup::quadrants;
+        s.radius = 0.02F;
+    } else if (run == "flow") {
+        on.filter = fluid::Filter::curvature_flow;
+    } else if (run == "fixed") {
+        on.thickness_sum = fluid::ThicknessSum::fixed;
+    } else if (run == "floor") {
+        s.shading.thickness_floor = 0.3F;
+    } else if (run == "moves") {
+        s.wave = fluid::Wave{.amplitude = 0.05F, .length = 0.5F, .period = 1.0F};
+    }
+    return s;
+}
+
+Outcome run_of(const std::string& shaders, const std::string& run) {
+    return outcome_of([&] { return run_fluid(settings_of(run), frames, CheckMode::resync, shaders); });
+}
+
+} // namespace
+
+TEST_CASE("fluid mutants: each text stands in the shipped shader as often as the catalogue says") {
+    check_texts("fluid");
+}
+
+TEST_CASE("fluid mutants: some of each pass are found and named, and the shipped shaders are not") {
+    if (!gl())
+        return skip(gl().missing());
+    CHECK(run_of("shaders/fluid", "plain").verdict == "AGREE");
+    check_mutants("fluid",
+                  {"back_of_sphere", "empty_not_skipped", "partner_kept", "cross_turned", "even_discs",
+                   "refraction_left_out", "scene_depth_turned"},
+                  run_of);
+}
+
+/// All of them, as a table: lockstep_tests_fluid "[mutants]"
+TEST_CASE("fluid mutants: the whole catalogue", "[.][mutants]") {
+    if (!gl())
+        return skip(gl().missing());
+    check_catalogue("fluid", run_of);
+}
+
+/// No false alarm: lockstep_tests_fluid "[mutants]"
+TEST_CASE("fluid mutants: the shipped shaders agree in every run of the catalogue", "[.][mutants]") {
+    if (!gl())
+        return skip(gl().missing());
+    for (const std::string run : {"plain", "ray", "ndc", "d24", "near_ndc", "full2d", "narrow", "quadrants", "flow",
+                                  "fixed", "floor", "moves"}) {
+        INFO(run);
+        CHECK(run_of("shaders/fluid", run).verdict == "AGREE");
+    }
+}
+
+namespace {
+
+/// A mistake of the host: what it hands the shaders is another thing than what the twins get.
+struct HostMutant {
+    std::string name, run, cause; ///< as a report names it
+    std::function<void(GlPass&)> pass;
+};
+
+std::function<void(GlPass&)> uniform(const std::string& of, const std::string& name,
+                                     const std::function<UniformValue(const Uniforms&)>& wrong) {
+    return [=](GlPass& pass) {
+        if (pass.name != of || pass.continues)
+            return;
+        pass.uniforms = [right = pass.uniforms, name, wrong](int frame) {
+            Uniforms all = right(frame);
+            all[name] = wrong(all);
+            return all;
+        };
+    };
+}
+
+std::function<void(GlPass&)> left_out(const std::string& name) {
+    return [=](GlPass& pass) {
+        if (pass.name == name)
+            pass.runs = [](int) { return false; };
+    };
+}
+
+std::vector<HostMutant> host_catalogue() {
+    const auto zero = [](const Uniforms&) { return 0.0F; };
+    const auto transposed = [](const char* name) {
+        return [name](const Uniforms& all) { return glm::transpose(std::get<glm::mat4>(all.at(name))); };
+    };
+    const auto scaled = [](const char* name, float by) {
+        return [name, by](const Uniforms& all) { return by * std::get<float>(all.at(name)); };
+    };
+    return {
+        {"motion_left_out", "moves", "motion_left_out", left_out("motion_pass")},
+        {"thickness_not_cleared", "fixed", "", left_out("thickness_clear_pass")},
+        {"thickness_without_blending", "plain", "not_blended",
+         [](GlPass& pass) {
+             if (pass.name == "thickness_pass" && pass.draw)
+                 pass.draw->blend = GlDraw::Blend::none;
+         }},
+        {"thickness_with_depth_test", "plain", "",
+         [](GlPass& pass) {
+             if (pass.name == "thickness_pass" && pass.draw)
+                 pass.draw->has_depth = true;
+         }},
+        {"spheres_without_depth_test", "plain", "last_sphere",
+         [](GlPass& pass) {
+             if (pass.name == "sphere_depth_pass" && pass.draw)
+                 pass.draw->has_depth = false;
+         }},
+        {"vertical_pass_twice", "plain", "axes_swapped",
+         uniform("depth_filter_pass", "blurDir", [](const Uniforms&) { return glm::ivec2(0, 1); })},
+        {"radius_doubled", "plain", "", uniform("sphere_depth_pass", "pointRadius", scaled("pointRadius", 2.0F))},
+        {"scale_halved", "plain", "half_of_half", uniform("thickness_pass", "pointScale", scaled("pointScale", 0.5F))},
+        {"near_not_set", "plain", "", uniform("sphere_depth_pass", "u_Near", zero)},
+        {"view_transposed", "plain", "mView: transposed", uniform("sphere_depth_pass", "mView", transposed("mView"))},
+        {"range_scale_not_set", "plain", "range_weight_left_out", uniform("depth_filter_pass", "u_RangeScale", zero)},
+        {"radius_of_the_filter", "plain", "",
+         uniform("depth_filter_pass", "filterRadius",
+                 [](const Uniforms& all) { return std::get<int>(all.at("filterRadius")) - 1; })},
+        {"mu_not_set", "narrow", "u_NarrowMu: zero", uniform("depth_filter_pass", "u_NarrowMu", zero)},
+        {"flow_step_doubled", "flow", "u_FlowStep: doubled",
+         uniform("depth_filter_pass", "u_FlowStep", scaled("u_FlowStep", 2.0F))},
+        {"gain_doubled", "plain", "u_ThicknessGain: doubled",
+         uniform("thickness_pass", "u_ThicknessGain", scaled("u_ThicknessGain", 2.0F))},
+        {"inverse_view_transposed", "plain", "u_InverseView: transposed",
+         uniform("fluid_shade_pass", "u_InverseView", transposed("u_InverseView"))},
+        {"r0_not_set", "plain", "fresnel_without_r0", uniform("fluid_shade_pass", "u_FresnelR0", zero)},
+        {"slope_of_x", "plain", "",
+         uniform("normal_pass", "u_Slope",
+                 [](const Uniforms& all) { return glm::vec2(std::get<glm::vec2>(all.at("u_Slope")).x); })},
+    };
+}
+
+} // namespace
+
+TEST_CASE("fluid mutants: what the host hands over wrongly is found, and most have their cause") {
+    if (!gl())
+        return skip(gl().missing());
+    std::size_t with_cause = 0;
+    const std::vector<HostMutant> all = host_catalogue();
+    for (const HostMutant& mutant : all) {
+        const fluid::HostPtr host = host_of(settings_of(mutant.run));
+        std::vector<GlPass> passes = fluid::passes(host);
+        for (GlPass& pass : passes)
+            mutant.pass(pass);
+        const System system = fluid::system(host);
+        GlSystemSide side(gl(), system, std::move(passes), "shaders/fluid");
+        CheckOptions options;
+        options.frames = 2;
+        const Outcome outcome = outcome_of([&] { return check(system, side, options); });
+        with_cause += mutant.cause.empty() ? 0 : 1;
+        INFO(mutant.name << ": " << outcome.verdict << ", " << fmt::format("{}", fmt::join(outcome.causes, " | ")));
+        CHECK(outcome.found());
+        CHECK((mutant.cause.empty() || outcome.names(mutant.cause)));
+    }
+    CHECK(10 * with_cause >= 6 * all.size());
+}

@@ -1,0 +1,83 @@
+#include <functional>
+#include <string>
+#include <vector>
+
+#include <fmt/ranges.h>
+
+#include "crosscheck/scene/scene_fields.hpp"
+#include "tests/fluid/fluid_run.hpp"
+
+using namespace lockstep;
+using namespace lockstep::test;
+namespace fluid = lockstep::fluid;
+
+namespace {
+
+using Strings = std::vector<std::string>;
+
+fluid::Settings with(fluid::Settings s, const Strings& values) {
+    std::vector<SwitchValue> all = switch_values(s.switches);
+    for (const std::string& one : values)
+        set_value(one, "fluid", all);
+    take_values(s.switches, all);
+    return s;
+}
+
+} // namespace
+
+TEST_CASE("fluid passes: every pass of every preset agrees, or differs as GL allows") {
+    if (!gl())
+        return skip(gl().missing());
+    const std::string preset = GENERATE("corrected", "exact", "paper");
+    const CheckReport report = run_fluid(in_preset(heap(), preset), 2);
+    CAPTURE(preset);
+    INFO(report_text(report, {}));
+    if (preset == "paper")
+        CHECK(passes(report));
+    else
+        CHECK(report.verdict == Verdict::agree);
+    CHECK(report.untried.empty());
+}
+
+TEST_CASE("fluid passes: every filter agrees in both arithmetics") {
+    if (!gl())
+        return skip(gl().missing());
+    const std::string preset = GENERATE("corrected", "exact");
+    const Strings values = GENERATE(
+        Strings{"filter=off"}, Strings{"filter=gaussian"}, Strings{"filter=gaussian", "filter_shape=full2d"},
+        Strings{"filter=bilateral", "filter_shape=full2d"}, Strings{"filter=bilateral", "filter_constants=published"},
+        Strings{"filter=narrow_range"}, Strings{"filter=narrow_range", "narrow_cleanup=quadrants"},
+        Strings{"filter=narrow_range", "narrow_cleanup=off", "narrow_weights=texcoord", "narrow_fov=fixed45"},
+        Strings{"filter=curvature_flow"});
+    const CheckReport report = run_fluid(with(in_preset(heap(), preset), values), 1);
+    INFO(fmt::format("{} {}", preset, fmt::join(values, " ")) << "\n" << report_text(report, {}));
+    CHECK(report.verdict == Verdict::agree);
+}
+
+TEST_CASE("fluid passes: every value of every switch that promises bits agrees") {
+    if (!gl())
+        return skip(gl().missing());
+    const Strings values =
+        GENERATE(Strings{"depth_value=ndc", "difference_pick=nearer", "scene_depth=ignore"},
+                 Strings{"depth_value=window", "filter=narrow_range", "edge_normal=published"},
+                 Strings{"depth_value=window", "unproject=as_ndc", "mirror=as_published", "encoding=linear8"},
+                 Strings{"depth_value=ndc", "depth_format=d24", "filter_constants=published"},
+                 Strings{"sphere=ray", "thickness_kind=published", "thickness_sum=fixed", "scene_fetch=nearest"},
+                 Strings{"point_size=distance", "point_scale=width_60", "thickness_sum=blend_exact"},
+                 Strings{"sphere=ray", "depth_value=window", "filter=curvature_flow"});
+    const std::string preset = GENERATE("corrected", "exact");
+    const CheckReport report = run_fluid(with(in_preset(heap(), preset), values), 1);
+    INFO(fmt::format("{} {}", preset, fmt::join(values, " ")) << "\n" << report_text(report, {}));
+    CHECK(report.verdict == Verdict::agree);
+}
+
+TEST_CASE("fluid passes: what GL leaves open is legal") {
+    if (!gl())
+        return skip(gl().missing());
+    const Strings values = GENERATE(Strings{"sprite=points"}, Strings{"depth_fetch=linear"},
+                                    Strings{"scene_fetch=linear"}, Strings{"transcendentals=builtin"},
+                                    Strings{"encoding=srgb_hw"}, Strings{"filter=gaussian", "transcendentals=builtin"});
+    const CheckReport report = run_fluid(with(heap(), values), 1);
+    INFO(fmt::format("{}", fmt::join(values, " ")) << "\n" << report_text(report, {}));
+    CHECK(passes(report));
+}

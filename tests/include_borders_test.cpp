@@ -22,8 +22,7 @@ bool starts_with_any(const std::string& text, const std::vector<std::string>& pr
 }
 
 /// The jobs of crosscheck/, each knowing those before it.
-const std::vector<std::string> jobs{"files", "scene",   "judge",   "report", "record",
-                                    "study", "command", "package", "cli"};
+const std::vector<std::string> jobs{"files", "scene", "judge", "report", "record", "command", "package", "cli"};
 
 /// The place of a file's job among them; nothing of files that are no job's.
 std::optional<std::size_t> job_of(const std::string& file) {
@@ -70,7 +69,7 @@ bool system_in_crosscheck(const std::string& file) { return file.starts_with("cr
 const std::string registration = "crosscheck/cli/systems.cpp", default_system = "collision";
 
 /// The system in whose folder a file lies, of those with one in crosscheck/ that puts both of its sides together; but
-/// for the system that the verbs and studies are of besides.
+/// for the system that the verbs are of besides.
 std::optional<std::string> registered_system_of(const std::string& file) {
     static const std::regex folder("(?:crosscheck|gpu|reference/model|reference)/([a-z_]+)/.*");
     std::smatch match;
@@ -178,9 +177,11 @@ TEST_CASE("include borders: a crossing is seen, with its line") {
     CHECK(crossings("crosscheck/judge/a.hpp", "#include \"gpu/collision/gpu_side.hpp\"\n").size() == 1);
     CHECK(crossings("crosscheck/collision/judge/a.hpp", "#include \"gpu/collision/gpu_side.hpp\"\n").empty());
     CHECK(crossings("crosscheck/collision/page/a.hpp", "#include \"crosscheck/record/seal.hpp\"\n").empty());
-    CHECK(crossings("crosscheck/collision/page/a.hpp", "#include \"crosscheck/study/study.hpp\"\n") ==
-          Strings{"crosscheck/collision/page/a.hpp:1: a system knows nothing of study"});
-    CHECK(crossings("crosscheck/study/a.cpp", "#include \"crosscheck/collision/judge/verdict.hpp\"\n").empty());
+    CHECK(crossings("crosscheck/collision/page/a.hpp", "#include \"crosscheck/command/verb.hpp\"\n") ==
+          Strings{"crosscheck/collision/page/a.hpp:1: a system knows nothing of command"});
+    CHECK(crossings("crosscheck/report/a.cpp", "#include \"crosscheck/collision/study/study.hpp\"\n").size() == 1);
+    CHECK(
+        crossings("crosscheck/collision/study/a.cpp", "#include \"crosscheck/collision/judge/verdict.hpp\"\n").empty());
     for (const char* file :
          {"crosscheck/cli/system_verbs.cpp", "crosscheck/package/item_verbs.cpp", "crosscheck/command/a.cpp"})
         CHECK(crossings(file, "#include \"reference/model/collision/scene.hpp\"\n") ==

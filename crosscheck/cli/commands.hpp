@@ -20,5 +20,7 @@ Verb completion_command();
 Verb manual_command();
 Verb capsule_command();
 Verb graph_command();
+Verb function_command();
+Verb new_command();
 
 } // namespace lockstep

@@ -10,7 +10,7 @@
 #include "crosscheck/judge/stopwatch.hpp"
 #include "crosscheck/judge/system_check.hpp"
 #include "crosscheck/report/report.hpp"
-#include "crosscheck/study/statistics.hpp"
+#include "crosscheck/report/statistics.hpp"
 #include "reference/model/state_hash.hpp"
 
 namespace lockstep {

@@ -44,7 +44,7 @@ ColorImage render_gpu(const SystemScene& scene, const RunOptions& run, const Sys
 
 int render_system(const RegisteredSystem& system, const RunOptions& run, const SystemRender& asked) {
     const ReadScene read = read_scene(system, run);
-    if (!read.scene.picture)
+    if (!read.scene.has_pictures())
         throw Error(fmt::format("render: scenes of system {} have no pictures", system.name));
     OutputFiles files;
     files.protect(run.scene);

@@ -103,9 +103,13 @@ ShaderUse shaders_of(const SystemScene& scene, const RunOptions& run) {
     std::vector<PassStages> stages;
     for (const GlPass& pass : scene.passes)
         if (!pass.continues && std::none_of(stages.begin(), stages.end(),
-                                            [&](const PassStages& known) { return known.name == pass.name; }))
-            stages.push_back(
-                {pass.name, pass.draw ? std::vector{pass.stage, Stage::fragment} : std::vector{pass.stage}});
+                                            [&](const PassStages& known) { return known.name == pass.name; })) {
+            stages.push_back({pass.name, {pass.stage}});
+            if (pass.draw && pass.draw->has_geometry)
+                stages.back().stages.push_back(Stage::geometry);
+            if (pass.draw)
+                stages.back().stages.push_back(Stage::fragment);
+        }
     if (scene.picture)
         for (const GlPass& pass : scene.picture(scene.system.start, 0).passes)
             stages.push_back({pass.name, {pass.stage, Stage::fragment}});
@@ -130,6 +134,8 @@ GlSystemSide side_of(const Gl& gl, const SystemScene& scene, const RunOptions& r
 }
 
 ColorImage reference_picture(const SystemScene& scene, const SystemState& state, int frame, const Profile& profile) {
+    if (scene.image)
+        return scene.image(state);
     const SystemPicture picture = scene.picture(state, frame);
     ReferenceRun drawn(picture.system, profile);
     drawn.step(0);
@@ -140,6 +146,8 @@ ColorImage reference_picture(const SystemScene& scene, const SystemState& state,
 
 ColorImage gpu_picture(const Gl& gl, const SystemScene& scene, const SystemState& state, int frame,
                        const RunOptions& run) {
+    if (scene.image)
+        return scene.image(state);
     const SystemPicture picture = scene.picture(state, frame);
     GlSystemSide drawn = side_of(gl, picture, scene, run);
     drawn.upload(picture.system.start.view());

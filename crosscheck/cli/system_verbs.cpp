@@ -1,5 +1,6 @@
 #include "crosscheck/cli/system_verbs.hpp"
 
+#include <algorithm>
 #include <array>
 #include <cstdio>
 #include <vector>
@@ -20,6 +21,7 @@
 #include "crosscheck/report/item_text.hpp"
 #include "crosscheck/report/picture_difference.hpp"
 #include "crosscheck/report/power_text.hpp"
+#include "crosscheck/report/system_debug_run.hpp"
 #include "reference/model/error.hpp"
 
 namespace lockstep {
@@ -41,6 +43,7 @@ struct DrawnFrame {
     RunDescription about;
     int frame = 0;
     std::size_t items = 0;
+    std::vector<std::string> first = {}; ///< options of `explain` for the first that differs
 };
 
 /// From the state that the GPU's frames left.
@@ -61,7 +64,9 @@ DrawnFrame judge_drawn(const SystemInput& input, const SystemSide& side, const R
         describe_run(picture.system, drawn.describe(), options, check_line(input, asked, report.frames));
     about.scene = fmt::format("what frame {} of {} draws", frame, scene.system.name);
     const std::size_t items = picture.system.start.extent(picture.system.passes.front()->resource()).count();
-    return {check(picture.system, drawn, options), std::move(about), frame, items};
+    DrawnFrame judged{check(picture.system, drawn, options), std::move(about), frame, items};
+    judged.first = first_item_words(picture.system, *judged.report, frame); // the picture's own only frame is 0
+    return judged;
 }
 
 /// A frame's picture has little power of its own.
@@ -129,6 +134,37 @@ std::string capsule_text(const ReadScene& read, const ItemCapsule& capsule) {
     return text;
 }
 
+/// Whether a pass that is asked for is one that draws a frame, not one that makes it.
+bool is_drawn(const SystemInput& input, const std::string& pass) {
+    const auto is_asked = [&](const auto& one) { return one->name() == pass; };
+    if (input.is_recorded() || !input.scene().picture || std::ranges::any_of(input.system().passes, is_asked))
+        return false;
+    return std::ranges::any_of(input.scene().picture(input.system().start, 0).system.passes, is_asked);
+}
+
+/// An item that a frame draws, from the state that the GPU's kernels left.
+std::string explain_drawn(SystemInput& input, const RunOptions& run, const SystemItem& item) {
+    SystemState state = input.system().start;
+    static_cast<void>(place_of(item, input.scene().picture(state, item.frame).system));
+    run_gpu(input.system(), input.open(), item.frame + 1, [&](std::size_t, int, const SystemState& now) {
+        state = now;
+        return true;
+    });
+    SystemPicture picture = input.scene().picture(state, item.frame);
+    picture.system.name = input.system().name;
+    picture.system.settings = input.system().settings;
+    GlSystemSide drawn = side_of(input.gl(), picture, input.scene(), run);
+    const std::string text = explain_drawn_text(picture.system, drawn, item, input.read().file);
+    const auto [pass, index] = place_of(item, picture.system);
+    const std::optional<std::uint8_t> instances = picture.passes[pass].instances_of;
+    if (!instances)
+        return text;
+    const std::size_t vertices = picture.system.start.extent(picture.system.passes[pass]->resource()).count() /
+                                 picture.system.start.extent(*instances).count();
+    return fmt::format("{}instance  {} {}, its vertex {}\n", text, picture.system.schema.resources[*instances].item,
+                       index / vertices, index % vertices);
+}
+
 } // namespace
 
 std::span<const std::string_view> system_check_options() {
@@ -145,7 +181,7 @@ std::span<const std::string_view> system_check_options() {
 int check_system(const RegisteredSystem& system, RunOptions run, const SystemCheck& asked) {
     SystemInput input(system, run, asked.trace);
     const System& twins = input.system();
-    if (!asked.images.empty() && !input.scene().picture)
+    if (!asked.images.empty() && !input.scene().has_pictures())
         throw Error(fmt::format("check: --images: scenes of system {} have no pictures", system.name));
     OutputFiles files;
     input.protect(files);
@@ -190,8 +226,9 @@ int check_system(const RegisteredSystem& system, RunOptions run, const SystemChe
     };
     if (const auto words = first_item_words(twins, report); !words.empty())
         about.explain = explain_line(words);
-    const DrawnFrame drawn =
-        asked.render && !report.partial() ? judge_drawn(input, side, run, asked, report) : DrawnFrame{};
+    DrawnFrame drawn = asked.render && !report.partial() ? judge_drawn(input, side, run, asked, report) : DrawnFrame{};
+    if (!drawn.first.empty())
+        drawn.about.explain = explain_line(drawn.first);
     if (!asked.quiet) {
         if (report.partial())
             fmt::print("interrupted after {} of {} frames\n", report.frames, run.frames);
@@ -235,6 +272,10 @@ int check_system(const RegisteredSystem& system, RunOptions run, const SystemChe
 int explain_system(const RegisteredSystem& system, const RunOptions& run, const SystemItem& item,
                    const std::filesystem::path& trace) {
     SystemInput input(system, run, trace);
+    if (is_drawn(input, item.pass)) {
+        fmt::print("{}", explain_drawn(input, run, item));
+        return status_agree;
+    }
     static_cast<void>(place_of(item, input.system()));
     SystemSide& side = input.open();
     fmt::print("{}", explain_text(input.system(), side, item, input.read().file));
@@ -258,6 +299,35 @@ int cut_system(const RegisteredSystem& system, const RunOptions& run, const Syst
     files.write(output, capsule_text(input.read(), capsule));
     files.commit();
     return status_of(capsule, input.system());
+}
+
+int debug_system(const RegisteredSystem& system, const RunOptions& run, Legal legal, DebugSetup setup,
+                 const std::filesystem::path& trace) {
+    if (!trace.empty()) {
+        const auto input = std::make_shared<SystemInput>(system, run, trace);
+        SystemSide& side = input->open();
+        setup.recorded = input->recorded_frames();
+        setup.unchangeable = recorded_is_fixed;
+        setup.start = [&](const std::vector<std::string>&) {
+            return std::make_unique<SystemDebugRun>(std::shared_ptr<const System>(input, &input->system()),
+                                                    std::shared_ptr<SystemSide>(input, &side),
+                                                    known_operations(legal, side.describe().profile));
+        };
+        return debug_run(std::move(setup));
+    }
+    static_cast<void>(shaders_of(read_scene(system, run).scene, run));
+    const Gl gl = open_gl(run);
+    setup.start = [&](const std::vector<std::string>& changes) {
+        RunOptions changed = run;
+        changed.set.insert(changed.set.end(), changes.begin(), changes.end());
+        const auto read = std::make_shared<ReadScene>(read_scene(system, changed));
+        const std::shared_ptr<const System> twins(read, &read->scene.system);
+        auto side = std::make_shared<GlSystemSide>(gl, *twins, read->scene.passes, changed.shaders.string(),
+                                                   read->scene.arithmetic);
+        const KnownOperations known = known_operations(legal, side->describe().profile);
+        return std::make_unique<SystemDebugRun>(twins, std::move(side), known);
+    };
+    return debug_run(std::move(setup));
 }
 
 int record_system(const RegisteredSystem& system, const RunOptions& run, const std::filesystem::path& output,

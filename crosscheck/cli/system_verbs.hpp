@@ -51,6 +51,9 @@ int check_system(const RegisteredSystem& system, RunOptions run, const SystemChe
 // `trace`: a recording instead of run.scene; may be empty.
 int explain_system(const RegisteredSystem& system, const RunOptions& run, const SystemItem& item,
                    const std::filesystem::path& trace);
+/// `setup`: all but what starts the run.
+int debug_system(const RegisteredSystem& system, const RunOptions& run, Legal legal, DebugSetup setup,
+                 const std::filesystem::path& trace);
 int record_system(const RegisteredSystem& system, const RunOptions& run, const std::filesystem::path& output,
                   int deflate);
 int tell_recording(const RegisteredSystem& system, const std::filesystem::path& file);

@@ -10,8 +10,10 @@
 #include "crosscheck/dust/system.hpp"
 #include "crosscheck/files/json_reader.hpp"
 #include "crosscheck/files/plain_text.hpp"
+#include "crosscheck/fluid/system.hpp"
 #include "crosscheck/judge/registered_system.hpp"
 #include "crosscheck/lifecycle/system.hpp"
+#include "crosscheck/lights/system.hpp"
 #include "reference/model/near_name.hpp"
 
 namespace lockstep {
@@ -20,7 +22,9 @@ namespace {
 // One line a system.
 const std::vector<RegisteredSystem> registered{
     {"dust", "grains that tools, balls and colliders move, by compute shaders", dust::load},
+    {"fluid", "particles as a fluid's surface, drawn in screen space", fluid::load},
     {"lifecycle", "particles that are born, move, die and are packed, by compute shaders", lifecycle::load},
+    {"lights", "particles that are lights, through two 3D textures", lights::load},
 };
 
 } // namespace

@@ -5,10 +5,10 @@
 
 #include <fmt/format.h>
 
+#include "crosscheck/collision/study/thesis_report.hpp"
 #include "crosscheck/files/json_text.hpp"
 #include "crosscheck/files/output_files.hpp"
-#include "crosscheck/study/gnuplot.hpp"
-#include "crosscheck/study/thesis_report.hpp"
+#include "crosscheck/report/gnuplot.hpp"
 #include "gpu/context.hpp"
 #include "reference/model/error.hpp"
 

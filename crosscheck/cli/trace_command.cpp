@@ -49,7 +49,7 @@ int run(const std::filesystem::path& file) {
 
 Verb trace_command() {
     auto file = std::make_shared<std::filesystem::path>();
-    Verb verb{"trace", "read a recorded run whole, and tell what is in it or what is wrong"};
+    Verb verb{"trace", "read a recorded run whole, and report what is in it or what is wrong"};
     verb.add(required(path_option("trace", "FILE", *file,
                                   "what `lockstep record` wrote, or an engine of your own (docs/traces.md)")));
     verb.footer = "Exit status: 0 it can be checked, 2 it cannot.\nExample: lockstep trace run.h5";

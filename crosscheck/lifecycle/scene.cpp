@@ -1,6 +1,5 @@
 #include "crosscheck/lifecycle/scene.hpp"
 
-#include <algorithm>
 #include <filesystem>
 #include <memory>
 #include <string_view>
@@ -199,12 +198,7 @@ Settings read_scene(const JsonValue& json, const SceneOptions& options) {
     const std::string name = read_preset(json, options.preset);
     settings.switches = preset(name);
     settings.arithmetic = name == "exact" ? ArithmeticSwitch::exact : ArithmeticSwitch::plain;
-    std::vector<SwitchValue> switches = switch_values(settings.switches);
-    if (const auto written = json.find("switches"))
-        read_values(*written, switches);
-    for (const std::string& one : options.set)
-        set_value(one, "lifecycle", switches);
-    take_values(settings.switches, switches);
+    read_switches(json, options.set, "lifecycle", settings.switches);
     if (const auto box = json.find("box")) {
         box->check_keys({"min", "max"});
         settings.box_low = box->at("min").vector();
@@ -217,11 +211,7 @@ Settings read_scene(const JsonValue& json, const SceneOptions& options) {
         settings.emitters.push_back(read_emitter(emitter));
         settings.emitters.back().capacity = options.particles.value_or(settings.emitters.back().capacity);
     }
-    try {
-        check(settings);
-    } catch (const Error& error) {
-        json.fail(error.what());
-    }
+    check_settings(json, settings);
     return settings;
 }
 

@@ -13,6 +13,7 @@
 
 #include "crosscheck/files/json_reader.hpp"
 #include "reference/model/camera.hpp"
+#include "reference/model/error.hpp"
 
 /// What the scene files of all systems have in common. Every function throws Error as JsonValue does.
 namespace lockstep {
@@ -78,6 +79,27 @@ void read_values(const JsonValue& json, std::vector<SwitchValue>& all,
                  const std::vector<std::string_view>& numbers = {});
 /// One "name=value" of the command line.
 void set_value(std::string_view setting, std::string_view system, std::vector<SwitchValue>& all);
+/// The switches as a scene's field `switches` and then the command line's "name=value" set them.
+template <class Switches> void read_switches(const JsonValue& scene, const std::vector<std::string>& set,
+                                             std::string_view system, Switches& switches,
+                                             const std::vector<std::string_view>& numbers = {}) {
+    std::vector<SwitchValue> all = switch_values(switches);
+    if (const auto written = scene.find("switches"))
+        read_values(*written, all, numbers);
+    for (const std::string& one : set)
+        set_value(one, system, all);
+    take_values(switches, all);
+}
+
+/// check(settings), its error with the scene's place.
+template <class Settings> void check_settings(const JsonValue& scene, const Settings& settings) {
+    try {
+        check(settings);
+    } catch (const Error& error) {
+        scene.fail(error.what());
+    }
+}
+
 /// "corrected", or "corrected, but walls=all ..." with what differs from `usual`.
 std::string differing_text(const std::vector<SwitchValue>& all, const std::vector<SwitchValue>& usual);
 

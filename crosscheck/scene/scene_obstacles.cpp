@@ -1,6 +1,9 @@
 #include "crosscheck/scene/scene_obstacles.hpp"
 
 #include <cstdint>
+#include <initializer_list>
+#include <string_view>
+#include <vector>
 
 #include <fmt/format.h>
 
@@ -20,8 +23,15 @@ void expect_room(const JsonValue& json, std::size_t before, std::size_t triangle
                         before + triangles, most_triangles));
 }
 
+void check_keys(const JsonValue& json, std::span<const std::string_view> others,
+                std::initializer_list<std::string_view> own) {
+    std::vector<std::string_view> all(own);
+    all.insert(all.end(), others.begin(), others.end());
+    json.check_keys(all);
+}
+
 Surface read_surface(const JsonValue& json, Placement& placement, const std::optional<std::filesystem::path>& folder,
-                     std::size_t before) {
+                     std::size_t before, std::span<const std::string_view> others) {
     const auto real = [&](std::string_view key) { return static_cast<double>(json.at(key).number(number::positive)); };
     const auto segments = [&](int otherwise) {
         const auto value = json.find("segments");
@@ -29,7 +39,7 @@ Surface read_surface(const JsonValue& json, Placement& placement, const std::opt
     };
     switch (json.at("shape").choice({"mesh", "plane", "box", "sphere", "torus"})) {
     case 0: {
-        json.check_keys({"shape", "file", "height", "position", "rotate_y"});
+        check_keys(json, others, {"shape", "file", "height", "position", "rotate_y"});
         const JsonValue file = json.at("file");
         if (!folder)
             file.fail("no mesh file is read here; give its triangles beside the scene");
@@ -46,7 +56,7 @@ Surface read_surface(const JsonValue& json, Placement& placement, const std::opt
         return surface;
     }
     case 1: {
-        json.check_keys({"shape", "size", "position", "rotate_y"});
+        check_keys(json, others, {"shape", "size", "position", "rotate_y"});
         const JsonValue size = json.at("size");
         const std::vector<JsonValue> sides = size.items();
         if (sides.size() != 2)
@@ -54,7 +64,7 @@ Surface read_surface(const JsonValue& json, Placement& placement, const std::opt
         return plane_surface(sides[0].number(number::positive), sides[1].number(number::positive));
     }
     case 2: {
-        json.check_keys({"shape", "size", "position", "rotate_y"});
+        check_keys(json, others, {"shape", "size", "position", "rotate_y"});
         const JsonValue size = json.at("size");
         const glm::vec3 sides = size.vector();
         for (const JsonValue& side : size.items())
@@ -62,13 +72,13 @@ Surface read_surface(const JsonValue& json, Placement& placement, const std::opt
         return box_surface(sides);
     }
     case 3: {
-        json.check_keys({"shape", "radius", "segments", "position", "rotate_y"});
+        check_keys(json, others, {"shape", "radius", "segments", "position", "rotate_y"});
         const int n = segments(16);
         expect_room(json, before, static_cast<std::size_t>(8 * n * n));
         return sphere_surface(real("radius"), n);
     }
     default: {
-        json.check_keys({"shape", "radius", "tube_radius", "segments", "position", "rotate_y"});
+        check_keys(json, others, {"shape", "radius", "tube_radius", "segments", "position", "rotate_y"});
         const int n = segments(48);
         expect_room(json, before, static_cast<std::size_t>(n * n));
         return torus_surface(real("radius"), real("tube_radius"), n);
@@ -76,9 +86,12 @@ Surface read_surface(const JsonValue& json, Placement& placement, const std::opt
     }
 }
 
-void read_obstacle(const JsonValue& json, const std::optional<std::filesystem::path>& folder, Mesh& mesh) {
+} // namespace
+
+void read_obstacle(const JsonValue& json, const std::optional<std::filesystem::path>& folder, Mesh& mesh,
+                   std::span<const std::string_view> others) {
     Placement placement;
-    const Surface surface = read_surface(json, placement, folder, mesh.triangle_count());
+    const Surface surface = read_surface(json, placement, folder, mesh.triangle_count(), others);
     if (const auto position = json.find("position"))
         placement.position = position->vector();
     if (const auto angle = json.find("rotate_y"))
@@ -89,8 +102,6 @@ void read_obstacle(const JsonValue& json, const std::optional<std::filesystem::p
         json.fail(error.what());
     }
 }
-
-} // namespace
 
 Mesh read_obstacles(const JsonValue& json, const std::optional<std::filesystem::path>& folder) {
     Mesh mesh;

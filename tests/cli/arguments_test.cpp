@@ -16,7 +16,7 @@ using test::run_lockstep;
 namespace {
 
 const std::string scene = "data/scenes/lattice.json";
-const std::string help = " (lockstep --help tells more)";
+const std::string help = " (lockstep --help says more)";
 
 struct Refused {
     std::vector<std::string> arguments;
@@ -70,7 +70,7 @@ TEST_CASE("arguments: an unknown option, or a missing one, is named") {
     check_all({
         {{"check", scene, "--particle", "3"}, "unknown option '--particle'; did you mean --particles?" + help},
         {{"check"}, "check: a scene or --trace FILE is needed"},
-        {{"debug"}, "scene is required" + help},
+        {{"debug"}, "debug: a scene or --trace FILE is needed"},
         {{"report"}, "trace is required" + help},
         {{"explain", "--frame", "3"}, "explain: one of --particle I, --texel X,Y and --pixel X,Y is needed"},
         {{"explain", "--frame", "3", "--particle", "1"}, "explain: a scene or --trace FILE is needed"},

@@ -113,15 +113,15 @@ TEST_CASE("explain_command: what cannot be explained is told in one line") {
         options.insert(options.begin(), start.begin(), start.end());
         return refusal(run_lockstep(options));
     };
-    CHECK(told({"--particle", "1"}) == "--frame is required (lockstep --help tells more)");
+    CHECK(told({"--particle", "1"}) == "--frame is required (lockstep --help says more)");
     CHECK(told({"--frame", "-1", "--particle", "1"}) ==
-          "--frame: '-1' is not an integer from 0 to 100000000 (lockstep --help tells more)");
+          "--frame: '-1' is not an integer from 0 to 100000000 (lockstep --help says more)");
     const std::string one = "explain: one of --particle I, --texel X,Y and --pixel X,Y is needed";
     CHECK(told({"--frame", "1"}) == one);
     CHECK(told({"--frame", "1", "--particle", "1", "--texel", "1,1"}) == one);
     CHECK(told({"--frame", "1", "--pixel", "1,1", "--texel", "1,1"}) == one);
     CHECK(told({"--frame", "1", "--particle", "1", "--legal", "loose"}) ==
-          "--legal: 'loose' is not one of measured, glsl, any_order (lockstep --help tells more)");
+          "--legal: 'loose' is not one of measured, glsl, any_order (lockstep --help says more)");
     for (const char* wrong : {"300", "-1", "x", "1.5", ""})
         CHECK(told({"--frame", "1", "--particle", wrong}) ==
               "there is no particle '" + std::string(wrong) + "'; scene has 0 to 299");

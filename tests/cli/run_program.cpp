@@ -20,6 +20,8 @@
 namespace lockstep::test {
 namespace {
 
+constexpr int longest_silence = 120'000; ///< milliseconds without a word on a terminal; then it hangs
+
 /// Becomes lockstep. Only in a child process.
 [[noreturn]] void become_lockstep(const std::vector<std::string>& arguments) {
     std::vector<char*> argv{const_cast<char*>("lockstep")};
@@ -149,8 +151,8 @@ std::string why_no_terminal() {
     return "";
 }
 
-Outcome run_lockstep_on_terminal(const std::vector<std::string>& arguments, const std::string& trigger,
-                                 const std::string& typed, unsigned short columns, const Surroundings& surroundings) {
+Outcome run_lockstep_on_terminal(const std::vector<std::string>& arguments, const std::vector<Typed>& typed,
+                                 unsigned short columns, const Surroundings& surroundings) {
     int terminal = -1;
     const winsize size{24, columns, 0, 0};
     const pid_t child = forkpty(&terminal, nullptr, nullptr, &size);
@@ -161,14 +163,34 @@ Outcome run_lockstep_on_terminal(const std::vector<std::string>& arguments, cons
         become_lockstep(arguments);
     }
     Outcome outcome;
-    bool waiting = !typed.empty();
-    while (read_some(terminal, outcome.out))
-        if (waiting && outcome.out.find(trigger) != std::string::npos) {
-            waiting = write(terminal, typed.data(), typed.size()) < 0;
+    std::size_t next = 0, from = 0;
+    const auto shows_more = [&] {
+        pollfd end{terminal, POLLIN, 0};
+        if (poll(&end, 1, longest_silence) != 0)
+            return read_some(terminal, outcome.out);
+        kill(child, SIGKILL);
+        outcome.out += "\n(silent for too long)\n";
+        return false;
+    };
+    while (shows_more())
+        while (next < typed.size()) {
+            const std::size_t at = outcome.out.find(typed[next].trigger, from);
+            if (at == std::string::npos)
+                break;
+            from = at + typed[next].trigger.size();
+            const std::string& text = typed[next++].text;
+            if (write(terminal, text.data(), text.size()) < 0)
+                throw std::runtime_error("the terminal takes no keys");
         }
     close(terminal);
     wait_for(child, outcome);
     return outcome;
+}
+
+Outcome run_lockstep_on_terminal(const std::vector<std::string>& arguments, const std::string& trigger,
+                                 const std::string& typed, unsigned short columns, const Surroundings& surroundings) {
+    return run_lockstep_on_terminal(
+        arguments, typed.empty() ? std::vector<Typed>{} : std::vector<Typed>{{trigger, typed}}, columns, surroundings);
 }
 
 } // namespace lockstep::test

@@ -36,6 +36,15 @@ Outcome run_lockstep_until(const std::function<bool()>& ready, int signal, const
 /// Empty if run_lockstep_on_terminal can be called; else what is missing.
 std::string why_no_terminal();
 
+/// What is typed once `trigger` was shown, after what was typed before.
+struct Typed {
+    std::string trigger, text;
+};
+
+/// Runs lockstep on a terminal of its own, and types one after the other.
+Outcome run_lockstep_on_terminal(const std::vector<std::string>& arguments, const std::vector<Typed>& typed,
+                                 unsigned short columns = 80, const Surroundings& surroundings = {});
+
 /// Runs lockstep on a terminal of its own, `columns` wide, and types `typed` (may be empty) once `trigger` was shown.
 Outcome run_lockstep_on_terminal(const std::vector<std::string>& arguments, const std::string& trigger,
                                  const std::string& typed, unsigned short columns = 80,

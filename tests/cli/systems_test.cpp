@@ -43,18 +43,18 @@ TEST_CASE("systems: a scene names its system, and one that there is not is told 
     };
     const std::string file = (folder.path() / "scene.json").string();
     CHECK(told(R"({"system": "dusty"})") ==
-          file + ": /system: 'dusty' is no system; there are collision, dust, lifecycle; did you mean dust?");
+          file + ": /system: 'dusty' is no system; there are collision, dust, lifecycle, lights; did you mean dust?");
     CHECK_THAT(told(R"({"system": 3})"), Catch::StartsWith(file + ": /system: 3 is not a text"));
     CHECK_THAT(told(R"({"system": "collision"})"), Contains("emitters"));
 }
 
 TEST_CASE("systems: verbs of the collision system refuse another's scene and name those that run it") {
-    for (const char* verb : {"debug", "study"}) {
+    for (const char* verb : {"study"}) {
         INFO(verb);
-        CHECK_THAT(
-            refusal(run_lockstep({verb, scene})) + " ",
-            Contains("is a scene of system dust, which bench, capsule, check, explain, hash, record and render run") ||
-                Contains("-o") || Contains("--output"));
+        CHECK_THAT(refusal(run_lockstep({verb, scene})) + " ",
+                   Contains("is a scene of system dust, which bench, capsule, check, debug, explain, hash, record and "
+                            "render run") ||
+                       Contains("-o") || Contains("--output"));
     }
     CHECK(refusal(run_lockstep({"check", scene, "--require-hits"})) ==
           "check: --require-hits does not go with a scene of system dust");
@@ -208,6 +208,20 @@ void write_at(const std::string& file, std::streamoff place, const std::string& 
 
 } // namespace
 
+TEST_CASE("systems: explain looks into a vertex that a frame draws, and says of which frame and grain it is") {
+    if (!test::have_software_gl())
+        return;
+    const auto explained = [&](const std::string& item) {
+        return run_lockstep(on_gl({"explain", "data/scenes/dust/obb.json", "--particles", "200", "--frame", "30",
+                                   "--pass", "draw", "--item", item}));
+    };
+    const test::Outcome vertex = explained("70");
+    CHECK(vertex.status == 0);
+    CHECK_THAT(vertex.out, Contains("corner 70 in frame 30, pass draw\n") && Contains("clip.w") &&
+                               Contains("every bit agrees") && Contains("instance  grain 17, its vertex 2\n"));
+    CHECK_THAT(refusal(explained("800")), Contains("800"));
+}
+
 TEST_CASE("systems: a recorded run is judged as the live one was, and explained, without GL") {
     if (!test::have_software_gl())
         return;
@@ -278,8 +292,9 @@ TEST_CASE("systems: a recording that is damaged, cut off, of another system or o
     CHECK(damaged([&] { std::filesystem::resize_file(other, size / 2); }) ==
           other + ": cut off: " + std::to_string(size / 2) + " of its " + std::to_string(size) + " bytes are here");
     CHECK_THAT(damaged([&] { write_at(other, 2000, "x"); }), Contains(other + ": damaged: its SHA-256 is "));
-    CHECK_THAT(damaged([&] { write_at(other, 0, "lockstep recording 1\nsystem dusk\n"); }),
-               Contains("a recording of system 'dusk', which is none of lockstep's: collision, dust, lifecycle"));
+    CHECK_THAT(
+        damaged([&] { write_at(other, 0, "lockstep recording 1\nsystem dusk\n"); }),
+        Contains("a recording of system 'dusk', which is none of lockstep's: collision, dust, lifecycle, lights"));
     CHECK_THAT(damaged([&] { write_at(other, 0, "lockstep recording 1\nsystem \x1b[31\n"); }),
                Contains("which is none of lockstep's") && !Contains("\x1b"));
 }

@@ -33,6 +33,8 @@ template <class R> Words words_of(const ItemWords<R>& record) {
     record.for_each([&](const auto& x) {
         if constexpr (std::is_same_v<std::remove_cvref_t<decltype(x)>, std::uint32_t>)
             all.push_back(x);
+        else if constexpr (std::is_same_v<std::remove_cvref_t<decltype(x)>, LegalWord>)
+            all.push_back(x.word);
         else
             all.push_back(std::bit_cast<std::uint32_t>(static_cast<float>(x)));
     });

@@ -114,6 +114,10 @@ async function onPage(body, options) {
 }
 const load = (opened, file) => opened.setInputFiles("#file", file);
 const verdict = (opened) => opened.locator("#verdict").innerText();
+/** Waits until the verdict is like `words`: the page draws when it has time. */
+const says = (opened, words) =>
+  opened.waitForFunction((source) => new RegExp(source).test(document.querySelector("#verdict").innerText), words.source)
+    .catch(async () => assert.match(await verdict(opened), words));
 async function saved(opened) {
   const [download] = await Promise.all([opened.waitForEvent("download"), opened.getByRole("button", { name: /^Save/ }).click()]);
   const file = join(temporaryFolder(), download.suggestedFilename());
@@ -125,10 +129,10 @@ test("a file is loaded, checked, saved, and the program takes it", () =>
   onPage(async (opened) => {
     await load(opened, "data/graphs/fire.json");
     await opened.waitForSelector('.react-flow__node[data-id="drag"]');
-    assert.equal(await verdict(opened), "right: 17 nodes");
+    await says(opened, /^right: 17 nodes$/);
     const { nodes, outputs } = read("fire");
     const links = [...nodes.flatMap((node) => Object.values(node.inputs ?? {})), ...Object.values(outputs)].filter((value) => typeof value === "string");
-    assert.equal(await opened.locator(".react-flow__edge").count(), links.length);
+    await opened.waitForFunction((all) => document.querySelectorAll(".react-flow__edge").length === all, links.length);
     const file = await saved(opened);
     assert.equal(lockstep("graph", "check", file, "--items", "64", "--quiet").status, 0);
     const back = JSON.parse(readFileSync(file, "utf8"));
@@ -149,21 +153,21 @@ test("what is edited is in the file: a value, a name, a new node, a link, a node
     await name.fill("buoyancy");
     await name.press("Enter");
     await opened.selectOption("#add", "negate");
-    assert.match(await verdict(opened), /'negate_1' has nothing at its port a/);
+    await says(opened, /'negate_1' has nothing at its port a/);
     assert.equal(await opened.getByRole("button", { name: /^Save/ }).isDisabled(), true);
     assert.equal(await opened.locator('.react-flow__node[data-id="negate_1"] .box.wrong').count(), 1);
     // A link, drawn with the mouse: from the drag's side to the new node's port.
     await opened.locator(".react-flow__controls-fitview").click();
     await opened.waitForTimeout(300);
     await opened.locator('.react-flow__node[data-id="drag"] .react-flow__handle.source').dragTo(opened.locator('.react-flow__node[data-id="negate_1"] .react-flow__handle.target'), { force: true });
-    assert.equal(await verdict(opened), "right: 18 nodes");
+    await says(opened, /^right: 18 nodes$/);
     let graph = JSON.parse(readFileSync(await saved(opened), "utf8"));
     assert.equal(graph.nodes.find((node) => node.id === "k").value, 1.5);
     assert.equal(graph.nodes.find((node) => node.id === "negate_1").inputs.a, "drag");
     assert.equal(graph.nodes.find((node) => node.id === "upwards").inputs.b, "buoyancy");
     await opened.locator('.react-flow__node[data-id="negate_1"] .type').click();
     await opened.keyboard.press("Delete");
-    assert.equal(await verdict(opened), "right: 17 nodes");
+    await says(opened, /^right: 17 nodes$/);
     graph = JSON.parse(readFileSync(await saved(opened), "utf8"));
     assert.equal(graph.nodes.length, 17);
   }));
@@ -176,8 +180,8 @@ test("what is wrong is told with its place, and marked; what is no graph is refu
     writeFileSync(file, JSON.stringify(graph));
     await load(opened, file);
     await opened.waitForSelector(".box.wrong");
+    await says(opened, /wait for each other/);
     assert.equal(essence(await verdict(opened)), essence(programSays(graph)));
-    assert.match(await verdict(opened), /wait for each other/);
     for (const [text, words] of [["{", /malformed JSON/], ["[]", /is not an object/], ['{"nodes": [{"id": 3}], "outputs": {}}', /3 is not a text/],
       ['{"nodes": [{"id": "<img src=x onerror=alert(1)>", "type": "add"}], "outputs": {}}', /is no name of a node/]]) {
       const bad = join(temporaryFolder(), "bad.json");

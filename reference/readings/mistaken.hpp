@@ -201,6 +201,7 @@ template <class A> class Mistaken {
     }
 
     static Real real(Int i) { return static_cast<float>(static_cast<int>(i)); }
+    static Real real(int i) { return static_cast<float>(i); }
     static Real real(std::uint32_t i) { return static_cast<float>(i); }
     static Int to_int(At, Real x) { return static_cast<int>(static_cast<float>(x)); }
     Real divide(At p, Real a, Real b) {

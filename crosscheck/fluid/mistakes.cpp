@@ -213,7 +213,7 @@ const std::vector<NamedMistake>& mistakes() {
             .add("sky_black", "there is no sky", mistake_at(site::sky_colour, Change::zero));
         Of(made, "scene_pass_depth")
             .add("scene_depth_turned", "depth is stored from the far plane",
-                 mistake_at(site::scene_depth, Change::opposite));
+                 mistake_at(site::surface_depth, Change::opposite));
         of_spheres({made, "sphere_depth_pass"});
         of_filters({made, "depth_filter_pass"});
         of_normals({made, "normal_pass"});

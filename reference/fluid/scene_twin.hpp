@@ -38,7 +38,7 @@ struct SceneTwin {
         const auto hit = triangles.nearest(Pixel::of(s.width, item));
         if (image == Drawn::depth) {
             ItemWords<R> words;
-            words.add(r.note(site::scene_depth, hit ? hit->depth : Real(1.0F)));
+            words.add(r.note(site::scene_depth, hit ? r.note(site::surface_depth, hit->depth) : Real(1.0F)));
             return words;
         }
         typename R::Vec3 colour = r.uniform(site::sky_colour, glm::vec3(scene_sky[0], scene_sky[1], scene_sky[2]));

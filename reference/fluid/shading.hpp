@@ -97,8 +97,8 @@ template <class R> struct Shading {
         const Vec3 incident = r.note(site::incident, published ? to_eye : -to_eye);
         const Real twice = r.note(site::along_normal, Real(2.0F) * r.dot(site::along_normal, n, incident));
         const Vec3 m = r.note(site::mirrored, incident - n * twice);
-        const glm::mat4& to_world = host.inverse_view();
-        const Vec3 row = r.uniform(site::inverse_view, glm::vec3(to_world[0][1], to_world[1][1], to_world[2][1]));
+        const glm::mat4 to_world = r.uniform(site::inverse_view, host.inverse_view());
+        const Vec3 row = r.uniform(site::up_row, glm::vec3(to_world[0][1], to_world[1][1], to_world[2][1]));
         const Real height = r.note(site::mirror_y, (row.x * m.x + row.y * m.y) + row.z * m.z);
         const Real share = r.note(site::sky_share, step(r, 0.15F, 0.25F, height));
         const Real bias = r.uniform(site::sky_bias, host.settings().shading.sky_bias);

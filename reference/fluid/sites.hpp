@@ -33,7 +33,7 @@ inline constexpr Site depth_a{"A"}, depth_b{"B"}, clip_z{"clip z"}, ndc{"ndc"}, 
 
 // Scene.
 inline constexpr Site tile{"tile of the floor"}, check{"share of the check"}, scene{"scene", "scene"},
-    scene_depth{"scene_depth", "scene_depth"}, sky_colour{"u_SceneSky"};
+    surface_depth{"depth of the surface"}, scene_depth{"scene_depth", "scene_depth"}, sky_colour{"u_SceneSky"};
 
 // Filters.
 inline constexpr Site blur_direction{"blurDir"}, centre_depth{"depth at the pixel"}, sample{"sample"},
@@ -62,9 +62,9 @@ inline constexpr Site is_cleared{"is cleared"}, gain{"u_ThicknessGain"}, addend{
     thickness{"thickness", "thickness"};
 
 // Shading.
-inline constexpr Site to_eye{"direction to the eye"}, inverse_view{"u_InverseView"}, world{"world point", {}, "m"},
-    light{"direction to the light"}, halfway{"halfway vector"}, shine{"N.h"}, specular{"specular"},
-    share{"share of a step"}, bend_of{"bend"}, offset{"offset of the refracted scene"},
+inline constexpr Site to_eye{"direction to the eye"}, inverse_view{"u_InverseView"}, up_row{"y of u_InverseView"},
+    world{"world point", {}, "m"}, light{"direction to the light"}, halfway{"halfway vector"}, shine{"N.h"},
+    specular{"specular"}, share{"share of a step"}, bend_of{"bend"}, offset{"offset of the refracted scene"},
     fetch_x{"refracted x", {}, "pixel"}, fetch_y{"refracted y", {}, "pixel"}, base{"base texel"}, fraction{"fraction"},
     scene_texel{"scene texel"}, filtered{"filtered"}, seen{"scene seen through"},
     thickness_in{"thickness at the pixel", {}, "m"}, floor_of_thickness{"u_ThicknessFloor", {}, "m"},

@@ -3,8 +3,8 @@
 namespace lockstep {
 
 /// e^x of x from -87 to 0 by + - * alone, in this order, so that no library decides: reduced by a power of two in two
-/// parts, then a polynomial of degree 6. At most 1 ULP off. `floor(x)`; `scaled(p, j)`: p 2^j, exact. Number: a float,
-/// or what a reading takes for one.
+/// parts, then a polynomial of degree 6: the nearest float, or one beside it. `floor(x)`; `scaled(p, j)`: p 2^j, exact.
+/// Number: a float, or what a reading takes for one.
 template <class Number, class Floor, class Scaled>
 Number exponential(const Number& x, const Floor& floor, const Scaled& scaled) {
     const Number j = floor(x * Number(1.44269504F) + Number(0.5F));

@@ -2,7 +2,7 @@
 
 #if TRANSCENDENTALS == TRANSCENDENTALS_PORTABLE
 
-// exp(x) of x <= 0, within 1 ULP; 0 below -87.
+// exp(x) of x <= 0: the nearest float, or one beside it; 0 below -87.
 float exp_of(float x) {
     if (!(x >= -87.0))
         return 0.0;

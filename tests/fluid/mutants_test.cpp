@@ -146,7 +146,7 @@ std::vector<HostMutant> host_catalogue() {
          uniform("depth_filter_pass", "blurDir", [](const Uniforms&) { return glm::ivec2(0, 1); })},
         {"radius_doubled", "plain", "", uniform("sphere_depth_pass", "pointRadius", scaled("pointRadius", 2.0F))},
         {"scale_halved", "plain", "half_of_half", uniform("thickness_pass", "pointScale", scaled("pointScale", 0.5F))},
-        {"near_not_set", "plain", "", uniform("sphere_depth_pass", "u_Near", zero)},
+        {"near_not_set", "ray", "", uniform("sphere_depth_pass", "u_Near", zero)},
         {"view_transposed", "plain", "mView: transposed", uniform("sphere_depth_pass", "mView", transposed("mView"))},
         {"range_scale_not_set", "plain", "range_weight_left_out", uniform("depth_filter_pass", "u_RangeScale", zero)},
         {"radius_of_the_filter", "plain", "",

@@ -33,13 +33,20 @@ std::vector<Extent> extents(const CheckReport& r) {
     return all;
 }
 
+/// Whether a system has more than two buffers and images: texts then leave out those without a count, and name images.
+bool has_many(const CheckReport& r) { return r.schema.resources.size() > 2; }
+
 /// "5 particle states and 7 texels": of each buffer and image as many.
 std::string items_text(const CheckReport& r, const std::vector<std::uint64_t>& counts, std::string_view state) {
     std::string text;
     for (std::size_t k = 0; k < counts.size(); ++k) {
         const Resource& resource = r.schema.resources[k];
-        text += fmt::format("{}{} {}{}s", k == 0 ? "" : " and ", grouped(counts[k]), resource.item,
-                            resource.dimensions == 1 ? state : "");
+        if (has_many(r) && counts[k] == 0)
+            continue;
+        const bool is_image = resource.dimensions > 1;
+        text += fmt::format("{}{} {}{}s{}{}", text.empty() ? "" : " and ", grouped(counts[k]), resource.item,
+                            is_image ? "" : state, has_many(r) && is_image ? " of " : "",
+                            has_many(r) && is_image ? resource.title : "");
     }
     return text;
 }
@@ -57,10 +64,13 @@ std::string compared_text(const CheckReport& r) {
     std::string text;
     for (std::uint8_t k = 0; k < r.schema.resources.size(); ++k) {
         const Resource& resource = r.schema.resources[k];
+        if (has_many(r) && r.total.compared(k) == 0)
+            continue;
         const bool floats = std::all_of(resource.fields.begin(), resource.fields.end(),
                                         [](const Field& field) { return field.scalar == Scalar::float32; });
-        const std::string_view what = k > 0 ? "" : floats ? "floats " : "values ";
-        text += fmt::format("{}{} {}of {}s", k == 0 ? "" : ", ", grouped(r.total.compared(k)), what, resource.item);
+        const std::string_view what = !text.empty() ? "" : floats ? "floats " : "values ";
+        text += fmt::format("{}{} {}of {}", text.empty() ? "" : ", ", grouped(r.total.compared(k)), what,
+                            has_many(r) ? resource.title : resource.item + "s");
     }
     return text;
 }

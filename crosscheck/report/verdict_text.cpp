@@ -182,10 +182,14 @@ std::string grouped(std::uint64_t value) {
 
 std::string verdict_text(const VerdictSummary& s, const Schema& schema, std::span<const Extent> extents) {
     const Shape shape{schema, extents};
+    // Of many buffers and images those that differ, by title.
+    const bool many = s.classes.size() > 2;
     std::string classes;
     for (std::size_t r = 0; r < s.classes.size(); ++r)
-        classes += fmt::format("{}{}s: {}", r == 0 ? "" : "; ", schema.resources[r].item, classes_text(s.classes[r]));
-    std::string text = line("classes", classes);
+        if (const std::string kinds = classes_text(s.classes[r]); !many || kinds != "none")
+            classes += fmt::format("{}{}: {}", classes.empty() ? "" : "; ",
+                                   many ? schema.resources[r].title : schema.resources[r].item + "s", kinds);
+    std::string text = line("classes", classes.empty() ? "none" : classes);
     if (!s.set_sizes.empty())
         text += line("outcomes", fmt::format("legal ones: median {}, largest {}", s.median_set_size(),
                                              s.set_sizes.rbegin()->first));

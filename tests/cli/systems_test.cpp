@@ -42,8 +42,10 @@ TEST_CASE("systems: a scene names its system, and one that there is not is told 
         return refusal(run_lockstep({"hash", folder.write("scene.json", text).string()}));
     };
     const std::string file = (folder.path() / "scene.json").string();
-    CHECK(told(R"({"system": "dusty"})") ==
-          file + ": /system: 'dusty' is no system; there are collision, dust, fluid, lifecycle, lights; did you mean dust?");
+    CHECK(
+        told(R"({"system": "dusty"})") ==
+        file +
+            ": /system: 'dusty' is no system; there are collision, dust, fluid, lifecycle, lights; did you mean dust?");
     CHECK_THAT(told(R"({"system": 3})"), Catch::StartsWith(file + ": /system: 3 is not a text"));
     CHECK_THAT(told(R"({"system": "collision"})"), Contains("emitters"));
 }
@@ -294,7 +296,8 @@ TEST_CASE("systems: a recording that is damaged, cut off, of another system or o
     CHECK_THAT(damaged([&] { write_at(other, 2000, "x"); }), Contains(other + ": damaged: its SHA-256 is "));
     CHECK_THAT(
         damaged([&] { write_at(other, 0, "lockstep recording 1\nsystem dusk\n"); }),
-        Contains("a recording of system 'dusk', which is none of lockstep's: collision, dust, fluid, lifecycle, lights"));
+        Contains(
+            "a recording of system 'dusk', which is none of lockstep's: collision, dust, fluid, lifecycle, lights"));
     CHECK_THAT(damaged([&] { write_at(other, 0, "lockstep recording 1\nsystem \x1b[31\n"); }),
                Contains("which is none of lockstep's") && !Contains("\x1b"));
 }

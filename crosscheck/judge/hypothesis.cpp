@@ -106,7 +106,7 @@ std::vector<Hypothesis> hypotheses_of(const std::vector<const NamedMistake*>& na
     add_hosts(all, pass);
     std::vector<SeenSite> sites;
     for (const std::size_t item : sample(items, 16))
-        for (const SeenSite& site : pass.pass.sites(pass.input(), item, pass.profile))
+        for (const SeenSite& site : pass.on_input().sites(pass.input(), item, pass.profile))
             if (std::find(sites.begin(), sites.end(), site) == sites.end())
                 sites.push_back(site);
     for (const Mistake& mistake : mistakes_at(sites))
@@ -136,8 +136,10 @@ bool explains(const Hypothesis& hypothesis, const ItemLikeness& likeness, std::s
             return alike(made.value(from, item, c.component), p.gpu.value(c.field, item, c.component));
         });
     }
-    const PassInput input{hypothesis.host == Host::earlier_state ? *p.earlier : p.before, p.frame};
-    const std::vector<std::uint32_t> words = p.pass.mistaken(input, item, p.profile, hypothesis.made);
+    const std::vector<std::uint32_t> words =
+        hypothesis.host == Host::earlier_state
+            ? p.pass.mistaken({*p.earlier, p.frame}, item, p.profile, hypothesis.made)
+            : p.on_input().mistaken(p.input(), item, p.profile, hypothesis.made);
     if (!hypothesis.rounds())
         return likeness.are_gpus(item, words);
     const bool is_sum = std::any_of(hypothesis.made.begin(), hypothesis.made.end(), sums);

@@ -16,7 +16,7 @@ bool same_item(const View& a, const View& b, std::size_t item) {
 }
 
 ItemVerdict judge_item(const JudgedPass& p, std::size_t item) {
-    const auto outcomes = p.pass.outcomes(p.input(), item, p.profile, p.known, &p.gpu);
+    const auto outcomes = p.on_input().outcomes(p.input(), item, p.profile, p.known, &p.gpu);
     ItemVerdict verdict{.index = item, .outcomes = outcomes.size()};
     std::vector<ItemOutcome> untold; // where no value of the GPU's was gone on from
     for (const ItemOutcome& outcome : outcomes) {
@@ -27,7 +27,7 @@ ItemVerdict judge_item(const JudgedPass& p, std::size_t item) {
             kind = DifferenceClass::undefined;
         } else if (outcomes.size() > 1) {
             if (untold.empty())
-                untold = p.pass.outcomes(p.input(), item, p.profile, p.known, nullptr);
+                untold = p.on_input().outcomes(p.input(), item, p.profile, p.known, nullptr);
             const bool alike = std::any_of(untold.begin(), untold.end(), [&](const ItemOutcome& one) {
                 return one.contains(p.gpu, item) && one.contains(p.reference, item);
             });

@@ -36,7 +36,7 @@ class Evidence {
                 (pass.profile.errors.length > 0 || pass.profile.errors.normalize > 0)) {}
 
     [[nodiscard]] bool explains(const std::vector<Mistake>& made, std::size_t item) const {
-        const auto words = pass_.pass.mistaken(pass_.input(), item, pass_.profile, made);
+        const auto words = pass_.on_input().mistaken(pass_.input(), item, pass_.profile, made);
         return errs_ ? likeness_.are_near_gpus(item, words, rewritten_ulps) : likeness_.are_gpus(item, words);
     }
     [[nodiscard]] std::vector<Mistake> made(const TriedCause& cause) const {
@@ -73,7 +73,7 @@ class Evidence {
         const std::vector<Mistake> all = made({{mistake}});
         bool changes = false;
         for (const std::size_t item : items) {
-            const auto words = pass_.pass.mistaken(pass_.input(), item, pass_.profile, all);
+            const auto words = pass_.on_input().mistaken(pass_.input(), item, pass_.profile, all);
             if (!likeness_.are_near_references(item, words, rewritten_ulps))
                 return false;
             changes = changes || (!errs_ && !likeness_.are_references(item, words));

@@ -17,7 +17,7 @@ MistakenItem judge_mistaken(const JudgedPass& p, std::size_t item, std::span<con
                                  p.reference.value(c.field, item, c.component));
     if (same)
         return MistakenItem::same;
-    const auto outcomes = p.pass.outcomes(p.input(), item, p.profile, p.known, nullptr);
+    const auto outcomes = p.on_input().outcomes(p.input(), item, p.profile, p.known, nullptr);
     const bool legal = std::any_of(outcomes.begin(), outcomes.end(),
                                    [&](const ItemOutcome& outcome) { return outcome.contains(words, about); });
     return legal ? MistakenItem::legal : MistakenItem::divergent;
@@ -61,7 +61,7 @@ void PowerMeter::add(const JudgedPass& p, const std::vector<std::size_t>& tellin
     std::vector<std::vector<SeenSite>> sites(items.size());
     parallel_blocks(static_cast<std::ptrdiff_t>(items.size()), [&](std::ptrdiff_t i) {
         const auto at = static_cast<std::size_t>(i);
-        sites[at] = p.pass.sites(p.input(), items[at], p.profile);
+        sites[at] = p.on_input().sites(p.input(), items[at], p.profile);
     });
     std::set<std::uint32_t> reached;
     for (const std::vector<SeenSite>& of_item : sites)
@@ -75,7 +75,7 @@ void PowerMeter::add(const JudgedPass& p, const std::vector<std::size_t>& tellin
             const std::size_t item = items[i];
             if (!may_change(sites[i], made[0]))
                 continue;
-            const MistakenItem is = judge_mistaken(p, item, p.pass.mistaken(p.input(), item, p.profile, made));
+            const MistakenItem is = judge_mistaken(p, item, p.on_input().mistaken(p.input(), item, p.profile, made));
             tried_[m].changes = tried_[m].changes || is != MistakenItem::same;
             if (is == MistakenItem::divergent) {
                 tried_[m].first_frame = p.frame;

@@ -55,8 +55,12 @@ struct JudgedPass {
     const View& gpu;
     /// What the pass started from in the frame before; null in frame 0.
     const SystemView* earlier = nullptr;
+    std::shared_ptr<const ItemPass> prepared = nullptr; ///< for its input
 
     [[nodiscard]] PassInput input() const { return {before, frame}; }
+    /// The pass on its input, and on no other.
+    [[nodiscard]] const ItemPass& on_input() const { return prepared ? *prepared : pass; }
+    void prepare() { prepared = pass.prepared(input()); }
 };
 
 } // namespace lockstep

@@ -283,15 +283,18 @@ CheckReport check(const System& system, SystemSide& gpu, const CheckOptions& opt
             if (judged && power_is_tried(runs[p]++)) {
                 const Stopwatch timing(times.power);
                 const View agreed = std::as_const(made)[r];
-                power.add({pass, profile, known, frame, from, agreed, agreed}, {});
+                JudgedPass tried{pass, profile, known, frame, from, agreed, agreed};
+                tried.prepare();
+                power.add(tried, {});
             }
             const SystemView earlier_view = earlier[p] ? earlier[p]->view() : SystemView();
             const View reference_view = std::as_const(made)[r], gpu_view = std::as_const(now)[r];
-            const JudgedPass one{pass, profile,        known,    frame,
-                                 from, reference_view, gpu_view, earlier[p] ? &earlier_view : nullptr};
+            JudgedPass one{pass, profile,        known,    frame,
+                           from, reference_view, gpu_view, earlier[p] ? &earlier_view : nullptr};
             std::vector<ItemVerdict> verdicts;
             if (judged && comparison.differing(r) > 0) {
                 const Stopwatch timing(times.judge);
+                one.prepare();
                 verdicts = judge_items(one);
                 const std::uint64_t divergent_before = summary.total(DifferenceClass::divergent);
                 summary.add(frame, r, verdicts);

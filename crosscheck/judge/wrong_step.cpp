@@ -50,7 +50,7 @@ struct NamedComponent {
 /// In the order in which the twin names them: what is named last follows from what is named before.
 std::vector<NamedComponent> in_order_of_step(const JudgedPass& p, std::size_t item) {
     const Resource& about = p.gpu.about();
-    const std::vector<RecordedRow> rows = p.pass.record(p.input(), item, p.profile);
+    const std::vector<RecordedRow> rows = p.on_input().record(p.input(), item, p.profile);
     std::vector<NamedComponent> parts;
     for (const Component c : components(about)) {
         NamedComponent& part = parts.emplace_back(NamedComponent{c, parts.size()});
@@ -186,10 +186,10 @@ bool fits(const FollowedStep& step, const std::vector<ToldValue>& state) {
 /// The last decision that alone explains the state where it is made otherwise.
 std::optional<Otherwise> wrong_decision(const JudgedPass& p, std::size_t item) {
     const std::vector<ToldValue> state = told_by_state(p.pass, p.gpu, item);
-    std::vector<Otherwise> all = decided_otherwise(p.pass.record(p.input(), item, p.profile));
+    std::vector<Otherwise> all = decided_otherwise(p.on_input().record(p.input(), item, p.profile));
     for (auto one = all.rbegin(); one != all.rend(); ++one) {
         one->told.insert(one->told.end(), state.begin(), state.end());
-        if (fits(p.pass.follow(p.input(), item, p.profile, p.known, one->told), state))
+        if (fits(p.on_input().follow(p.input(), item, p.profile, p.known, one->told), state))
             return std::move(*one);
     }
     return {};
@@ -198,7 +198,7 @@ std::optional<Otherwise> wrong_decision(const JudgedPass& p, std::size_t item) {
 /// What a decision, loop or choice on the way did otherwise, where that leaves the item as it is: an offer that the
 /// twin never made has no row, and is told of the choice that follows.
 std::optional<Otherwise> wrong_search(const JudgedPass& p, std::size_t item) {
-    const std::vector<RecordedRow> rows = p.pass.record(p.input(), item, p.profile);
+    const std::vector<RecordedRow> rows = p.on_input().record(p.input(), item, p.profile);
     const auto choice = std::find_if(rows.begin(), rows.end(), [](const RecordedRow& row) {
         return row.kind == Kind::choice && row.site->output_id != 0;
     });
@@ -206,7 +206,7 @@ std::optional<Otherwise> wrong_search(const JudgedPass& p, std::size_t item) {
         return {};
     std::vector<SeenSite> sites;
     using Seen = SeenSite::Kind;
-    for (const SeenSite& seen : p.pass.sites(p.input(), item, p.profile)) {
+    for (const SeenSite& seen : p.on_input().sites(p.input(), item, p.profile)) {
         const auto of_site = [&](const RecordedRow& row) { return row.site == seen.site; };
         if (std::none_of(rows.begin(), choice + 1, of_site) && std::any_of(choice, rows.end(), of_site))
             break; // what follows from the choice
@@ -215,7 +215,7 @@ std::optional<Otherwise> wrong_search(const JudgedPass& p, std::size_t item) {
     }
     const ItemLikeness likeness(p);
     for (const Mistake& mistake : mistakes_at(sites))
-        if (likeness.are_gpus(item, p.pass.mistaken(p.input(), item, p.profile, {&mistake, 1})))
+        if (likeness.are_gpus(item, p.on_input().mistaken(p.input(), item, p.profile, {&mistake, 1})))
             return Otherwise{std::string(choice->site->label),
                              fmt::format("{} follows {}", choice->values[0] != 0.0F ? "what was found" : "none",
                                          line_of(choice->where)),
@@ -228,7 +228,7 @@ std::optional<Otherwise> wrong_search(const JudgedPass& p, std::size_t item) {
 
 WrongStep wrong_step_of_item(const JudgedPass& p, std::size_t item) {
     const std::vector<NamedComponent> parts = in_order_of_step(p, item);
-    const auto outcomes = p.pass.outcomes(p.input(), item, p.profile, p.known, &p.gpu);
+    const auto outcomes = p.on_input().outcomes(p.input(), item, p.profile, p.known, &p.gpu);
     const ItemOutcome* nearest = &outcomes.front();
     Parting best = parting(*nearest, p.gpu, item, parts);
     for (const ItemOutcome& outcome : outcomes) {

@@ -74,7 +74,7 @@ std::string item_verdict_text(const JudgedPass& pass, std::size_t item, const st
         std::find_if(rows.begin(), rows.end(), [](const StepRow& row) { return row.verdict == RowVerdict::divergent; });
     if (first != rows.end())
         text += fmt::format("first     {}: {}\n", first->label, first->reason);
-    const auto outcomes = pass.pass.outcomes(pass.input(), item, pass.profile, pass.known, &pass.gpu);
+    const auto outcomes = pass.on_input().outcomes(pass.input(), item, pass.profile, pass.known, &pass.gpu);
     for (const ItemOutcome& outcome : outcomes)
         text += fmt::format("legal     {}\n", outcome_text(outcome, pass.gpu.about()));
     return text;

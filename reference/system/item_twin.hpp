@@ -72,6 +72,9 @@ inline constexpr std::uint32_t nothing_reads_so = 0x7f7ffffe;
 
 /// A twin may have `at(frame)`, which returns the twin of one frame, or `at(in)`, that of one state: what depends on
 /// that alone is then made once, not for every item.
+template <class Twin> constexpr bool has_at = requires(const Twin& twin, const PassInput& in) { twin.at(in); }
+|| requires(const Twin& twin, const PassInput& in) { twin.at(in.frame); };
+
 template <class Twin> decltype(auto) in_frame(const Twin& twin, const PassInput& in) {
     if constexpr (requires { twin.at(in); })
         return twin.at(in);
@@ -80,6 +83,23 @@ template <class Twin> decltype(auto) in_frame(const Twin& twin, const PassInput&
     else
         return (twin);
 }
+
+/// The twin of one input: made here, or that of a pass which was prepared.
+template <class Twin> class Framed {
+  public:
+    Framed(const Twin& twin, const PassInput& in, bool is_prepared) : twin_(&twin) {
+        if constexpr (has_at<Twin>)
+            if (!is_prepared)
+                twin_ = &made_.emplace(in_frame(twin, in));
+    }
+    Framed(const Framed&) = delete;
+    Framed& operator=(const Framed&) = delete;
+    const Twin& operator*() const { return *twin_; }
+
+  private:
+    std::optional<Twin> made_;
+    const Twin* twin_;
+};
 
 /// A twin whose products may be fused by mistake says `static constexpr bool may_fuse = true`: that is one more
 /// arithmetic to compile.
@@ -171,11 +191,13 @@ template <class Twin> class ItemTwin final : public ItemPass {
 
     void run(const PassInput& in, const Profile& profile, std::size_t first, std::size_t last,
              const WritableView& after) const override {
-        run_made(item_twin::in_frame(twin_, in), in, profile, first, last, after);
+        const item_twin::Framed<Twin> framed(twin_, in, is_prepared_);
+        run_made(*framed, in, profile, first, last, after);
     }
 
     bool run_all(const PassInput& in, const Profile& profile, const WritableView& after) const override {
-        const auto& twin = item_twin::in_frame(twin_, in);
+        const item_twin::Framed<Twin> framed(twin_, in, is_prepared_);
+        const Twin& twin = *framed;
         return with_arithmetic_of(profile, [&]<class A>(A fp) {
             Values<A> values(fp);
             if constexpr (requires { twin.part(values, in, std::size_t{0}, after); }) {
@@ -188,8 +210,7 @@ template <class Twin> class ItemTwin final : public ItemPass {
             } else if constexpr (requires { twin.all(values, in, after); }) {
                 const FlushSubnormals guard = flush(profile);
                 return twin.all(values, in, after);
-            } else if constexpr (
-                requires { twin_.at(in); } || requires { twin_.at(in.frame); }) {
+            } else if constexpr (item_twin::has_at<Twin>) {
                 parallel_ranges(after.count(), [&](std::size_t first, std::size_t last) {
                     run_made(twin, in, profile, first, last, after);
                 });
@@ -200,11 +221,22 @@ template <class Twin> class ItemTwin final : public ItemPass {
         });
     }
 
+    [[nodiscard]] std::unique_ptr<ItemPass> prepared(const PassInput& in) const override {
+        if constexpr (item_twin::has_at<Twin>) {
+            auto one = std::make_unique<ItemTwin>(options_, item_twin::in_frame(twin_, in));
+            one->is_prepared_ = true;
+            return one;
+        } else {
+            return nullptr;
+        }
+    }
+
     [[nodiscard]] std::vector<ItemOutcome> outcomes(const PassInput& in, std::size_t item, const Profile& profile,
                                                     const KnownOperations& known, const View* observed) const override {
         const FlushSubnormals guard = flush(profile, known.subnormals);
         std::vector<ItemOutcome> found;
-        const auto& twin = item_twin::in_frame(twin_, in);
+        const item_twin::Framed<Twin> framed(twin_, in, is_prepared_);
+        const Twin& twin = *framed;
         with_arithmetic_of(profile, [&]<class A>(A fp) {
             Worlds<A> worlds(fp, of_stage(known, profile), profile.other_orders);
             tell_of_driver(worlds, profile);
@@ -228,7 +260,8 @@ template <class Twin> class ItemTwin final : public ItemPass {
     [[nodiscard]] std::vector<RecordedRow> record(const PassInput& in, std::size_t item,
                                                   const Profile& profile) const override {
         const FlushSubnormals guard = flush(profile);
-        const auto& twin = item_twin::in_frame(twin_, in);
+        const item_twin::Framed<Twin> framed(twin_, in, is_prepared_);
+        const Twin& twin = *framed;
         return with_arithmetic_of(profile, [&]<class A>(A fp) {
             Recording<A> reading(fp);
             twin(reading, in, item);
@@ -239,7 +272,8 @@ template <class Twin> class ItemTwin final : public ItemPass {
     [[nodiscard]] FollowedStep follow(const PassInput& in, std::size_t item, const Profile& profile,
                                       const KnownOperations& known, std::span<const ToldValue> told) const override {
         const FlushSubnormals guard = flush(profile, known.subnormals);
-        const auto& twin = item_twin::in_frame(twin_, in);
+        const item_twin::Framed<Twin> framed(twin_, in, is_prepared_);
+        const Twin& twin = *framed;
         return with_arithmetic_of(profile, [&]<class A>(A fp) {
             Following<A> reading(fp, of_stage(known, profile), profile.other_orders);
             tell_of_driver(reading, profile);
@@ -272,7 +306,8 @@ template <class Twin> class ItemTwin final : public ItemPass {
     [[nodiscard]] std::vector<SeenSite> sites(const PassInput& in, std::size_t item,
                                               const Profile& profile) const override {
         const FlushSubnormals guard = flush(profile);
-        const auto& twin = item_twin::in_frame(twin_, in);
+        const item_twin::Framed<Twin> framed(twin_, in, is_prepared_);
+        const Twin& twin = *framed;
         return with_arithmetic_of(profile, [&]<class A>(A fp) {
             Mistaken<A> reading(fp, {});
             reading.look_at_sites();
@@ -286,9 +321,9 @@ template <class Twin> class ItemTwin final : public ItemPass {
         if (is_among(Change::item_kept, made))
             return item_words(in.before[options_.resource], item);
         const FlushSubnormals guard = flush(profile, !is_among(Change::subnormals_kept, made));
-        const auto& framed = item_twin::in_frame(twin_, in);
-        const auto& twin = item_twin::as_handed(framed, made);
-        constexpr bool may_fuse = item_twin::may_fuse<std::remove_cvref_t<decltype(framed)>>();
+        const item_twin::Framed<Twin> framed(twin_, in, is_prepared_);
+        const auto& twin = item_twin::as_handed(*framed, made);
+        constexpr bool may_fuse = item_twin::may_fuse<Twin>();
         return with_mistaken_arithmetic<may_fuse>(profile, options_.arithmetic, made, [&]<class A>(A fp) {
             try {
                 Mistaken<A> reading(fp, made);
@@ -414,6 +449,7 @@ template <class Twin> class ItemTwin final : public ItemPass {
 
     ItemPassOptions options_;
     Twin twin_;
+    bool is_prepared_ = false; ///< the twin is that of one input
 };
 
 template <class Twin> std::unique_ptr<ItemPass> item_pass(ItemPassOptions options, Twin twin) {

@@ -120,7 +120,7 @@ void contradict_by_steps(std::vector<TriedCause>& causes, std::size_t divergent,
             continue;
         cause.contradicted +=
             static_cast<std::uint64_t>(std::count_if(agreeing.begin(), agreeing.end(), [&](std::size_t i) {
-                return !likeness.are_gpus(i, pass.pass.mistaken(pass.input(), i, pass.profile, made));
+                return !likeness.are_gpus(i, pass.on_input().mistaken(pass.input(), i, pass.profile, made));
             }));
     }
 }

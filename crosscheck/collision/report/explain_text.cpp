@@ -107,7 +107,7 @@ std::string why_item(const JudgedPass& pass, std::size_t item, const std::string
     const bool differs = !same_item(pass.reference, pass.gpu, item);
     const ItemVerdict verdict = judge_item(pass, item);
     std::string text = fmt::format("{}: {}\n", name, class_text(differs ? &verdict : nullptr));
-    const auto outcomes = pass.pass.outcomes(pass.input(), item, pass.profile, pass.known, &pass.gpu);
+    const auto outcomes = pass.on_input().outcomes(pass.input(), item, pass.profile, pass.known, &pass.gpu);
     for (std::size_t i = 0; i < outcomes.size(); ++i)
         text += fmt::format("  legal outcome {} of {}, {}: {}\n", i + 1, outcomes.size(),
                             outcomes[i].contains(pass.gpu, item) ? "the GPU is in it" : "the GPU is not",

@@ -17,7 +17,8 @@ namespace {
 
 using nlohmann::json;
 
-constexpr std::array<std::string_view, 4> sections{"uniforms", "uniform_blocks", "attributes", "outputs"};
+constexpr std::array<std::string_view, 5> sections{"uniforms", "uniform_blocks", "storage_blocks", "attributes",
+                                                   "outputs"};
 
 class Reader {
   public:
@@ -35,14 +36,17 @@ class Reader {
                                        did_you_mean(name, {sections.begin(), sections.end()})));
             check_object(path, value);
             if (name == "uniforms")
-                read_uniforms(path, "", value);
+                read_uniforms(path, "", value, made_.uniforms);
             else if (name == "uniform_blocks")
                 for (const auto& [block, members] : value.items()) {
                     check_object(path + "/" + block, members);
                     check_word(path + "/" + block, block);
                     made_.blocks.push_back(block);
-                    read_uniforms(path + "/" + block, block + ".", members);
+                    read_uniforms(path + "/" + block, block + ".", members, made_.uniforms);
                 }
+            else if (name == "storage_blocks")
+                for (const auto& [block, members] : value.items())
+                    read_storage(path + "/" + block, block, members);
             else
                 read_names(path, value, name == "outputs" ? made_.outputs : made_.attributes);
         }
@@ -79,10 +83,22 @@ class Reader {
         }
     }
 
-    void read_uniforms(const std::string& path, const std::string& block, const json& value) {
+    void read_storage(const std::string& path, const std::string& block, const json& value) {
+        check_word(path, block);
+        StorageBlockBinding binding{path, value.is_string() ? value.get<std::string>() : std::string()};
+        if (!value.is_string()) {
+            if (!value.is_object() || value.empty())
+                fail(path, "is to be the name of a block here, or { \"member in the shader\": \"Block.field here\" }");
+            read_uniforms(path, "", value, binding.members);
+        }
+        made_.storage_blocks.emplace(block, std::move(binding));
+    }
+
+    void read_uniforms(const std::string& path, const std::string& block, const json& value,
+                       std::map<std::string, UniformBinding, std::less<>>& into) const {
         for (const auto& [theirs, given] : value.items()) {
             UniformBinding binding{path + "/" + theirs, {}};
-            check_word(binding.path, theirs);
+            check_word(binding.path, theirs.substr(theirs.rfind('.') + 1));
             binding.by_component = given.is_array();
             for (const json& one : given.is_array() ? given : json::array({given})) {
                 if (one.is_string())
@@ -94,7 +110,7 @@ class Reader {
             }
             if (binding.names.empty() == binding.numbers.empty())
                 fail(binding.path, "is to be names or numbers, one at least");
-            made_.uniforms.emplace(block + theirs, std::move(binding));
+            into.emplace(block + theirs, std::move(binding));
         }
     }
 

@@ -16,13 +16,22 @@ struct UniformBinding {
     bool by_component = false;        ///< a list of names: one a component, whatever its type
 };
 
+/// What a storage block of a shader from elsewhere holds: all of one of ours, or a value for each of its members.
+struct StorageBlockBinding {
+    std::string path; ///< in the file: "/storage_blocks/Particles"
+    std::string ours; ///< the block of ours; empty: by member
+    std::map<std::string, UniformBinding, std::less<>> members =
+        {}; ///< by the shader's names, names being "Before.speed"
+};
+
 /// The names of a shader from elsewhere beside ours (docs/own_shader.md).
 struct Bindings {
     std::string file;
     /// By the shader's names, of a member of a uniform block "Frame.tick".
     std::map<std::string, UniformBinding, std::less<>> uniforms;
-    std::map<std::string, std::string, std::less<>> attributes, outputs; ///< ours by the shader's
-    std::vector<std::string> blocks;                                     ///< uniform blocks that are bound by member
+    std::map<std::string, std::string, std::less<>> attributes, outputs;    ///< ours by the shader's
+    std::vector<std::string> blocks;                                        ///< uniform blocks that are bound by member
+    std::map<std::string, StorageBlockBinding, std::less<>> storage_blocks; ///< by the shader's names
 
     [[nodiscard]] bool binds_block(std::string_view block) const;
     /// The shader's name of one of our outputs; the same where none is given.

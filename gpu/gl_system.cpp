@@ -12,6 +12,7 @@
 #include <fmt/ranges.h>
 #include <glm/gtc/type_ptr.hpp>
 
+#include "gpu/bound_storage.hpp"
 #include "gpu/check.hpp"
 #include "gpu/program.hpp"
 #include "gpu/record_buffer.hpp"
@@ -20,6 +21,7 @@
 #include "gpu/texture.hpp"
 #include "gpu/vertex_capture.hpp"
 #include "reference/model/error.hpp"
+#include "reference/model/near_name.hpp"
 
 namespace lockstep {
 namespace {
@@ -63,35 +65,77 @@ struct Bound {
     std::string name;        ///< of data
 };
 
-/// Every storage block of the program, by name. Throws Error for one that nothing is given for.
-std::vector<Bound> bind_blocks(const Program& program, const Schema& schema, const std::vector<Storage>& storages,
-                               const GlPass& pass) {
-    GLint count = 0;
-    gl::GetProgramInterfaceiv(program.id(), GL_SHADER_STORAGE_BLOCK, GL_ACTIVE_RESOURCES, &count);
-    std::vector<Bound> bound;
-    std::vector<std::string> names;
-    const auto look = [&](const std::string& name, const Bound& what) {
-        names.push_back(name);
-        const GLuint block = gl::GetProgramResourceIndex(program.id(), GL_SHADER_STORAGE_BLOCK, name.c_str());
-        if (block == GL_INVALID_INDEX)
-            return;
-        gl::ShaderStorageBlockBinding(program.id(), block, static_cast<GLuint>(bound.size()));
-        bound.push_back(what);
-    };
+/// The blocks of ours by their names.
+std::map<std::string, Bound> our_blocks(const Schema& schema, const std::vector<Storage>& storages,
+                                        const GlPass& pass) {
+    std::map<std::string, Bound> all;
     for (std::size_t s = 0; s < storages.size(); ++s) {
         const Resource& resource = schema.resources[storages[s].layout.resource];
         if (storages[s].block.empty()) {
-            look(block_name(resource, false), {Bound::Kind::before, s, {}});
-            look(block_name(resource, true), {Bound::Kind::after, s, {}});
+            all[block_name(resource, false)] = {Bound::Kind::before, s, {}};
+            all[block_name(resource, true)] = {Bound::Kind::after, s, {}};
         } else {
-            look(storages[s].block, {Bound::Kind::in_place, s, {}});
+            all[storages[s].block] = {Bound::Kind::in_place, s, {}};
         }
     }
     for (const auto& [name, words] : pass.data)
-        look(name, {Bound::Kind::data, 0, name});
-    if (static_cast<GLint>(bound.size()) != count)
-        throw Error(fmt::format("{}: nothing is given for {} of its storage buffers; the names are {}", program.name(),
-                                count - static_cast<GLint>(bound.size()), fmt::join(names, ", ")));
+        all[name] = {Bound::Kind::data, 0, name};
+    return all;
+}
+
+/// Those in two copies, which a shader's own blocks can be bound to by member.
+std::vector<RecordBlocks> blocks_of_records(const Schema& schema, const std::vector<Storage>& storages) {
+    std::vector<RecordBlocks> all;
+    for (const Storage& storage : storages) {
+        const Resource& resource = schema.resources[storage.layout.resource];
+        if (storage.block.empty())
+            all.push_back({block_name(resource, false), block_name(resource, true), &storage.layout});
+    }
+    return all;
+}
+
+/// Gives every storage block of the program its binding point, by name or by the bindings beside the shader; those
+/// bound by member have the last. Throws Error for one that nothing is given for.
+std::vector<Bound> bind_blocks(const Program& program, const Schema& schema, const std::vector<Storage>& storages,
+                               const GlPass& pass) {
+    const std::map<std::string, Bound> ours = our_blocks(schema, storages, pass);
+    std::vector<std::string> names;
+    for (const auto& [name, what] : ours)
+        names.push_back(name);
+    GLint count = 0;
+    gl::GetProgramInterfaceiv(program.id(), GL_SHADER_STORAGE_BLOCK, GL_ACTIVE_RESOURCES, &count);
+    std::vector<Bound> bound;
+    std::vector<GLuint> by_member;
+    for (GLuint block = 0; block < static_cast<GLuint>(count); ++block) {
+        std::array<char, 256> theirs{};
+        gl::GetProgramResourceName(program.id(), GL_SHADER_STORAGE_BLOCK, block, static_cast<GLsizei>(theirs.size()),
+                                   nullptr, theirs.data());
+        std::string name = theirs.data();
+        if (const Bindings* const bindings = program.bindings().get(); bindings != nullptr) {
+            const auto given = bindings->storage_blocks.find(name);
+            if (given != bindings->storage_blocks.end() && given->second.ours.empty()) {
+                by_member.push_back(block);
+                continue;
+            }
+            if (given != bindings->storage_blocks.end()) {
+                name = given->second.ours;
+                if (!ours.contains(name))
+                    throw Error(fmt::format("{}: {}: {} is no storage block here; right is one of {}{}", bindings->file,
+                                            given->second.path, name, fmt::join(names, ", "),
+                                            did_you_mean(name, names)));
+            }
+        }
+        const auto known = ours.find(name);
+        if (known == ours.end())
+            throw Error(fmt::format("{}: nothing is given for storage block {}; right is one of {}, or {} beside the "
+                                    "shader (docs/own_shader.md){}",
+                                    program.name(), name, fmt::join(names, ", "), bindings_file,
+                                    did_you_mean(name, names)));
+        gl::ShaderStorageBlockBinding(program.id(), block, static_cast<GLuint>(bound.size()));
+        bound.push_back(known->second);
+    }
+    for (std::size_t b = 0; b < by_member.size(); ++b)
+        gl::ShaderStorageBlockBinding(program.id(), by_member[b], static_cast<GLuint>(bound.size() + b));
     return bound;
 }
 
@@ -171,6 +215,7 @@ struct GlSystem::Parts {
         GlPass pass;
         Program program;
         std::vector<Bound> bound;                     ///< of a compute pass
+        BoundStorage by_member;                       ///< the rest of its blocks
         std::vector<std::uint8_t> resources;          ///< that it writes
         std::array<std::size_t, 3> group = {1, 1, 1}; ///< invocations along each axis
         std::size_t invocations = 1;                  ///< of a group
@@ -271,16 +316,23 @@ GlSystem::GlSystem(const Schema& schema, std::vector<GlPass> passes, std::filesy
         if (!compute)
             check_nothing_lost(stages, captures);
         std::vector<Bound> bound;
+        BoundStorage by_member;
         std::array<GLint, 3> group{1, 1, 1};
         if (compute) {
             bound = bind_blocks(program, schema, parts_->storages, pass);
+            by_member = BoundStorage(program.id(), program.bindings(), blocks_of_records(schema, parts_->storages));
             gl::GetProgramiv(program.id(), GL_COMPUTE_WORK_GROUP_SIZE, group.data());
         }
         const std::uint8_t resource = pass.resource;
         std::array<std::size_t, 3> sizes{};
         std::transform(group.begin(), group.end(), sizes.begin(), [](GLint n) { return static_cast<std::size_t>(n); });
-        parts_->passes.emplace_back(Parts::Linked{
-            std::move(pass), std::move(program), std::move(bound), {resource}, sizes, sizes[0] * sizes[1] * sizes[2]});
+        parts_->passes.emplace_back(Parts::Linked{std::move(pass),
+                                                  std::move(program),
+                                                  std::move(bound),
+                                                  std::move(by_member),
+                                                  {resource},
+                                                  sizes,
+                                                  sizes[0] * sizes[1] * sizes[2]});
         last = &*parts_->passes.back();
     }
 }
@@ -586,6 +638,13 @@ void GlSystem::Parts::dispatch(const Linked& linked, int frame) {
         }
         gl::BindBufferBase(GL_SHADER_STORAGE_BUFFER, static_cast<GLuint>(b), buffer);
     }
+    std::vector<const RecordBuffer*> read, written;
+    for (std::size_t s = 0; s < storages.size(); ++s)
+        if (storages[s].block.empty()) {
+            read.push_back(&from(s));
+            written.push_back(&to(s));
+        }
+    linked.by_member.fill(read, written);
     const std::size_t items =
         linked.pass.invocations ? linked.pass.invocations(frame) : this->items(linked.pass.resource);
     // Negative: as many groups as the items take.
@@ -599,6 +658,7 @@ void GlSystem::Parts::dispatch(const Linked& linked, int frame) {
         else
             gl::DispatchCompute(static_cast<GLuint>((items + linked.invocations - 1) / linked.invocations), 1, 1);
     });
+    linked.by_member.collect(written);
     gl::BindBuffer(GL_DISPATCH_INDIRECT_BUFFER, 0);
     gl::MemoryBarrier(GL_COMMAND_BARRIER_BIT | GL_BUFFER_UPDATE_BARRIER_BIT | GL_CLIENT_MAPPED_BUFFER_BARRIER_BIT |
                       GL_VERTEX_ATTRIB_ARRAY_BARRIER_BIT | GL_SHADER_STORAGE_BARRIER_BIT |

@@ -67,10 +67,10 @@ class Shader {
 };
 
 /// Those that lie beside the stages; null where there are none.
-const Bindings* bindings_of(std::span<const ShaderSource> stages) {
+std::shared_ptr<const Bindings> bindings_of(std::span<const ShaderSource> stages) {
     for (const ShaderSource& stage : stages)
         if (stage.bindings != nullptr)
-            return stage.bindings.get();
+            return stage.bindings;
     return nullptr;
 }
 
@@ -318,7 +318,7 @@ void check_fragment_output(GLuint program, std::span<const ShaderSource> stages)
 } // namespace
 
 void check_nothing_lost(std::span<const ShaderSource> stages, std::span<const Capture> by_our_names) {
-    const std::vector<Capture> captured = by_their_names(by_our_names, bindings_of(stages));
+    const std::vector<Capture> captured = by_their_names(by_our_names, bindings_of(stages).get());
     const ShaderSource* last = last_vertex_stage(stages);
     if (last == nullptr)
         return;
@@ -360,11 +360,11 @@ std::vector<Capture> outputs_with(std::string_view prefix, std::span<const Shade
 
 Program::Program(std::string name, std::span<const ShaderSource> stages, std::span<const Capture> captured,
                  std::span<const std::string_view> storage_buffers)
-    : name_(std::move(name)) {
+    : name_(std::move(name)), bindings_(bindings_of(stages)) {
     std::vector<Shader> shaders;
     for (const ShaderSource& stage : stages)
         shaders.emplace_back(stage);
-    const Bindings* const bindings = bindings_of(stages);
+    const Bindings* const bindings = bindings_.get();
     const std::vector<Capture> outputs = by_their_names(captured, bindings);
     id_ = gl::CreateProgram();
     try {
@@ -392,12 +392,13 @@ Program::Program(std::string name, std::span<const ShaderSource> stages, std::sp
 }
 
 Program::Program(Program&& other) noexcept
-    : name_(std::move(other.name_)), id_(std::exchange(other.id_, 0)), uniforms_(std::move(other.uniforms_)),
-      attributes_(std::move(other.attributes_)) {}
+    : name_(std::move(other.name_)), id_(std::exchange(other.id_, 0)), bindings_(std::move(other.bindings_)),
+      uniforms_(std::move(other.uniforms_)), attributes_(std::move(other.attributes_)) {}
 
 Program& Program::operator=(Program&& other) noexcept {
     std::swap(name_, other.name_);
     std::swap(id_, other.id_);
+    std::swap(bindings_, other.bindings_);
     std::swap(uniforms_, other.uniforms_);
     std::swap(attributes_, other.attributes_);
     return *this;

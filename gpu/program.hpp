@@ -1,5 +1,6 @@
 #pragma once
 #include <cstdint>
+#include <memory>
 #include <optional>
 #include <span>
 #include <string>
@@ -73,6 +74,9 @@ class Program {
     /// Whether a storage buffer with this binding takes part. Needs GL 4.3.
     [[nodiscard]] bool uses_storage(GLuint binding) const;
 
+    /// What lies beside its stages; null: nothing.
+    [[nodiscard]] const std::shared_ptr<const Bindings>& bindings() const { return bindings_; }
+
     [[nodiscard]] const std::string& name() const { return name_; }
     [[nodiscard]] GLuint id() const { return id_; }
 
@@ -81,6 +85,7 @@ class Program {
 
     std::string name_;
     GLuint id_ = 0;
+    std::shared_ptr<const Bindings> bindings_;
     std::optional<UniformValues> uniforms_;
     ProgramInterface attributes_{"attribute"};
 };

@@ -97,6 +97,15 @@ struct Seen {
 };
 std::unique_ptr<Seen> seen;
 
+/// Of give_bindings.
+std::map<fs::path, std::string>& given_bindings() {
+    static std::map<fs::path, std::string> all;
+    return all;
+}
+
+/// A folder however it is written.
+fs::path folder_key(const fs::path& folder) { return fs::absolute(folder / "").lexically_normal(); }
+
 /// Nothing if there is no such file.
 std::optional<std::string> text_of(const fs::path& path) {
     if (seen)
@@ -156,7 +165,11 @@ std::vector<std::string> words_in(const fs::path& folder) {
 
 /// Null where there are none.
 std::shared_ptr<const Bindings> bindings_beside(const fs::path& file) {
+    if (file.parent_path().empty())
+        return nullptr; // a text of the host's
     const fs::path bindings = file.parent_path() / bindings_file;
+    if (const auto given = given_bindings().find(folder_key(file.parent_path())); given != given_bindings().end())
+        return parse_bindings("names of " + shown(file.parent_path()), given->second, words_in(file.parent_path()));
     const std::optional<std::string> text = text_of(bindings);
     return text ? parse_bindings(shown(bindings), *text, words_in(file.parent_path())) : nullptr;
 }
@@ -303,5 +316,13 @@ std::vector<ShaderSource> load_stages(const ShaderFolders& folders, std::string_
     }
     return sources;
 }
+
+void give_bindings(const fs::path& folder, std::string text) {
+    if (!given_bindings().emplace(folder_key(folder), std::move(text)).second)
+        throw Error(
+            fmt::format("names of {}: they are given already; right is one NamedShaders at a time", shown(folder)));
+}
+
+void take_bindings(const fs::path& folder) noexcept { given_bindings().erase(folder_key(folder)); }
 
 } // namespace lockstep

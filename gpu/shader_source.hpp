@@ -66,6 +66,11 @@ struct ShaderSource {
     std::shared_ptr<const Bindings> bindings = {}; ///< that lie beside the stage's own file; null: none
 };
 
+/// The text of bindings.json for the shaders of a folder, until take_bindings: it counts in the place of the file
+/// there. Throws Error where a text was given already.
+void give_bindings(const std::filesystem::path& folder, std::string text);
+void take_bindings(const std::filesystem::path& folder) noexcept;
+
 /// Throws Error naming the folders if a file is in none of them; FILE:LINE if an include is malformed, missing or
 /// circular, or the stage has no #version.
 ShaderSource load_stage(const ShaderFolders& folders, std::string_view name, Stage stage,

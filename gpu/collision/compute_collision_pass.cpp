@@ -2,10 +2,12 @@
 
 #include <algorithm>
 #include <array>
+#include <map>
 #include <string>
 #include <string_view>
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include "gpu/check.hpp"
 #include "gpu/collision/collision_pass.hpp"
@@ -39,6 +41,32 @@ Program link_compute(const Scene& scene, const std::filesystem::path& shaders, c
         defines.emplace_back("LOCKSTEP_INT64_ATOMICS", "1");
     const std::array stages{Stage::compute};
     return {name, load_stages(collision_shaders(shaders), name, stages, defines)};
+}
+
+/// Where the block is bound, by bindings or by itself.
+void bind_block(const Program& program, GLuint block, const std::string& name, GLuint& next_point) {
+    constexpr std::array<std::string_view, 4> ours{"Before", "After", "Nearest", "Offers"};
+    const Bindings* const bindings = program.bindings().get();
+    const auto none = std::map<std::string, StorageBlockBinding, std::less<>>::const_iterator{};
+    const auto found = bindings == nullptr ? none : bindings->storage_blocks.find(name);
+    if (bindings != nullptr && found != bindings->storage_blocks.end()) {
+        const StorageBlockBinding& binding = found->second;
+        const auto whole = std::find(ours.begin(), ours.end(), binding.ours);
+        if (!binding.ours.empty() && whole == ours.end())
+            throw Error(fmt::format("{}: {}: {} is no storage block here; right is one of {}", bindings->file,
+                                    binding.path, binding.ours, fmt::join(ours, ", ")));
+        const GLuint point = binding.ours.empty() ? next_point++ : static_cast<GLuint>(whole - ours.begin());
+        gl::ShaderStorageBlockBinding(program.id(), block, point);
+        return;
+    }
+    const GLenum property = GL_BUFFER_BINDING;
+    GLint point = 0;
+    gl::GetProgramResourceiv(program.id(), GL_SHADER_STORAGE_BLOCK, block, 1, &property, 1, nullptr, &point);
+    if (point > static_cast<GLint>(trace_binding))
+        throw Error(
+            fmt::format("{}: nothing is given for storage block {} at binding {}; {} beside the shader binds it "
+                        "(docs/own_shader.md), or layout(binding = 0) to 3",
+                        program.name(), name, point, bindings_file));
 }
 
 Program link_draw(const Scene& scene, const std::filesystem::path& shaders) {
@@ -82,9 +110,22 @@ void dispatch(const Program& program, std::size_t particles, std::size_t group) 
 
 } // namespace
 
+BoundStorage bind_storage(const Program& program) {
+    GLint count = 0;
+    gl::GetProgramInterfaceiv(program.id(), GL_SHADER_STORAGE_BLOCK, GL_ACTIVE_RESOURCES, &count);
+    GLuint next_point = trace_binding + 1;
+    for (GLuint block = 0; block < static_cast<GLuint>(count); ++block) {
+        std::array<char, 256> name{};
+        gl::GetProgramResourceName(program.id(), GL_SHADER_STORAGE_BLOCK, block, static_cast<GLsizei>(name.size()),
+                                   nullptr, name.data());
+        bind_block(program, block, name.data(), next_point);
+    }
+    return {program.id(), program.bindings(), {{"Before", "After", &particle_records()}}};
+}
+
 ComputeCollisionPass::ComputeCollisionPass(const Scene& scene, const std::filesystem::path& shaders)
     : step_(link_compute(scene, shaders, "collision_pass")), nearest_(link_compute(scene, shaders, "nearest_particle")),
-      draw_(link_draw(scene, shaders)), step_group_(group_size(step_, scene.start.size())),
+      draw_(link_draw(scene, shaders)), bound_(bind_storage(step_)), step_group_(group_size(step_, scene.start.size())),
       nearest_group_(group_size(nearest_, scene.start.size())), has_offers_(step_.uses_storage(offers_binding)) {
     allocate(nearest_particles_, 2 * static_cast<std::size_t>(scene.width) * static_cast<std::size_t>(scene.height));
     if (has_offers_)
@@ -100,7 +141,7 @@ void ComputeCollisionPass::run(const FrameParams& params, const ParticleBuffer& 
     gl::BindBufferBase(GL_SHADER_STORAGE_BUFFER, after_binding, to.id());
     gl::BindBufferBase(GL_SHADER_STORAGE_BUFFER, nearest_binding, nearest_particles_.id());
     gl::BindBufferBase(GL_SHADER_STORAGE_BUFFER, offers_binding, has_offers_ ? offers_.id() : 0);
-    step(params, from, cdt, timer);
+    step(params, from, to, cdt, timer);
     draw(params, from.size(), target);
     timer.mark("collision_texels");
     gl::MemoryBarrier(GL_BUFFER_UPDATE_BARRIER_BIT | GL_CLIENT_MAPPED_BUFFER_BARRIER_BIT |
@@ -109,13 +150,17 @@ void ComputeCollisionPass::run(const FrameParams& params, const ParticleBuffer& 
     check_gl("collision_pass");
 }
 
-void ComputeCollisionPass::step(const FrameParams& params, const ParticleBuffer& from, const CollisionTexture& cdt,
-                                PassTimer& timer) {
+void ComputeCollisionPass::step(const FrameParams& params, const ParticleBuffer& from, const ParticleBuffer& to,
+                                const CollisionTexture& cdt, PassTimer& timer) {
     step_.set("u_ParticleCount", static_cast<unsigned>(from.size()));
     set_collision_uniforms(step_, params);
     step_.check_interface();
     cdt.bind_texture(0);
+    const RecordBuffer* const before[] = {&from};
+    const RecordBuffer* const after[] = {&to};
+    bound_.fill(before, after);
     dispatch(step_, from.size(), step_group_);
+    bound_.collect(after);
     timer.mark("collision_pass");
     if (!has_offers_)
         return;

@@ -1,6 +1,7 @@
 #pragma once
 #include <filesystem>
 
+#include "gpu/bound_storage.hpp"
 #include "gpu/collision/collision_texture.hpp"
 #include "gpu/collision/particle_buffer.hpp"
 #include "gpu/object.hpp"
@@ -19,6 +20,11 @@ enum StorageBinding : GLuint {
     trace_binding,   ///< what the trace build tells
 };
 
+/// Gives each storage block of a linked compute stage its binding point: a block that the bindings beside the shader
+/// say is Before, After, Nearest or Offers that one's, one that they bind by member a point of its own, which the
+/// result fills; others keep theirs. Throws Error for a block at a point where there is nothing.
+BoundStorage bind_storage(const Program& program);
+
 /// The collision pass in compute stages (switch step = compute): shaders/collision/collision_pass.comp steps the
 /// particles and offers each to its texel, nearest_particle.comp finds the lowest index among the nearest where that
 /// takes a pass of its own, and collision_texels.* draws the texels. Twin of reference/collision/collision_pass.hpp.
@@ -33,10 +39,12 @@ class ComputeCollisionPass {
              CollisionTexture& target, PassTimer& timer);
 
   private:
-    void step(const FrameParams& params, const ParticleBuffer& from, const CollisionTexture& cdt, PassTimer& timer);
+    void step(const FrameParams& params, const ParticleBuffer& from, const ParticleBuffer& to,
+              const CollisionTexture& cdt, PassTimer& timer);
     void draw(const FrameParams& params, std::size_t particles, CollisionTexture& target);
 
     Program step_, nearest_, draw_;
+    BoundStorage bound_;                     ///< of step_
     std::size_t step_group_, nearest_group_; ///< invocations
     bool has_offers_;                        ///< step_ leaves the lowest index to nearest_
     GlBuffer nearest_particles_, offers_;

@@ -37,9 +37,9 @@ void allocate(GLuint binding, const GlBuffer& buffer, std::size_t bytes) {
     gl::ClearBufferData(GL_SHADER_STORAGE_BUFFER, GL_R32UI, GL_RED_INTEGER, GL_UNSIGNED_INT, &nowhere);
 }
 
-std::vector<std::uint32_t> words_of(const GlBuffer& buffer, std::size_t first_byte, std::size_t count) {
+std::vector<std::uint32_t> words_of(GLuint buffer, std::size_t first_byte, std::size_t count) {
     std::vector<std::uint32_t> words(count);
-    gl::BindBuffer(GL_SHADER_STORAGE_BUFFER, buffer.id());
+    gl::BindBuffer(GL_SHADER_STORAGE_BUFFER, buffer);
     gl::GetBufferSubData(GL_SHADER_STORAGE_BUFFER, static_cast<GLintptr>(first_byte),
                          static_cast<GLsizeiptr>(count * sizeof(std::uint32_t)), words.data());
     return words;
@@ -72,7 +72,7 @@ CapturedVertex take_neighbour(CapturedVertex& from) {
 } // namespace
 
 ComputeTrace::ComputeTrace(const Switches& switches, const std::filesystem::path& shaders, int width, int height)
-    : program_(link_trace(switches, shaders)), width_(width), height_(height) {
+    : program_(link_trace(switches, shaders)), bound_(bind_storage(program_)), width_(width), height_(height) {
     std::array<GLint, 3> size{};
     gl::GetProgramiv(program_.id(), GL_COMPUTE_WORK_GROUP_SIZE, size.data());
     group_ = static_cast<std::size_t>(size[0]);
@@ -110,7 +110,13 @@ void ComputeTrace::dispatch(const FrameParams& params, const ParticleBuffer& fro
     program_.check_interface();
     cdt.bind_texture(0);
     gl::BindBufferBase(GL_SHADER_STORAGE_BUFFER, before_binding, from.id());
-    allocate(after_binding, after_, from.size() * particle_records().bytes());
+    if (!after_ || after_->size() != from.size())
+        after_.emplace(from.size());
+    after_->fill(nowhere);
+    gl::BindBufferBase(GL_SHADER_STORAGE_BUFFER, after_binding, after_->id());
+    const RecordBuffer* const before[] = {&from};
+    const RecordBuffer* const after[] = {&*after_};
+    bound_.fill(before, after);
     allocate(nearest_binding, nearest_,
              2 * sizeof(GLuint) * static_cast<std::size_t>(width_) * static_cast<std::size_t>(height_));
     allocate(offers_binding, offers_, 2 * sizeof(GLuint) * from.size());
@@ -118,6 +124,7 @@ void ComputeTrace::dispatch(const FrameParams& params, const ParticleBuffer& fro
         allocate(trace_binding, traces_, stride_ * groups * group_);
     gl::DispatchCompute(static_cast<GLuint>(groups), 1, 1);
     gl::MemoryBarrier(GL_BUFFER_UPDATE_BARRIER_BIT);
+    bound_.collect(after);
     gl::UseProgram(0);
     check_gl(program_.name());
 }
@@ -125,7 +132,7 @@ void ComputeTrace::dispatch(const FrameParams& params, const ParticleBuffer& fro
 std::vector<CapturedVertex> ComputeTrace::told(std::size_t invocations) const {
     std::vector<CapturedVertex> captured(invocations);
     const std::size_t words_each = stride_ / sizeof(std::uint32_t);
-    const std::vector<std::uint32_t> words = words_of(traces_, 0, invocations * words_each);
+    const std::vector<std::uint32_t> words = words_of(traces_.id(), 0, invocations * words_each);
     for (std::size_t i = 0; i < invocations; ++i)
         for (const Member& member : members_) {
             const auto first =
@@ -151,11 +158,11 @@ StepCapture ComputeTrace::run(const FrameParams& params, const ParticleBuffer& f
         }
     }
     const std::size_t record = particle_records().bytes();
-    step.state = state_of(words_of(after_, particle * record, record / sizeof(std::uint32_t)));
+    step.state = state_of(words_of(after_->id(), particle * record, record / sizeof(std::uint32_t)));
     step.drawn_alone = program_.uses_storage(offers_binding);
     if (!step.drawn_alone)
         return step;
-    const std::vector<std::uint32_t> offer = words_of(offers_, particle * 2 * sizeof(GLuint), 2);
+    const std::vector<std::uint32_t> offer = words_of(offers_.id(), particle * 2 * sizeof(GLuint), 2);
     if (offer[0] == nowhere)
         return step;
     step.texel = {static_cast<int>(offer[0]) % width_, static_cast<int>(offer[0]) / width_};

@@ -2,9 +2,11 @@
 #include <cstddef>
 #include <cstdint>
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <vector>
 
+#include "gpu/bound_storage.hpp"
 #include "gpu/collision/collision_texture.hpp"
 #include "gpu/collision/collision_trace.hpp"
 #include "gpu/collision/particle_buffer.hpp"
@@ -40,11 +42,13 @@ class ComputeTrace {
     [[nodiscard]] std::vector<CapturedVertex> told(std::size_t invocations) const;
 
     Program program_;
+    BoundStorage bound_;
     std::vector<Member> members_;
     std::size_t stride_ = 0; ///< bytes from one structure to the next
     std::size_t group_ = 1;  ///< invocations
     int width_, height_;
-    GlBuffer traces_, after_, nearest_, offers_;
+    std::optional<ParticleBuffer> after_;
+    GlBuffer traces_, nearest_, offers_;
 };
 
 } // namespace lockstep

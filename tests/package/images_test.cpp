@@ -1,5 +1,6 @@
 #include <filesystem>
 #include <fstream>
+#include <regex>
 #include <sstream>
 #include <string>
 #include <tuple>
@@ -8,6 +9,7 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 #include <lockstep/catch.hpp>
+#include <lockstep/shader_names.hpp>
 #include <lockstep/system.hpp>
 #include <nlohmann/json.hpp>
 
@@ -241,6 +243,29 @@ TEST_CASE("images: what a wrong shader leaves in one is divergent there") {
     const Place& first = report.verdicts->first->place;
     CHECK_THAT(report_text(report, {}), Catch::Contains(fmt::format("first     frame {} {} {},", first.frame,
                                                                     wrong.item, told_place(wrong, first.index))));
+}
+
+TEST_CASE("images: they go by a shader's own names") {
+    if (!gl())
+        return skip(gl().missing());
+    const TemporaryFolder folder;
+    std::string theirs = planted(folder, "spread.comp", "u_HazeBefore;", "fog;");
+    std::ostringstream text;
+    text << std::ifstream(folder.path() / "spread.comp").rdbuf();
+    std::string shader = text.str();
+    for (const auto& [ours, name] :
+         {std::pair{"u_HazeBefore", "fog"}, {"u_LightBefore", "lit"}, {"u_HazeAfter", "made"}})
+        shader = std::regex_replace(shader, std::regex(ours), name);
+    std::ofstream(folder.path() / "spread.comp") << shader;
+    ShaderNames names;
+    names.uniforms = {{"fog", "u_HazeBefore"}, {"lit", "u_LightBefore"}, {"made", "u_HazeAfter"}};
+    {
+        const NamedShaders bound(theirs, names);
+        CHECK(run(theirs).verdict == Verdict::agree);
+    }
+    names.uniforms.insert_or_assign("fog", "u_LightBefore");
+    const NamedShaders bound(theirs, names);
+    CHECK_THROWS_WITH(run(theirs), Catch::Contains("uniform fog is ") && Catch::Contains("but is to be sampler2D"));
 }
 
 TEST_CASE("images: what is told of a texel names its column, row and layer, in explain and in a capsule") {

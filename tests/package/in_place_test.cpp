@@ -164,7 +164,7 @@ TEST_CASE("in place: a kernel that writes behind the items, or a buffer that no 
     first.erase(first.begin());
     CHECK_THROWS_WITH(GlSystem(system.schema, first, "tests/package/sparks"), Catch::Contains("and is the first"));
     CHECK_THROWS_WITH(run(planted(folder, "lossBuffer", "lostBuffer"), system),
-                      Catch::Contains("nothing is given for 1 of its storage buffers"));
+                      Catch::Contains("nothing is given for storage block lostBuffer; right is one of "));
 }
 
 TEST_CASE("in place: a schema names storage blocks for all fields of a buffer, once each") {

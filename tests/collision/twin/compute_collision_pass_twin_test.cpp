@@ -14,32 +14,18 @@
 #include "reference/model/collision/layered_cdt.hpp"
 #include "reference/model/error.hpp"
 #include "reference/model/state_hash.hpp"
-#include "tests/collision/twin/llvmpipe.hpp"
+#include "tests/collision/twin/compute_scenes.hpp"
 #include "tests/collision/twin/shader_files.hpp"
 #include "tests/collision/twin/twin_scenes.hpp"
 #include "tests/planted_shader.hpp"
 
 using namespace lockstep;
+using test::compute_scene;
+using test::open_compute;
 
 namespace {
 
 constexpr std::array presets{"paper", "corrected", "exact"};
-
-/// The context if it is llvmpipe's and has compute shaders; else a skip.
-std::optional<Context> open_compute(const std::string& name = test::software_gl()) {
-    std::optional<Context> context = test::open_llvmpipe(name);
-    if (!context || context->describe().compute)
-        return context;
-    test::skip(name + " has no compute shaders");
-    return std::nullopt;
-}
-
-Scene compute_scene(const char* base, std::size_t count = 1200, int width = 97, int height = 64) {
-    Scene scene = test::crowded_scene(count, width, height);
-    scene.switches = preset(base);
-    scene.switches.step = Step::compute;
-    return scene;
-}
 
 /// Not one differing bit over some frames; gives the report.
 CheckReport check_agree(const Scene& scene, int frames = 4, const std::filesystem::path& shaders = {}) {

@@ -22,7 +22,10 @@ constexpr std::array<std::string_view, 5> sections{"uniforms", "uniform_blocks",
 
 class Reader {
   public:
-    Reader(const std::string& file, const std::vector<std::string>& words) : words_(words) { made_.file = file; }
+    Reader(const std::string& file, const FolderNames& names)
+        : words_(names.words), storage_blocks_(names.storage_blocks) {
+        made_.file = file;
+    }
 
     Bindings read(const std::string& text) {
         const json document = json::parse(text, nullptr, false);
@@ -36,13 +39,13 @@ class Reader {
                                        did_you_mean(name, {sections.begin(), sections.end()})));
             check_object(path, value);
             if (name == "uniforms")
-                read_uniforms(path, "", value, made_.uniforms);
+                read_uniforms(path, "", value);
             else if (name == "uniform_blocks")
                 for (const auto& [block, members] : value.items()) {
                     check_object(path + "/" + block, members);
                     check_word(path + "/" + block, block);
                     made_.blocks.push_back(block);
-                    read_uniforms(path + "/" + block, block + ".", members, made_.uniforms);
+                    read_uniforms(path + "/" + block, block + ".", members);
                 }
             else if (name == "storage_blocks")
                 for (const auto& [block, members] : value.items())
@@ -84,21 +87,41 @@ class Reader {
     }
 
     void read_storage(const std::string& path, const std::string& block, const json& value) {
-        check_word(path, block);
+        if (std::find(storage_blocks_.begin(), storage_blocks_.end(), block) == storage_blocks_.end())
+            fail(path, fmt::format("no shader beside it declares a storage block {}; {}{}", block,
+                                   storage_blocks_.empty()
+                                       ? "right is buffer NAME { ... } in a compute shader"
+                                       : fmt::format("right is one of {}", fmt::join(storage_blocks_, ", ")),
+                                   did_you_mean(block, storage_blocks_)));
         StorageBlockBinding binding{path, value.is_string() ? value.get<std::string>() : std::string()};
-        if (!value.is_string()) {
-            if (!value.is_object() || value.empty())
-                fail(path, "is to be the name of a block here, or { \"member in the shader\": \"Block.field here\" }");
-            read_uniforms(path, "", value, binding.members);
-        }
+        if (value.is_string() ? binding.ours.empty() : !value.is_object() || value.empty())
+            fail(path, "is to be the name of a block here, or { \"member in the shader\": \"Block.field here\" }");
+        if (value.is_object())
+            for (const auto& [member, given] : value.items())
+                binding.members.emplace(member, read_member(path + "/" + member, member, given));
         made_.storage_blocks.emplace(block, std::move(binding));
     }
 
-    void read_uniforms(const std::string& path, const std::string& block, const json& value,
-                       std::map<std::string, UniformBinding, std::less<>>& into) const {
+    MemberBinding read_member(const std::string& path, const std::string& name, const json& value) const {
+        check_word(path, name.substr(name.rfind('.') + 1));
+        MemberBinding binding{path};
+        binding.is_list = value.is_array();
+        for (const json& one : value.is_array() ? value : json::array({value}))
+            if (one.is_string())
+                binding.values.emplace_back(one.get<std::string>());
+            else if (one.is_number() && std::isfinite(one.get<double>()))
+                binding.values.emplace_back(one.get<double>());
+            else
+                fail(path, "is neither a name nor a number, nor a list of these");
+        if (binding.values.empty())
+            fail(path, "is an empty list; right are names and numbers, one at least");
+        return binding;
+    }
+
+    void read_uniforms(const std::string& path, const std::string& block, const json& value) {
         for (const auto& [theirs, given] : value.items()) {
             UniformBinding binding{path + "/" + theirs, {}};
-            check_word(binding.path, theirs.substr(theirs.rfind('.') + 1));
+            check_word(binding.path, theirs);
             binding.by_component = given.is_array();
             for (const json& one : given.is_array() ? given : json::array({given})) {
                 if (one.is_string())
@@ -110,11 +133,11 @@ class Reader {
             }
             if (binding.names.empty() == binding.numbers.empty())
                 fail(binding.path, "is to be names or numbers, one at least");
-            into.emplace(block + theirs, std::move(binding));
+            made_.uniforms.emplace(block + theirs, std::move(binding));
         }
     }
 
-    const std::vector<std::string>& words_;
+    const std::vector<std::string>&words_, &storage_blocks_;
     Bindings made_;
 };
 
@@ -131,8 +154,8 @@ std::string Bindings::output(std::string_view ours) const {
 }
 
 std::shared_ptr<const Bindings> parse_bindings(const std::string& file, const std::string& text,
-                                               const std::vector<std::string>& words) {
-    return std::make_shared<const Bindings>(Reader(file, words).read(text));
+                                               const FolderNames& names) {
+    return std::make_shared<const Bindings>(Reader(file, names).read(text));
 }
 
 } // namespace lockstep

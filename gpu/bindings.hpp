@@ -4,6 +4,7 @@
 #include <memory>
 #include <string>
 #include <string_view>
+#include <variant>
 #include <vector>
 
 namespace lockstep {
@@ -16,12 +17,18 @@ struct UniformBinding {
     bool by_component = false;        ///< a list of names: one a component, whatever its type
 };
 
+/// What a member of a storage block holds of each item: one value, or a list of them, one after the other.
+struct MemberBinding {
+    std::string path;                                           ///< in the file: "/storage_blocks/Particles/place"
+    std::vector<std::variant<std::string, double>> values = {}; ///< "Before.speed", "count", or a number
+    bool is_list = false;
+};
+
 /// What a storage block of a shader from elsewhere holds: all of one of ours, or a value for each of its members.
 struct StorageBlockBinding {
-    std::string path; ///< in the file: "/storage_blocks/Particles"
-    std::string ours; ///< the block of ours; empty: by member
-    std::map<std::string, UniformBinding, std::less<>> members =
-        {}; ///< by the shader's names, names being "Before.speed"
+    std::string path;                                               ///< in the file: "/storage_blocks/Particles"
+    std::string ours;                                               ///< the block of ours; empty: by member
+    std::map<std::string, MemberBinding, std::less<>> members = {}; ///< by the shader's names
 };
 
 /// The names of a shader from elsewhere beside ours (docs/own_shader.md).
@@ -40,9 +47,15 @@ struct Bindings {
 
 inline constexpr std::string_view bindings_file = "bindings.json";
 
-/// What `text` says, the text of that file; `words`: all that the shaders beside it consist of. Throws Error with FILE:
-/// and the JSON path for what is no such thing, and for a name that no shader has.
+/// What the shaders beside the file consist of.
+struct FolderNames {
+    std::vector<std::string> words;
+    std::vector<std::string> storage_blocks; ///< declared in them
+};
+
+/// What `text` says, the text of that file. Throws Error with FILE: and the JSON path for what is no such thing, and
+/// for a name that no shader has.
 std::shared_ptr<const Bindings> parse_bindings(const std::string& file, const std::string& text,
-                                               const std::vector<std::string>& words);
+                                               const FolderNames& names);
 
 } // namespace lockstep

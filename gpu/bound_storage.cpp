@@ -6,6 +6,7 @@
 #include <cmath>
 #include <map>
 #include <optional>
+#include <variant>
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -25,15 +26,39 @@ std::string resource_name(GLuint program, GLenum interface, GLuint index) {
     return name.data();
 }
 
-/// "particles.place" of "Particles.particles[0].place": without the block, which instances have before it.
+template <std::size_t count> std::array<GLint, count> resource(GLuint program, GLenum interface, GLuint index,
+                                                               const std::array<GLenum, count>& properties) {
+    std::array<GLint, count> values{};
+    gl::GetProgramResourceiv(program, interface, index, static_cast<GLsizei>(count), properties.data(),
+                             static_cast<GLsizei>(count), nullptr, values.data());
+    return values;
+}
+
+GLint binding_point(GLuint program, GLuint block) {
+    return resource(program, GL_SHADER_STORAGE_BLOCK, block, std::array<GLenum, 1>{GL_BUFFER_BINDING})[0];
+}
+
+/// "particles.place" of "Particles.particles[0].place", and "places" of "places[0]": without the block, which instances
+/// have before it, and without the index of the item and of the last array.
 std::string member_name(std::string name, const std::string& block) {
-    for (std::size_t at = name.find('['); at != std::string::npos; at = name.find('['))
-        name.erase(at, name.find(']', at) - at + 1);
-    return name.starts_with(block + ".") ? name.substr(block.size() + 1) : name;
+    if (name.ends_with("[0]"))
+        name.resize(name.size() - 3);
+    if (name.starts_with(block + "."))
+        name.erase(0, block.size() + 1);
+    const std::size_t first = name.find("[0].");
+    if (first != std::string::npos && first < name.find('.'))
+        name.erase(first, 3);
+    return name;
 }
 
 bool is_named(const std::string& member, const std::string& name) {
     return member == name || member.ends_with("." + name);
+}
+
+/// A number, or a vector of up to four.
+bool is_vector(GLenum type) {
+    const int components = output_components(type);
+    return components > 0 && components <= 4 && type != GL_FLOAT_MAT2;
 }
 
 Scalar scalar_of(GLenum type) {
@@ -45,27 +70,33 @@ Scalar scalar_of(GLenum type) {
                : Scalar::int32;
 }
 
-std::uint32_t constant(double number, GLenum type) {
+/// Nothing for a number that the type does not hold.
+std::optional<std::uint32_t> constant_bits(double number, GLenum type) {
+    const bool whole = number == std::nearbyint(number);
     switch (scalar_of(type)) {
     case Scalar::float32:
         return std::bit_cast<std::uint32_t>(static_cast<float>(number));
     case Scalar::uint32:
+        if (!whole || number < 0.0 || number > 4294967295.0)
+            return std::nullopt;
         return static_cast<std::uint32_t>(number);
     case Scalar::int32:
         break;
     }
+    if (!whole || number < -2147483648.0 || number > 2147483647.0)
+        return std::nullopt;
     return static_cast<std::uint32_t>(static_cast<std::int32_t>(number));
 }
 
-std::vector<std::uint32_t> content(GLuint buffer, std::size_t words) {
-    std::vector<std::uint32_t> all(words);
+std::vector<std::uint32_t> buffer_words(GLuint buffer, std::size_t count) {
+    std::vector<std::uint32_t> all(count);
     gl::BindBuffer(GL_COPY_READ_BUFFER, buffer);
-    gl::GetBufferSubData(GL_COPY_READ_BUFFER, 0, static_cast<GLsizeiptr>(words * word), all.data());
+    gl::GetBufferSubData(GL_COPY_READ_BUFFER, 0, static_cast<GLsizeiptr>(count * word), all.data());
     return all;
 }
 
-std::vector<std::uint32_t> content(const RecordBuffer& buffer) {
-    return content(buffer.id(), buffer.size() * buffer.layout().bytes() / word);
+std::vector<std::uint32_t> buffer_words(const RecordBuffer& buffer) {
+    return buffer_words(buffer.id(), buffer.size() * buffer.layout().bytes() / word);
 }
 
 } // namespace
@@ -84,19 +115,23 @@ BoundStorage::BoundStorage(GLuint program, std::shared_ptr<const Bindings> bindi
         if (bound != bindings_->storage_blocks.end() && bound->second.ours.empty())
             add_block(program, b, name, bound->second);
     }
-    if (!blocks_.empty())
-        check_written();
+    check_written();
 }
 
 void BoundStorage::add_names(std::size_t ours) {
     const RecordBlocks& blocks = ours_[ours];
-    for (const auto& [prefix, kind] : {std::pair{blocks.before + ".", Word::Kind::before},
-                                       {blocks.after + ".", Word::Kind::after},
-                                       {std::string(), Word::Kind::in_place}}) {
+    std::vector<std::pair<std::string, Word::Kind>> prefixes{{blocks.before + ".", Word::Kind::before},
+                                                             {blocks.after + ".", Word::Kind::after}};
+    if (!blocks.both.empty())
+        prefixes.emplace_back(blocks.both + ".", Word::Kind::in_place);
+    if (ours_.size() == 1)
+        prefixes.emplace_back("", Word::Kind::in_place);
+    for (const auto& [prefix, kind] : prefixes) {
+        const bool listed = !prefix.empty() || blocks.both.empty();
         std::size_t place = 0;
         for (const RecordLayout::Member& member : blocks.layout->members) {
             const Field& field = blocks.layout->field(member);
-            names_.push_back({prefix + field.name, kind, ours, place, field.scalar, field.components, true});
+            names_.push_back({prefix + field.name, kind, ours, place, field.scalar, field.components, listed});
             for (int c = 0; c < field.components && field.components > 1; ++c)
                 names_.push_back({fmt::format("{}{}.{}", prefix, field.name, "xyzw"[c]), kind, ours,
                                   place + static_cast<std::size_t>(c), field.scalar, 1, false});
@@ -105,108 +140,155 @@ void BoundStorage::add_names(std::size_t ours) {
     }
 }
 
-bool BoundStorage::has(std::string_view block) const {
-    return std::any_of(blocks_.begin(), blocks_.end(), [&](const Block& one) { return one.name == block; });
-}
-
-BoundStorage::Member BoundStorage::member_of(GLuint program, GLuint variable) const {
-    constexpr std::array<GLenum, 6> properties{
-        GL_TYPE, GL_OFFSET, GL_ARRAY_SIZE, GL_ARRAY_STRIDE, GL_TOP_LEVEL_ARRAY_SIZE, GL_TOP_LEVEL_ARRAY_STRIDE};
-    std::array<GLint, 6> values{};
-    gl::GetProgramResourceiv(program, GL_BUFFER_VARIABLE, variable, static_cast<GLsizei>(properties.size()),
-                             properties.data(), static_cast<GLsizei>(values.size()), nullptr, values.data());
-    const bool in_records = values[5] > 0; // an array of structures; else perhaps one of plain values
-    Member member;
-    member.type = static_cast<GLenum>(values[0]);
-    member.offset = static_cast<std::size_t>(values[1]) / word;
-    member.stride = static_cast<std::size_t>(in_records ? values[5] : values[3]) / word;
-    member.elements = static_cast<std::size_t>(in_records ? values[4] : values[2]);
-    return member;
-}
-
 void BoundStorage::add_block(GLuint program, GLuint block, const std::string& name,
                              const StorageBlockBinding& binding) {
     const auto fail = [&](const std::string& path, const std::string& what) {
         throw Error(fmt::format("{}: {}: {}", bindings_->file, path, what));
     };
-    GLint binding_point = 0, variables = 0;
-    const GLenum point = GL_BUFFER_BINDING, number = GL_NUM_ACTIVE_VARIABLES, all = GL_ACTIVE_VARIABLES;
-    gl::GetProgramResourceiv(program, GL_SHADER_STORAGE_BLOCK, block, 1, &point, 1, nullptr, &binding_point);
-    gl::GetProgramResourceiv(program, GL_SHADER_STORAGE_BLOCK, block, 1, &number, 1, nullptr, &variables);
-    std::vector<GLint> indices(static_cast<std::size_t>(variables));
-    gl::GetProgramResourceiv(program, GL_SHADER_STORAGE_BLOCK, block, 1, &all, variables, nullptr, indices.data());
+    const auto about = resource(program, GL_SHADER_STORAGE_BLOCK, block,
+                                std::array<GLenum, 3>{GL_BUFFER_BINDING, GL_BUFFER_DATA_SIZE, GL_NUM_ACTIVE_VARIABLES});
+    std::vector<GLint> indices(static_cast<std::size_t>(about[2]));
+    const GLenum all = GL_ACTIVE_VARIABLES;
+    gl::GetProgramResourceiv(program, GL_SHADER_STORAGE_BLOCK, block, 1, &all, about[2], nullptr, indices.data());
 
-    Block& made = blocks_.emplace_back();
-    made.name = name;
-    made.binding = static_cast<GLuint>(binding_point);
+    Block made{name, static_cast<GLuint>(about[0]), static_cast<std::size_t>(about[1]) / word};
     std::vector<std::string> names;
+    std::map<std::string, std::string> taken; // the member by the file's name
     for (const GLint index : indices) {
-        Member member = member_of(program, static_cast<GLuint>(index));
-        member.name = member_name(resource_name(program, GL_BUFFER_VARIABLE, static_cast<GLuint>(index)), name);
-        names.push_back(member.name.substr(member.name.rfind('.') + 1));
-        const auto bound = std::find_if(binding.members.begin(), binding.members.end(),
-                                        [&](const auto& one) { return is_named(member.name, one.first); });
-        if (bound == binding.members.end())
+        const auto variable = static_cast<GLuint>(index);
+        const auto [type, offset, size, step, items, stride] =
+            resource(program, GL_BUFFER_VARIABLE, variable,
+                     std::array<GLenum, 6>{GL_TYPE, GL_OFFSET, GL_ARRAY_SIZE, GL_ARRAY_STRIDE, GL_TOP_LEVEL_ARRAY_SIZE,
+                                           GL_TOP_LEVEL_ARRAY_STRIDE});
+        const bool in_records = stride > 0;
+        Member member;
+        member.name = member_name(resource_name(program, GL_BUFFER_VARIABLE, variable), name);
+        member.type = static_cast<GLenum>(type);
+        member.offset = static_cast<std::size_t>(offset) / word;
+        member.stride = static_cast<std::size_t>(in_records ? stride : step) / word;
+        member.elements = static_cast<std::size_t>(in_records ? items : size);
+        member.plain = !in_records && step > 0;
+        if (in_records && step > 0) {
+            member.parts = static_cast<std::size_t>(size);
+            member.part_words = static_cast<std::size_t>(step) / word;
+        }
+        names.push_back(member.name);
+        const std::pair<const std::string, MemberBinding>* bound = nullptr;
+        for (const auto& one : binding.members)
+            if (is_named(member.name, one.first) && (bound == nullptr || one.first.size() > bound->first.size()))
+                bound = &one;
+        if (bound == nullptr)
             fail(binding.path, fmt::format("nothing is given for its member {} {}; right is a name here, or a number",
-                                           type_name(member.type), names.back()));
+                                           type_name(member.type), member.name));
+        if (const auto [other, first] = taken.emplace(bound->first, member.name); !first)
+            fail(bound->second.path, fmt::format("{} and {} both have this name; right is the whole of it for each",
+                                                 other->second, member.name));
         member.path = bound->second.path;
         add_words(member, bound->second);
         made.members.push_back(std::move(member));
     }
     for (const auto& [theirs, given] : binding.members)
-        if (std::none_of(made.members.begin(), made.members.end(),
-                         [&](const Member& member) { return is_named(member.name, theirs); }))
-            fail(given.path, fmt::format("block {} has no member {}; it has {}{}", name, theirs, fmt::join(names, ", "),
-                                         did_you_mean(theirs, names)));
+        if (!taken.contains(theirs))
+            fail(given.path, fmt::format("block {} has no {}member {}; it has {}{}", name,
+                                         std::any_of(names.begin(), names.end(),
+                                                     [&](const auto& one) { return is_named(one, theirs); })
+                                             ? "other "
+                                             : "",
+                                         theirs, fmt::join(names, ", "), did_you_mean(theirs, names)));
+    settle_counts(made, binding.path);
+    blocks_.push_back(std::move(made));
 }
 
-void BoundStorage::add_words(Member& member, const UniformBinding& binding) {
+void BoundStorage::add_words(Member& member, const MemberBinding& binding) {
     const auto fail = [&](const std::string& what) {
         throw Error(fmt::format("{}: {}: {}", bindings_->file, binding.path, what));
     };
-    const auto wanted = static_cast<std::size_t>(output_components(member.type));
-    if (wanted == 0)
-        fail(fmt::format("is {}; what can be bound is a number or a vector of up to four", type_name(member.type)));
-    for (const double number : binding.numbers) {
-        if (!is_float_type(member.type) && number != std::nearbyint(number))
-            fail(fmt::format("{} is no {}", number, type_name(member.type)));
-        member.words.push_back({Word::Kind::constant, 0, 0, constant(number, member.type)});
-    }
-    for (const std::string& name : binding.names) {
-        if (name == "count") {
-            member.words.push_back({Word::Kind::count});
+    if (!is_vector(member.type))
+        fail(fmt::format("{} is {}; right in a storage block here are numbers and vectors of float, int and uint",
+                         member.name, type_name(member.type)));
+    for (const std::variant<std::string, double>& value : binding.values) {
+        if (std::holds_alternative<std::string>(value)) {
+            add_name(member, binding.path, std::get<std::string>(value));
             continue;
         }
-        const auto found =
-            std::find_if(names_.begin(), names_.end(), [&](const Name& one) { return one.name == name; });
-        if (found == names_.end()) {
-            std::vector<std::string> known{"count"};
-            for (const Name& one : names_)
-                if (one.whole)
-                    known.push_back(one.name);
-            fail(fmt::format("{} is nothing here; right is one of {}{}", name, fmt::join(known, ", "),
-                             did_you_mean(name, known)));
-        }
-        if (found->scalar != scalar_of(member.type))
-            fail(fmt::format("{} is {}, but {} is {}", name,
-                             type_name(gl_type({.name = {}, .scalar = found->scalar, .components = found->components})),
+        const double number = std::get<double>(value);
+        const std::optional<std::uint32_t> bits = constant_bits(number, member.type);
+        if (!bits)
+            fail(fmt::format("{} is no value of {}, which is {}; right is a whole number that it holds", number,
                              member.name, type_name(member.type)));
-        for (int c = 0; c < found->components; ++c)
-            member.words.push_back({found->kind, found->ours, found->place + static_cast<std::size_t>(c)});
-        if (found->kind != Word::Kind::after)
-            reads_.insert(found->ours);
-        if (found->kind != Word::Kind::before)
-            writes_.insert(found->ours);
+        member.words.push_back({Word::Kind::constant, 0, 0, *bits});
     }
-    if (member.words.size() != wanted)
-        fail(fmt::format("{} value{} for a {}", member.words.size(), member.words.size() == 1 ? "" : "s",
-                         type_name(member.type)));
+    const auto each = static_cast<std::size_t>(output_components(member.type));
+    if (member.plain && binding.is_list && member.words.size() > each && member.words.size() % each == 0) {
+        member.parts = member.words.size() / each;
+        member.part_words = std::exchange(member.stride, member.stride * member.parts);
+        member.elements /= member.parts;
+    }
+    if (member.words.size() != each * member.parts)
+        fail(fmt::format("{} value{} for {}, which is {}; right {} {}{}", member.words.size(),
+                         member.words.size() == 1 ? "" : "s", member.name,
+                         declared_type(member.type, static_cast<GLint>(member.parts)),
+                         each * member.parts == 1 ? "is" : "are", each * member.parts,
+                         member.plain && !binding.is_list ? ", or a list, as long as what each item has there" : ""));
+    for (std::size_t c = 0; c < member.words.size(); ++c)
+        member.words[c].at = c / each * member.part_words + c % each;
     const bool of_items = std::any_of(member.words.begin(), member.words.end(), [](const Word& one) {
         return one.kind != Word::Kind::constant && one.kind != Word::Kind::count;
     });
     if (of_items && member.stride == 0)
-        fail(fmt::format("{} is no array, but {} has a value for each item", member.name,
-                         fmt::join(binding.names, ", ")));
+        fail(fmt::format("{} is no array, but has a field of each item; right is a number, or count", member.name));
+}
+
+void BoundStorage::add_name(Member& member, const std::string& path, const std::string& name) {
+    const auto fail = [&](const std::string& what) {
+        throw Error(fmt::format("{}: {}: {}", bindings_->file, path, what));
+    };
+    const Scalar wanted = scalar_of(member.type);
+    if (name == "count") {
+        member.words.push_back({.kind = Word::Kind::count, .as_float = wanted == Scalar::float32});
+        return;
+    }
+    std::vector<std::string> known{"count"}, right{"count"};
+    for (const Name& one : names_) {
+        known.push_back(one.name);
+        if (one.listed && one.scalar == wanted)
+            right.push_back(one.name);
+    }
+    const auto found = std::find_if(names_.begin(), names_.end(), [&](const Name& one) { return one.name == name; });
+    if (found == names_.end())
+        fail(fmt::format("{} is nothing here; right is a number, or one of {}{}", name, fmt::join(right, ", "),
+                         name.starts_with("u_") ? "; a uniform is bound in uniforms or uniform_blocks"
+                                                : did_you_mean(name, known)));
+    if (found->scalar != wanted)
+        fail(fmt::format("{} is {}, but {} is {}; right is a number, or one of {}", name,
+                         type_name(gl_type({.name = {}, .scalar = found->scalar, .components = found->components})),
+                         member.name, type_name(member.type), fmt::join(right, ", ")));
+    for (int c = 0; c < found->components; ++c)
+        member.words.push_back({found->kind, found->ours, found->place + static_cast<std::size_t>(c)});
+    if (found->kind != Word::Kind::after)
+        reads_.insert(found->ours);
+    if (found->kind != Word::Kind::before)
+        writes_.insert(found->ours);
+}
+
+/// A count is of the one buffer whose fields the block has.
+void BoundStorage::settle_counts(Block& block, const std::string& path) const {
+    std::set<std::size_t> of;
+    for (const Member& member : block.members)
+        for (const Word& one : member.words)
+            if (one.kind != Word::Kind::constant && one.kind != Word::Kind::count)
+                of.insert(one.ours);
+    if (of.empty() && ours_.size() == 1)
+        of.insert(0);
+    for (Member& member : block.members)
+        for (Word& one : member.words) {
+            if (one.kind != Word::Kind::count)
+                continue;
+            if (of.size() != 1)
+                throw Error(fmt::format("{}: {}: count is of {} here; right is a block with the fields of one",
+                                        bindings_->file, path, of.empty() ? "no buffer" : "several buffers"));
+            one.ours = *of.begin();
+        }
 }
 
 /// Each buffer that is written has all of its fields written, each once.
@@ -223,55 +305,69 @@ void BoundStorage::check_written() const {
             const Field& field = ours_[o].layout->field(member);
             for (int c = 0; c < field.components; ++c, ++at)
                 if (written[at] != 1)
-                    throw Error(fmt::format("{}: /storage_blocks: {}.{} is written by {}; right is one",
+                    throw Error(fmt::format("{}: /storage_blocks: {}.{}{} is written by {}; right is one",
                                             bindings_->file, ours_[o].after, field.name,
+                                            field.components == 1 ? "" : fmt::format(".{}", "xyzw"[c]),
                                             written[at] == 0 ? "no member" : "more than one member"));
         }
     }
 }
 
-std::size_t BoundStorage::words_in(const Block& block, std::size_t items) const {
-    std::size_t words = 1;
+/// Of the buffers whose fields it has; of all, where it has none.
+std::size_t BoundStorage::items_of(const Block& block, std::span<const RecordBuffer* const> buffers) {
+    std::optional<std::size_t> items;
+    for (const Member& member : block.members)
+        for (const Word& one : member.words)
+            if (one.kind != Word::Kind::constant)
+                items = std::max(items.value_or(0), buffers[one.ours]->size());
+    if (!items)
+        for (const RecordBuffer* buffer : buffers)
+            items = std::max(items.value_or(0), buffer->size());
+    return items.value_or(0);
+}
+
+/// So many that length() of an array without a size is the number of items.
+std::size_t BoundStorage::words_of(const Block& block, std::size_t items) const {
+    std::size_t words = std::max<std::size_t>(block.least, 1), base = words;
+    for (const Member& member : block.members)
+        if (member.stride > 0 && member.elements == 0)
+            base = std::min(base, member.offset);
     for (const Member& member : block.members) {
-        if (member.stride > 0 && member.elements > 0 && member.elements < items)
-            throw Error(fmt::format("{}: {}: {} has {} elements for {} items", bindings_->file, member.path,
-                                    member.name, member.elements, items));
-        const std::size_t last = member.stride == 0 ? 0 : std::max(items, member.elements) - (items > 0 ? 1 : 0);
-        words = std::max(words, member.offset + last * member.stride + std::max<std::size_t>(member.stride, 4));
+        if (member.stride == 0)
+            continue;
+        if (member.elements == 0)
+            words = std::max(words, base + items * member.stride);
+        else if (member.elements < items)
+            throw Error(fmt::format("{}: {}: {} has room for {} items of {}; right is an array of that length, or one "
+                                    "without a size",
+                                    bindings_->file, member.path, member.name, member.elements, items));
     }
     return words;
 }
 
 void BoundStorage::fill(std::span<const RecordBuffer* const> before, std::span<const RecordBuffer* const> after) const {
-    if (blocks_.empty())
-        return;
     std::vector<std::vector<std::uint32_t>> from(ours_.size()), to(ours_.size());
-    for (std::size_t o = 0; o < ours_.size(); ++o) {
-        if (reads(o))
-            from[o] = content(*before[o]);
-        if (writes(o))
-            to[o] = content(*after[o]);
-    }
+    for (const std::size_t o : reads_)
+        from[o] = buffer_words(*before[o]);
+    for (const std::size_t o : writes_)
+        to[o] = buffer_words(*after[o]);
+    const auto value = [&](const Word& one, std::size_t item) -> std::uint32_t {
+        if (one.kind == Word::Kind::constant)
+            return one.bits;
+        const std::size_t size = before[one.ours]->size();
+        if (one.kind == Word::Kind::count)
+            return one.as_float ? std::bit_cast<std::uint32_t>(static_cast<float>(size))
+                                : static_cast<std::uint32_t>(size);
+        const std::size_t each = ours_[one.ours].layout->bytes() / word;
+        return item < size ? (one.kind == Word::Kind::after ? to : from)[one.ours][item * each + one.place] : 0;
+    };
     for (const Block& block : blocks_) {
-        std::size_t items = 0;
-        for (const Member& member : block.members)
-            for (const Word& one : member.words)
-                if (one.kind != Word::Kind::constant)
-                    items = std::max(items, before[one.ours]->size());
-        std::vector<std::uint32_t> words(words_in(block, items));
+        const std::size_t items = items_of(block, before);
+        std::vector<std::uint32_t> words(words_of(block, items));
         for (const Member& member : block.members)
             for (std::size_t item = 0; item < (member.stride == 0 ? 1 : std::max(items, member.elements)); ++item)
-                for (std::size_t c = 0; c < member.words.size(); ++c) {
-                    const Word& one = member.words[c];
-                    const std::size_t each = ours_[one.ours].layout->bytes() / word;
-                    std::uint32_t& into = words[member.offset + item * member.stride + c];
-                    if (one.kind == Word::Kind::constant)
-                        into = one.bits;
-                    else if (one.kind == Word::Kind::count)
-                        into = static_cast<std::uint32_t>(before.front()->size());
-                    else if (item < before[one.ours]->size())
-                        into = (one.kind == Word::Kind::after ? to : from)[one.ours][item * each + one.place];
-                }
+                for (const Word& one : member.words)
+                    words[member.offset + item * member.stride + one.at] = value(one, item);
         gl::BindBuffer(GL_SHADER_STORAGE_BUFFER, block.buffer.id());
         gl::BufferData(GL_SHADER_STORAGE_BUFFER, static_cast<GLsizeiptr>(words.size() * word), words.data(),
                        GL_DYNAMIC_COPY);
@@ -283,25 +379,79 @@ void BoundStorage::collect(std::span<const RecordBuffer* const> after) const {
     if (writes_.empty())
         return;
     gl::MemoryBarrier(GL_BUFFER_UPDATE_BARRIER_BIT);
-    for (const std::size_t o : writes_) {
-        const std::size_t items = after[o]->size(), each = ours_[o].layout->bytes() / word;
-        std::vector<std::uint32_t> records(items * each);
-        for (const Block& block : blocks_) {
-            std::optional<std::vector<std::uint32_t>> words;
-            for (const Member& member : block.members)
-                for (std::size_t c = 0; c < member.words.size(); ++c) {
-                    const Word& one = member.words[c];
-                    if (one.ours != o || (one.kind != Word::Kind::after && one.kind != Word::Kind::in_place))
-                        continue;
-                    if (!words)
-                        words = content(block.buffer.id(), words_in(block, items));
-                    for (std::size_t item = 0; item < items; ++item)
-                        records[item * each + one.place] = (*words)[member.offset + item * member.stride + c];
-                }
-        }
-        gl::BindBuffer(GL_COPY_WRITE_BUFFER, after[o]->id());
-        gl::BufferSubData(GL_COPY_WRITE_BUFFER, 0, static_cast<GLsizeiptr>(records.size() * word), records.data());
+    std::vector<std::vector<std::uint32_t>> records(ours_.size());
+    for (const std::size_t o : writes_)
+        records[o].resize(after[o]->size() * ours_[o].layout->bytes() / word);
+    for (const Block& block : blocks_) {
+        std::optional<std::vector<std::uint32_t>> words;
+        for (const Member& member : block.members)
+            for (const Word& one : member.words) {
+                if (one.kind != Word::Kind::after && one.kind != Word::Kind::in_place)
+                    continue;
+                if (!words)
+                    words = buffer_words(block.buffer.id(), words_of(block, items_of(block, after)));
+                const std::size_t each = ours_[one.ours].layout->bytes() / word;
+                for (std::size_t item = 0; item < after[one.ours]->size(); ++item)
+                    records[one.ours][item * each + one.place] =
+                        (*words)[member.offset + item * member.stride + one.at];
+            }
     }
+    for (const std::size_t o : writes_) {
+        gl::BindBuffer(GL_COPY_WRITE_BUFFER, after[o]->id());
+        gl::BufferSubData(GL_COPY_WRITE_BUFFER, 0, static_cast<GLsizeiptr>(records[o].size() * word),
+                          records[o].data());
+    }
+}
+
+std::vector<StorageBlock> storage_blocks(const Program& program, std::span<const std::string> ours) {
+    GLint count = 0;
+    gl::GetProgramInterfaceiv(program.id(), GL_SHADER_STORAGE_BLOCK, GL_ACTIVE_RESOURCES, &count);
+    const Bindings* const bindings = program.bindings().get();
+    std::vector<StorageBlock> all;
+    for (GLuint block = 0; block < static_cast<GLuint>(count); ++block) {
+        const std::string name = resource_name(program.id(), GL_SHADER_STORAGE_BLOCK, block);
+        const StorageBlockBinding* binding = nullptr;
+        if (bindings != nullptr)
+            if (const auto found = bindings->storage_blocks.find(name); found != bindings->storage_blocks.end())
+                binding = &found->second;
+        if (binding != nullptr && !binding->ours.empty() &&
+            std::find(ours.begin(), ours.end(), binding->ours) == ours.end())
+            throw Error(fmt::format("{}: {}: {} is no storage block here; right is one of {}{}", bindings->file,
+                                    binding->path, binding->ours, fmt::join(ours, ", "),
+                                    did_you_mean(binding->ours, {ours.begin(), ours.end()})));
+        all.push_back({name, binding != nullptr ? binding->ours : name, binding != nullptr});
+    }
+    return all;
+}
+
+BoundStorage bind_storage(const Program& program, std::span<const std::string> ours, std::size_t reserved,
+                          const RecordBlocks& records) {
+    const auto fail = [&](const std::string& name, const std::string& what) {
+        throw Error(fmt::format("{}: nothing is given for storage block {}{}; {} beside the shader binds it by name "
+                                "(docs/own_shader.md), or layout(binding = 0) to {} does",
+                                program.name(), name, what, bindings_file, ours.size() - 1));
+    };
+    const std::vector<StorageBlock> blocks = storage_blocks(program, ours);
+    const bool any_bound = std::any_of(blocks.begin(), blocks.end(), [](const StorageBlock& b) { return b.bound; });
+    std::map<GLint, std::string> at; // of those that keep their points
+    auto next_point = static_cast<GLuint>(reserved);
+    for (GLuint block = 0; block < static_cast<GLuint>(blocks.size()); ++block) {
+        const StorageBlock& one = blocks[block];
+        if (one.bound) {
+            const auto whole = std::find(ours.begin(), ours.end(), one.ours);
+            gl::ShaderStorageBlockBinding(program.id(), block,
+                                          one.ours.empty() ? next_point++ : static_cast<GLuint>(whole - ours.begin()));
+            continue;
+        }
+        const GLint point = binding_point(program.id(), block);
+        if (static_cast<std::size_t>(point) >= reserved)
+            fail(one.name, fmt::format(" at binding {}", point));
+        if (point == 0 && any_bound && one.name != ours.front())
+            fail(one.name, fmt::format(", which has no binding of its own but {}'s", ours.front()));
+        if (const auto [other, first] = at.emplace(point, one.name); !first)
+            fail(one.name, fmt::format(" at binding {}, where {} is", point, other->second));
+    }
+    return {program.id(), program.bindings(), {records}};
 }
 
 } // namespace lockstep

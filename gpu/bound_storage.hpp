@@ -11,6 +11,7 @@
 #include "gpu/bindings.hpp"
 #include "gpu/gl.hpp"
 #include "gpu/object.hpp"
+#include "gpu/program.hpp"
 #include "gpu/record_buffer.hpp"
 
 namespace lockstep {
@@ -19,6 +20,7 @@ namespace lockstep {
 struct RecordBlocks {
     std::string before, after;
     const RecordLayout* layout = nullptr;
+    std::string both = {}; ///< of the two where a block is changed in place; may be empty if there is one buffer
 };
 
 /// Storage blocks of a shader from elsewhere, filled and read back member by member, whatever their layout (std430,
@@ -26,19 +28,13 @@ struct RecordBlocks {
 class BoundStorage {
   public:
     BoundStorage() = default; ///< of nothing
-    /// The active blocks of `program` that `bindings` bind by member. Their members are "Before.speed", "After.speed",
-    /// or "speed" of a block that is changed in place; numbers; or "count", how many items there are. `layouts` of
-    /// `ours` outlive this. Throws Error with the file and the path in it for a member that the block does not have, or
-    /// that has no value, for a name that is none of ours, for types that do not fit, and for a field of ours that a
-    /// block takes in part.
+    /// The active blocks of `program` that `bindings` bind by member. A member is an array, or in an array of
+    /// structures: element i is of item i. It holds "Before.speed", "After.speed", or "speed" of a block that is
+    /// changed in place ("Both.speed" where there are several buffers); numbers; or "count", how many items there are.
+    /// `layouts` of `ours` outlive this. Throws Error with the file and the path in it for a member that the block does
+    /// not have, or that has no value, for a name that is none of ours, for types that do not fit, and for a field of
+    /// ours that is written in part, or twice.
     BoundStorage(GLuint program, std::shared_ptr<const Bindings> bindings, std::vector<RecordBlocks> ours);
-
-    /// Whether the program has the block, and it is one of these.
-    [[nodiscard]] bool has(std::string_view block) const;
-
-    /// Whether a member of any of them reads, or writes, the buffer.
-    [[nodiscard]] bool reads(std::size_t ours) const { return reads_.contains(ours); }
-    [[nodiscard]] bool writes(std::size_t ours) const { return writes_.contains(ours); }
 
     /// Fills the blocks from our buffers, one each of `ours`, and binds each to the binding point of its own.
     void fill(std::span<const RecordBuffer* const> before, std::span<const RecordBuffer* const> after) const;
@@ -51,19 +47,24 @@ class BoundStorage {
         enum class Kind : std::uint8_t { before, after, in_place, constant, count };
         Kind kind = Kind::constant;
         std::size_t ours = 0, place = 0; ///< word of a record
-        std::uint32_t bits = 0;
+        std::uint32_t bits = 0;          ///< of a constant
+        bool as_float = false;           ///< of a count
+        std::size_t at = 0;              ///< words behind the element's first
     };
     struct Member {
         std::string name, path;
         GLenum type = 0;
-        std::size_t offset = 0, stride = 0; ///< in words; stride 0: one for all items
-        std::size_t elements = 0;           ///< 0: as many as there are
-        std::vector<Word> words;
+        std::size_t offset = 0, stride = 0;    ///< in words, from item to item; stride 0: one for all items
+        std::size_t elements = 0;              ///< items there is room for; 0: no size is declared
+        std::size_t parts = 1, part_words = 0; ///< of an array in each item
+        bool plain = false;                    ///< an array, not of structures
+        std::vector<Word> words = {};
     };
     struct Block {
         std::string name;
         GLuint binding = 0;
-        std::vector<Member> members;
+        std::size_t least = 0; ///< words that GL asks for
+        std::vector<Member> members = {};
         GlBuffer buffer = {};
     };
 
@@ -74,15 +75,17 @@ class BoundStorage {
         std::size_t ours, place; ///< word of a record
         Scalar scalar;
         int components;
-        bool whole; ///< field, not one component of it
+        bool listed; ///< where an error says what is right
     };
 
     void add_names(std::size_t ours);
     void add_block(GLuint program, GLuint block, const std::string& name, const StorageBlockBinding& binding);
-    [[nodiscard]] Member member_of(GLuint program, GLuint variable) const;
-    void add_words(Member& member, const UniformBinding& binding);
+    void add_words(Member& member, const MemberBinding& binding);
+    void add_name(Member& member, const std::string& path, const std::string& name);
+    void settle_counts(Block& block, const std::string& path) const;
     void check_written() const;
-    [[nodiscard]] std::size_t words_in(const Block& block, std::size_t items) const;
+    [[nodiscard]] static std::size_t items_of(const Block& block, std::span<const RecordBuffer* const> buffers);
+    [[nodiscard]] std::size_t words_of(const Block& block, std::size_t items) const;
 
     std::shared_ptr<const Bindings> bindings_;
     std::vector<RecordBlocks> ours_;
@@ -90,5 +93,22 @@ class BoundStorage {
     std::vector<Block> blocks_;
     std::set<std::size_t> reads_, writes_;
 };
+
+/// An active storage block of a program, by the bindings beside its shaders.
+struct StorageBlock {
+    std::string name; ///< the shader's
+    std::string ours; ///< empty: bound by member; the same name where the bindings do not have it
+    bool bound;       ///< the bindings have it
+};
+
+/// Those of a program, in GL's order. Throws Error with the file and the path in it for one that is bound to what is
+/// none of `ours`.
+std::vector<StorageBlock> storage_blocks(const Program& program, std::span<const std::string> ours);
+
+/// Gives each storage block of a program its binding point: a block that the bindings beside it say is `ours[i]` gets
+/// i, one that they bind by member of `records` a point behind `reserved`, which the result fills; others keep theirs.
+/// Throws Error for a block at a point that is none of these, and for one that has, it seems, no point of its own.
+BoundStorage bind_storage(const Program& program, std::span<const std::string> ours, std::size_t reserved,
+                          const RecordBlocks& records);
 
 } // namespace lockstep

@@ -89,7 +89,8 @@ std::vector<RecordBlocks> blocks_of_records(const Schema& schema, const std::vec
     for (const Storage& storage : storages) {
         const Resource& resource = schema.resources[storage.layout.resource];
         if (storage.block.empty())
-            all.push_back({block_name(resource, false), block_name(resource, true), &storage.layout});
+            all.push_back(
+                {block_name(resource, false), block_name(resource, true), &storage.layout, shader_name(resource.name)});
     }
     return all;
 }
@@ -102,35 +103,20 @@ std::vector<Bound> bind_blocks(const Program& program, const Schema& schema, con
     std::vector<std::string> names;
     for (const auto& [name, what] : ours)
         names.push_back(name);
-    GLint count = 0;
-    gl::GetProgramInterfaceiv(program.id(), GL_SHADER_STORAGE_BLOCK, GL_ACTIVE_RESOURCES, &count);
     std::vector<Bound> bound;
     std::vector<GLuint> by_member;
-    for (GLuint block = 0; block < static_cast<GLuint>(count); ++block) {
-        std::array<char, 256> theirs{};
-        gl::GetProgramResourceName(program.id(), GL_SHADER_STORAGE_BLOCK, block, static_cast<GLsizei>(theirs.size()),
-                                   nullptr, theirs.data());
-        std::string name = theirs.data();
-        if (const Bindings* const bindings = program.bindings().get(); bindings != nullptr) {
-            const auto given = bindings->storage_blocks.find(name);
-            if (given != bindings->storage_blocks.end() && given->second.ours.empty()) {
-                by_member.push_back(block);
-                continue;
-            }
-            if (given != bindings->storage_blocks.end()) {
-                name = given->second.ours;
-                if (!ours.contains(name))
-                    throw Error(fmt::format("{}: {}: {} is no storage block here; right is one of {}{}", bindings->file,
-                                            given->second.path, name, fmt::join(names, ", "),
-                                            did_you_mean(name, names)));
-            }
+    const std::vector<StorageBlock> blocks = storage_blocks(program, names);
+    for (GLuint block = 0; block < static_cast<GLuint>(blocks.size()); ++block) {
+        if (blocks[block].ours.empty()) {
+            by_member.push_back(block);
+            continue;
         }
-        const auto known = ours.find(name);
+        const auto known = ours.find(blocks[block].ours);
         if (known == ours.end())
             throw Error(fmt::format("{}: nothing is given for storage block {}; right is one of {}, or {} beside the "
                                     "shader (docs/own_shader.md){}",
-                                    program.name(), name, fmt::join(names, ", "), bindings_file,
-                                    did_you_mean(name, names)));
+                                    program.name(), blocks[block].name, fmt::join(names, ", "), bindings_file,
+                                    did_you_mean(blocks[block].name, names)));
         gl::ShaderStorageBlockBinding(program.id(), block, static_cast<GLuint>(bound.size()));
         bound.push_back(known->second);
     }

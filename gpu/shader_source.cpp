@@ -147,20 +147,28 @@ File find(const ShaderFolders& folders, const ShaderTexts& texts, const std::str
     throw Error(fmt::format("{}no shader file {} in {}", where, file, tried));
 }
 
-/// All that the shaders of a folder consist of.
-std::vector<std::string> words_in(const fs::path& folder) {
+FolderNames names_in(const fs::path& folder) {
     static constexpr std::array<std::string_view, 5> endings{".vert", ".geom", ".frag", ".comp", ".glsl"};
-    std::set<std::string, std::less<>> found;
+    std::set<std::string, std::less<>> found, blocks;
     for (const fs::directory_entry& entry : fs::directory_iterator(folder)) {
         if (std::find(endings.begin(), endings.end(), entry.path().extension().string()) == endings.end())
             continue;
         const std::optional<std::string> text = text_of(entry.path());
         if (!text)
             continue;
-        for (ShaderWords words(*text); words.next();)
+        std::string_view last;
+        bool is_buffer = false; // since the last declaration
+        for (ShaderWords words(*text); words.next(); last = words.token()) {
             found.emplace(words.token());
+            if (words.token() == "{" && is_buffer)
+                blocks.emplace(last);
+            if (words.token() == "{" || words.token() == "}" || words.token() == ";")
+                is_buffer = false;
+            else if (words.token() == "buffer")
+                is_buffer = true;
+        }
     }
-    return {found.begin(), found.end()};
+    return {{found.begin(), found.end()}, {blocks.begin(), blocks.end()}};
 }
 
 /// Null where there are none.
@@ -169,9 +177,9 @@ std::shared_ptr<const Bindings> bindings_beside(const fs::path& file) {
         return nullptr; // a text of the host's
     const fs::path bindings = file.parent_path() / bindings_file;
     if (const auto given = given_bindings().find(folder_key(file.parent_path())); given != given_bindings().end())
-        return parse_bindings("names of " + shown(file.parent_path()), given->second, words_in(file.parent_path()));
+        return parse_bindings("names of " + shown(file.parent_path()), given->second, names_in(file.parent_path()));
     const std::optional<std::string> text = text_of(bindings);
-    return text ? parse_bindings(shown(bindings), *text, words_in(file.parent_path())) : nullptr;
+    return text ? parse_bindings(shown(bindings), *text, names_in(file.parent_path())) : nullptr;
 }
 
 /// Puts one stage together.

@@ -7,29 +7,32 @@
 namespace lockstep {
 namespace {
 
-using nlohmann::json;
+using Json = nlohmann::json;
 
-json names_json(const ShaderNames::Names& names) {
-    json all = json::object();
-    for (const auto& [theirs, ours] : names)
-        all[theirs] = std::visit([](const auto& value) { return json(value); }, ours.value());
+Json names_json(const ShaderNames::Names& names) {
+    Json all = Json::object();
+    for (const auto& [theirs, ours] : names) {
+        Json list = Json::array();
+        for (const NameOrNumber& one : ours.values)
+            list.push_back(std::visit([](const auto& value) { return Json(value); }, one.value));
+        all[theirs] = ours.is_list ? list : list.front();
+    }
     return all;
 }
 
 } // namespace
 
 std::string ShaderNames::json() const {
-    nlohmann::json document{{"uniforms", names_json(uniforms)},
-                            {"uniform_blocks", nlohmann::json::object()},
-                            {"storage_blocks", nlohmann::json::object()},
-                            {"attributes", attributes},
-                            {"outputs", outputs}};
+    Json document{{"uniforms", names_json(uniforms)},
+                  {"uniform_blocks", Json::object()},
+                  {"storage_blocks", Json::object()},
+                  {"attributes", attributes},
+                  {"outputs", outputs}};
     for (const auto& [block, members] : uniform_blocks)
         document["uniform_blocks"][block] = names_json(members);
     for (const auto& [block, given] : storage_blocks)
-        document["storage_blocks"][block] = std::holds_alternative<Names>(given)
-                                                ? names_json(std::get<Names>(given))
-                                                : nlohmann::json(std::get<std::string>(given));
+        document["storage_blocks"][block] = std::holds_alternative<Names>(given) ? names_json(std::get<Names>(given))
+                                                                                 : Json(std::get<std::string>(given));
     return document.dump(2);
 }
 

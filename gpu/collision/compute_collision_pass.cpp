@@ -2,12 +2,10 @@
 
 #include <algorithm>
 #include <array>
-#include <map>
 #include <string>
 #include <string_view>
 
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 
 #include "gpu/check.hpp"
 #include "gpu/collision/collision_pass.hpp"
@@ -41,32 +39,6 @@ Program link_compute(const Scene& scene, const std::filesystem::path& shaders, c
         defines.emplace_back("LOCKSTEP_INT64_ATOMICS", "1");
     const std::array stages{Stage::compute};
     return {name, load_stages(collision_shaders(shaders), name, stages, defines)};
-}
-
-/// Where the block is bound, by bindings or by itself.
-void bind_block(const Program& program, GLuint block, const std::string& name, GLuint& next_point) {
-    constexpr std::array<std::string_view, 4> ours{"Before", "After", "Nearest", "Offers"};
-    const Bindings* const bindings = program.bindings().get();
-    const auto none = std::map<std::string, StorageBlockBinding, std::less<>>::const_iterator{};
-    const auto found = bindings == nullptr ? none : bindings->storage_blocks.find(name);
-    if (bindings != nullptr && found != bindings->storage_blocks.end()) {
-        const StorageBlockBinding& binding = found->second;
-        const auto whole = std::find(ours.begin(), ours.end(), binding.ours);
-        if (!binding.ours.empty() && whole == ours.end())
-            throw Error(fmt::format("{}: {}: {} is no storage block here; right is one of {}", bindings->file,
-                                    binding.path, binding.ours, fmt::join(ours, ", ")));
-        const GLuint point = binding.ours.empty() ? next_point++ : static_cast<GLuint>(whole - ours.begin());
-        gl::ShaderStorageBlockBinding(program.id(), block, point);
-        return;
-    }
-    const GLenum property = GL_BUFFER_BINDING;
-    GLint point = 0;
-    gl::GetProgramResourceiv(program.id(), GL_SHADER_STORAGE_BLOCK, block, 1, &property, 1, nullptr, &point);
-    if (point > static_cast<GLint>(trace_binding))
-        throw Error(
-            fmt::format("{}: nothing is given for storage block {} at binding {}; {} beside the shader binds it "
-                        "(docs/own_shader.md), or layout(binding = 0) to 3",
-                        program.name(), name, point, bindings_file));
 }
 
 Program link_draw(const Scene& scene, const std::filesystem::path& shaders) {
@@ -110,23 +82,16 @@ void dispatch(const Program& program, std::size_t particles, std::size_t group) 
 
 } // namespace
 
-BoundStorage bind_storage(const Program& program) {
-    GLint count = 0;
-    gl::GetProgramInterfaceiv(program.id(), GL_SHADER_STORAGE_BLOCK, GL_ACTIVE_RESOURCES, &count);
-    GLuint next_point = trace_binding + 1;
-    for (GLuint block = 0; block < static_cast<GLuint>(count); ++block) {
-        std::array<char, 256> name{};
-        gl::GetProgramResourceName(program.id(), GL_SHADER_STORAGE_BLOCK, block, static_cast<GLsizei>(name.size()),
-                                   nullptr, name.data());
-        bind_block(program, block, name.data(), next_point);
-    }
-    return {program.id(), program.bindings(), {{"Before", "After", &particle_records()}}};
+BoundStorage bind_particles(const Program& program) {
+    static const std::array<std::string, 4> ours{"Before", "After", "Nearest", "Offers"};
+    return bind_storage(program, ours, trace_binding + 1, {"Before", "After", &particle_records()});
 }
 
 ComputeCollisionPass::ComputeCollisionPass(const Scene& scene, const std::filesystem::path& shaders)
     : step_(link_compute(scene, shaders, "collision_pass")), nearest_(link_compute(scene, shaders, "nearest_particle")),
-      draw_(link_draw(scene, shaders)), bound_(bind_storage(step_)), step_group_(group_size(step_, scene.start.size())),
-      nearest_group_(group_size(nearest_, scene.start.size())), has_offers_(step_.uses_storage(offers_binding)) {
+      draw_(link_draw(scene, shaders)), bound_(bind_particles(step_)), nearest_bound_(bind_particles(nearest_)),
+      step_group_(group_size(step_, scene.start.size())), nearest_group_(group_size(nearest_, scene.start.size())),
+      has_offers_(step_.uses_storage(offers_binding)) {
     allocate(nearest_particles_, 2 * static_cast<std::size_t>(scene.width) * static_cast<std::size_t>(scene.height));
     if (has_offers_)
         allocate(offers_, 2 * scene.start.size());
@@ -166,7 +131,9 @@ void ComputeCollisionPass::step(const FrameParams& params, const ParticleBuffer&
         return;
     nearest_.set("u_ParticleCount", static_cast<unsigned>(from.size()));
     nearest_.check_interface();
+    nearest_bound_.fill(before, after);
     dispatch(nearest_, from.size(), nearest_group_);
+    nearest_bound_.collect(after);
     timer.mark("nearest_particle");
 }
 

@@ -20,10 +20,8 @@ enum StorageBinding : GLuint {
     trace_binding,   ///< what the trace build tells
 };
 
-/// Gives each storage block of a linked compute stage its binding point: a block that the bindings beside the shader
-/// say is Before, After, Nearest or Offers that one's, one that they bind by member a point of its own, which the
-/// result fills; others keep theirs. Throws Error for a block at a point where there is nothing.
-BoundStorage bind_storage(const Program& program);
+/// bind_storage of a linked compute stage, whose blocks are Before, After, Nearest and Offers.
+BoundStorage bind_particles(const Program& program);
 
 /// The collision pass in compute stages (switch step = compute): shaders/collision/collision_pass.comp steps the
 /// particles and offers each to its texel, nearest_particle.comp finds the lowest index among the nearest where that
@@ -44,7 +42,7 @@ class ComputeCollisionPass {
     void draw(const FrameParams& params, std::size_t particles, CollisionTexture& target);
 
     Program step_, nearest_, draw_;
-    BoundStorage bound_;                     ///< of step_
+    BoundStorage bound_, nearest_bound_;
     std::size_t step_group_, nearest_group_; ///< invocations
     bool has_offers_;                        ///< step_ leaves the lowest index to nearest_
     GlBuffer nearest_particles_, offers_;

@@ -72,7 +72,7 @@ CapturedVertex take_neighbour(CapturedVertex& from) {
 } // namespace
 
 ComputeTrace::ComputeTrace(const Switches& switches, const std::filesystem::path& shaders, int width, int height)
-    : program_(link_trace(switches, shaders)), bound_(bind_storage(program_)), width_(width), height_(height) {
+    : program_(link_trace(switches, shaders)), bound_(bind_particles(program_)), width_(width), height_(height) {
     std::array<GLint, 3> size{};
     gl::GetProgramiv(program_.id(), GL_COMPUTE_WORK_GROUP_SIZE, size.data());
     group_ = static_cast<std::size_t>(size[0]);

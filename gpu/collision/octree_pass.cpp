@@ -36,6 +36,11 @@ Program link(const Scene& scene, const std::filesystem::path& shaders) {
             load_stages(collision_shaders(shaders), "octree_pass", stages, switch_defines(scene.switches))};
 }
 
+BoundStorage bind(const Program& program) {
+    static const std::array<std::string, 6> ours{"Before", "After", "Nodes", "Indices", "ObstacleVertices", "Order"};
+    return bind_storage(program, ours, ours.size(), {"Before", "After", &particle_records()});
+}
+
 std::vector<glm::vec3> taking_part(const Scene& scene) {
     return scene.switches.obstacles_in_cdt == ObstaclesInCdt::off ? std::vector<glm::vec3>{}
                                                                   : scene.obstacles.positions;
@@ -59,7 +64,8 @@ void upload_node_texture(GLuint texture) {
 } // namespace
 
 OctreePass::OctreePass(const Scene& scene, const std::filesystem::path& shaders)
-    : program_(link(scene, shaders)), octree_(scene.constants.octree_size), obstacles_(taking_part(scene)) {
+    : program_(link(scene, shaders)), bound_(bind(program_)), octree_(scene.constants.octree_size),
+      obstacles_(taking_part(scene)) {
     upload_node_texture(node_texture_.id());
     upload(obstacle_vertices_.id(), std::span<const glm::vec3>(obstacles_), GL_STATIC_DRAW);
     check_gl("octree_pass");
@@ -87,7 +93,11 @@ void OctreePass::run(const FrameParams& params, const ParticleBuffer& from, Part
     gl::BindBufferBase(GL_SHADER_STORAGE_BUFFER, Binding::indices, indices_.id());
     gl::BindBufferBase(GL_SHADER_STORAGE_BUFFER, Binding::obstacle_vertices, obstacle_vertices_.id());
     gl::BindBufferBase(GL_SHADER_STORAGE_BUFFER, Binding::order, order_.id());
+    const RecordBuffer* const read[] = {&from};
+    const RecordBuffer* const written[] = {&to};
+    bound_.fill(read, written);
     gl::DispatchCompute((static_cast<GLuint>(from.size()) + octree_group_size - 1) / octree_group_size, 1, 1);
+    bound_.collect(written);
     gl::MemoryBarrier(GL_BUFFER_UPDATE_BARRIER_BIT | GL_CLIENT_MAPPED_BUFFER_BARRIER_BIT |
                       GL_VERTEX_ATTRIB_ARRAY_BARRIER_BIT | GL_SHADER_STORAGE_BARRIER_BIT);
     check_gl("octree_pass");

@@ -2,6 +2,7 @@
 #include <filesystem>
 #include <vector>
 
+#include "gpu/bound_storage.hpp"
 #include "gpu/collision/octree.hpp"
 #include "gpu/collision/particle_buffer.hpp"
 #include "gpu/object.hpp"
@@ -27,6 +28,7 @@ class OctreePass {
 
   private:
     Program program_;
+    BoundStorage bound_;
     Octree octree_;
     std::vector<glm::vec3> obstacles_; ///< vertices that take part
     Particles read_back_;

@@ -10,32 +10,36 @@
 #include <initializer_list>
 #include <map>
 #include <string>
+#include <type_traits>
+#include <utility>
 #include <variant>
 #include <vector>
 
 namespace lockstep {
 
-/// A name here, a number, or one of these for each component.
-class NameOrNumber {
-  public:
-    NameOrNumber(const char* name) : value_(std::string(name)) {}
-    NameOrNumber(std::string name) : value_(std::move(name)) {}
-    NameOrNumber(double number) : value_(number) {}
-    NameOrNumber(int number) : value_(static_cast<double>(number)) {}
-    NameOrNumber(std::initializer_list<const char*> names)
-        : value_(std::vector<std::string>(names.begin(), names.end())) {}
-    NameOrNumber(std::vector<double> numbers) : value_(std::move(numbers)) {}
+/// A name here, or a number.
+struct NameOrNumber {
+    NameOrNumber(const char* name) : value(std::string(name)) {}
+    NameOrNumber(std::string name) : value(std::move(name)) {}
+    NameOrNumber(double number) : value(number) {}
+    NameOrNumber(int number) : value(static_cast<double>(number)) {}
 
-    using Value = std::variant<std::string, double, std::vector<std::string>, std::vector<double>>;
-    [[nodiscard]] const Value& value() const { return value_; }
+    std::variant<std::string, double> value;
+};
 
-  private:
-    Value value_;
+/// One of them, or a list: one after the other in a vector.
+struct ShaderValue {
+    template <class One>
+    requires std::is_constructible_v<NameOrNumber, One> ShaderValue(One one) : values{NameOrNumber(std::move(one))} {}
+    ShaderValue(std::initializer_list<NameOrNumber> all) : values(all), is_list(true) {}
+
+    std::vector<NameOrNumber> values;
+    bool is_list = false;
 };
 
 /// By the shader's names.
 struct ShaderNames {
-    using Names = std::map<std::string, NameOrNumber>;
+    using Names = std::map<std::string, ShaderValue>;
     Names uniforms = {};
     std::map<std::string, Names> uniform_blocks = {};
     std::map<std::string, std::variant<Names, std::string>> storage_blocks = {}; ///< by member, or all of one here

@@ -224,6 +224,8 @@ void BoundStorage::add_words(Member& member, const MemberBinding& binding) {
         member.part_words = std::exchange(member.stride, member.stride * member.parts);
         member.elements /= member.parts;
     }
+    if (member.words.size() == 1 && !binding.is_list && member.words.front().kind == Word::Kind::constant)
+        member.words.resize(each * member.parts, member.words.front());
     if (member.words.size() != each * member.parts)
         fail(fmt::format("{} value{} for {}, which is {}; right {} {}{}", member.words.size(),
                          member.words.size() == 1 ? "" : "s", member.name,

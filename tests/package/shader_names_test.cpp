@@ -150,7 +150,7 @@ TEST_CASE("shader names: what does not fit names the folder and the place") {
     std::get<ShaderNames::Names>(misspelt.storage_blocks["Old"]).insert_or_assign("mark", "CellsBefore.tags");
     CHECK_THAT(error_of(misspelt), Contains("names of ") &&
                                        Contains("/storage_blocks/Old/mark: CellsBefore.tags is "
-                                                "nothing here; right is one of count, ") &&
+                                                "nothing here; right is a number, or one of count, ") &&
                                        Contains("did you mean CellsBefore.tag?"));
     ShaderNames other_type = names();
     std::get<ShaderNames::Names>(other_type.storage_blocks["Old"]).insert_or_assign("mark", "CellsBefore.value");

@@ -28,9 +28,7 @@ class Reader {
     }
 
     Bindings read(const std::string& text) {
-        const json document = json::parse(text, nullptr, false);
-        if (document.is_discarded())
-            fail("", "is no JSON");
+        const json document = parsed(text);
         check_object("", document);
         for (const auto& [name, value] : document.items()) {
             const std::string path = "/" + name;
@@ -59,6 +57,27 @@ class Reader {
   private:
     [[noreturn]] void fail(const std::string& path, const std::string& what) const {
         throw Error(fmt::format("{}: {}{}{}", made_.file, path, path.empty() ? "" : ": ", what));
+    }
+
+    json parsed(const std::string& text) const {
+        std::vector<std::set<std::string>> names; // of the objects that are open
+        const auto check_twice = [&](int, json::parse_event_t event, const json& value) {
+            if (event == json::parse_event_t::object_start)
+                names.emplace_back();
+            else if (event == json::parse_event_t::object_end)
+                names.pop_back();
+            else if (event == json::parse_event_t::key && !names.back().insert(value.get<std::string>()).second)
+                fail("", fmt::format("the name {} stands twice in one object", value.get<std::string>()));
+            return true;
+        };
+        try {
+            return json::parse(text, check_twice);
+        } catch (const json::parse_error& error) {
+            const std::string before = text.substr(0, error.byte == 0 ? 0 : error.byte - 1);
+            throw Error(fmt::format("{}:{}:{}: is no JSON from here on", made_.file,
+                                    1 + std::count(before.begin(), before.end(), '\n'),
+                                    before.size() - (before.rfind('\n') + 1) + 1));
+        }
     }
 
     void check_object(const std::string& path, const json& value) const {

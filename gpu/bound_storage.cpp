@@ -38,6 +38,14 @@ GLint binding_point(GLuint program, GLuint block) {
     return resource(program, GL_SHADER_STORAGE_BLOCK, block, std::array<GLenum, 1>{GL_BUFFER_BINDING})[0];
 }
 
+/// Whether a variable is an element of an array at the top of a block, behind its first, which some drivers list too.
+bool is_later_element(std::string_view name, const std::string& block) {
+    if (name.starts_with(block + "."))
+        name.remove_prefix(block.size() + 1);
+    const std::size_t bracket = name.find('[');
+    return bracket < name.find('.') && bracket != std::string_view::npos && name.substr(bracket, 3) != "[0]";
+}
+
 /// "particles.place" of "Particles.particles[0].place", and "places" of "places[0]": without the block, which instances
 /// have before it, and without the index of the item and of the last array.
 std::string member_name(std::string name, const std::string& block) {
@@ -156,13 +164,16 @@ void BoundStorage::add_block(GLuint program, GLuint block, const std::string& na
     std::map<std::string, std::string> taken; // the member by the file's name
     for (const GLint index : indices) {
         const auto variable = static_cast<GLuint>(index);
+        const std::string full_name = resource_name(program, GL_BUFFER_VARIABLE, variable);
+        if (is_later_element(full_name, name))
+            continue;
         const auto [type, offset, size, step, items, stride] =
             resource(program, GL_BUFFER_VARIABLE, variable,
                      std::array<GLenum, 6>{GL_TYPE, GL_OFFSET, GL_ARRAY_SIZE, GL_ARRAY_STRIDE, GL_TOP_LEVEL_ARRAY_SIZE,
                                            GL_TOP_LEVEL_ARRAY_STRIDE});
         const bool in_records = stride > 0;
         Member member;
-        member.name = member_name(resource_name(program, GL_BUFFER_VARIABLE, variable), name);
+        member.name = member_name(full_name, name);
         member.type = static_cast<GLenum>(type);
         member.offset = static_cast<std::size_t>(offset) / word;
         member.stride = static_cast<std::size_t>(in_records ? stride : step) / word;
@@ -189,7 +200,7 @@ void BoundStorage::add_block(GLuint program, GLuint block, const std::string& na
     }
     for (const auto& [theirs, given] : binding.members)
         if (!taken.contains(theirs))
-            fail(given.path, fmt::format("block {} has no {}member {}; it has {}{}", name,
+            fail(given.path, fmt::format("GL lists of block {} no {}member {}; it has {}{}", name,
                                          std::any_of(names.begin(), names.end(),
                                                      [&](const auto& one) { return is_named(one, theirs); })
                                              ? "other "

@@ -36,6 +36,9 @@ class BoundStorage {
     /// ours that is written in part, or twice.
     BoundStorage(GLuint program, std::shared_ptr<const Bindings> bindings, std::vector<RecordBlocks> ours);
 
+    /// Whether it has blocks that take a state, but none that gives one back.
+    [[nodiscard]] bool only_reads() const { return !reads_.empty() && writes_.empty(); }
+
     /// Fills the blocks from our buffers, one each of `ours`, and binds each to the binding point of its own.
     void fill(std::span<const RecordBuffer* const> before, std::span<const RecordBuffer* const> after) const;
     /// What the blocks hold now, into our buffers.

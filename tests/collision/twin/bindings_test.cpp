@@ -198,11 +198,11 @@ TEST_CASE("bindings: what does not fit is told with the file, the place in it an
         foreign.bindings = replaced(foreign.bindings, what, by);
         return error_of(foreign);
     };
-    CHECK_THAT(with(plain, "{ \"uniforms\"", "{ uniforms"), Contains("bindings.json: is no JSON"));
-    CHECK_THAT(
-        with(plain, "\"uniforms\"", "\"uniform\""),
-        Contains("bindings.json: /uniform: is none of uniforms, uniform_blocks, attributes, outputs; did you mean "
-                 "uniforms?"));
+    CHECK_THAT(with(plain, "{ \"uniforms\"", "{ uniforms"), Contains("bindings.json:1:3: is no JSON from here on"));
+    CHECK_THAT(with(plain, "\"uniforms\"", "\"uniform\""),
+               Contains("bindings.json: /uniform: is none of uniforms, uniform_blocks, storage_blocks, attributes, "
+                        "outputs; did you mean "
+                        "uniforms?"));
     CHECK_THAT(with(plain, "\"viewProj\"", "\"viewProjj\""),
                Contains("/uniforms/viewProjj: no shader beside it has the name viewProjj; did you mean viewProj?"));
     CHECK_THAT(with(plain, "\"u_Tick\"", "\"u_Tik\""),

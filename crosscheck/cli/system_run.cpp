@@ -94,6 +94,10 @@ void SystemInput::describe(RunDescription& about) const {
     about.notes = recording_->warnings();
 }
 
+std::vector<std::string> SystemInput::left_open(const Profile& profile) const {
+    return scene().left_open ? scene().left_open(profile) : std::vector<std::string>();
+}
+
 std::string SystemInput::command(const std::string& verb, const std::string& words) const {
     return recording_ ? fmt::format("lockstep {} --trace {} {}", verb, shell_path(trace_), words)
                       : command_line(verb, run_, words);

@@ -3,6 +3,7 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include <nlohmann/json.hpp>
 
@@ -60,6 +61,8 @@ class SystemInput {
 
     /// Whose shaders ran, what they are told to have been, and warnings.
     void describe(RunDescription& about) const;
+    /// SystemScene::left_open.
+    [[nodiscard]] std::vector<std::string> left_open(const Profile& profile) const;
     /// A command line that runs the verb on it again.
     [[nodiscard]] std::string command(const std::string& verb, const std::string& words) const;
 

@@ -21,6 +21,7 @@
 #include "crosscheck/report/item_text.hpp"
 #include "crosscheck/report/picture_difference.hpp"
 #include "crosscheck/report/power_text.hpp"
+#include "crosscheck/report/run_to_run.hpp"
 #include "crosscheck/report/system_debug_run.hpp"
 #include "reference/model/error.hpp"
 
@@ -204,6 +205,8 @@ int check_system(const RegisteredSystem& system, RunOptions run, const SystemChe
     options.frames = run.frames;
     options.known = known_operations(asked.legal, side.describe().profile);
     CheckWatch watch = outputs.watch(twins, side, run.frames);
+    std::vector<TwoRuns> two_runs;
+    watch_two_runs(watch, twins, two_runs);
     PicturedFrame pictured;
     if (!asked.images.empty())
         watch.on_frame = [&pictured, hashes = watch.on_frame](int frame, const SystemState& reference,
@@ -218,6 +221,8 @@ int check_system(const RegisteredSystem& system, RunOptions run, const SystemChe
     const int frames = report.first_frame ? *report.first_frame + 1 : report.frames;
     RunDescription about = describe_run(twins, side.describe(), options, check_line(input, asked, frames));
     input.describe(about);
+    for (const std::vector<std::string>& some : {input.left_open(side.describe().profile), run_to_run_notes(two_runs)})
+        about.notes.insert(about.notes.end(), some.begin(), some.end());
     if (input.is_recorded() && run.frames < input.recorded_frames())
         about.notes.push_back(
             fmt::format("{} of the {} frames recorded were compared", run.frames, input.recorded_frames()));
@@ -255,6 +260,8 @@ int check_system(const RegisteredSystem& system, RunOptions run, const SystemChe
     });
     if (!asked.json.empty()) {
         json document = report_json(report, about);
+        if (!two_runs.empty())
+            document["run_to_run"] = two_runs;
         if (drawn.report)
             document["drawn"] = report_json(*drawn.report, drawn.about);
         files.write(asked.json, json_text(document));

@@ -38,6 +38,10 @@ struct SystemScene {
     /// The picture that the passes themselves made, where an image of the state is one. Empty: none is.
     std::function<ColorImage(const SystemState& state)> image = {};
 
+    /// What its passes leave open that the driver does otherwise than the reference can follow, each in words of a
+    /// report, with what promises bits instead. Empty: nothing rests on such.
+    std::function<std::vector<std::string>(const Profile& profile)> left_open = {};
+
     [[nodiscard]] bool has_pictures() const { return picture || image; }
 };
 

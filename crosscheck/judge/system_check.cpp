@@ -248,6 +248,8 @@ CheckReport check(const System& system, SystemSide& gpu, const CheckOptions& opt
                 gpu.repeat_step(p, frame);
                 gpu.read(again);
                 const Comparison repeated = compare(now[r], again[r]);
+                if (pass.unordered() && watch.on_two_runs)
+                    watch.on_two_runs(p, frame, repeated);
                 if (!repeated.agree() && !pass.unordered() &&
                     !same_but_for_order(pass, {before.view(), frame}, std::as_const(now)[r], std::as_const(again)[r])) {
                     note_difference(report, frame, repeated);

@@ -23,11 +23,13 @@ struct CheckedPass {
     std::span<const ItemVerdict> verdicts; ///< on what differs; none in free mode
 };
 
-/// Looks on while a check runs. Either may be empty.
+/// Looks on while a check runs. Each may be empty.
 struct CheckWatch {
     std::function<void(const CheckedPass&)> on_pass;
     /// After each frame: what the reference made of it, and the GPU.
     std::function<void(int frame, const SystemState& reference, const SystemState& gpu)> on_frame;
+    /// Of a pass that atomics or blending leave unordered (ItemPass::unordered): two runs of it from one state.
+    std::function<void(std::size_t pass, int frame, const Comparison& two_runs)> on_two_runs = {};
 };
 
 /// Runs a system's passes on both sides from its start and compares every bit of what each pass wrote. Each pass is

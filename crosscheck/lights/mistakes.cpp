@@ -1,9 +1,11 @@
 #include "crosscheck/lights/mistakes.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <cstddef>
 #include <span>
 
+#include "reference/lights/light_order.hpp"
 #include "reference/lights/sites.hpp"
 
 namespace lockstep::lights {
@@ -14,6 +16,8 @@ using Words = std::span<float>;
 Mistake spoiled_at(const Site& site, Formula formula) {
     return {.site = site.id, .change = Change::spoiled, .formula = formula};
 }
+
+Mistake fewer(FewerTried which) { return {.change = Change::handed_over, .part = static_cast<int>(which)}; }
 
 float first(const CameBy& run, const Site& site) { return run.of(site)[0]; }
 
@@ -40,6 +44,14 @@ void cross_product(Words value, const CameBy& run) {
     const float along = value[0] * cross[0] + value[1] * cross[1] + value[2] * cross[2];
     for (std::size_t c = 0; c < value.size(); ++c)
         value[c] = along < 0.0F ? -cross[c] : cross[c];
+}
+void at_most_127(Words value, const CameBy& /*run*/) { value[0] = std::min(value[0], 127.0F); }
+/// Wherever the pixels lie that are drawn for a disc (shaders/pixel_box.glsl).
+void in_box_of_disc(Words value, const CameBy& run) {
+    const float reach = first(run, site::glow_radius) + 0.0625F;
+    const bool in_box = std::abs(first(run, site::centre_x) - first(run, site::glow_x)) <= reach &&
+                        std::abs(first(run, site::centre_y) - first(run, site::glow_y)) <= reach;
+    value[0] = in_box ? 1.0F : 0.0F;
 }
 void by_255(Words value, const CameBy& /*run*/) {
     for (float& x : value)
@@ -99,6 +111,12 @@ std::vector<NamedMistake> of_volumes() {
         add("x_sum_of_z", "z is added to the sum of x", spoiled_at(site::sum_x, z_of_direction));
         add("weight_of_red", "red is added to the sum of weights", spoiled_at(site::sum_weight, red_of_colour));
         add("magnitudes_added", "negative numbers are added as positive ones", magnitudes);
+        add("y_of_x", "a voxel's x is taken for its y", mistake_at(site::voxel_y, Change::instead, -1, &site::voxel_x));
+        add("ball_cut_short", "voxels at the far side of a light's ball are left out", fewer(FewerTried::two_short));
+        add("own_column_only", "of a light's ball only the voxels of its own x are tried",
+            fewer(FewerTried::own_column));
+        add("next_rows_only", "lights of cells more than one below are left out", fewer(FewerTried::next_rows));
+        add("next_layers_only", "lights of cells more than one before are left out", fewer(FewerTried::next_layers));
         add("rounded_down", "addends are rounded down", mistake_at(site::half_unit, Change::zero));
         add("last_light_left_out", "the last light is left out", mistake_at(site::all_lights, Change::last_skipped));
         add("scale_doubled", "the scale of fixed point has a bit too many",
@@ -163,6 +181,16 @@ const std::vector<NamedMistake>& mistakes() {
              mistake_at(site::is_cleared, Change::never)},
             {"carries_lost", "carries between the words of a sum are lost", "light_volume_scatter",
              mistake_at(site::carries, Change::never)},
+            {"carry_always", "a carry is added whether there is one or not", "light_volume_scatter",
+             mistake_at(site::always_carries, Change::always)},
+            {"cleared_to_one", "the accumulator starts from 1", "light_volume_clear",
+             mistake_at(site::cleared, Change::one)},
+            {"count_of_weights", "the count is the sum of weights", "light_volume_resolve",
+             mistake_at(site::count_word, Change::never)},
+            {"row_starts_late", "a row of cells begins behind its own lights", "light_sort_pass",
+             mistake_at(site::cell_start, Change::instead, -1, &site::row_end)},
+            {"cell_counts_twice", "each light of a cell is counted twice", "light_sort_pass",
+             mistake_at(site::cell_count, Change::doubled)},
             {"borrows_lost", "the high word of a negative number is one too great", "light_volume_scatter",
              mistake_at(site::borrows, Change::never)},
             {"albedo_turned", "red and blue of the albedo are swapped", "gbuffer_pass_albedo",
@@ -175,14 +203,26 @@ const std::vector<NamedMistake>& mistakes() {
              spoiled_at(site::surface_normal, cross_product)},
             {"glow_through_walls", "glows are seen through what is before them", "glow_pass",
              mistake_at(site::glow_nearer, Change::always)},
+            {"glow_square",
+             "glows are as large as what is drawn for them",
+             "glow_pass",
+             {.site = site::on_disc.id, .change = Change::decided_by_formula, .formula = in_box_of_disc}},
             {"glow_not_fading", "glows are even discs", "glow_pass", mistake_at(site::glow_share, Change::one)},
         };
         for (const char* const pass : {"light_volume_resolve", "light_volume_resolve_direction"})
-            made.push_back({"high_word_unsigned", "negative sums are read as great ones", pass,
-                            spoiled_at(site::high_word, unsigned_word)});
+            made.insert(made.end(), {{"high_word_unsigned", "negative sums are read as great ones", pass,
+                                      spoiled_at(site::high_word, unsigned_word)},
+                                     {"words_swapped", "the two words of a sum are swapped", pass,
+                                      mistake_at(site::low_first, Change::never)}});
+        for (const char* const pass : {"gbuffer_pass", "gbuffer_pass_normal", "gbuffer_pass_albedo",
+                                       "gbuffer_pass_depth", "forward_light_pass", "forward_light_pass_depth"})
+            made.push_back({"first_triangle_stays", "the triangle that is drawn first stays, whatever its depth", pass,
+                            mistake_at(site::nearest, Change::first_taken)});
         for (const char* const pass : {"encode_pass", "encode_by_gl_pass"}) {
             made.push_back({"encoded_turned", "red and blue are swapped", pass,
                             mistake_at(site::radiance_in, Change::xz_swapped)});
+            made.push_back(
+                {"half_of_the_table", "codes above 127 become 127", pass, spoiled_at(site::code, at_most_127)});
             made.push_back(
                 {"code_cut", "codes are cut, not rounded", pass, mistake_at(site::code_value, Change::half_less)});
         }

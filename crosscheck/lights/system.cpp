@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "crosscheck/judge/coded_image.hpp"
+#include "crosscheck/lights/left_open.hpp"
 #include "crosscheck/lights/mistakes.hpp"
 #include "crosscheck/lights/scene.hpp"
 #include "crosscheck/scene/scene_fields.hpp"
@@ -28,9 +29,12 @@ System system(const HostPtr& host, const std::string& name) {
 
 SystemScene load(const JsonValue& scene, const std::string& name, const SceneOptions& options) {
     const auto host = std::make_shared<const Host>(read_scene(scene, options));
-    return {system(host, name), passes(host), host->settings().arithmetic, {}, [](const SystemState& state) {
-                return coded_image(state, field::code);
-            }};
+    return {system(host, name),
+            passes(host),
+            host->settings().arithmetic,
+            {},
+            [](const SystemState& state) { return coded_image(state, field::code); },
+            [host](const Profile& profile) { return left_open(host->switches(), profile); }};
 }
 
 } // namespace lockstep::lights

@@ -1,14 +1,20 @@
 #pragma once
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <optional>
+#include <vector>
 
 #include <glm/vec3.hpp>
 
+#include "reference/lights/light_row.hpp"
 #include "reference/lights/sites.hpp"
 #include "reference/lights/step_twin.hpp"
 #include "reference/model/lights/host.hpp"
 #include "reference/model/lights/schema.hpp"
+#include "reference/parallel_blocks.hpp"
+#include "reference/subnormal_mode.hpp"
+#include "reference/subnormals.hpp"
 #include "reference/system/item_pass.hpp"
 
 namespace lockstep::lights {
@@ -111,34 +117,71 @@ template <class R> std::optional<Contribution<R>> contribution(R& r, const Host&
 /// The voxels that a light may reach: those that its ball touches, and one more to each side.
 struct VoxelBox {
     Voxel low, high; ///< both in it; none where low is above high
+    [[nodiscard]] bool has(const Voxel& v) const {
+        return v.x >= low.x && v.x <= high.x && v.y >= low.y && v.y <= high.y && v.z >= low.z && v.z <= high.z;
+    }
 };
 
-inline VoxelBox box_of(const Host& host, const SystemView& state, std::size_t light) {
+/// Those beside the grid among them.
+inline VoxelBox unbounded_box(const Host& host, const SystemView& state, std::size_t light) {
     const Grid& grid = host.grid();
     const glm::vec3 p = state.vec3(field::light_position, light);
     const float range = state.real(field::range, light);
     const auto end = [&](int axis, float to, float more) {
-        const float at = std::floor((to - grid.origin[axis]) * (1.0F / grid.voxel)) + more;
-        return static_cast<int>(std::fmin(std::fmax(at, -1.0F), static_cast<float>(grid.size[axis])));
+        constexpr float far = 1024.0F;
+        return static_cast<int>(
+            std::fmin(std::fmax(std::floor((to - grid.origin[axis]) * (1.0F / grid.voxel)) + more, -far), far));
     };
-    const auto low = [&](int axis) { return std::max(end(axis, p[axis] - range, -1.0F), 0); };
-    const auto high = [&](int axis) { return std::min(end(axis, p[axis] + range, 1.0F), grid.size[axis] - 1); };
+    const auto low = [&](int axis) { return end(axis, p[axis] - range, -1.0F); };
+    const auto high = [&](int axis) { return end(axis, p[axis] + range, 1.0F); };
     return {{low(0), low(1), low(2)}, {high(0), high(1), high(2)}};
 }
 
-/// Calls `add(voxel's index, contribution)` for each light of `order` and each voxel that it reaches.
-template <class R, class Add>
-void scatter(R& r, const Host& host, const SystemView& state, const std::vector<std::uint32_t>& order, const Add& add) {
-    for (const std::uint32_t light : order) {
-        const VoxelBox box = box_of(host, state, light);
-        for (int z = box.low.z; z <= box.high.z; ++z)
-            for (int y = box.low.y; y <= box.high.y; ++y)
-                for (int x = box.low.x; x <= box.high.x; ++x) {
-                    const Voxel v{x, y, z};
-                    if (const auto made = contribution(r, host, state, light, voxel_point(r, host, v), v))
-                        add(v.index(host.grid()), *made);
-                }
+inline VoxelBox box_of(const Host& host, const SystemView& state, std::size_t light) {
+    const VoxelBox all = unbounded_box(host, state, light);
+    const glm::ivec3 size = host.grid().size;
+    return {{std::max(all.low.x, 0), std::max(all.low.y, 0), std::max(all.low.z, 0)},
+            {std::min(all.high.x, size.x - 1), std::min(all.high.y, size.y - 1), std::min(all.high.z, size.z - 1)}};
+}
+
+/// Calls `add(voxel's index, contribution)` for each light of `order` and each voxel that it reaches: of one voxel in
+/// that order, on all threads, a layer of voxels each.
+template <class R, class Add> void scatter(const R& r, const Host& host, const SystemView& state,
+                                           const std::vector<std::uint32_t>& order, const Add& add) {
+    std::vector<VoxelBox> boxes;
+    boxes.reserve(order.size());
+    std::vector<std::vector<std::uint32_t>> layers(static_cast<std::size_t>(host.grid().size.z)); // places in `order`
+    for (std::uint32_t k = 0; k < order.size(); ++k) {
+        boxes.push_back(box_of(host, state, order[k]));
+        for (int z = boxes[k].low.z; z <= boxes[k].high.z; ++z)
+            layers[static_cast<std::size_t>(z)].push_back(k);
     }
+    const SubnormalMode mode = subnormal_mode();
+    parallel_blocks(host.grid().size.z, [&](std::ptrdiff_t layer) {
+        const FlushSubnormals guard(mode.flush_operands, mode.flush_results);
+        R mine(r);
+        LightRow<R> row(mine, host);
+        const auto z = static_cast<int>(layer);
+        for (const std::uint32_t k : layers[static_cast<std::size_t>(layer)]) {
+            const VoxelBox& box = boxes[k];
+            row.take(state, order[k]);
+            for (int y = box.low.y; y <= box.high.y; ++y) {
+                if (host.switches().influence == Influence::own_voxel) {
+                    for (int x = box.low.x; x <= box.high.x; ++x)
+                        if (const auto made = contribution(mine, host, state, order[k],
+                                                           voxel_point(mine, host, {x, y, z}), {x, y, z}))
+                            add(Voxel{x, y, z}.index(host.grid()), *made);
+                    continue;
+                }
+                if (box.low.x > box.high.x || !row.fill(box.low.x, box.high.x, y, z))
+                    continue;
+                const std::size_t first = Voxel{box.low.x, y, z}.index(host.grid());
+                for (std::size_t i = 0; i <= static_cast<std::size_t>(box.high.x - box.low.x); ++i)
+                    if (row.reaches(i))
+                        add(first + i, Contribution<R>{row.colour(i), row.direction(i), row.weight(i)});
+            }
+        }
+    });
 }
 
 } // namespace lockstep::lights

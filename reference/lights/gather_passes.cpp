@@ -1,3 +1,4 @@
+#include "reference/lights/by_driver.hpp"
 #include "reference/lights/passes.hpp"
 #include "reference/lights/volume_twin.hpp"
 
@@ -17,8 +18,13 @@ void add_gather_passes(const HostPtr& host, std::vector<std::unique_ptr<ItemPass
     }
     const char* const name = blended ? "light_volume_blend" : "light_volume_gather";
     const char* const second = blended ? "light_volume_blend_direction" : "light_volume_gather_direction";
-    all.push_back(item_pass(options(name, colour_image, stage, false), GatherTwin{host, Texture::colour}));
-    all.push_back(item_pass(options(second, direction_image, stage, true), GatherTwin{host, Texture::direction}));
+    const auto add = [&](const ItemPassOptions& one, Texture texture) {
+        const auto made = [&](const HostPtr& on) { return item_pass(one, GatherTwin{on, texture}); };
+        const bool halves = host->switches().volume_format == Format::rgba16f;
+        all.push_back(blended ? by_driver(halves ? half_blend_row : float_blend_row, host, made) : made(host));
+    };
+    add(options(name, colour_image, stage, false), Texture::colour);
+    add(options(second, direction_image, stage, true), Texture::direction);
 }
 
 } // namespace lockstep::lights

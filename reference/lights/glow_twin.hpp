@@ -3,7 +3,8 @@
 
 namespace lockstep::lights {
 
-/// Discs around the lights, added to the lit image where nothing nearer is. Twin of shaders/lights/glow_pass.*.
+/// Discs around the lights, added to the lit image by blending where nothing nearer is: in the order of drawing where
+/// the driver is followed, else in any. Twin of shaders/lights/glow_pass.*.
 struct GlowTwin {
     HostPtr host;
     BoxesByTile boxes = {};
@@ -16,18 +17,35 @@ struct GlowTwin {
         const Pixel pixel = Pixel::of(host->settings().width, item);
         const glm::vec4 before = in.before.vec4(field::pixel, item);
         Vec3 sum = r.read(site::lit_before, glm::vec3(before));
+        std::vector<Vec3> terms; // in any order
+        if (!host->follows_driver())
+            terms.push_back(sum);
         for (const std::uint32_t i : boxes.near(pixel))
             if (pixel.is_in(boxes.box(i)))
                 if (const auto share = share_at(r, in, i, pixel, item)) {
                     const Vec3 c = r.read(site::colour_before, in.before.vec3(field::light_colour, i)) * *share *
                                    r.uniform(site::glow_gain, host->settings().glow_gain);
                     sum = sum + r.note(site::glow_colour, c);
+                    if (!host->follows_driver())
+                        terms.push_back(c);
                 }
+        if (terms.size() > 1)
+            sum = in_any_order(r, terms);
         const Real alpha = r.read(site::lit_before, before.w);
         return words_of<R>(r.note(site::lit, typename R::Vec4{sum.x, sum.y, sum.z, alpha}));
     }
 
   private:
+    template <class R> static typename R::Vec3 in_any_order(R& r, const std::vector<typename R::Vec3>& terms) {
+        const auto along = [&](const auto& part) {
+            std::vector<typename R::Real> all;
+            for (const typename R::Vec3& term : terms)
+                all.push_back(part(term));
+            return r.any_order_sum(site::lit, all);
+        };
+        return {along([](const auto& v) { return v.x; }), along([](const auto& v) { return v.y; }),
+                along([](const auto& v) { return v.z; })};
+    }
     template <class R> std::optional<typename R::Real> share_at(R& r, const PassInput& in, std::uint32_t light,
                                                                 const Pixel& pixel, std::size_t item) const {
         using Real = typename R::Real;

@@ -3,8 +3,6 @@
 #include <algorithm>
 #include <tuple>
 
-#include "reference/lights/contribution.hpp"
-
 namespace lockstep::lights {
 namespace {
 
@@ -41,6 +39,48 @@ std::vector<std::uint32_t> light_order(const Host& host, const SystemView& state
     }
     std::stable_sort(all.begin(), all.end(), [&](std::uint32_t a, std::uint32_t b) { return cell[a] > cell[b]; });
     return all;
+}
+
+std::vector<TriedVoxels> tried_voxels(const Host& host, const SystemView& state,
+                                      const std::vector<std::uint32_t>& order) {
+    const Accumulate how = host.switches().accumulate;
+    std::vector<TriedVoxels> all;
+    for (const std::uint32_t light : order) {
+        Voxel cell = cell_of(host.grid(), state.vec3(field::light_position, light));
+        if (scatters(how)) {
+            all.push_back({unbounded_box(host, state, light), cell});
+            continue;
+        }
+        if (!blends(how))
+            cell = clamped_cell(host.grid(), cell);
+        const int m = host.reach();
+        all.push_back({{{cell.x - m, cell.y - m, cell.z - m}, {cell.x + m, cell.y + m, cell.z + m}}, cell});
+    }
+    return all;
+}
+
+std::vector<TriedVoxels> mistaken_voxels(std::vector<TriedVoxels> tried, std::span<const Mistake> made) {
+    for (const Mistake& mistake : made)
+        for (TriedVoxels& one : tried) {
+            VoxelBox& box = one.box;
+            if (mistake.change != Change::handed_over)
+                continue;
+            switch (static_cast<FewerTried>(mistake.part)) {
+            case FewerTried::two_short:
+                box.high = {box.high.x - 2, box.high.y - 2, box.high.z - 2};
+                break;
+            case FewerTried::own_column:
+                box.low.x = box.high.x = one.cell.x;
+                break;
+            case FewerTried::next_rows:
+                box.high.y = one.cell.y + 1;
+                break;
+            case FewerTried::next_layers:
+                box.high.z = one.cell.z + 1;
+                break;
+            }
+        }
+    return tried;
 }
 
 } // namespace lockstep::lights

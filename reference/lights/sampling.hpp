@@ -3,6 +3,7 @@
 #include <array>
 #include <cmath>
 #include <cstddef>
+#include <utility>
 
 #include "reference/lights/contribution.hpp"
 #include "reference/system/item_twin.hpp"
@@ -136,17 +137,32 @@ template <class R> class SamplingTwin {
         return sum;
     }
 
-    /// The texture unit's own: fma(f, b - a, a) along x, y, z, with f of full precision. Legal is what weights of 8
-    /// fraction bits give, cut or rounded, at a coordinate that is right to 1 part in 10^5, with results right to that
-    /// (GL 4.5, 2.3.4.1).
+    /// The texture unit's own: fma(f, b - a, a) along x, y, z, with f of full precision. Where the driver is followed,
+    /// legal is what lies between this and the other forms of such weights; else what weights of 8 fraction bits give,
+    /// cut or rounded, at a coordinate that is right to 1 part in 10^5, with results right to that (GL 4.5, 2.3.4.1).
     [[nodiscard]] Sample<R> filtered(const Vec3& u) const {
         const std::array<Interval, 3> place{item_twin::set_of(u.x), item_twin::set_of(u.y), item_twin::set_of(u.z)};
+        std::array<float, 3> t{};
+        for (std::size_t axis = 0; axis < 3; ++axis)
+            t[axis] = place[axis].as_float() - 0.5F;
+        const bool known = host_.follows_driver() && std::all_of(place.begin(), place.end(), [](const Interval& along) {
+                               return along.is_point();
+                           });
         Sample<R> found{};
+        for (std::size_t c = 0; c < found.size(); ++c) {
+            const float value = joined(t, c, fused);
+            const auto [low, high] = known ? forms(t, c) : eight_bits(place, c);
+            found[c] = r_.note(site::filtered, r_.unspecified(site::filtered, Real(value), low, high));
+        }
+        return found;
+    }
+    [[nodiscard]] std::pair<float, float> forms(const std::array<float, 3>& t, std::size_t c) const {
+        return std::minmax({joined(t, c, fused), joined(t, c, lerped), joined(t, c, weighted)});
+    }
+    [[nodiscard]] std::pair<float, float> eight_bits(const std::array<Interval, 3>& place, std::size_t c) const {
         std::array<std::array<double, 5>, 3> tried{};
         std::array<std::size_t, 3> tries{};
-        std::array<float, 3> t{};
         for (std::size_t axis = 0; axis < 3; ++axis) {
-            t[axis] = place[axis].as_float() - 0.5F;
             const double free = 0x1p-8 + 1e-5 * (std::abs(place[axis].low) + 0.5);
             const double low = place[axis].low - 0.5 - free, high = place[axis].high - 0.5 + free;
             tried[axis][tries[axis]++] = low;
@@ -154,23 +170,20 @@ template <class R> class SamplingTwin {
             for (double whole_at = std::ceil(low); whole_at <= high && tries[axis] < 5; whole_at += 1.0)
                 tried[axis][tries[axis]++] = whole_at;
         }
-        for (std::size_t c = 0; c < found.size(); ++c) {
-            const double far = HUGE_VAL;
-            double low = far, high = -far, largest = 0.0;
-            for (std::size_t i = 0; i < tries[0]; ++i)
-                for (std::size_t j = 0; j < tries[1]; ++j)
-                    for (std::size_t k = 0; k < tries[2]; ++k) {
-                        const double one = exact(tried[0][i], tried[1][j], tried[2][k], c, largest);
-                        low = std::min(low, one);
-                        high = std::max(high, one);
-                    }
-            const double error = 1e-5 * largest;
-            found[c] = r_.note(site::filtered,
-                               r_.unspecified(site::filtered, Real(fused(t, c)), static_cast<float>(low - error),
-                                              static_cast<float>(high + error)));
-        }
-        return found;
+        double low = HUGE_VAL, high = -HUGE_VAL, largest = 0.0;
+        for (std::size_t i = 0; i < tries[0]; ++i)
+            for (std::size_t j = 0; j < tries[1]; ++j)
+                for (std::size_t k = 0; k < tries[2]; ++k) {
+                    const double one = exact(tried[0][i], tried[1][j], tried[2][k], c, largest);
+                    low = std::min(low, one);
+                    high = std::max(high, one);
+                }
+        const double error = 1e-5 * largest;
+        return {static_cast<float>(low - error), static_cast<float>(high + error)};
     }
+    static float fused(float a, float b, float f) { return std::fma(f, b - a, a); }
+    static float lerped(float a, float b, float f) { return a + f * (b - a); }
+    static float weighted(float a, float b, float f) { return a * (1.0F - f) + b * f; }
     [[nodiscard]] float raw(int x, int y, int z, std::size_t c) const {
         const glm::ivec3 size = host_.grid().size;
         const bool inside = x >= 0 && y >= 0 && z >= 0 && x < size.x && y < size.y && z < size.z;
@@ -180,11 +193,11 @@ template <class R> class SamplingTwin {
         return c < 4 ? state_.real(field::voxel_colour, i, static_cast<int>(c))
                      : state_.real(field::voxel_direction, i, static_cast<int>(c) - 4);
     }
-    [[nodiscard]] float fused(const std::array<float, 3>& t, std::size_t c) const {
+    template <class Mix>
+    [[nodiscard]] float joined(const std::array<float, 3>& t, std::size_t c, const Mix& mixed) const {
         const std::array<int, 3> b{static_cast<int>(std::floor(t[0])), static_cast<int>(std::floor(t[1])),
                                    static_cast<int>(std::floor(t[2]))};
         const auto f = [&](std::size_t axis) { return t[axis] - static_cast<float>(b[axis]); };
-        const auto mixed = [](float from, float to, float share) { return std::fma(share, to - from, from); };
         const auto along_x = [&](int dy, int dz) {
             return mixed(raw(b[0], b[1] + dy, b[2] + dz, c), raw(b[0] + 1, b[1] + dy, b[2] + dz, c), f(0));
         };

@@ -27,14 +27,17 @@ inline constexpr Site to_light{"way to the light"}, squared{"squared distance"},
 
 // The accumulator.
 inline constexpr Site carries{"carries"}, borrows{"negative sums borrow"}, fixed_scale{"u_FixedScale"},
-    word{"accumulator"}, is_cleared{"is cleared"}, all_lights{"lights"}, last_light{"the last lights"}, sum{"sum"},
-    count{"count"}, one_more{"added to the count"}, quantum{"addend on the grid of sums"}, half_unit{"half a unit"};
-inline constexpr Site high_word{"high word"}, low_word{"low word"}, volume_colour{"light_color", "light_color"},
+    always_carries{"a carry without need"}, word{"accumulator"}, is_cleared{"is cleared"}, cleared{"cleared word"},
+    all_lights{"lights"}, sum{"sum"}, count{"count"}, one_more{"added to the count"},
+    quantum{"addend on the grid of sums"}, half_unit{"half a unit"};
+inline constexpr Site high_word{"high word"}, low_word{"low word"}, low_first{"the low word first"},
+    count_word{"a word of its own for the count"}, volume_colour{"light_color", "light_color"},
     volume_direction{"light_direction", "light_direction"}, red{"red"}, green{"green"}, blue{"blue"}, sum_x{"x sum"},
     sum_y{"y sum"}, sum_z{"z sum"}, sum_weight{"weight sum"};
 
 // Cells.
-inline constexpr Site cell{"cell"}, cell_start{"cell_start"}, cell_count{"cell_count"}, sorted{"light"};
+inline constexpr Site cell{"cell"}, cell_start{"cell_start"}, cell_count{"cell_count"},
+    row_end{"lights up to the row's end"}, sorted{"light"};
 
 // Surfaces.
 using namespace triangle_site;

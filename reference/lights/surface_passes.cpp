@@ -1,3 +1,4 @@
+#include "reference/lights/by_driver.hpp"
 #include "reference/lights/lighting_twin.hpp"
 #include "reference/lights/passes.hpp"
 
@@ -5,13 +6,21 @@ namespace lockstep::lights {
 
 void add_surface_passes(const HostPtr& host, std::vector<std::unique_ptr<ItemPass>>& all) {
     const ArithmeticSwitch arithmetic = host->settings().arithmetic;
+    const char* const filter = host->switches().outside == Outside::black ? black_filter_row : filter_row;
+    const auto lit = [&](const auto& made) {
+        return host->switches().interpolation == Interpolation::trilinear_hw ? by_driver(filter, host, made)
+                                                                             : made(host);
+    };
     const auto drawn = [&](const char* name, std::uint8_t resource, Drawn image, bool continues) {
-        all.push_back(item_pass({.name = name,
-                                 .resource = resource,
-                                 .stage = PassStage::fragment,
-                                 .arithmetic = arithmetic,
-                                 .continues = continues},
-                                DrawnTwin{host, image}));
+        const auto made = [&](const HostPtr& on) {
+            return item_pass({.name = name,
+                              .resource = resource,
+                              .stage = PassStage::fragment,
+                              .arithmetic = arithmetic,
+                              .continues = continues},
+                             DrawnTwin{on, image});
+        };
+        all.push_back(image == Drawn::lit ? lit(made) : made(host));
     };
     if (host->switches().pipeline == Pipeline::forward) {
         drawn("forward_light_pass", lit_image, Drawn::lit, false);
@@ -22,9 +31,13 @@ void add_surface_passes(const HostPtr& host, std::vector<std::unique_ptr<ItemPas
     drawn("gbuffer_pass_normal", normal_image, Drawn::normal, true);
     drawn("gbuffer_pass_albedo", albedo_image, Drawn::albedo, true);
     drawn("gbuffer_pass_depth", depth_image, Drawn::depth, true);
-    all.push_back(item_pass(
-        {.name = "deferred_light_pass", .resource = lit_image, .stage = PassStage::compute, .arithmetic = arithmetic},
-        DeferredTwin{host}));
+    all.push_back(lit([&](const HostPtr& on) {
+        return item_pass({.name = "deferred_light_pass",
+                          .resource = lit_image,
+                          .stage = PassStage::compute,
+                          .arithmetic = arithmetic},
+                         DeferredTwin{on});
+    }));
 }
 
 } // namespace lockstep::lights

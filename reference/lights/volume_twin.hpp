@@ -18,7 +18,8 @@ struct ClearTwin {
     template <class R> ItemWords<R> operator()(R& r, const PassInput& in, std::size_t item) const {
         ItemWords<R> words;
         const std::uint32_t before = in.before.word(field::word, item);
-        words.add(r.setting(site::is_cleared, true) ? std::uint32_t{0} : before);
+        const typename R::Int nothing = r.note(site::cleared, typename R::Int(0));
+        words.add(r.setting(site::is_cleared, true) ? static_cast<std::uint32_t>(static_cast<int>(nothing)) : before);
         return words;
     }
 };
@@ -65,13 +66,35 @@ inline const Site& channel_site(std::size_t k) {
     return *all[k];
 }
 
+/// Calls `add` with what each light that reaches the voxel adds to it, of those that the shader tries there.
+template <class R, class Add>
+void for_each_light(R& r, const Host& host, const SystemView& state, const std::vector<std::uint32_t>& order,
+                    const std::vector<TriedVoxels>& tried, const Voxel& v, const Add& add) {
+    const auto point = voxel_point(r, host, v);
+    for (const auto i : r.range(site::all_lights, 0, static_cast<int>(order.size()) - 1)) {
+        const auto k = static_cast<std::size_t>(static_cast<int>(i));
+        if (!tried[k].box.has(v))
+            continue;
+        if (const auto made = contribution(r, host, state, order[k], point, v))
+            add(*made);
+    }
+}
+
 /// One word of the accumulator: a channel of a voxel. Twin of shaders/lights/light_volume_scatter.comp, whose
 /// invocations are lights.
 struct ScatterTwin {
     HostPtr host;
     std::vector<std::uint32_t> order = {};
+    std::vector<TriedVoxels> tried = {}; ///< of each of them
 
-    [[nodiscard]] ScatterTwin at(const PassInput& in) const { return {host, light_order(*host, in.before)}; }
+    [[nodiscard]] ScatterTwin at(const PassInput& in) const {
+        ScatterTwin made{host, light_order(*host, in.before)};
+        made.tried = tried_voxels(*host, in.before, made.order);
+        return made;
+    }
+    [[nodiscard]] ScatterTwin handed(std::span<const Mistake> made) const {
+        return {host, order, mistaken_voxels(tried, made)};
+    }
 
     template <class R> ItemWords<R> operator()(R& r, const PassInput& in, std::size_t item) const {
         const std::size_t voxels = host->grid().count(), word = item / voxels;
@@ -136,11 +159,7 @@ struct ScatterTwin {
 
     /// Calls `add` with what each light that reaches the voxel adds to it.
     template <class R, class Add> void for_each(R& r, const PassInput& in, const Voxel& v, const Add& add) const {
-        const auto point = voxel_point(r, *host, v);
-        for (const auto i : r.range(site::all_lights, 0, static_cast<int>(order.size()) - 1))
-            if (const auto made =
-                    contribution(r, *host, in.before, order[static_cast<std::size_t>(static_cast<int>(i))], point, v))
-                add(*made);
+        for_each_light(r, *host, in.before, order, tried, v, add);
     }
     template <class R>
     typename R::Real float_sum(R& r, const PassInput& in, std::size_t item, const Voxel& v, std::size_t word) const {
@@ -170,6 +189,7 @@ struct ScatterTwin {
         FixedSum sum;
         sum.start(static_cast<std::int64_t>(std::uint64_t{in.before.word(field::word, low + voxels)} << 32U |
                                             in.before.word(field::word, low)));
+        const bool always_carries = r.setting(site::always_carries, false);
         std::uint32_t without_carries = in.before.word(field::word, low + voxels);
         for_each(r, in, v, [&](const Contribution<R>& made) {
             const auto x = r.note(channel_site(word / 2), made.channels()[word / 2]);
@@ -178,9 +198,10 @@ struct ScatterTwin {
             const bool no_borrow = !r.setting(site::borrows, true) && value < 0.0F && value != std::floor(value);
             sum.add(value, set, 0x1p31, [&](double n) { return to_fixed64(n) + (no_borrow ? 0x100000000 : 0); });
             if (std::abs(value) < 0x1p31F)
-                without_carries += static_cast<std::uint32_t>(to_fixed64(double{value}) >> 32);
+                without_carries +=
+                    static_cast<std::uint32_t>(to_fixed64(double{value}) >> 32) + (always_carries ? 1U : 0U);
         });
-        if (!r.setting(site::carries, true) && word % 2 == 1)
+        if ((!r.setting(site::carries, true) || always_carries) && word % 2 == 1)
             return LegalWord::exactly(without_carries);
         return sum.word(word % 2 == 1 ? 32 : 0);
     }
@@ -244,8 +265,10 @@ struct ResolveTwin {
         if (adds_floats(how)) {
             value = r.read(site::word, in.before.real(field::word, item + k * voxels));
         } else if (how == Accumulate::fixed64) {
-            const std::uint32_t low = in.before.word(field::word, item + 2 * k * voxels);
-            const std::int32_t high = in.before.integer(field::word, item + (2 * k + 1) * voxels);
+            const std::size_t first = item + 2 * k * voxels, second = first + voxels;
+            const bool in_order = r.setting(site::low_first, true);
+            const std::uint32_t low = in.before.word(field::word, in_order ? first : second);
+            const std::int32_t high = in.before.integer(field::word, in_order ? second : first);
             value = whole(r, high) + r.note(site::low_word, r.real(low >> 8U)) * Real(0x1p-24F);
         } else {
             value = whole(r, in.before.integer(field::word, item + k * voxels)) *
@@ -254,6 +277,8 @@ struct ResolveTwin {
         return r.note(channel_site(k), value);
     }
     template <class R> typename R::Real counted(R& r, const PassInput& in, std::size_t item) const {
+        if (!r.setting(site::count_word, true))
+            return channel(r, in, item, 6);
         const std::size_t voxels = host->grid().count();
         const Accumulate how = host->switches().accumulate;
         if (adds_floats(how))
@@ -269,19 +294,25 @@ struct GatherTwin {
     HostPtr host;
     Texture texture;
     std::vector<std::uint32_t> order = {};
+    std::vector<TriedVoxels> tried = {}; ///< of each of them
 
-    [[nodiscard]] GatherTwin at(const PassInput& in) const { return {host, texture, light_order(*host, in.before)}; }
+    [[nodiscard]] GatherTwin at(const PassInput& in) const {
+        GatherTwin made{host, texture, light_order(*host, in.before)};
+        made.tried = tried_voxels(*host, in.before, made.order);
+        return made;
+    }
+    [[nodiscard]] GatherTwin handed(std::span<const Mistake> made) const {
+        return {host, texture, order, mistaken_voxels(tried, made)};
+    }
 
     template <class R> ItemWords<R> operator()(R& r, const PassInput& in, std::size_t item) const {
         using Real = typename R::Real;
         const Voxel v = Voxel::of(host->grid(), item);
-        const auto point = voxel_point(r, *host, v);
         std::array<std::vector<Real>, 4> terms;
-        for (const auto i : r.range(site::all_lights, 0, static_cast<int>(order.size()) - 1))
-            if (const auto made =
-                    contribution(r, *host, in.before, order[static_cast<std::size_t>(static_cast<int>(i))], point, v))
-                for (std::size_t c = 0; c < 4; ++c)
-                    terms[c].push_back(addend(r, *made, c));
+        for_each_light(r, *host, in.before, order, tried, v, [&](const Contribution<R>& made) {
+            for (std::size_t c = 0; c < 4; ++c)
+                terms[c].push_back(addend(r, made, c));
+        });
         typename R::Vec4 sum{added(r, terms[0]), added(r, terms[1]), added(r, terms[2]), added(r, terms[3])};
         sum = r.note(site::sum, sum);
         ItemWords<R> words;
@@ -337,13 +368,25 @@ struct GatherTwin {
     template <class R> typename R::Real added(R& r, const std::vector<typename R::Real>& terms) const {
         using Real = typename R::Real;
         if (blends_halves())
-            return blended_halves(r, terms);
-        if (blends(host->switches().accumulate))
+            return host->follows_driver() ? followed_halves(r, terms) : blended_halves(r, terms);
+        if (blends(host->switches().accumulate) && !host->follows_driver())
             return r.any_order_sum(site::sum, terms);
         Real sum(0.0F);
         for (const Real& x : terms)
             sum = sum + x;
         return sum;
+    }
+    /// In the order of drawing, each rounded toward zero, or each to the nearest: the value is the first of these.
+    template <class R> typename R::Real followed_halves(R& r, const std::vector<typename R::Real>& terms) const {
+        using Real = typename R::Real;
+        Real cut(0.0F), nearest(0.0F);
+        for (const Real& x : terms) {
+            cut = r.monotone(cut + x, half_truncated);
+            nearest = r.monotone(nearest + x, half_nearest);
+        }
+        const Interval one = item_twin::set_of(cut), other = item_twin::set_of(nearest);
+        return r.unspecified(site::sum, cut, static_cast<float>(std::fmin(one.low, other.low)),
+                             static_cast<float>(std::fmax(one.high, other.high)));
     }
     /// Rounded toward zero each, and legally to either neighbour.
     template <class R> typename R::Real blended_halves(R& r, const std::vector<typename R::Real>& terms) const {
@@ -385,6 +428,11 @@ struct CellTwin {
             const typename R::Int noted = r.note(place, typename R::Int(static_cast<int>(number)));
             words.add(static_cast<std::uint32_t>(static_cast<int>(noted)));
         };
+        const std::size_t width = static_cast<std::size_t>(host->grid().size.x), row = item / width * width;
+        std::uint32_t in_row = 0;
+        for (std::size_t i = row; i < row + width; ++i)
+            in_row += counts[i];
+        r.note(site::row_end, typename R::Int(static_cast<int>(starts[row] + in_row)));
         add(site::cell_count, counts[item]);
         add(site::cell_start, starts[item]);
         return words;

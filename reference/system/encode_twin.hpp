@@ -21,6 +21,7 @@ inline double srgb_curve(double x) { return x <= 0.0031308 ? 12.92 * x : 1.055 *
 struct EncodeTwin {
     Encoding encoding;
     FieldId numbers;
+    bool nearest_code = false; ///< GL's sRGB store is known to give the code nearest to the curve
 
     template <class R> ItemWords<R> operator()(R& r, const PassInput& in, std::size_t item) const {
         using Real = typename R::Real;
@@ -43,6 +44,10 @@ struct EncodeTwin {
                             r.floor(r.note(encode_site::code_value, Real(255.0F) * x + Real(0.5F))));
         if (encoding == Encoding::srgb_hw)
             return r.to_int(encode_site::code_value, encoded_by_gl(r, x));
+        return code_by_table(r, x);
+    }
+    /// The number of thresholds at or below.
+    template <class R> typename R::Int code_by_table(R& r, const typename R::Real& x) const {
         int code = 0;
         for (int step = 128; step > 0; step /= 2)
             if (r.decide(encode_site::at_least,
@@ -51,9 +56,12 @@ struct EncodeTwin {
                 code += step;
         return code;
     }
-    /// The curve right to 1 part in 10^5 (GL 4.5, 2.3.4.1), and either of the two codes next to it (2.3.5.2).
+    /// The nearest code where that is known; else the curve right to 1 part in 10^5 (GL 4.5, 2.3.4.1), and either of
+    /// the two codes next to it (2.3.5.2).
     template <class R> typename R::Real encoded_by_gl(R& r, const typename R::Real& x) const {
         using Real = typename R::Real;
+        if (nearest_code)
+            return r.real(code_by_table(r, x));
         const Interval set = item_twin::set_of(x);
         const double value = 255.0 * srgb_curve(double{set.as_float()});
         const double low = 255.0 * srgb_curve(set.low) * (1.0 - 1e-5),

@@ -7,7 +7,7 @@
 
 namespace lockstep::lights {
 
-Host::Host(Settings settings) : settings_(std::move(settings)) {
+Host::Host(Settings settings, Driver driver) : settings_(std::move(settings)), driver_(driver) {
     check(settings_);
     most_bits_ = most_fixed_bits(settings_);
     float longest = 0.0F;

@@ -8,14 +8,18 @@
 
 namespace lockstep::lights {
 
+/// Whether twins follow the driver in what GL leaves open, or take for legal all that it allows.
+enum class Driver { followed, open };
+
 /// What the host hands the passes: made in double, rounded once. Immutable.
 class Host {
   public:
     /// Throws Error as check() does.
-    explicit Host(Settings settings);
+    explicit Host(Settings settings, Driver driver = Driver::followed);
 
     [[nodiscard]] const Settings& settings() const { return settings_; }
     [[nodiscard]] const Switches& switches() const { return settings_.switches; }
+    [[nodiscard]] bool follows_driver() const { return driver_ == Driver::followed; }
     [[nodiscard]] const Grid& grid() const { return settings_.grid; }
     [[nodiscard]] float inv_voxel() const { return 1.0F / settings_.grid.voxel; }
     /// The grid's far corner, m.
@@ -32,6 +36,7 @@ class Host {
 
   private:
     Settings settings_;
+    Driver driver_;
     int most_bits_ = 0, reach_ = 1;
     glm::mat4 view_projection_{1.0F};
     float disc_scale_ = 1.0F;

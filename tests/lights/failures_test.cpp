@@ -48,24 +48,10 @@ Figures along_floor(const LitPoints& points) {
     return {std::sqrt(error / all), step};
 }
 
-Figures figures(lights::Settings s, Way way, S samples, lights::Shading shading = lights::Shading::single) {
+Figures figures(lights::Settings s, Way way, S samples) {
     s.switches.interpolation = way;
     s.switches.supersample = samples;
-    s.switches.shading = shading;
     return along_floor(lit_scene(std::move(s)));
-}
-
-/// 1,024 lights all round.
-lights::Settings many() {
-    lights::Settings s = one_light();
-    s.lights.clear();
-    for (std::size_t i = 0; i < 1024; ++i) {
-        Random random(1, i);
-        const auto along = [&] { return static_cast<float>(16.0 * random.unit()); };
-        const float x = along(), y = along(), z = along();
-        s.lights.push_back({.position = {x, y, z}});
-    }
-    return s;
 }
 
 /// A row of texels 0 1 1 1 from `first` on, sampled.
@@ -93,15 +79,6 @@ TEST_CASE("lights failures, stair_steps: nearest sampling steps at every voxel, 
     CHECK(told(halves) == "14.6 % / 0.0342");
     CHECK(told(linear) == "6.7 % / 0.0027");
     CHECK(told(cubic) == "1.7 % / 0.0028");
-}
-
-TEST_CASE("lights failures, one_direction: one summed direction for light from all round is too bright") {
-    const Figures single = figures(many(), Way::trilinear, S::one),
-                  remedy = figures(many(), Way::trilinear, S::one, lights::Shading::directionality),
-                  nearest = figures(many(), Way::nearest, S::one), halves = figures(many(), Way::trilinear, S::two);
-    INFO(fmt::format("rms nearest {:.4f}, trilinear {:.4f}, of S = 2 {:.4f}, with directionality {:.4f}", nearest.rms,
-                     single.rms, halves.rms, remedy.rms));
-    CHECK(single.rms > 3.0 * remedy.rms);
 }
 
 TEST_CASE("lights failures, supersample_bands: nearest with S = 2 leaves stairs of half the height") {

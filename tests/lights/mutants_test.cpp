@@ -43,6 +43,12 @@ lights::Settings settings_of(const std::string& run) {
         s.switches.interpolation = lights::Interpolation::tricubic;
         s.switches.supersample = lights::Supersample::one;
         s.ambient = glm::vec3(0.0F);
+    } else if (run == "floor beyond the grid") {
+        add_surface(s, plane_surface(24.0, 24.0), {0.0, 1.25, 0.0}, {128, 128, 128});
+    } else if (run == "from below") {
+        s.camera.eye = {2.0F, -4.0F, 12.0F};
+    } else if (run == "bright background") {
+        s.background = {0.25F, 0.5F, 0.125F};
     } else if (run == "linear8") {
         s.switches.encoding = lights::Encoding::linear8;
     } else if (run == "voxels of half a metre") {

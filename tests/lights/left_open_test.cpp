@@ -1,0 +1,187 @@
+#include <algorithm>
+#include <string>
+#include <vector>
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include "crosscheck/lights/left_open.hpp"
+#include "crosscheck/report/run_to_run.hpp"
+#include "reference/half.hpp"
+#include "reference/lights/by_driver.hpp"
+#include "reference/lights/contribution.hpp"
+#include "tests/lights/lights_run.hpp"
+
+/// What GL leaves open: by drivers that are followed in it, and by others.
+using namespace lockstep;
+using namespace lockstep::test;
+namespace lights = lockstep::lights;
+
+namespace {
+
+Profile not_following(std::vector<std::string> rows) {
+    Profile profile = named_profile("llvmpipe");
+    profile.not_followed = std::move(rows);
+    return profile;
+}
+
+/// Between what is legal of an item of a pass, in a run's first frame.
+std::vector<Interval> legal_of(const lights::Settings& settings, const std::string& pass, std::size_t item,
+                               const Profile& profile) {
+    const System system = lights::system(host_of(settings));
+    ReferenceRun run(system, named_profile("strict"));
+    for (std::size_t p = 0; p < system.passes.size(); ++p) {
+        if (system.passes[p]->name() == pass) {
+            const SystemView before = run.state().view();
+            const auto outcomes =
+                system.passes[p]->outcomes({before, 0}, item, profile, measured_operations(profile), nullptr);
+            REQUIRE(!outcomes.empty());
+            std::vector<Interval> all = outcomes.front().values;
+            for (const ItemOutcome& one : outcomes)
+                for (std::size_t i = 0; i < all.size(); ++i) {
+                    all[i].any = all[i].any || one.values[i].any;
+                    all[i].low = std::min(all[i].low, one.values[i].low);
+                    all[i].high = std::max(all[i].high, one.values[i].high);
+                }
+            return all;
+        }
+        run.step_pass(p, 0);
+    }
+    FAIL("there is no pass " << pass);
+    return {};
+}
+
+double width(const std::vector<Interval>& values) {
+    double widest = 0.0;
+    for (const Interval& one : values)
+        widest = std::max(widest, one.any ? HUGE_VAL : one.high - one.low);
+    return widest;
+}
+
+/// A lit pixel of the floor.
+std::size_t lit_pixel_of(const lights::Settings& s) {
+    return static_cast<std::size_t>(s.height / 4 * s.width + s.width / 2);
+}
+
+} // namespace
+
+TEST_CASE("lights left open: a filter that is followed leaves its forms, another what 8 bits give") {
+    lights::Settings s = room();
+    s.switches.interpolation = lights::Interpolation::trilinear_hw;
+    s.arithmetic = ArithmeticSwitch::exact;
+    const std::size_t pixel = lit_pixel_of(s);
+    const auto followed = legal_of(s, "deferred_light_pass", pixel, not_following({}));
+    const auto open = legal_of(s, "deferred_light_pass", pixel, not_following({lights::black_filter_row}));
+    CHECK(width(followed) > 0.0);
+    CHECK(1000.0 * width(followed) < width(open));
+    for (std::size_t c = 0; c < 3; ++c) {
+        CHECK(open[c].low <= followed[c].low);
+        CHECK(followed[c].high <= open[c].high);
+    }
+    s.switches.outside = lights::Outside::clamp; // rests on another row
+    CHECK(width(legal_of(s, "deferred_light_pass", pixel, not_following({lights::black_filter_row}))) ==
+          width(legal_of(s, "deferred_light_pass", pixel, not_following({}))));
+}
+
+TEST_CASE(
+    "lights left open: codes of sRGB are the nearest where the driver is followed, else either beside the curve") {
+    lights::Settings s = room();
+    s.switches.encoding = lights::Encoding::srgb_hw;
+    s.ambient = {0.25F, 0.3F, 0.4F};
+    const std::size_t pixel = lit_pixel_of(s);
+    CHECK(width(legal_of(s, "encode_by_gl_pass", pixel, not_following({}))) == 0.0);
+    CHECK(width(legal_of(s, "encode_by_gl_pass", pixel, not_following({lights::srgb_row}))) == 1.0);
+}
+
+TEST_CASE("lights left open: blended sums are of one order where the driver is followed, else of any") {
+    lights::Settings s = room(200);
+    s.switches.accumulate = lights::Accumulate::blend;
+    s.arithmetic = ArithmeticSwitch::exact;
+    const std::size_t voxel = lights::Voxel{8, 3, 8}.index(s.grid);
+    CHECK(width(legal_of(s, "light_volume_blend", voxel, not_following({}))) == 0.0);
+    const auto open = legal_of(s, "light_volume_blend", voxel, not_following({lights::float_blend_row}));
+    CHECK(width(open) > 0.0);
+    CHECK(open[3].is_point()); // the count
+    s.switches.accumulate = lights::Accumulate::blend_exact;
+    CHECK(width(legal_of(s, "light_volume_blend", voxel, not_following({lights::float_blend_row}))) == 0.0);
+}
+
+TEST_CASE(
+    "lights left open: halves that are blended are cut or rounded where followed, else either neighbour of each") {
+    lights::Settings s = room(200);
+    s.switches.accumulate = lights::Accumulate::blend;
+    s.switches.volume_format = lights::Format::rgba16f;
+    s.arithmetic = ArithmeticSwitch::exact;
+    const std::size_t voxel = lights::Voxel{8, 3, 8}.index(s.grid);
+    const double followed = width(legal_of(s, "light_volume_blend", voxel, not_following({})));
+    const double open = width(legal_of(s, "light_volume_blend", voxel, not_following({lights::half_blend_row})));
+    CHECK(followed > 0.0);
+    CHECK(followed < open);
+    CHECK(half_nearest(1.0F + 0x1p-11F) == 1.0F); // ties to even
+    CHECK(half_nearest(1.0F + 0x3p-11F) == 1.0F + 0x1p-9F);
+    CHECK(half_nearest(1.0F + 0x1.8p-11F) == 1.0F + 0x1p-10F);
+    CHECK(half_nearest(0x1p-24F) == 0x1p-24F);
+    CHECK(half_nearest(0x1.8p-24F) == 0x1p-23F); // of subnormal halves, too
+    CHECK(half_nearest(65519.0F) == 65504.0F);
+    CHECK(half_nearest(65520.0F) == HUGE_VALF);
+    CHECK(half_nearest(-70000.0F) == -HUGE_VALF);
+}
+
+TEST_CASE("lights left open: a report says on what a value rests, and which one promises bits") {
+    const auto lines = [](const lights::Switches& on, const std::vector<std::string>& rows) {
+        return fmt::format("{}", fmt::join(lights::left_open(on, not_following(rows)), "\n"));
+    };
+    using Catch::Contains;
+    const lights::Switches paper = lights::preset("paper"), exact = lights::preset("exact");
+    CHECK(lines(exact, {}).empty());
+    CHECK(lines(exact, {lights::filter_row, lights::srgb_row}).empty());
+    CHECK_THAT(lines(exact, {lights::float_blend_row}), Contains("glow=off promises bits"));
+    CHECK_THAT(lines(paper, {}), Contains("accumulate=gather and fixed64 promise bits") && !Contains("encoding"));
+    CHECK_THAT(lines(paper, {lights::srgb_row}), Contains("encoding=srgb_table promises bits") &&
+                                                     Contains("(probe: image: sRGB store)") &&
+                                                     !Contains("interpolation"));
+    CHECK_THAT(lines(paper, {lights::filter_row}), Contains("interpolation=trilinear promises bits"));
+}
+
+TEST_CASE("lights left open: what differs from run to run is told as such, and is legal") {
+    if (!gl())
+        return skip(gl().missing());
+    const auto seen_of = [](lights::Accumulate accumulate, Verdict& verdict) {
+        lights::Settings s = room(512);
+        s.switches.accumulate = accumulate;
+        s.width = s.height = 8;
+        const lights::HostPtr host = host_of(s);
+        const System system = lights::system(host);
+        GlSystemSide side(gl(), system, lights::passes(host), "shaders/lights", s.arithmetic);
+        std::vector<TwoRuns> seen;
+        CheckWatch watch;
+        watch_two_runs(watch, system, seen);
+        CheckOptions options;
+        options.frames = 3;
+        options.causes = false;
+        verdict = check(system, side, options, watch).verdict;
+        return seen;
+    };
+    Verdict verdict = Verdict::agree;
+    const std::vector<TwoRuns> cas = seen_of(lights::Accumulate::float_cas, verdict);
+    CHECK((verdict == Verdict::agree || verdict == Verdict::legal));
+    REQUIRE(cas.size() == 2); // the frames that are run twice
+    for (std::size_t frame = 0; frame < 2; ++frame) {
+        CHECK(cas[frame].pass == "light_volume_scatter");
+        CHECK(cas[frame].frame == static_cast<int>(frame));
+        CHECK(cas[frame].items == 8 * room().grid.count());
+        CHECK(cas[frame].differing < cas[frame].items);
+    }
+    CHECK(seen_of(lights::Accumulate::fixed64, verdict).empty());
+    CHECK(verdict == Verdict::agree);
+}
+
+TEST_CASE("lights left open: the line of a report on two runs") {
+    const std::vector<TwoRuns> seen{{"a", 0, "word", 1234, 4096}, {"b", 0, "word", 0, 8}, {"a", 1, "word", 5, 4096}};
+    const std::vector<std::string> notes = run_to_run_notes(seen);
+    REQUIRE(notes.size() == 2);
+    CHECK(notes[0] == "run to run, a: of two runs from one state differ, as GL allows of sums in no fixed order: "
+                      "frame 0 1,234 of 4,096 words, frame 1 5 of 4,096");
+    CHECK(notes[1] == "run to run, b: of two runs from one state differ, as GL allows of sums in no fixed order: frame "
+                      "0 0 of 8 words");
+}

@@ -21,7 +21,10 @@ void light_of_world(Words value, const CameBy& /*run*/) {
     value[0] = value[2] = 0.0F;
     value[1] = 1.0F;
 }
-void absorbed_by_colour(Words value, const CameBy& run) { value[0] = first(run, site::dark) - value[0]; }
+void absorbed_by_colour(Words value, const CameBy& run) {
+    for (std::size_t c = 0; c < 3; ++c)
+        value[c] = run.of(site::colour)[c] * first(run, site::dark);
+}
 void window_depth(Words value, const CameBy& run) { value[0] = first(run, site::window); }
 void ndc_depth(Words value, const CameBy& run) { value[0] = first(run, site::ndc); }
 void red_is_green(Words value, const CameBy& /*run*/) { value[0] = value[1]; }
@@ -157,7 +160,7 @@ void of_shading(Of of) {
              mistake_at(site::shine, Change::instead, -1, &site::cosine))
         .add("specular_not_raised", "the highlight is not raised to a power",
              mistake_at(site::specular, Change::instead, -1, &site::shine))
-        .add("specular_left_out", "there is no highlight", spoiled_at(site::lit, without_specular))
+        .add("specular_left_out", "there is no highlight", spoiled_at(site::surface_light, without_specular))
         .add("refraction_left_out", "the scene behind is not moved", mistake_at(site::offset, Change::zero))
         .add("refraction_turned", "the scene behind is moved the other way", mistake_at(site::offset, Change::negated))
         .add("refraction_not_bent_by_height", "the scene behind is moved at any height",
@@ -191,11 +194,11 @@ void of_shading(Of of) {
         .add("sky_bias_missing", "the sky has no bias", mistake_at(site::sky_bias, Change::zero))
         .add("sky_left_out", "no sky is mirrored", mistake_at(site::sky, Change::zero))
         .add("alpha_turned", "alpha and 1 - alpha are swapped", mistake_at(site::alpha, Change::opposite))
-        .add("alpha_of_surface_missing", "the surface is not weighted by alpha", spoiled_at(site::lit, surface_whole))
+        .add("alpha_of_surface_missing", "the surface is not weighted by alpha", spoiled_at(site::surface_light, surface_whole))
         .add("scene_left_out", "where there is no fluid the scene is black", mistake_at(site::background, Change::zero))
         .add("normal_turned", "normals point inwards", mistake_at(site::normal_in, Change::negated))
         .add("lit_red_is_green", "green is stored as red", spoiled_at(site::lit, red_is_green))
-        .add("lit_turned", "red and blue are swapped", mistake_at(site::lit, Change::xz_swapped));
+        .add("lit_turned", "red and blue are swapped", mistake_at(site::light_to_eye, Change::xz_swapped));
 }
 
 } // namespace

@@ -20,6 +20,7 @@ struct ShadeTwin {
             lit = r.read(site::background, glm::vec3(in.before.vec4(field::scene, item)));
         else if (!map.is_black(stored))
             lit = Shading<R>{r, *host, in.before}.at(pixel, item, map.code().unprojected(stored));
+        lit = r.note(site::light_to_eye, lit);
         return words_of<R>(r.note(site::lit, typename R::Vec4{lit.x, lit.y, lit.z, Real(1.0F)}));
     }
 };

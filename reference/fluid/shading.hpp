@@ -41,7 +41,7 @@ template <class R> struct Shading {
         const Real cosine = r.note(site::cosine, r.max(Real(0.0F), r.dot(site::cosine, n, to_eye)));
         const Vec3 surface = r.note(site::surface, mixed(refracted, sky(to_eye, n), fresnel(cosine)));
         const Real shine = specular(light, n, to_eye);
-        return diffuse + (surface + Vec3{shine, shine, shine}) * alpha;
+        return r.note(site::surface_light, diffuse + (surface + Vec3{shine, shine, shine}) * alpha);
     }
 
     [[nodiscard]] Real specular(const Vec3& light, const Vec3& n, const Vec3& to_eye) const {
@@ -69,11 +69,11 @@ template <class R> struct Shading {
                 : r.note(site::thickness_in, r.read(site::thickness_in, state.real(field::thickness, item)));
         const Real dark = r.note(
             site::dark, r.max(r.uniform(site::floor_of_thickness, host.settings().shading.thickness_floor), thickness));
-        const auto through = [&](const Real& k) {
-            const Real x = r.note(site::absorbed, (Real(1.0F) - k) * dark);
-            return exponential_of(r, host, r.note(site::exponent, -x));
-        };
-        return r.note(site::transmission, Vec3{through(colour.x), through(colour.y), through(colour.z)});
+        const Real one(1.0F);
+        const Vec3 absorbed =
+            r.note(site::absorbed, Vec3{(one - colour.x) * dark, (one - colour.y) * dark, (one - colour.z) * dark});
+        const auto through = [&](const Real& x) { return exponential_of(r, host, r.note(site::exponent, -x)); };
+        return r.note(site::transmission, Vec3{through(absorbed.x), through(absorbed.y), through(absorbed.z)});
     }
     /// Half of it from all around, in a spot under the zenith.
     [[nodiscard]] Vec3 lambert(const Vec3& light, const Vec3& n, const Vec3& world, const Vec3& colour) const {

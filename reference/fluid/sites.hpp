@@ -75,6 +75,6 @@ inline constexpr Site to_eye{"direction to the eye"}, inverse_view{"u_InverseVie
     incident{"incident direction"}, along_normal{"2 N.I"}, mirrored{"mirrored direction"},
     mirror_y{"height of the mirrored direction"}, sky_share{"share of the sky"}, sky_bias{"u_SkyBias"}, sky{"sky"},
     surface{"mirror and refraction"}, normal_in{"normal at the pixel"}, background{"scene at the pixel"},
-    lit{"lit", "lit"};
+    surface_light{"light of the surface"}, light_to_eye{"light to the eye"}, lit{"lit", "lit"};
 
 } // namespace lockstep::fluid::site

@@ -301,8 +301,8 @@ TEST_CASE("storage bindings: what the shader declares otherwise is told with wha
     const Foreign right = records("std430");
     Foreign short_array = together();
     short_array.text = replaced(short_array.text, "P made[1500];", "P made[150];");
-    CHECK_THAT(error_of(short_array), Contains("/storage_blocks/ParticlesOut/") &&
-                                          Contains(" has room for 150 items of 200; right is an array"));
+    CHECK_THAT(error_of(short_array),
+               Contains("/storage_blocks/All/made.place: made.place has room for 150 items of 200; right is an array"));
     Foreign single = right;
     single.text = replaced(replaced(single.text, "uint many;", "uint many; float rate_of_all;"),
                            "vec4(p.place, p.rate)", "vec4(p.place, incoming.rate_of_all)");

@@ -50,8 +50,7 @@ void measure_srgb(Rows& rows);
 /// gl_PointCoord of points of several sizes.
 void measure_point_coord(Rows& rows);
 
-/// Whether floats can be added by atomics, and in which order those come that shaders add by compare-and-swap. The
-/// context has compute shaders.
+/// Whether floats can be added by atomics. In which order they come is another thing in each run, and no row.
 void measure_atomics(Rows& rows);
 
 /// The order in which transform feedback writes primitives.

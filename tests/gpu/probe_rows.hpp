@@ -157,7 +157,4 @@ inline constexpr ProcessorRow processor_rows[] = {
     {"pow(x,2.2)", "none known", "none known"},
 };
 
-/// Rows that are another thing in each run: their names.
-inline constexpr std::string_view open_rows[] = {"image: compare-and-swap, order"};
-
 } // namespace lockstep::test

@@ -1,3 +1,5 @@
+#include "gpu/gl.hpp"
+#include "gpu/probe/inputs.hpp"
 #include "gpu/probe/rows.hpp"
 
 namespace lockstep::probing {

@@ -194,7 +194,8 @@ void of_shading(Of of) {
         .add("sky_bias_missing", "the sky has no bias", mistake_at(site::sky_bias, Change::zero))
         .add("sky_left_out", "no sky is mirrored", mistake_at(site::sky, Change::zero))
         .add("alpha_turned", "alpha and 1 - alpha are swapped", mistake_at(site::alpha, Change::opposite))
-        .add("alpha_of_surface_missing", "the surface is not weighted by alpha", spoiled_at(site::surface_light, surface_whole))
+        .add("alpha_of_surface_missing", "the surface is not weighted by alpha",
+             spoiled_at(site::surface_light, surface_whole))
         .add("scene_left_out", "where there is no fluid the scene is black", mistake_at(site::background, Change::zero))
         .add("normal_turned", "normals point inwards", mistake_at(site::normal_in, Change::negated))
         .add("lit_red_is_green", "green is stored as red", spoiled_at(site::lit, red_is_green))

@@ -18,7 +18,7 @@
 namespace lockstep {
 namespace {
 
-constexpr std::size_t word = sizeof(std::uint32_t);
+constexpr std::size_t word_bytes = sizeof(std::uint32_t);
 
 std::string resource_name(GLuint program, GLenum interface, GLuint index) {
     std::array<char, 512> name{};
@@ -99,12 +99,12 @@ std::optional<std::uint32_t> constant_bits(double number, GLenum type) {
 std::vector<std::uint32_t> buffer_words(GLuint buffer, std::size_t count) {
     std::vector<std::uint32_t> all(count);
     gl::BindBuffer(GL_COPY_READ_BUFFER, buffer);
-    gl::GetBufferSubData(GL_COPY_READ_BUFFER, 0, static_cast<GLsizeiptr>(count * word), all.data());
+    gl::GetBufferSubData(GL_COPY_READ_BUFFER, 0, static_cast<GLsizeiptr>(count * word_bytes), all.data());
     return all;
 }
 
 std::vector<std::uint32_t> buffer_words(const RecordBuffer& buffer) {
-    return buffer_words(buffer.id(), buffer.size() * buffer.layout().bytes() / word);
+    return buffer_words(buffer.id(), buffer.size() * buffer.layout().bytes() / word_bytes);
 }
 
 } // namespace
@@ -159,7 +159,7 @@ void BoundStorage::add_block(GLuint program, GLuint block, const std::string& na
     const GLenum all = GL_ACTIVE_VARIABLES;
     gl::GetProgramResourceiv(program, GL_SHADER_STORAGE_BLOCK, block, 1, &all, about[2], nullptr, indices.data());
 
-    Block made{name, static_cast<GLuint>(about[0]), static_cast<std::size_t>(about[1]) / word};
+    Block made{name, static_cast<GLuint>(about[0]), static_cast<std::size_t>(about[1]) / word_bytes};
     std::vector<std::string> names;
     std::map<std::string, std::string> taken; // the member by the file's name
     for (const GLint index : indices) {
@@ -175,13 +175,13 @@ void BoundStorage::add_block(GLuint program, GLuint block, const std::string& na
         Member member;
         member.name = member_name(full_name, name);
         member.type = static_cast<GLenum>(type);
-        member.offset = static_cast<std::size_t>(offset) / word;
-        member.stride = static_cast<std::size_t>(in_records ? stride : step) / word;
+        member.offset = static_cast<std::size_t>(offset) / word_bytes;
+        member.stride = static_cast<std::size_t>(in_records ? stride : step) / word_bytes;
         member.elements = static_cast<std::size_t>(in_records ? items : size);
         member.plain = !in_records && step > 0;
         if (in_records && step > 0) {
             member.parts = static_cast<std::size_t>(size);
-            member.part_words = static_cast<std::size_t>(step) / word;
+            member.part_words = static_cast<std::size_t>(step) / word_bytes;
         }
         names.push_back(member.name);
         const std::pair<const std::string, MemberBinding>* bound = nullptr;
@@ -371,7 +371,7 @@ void BoundStorage::fill(std::span<const RecordBuffer* const> before, std::span<c
         if (one.kind == Word::Kind::count)
             return one.as_float ? std::bit_cast<std::uint32_t>(static_cast<float>(size))
                                 : static_cast<std::uint32_t>(size);
-        const std::size_t each = ours_[one.ours].layout->bytes() / word;
+        const std::size_t each = ours_[one.ours].layout->bytes() / word_bytes;
         return item < size ? (one.kind == Word::Kind::after ? to : from)[one.ours][item * each + one.place] : 0;
     };
     for (const Block& block : blocks_) {
@@ -382,7 +382,7 @@ void BoundStorage::fill(std::span<const RecordBuffer* const> before, std::span<c
                 for (const Word& one : member.words)
                     words[member.offset + item * member.stride + one.at] = value(one, item);
         gl::BindBuffer(GL_SHADER_STORAGE_BUFFER, block.buffer.id());
-        gl::BufferData(GL_SHADER_STORAGE_BUFFER, static_cast<GLsizeiptr>(words.size() * word), words.data(),
+        gl::BufferData(GL_SHADER_STORAGE_BUFFER, static_cast<GLsizeiptr>(words.size() * word_bytes), words.data(),
                        GL_DYNAMIC_COPY);
         gl::BindBufferBase(GL_SHADER_STORAGE_BUFFER, block.binding, block.buffer.id());
     }
@@ -394,7 +394,7 @@ void BoundStorage::collect(std::span<const RecordBuffer* const> after) const {
     gl::MemoryBarrier(GL_BUFFER_UPDATE_BARRIER_BIT);
     std::vector<std::vector<std::uint32_t>> records(ours_.size());
     for (const std::size_t o : writes_)
-        records[o].resize(after[o]->size() * ours_[o].layout->bytes() / word);
+        records[o].resize(after[o]->size() * ours_[o].layout->bytes() / word_bytes);
     for (const Block& block : blocks_) {
         std::optional<std::vector<std::uint32_t>> words;
         for (const Member& member : block.members)
@@ -403,7 +403,7 @@ void BoundStorage::collect(std::span<const RecordBuffer* const> after) const {
                     continue;
                 if (!words)
                     words = buffer_words(block.buffer.id(), words_of(block, items_of(block, after)));
-                const std::size_t each = ours_[one.ours].layout->bytes() / word;
+                const std::size_t each = ours_[one.ours].layout->bytes() / word_bytes;
                 for (std::size_t item = 0; item < after[one.ours]->size(); ++item)
                     records[one.ours][item * each + one.place] =
                         (*words)[member.offset + item * member.stride + one.at];
@@ -411,7 +411,7 @@ void BoundStorage::collect(std::span<const RecordBuffer* const> after) const {
     }
     for (const std::size_t o : writes_) {
         gl::BindBuffer(GL_COPY_WRITE_BUFFER, after[o]->id());
-        gl::BufferSubData(GL_COPY_WRITE_BUFFER, 0, static_cast<GLsizeiptr>(records[o].size() * word),
+        gl::BufferSubData(GL_COPY_WRITE_BUFFER, 0, static_cast<GLsizeiptr>(records[o].size() * word_bytes),
                           records[o].data());
     }
 }

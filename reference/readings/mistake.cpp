@@ -40,9 +40,21 @@ constexpr std::array change_names{"as it is",
                                   "or equal",
                                   "reversed",
                                   "dropped",
+                                  "!=",
+                                  "<= for ==",
+                                  ">= for ==",
+                                  "with 0 on the left",
+                                  "with 0 on the right",
+                                  "with twice the right",
+                                  "with half the right",
                                   "or for and",
                                   "first skipped",
                                   "last skipped",
+                                  "first alone",
+                                  "last alone",
+                                  "first half",
+                                  "last half",
+                                  "every second",
                                   "backwards",
                                   "outside is the edge",
                                   "outside is the other side",
@@ -76,6 +88,9 @@ constexpr std::array value_changes{Change::zero,     Change::one,        Change:
                                    Change::one_less, Change::half_more,  Change::half_less};
 constexpr std::array whole_changes{Change::zero,    Change::one,      Change::negated, Change::halved,
                                    Change::doubled, Change::one_more, Change::one_less};
+constexpr std::array comparison_changes{
+    Change::or_equal, Change::reversed,  Change::dropped,    Change::differs,       Change::at_most,
+    Change::at_least, Change::left_zero, Change::right_zero, Change::right_doubled, Change::right_halved};
 constexpr std::array taken_from{Change::instead, Change::plus, Change::minus, Change::times};
 
 void add_values(std::vector<Mistake>& found, const SeenSite& seen, std::span<const Change> changes) {
@@ -146,7 +161,7 @@ std::vector<Mistake> mistakes_at(std::span<const SeenSite> sites) {
         case SeenSite::Kind::condition:
             all({Change::inverted, Change::always, Change::never});
             for (int part = 0; part < seen.size; ++part)
-                for (const Change change : {Change::or_equal, Change::reversed, Change::dropped})
+                for (const Change change : comparison_changes)
                     if (change != Change::dropped || seen.size > 1)
                         found.push_back({.site = seen.site->id, .change = change, .part = part});
             if (seen.size > 1)
@@ -156,7 +171,8 @@ std::vector<Mistake> mistakes_at(std::span<const SeenSite> sites) {
             all({Change::inverted});
             break;
         case SeenSite::Kind::loop:
-            all({Change::first_skipped, Change::last_skipped, Change::backwards});
+            all({Change::first_skipped, Change::last_skipped, Change::first_alone, Change::last_alone,
+                 Change::first_half, Change::last_half, Change::every_second, Change::backwards});
             break;
         case SeenSite::Kind::fetch:
             all({Change::outside_is_edge, Change::outside_is_other_side, Change::outside_is_zero});

@@ -51,10 +51,22 @@ enum class Change : std::uint8_t {
     or_equal, ///< <= for <, < for <=
     reversed, ///< > for <
     dropped,
+    differs,       ///< != for < and <=
+    at_most,       ///< <= for ==
+    at_least,      ///< >= for ==
+    left_zero,     ///< the operand on the left is 0
+    right_zero,    ///< the one on the right
+    right_doubled, ///< and so on
+    right_halved,
     and_is_or,
     // A loop.
     first_skipped,
     last_skipped,
+    first_alone,
+    last_alone,
+    first_half, ///< and the middle
+    last_half,
+    every_second, ///< from the first
     backwards,
     // A fetch of a texel outside.
     outside_is_edge,

@@ -164,7 +164,25 @@ template <class A> class Mistaken {
             const int turns = static_cast<int>(loop[1]) < from ? -1 : (static_cast<int>(loop[1]) - from) / step;
             return {from, from + turns * step, step};
         }
-        return {first + (change == Change::first_skipped ? 1 : 0), last - (change == Change::last_skipped ? 1 : 0)};
+        const int middle = first + (last - first) / 2;
+        switch (change) {
+        case Change::first_skipped:
+            return {first + 1, last};
+        case Change::last_skipped:
+            return {first, last - 1};
+        case Change::first_alone:
+            return {first, std::min(first, last)};
+        case Change::last_alone:
+            return {std::max(first, last), last};
+        case Change::first_half:
+            return {first, std::min(middle, last)};
+        case Change::last_half:
+            return {middle, last};
+        case Change::every_second:
+            return {first, last < first ? last : last - (last - first) % 2, 2};
+        default:
+            return {first, last};
+        }
     }
     /// Outside the image, where only a wrong size leads, drivers answer 0.
     template <class Texel> const Texel* fetch(At p, const Image<Texel>& image, const IVec2& size, const IVec2& at) {
@@ -546,20 +564,41 @@ template <class A> class Mistaken {
         return change == Change::dropped ? all : holds(c, change);
     }
     static bool holds(const OpenComparison<Real>& c, Change change) {
-        const auto a = static_cast<float>(c.a), b = static_cast<float>(c.b);
-        const bool reversed = change == Change::reversed;
+        const float a = change == Change::left_zero ? 0.0F : static_cast<float>(c.a);
+        const float b = right(static_cast<float>(c.b), change);
         switch (c.op) {
         case CompareOp::less:
-            return (reversed ? a > b : change == Change::or_equal ? a <= b : a < b) != c.negated;
         case CompareOp::less_equal:
-            return (reversed ? a >= b : change == Change::or_equal ? a < b : a <= b) != c.negated;
+            return ordered(a, b, c.op, change) != c.negated;
         case CompareOp::equal:
-            return (a == b) != (c.negated != reversed);
+            if (change == Change::at_most || change == Change::at_least)
+                return (change == Change::at_most ? a <= b : a >= b) != c.negated;
+            return (a == b) != (c.negated != (change == Change::reversed));
         case CompareOp::always:
         case CompareOp::never:
             break;
         }
         return (c.op == CompareOp::always) != c.negated;
+    }
+    static float right(float b, Change change) {
+        switch (change) {
+        case Change::right_zero:
+            return 0.0F;
+        case Change::right_doubled:
+            return b * 2.0F;
+        case Change::right_halved:
+            return b * 0.5F;
+        default:
+            return b;
+        }
+    }
+    static bool ordered(float a, float b, CompareOp op, Change change) {
+        if (change == Change::differs)
+            return a != b;
+        const bool or_equal = (op == CompareOp::less_equal) != (change == Change::or_equal);
+        if (change == Change::reversed)
+            return or_equal ? a >= b : a > b;
+        return or_equal ? a <= b : a < b;
     }
 
     static constexpr glm::vec4 zero{0.0F}, zero_but_alpha{0.0F, 0.0F, 0.0F, 1.0F};

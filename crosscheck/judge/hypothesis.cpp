@@ -69,14 +69,16 @@ int Hypothesis::rank() const {
         return text.empty() ? 0 : 1;
     if (host != Host::none)
         return 2;
-    return text.starts_with("u_") ? 3 : 4;
+    return alike != nullptr || text.starts_with("u_") ? 3 : 4;
 }
 
 std::vector<std::string> Hypothesis::names() const {
     std::vector<std::string> all;
     for (const NamedMistake* one : named)
         all.push_back(one->name);
-    return named.empty() ? std::vector{text} : all;
+    if (named.empty())
+        all.push_back(alike != nullptr ? alike->name : text);
+    return all;
 }
 
 std::string Hypothesis::meaning() const {
@@ -95,10 +97,13 @@ std::string Hypothesis::meaning() const {
     std::string meaning;
     for (const NamedMistake* one : named)
         meaning += (meaning.empty() ? "" : "; ") + one->meaning;
-    return named.empty() ? "a change of the twin at one site" : meaning + text;
+    if (!named.empty())
+        return meaning + text;
+    return alike != nullptr ? alike->meaning : "a change of the twin at one site";
 }
 
-std::vector<Hypothesis> hypotheses_of(const std::vector<const NamedMistake*>& named, const JudgedPass& pass,
+std::vector<Hypothesis> hypotheses_of(const std::vector<const NamedMistake*>& named,
+                                      const std::vector<const NamedMistake*>& exact, const JudgedPass& pass,
                                       const std::vector<std::size_t>& items) {
     std::vector<Hypothesis> all;
     for (const NamedMistake* one : named)
@@ -109,9 +114,14 @@ std::vector<Hypothesis> hypotheses_of(const std::vector<const NamedMistake*>& na
         for (const SeenSite& site : pass.on_input().sites(pass.input(), item, pass.profile))
             if (std::find(sites.begin(), sites.end(), site) == sites.end())
                 sites.push_back(site);
-    for (const Mistake& mistake : mistakes_at(sites))
-        if (std::none_of(all.begin(), all.end(), [&](const Hypothesis& h) { return h.made == std::vector{mistake}; }))
-            all.push_back({.made = {mistake}, .text = mistake_text(mistake, sites)});
+    for (const Mistake& mistake : mistakes_at(sites)) {
+        if (std::any_of(all.begin(), all.end(), [&](const Hypothesis& h) { return h.made == std::vector{mistake}; }))
+            continue;
+        const auto same =
+            std::find_if(exact.begin(), exact.end(), [&](const NamedMistake* one) { return one->mistake == mistake; });
+        all.push_back(
+            {.made = {mistake}, .alike = same == exact.end() ? nullptr : *same, .text = mistake_text(mistake, sites)});
+    }
     return all;
 }
 

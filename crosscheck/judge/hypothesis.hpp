@@ -16,6 +16,7 @@ struct Hypothesis {
     Host host = Host::none;
     std::vector<Mistake> made = {};                ///< none: the host's
     std::vector<const NamedMistake*> named = {};   ///< of each that is made; none: it has no name
+    const NamedMistake* alike = nullptr;           ///< the named one that is this very change, held to rounding here
     std::string text = {};                         ///< of one without a name; or the named one's constants
     std::array<std::uint8_t, 2> fields = {};       ///< of the host's mistake
     std::uint64_t explained = 0, contradicted = 0; ///< divergent items; ones that agree, and would not
@@ -35,8 +36,9 @@ struct Hypothesis {
 };
 
 /// Those that a pass's divergent items allow: the named ones, of one with constants as many as it has; the host's; and
-/// every change at the items' sites.
-std::vector<Hypothesis> hypotheses_of(const std::vector<const NamedMistake*>& named, const JudgedPass& pass,
+/// every change at the items' sites, by the name it has among `exact`.
+std::vector<Hypothesis> hypotheses_of(const std::vector<const NamedMistake*>& named,
+                                      const std::vector<const NamedMistake*>& exact, const JudgedPass& pass,
                                       const std::vector<std::size_t>& items);
 
 /// Whether an item came out as the hypothesis has it.

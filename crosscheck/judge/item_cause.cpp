@@ -221,7 +221,7 @@ void ItemCauseFinder::try_single(const JudgedPass& pass, const std::vector<ItemV
     held.insert(held.end(), whole.begin(), whole.end());
     const std::uint64_t divergent_before = divergent_;
     if (first)
-        tried_ = hypotheses_of(named_, pass, sample(divergent, 16));
+        tried_ = hypotheses_of(named_, exact_, pass, sample(divergent, 16));
     if (later && tried_.size() > most_shown + 1)
         tried_.resize(most_shown + 1);
     try_all(part(0, first_items));
@@ -246,6 +246,7 @@ CauseFindings ItemCauseFinder::of_single(bool beside_description) const {
         if (hypothesis.distinct == 0 && !beside_description)
             continue;
         const bool named = !hypothesis.named.empty();
+        const bool is_alike = hypothesis.alike != nullptr && divergent_ >= enough_evidence;
         // A constant that fits a few is no evidence, nor is one of several that fit as well, but for those fitted.
         const auto is_rival = [&](const Hypothesis& other) {
             return &other != &hypothesis && other.named == hypothesis.named &&
@@ -258,7 +259,7 @@ CauseFindings ItemCauseFinder::of_single(bool beside_description) const {
                          [&](const Cause& cause) { return cause.mistakes == hypothesis.names(); })))
             continue;
         found.best.push_back({hypothesis.names(), hypothesis.meaning(), hypothesis.explained, hypothesis.contradicted,
-                              named || hypothesis.host != Hypothesis::Host::none});
+                              named || is_alike || hypothesis.host != Hypothesis::Host::none});
     }
     return found;
 }

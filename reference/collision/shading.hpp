@@ -22,9 +22,8 @@ template <class A, class Sites = RightSites> class Shading {
     explicit Shading(A fp, Sites sites = {}) : fp_(fp), sites_(sites) {}
 
     [[nodiscard]] Vec3 background(int y, int height) const {
-        const Real up = fp_.divide(static_cast<float>(2 * y + 1), static_cast<float>(2 * height));
-        return sites_.background_color(
-            blend({0.1875F, 0.203125F, 0.234375F}, {0.046875F, 0.0546875F, 0.078125F}, sites_.background_up(up)));
+        const Real up = sites_.background_up(fp_, y, height);
+        return sites_.background_color(blend({0.1875F, 0.203125F, 0.234375F}, {0.046875F, 0.0546875F, 0.078125F}, up));
     }
 
     /// Flat, both sides alike, lit from the upper left of the camera.
@@ -35,33 +34,35 @@ template <class A, class Sites = RightSites> class Shading {
         const Real lambert = sites_.obstacle_lambert(
             choose(squared > 0.0F, fp_.divide(dot(normal, light()), fp_.sqrt(squared)), Real(0.0F)));
         const Real wrapped = Real(0.5F) + Real(0.5F) * lambert;
-        const Real brightness = Real(0.125F) + Real(0.875F) * (wrapped * wrapped);
+        const Real brightness =
+            sites_.obstacle_brightness(lambert, wrapped, Real(0.125F) + Real(0.875F) * (wrapped * wrapped));
         return fp_.scale({0.8125F, 0.78125F, 0.734375F}, brightness);
     }
 
     /// A sphere: `normal` of unit length; slow is blue, fast is white, and what has just collided glows.
     [[nodiscard]] Vec3 particle(const Vec3& normal, Real speed, Real collide_time, float collision_time) const {
-        const Real fast = sites_.fast(share(speed * 0.5F));
-        const Real heat =
-            sites_.heat(choose(collide_time > 0.0F, share(fp_.divide(collide_time, collision_time)), Real(0.0F)));
+        const Real fast = sites_.fast(speed, share(speed * 0.5F));
+        const Real heat = sites_.heat(
+            collide_time, choose(collide_time > 0.0F, share(fp_.divide(collide_time, collision_time)), Real(0.0F)));
         const Vec3 cold = blend({0.125F, 0.40625F, 0.875F}, {0.8125F, 0.9375F, 1.0F}, fast);
         const Vec3 color = blend(cold, {1.0F, 0.5F, 0.09375F}, heat);
-        const Real lambert = sites_.lambert(share(dot(normal, light())));
-        const Real lit = Real(0.3125F) + Real(0.6875F) * lambert;
+        const Real of_light = dot(normal, light());
+        const Real lambert = sites_.lambert(of_light, share(of_light));
+        const Real lit = sites_.lit(lambert, Real(0.3125F) + Real(0.6875F) * lambert);
         const Real glow = sites_.glow(lit, lit + heat * (Real(0.5F) * (Real(1.0F) - lit)));
         const Real fourth = (lambert * lambert) * (lambert * lambert);
-        const Real gleam = sites_.gleam(Real(0.25F) * (fourth * fourth));
+        const Real gleam = sites_.gleam(lambert, Real(0.25F) * (fourth * fourth));
         const Vec3 shaded = fp_.scale(color, glow);
-        return {shaded.x + gleam, shaded.y + gleam, shaded.z + gleam};
+        return sites_.particle_color(fp_, Vec3{shaded.x + gleam, shaded.y + gleam, shaded.z + gleam});
     }
 
     /// To the nearest of 256 codes a channel, opaque.
-    static Rgba8 quantise(glm::vec3 color) {
-        const auto code = [](float c) { return static_cast<std::uint8_t>(std::floor(code_of(c))); };
+    [[nodiscard]] Rgba8 quantise(glm::vec3 color) const {
+        const auto code = [&](float c) { return static_cast<std::uint8_t>(std::floor(code_of(c))); };
         return {code(color.x), code(color.y), code(color.z), 255};
     }
     /// What is rounded down to a channel's code.
-    static Real code_of(Real channel) { return share(channel) * 255.0F + 0.5F; }
+    [[nodiscard]] Real code_of(Real channel) const { return sites_.code(share(channel)); }
 
   private:
     static Vec3 light() { return {-0.375F, 0.5F, 0.78125F}; } // of unit length within 5 / 10000

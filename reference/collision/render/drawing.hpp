@@ -27,7 +27,7 @@ template <class A, class Sites> class RenderDrawing {
 
     void draw_background() {
         for (int y = 0; y < height_; ++y) {
-            const Rgba8 color = Shading<A>::quantise(shading_.background(y, sites_.size(width_, height_, false).y));
+            const Rgba8 color = shading_.quantise(shading_.background(y, sites_.size(width_, height_, false).y));
             std::fill_n(&color_.at(0, y), width_, sites_.stored(color, false));
         }
     }
@@ -41,8 +41,7 @@ template <class A, class Sites> class RenderDrawing {
         }
         const auto shader = [&](std::size_t triangle) {
             const std::uint32_t* index = &obstacles.indices[triangle * 3];
-            const Rgba8 color =
-                Shading<A>::quantise(shading_.obstacle({view[index[0]], view[index[1]], view[index[2]]}));
+            const Rgba8 color = shading_.quantise(shading_.obstacle({view[index[0]], view[index[1]], view[index[2]]}));
             const PixelOwner owner{PixelOwner::Kind::obstacle, static_cast<std::uint32_t>(triangle)};
             return [this, color, owner](int x, int y, const auto&, float depth) {
                 if (passes(depth, depth_.at(x, y)))
@@ -103,7 +102,7 @@ template <class A, class Sites> class RenderDrawing {
             return;
         const glm::vec3 color = shading_.particle(fragment.normal, particles.speed[i], particles.collide_time[i],
                                                   params_.constants.collision_time);
-        keep(x, y, fragment.depth, Shading<A>::quantise(color),
+        keep(x, y, fragment.depth, shading_.quantise(color),
              {PixelOwner::Kind::particle, static_cast<std::uint32_t>(i)});
     }
 

@@ -301,7 +301,7 @@ template <class Sites> class LegalPixels {
                                       fragment_.read(particles_.collide_time[i]), params_.constants.collision_time);
         }
         const auto code = [&](LegalNumber<A> channel) {
-            const LegalNumber<A> number = Shading<Legal>::code_of(channel);
+            const LegalNumber<A> number = shading_.code_of(channel);
             candidate.open = candidate.open || number.open();
             const auto at = [](double x) { return static_cast<std::uint8_t>(std::clamp(std::floor(x), 0.0, 255.0)); };
             return std::pair(at(number.set().low), at(number.set().high));

@@ -23,12 +23,15 @@ SphereFragment<A> sphere_fragment(A fp, const Sites& sites, const typename Numbe
     const Real dx = fp.divide(Real(static_cast<float>(x) + sites.pixel_centre()) - window.centre.x, window.half.x);
     const Real dy = fp.divide(Real(static_cast<float>(y) + sites.pixel_centre()) - window.centre.y, window.half.y);
     const Real squared = dx * dx + dy * dy;
-    const auto inside = sites.in_disc(squared <= 1.0F);
-    const Real root = fp.sqrt(sites.under_root(Real(1.0F) - where(inside, squared, 1.0F)));
+    const auto inside = sites.in_disc(squared <= 1.0F, squared);
+    const Real rest = sites.under_root(Real(1.0F) - where(inside, squared, 1.0F));
+    const Real root = sites.rooted(fp.sqrt(rest), rest);
     const typename NumbersOf<A>::Vec3 sphere{dx, dy, root};
-    const Real z = centre.z + sites.towards_camera(root) * params.constants.billboard_radius;
+    const float radius = params.constants.billboard_radius;
+    const Real z = centre.z + sites.towards_camera(root, root * radius, radius);
     const auto clip = fp.transform(params.render_projection, {centre.x, centre.y, z});
-    return {inside, sites.sphere_normal(sphere), clamp_to(fp.divide(clip.z, clip.w) * 0.5F + 0.5F, 1.0F)};
+    const Real ndc = fp.divide(clip.z, clip.w);
+    return {inside, sites.sphere_normal(sphere), clamp_to(sites.sprite_depth(ndc, ndc * 0.5F + 0.5F), 1.0F)};
 }
 
 } // namespace lockstep

@@ -49,11 +49,14 @@ template <class A> class TriangleInterpolation {
         }
     }
 
-    /// At the centre of pixel (x, y). Corners are taken relative to the centre, in half pixels times w: what cancels
-    /// cancels before anything is multiplied, which keeps triangles of a pixel's size accurate.
-    [[nodiscard]] Edges edges(int x, int y) const {
-        const auto centre_x = static_cast<float>(2 * x + 1 - width_);
-        const auto centre_y = static_cast<float>(2 * y + 1 - height_);
+    /// At the centre of pixel (x, y).
+    [[nodiscard]] Edges edges(int x, int y) const { return edges_at(2 * x + 1 - width_, 2 * y + 1 - height_); }
+
+    /// At a place in half pixels from the image's middle. Corners are taken relative to it, in half pixels times w:
+    /// what cancels cancels before anything is multiplied, which keeps triangles of a pixel's size accurate.
+    [[nodiscard]] Edges edges_at(int half_pixels_x, int half_pixels_y) const {
+        const auto centre_x = static_cast<float>(half_pixels_x);
+        const auto centre_y = static_cast<float>(half_pixels_y);
         std::array<float, 3> rx{}, ry{};
         for (std::size_t i = 0; i < 3; ++i) {
             rx[i] = fp_.flush(x_[i] - centre_x * clip_[i].w);

@@ -12,6 +12,7 @@
 #include "reference/collision/collision_mistakes.hpp"
 #include "reference/collision/collision_pass.hpp"
 #include "reference/collision/collision_twin.hpp"
+#include "reference/collision/deviating_obstacles.hpp"
 #include "reference/collision/step_stage.hpp"
 #include "reference/readings/mistaken.hpp"
 #include "reference/readings/mistaken_arithmetic.hpp"
@@ -45,9 +46,13 @@ template <class A> class DeviatingPoint {
         if (has(Deviation::point_on_upper_pixel))
             rules_.point_edge_to_lower = !rules_.point_edge_to_lower;
         if (has(Deviation::point_half_pixel_up))
-            shift_ = 1.0F;
+            shift_ = {1.0F, 1.0F};
         if (has(Deviation::point_half_pixel_down))
-            shift_ = -1.0F;
+            shift_ = {-1.0F, -1.0F};
+        if (has(Deviation::point_pixel_right) || has(Deviation::point_pixel_left))
+            shift_.x = has(Deviation::point_pixel_right) ? 2.0F : -2.0F;
+        if (has(Deviation::point_pixel_up) || has(Deviation::point_pixel_down))
+            shift_.y = has(Deviation::point_pixel_up) ? 2.0F : -2.0F;
     }
 
     [[nodiscard]] PointFragment operator()(glm::vec3 position) {
@@ -61,10 +66,20 @@ template <class A> class DeviatingPoint {
             clip.z = 0.0F;
         if (has(Deviation::point_depth_reversed))
             clip.z = -clip.z;
-        if (shift_ != 0.0F) {
-            clip.x += clip.w * (shift_ / static_cast<float>(params_.width));
-            clip.y += clip.w * (shift_ / static_cast<float>(params_.height));
-        }
+        if (has(Deviation::point_depth_zero_to_one))
+            clip.z = (clip.z + clip.w) * 0.5F;
+        if (has(Deviation::point_depth_doubled))
+            clip.z = clip.z * 2.0F - clip.w;
+        if (has(Deviation::point_depth_clamped) && clip.w > 0.0F)
+            clip.z = std::clamp(clip.z, -clip.w, clip.w);
+        if (has(Deviation::point_x_flipped))
+            clip.x = -clip.x;
+        if (has(Deviation::point_x_and_y_swapped))
+            std::swap(clip.x, clip.y);
+        if (shift_.x != 0.0F)
+            clip.x += clip.w * (shift_.x / static_cast<float>(params_.width));
+        if (shift_.y != 0.0F)
+            clip.y += clip.w * (shift_.y / static_cast<float>(params_.height));
         return places_points(params_.switches) || std::is_base_of_v<Portable, A> ? placed(clip) : rasterised(clip);
     }
 
@@ -100,7 +115,7 @@ template <class A> class DeviatingPoint {
     BaseTexelTwin<Reading> image_;
     int viewport_width_ = params_.width;
     int viewport_height_ = params_.height;
-    float shift_ = 0.0F; ///< half pixels
+    glm::vec2 shift_{0.0F}; ///< half pixels
 };
 
 /// What a wrong fragment stage stores for a position.
@@ -119,11 +134,16 @@ glm::vec3 stored_wrongly(glm::vec3 position, const Deviations& deviations, const
         std::swap(position.x, position.z);
     if (deviations.has(Deviation::position_interpolated))
         position = position / 3.0F * 3.0F; // as a mean of equal corners may round
+    if (deviations.has(Deviation::stores_negated))
+        position = -position;
+    if (deviations.has(Deviation::stores_remapped))
+        position = position * 0.5F + 0.5F;
     return position;
 }
 
-bool discards(glm::vec3 position, const Deviations& deviations) {
-    return (deviations.has(Deviation::negative_x_discarded) && position.x < 0.0F) ||
+bool discards(glm::vec3 position, float collide_time, const Deviations& deviations) {
+    return (deviations.has(Deviation::waiting_discarded) && collide_time > 0.0F) ||
+           (deviations.has(Deviation::negative_x_discarded) && position.x < 0.0F) ||
            (deviations.has(Deviation::negative_y_discarded) && position.y < 0.0F) ||
            (deviations.has(Deviation::negative_z_discarded) && position.z < 0.0F);
 }
@@ -173,6 +193,8 @@ void prepare(const FrameInputs& inputs, const Profile& profile, const Deviations
     depth = deviations.has(Deviation::obstacles_not_drawn) || deviations.has(Deviation::obstacles_never_hide)
                 ? DepthImage(obstacles_depth.width, obstacles_depth.height, 1.0F)
                 : obstacles_depth;
+    if (inputs.obstacles != nullptr && std::any_of(deviations.begin(), deviations.end(), changes_obstacles))
+        deviating_obstacles(*inputs.obstacles, *inputs.params, profile, deviations, cdt, depth);
     if (deviations.has(Deviation::cdt_not_cleared) && inputs.earlier_cdt != nullptr)
         for (std::size_t i = 0; i < cdt.texels.size(); ++i)
             if (cdt.texels[i].a == 0.0F)
@@ -220,7 +242,9 @@ void deviating_draw(const FrameInputs& inputs, const Particles& after, const Pro
             PointFragment point = fragment(positions[i]);
             if (deviations.has(Deviation::fragment_depth_reversed))
                 point.depth = 1.0F - point.depth;
-            if (discards(after.position[i], deviations))
+            if (deviations.has(Deviation::fragment_depth_zero))
+                point.depth = 0.0F;
+            if (discards(after.position[i], after.collide_time[i], deviations))
                 continue;
             if (!cdt.contains(point.x, point.y) || !test.passes(point.depth, depth.at(point.x, point.y)))
                 continue;
@@ -231,6 +255,10 @@ void deviating_draw(const FrameInputs& inputs, const Particles& after, const Pro
                 texel.a = 0.0F;
             if (deviations.has(Deviation::alpha_is_depth))
                 texel.a = point.depth;
+            if (deviations.has(Deviation::alpha_is_speed))
+                texel.a = after.speed[i];
+            if (deviations.has(Deviation::alpha_is_collide_time))
+                texel.a = after.collide_time[i];
         }
     });
 }

@@ -134,11 +134,41 @@ enum class Deviation {
     negative_y_discarded,
     negative_z_discarded,
     position_interpolated,
+    point_x_flipped,
+    point_x_and_y_swapped,
+    point_pixel_right,
+    point_pixel_left,
+    point_pixel_up,
+    point_pixel_down,
+    point_depth_zero_to_one,
+    point_depth_doubled,
+    point_depth_clamped,
+    fragment_depth_zero,
+    stores_negated,
+    stores_remapped,
+    alpha_is_speed,
+    alpha_is_collide_time,
+    waiting_discarded,
+    // Of the obstacles, where they are drawn as triangles.
+    obstacle_first_and_second_swapped,
+    obstacle_second_and_third_swapped,
+    obstacle_first_and_third_swapped,
+    obstacle_first_corner_alone,
+    obstacle_last_corner_alone,
+    obstacle_at_pixel_corner,
+    obstacle_interpolated_on_screen,
+    obstacle_depth_not_halved,
+    obstacle_alpha_missing,
 };
-inline constexpr std::size_t deviation_count = static_cast<std::size_t>(Deviation::position_interpolated) + 1;
+inline constexpr std::size_t deviation_count = static_cast<std::size_t>(Deviation::obstacle_alpha_missing) + 1;
 
 /// Whether a run's power is asked about it.
 constexpr bool counts_in_power(Deviation deviation) { return deviation <= Deviation::alpha_missing; }
+
+/// Whether obstacles are drawn otherwise than they should be.
+constexpr bool changes_obstacles(Deviation deviation) {
+    return deviation >= Deviation::obstacle_first_and_second_swapped;
+}
 
 /// Whether it changes a particle's step.
 constexpr bool changes_step(Deviation deviation) { return deviation < Deviation::point_without_divide; }

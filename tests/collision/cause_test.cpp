@@ -106,7 +106,8 @@ class Run {
                                .earlier = &earlier.particles,
                                .earlier_cdt = &earlier.cdt,
                                .earlier_params = &earlier_params,
-                               .drawn_cdt = &drawn};
+                               .drawn_cdt = &drawn,
+                               .obstacles = &scene_.obstacles};
             State gpu = before;
             for (std::size_t i = 0; i < gpu.particles.size(); ++i)
                 gpu.particles.set(i, deviating_step(inputs, i, profile_, deviations));
@@ -213,9 +214,10 @@ TEST_CASE("cause: every deviation that shows is found by its name, alone or besi
         else if (!first[info.deviation])
             second.append(info.name).append(" ");
     }
-    CHECK(hidden == "");
+    CHECK(hidden == "point_depth_clamped "); // nobody is beyond the near or the far plane
     // What another mistake may do just as well: searching in the wrong place, say.
-    CHECK(second == "radius_one_less outside_fetched_as_origin point_without_divide fragment_depth_reversed ");
+    CHECK(second == "radius_one_less outside_fetched_as_origin point_without_divide fragment_depth_reversed "
+                    "point_depth_doubled fragment_depth_zero obstacle_depth_not_halved ");
 }
 
 TEST_CASE("cause: two deviations at once are found as a pair") {

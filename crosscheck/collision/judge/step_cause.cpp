@@ -36,6 +36,18 @@ Deviations together(const TriedCause& cause) {
     return set;
 }
 
+FrameInputs with_obstacles(FrameInputs inputs, const Mesh& obstacles) {
+    inputs.obstacles = &obstacles;
+    return inputs;
+}
+
+/// GLSL's pow, a depth that went through fixed function, and what may be written in several ways.
+bool rounds_freely(Deviation deviation) {
+    using enum Deviation;
+    return deviation == stores_srgb || deviation == alpha_is_depth || deviation == stores_remapped ||
+           deviation == obstacle_interpolated_on_screen;
+}
+
 std::vector<JointMistake> all_deviations() {
     std::vector<JointMistake> all;
     for (const DeviationInfo& info : deviation_table())
@@ -48,7 +60,8 @@ std::vector<JointMistake> all_deviations() {
 class TexelTrials {
   public:
     TexelTrials(const JudgedFrame& frame, const FrameInputs& inputs)
-        : frame_(frame), inputs_(inputs), obstacles_cdt_(frame.params.width, frame.params.height),
+        : frame_(frame), inputs_(with_obstacles(inputs, frame.obstacles)),
+          obstacles_cdt_(frame.params.width, frame.params.height),
           obstacles_depth_(frame.params.width, frame.params.height, 1.0F) {
         obstacle_pass(frame.obstacles, frame.params, frame.profile, obstacles_cdt_, obstacles_depth_);
         const CollisionImage expected = draw({});
@@ -67,8 +80,7 @@ class TexelTrials {
             TriedCause& cause = causes[static_cast<std::size_t>(c)];
             const Deviations deviations = together(cause);
             const CollisionImage drawn = draw(deviations);
-            // GLSL's pow, and a depth that went through fixed function, round as they like.
-            const bool rounds = deviations.has(Deviation::stores_srgb) || deviations.has(Deviation::alpha_is_depth);
+            const bool rounds = std::any_of(deviations.begin(), deviations.end(), rounds_freely);
             // Interpolating rounds some positions and not others.
             const bool interpolates = deviations.has(Deviation::position_interpolated) && particles_agree_;
             const auto equal = [&](const std::vector<std::size_t>& texels) {
@@ -103,7 +115,7 @@ class TexelTrials {
     }
 
     const JudgedFrame& frame_;
-    const FrameInputs& inputs_;
+    FrameInputs inputs_;
     std::vector<std::size_t> agreeing_;
     bool particles_agree_ = false; ///< in any texel
     CollisionImage obstacles_cdt_;

@@ -5,11 +5,10 @@
 
 #include <catch2/catch.hpp>
 
-#include "crosscheck/report/report.hpp"
-#include "crosscheck/report/verdict_text.hpp"
 #include "crosscheck/scene/scene_file.hpp"
 #include "tests/collision/twin/llvmpipe.hpp"
 #include "tests/collision/twin/shader_files.hpp"
+#include "tests/collision/twin/told_causes.hpp"
 #include "tests/collision/twin/twin_scenes.hpp"
 #include "tests/temporary_folder.hpp"
 
@@ -23,17 +22,6 @@ std::string after(const std::string& text, const std::string& word, char end) {
     REQUIRE(at != std::string::npos);
     const std::size_t from = at + word.size();
     return text.substr(from, text.find(end, from) - from);
-}
-
-/// The names that a run gives for what diverges; none where no cause is told.
-std::vector<std::string> told_causes(const CheckReport& report) {
-    std::vector<std::string> names;
-    if (report.verdicts && tells_cause(*report.verdicts))
-        for (const CauseFindings& found : report.verdicts->causes)
-            if (found.explains_all())
-                for (const Cause& cause : found.best)
-                    names.push_back(cause.name());
-    return names;
 }
 
 } // namespace
@@ -50,7 +38,7 @@ TEST_CASE("wrong shaders: the cause of each, whatever its style, is told by its 
         shaders.write("collision_pass" + file.extension().string(), text);
         const Scene scene = load_scene("data/scenes/stress/" + after(text, ", in ", '\n') + ".json", {});
         const CheckReport report = test::check_twins(scene, 8, shaders.path());
-        const std::vector<std::string> told = told_causes(report);
+        const std::vector<std::string> told = test::told_causes(report);
         std::string all;
         for (const std::string& name : told)
             all += name + " ";

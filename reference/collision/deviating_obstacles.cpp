@@ -1,0 +1,88 @@
+#include "reference/collision/deviating_obstacles.hpp"
+
+#include <array>
+#include <cstddef>
+#include <utility>
+#include <vector>
+
+#include "reference/collision/collision_code.hpp"
+#include "reference/draw_triangles.hpp"
+#include "reference/subnormals.hpp"
+#include "reference/triangle_interpolation.hpp"
+#include "reference/with_arithmetic.hpp"
+
+namespace lockstep {
+namespace {
+
+template <class Corner> using Corners = std::array<Corner, 3>;
+
+/// What a triangle stores of its corners.
+void spoil(Corners<glm::vec3>& stored, const Deviations& deviations) {
+    if (deviations.has(Deviation::obstacle_first_and_second_swapped))
+        std::swap(stored[0], stored[1]);
+    if (deviations.has(Deviation::obstacle_second_and_third_swapped))
+        std::swap(stored[1], stored[2]);
+    if (deviations.has(Deviation::obstacle_first_and_third_swapped))
+        std::swap(stored[0], stored[2]);
+    if (deviations.has(Deviation::obstacle_first_corner_alone))
+        stored.fill(stored[0]);
+    if (deviations.has(Deviation::obstacle_last_corner_alone))
+        stored.fill(stored[2]);
+}
+
+/// Where its corners are taken to be.
+void misplace(Corners<glm::vec4>& clip, const Deviations& deviations) {
+    if (deviations.has(Deviation::obstacle_interpolated_on_screen))
+        for (glm::vec4& corner : clip)
+            corner = {corner.x / corner.w, corner.y / corner.w, corner.z / corner.w, 1.0F};
+}
+
+template <class A> void draw(A fp, const Mesh& obstacles, const FrameParams& params, const Profile& profile,
+                             const Deviations& deviations, CollisionImage& cdt, DepthImage& depth) {
+    const FlushSubnormals guard(profile.flush_subnormals);
+    const CollisionCode code(params);
+    std::vector<glm::vec4> clip;
+    for (const glm::vec3 position : obstacles.positions)
+        clip.push_back(fp.transform(params.collision_proj_view, position));
+    const auto shader = [&](std::size_t triangle) {
+        const std::uint32_t* index = &obstacles.indices[triangle * 3];
+        Corners<glm::vec3> stored;
+        Corners<glm::vec4> placed;
+        for (std::size_t i = 0; i < 3; ++i) {
+            stored[i] = fp.flush(obstacles.positions[index[i]]);
+            placed[i] = clip[index[i]];
+        }
+        spoil(stored, deviations);
+        misplace(placed, deviations);
+        const TriangleInterpolation<A> interpolation(fp, placed, params.width, params.height);
+        const int centre = deviations.has(Deviation::obstacle_at_pixel_corner) ? 0 : 1;
+        return [&, stored, interpolation, centre](int x, int y, const auto&, float) {
+            const auto weights = interpolation.weights(
+                interpolation.edges_at(2 * x + centre - params.width, 2 * y + centre - params.height));
+            float at = interpolation.depth(weights);
+            if (deviations.has(Deviation::obstacle_depth_not_halved))
+                at = clamp_to(at * 2.0F - 1.0F, 1.0F);
+            if (!(at < depth.at(x, y)))
+                return;
+            depth.at(x, y) = at;
+            cdt.at(x, y) = code.encode(TriangleInterpolation<A>::mix(fp, stored, weights));
+            if (deviations.has(Deviation::obstacle_alpha_missing))
+                cdt.at(x, y).a = 0.0F;
+        };
+    };
+    draw_triangles(fp, clip, obstacles.indices, params.width, params.height, profile, shader);
+}
+
+} // namespace
+
+void deviating_obstacles(const Mesh& obstacles, const FrameParams& params, const Profile& profile,
+                         const Deviations& deviations, CollisionImage& cdt, DepthImage& depth) {
+    if (params.switches.obstacles_in_cdt != ObstaclesInCdt::triangles)
+        return;
+    cdt = CollisionImage(params.width, params.height);
+    depth = DepthImage(params.width, params.height, 1.0F);
+    with_arithmetic(profile, params.switches.arithmetic,
+                    [&](auto fp) { draw(fp, obstacles, params, profile, deviations, cdt, depth); });
+}
+
+} // namespace lockstep

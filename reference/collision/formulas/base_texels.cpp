@@ -1,0 +1,140 @@
+#include "reference/collision/formulas/words.hpp"
+
+#include <utility>
+
+#include <glm/mat4x4.hpp>
+
+namespace lockstep::formulas {
+namespace {
+
+constexpr std::array four{0.0F, 1.0F, 2.0F, 3.0F};
+
+} // namespace
+
+void add_base_texels(std::vector<FormulaMistake>& all) {
+    static const Mistake clamped = value(site::base_texel, [](Floats v, Run run) {
+        const auto& p = run.of(site::image_position);
+        v[0] = std::clamp(std::floor(p[0]), 0.0F, static_cast<float>(params(run).width - 1));
+        v[1] = std::clamp(std::floor(p[1]), 0.0F, static_cast<float>(params(run).height - 1));
+    });
+    all.push_back({"base_texel_clamped", "who is outside the image searches from the nearest texel of its border",
+                   at(
+                       site::base_texel, Change::decided_by_formula, [](Floats v, Run) { v[0] = 1.0F; }, &clamped)});
+    all.push_back(
+        {"base_texel_rounded", "the base texel is rounded to nearest", value(site::base_texel, [](Floats v, Run run) {
+             for (std::size_t c = 0; c < 2; ++c)
+                 v[c] = std::round(run.of(site::image_position)[c]);
+         })});
+    all.push_back(
+        {"base_texel_ceiling", "the base texel is the ceiling", value(site::base_texel, [](Floats v, Run run) {
+             for (std::size_t c = 0; c < 2; ++c)
+                 v[c] = std::ceil(run.of(site::image_position)[c]);
+         })});
+    static const Formula even = [](Floats v, Run) {
+        for (std::size_t c = 0; c < 2; ++c)
+            v[c] -= std::fmod(v[c], 2.0F);
+    };
+    static const Mistake even_offsets = skipped([](Floats v, Run) {
+        if (std::fmod(v[1], 2.0F) != 0.0F || std::fmod(v[3], 2.0F) != 0.0F)
+            v[0] = 1.0F;
+    });
+    all.push_back(
+        {"base_texel_even", "the base texel is rounded down to even coordinates", value(site::base_texel, even)});
+    all.push_back({"even_offsets_searched", "only texels with even tx and ty are searched", even_offsets});
+    all.push_back({"half_resolution",
+                   "the base texel is rounded down to even coordinates, and only even offsets are searched",
+                   value(site::base_texel, even, &even_offsets)});
+    all.push_back(
+        {"fetched_at_half_resolution", "the texel read is rounded down to even coordinates", fetch([](Floats v, Run) {
+             for (std::size_t c = 0; c < 2; ++c)
+                 if (v[c] >= 0.0F)
+                     v[c] -= std::fmod(v[c], 2.0F);
+         })});
+    all.push_back(
+        {"height_for_width", "u_ClientHeight scales x, too", value(site::scale, [](Floats v, Run) { v[0] = v[1]; })});
+    all.push_back(
+        {"width_for_height", "u_ClientWidth scales y, too", value(site::scale, [](Floats v, Run) { v[1] = v[0]; })});
+    all.push_back({"half_size_after_cast", "the base texel is ivec2(ndc * size / 2) + size / 2",
+                   value(site::base_texel, [](Floats v, Run run) {
+                       const auto& ndc = run.of(site::ndc);
+                       const std::array size{params(run).width, params(run).height};
+                       for (std::size_t c = 0; c < 2; ++c)
+                           v[c] = std::trunc(ndc[c] * (0.5F * static_cast<float>(size[c]))) +
+                                  static_cast<float>(size[c] / 2);
+                   })});
+    static const auto aspect_in = [](Floats v, Run run, bool divided) {
+        const auto w = static_cast<float>(params(run).width), h = static_cast<float>(params(run).height);
+        const auto which = static_cast<int>(run.constants[0]);
+        const std::size_t c = which < 2 ? 0 : 1;
+        const float aspect = which % 2 == 0 ? h / w : w / h;
+        v[c] = divided ? v[c] * aspect : run.of(site::clip)[c] * aspect / clip_w(run);
+    };
+    all.push_back({"aspect_twice", "the aspect ratio is applied once more to x or y",
+                   value(site::ndc, [](Floats v, Run run) { aspect_in(v, run, false); }), four});
+    all.push_back({"aspect_twice", "the aspect ratio is applied once more to x or y",
+                   value(site::ndc, [](Floats v, Run run) { aspect_in(v, run, true); }), four});
+    all.push_back({"divided_by_z", "clip xy is divided by z", value(site::ndc, [](Floats v, Run run) {
+                       const auto& clip = run.of(site::clip);
+                       v[0] = clip[0] / clip[2], v[1] = clip[1] / clip[2];
+                   })});
+    all.push_back({"divided_by_w_twice", "clip xy is divided by w twice",
+                   value(site::ndc, [](Floats v, Run run) { v[0] /= clip_w(run), v[1] /= clip_w(run); })});
+    all.push_back({"divided_by_size_of_w", "clip xy is divided by |w|", value(site::ndc, [](Floats v, Run run) {
+                       if (clip_w(run) < 0.0F)
+                           v[0] = -v[0], v[1] = -v[1];
+                   })});
+    all.push_back(
+        {"projected_as_direction", "the position is projected with w = 0", value(site::clip, [](Floats v, Run run) {
+             const glm::vec4 clip = params(run).collision_proj_view * glm::vec4(before(run), 0.0F);
+             for (int c = 0; c < 4; ++c)
+                 v[static_cast<std::size_t>(c)] = clip[c];
+         })});
+    all.push_back({"vector_times_matrix", "vec4(position, 1) * u_ProjView in the search",
+                   value(site::clip, [](Floats v, Run run) {
+                       const glm::vec4 clip = glm::vec4(before(run), 1.0F) * params(run).collision_proj_view;
+                       for (int c = 0; c < 4; ++c)
+                           v[static_cast<std::size_t>(c)] = clip[c];
+                   })});
+    static const auto projects = [](Floats v, Run run, glm::vec3 position) {
+        const glm::vec4 clip = params(run).collision_proj_view * glm::vec4(position, 1.0F);
+        for (int c = 0; c < 4; ++c)
+            v[static_cast<std::size_t>(c)] = clip[c];
+    };
+    static const Mistake own_predicted = value(
+        site::own_position, [](Floats v, Run run) { set(v, get(v) + (old_velocity(run) + fall(run)) * tick(run)); });
+    static const Formula projects_predicted = [](Floats v, Run run) {
+        projects(v, run, before(run) + (old_velocity(run) + fall(run)) * tick(run));
+    };
+    all.push_back(
+        {"base_texel_of_position_ahead", "searches around where position + velocity * tick lies",
+         value(site::clip, [](Floats v, Run run) { projects(v, run, before(run) + old_velocity(run) * tick(run)); })});
+    all.push_back({"base_texel_of_predicted_position", "searches around where free fall would lead to",
+                   value(site::clip, projects_predicted)});
+    all.push_back({"all_of_predicted_position", "searches as if it were where free fall would lead to",
+                   value(site::clip, projects_predicted, &own_predicted)});
+    all.push_back({"behind_camera_skipped", "who is behind the camera, w <= 0, does not search",
+                   search([](Floats v, Run run) { keep_where(v, [&] { return clip_w(run) > 0.0F; }); })});
+    all.push_back(
+        {"outside_depth_skipped", "who is beyond the near or far plane does not search", search([](Floats v, Run run) {
+             keep_where(v, [&] { return std::abs(run.of(site::clip)[2]) <= clip_w(run); });
+         })});
+    all.push_back({"whole_window_required", "who is nearer to the image's border than the range does not search",
+                   search([](Floats v, Run run) {
+                       const FrameParams& p = params(run);
+                       const auto& at = run.of(site::image_position);
+                       const auto r = static_cast<float>(reach(run));
+                       keep_where(v, [&] {
+                           return std::floor(at[0]) >= r && std::floor(at[1]) >= r &&
+                                  std::floor(at[0]) < static_cast<float>(p.width) - r &&
+                                  std::floor(at[1]) < static_cast<float>(p.height) - r;
+                       });
+                   })});
+    all.push_back({"searches_a_tick_late", "searches at collide time < -tick", search([](Floats v, Run run) {
+                       v[0] = real(run, site::collide_time_before) < -tick(run) ? 1.0F : 0.0F;
+                   })});
+    all.push_back({"searches_a_tick_early", "searches at collide time - tick < 0", search([](Floats v, Run run) {
+                       v[0] = real(run, site::collide_time_before) - tick(run) < 0.0F ? 1.0F : 0.0F;
+                   })});
+}
+
+} // namespace lockstep::formulas

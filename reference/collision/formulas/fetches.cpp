@@ -1,0 +1,109 @@
+#include "reference/collision/formulas/words.hpp"
+
+#include <utility>
+
+namespace lockstep::formulas {
+
+void add_fetches(std::vector<FormulaMistake>& all) {
+    all.push_back(
+        {"radius_is_one", "1 for u_TexelCollideRange", {.site = site::texel_collide_range.id, .change = Change::one}});
+    all.push_back(
+        {"radius_halved", "u_TexelCollideRange / 2", {.site = site::texel_collide_range.id, .change = Change::halved}});
+    all.push_back({"radius_doubled",
+                   "2 * u_TexelCollideRange",
+                   {.site = site::texel_collide_range.id, .change = Change::doubled}});
+    all.push_back(
+        {"range_doubled", "2 * u_CollisionRange", {.site = site::collision_range.id, .change = Change::doubled}});
+    all.push_back(
+        {"range_halved", "u_CollisionRange / 2", {.site = site::collision_range.id, .change = Change::halved}});
+    all.push_back({"border_never_read", "the image's outermost texels are never read", fetch([](Floats v, Run) {
+                       if (v[0] < 1.0F || v[1] < 1.0F || v[0] > v[2] - 2.0F || v[1] > v[3] - 2.0F)
+                           leave_out(v);
+                   })});
+    all.push_back({"last_column_never_read", "the image's last column is never read", fetch([](Floats v, Run) {
+                       if (v[0] > v[2] - 2.0F)
+                           leave_out(v);
+                   })});
+    all.push_back({"last_row_never_read", "the image's last row is never read", fetch([](Floats v, Run) {
+                       if (v[1] > v[3] - 2.0F)
+                           leave_out(v);
+                   })});
+    all.push_back({"first_column_never_read", "the image's first column is never read", fetch([](Floats v, Run) {
+                       if (v[0] < 1.0F)
+                           leave_out(v);
+                   })});
+    all.push_back({"first_row_never_read", "the image's first row is never read", fetch([](Floats v, Run) {
+                       if (v[1] < 1.0F)
+                           leave_out(v);
+                   })});
+    all.push_back({"last_texels_never_read", "the image's last row and column are never read", fetch([](Floats v, Run) {
+                       if (v[0] > v[2] - 2.0F || v[1] > v[3] - 2.0F)
+                           leave_out(v);
+                   })});
+    all.push_back(
+        {"first_texels_never_read", "the image's first row and column are never read", fetch([](Floats v, Run) {
+             if (v[0] < 1.0F || v[1] < 1.0F)
+                 leave_out(v);
+         })});
+    all.push_back({"outside_mirrored", "texels outside are mirrored at the border", fetch([](Floats v, Run) {
+                       for (std::size_t c = 0; c < 2; ++c)
+                           v[c] = v[c] < 0.0F ? -v[c] - 1.0F : v[c] >= v[2 + c] ? 2.0F * v[2 + c] - 1.0F - v[c] : v[c];
+                   })});
+    all.push_back(
+        {"outside_mirrored_without_edge", "texels outside are mirrored at the edge texels", fetch([](Floats v, Run) {
+             for (std::size_t c = 0; c < 2; ++c)
+                 v[c] = v[c] < 0.0F ? -v[c] : v[c] >= v[2 + c] ? 2.0F * v[2 + c] - 2.0F - v[c] : v[c];
+         })});
+    all.push_back({"bounds_of_width_alone", "a texel's y is held against the width", fetch([](Floats v, Run) {
+                       if (v[1] >= v[2])
+                           leave_out(v);
+                   })});
+    all.push_back({"bounds_of_height_alone", "a texel's x is held against the height", fetch([](Floats v, Run) {
+                       if (v[0] >= v[3])
+                           leave_out(v);
+                   })});
+    all.push_back(
+        {"bounds_swapped", "a texel's x is held against the height, its y against the width", fetch([](Floats v, Run) {
+             if (v[0] >= v[3] || v[1] >= v[2])
+                 leave_out(v);
+         })});
+    all.push_back({"fetched_x_and_y_swapped", "the texel read has x and y swapped",
+                   fetch([](Floats v, Run) { std::swap(v[0], v[1]); })});
+    all.push_back({"fetched_upside_down", "the texel read is size.y - 1 - y",
+                   fetch([](Floats v, Run) { v[1] = v[3] - 1.0F - v[1]; })});
+    all.push_back({"fetched_mirrored", "the texel read is size.x - 1 - x",
+                   fetch([](Floats v, Run) { v[0] = v[2] - 1.0F - v[0]; })});
+    all.push_back(
+        {"first_texel_of_row_for_all", "every column reads the row's first texel", fetch([](Floats v, Run run) {
+             if (v[0] >= 0.0F && v[0] < v[2])
+                 v[0] = std::clamp(run.of(site::base_texel)[0] - static_cast<float>(reach(run)), 0.0F, v[2] - 1.0F);
+         })});
+    all.push_back(
+        {"corner_sampled", "a texel is sampled at its corner, x / width, not at its centre", fetch([](Floats v, Run) {
+             for (std::size_t c = 0; c < 2; ++c)
+                 if (v[c] >= 0.0F && v[c] < v[2 + c])
+                     v[c] = std::floor(v[c] / v[2 + c] * v[2 + c]);
+         })});
+    all.push_back({"origin_is_empty", "a texel is empty where its position is the origin", holds([](Floats v, Run run) {
+                       const auto& texel = run.of(site::neighbour);
+                       v[0] = texel[0] != 0.0F || texel[1] != 0.0F || texel[2] != 0.0F ? 1.0F : 0.0F;
+                   })});
+    all.push_back({"zero_x_is_empty", "a texel is empty where its x is 0",
+                   holds([](Floats v, Run run) { v[0] = run.of(site::neighbour)[0] != 0.0F ? 1.0F : 0.0F; })});
+    all.push_back({"zero_y_is_empty", "a texel is empty where its y is 0",
+                   holds([](Floats v, Run run) { v[0] = run.of(site::neighbour)[1] != 0.0F ? 1.0F : 0.0F; })});
+    all.push_back({"zero_z_is_empty", "a texel is empty where its z is 0",
+                   holds([](Floats v, Run run) { v[0] = run.of(site::neighbour)[2] != 0.0F ? 1.0F : 0.0F; })});
+    all.push_back({"any_zero_is_empty", "a texel is empty where x, y or z is 0", holds([](Floats v, Run run) {
+                       const auto& texel = run.of(site::neighbour);
+                       v[0] = texel[0] != 0.0F && texel[1] != 0.0F && texel[2] != 0.0F ? 1.0F : 0.0F;
+                   })});
+    all.push_back({"positive_x_is_valid", "a texel holds a particle where its x is above 0",
+                   holds([](Floats v, Run run) { v[0] = run.of(site::neighbour)[0] > 0.0F ? 1.0F : 0.0F; })});
+    all.push_back({"positive_y_is_valid", "a texel holds a particle where its y is above 0",
+                   holds([](Floats v, Run run) { v[0] = run.of(site::neighbour)[1] > 0.0F ? 1.0F : 0.0F; })});
+    all.push_back({"positive_z_is_valid", "a texel holds a particle where its z is above 0",
+                   holds([](Floats v, Run run) { v[0] = run.of(site::neighbour)[2] > 0.0F ? 1.0F : 0.0F; })});
+}
+
+} // namespace lockstep::formulas

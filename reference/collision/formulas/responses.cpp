@@ -1,0 +1,179 @@
+#include "reference/collision/formulas/words.hpp"
+
+#include <utility>
+
+#include "reference/collision/formulas/fits.hpp"
+
+namespace lockstep::formulas {
+namespace {
+
+constexpr std::array three{0.0F, 1.0F, 2.0F};
+constexpr std::array six{0.0F, 1.0F, 2.0F, 3.0F, 4.0F, 5.0F};
+
+} // namespace
+
+void add_responses(std::vector<FormulaMistake>& all) {
+    static const auto reflected = [](Run run) {
+        const glm::vec3 n = unit_away(run), d = old_direction(run);
+        return d - 2.0F * glm::dot(n, d) * n;
+    };
+    all.push_back({"reflected_at_hit", "at a hit: the old direction reflected, not away from the nearest",
+                   hit_direction([](Floats v, Run run) { set(v, reflected(run)); })});
+    all.push_back({"reflected_where_approaching", "at a hit: the old direction, reflected where it approaches",
+                   hit_direction([](Floats v, Run run) {
+                       set(v,
+                           glm::dot(unit_away(run), old_direction(run)) < 0.0F ? reflected(run) : old_direction(run));
+                   })});
+    all.push_back({"direction_negated_at_hit", "at a hit: the old direction, negated",
+                   hit_direction([](Floats v, Run run) { set(v, -old_direction(run)); })});
+    all.push_back({"slides_at_hit", "at a hit: the old direction without its part along away",
+                   hit_direction([](Floats v, Run run) {
+                       const glm::vec3 n = unit_away(run), d = old_direction(run);
+                       set(v, glm::normalize(d - n * glm::dot(d, n)));
+                   })});
+    all.push_back(
+        {"mean_of_away_and_old_direction", "at a hit: the mean of away and the old direction",
+         hit_direction([](Floats v, Run run) { set(v, glm::normalize(unit_away(run) + old_direction(run))); })});
+    all.push_back(
+        {"away_plus_old_direction", "at a hit: away, not normalised, plus the old direction",
+         hit_direction([](Floats v, Run run) { set(v, glm::normalize(vec3(run, site::away) + old_direction(run))); })});
+    all.push_back({"half_of_away_and_old_direction", "at a hit: half of away plus the old direction, not normalised",
+                   hit_direction([](Floats v, Run run) { set(v, 0.5F * (unit_away(run) + old_direction(run))); })});
+    all.push_back({"sideways_at_hit", "at a hit: the cross product of away and an axis",
+                   hit_direction([](Floats v, Run run) {
+                       glm::vec3 axis(0.0F);
+                       const auto which = static_cast<int>(run.constants[0]);
+                       axis[which % 3] = which < 3 ? 1.0F : -1.0F;
+                       set(v, glm::normalize(glm::cross(vec3(run, site::away), axis)));
+                   }),
+                   six});
+    all.push_back({"flat_at_hit", "at a hit: away without x, y or z", hit_direction([](Floats v, Run run) {
+                       glm::vec3 away = vec3(run, site::away);
+                       away[static_cast<int>(run.constants[0])] = 0.0F;
+                       set(v, glm::normalize(away));
+                   }),
+                   three});
+    all.push_back(
+        {"away_over_range", "at a hit: away / u_CollisionRange, not normalised", hit_direction([](Floats v, Run run) {
+             set(v, vec3(run, site::away) / params(run).constants.collision_range);
+         })});
+    static const Mistake fall_by_greatest = value(site::direction, [](Floats v, Run run) {
+        const glm::vec3 velocity = vec3(run, site::velocity);
+        set(v, velocity / greatest(velocity));
+    });
+    static const Formula by_greatest = [](Floats v, Run run) {
+        set(v, vec3(run, site::away) / greatest(vec3(run, site::away)));
+    };
+    all.push_back({"normalised_by_greatest", "directions are divided by their greatest component",
+                   value(site::direction_at_hit, by_greatest, &fall_by_greatest)});
+    all.push_back({"normalised_by_greatest_at_hit", "at a hit: away divided by its greatest component",
+                   hit_direction(by_greatest)});
+    all.push_back({"normalised_by_greatest_in_fall", "no hit: the direction is divided by its greatest component",
+                   fall_by_greatest});
+    static const auto pulled = [](Run run) {
+        return unit_away(run) * (real(run, site::speed_before) * params(run).switches.speed_factor) + fall(run);
+    };
+    static const Mistake pulled_speed =
+        value(site::speed_at_hit, [](Floats v, Run run) { v[0] = glm::length(pulled(run)); });
+    all.push_back(
+        {"gravity_at_hit", "at a hit: gravity acts, too",
+         value(
+             site::direction_at_hit, [](Floats v, Run run) { set(v, glm::normalize(pulled(run))); }, &pulled_speed)});
+    all.push_back({"gravity_moves_at_hit", "at a hit: gravity * tick * tick is added to the position",
+                   hit_position([](Floats v, Run run) { set(v, get(v) + fall(run) * tick(run)); })});
+    all.push_back({"gravity_added_to_position_at_hit", "at a hit: gravity * tick is added to the position",
+                   hit_position([](Floats v, Run run) { set(v, get(v) + fall(run)); })});
+    static const auto neighbour = [](Run run) { return before(run) - vec3(run, site::away); };
+    static const auto hit_step = [](Run run) { return vec3(run, site::moves_along) * real(run, site::moves_by); };
+    all.push_back({"pushed_out_to_range", "at a hit: set on the sphere of the range around the neighbour",
+                   hit_position([](Floats v, Run run) {
+                       set(v, neighbour(run) + unit_away(run) * params(run).constants.collision_range);
+                   })});
+    all.push_back({"pushed_half_out", "at a hit: moved out by half of what is missing to the range",
+                   hit_position([](Floats v, Run run) {
+                       const float missing = params(run).constants.collision_range - glm::length(vec3(run, site::away));
+                       set(v, before(run) + unit_away(run) * (0.5F * missing));
+                   })});
+    all.push_back({"pushed_by_range", "at a hit: moves by u_CollisionRange", hit_position([](Floats v, Run run) {
+                       set(v, before(run) + unit_away(run) * params(run).constants.collision_range);
+                   })});
+    all.push_back({"pushed_by_distance", "at a hit: moves by the distance to the neighbour",
+                   hit_position([](Floats v, Run run) { set(v, before(run) + vec3(run, site::away)); })});
+    static const auto speed_of_hit = [](Run run) {
+        return real(run, site::speed_before) * params(run).switches.speed_factor;
+    };
+    static const auto velocity_after_hit = [](Run run) { return unit_away(run) * speed_of_hit(run) + fall(run); };
+    static const Mistake falls_to = hit_position([](Floats v, Run run) {
+        const bool by_tick = params(run).switches.collision_step == CollisionStep::tick;
+        const glm::vec3 step = unit_away(run) * speed_of_hit(run) * (by_tick ? tick(run) : 1.0F);
+        set(v, before(run) + step + velocity_after_hit(run) * tick(run));
+    });
+    static const Mistake falls_faster = value(
+        site::speed_at_hit, [](Floats v, Run run) { v[0] = glm::length(velocity_after_hit(run)); }, &falls_to);
+    static const Mistake counts_too = value(
+        site::collide_time_at_hit, [](Floats v, Run run) { v[0] -= tick(run); }, &falls_faster);
+    all.push_back({"falls_after_hit_too", "at a hit: the step of free fall follows",
+                   value(
+                       site::direction_at_hit,
+                       [](Floats v, Run run) { set(v, glm::normalize(velocity_after_hit(run))); }, &counts_too)});
+    all.push_back(
+        {"speed_less_factor_at_hit", "at a hit: speed - factor", value(site::speed_at_hit, [](Floats v, Run run) {
+             v[0] = real(run, site::speed_before) - params(run).switches.speed_factor;
+         })});
+    all.push_back({"upwards_at_hit", "at a hit: the direction is straight up", hit_direction([](Floats v, Run) {
+                       set(v, {0.0F, 1.0F, 0.0F});
+                   })});
+    all.push_back({"against_gravity_at_hit", "at a hit: the direction is against gravity",
+                   hit_direction([](Floats v, Run run) { set(v, -glm::normalize(params(run).constants.gravity)); })});
+    all.push_back({"away_from_origin_at_hit", "at a hit: the direction is away from the origin",
+                   hit_direction([](Floats v, Run run) { set(v, glm::normalize(before(run))); })});
+    all.push_back({"starts_at_neighbour", "at a hit: the step starts at the neighbour's position",
+                   hit_position([](Floats v, Run run) { set(v, get(v) - vec3(run, site::away)); })});
+    all.push_back(
+        {"tick_squared_at_hit", "at a hit: moves by dir * speed * tick * tick",
+         hit_position([](Floats v, Run run) { set(v, before(run) + hit_step(run) * (tick(run) * tick(run))); })});
+    all.push_back({"moves_back_at_hit", "at a hit: moves backwards",
+                   hit_position([](Floats v, Run run) { set(v, before(run) - (get(v) - before(run))); })});
+    all.push_back({"speed_by_depth", "at a hit: speed * factor * distance / range",
+                   value(site::speed_at_hit, [](Floats v, Run run) {
+                       v[0] *= glm::length(vec3(run, site::away)) / params(run).constants.collision_range;
+                   })});
+    all.push_back({"speed_by_penetration", "at a hit: speed * factor * (1 - distance / range)",
+                   value(site::speed_at_hit, [](Floats v, Run run) {
+                       v[0] *= 1.0F - glm::length(vec3(run, site::away)) / params(run).constants.collision_range;
+                   })});
+    all.push_back({"speed_is_distance", "at a hit: distance * factor", value(site::speed_at_hit, [](Floats v, Run run) {
+                       v[0] = glm::length(vec3(run, site::away)) * params(run).switches.speed_factor;
+                   })});
+    all.push_back({"speed_is_factor", "at a hit: the speed is the factor",
+                   value(site::speed_at_hit, [](Floats v, Run run) { v[0] = params(run).switches.speed_factor; })});
+    all.push_back(
+        {"speed_divided_by_factor", "at a hit: speed / factor", value(site::speed_at_hit, [](Floats v, Run run) {
+             v[0] = real(run, site::speed_before) / params(run).switches.speed_factor;
+         })});
+    all.push_back({"speed_by_tick", "at a hit: speed * factor * tick",
+                   value(site::speed_at_hit, [](Floats v, Run run) { v[0] *= tick(run); })});
+    all.push_back({"speed_by_approach", "at a hit: the speed along away, times the factor",
+                   value(site::speed_at_hit, [](Floats v, Run run) {
+                       v[0] = std::abs(glm::dot(old_velocity(run), unit_away(run))) * params(run).switches.speed_factor;
+                   })});
+    static const Formula a_constant = [](Floats v, Run run) { v[0] = run.constants[0]; };
+    all.push_back({"collision_time_is_a_constant",
+                   "a constant for u_CollisionTime",
+                   value(site::collide_time_at_hit, a_constant),
+                   {},
+                   collide_time_of});
+    all.push_back({"speed_factor_is_a_constant",
+                   "a constant for u_SpeedFactor",
+                   value(site::speed_factor, a_constant),
+                   {},
+                   factor_of});
+    all.push_back({"collide_time_counts_on_at_hit", "at a hit: collide time goes on counting, and is not set",
+                   value(site::collide_time_at_hit,
+                         [](Floats v, Run run) { v[0] = real(run, site::collide_time_before) - tick(run); })});
+    all.push_back(
+        {"collide_time_added_at_hit", "at a hit: collision time is added to the collide time",
+         value(site::collide_time_at_hit, [](Floats v, Run run) { v[0] += real(run, site::collide_time_before); })});
+}
+
+} // namespace lockstep::formulas

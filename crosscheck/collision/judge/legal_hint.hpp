@@ -12,15 +12,17 @@ namespace lockstep {
 class LegalHint {
   public:
     static constexpr std::size_t tried_a_frame = 32;
+    static constexpr std::size_t judged_frames = 16; ///< as a whole, where a point is drawn otherwise
 
     /// The divergent items of a frame that was judged by Legal::measured.
     void add(const JudgedFrame& frame, const FrameVerdicts& verdicts);
 
-    /// The narrowest rule by which every particle that was tried is legal, and every texel follows one; none.
+    /// The narrowest rule by which every particle that was tried is legal, and every frame with points that are
+    /// drawn otherwise; none.
     [[nodiscard]] std::optional<Legal> rule() const;
 
   private:
-    std::size_t tried_ = 0;
+    std::size_t tried_ = 0, frames_drawn_otherwise_ = 0;
     bool by_glsl_ = true, by_any_order_ = true;
 };
 

@@ -3,7 +3,7 @@ import { jsonBlob } from "./data.js";
 import { commandLine, h, scrolling, section } from "./dom.js";
 import { classChip } from "./inspector.js";
 import { grouped } from "./numbers.js";
-import { SAME } from "./picture.js";
+import { CLASS_NAMES, SAME } from "./picture.js";
 import { fieldName } from "./schema.js";
 import { place, ROW_WORDS } from "./words.js";
 
@@ -40,6 +40,7 @@ export function rowsTable(caption, rows, profile) {
   );
 }
 
+const placeTitle = (item) => `${place(item)[0].toUpperCase()}${place(item).slice(1)}`;
 const samePlace = (a, b) => a && b && a[0] === b[0] && a[1] === b[1];
 
 // The texels both sides look at, with their base texels and picks.
@@ -81,9 +82,20 @@ function neighbourhood(round) {
 
 export const valueText = (values) => (values.length === 1 ? values[0].value : `(${values.map((v) => v.value).join(", ")})`);
 
-function particlePart(particle, profile) {
+const isWrong = ({ rows }) => rows.some(({ verdict }) => verdict === "DIVERGENT");
+
+// Why an item is divergent though no step of this particle is.
+function whyAllSame(item, particle, all) {
+  if (CLASS_NAMES[item.class] !== "divergent" || !particle.rows.every(({ verdict }) => verdict === "same" || verdict === "")) return null;
+  const wrong = all.filter(isWrong).map((other) => other.particle);
+  const because = wrong.length > 0 ? `because particle ${wrong.join(" and particle ")} moved wrongly` : "in what was drawn";
+  return h("p", { class: "muted" }, `Every step of particle ${particle.particle} is the same on both sides. ${placeTitle(item)} differs only ${because}.`);
+}
+
+function particlePart(item, particle, all, profile) {
   const { before } = particle;
   return [
+    whyAllSame(item, particle, all),
     particle.warning ? h("p", { class: "warning" }, particle.warning) : null,
     h("p", {}, `Particle ${particle.particle} before: ${before.map(({ name, values }) => `${fieldName(name)} ${valueText(values)}`).join(", ")}.`),
     particle.untraced ? h("p", { class: "muted" }, "The GPU's steps between were not traced, so there the reference's stand alone.") : null,
@@ -94,7 +106,7 @@ function particlePart(particle, profile) {
 
 function told(head, item, table) {
   const profile = head.report.profile.split(":")[0];
-  const title = h("h3", { tabindex: "-1", id: "steps-of" }, `${place(item)[0].toUpperCase()}${place(item).slice(1)} in frame ${grouped(item.frame)} `, classChip(item.class));
+  const title = h("h3", { tabindex: "-1", id: "steps-of" }, `${placeTitle(item)} in frame ${grouped(item.frame)} `, classChip(item.class));
   const parts = [title, commandLine(item.command)];
   if (!table) return [...parts, h("p", {}, "There is no step table of this run; the command makes one where it can be followed step by step.")];
   if (table.texel)
@@ -102,7 +114,7 @@ function told(head, item, table) {
       scrolling("who wanted this texel", rowsTable("Who wanted this texel, and what is stored", table.texel.rows, profile)),
       h("details", {}, h("summary", {}, "Why this verdict"), h("pre", { tabindex: "0" }, table.texel.why)),
     );
-  return [...parts, ...table.particles.flatMap((particle) => particlePart(particle, profile))];
+  return [...parts, ...table.particles.flatMap((particle) => particlePart(item, particle, table.particles, profile))];
 }
 
 export function stepsSection(head, selection) {

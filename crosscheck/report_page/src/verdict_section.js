@@ -8,8 +8,7 @@ import { VERDICTS } from "./words.js";
 export function pageHeader(head) {
   const { report } = head;
   return [
-    h("p", { class: "brand" }, "lockstep", h("span", { class: "muted" }, " report")),
-    h("p", { class: "scene" }, report.scene),
+    h("h1", {}, h("span", { class: "brand" }, "lockstep", h("span", { class: "muted" }, " report")), h("span", { class: "scene" }, report.scene)),
     themeButton(),
   ];
 }

@@ -15,7 +15,7 @@ void refute_causes(CheckReport& report, std::span<const NamedMistake> mistakes) 
         if (mistake.first_frame && *mistake.first_frame < report.verdicts->first->place.frame)
             refuted.insert(mistake.name);
     for (const NamedMistake& mistake : mistakes)
-        if (!mistake.is_exact())
+        if (!mistake.is_exact() || mistake.mistake.site == 0 || mistake.mistake.change == Change::spoiled)
             refuted.erase(mistake.name);
     for (CauseFindings& found : report.verdicts->causes)
         std::erase_if(found.best, [&](const Cause& cause) {

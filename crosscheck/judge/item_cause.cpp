@@ -268,17 +268,17 @@ CauseFindings ItemCauseFinder::findings() const {
     CauseFindings found = joint_.findings();
     const bool one_name = found.explains_all() && found.best.front().mistakes.size() == 1;
     const CauseFindings single = of_single(one_name);
+    const auto is_told = [&](const Cause& cause) {
+        return std::any_of(found.best.begin(), found.best.end(), [&](const Cause& told) {
+            return std::is_permutation(told.mistakes.begin(), told.mistakes.end(), cause.mistakes.begin(),
+                                       cause.mistakes.end());
+        });
+    };
     if (!one_name) {
         // Among thousands of changes without a name one explains a few items by chance.
         if (single.explains_all() && (single.best.front().has_name || single.divergent >= enough_evidence)) {
             if (!found.explains_all() || single.best.front().mistakes.size() == 1)
                 return single;
-            const auto is_told = [&](const Cause& cause) {
-                return std::any_of(found.best.begin(), found.best.end(), [&](const Cause& told) {
-                    return std::is_permutation(told.mistakes.begin(), told.mistakes.end(), cause.mistakes.begin(),
-                                               cause.mistakes.end());
-                });
-            };
             std::copy_if(single.best.begin(), single.best.end(), std::back_inserter(found.best), std::not_fn(is_told));
             return found;
         }
@@ -288,7 +288,7 @@ CauseFindings ItemCauseFinder::findings() const {
     }
     if (single.explains_all())
         for (const Cause& cause : single.best)
-            if (cause.has_name)
+            if (cause.has_name && !is_told(cause))
                 found.best.push_back(cause);
     return found;
 }

@@ -80,7 +80,7 @@ std::string closest_text(const CauseFindings& found, std::string_view what) {
     if (is_told(found) || found.best.empty())
         return "";
     const Cause& best = found.best.front();
-    if (best.contradicted > 0 || 10 * best.explained < found.divergent || !best.has_name)
+    if (best.contradicted > 0 || 10 * best.explained < found.divergent || !best.has_name || best.mistakes.size() > 1)
         return "";
     return fmt::format("{} of {} {} are explained by {}: {}{}", grouped(best.explained), grouped(found.divergent), what,
                        best.name(), best.meaning, equals_text(found));

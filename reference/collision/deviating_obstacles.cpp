@@ -24,6 +24,10 @@ void spoil(Corners<glm::vec3>& stored, const Deviations& deviations) {
         std::swap(stored[1], stored[2]);
     if (deviations.has(Deviation::obstacle_first_and_third_swapped))
         std::swap(stored[0], stored[2]);
+    if (deviations.has(Deviation::obstacle_corners_rotated))
+        stored = {stored[1], stored[2], stored[0]};
+    if (deviations.has(Deviation::obstacle_corners_rotated_back))
+        stored = {stored[2], stored[0], stored[1]};
     if (deviations.has(Deviation::obstacle_first_corner_alone))
         stored.fill(stored[0]);
     if (deviations.has(Deviation::obstacle_last_corner_alone))
@@ -57,9 +61,13 @@ template <class A> void draw(A fp, const Mesh& obstacles, const FrameParams& par
         const TriangleInterpolation<A> interpolation(fp, placed, params.width, params.height);
         const int centre = deviations.has(Deviation::obstacle_at_pixel_corner) ? 0 : 1;
         return [&, stored, interpolation, centre](int x, int y, const auto&, float) {
-            const auto weights = interpolation.weights(
+            auto weights = interpolation.weights(
                 interpolation.edges_at(2 * x + centre - params.width, 2 * y + centre - params.height));
+            if (deviations.has(Deviation::obstacle_shares_exchanged))
+                std::swap(weights.second, weights.third);
             float at = interpolation.depth(weights);
+            if (deviations.has(Deviation::obstacle_depth_zero))
+                at = 0.0F;
             if (deviations.has(Deviation::obstacle_depth_not_halved))
                 at = clamp_to(at * 2.0F - 1.0F, 1.0F);
             if (!(at < depth.at(x, y)))

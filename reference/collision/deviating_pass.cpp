@@ -49,6 +49,10 @@ template <class A> class DeviatingPoint {
             shift_ = {1.0F, 1.0F};
         if (has(Deviation::point_half_pixel_down))
             shift_ = {-1.0F, -1.0F};
+        if (has(Deviation::point_half_pixel_right) || has(Deviation::point_half_pixel_left))
+            shift_.x = has(Deviation::point_half_pixel_right) ? 1.0F : -1.0F;
+        if (has(Deviation::point_half_pixel_higher) || has(Deviation::point_half_pixel_lower))
+            shift_.y = has(Deviation::point_half_pixel_higher) ? 1.0F : -1.0F;
         if (has(Deviation::point_pixel_right) || has(Deviation::point_pixel_left))
             shift_.x = has(Deviation::point_pixel_right) ? 2.0F : -2.0F;
         if (has(Deviation::point_pixel_up) || has(Deviation::point_pixel_down))
@@ -76,6 +80,8 @@ template <class A> class DeviatingPoint {
             clip.x = -clip.x;
         if (has(Deviation::point_x_and_y_swapped))
             std::swap(clip.x, clip.y);
+        if (has(Deviation::point_flat))
+            clip = {fp_.divide(clip.x, clip.w), fp_.divide(clip.y, clip.w), 0.0F, 1.0F};
         if (shift_.x != 0.0F)
             clip.x += clip.w * (shift_.x / static_cast<float>(params_.width));
         if (shift_.y != 0.0F)
@@ -239,7 +245,9 @@ void deviating_draw(const FrameInputs& inputs, const Particles& after, const Pro
     with_mistaken_arithmetic<true>(profile, params.switches.arithmetic, made, [&](auto fp) {
         DeviatingPoint fragment(fp, params, made, deviations, profile.raster);
         for (std::size_t i = 0; i < positions.size(); ++i) {
-            PointFragment point = fragment(positions[i]);
+            const bool was = deviations.has(Deviation::point_of_position_before_at_hit) &&
+                             after.collide_time[i] > inputs.before->collide_time[i];
+            PointFragment point = fragment(was ? inputs.before->position[i] : positions[i]);
             if (deviations.has(Deviation::fragment_depth_reversed))
                 point.depth = 1.0F - point.depth;
             if (deviations.has(Deviation::fragment_depth_zero))

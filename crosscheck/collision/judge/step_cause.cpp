@@ -64,12 +64,12 @@ class TexelTrials {
           obstacles_cdt_(frame.params.width, frame.params.height),
           obstacles_depth_(frame.params.width, frame.params.height, 1.0F) {
         obstacle_pass(frame.obstacles, frame.params, frame.profile, obstacles_cdt_, obstacles_depth_);
-        const CollisionImage expected = draw({});
-        for (std::size_t texel = 0; texel < expected.texels.size(); ++texel)
-            if (same_bits(expected.texels[texel], frame.gpu_cdt.texels[texel]))
+        expected_ = draw({});
+        for (std::size_t texel = 0; texel < expected_.texels.size(); ++texel)
+            if (same_bits(expected_.texels[texel], frame.gpu_cdt.texels[texel]))
                 agreeing_.push_back(texel);
         for (const std::size_t texel : agreeing_)
-            particles_agree_ = particles_agree_ || is_particle(expected, texel);
+            particles_agree_ = particles_agree_ || is_particle(expected_, texel);
     }
 
     void count(std::vector<TriedCause>& causes, const std::vector<std::size_t>& divergent) const {
@@ -90,7 +90,7 @@ class TexelTrials {
                     return same_bits(a, b) || (near && differ_by_rounding(std::span(&a.x, 4), std::span(&b.x, 4), {}));
                 }));
             };
-            const std::uint64_t explained = equal(divergent);
+            const std::uint64_t explained = rounds && only_round(divergent) ? 0 : equal(divergent);
             cause.explained += explained;
             if (explained > 0)
                 cause.contradicted += agreeing_.size() - equal(agreeing_);
@@ -105,6 +105,14 @@ class TexelTrials {
     }
 
   private:
+    /// Whether most differ by rounding alone: that something comes near says nothing then.
+    [[nodiscard]] bool only_round(const std::vector<std::size_t>& texels) const {
+        const auto rounded = std::count_if(texels.begin(), texels.end(), [&](std::size_t texel) {
+            const glm::vec4 &a = expected_.texels[texel], &b = frame_.gpu_cdt.texels[texel];
+            return differ_by_rounding(std::span(&a.x, 4), std::span(&b.x, 4), {});
+        });
+        return 2 * static_cast<std::size_t>(rounded) >= texels.size();
+    }
     [[nodiscard]] bool is_particle(const CollisionImage& drawn, std::size_t texel) const {
         return drawn.texels[texel].a != 0.0F && !same_bits(drawn.texels[texel], obstacles_cdt_.texels[texel]);
     }
@@ -117,6 +125,7 @@ class TexelTrials {
     const JudgedFrame& frame_;
     FrameInputs inputs_;
     std::vector<std::size_t> agreeing_;
+    CollisionImage expected_;
     bool particles_agree_ = false; ///< in any texel
     CollisionImage obstacles_cdt_;
     DepthImage obstacles_depth_;

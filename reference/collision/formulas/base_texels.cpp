@@ -7,6 +7,7 @@
 namespace lockstep::formulas {
 namespace {
 
+constexpr std::array bands{1.01F, 1.05F, 1.1F, 1.2F, 1.25F, 1.5F, 2.0F};
 constexpr std::array four{0.0F, 1.0F, 2.0F, 3.0F};
 
 } // namespace
@@ -50,6 +51,32 @@ void add_base_texels(std::vector<FormulaMistake>& all) {
                  if (v[c] >= 0.0F)
                      v[c] -= std::fmod(v[c], 2.0F);
          })});
+    all.push_back({"base_texel_of_last_rounded", "the base texel is uv * (size - 1), rounded to nearest",
+                   value(site::base_texel, [](Floats v, Run run) {
+                       const auto& uv = run.of(site::texture_coordinate);
+                       v[0] = std::round(uv[0] * static_cast<float>(params(run).width - 1));
+                       v[1] = std::round(uv[1] * static_cast<float>(params(run).height - 1));
+                   })});
+    static const Mistake from_outside = value(site::base_texel, [](Floats v, Run run) {
+        const auto& p = run.of(site::image_position);
+        for (std::size_t c = 0; c < 2; ++c)
+            v[c] = std::floor(p[c]);
+    });
+    all.push_back({"guard_band_searches", "who is outside the image by less than a constant of NDC searches, too",
+                   at(
+                       site::base_texel, Change::decided_by_formula,
+                       [](Floats v, Run run) {
+                           const auto& ndc = run.of(site::ndc);
+                           v[0] =
+                               std::abs(ndc[0]) < run.constants[0] && std::abs(ndc[1]) < run.constants[0] ? 1.0F : 0.0F;
+                       },
+                       &from_outside),
+                   bands});
+    all.push_back({"outside_half_depth_skipped", "who is beyond clip z from 0 to w, Direct3D's, does not search",
+                   search([](Floats v, Run run) {
+                       keep_where(
+                           v, [&] { return run.of(site::clip)[2] >= 0.0F && run.of(site::clip)[2] <= clip_w(run); });
+                   })});
     all.push_back(
         {"height_for_width", "u_ClientHeight scales x, too", value(site::scale, [](Floats v, Run) { v[0] = v[1]; })});
     all.push_back(

@@ -73,6 +73,14 @@ void add_choices(std::vector<FormulaMistake>& all) {
               [](Floats v, Run run) { v[0] = glm::length(glm::vec2(vec3(run, site::apart))); });
     ends_with("nearest_in_z", "the nearest in z alone",
               [](Floats v, Run run) { v[0] = std::abs(vec3(run, site::apart).z); });
+    ends_with("nearest_of_last_row", "the nearest of the last row that has one in range", [](Floats v, Run run) {
+        v[1] = v[0];
+        v[0] = -Texels(run).y;
+    });
+    ends_with("nearest_of_last_column", "the nearest of the last column that has one in range", [](Floats v, Run run) {
+        v[1] = v[0];
+        v[0] = -Texels(run).x;
+    });
     all.push_back({"range_with_tolerance", "in range up to a tolerance beyond the range",
                    in_range([](Floats v, Run run) {
                        v[0] = v[1] < v[2] + run.constants[0] && (v[0] != 0.0F || v[1] != 0.0F) ? 1.0F : 0.0F;

@@ -7,6 +7,7 @@
 namespace lockstep::formulas {
 namespace {
 
+constexpr std::array lengths{1e-1F, 1e-2F, 1e-3F, 1e-4F, 1e-5F, 1e-6F, 1e-7F, 1e-8F};
 constexpr std::array drags{0.5F, 0.8F, 0.9F, 0.95F, 0.98F, 0.99F, 0.995F, 0.999F, 0.9999F, 1.001F, 1.01F, 1.05F, 1.1F};
 
 template <int axis, bool floor> Mistake plane() {
@@ -134,6 +135,32 @@ void add_fall(std::vector<FormulaMistake>& all) {
                    value(site::speed, [](Floats v, Run run) { v[0] = std::max(v[0], run.constants[0]); }),
                    {},
                    speed_of});
+    all.push_back(
+        {"stored_speed_capped",
+         "no hit: the stored speed is at most a constant, the step is not",
+         value(
+             site::speed, [](Floats v, Run run) { v[0] = std::min(v[0], run.constants[0]); }, &moves_by_velocity),
+         {},
+         speed_of});
+    all.push_back(
+        {"stored_speed_at_least",
+         "no hit: the stored speed is at least a constant, the step is not",
+         value(
+             site::speed, [](Floats v, Run run) { v[0] = std::max(v[0], run.constants[0]); }, &moves_by_velocity),
+         {},
+         speed_of});
+    all.push_back({"length_with_epsilon", "no hit: velocity / (length + a constant)",
+                   value(site::direction,
+                         [](Floats v, Run run) {
+                             const glm::vec3 velocity = vec3(run, site::velocity);
+                             set(v, velocity / (glm::length(velocity) + run.constants[0]));
+                         }),
+                   lengths});
+    all.push_back({"collide_time_at_least",
+                   "collide time is not counted below a constant",
+                   value(site::collide_time, [](Floats v, Run run) { v[0] = std::max(v[0], run.constants[0]); }),
+                   {},
+                   collide_time_of});
     all.push_back({"velocity_stored_as_direction",
                    "no hit: the velocity is stored as the direction",
                    {.site = site::direction.id, .change = Change::not_done, .also = &moves_by_velocity}});

@@ -54,6 +54,31 @@ void add_windows(std::vector<FormulaMistake>& all) {
                    })});
     all.push_back({"every_other_offset_searched", "only texels with an even tx + ty are searched",
                    skipped([](Floats v, Run) { skip_too(v, [](int x, int y) { return (x + y) % 2 != 0; }); })});
+    all.push_back(
+        {"half_stencil_searched", "only texels after the base texel in reading order are searched",
+         skipped([](Floats v, Run) { skip_too(v, [](int x, int y) { return y < 0 || (y == 0 && x < 0); }); })});
+    all.push_back(
+        {"earlier_half_stencil_searched", "only texels before the base texel in reading order are searched",
+         skipped([](Floats v, Run) { skip_too(v, [](int x, int y) { return y > 0 || (y == 0 && x > 0); }); })});
+    all.push_back({"lower_triangle_searched", "only texels with tx <= ty are searched",
+                   skipped([](Floats v, Run) { skip_too(v, [](int x, int y) { return x > y; }); })});
+    all.push_back({"upper_triangle_searched", "only texels with tx >= ty are searched",
+                   skipped([](Floats v, Run) { skip_too(v, [](int x, int y) { return x < y; }); })});
+    all.push_back({"eight_texels_searched", "only the window's corners and the middles of its sides are searched",
+                   skipped([](Floats v, Run run) {
+                       const int r = std::max(reach(run), 1);
+                       skip_too(v, [&](int x, int y) { return x % r != 0 || y % r != 0; });
+                   })});
+    all.push_back({"next_texel_skipped_for_own", "the texel on the right is skipped, and the base texel searched",
+                   skipped([](Floats v, Run) {
+                       const Offset o = offset(v);
+                       v[0] = o.x == 1 && o.y == 0 ? 1.0F : 0.0F;
+                   })});
+    all.push_back({"texel_before_skipped_for_own", "the texel on the left is skipped, and the base texel searched",
+                   skipped([](Floats v, Run) {
+                       const Offset o = offset(v);
+                       v[0] = o.x == -1 && o.y == 0 ? 1.0F : 0.0F;
+                   })});
     const auto both_loops = [&](std::string_view name, std::string_view meaning, Formula formula, std::string_view rows,
                                 std::string_view columns) {
         static std::deque<Mistake> of_columns; // their place stays

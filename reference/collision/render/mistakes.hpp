@@ -43,7 +43,6 @@ enum class RenderMistake {
     half_pixel_off,
     half_pixel_further,
     disc_half_size,
-    disc_reversed,
     sphere_root_left_out,
     sphere_z_is_one,
     sphere_depth_by_diameter,
@@ -87,6 +86,7 @@ enum class RenderMistake {
     background_top_alone,
     background_half_pixel_off,
     background_to_last_row,
+    background_smoothed,
     obstacles_unlit,
     obstacles_lit_from_one_side,
     obstacle_normal_flipped,
@@ -94,6 +94,7 @@ enum class RenderMistake {
     obstacle_light_y_flipped,
     obstacle_light_z_flipped,
     obstacle_lambert_not_wrapped,
+    obstacle_lambert_squared,
     obstacle_wrap_not_squared,
     obstacle_ambient_missing,
     view_transposed,
@@ -146,6 +147,8 @@ class MistakenSites : public RightSites {
     template <class A> [[nodiscard]] auto background_up(A fp, int y, int height) const {
         using Real = typename NumbersOf<A>::Real;
         const Real up = RightSites::background_up(fp, y, height);
+        if (is(RenderMistake::background_smoothed))
+            return up * up * (Real(3.0F) - Real(2.0F) * up);
         if (is(RenderMistake::background_bottom_alone) || is(RenderMistake::background_top_alone))
             return Real(is(RenderMistake::background_top_alone) ? 1.0F : 0.0F);
         if (is(RenderMistake::background_half_pixel_off) || is(RenderMistake::background_to_last_row)) {
@@ -170,6 +173,8 @@ class MistakenSites : public RightSites {
         return is(RenderMistake::obstacles_unlit) ? Real(1.0F) : lambert;
     }
     template <class Real> [[nodiscard]] Real obstacle_brightness(Real lambert, Real wrapped, Real brightness) const {
+        if (is(RenderMistake::obstacle_lambert_squared))
+            return Real(0.125F) + Real(0.875F) * (clamp_to(lambert, 1.0F) * clamp_to(lambert, 1.0F));
         if (is(RenderMistake::obstacle_lambert_not_wrapped))
             return Real(0.125F) + Real(0.875F) * clamp_to(lambert, 1.0F);
         if (is(RenderMistake::obstacle_wrap_not_squared))
@@ -201,8 +206,6 @@ class MistakenSites : public RightSites {
     template <class Bool, class Real> [[nodiscard]] Bool in_disc(Bool inside, Real squared) const {
         if (is(RenderMistake::disc_half_size))
             return squared <= 0.25F;
-        if (is(RenderMistake::disc_reversed))
-            return squared >= 1.0F;
         if (!is_square())
             return inside;
         if constexpr (requires { inside.yes; })

@@ -40,6 +40,10 @@ Plant least(const std::string& cause, const std::string& scene, const std::strin
                 "                particle_min_length = " +
                 key + ";"};
 }
+/// Texels for which `condition` holds are skipped, and no others.
+Plant skips(const std::string& cause, const std::string& condition) {
+    return {cause, "crowd", "(tx == 0 && ty == 0)", "(" + condition + ")"};
+}
 /// At a hit, `statement` follows.
 Plant after_hit(const std::string& cause, const std::string& statement) {
     return {cause, "crowd", hit_position, hit_position + "    " + statement + "\n"};
@@ -54,6 +58,23 @@ const std::string stays = "v_Position = a_Position; v_Dir = a_Dir; v_Speed = a_S
 
 std::vector<Plant> plants() {
     return {
+        skips("half_stencil_searched", "ty < 0 || (ty == 0 && tx <= 0)"),
+        skips("lower_triangle_searched", "(tx == 0 && ty == 0) || tx > ty"),
+        skips("eight_texels_searched", "(tx == 0 && ty == 0) || (tx & 1) != 0 || (ty & 1) != 0"),
+        skips("next_texel_skipped_for_own", "tx == 1 && ty == 0"),
+        {"base_texel_of_last_rounded", "crowd", "ivec2 texel = texel_base + ivec2(tx, ty);",
+         "ivec2 texel = ivec2(round(image_position(ls_transform(u_ProjView, a_Position)) / vec2(u_ClientWidth, "
+         "u_ClientHeight) * vec2(u_ClientWidth - 1, "
+         "u_ClientHeight - 1))) + ivec2(tx, ty);"},
+        {"nearest_of_last_row", "crowd", "for (int tx = -u_TexelCollideRange;",
+         "particle_min_length = 100000.0;\n        for (int tx = -u_TexelCollideRange;"},
+        after_hit("length_with_epsilon_at_hit", "v_Dir = away / (length(away) + 0.001); " + moved),
+        after_fall(
+            "length_with_epsilon",
+            "vec3 v = sum(product(a_Dir, a_Speed), product(u_Gravity, u_Tick)); v_Dir = v / (length(v) + 0.001); "
+            "v_Position = sum(a_Position, product(product(v_Dir, v_Speed), u_Tick));"),
+        after_fall("stored_speed_at_least", "v_Speed = max(v_Speed, 1.0);"),
+        after_fall("collide_time_at_least", "v_CollideTime = max(v_CollideTime, -0.01);"),
         {"any_zero_is_empty", "near_ties", "return stored.a != 0.0;",
          "return stored.x != 0.0 && stored.y != 0.0 && stored.z != 0.0;"},
         {"base_texel_even", "crowd", "ivec2 texel = texel_base + ivec2(tx, ty);",
@@ -108,6 +129,8 @@ std::string corners(const std::string& all) { return "interpolate(vec3[3](" + al
 std::vector<Plant> drawing_plants() {
     const std::string mixed = "interpolate(g_Position, fragment.shares)";
     return {
+        point("point_flat", "crowd", "vec4(c.xy / c.w, 0.0, 1.0)"),
+        point("point_half_pixel_lower", "crowd", "vec4(c.x, c.y - c.w * (1.0 / float(u_ClientHeight)), c.zw)"),
         point("point_x_flipped", "crowd", "vec4(-c.x, c.yzw)"),
         point("point_x_and_y_swapped", "crowd", "c.yxzw"),
         point("point_pixel_right", "crowd", "vec4(c.x + c.w * (2.0 / float(u_ClientWidth)), c.yzw)"),
@@ -121,6 +144,8 @@ std::vector<Plant> drawing_plants() {
         obstacle("obstacle_first_and_second_swapped", mixed, corners("g_Position[1], g_Position[0], g_Position[2]")),
         obstacle("obstacle_second_and_third_swapped", mixed, corners("g_Position[0], g_Position[2], g_Position[1]")),
         obstacle("obstacle_first_and_third_swapped", mixed, corners("g_Position[2], g_Position[1], g_Position[0]")),
+        obstacle("obstacle_corners_rotated", mixed, corners("g_Position[1], g_Position[2], g_Position[0]")),
+        obstacle("obstacle_depth_zero", "gl_FragDepth = fragment.depth", "gl_FragDepth = 0.0"),
         obstacle("obstacle_first_corner_alone", mixed, "g_Position[0]"),
         obstacle("obstacle_last_corner_alone", mixed, "g_Position[2]"),
         {"obstacle_at_pixel_corner", "crowd", "vec2(2 * pixel + 1 - size)", "vec2(2 * pixel - size)",

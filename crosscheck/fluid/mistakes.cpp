@@ -13,6 +13,7 @@ using Words = std::span<float>;
 Mistake spoiled_at(const Site& site, Formula formula) {
     return {.site = site.id, .change = Change::spoiled, .formula = formula};
 }
+Mistake instead_of(const Site& site, const Site& source) { return mistake_at(site, Change::instead, -1, &source); }
 
 float first(const CameBy& run, const Site& site) { return run.of(site)[0]; }
 
@@ -25,8 +26,17 @@ void absorbed_by_colour(Words value, const CameBy& run) {
     for (std::size_t c = 0; c < 3; ++c)
         value[c] = run.of(site::colour)[c] * first(run, site::dark);
 }
-void window_depth(Words value, const CameBy& run) { value[0] = first(run, site::window); }
-void ndc_depth(Words value, const CameBy& run) { value[0] = first(run, site::ndc); }
+void shorter_at_both_ends(Words loop, const CameBy& /*run*/) {
+    loop[0] += 1.0F;
+    loop[1] -= 1.0F;
+}
+void bent_whole(Words value, const CameBy& /*run*/) { value[0] = 0.03325F; }
+void mirrored_y(Words value, const CameBy& run) { value[0] = run.of(site::mirrored)[1]; }
+void mirror_for_refraction(Words value, const CameBy& run) {
+    const float share = first(run, site::fresnel);
+    for (std::size_t c = 0; c < 3; ++c)
+        value[c] = run.of(site::sky)[c] * (1.0F - share) + run.of(site::refracted)[c] * share;
+}
 void red_is_green(Words value, const CameBy& /*run*/) { value[0] = value[1]; }
 void without_specular(Words value, const CameBy& run) {
     for (std::size_t c = 0; c < 3; ++c)
@@ -57,32 +67,37 @@ void of_sprites(Of of) {
         .add("nz_not_rooted", "the height of the sphere is not a root", mistake_at(site::nz, Change::not_done))
         .add("sprite_in_corners", "sprites are measured from pixels' corners",
              mistake_at(site::pixel_x, Change::half_less))
-        .add("near_plane_ignored", "spheres before the near plane are drawn",
-             mistake_at(site::beyond_near, Change::always))
+        .add("near_plane_ignored", "spheres before the near plane are drawn", mistake_at(site::near, Change::zero))
         .add("square_sprites", "sprites are not cut to discs", mistake_at(site::off_disc, Change::never))
-        .add("radius_left_out", "a sprite's size is the scale alone",
-             mistake_at(site::sprite_scale, Change::instead, -1, &site::point_scale))
+        .add("radius_left_out", "a sprite's size is the scale alone", instead_of(site::sprite_scale, site::point_scale))
         .add("size_not_divided", "sprites are as large far away as near by", mistake_at(site::size, Change::not_done))
-        .add("window_upside_down", "y runs downwards", mistake_at(site::window_y, Change::negated))
-        .add("behind_scene_kept", "what lies behind the scene is drawn", mistake_at(site::tests_scene, Change::never));
+        .add("window_upside_down", "y runs downwards", mistake_at(site::place_y, Change::negated))
+        .add("height_is_width", "the image is taken to be as high as wide", instead_of(site::height, site::width))
+        .add("behind_scene_kept", "what lies behind the scene is drawn", mistake_at(site::tests_scene, Change::never))
+        .add("scene_tested_by_ndc", "NDC depth is held against the scene's window depth",
+             instead_of(site::window, site::ndc))
+        .add("coefficients_swapped", "the two numbers that make depths of z are swapped",
+             mistake_at(site::depth_coefficients, Change::swapped));
 }
 
 void of_spheres(Of of) {
     of_sprites(of);
     of.add("back_of_sphere", "the far side of spheres is stored", mistake_at(site::nz, Change::negated))
         .add("spheres_are_discs", "spheres are flat discs", mistake_at(site::nz, Change::zero))
-        .add("unit_spheres", "spheres are of a metre", mistake_at(site::nz, Change::reciprocal))
+        .add("unit_spheres", "spheres are of a metre", instead_of(site::rise, site::nz))
         .add("farthest_sphere", "the farthest sphere is seen", mistake_at(site::nearest_sphere, Change::greatest_taken))
         .add("last_sphere", "the sphere drawn last is seen, whatever its depth",
              mistake_at(site::nearest_sphere, Change::last_taken))
         .add("first_sphere", "the sphere drawn first is seen, whatever its depth",
              mistake_at(site::nearest_sphere, Change::first_taken))
         .add("depth_sign", "the distance is stored, not z", mistake_at(site::depth, Change::negated))
-        .add("window_stored", "window depth is stored", spoiled_at(site::depth, window_depth))
-        .add("ndc_stored", "NDC depth is stored", spoiled_at(site::depth, ndc_depth))
+        .add("window_stored", "window depth is stored", instead_of(site::sphere_depth, site::window))
+        .add("ndc_stored", "NDC depth is stored", instead_of(site::sphere_depth, site::ndc))
+        .add("codes_cut", "codes of the depth are rounded down", mistake_at(site::half_code, Change::zero))
         .add("far_root", "rays meet the far side of spheres", mistake_at(site::half_chord, Change::negated))
         .add("chord_not_rooted", "half a chord is squared", mistake_at(site::half_chord, Change::not_done))
-        .add("middle_of_ray", "rays end in the middle of spheres", mistake_at(site::half_chord, Change::zero));
+        .add("middle_of_ray", "rays end in the middle of spheres", mistake_at(site::half_chord, Change::zero))
+        .add("ray_not_normalised", "rays are taken to be of a metre", mistake_at(site::along, Change::not_done));
 }
 
 void of_filters(Of of) {
@@ -95,9 +110,12 @@ void of_filters(Of of) {
              mistake_at(site::range_weight, Change::one))
         .add("range_step_unscaled", "steps in depth are not scaled", mistake_at(site::range_scale, Change::one))
         .add("spatial_weight_left_out", "all samples weigh the same", mistake_at(site::weight, Change::one))
+        .add("row_weight_left_out", "samples of all rows weigh the same", mistake_at(site::row_weight, Change::one))
         .add("exponent_positive", "weights grow with the distance", mistake_at(site::exponent, Change::negated))
         .add("one_sample_short", "the last sample is left out", mistake_at(site::samples, Change::last_skipped))
         .add("first_sample_left_out", "the first sample is left out", mistake_at(site::samples, Change::first_skipped))
+        .add("ends_left_out", "the first and the last sample are left out",
+             {.site = site::samples.id, .change = Change::ranged_by_formula, .formula = shorter_at_both_ends})
         .add("last_row_left_out", "the last row of samples is left out", mistake_at(site::rows, Change::last_skipped))
         .add("first_row_left_out", "the first row of samples is left out",
              mistake_at(site::rows, Change::first_skipped))
@@ -108,19 +126,17 @@ void of_filters(Of of) {
         .add("drawn_in_forwards", "samples that are too far are drawn before the pixel",
              mistake_at(site::mu, Change::negated))
         .add("drawn_in_by_delta", "samples that are too far are drawn in by the range, not by mu",
-             mistake_at(site::mu, Change::instead, -1, &site::delta))
-        .add("range_not_widened", "the range stays that of the pixel",
-             mistake_at(site::low, Change::plus, -1, &site::delta))
+             instead_of(site::mu, site::delta))
+        .add("high_not_widened", "near samples do not widen the range", mistake_at(site::widens_high, Change::never))
+        .add("low_not_widened", "far samples do not widen the range", mistake_at(site::widens_low, Change::never))
         .add("reach_not_by_depth", "the filter is as wide far away as near by",
              mistake_at(site::reach, Change::not_done))
         .add("flow_backwards", "the surface grows where it should shrink", mistake_at(site::flow_step, Change::negated))
         .add("flow_without_mixed", "the mixed derivative is left out", mistake_at(site::zxy, Change::zero))
         .add("flow_without_root", "the curvature is not divided", mistake_at(site::curvature, Change::not_done))
-        .add("flow_scales_swapped", "Cx is taken for Cy",
-             mistake_at(site::flow_scale_y, Change::instead, -1, &site::flow_scale_x))
         .add("flow_over_edges", "neighbours beyond an edge are taken", mistake_at(site::within_reach, Change::always))
-        .add("depth_kept", "the depth is not filtered",
-             mistake_at(site::smooth_depth, Change::instead, -1, &site::centre_depth));
+        .add("black_filtered", "black pixels are filtered", mistake_at(site::is_black, Change::never))
+        .add("depth_kept", "the depth is not filtered", instead_of(site::smooth_depth, site::centre_depth));
 }
 
 void of_normals(Of of) {
@@ -129,6 +145,9 @@ void of_normals(Of of) {
         .add("right_always", "the right side is taken everywhere", mistake_at(site::right_side, Change::always))
         .add("left_always", "the left side is taken everywhere", mistake_at(site::right_side, Change::never))
         .add("up_for_down", "the other side is taken along y", mistake_at(site::upper_side, Change::inverted))
+        .add("left_turned", "steps from the left are turned", mistake_at(site::step_left, Change::negated))
+        .add("lower_turned", "steps from below are turned", mistake_at(site::step_up, Change::negated))
+        .add("facing_away", "where no side is the normal points away", mistake_at(site::facing, Change::negated))
         .add("normal_not_unit", "normals are as long as the cross product", mistake_at(site::normal, Change::not_done))
         .add("edges_not_facing", "what is beyond an edge is taken for a neighbour",
              mistake_at(site::faces_at_edges, Change::never))
@@ -146,7 +165,7 @@ void of_thickness(Of of) {
         .add("thickness_not_scaled", "thickness is not scaled", mistake_at(site::gain, Change::one))
         .add("not_blended", "the last sphere alone is stored", spoiled_at(site::thickness, last_addend))
         .add("thickness_rounded_down", "units are rounded down", mistake_at(site::half_unit, Change::zero))
-        .add("last_sphere_left_out", "the last sphere is left out", mistake_at(site::spheres, Change::last_skipped));
+        .add("last_sphere_left_out", "the last sphere is left out", mistake_at(site::takes_last_sphere, Change::never));
 }
 
 void of_shading(Of of) {
@@ -154,19 +173,18 @@ void of_shading(Of of) {
            mistake_at(site::to_eye, Change::negated))
         .add("light_not_turned", "the light's direction stays in world space", spoiled_at(site::light, light_of_world))
         .add("world_is_view", "the point in view space is taken for that in the world",
-             mistake_at(site::world, Change::instead, -1, &site::point))
+             instead_of(site::world, site::point))
         .add("halfway_not_unit", "the halfway vector is not normalised", mistake_at(site::halfway, Change::not_done))
         .add("shine_of_normal_and_eye", "the highlight is that of the eye's direction",
-             mistake_at(site::shine, Change::instead, -1, &site::cosine))
-        .add("specular_not_raised", "the highlight is not raised to a power",
-             mistake_at(site::specular, Change::instead, -1, &site::shine))
+             instead_of(site::shine, site::cosine))
+        .add("specular_not_raised", "the highlight is not raised to a power", instead_of(site::specular, site::shine))
         .add("specular_left_out", "there is no highlight", spoiled_at(site::surface_light, without_specular))
         .add("refraction_left_out", "the scene behind is not moved", mistake_at(site::offset, Change::zero))
         .add("refraction_turned", "the scene behind is moved the other way", mistake_at(site::offset, Change::negated))
         .add("refraction_not_bent_by_height", "the scene behind is moved at any height",
-             mistake_at(site::bend_of, Change::instead, -1, &site::share))
+             spoiled_at(site::bend_of, bent_whole))
         .add("scene_by_half_a_texel", "the scene is fetched half a texel aside",
-             mistake_at(site::fetch_x, Change::half_less))
+             mistake_at(site::pixel_x, Change::half_less))
         .add("transmission_left_out", "fluid does not darken what is behind",
              mistake_at(site::transmission, Change::one))
         .add("absorbed_by_colour", "fluid takes its own colour from what is behind",
@@ -176,24 +194,23 @@ void of_shading(Of of) {
         .add("thickness_floor_missing", "thin fluid is as thin as it is",
              mistake_at(site::floor_of_thickness, Change::zero))
         .add("spot_left_out", "light is the same everywhere", mistake_at(site::spot, Change::one))
-        .add("not_wrapped", "light is not wrapped around",
-             mistake_at(site::wrapped, Change::instead, -1, &site::lambert))
+        .add("not_wrapped", "light is not wrapped around", instead_of(site::wrapped, site::lambert))
         .add("diffuse_left_out", "there is no diffuse light", mistake_at(site::diffuse, Change::zero))
-        .add("fresnel_turned", "mirror and refraction are swapped", mistake_at(site::fresnel, Change::opposite))
-        .add("fresnel_not_raised", "the Fresnel term is linear",
-             mistake_at(site::raised, Change::instead, -1, &site::grazing))
+        .add("fresnel_turned", "mirror and refraction are swapped", spoiled_at(site::surface, mirror_for_refraction))
+        .add("fresnel_not_raised", "the Fresnel term is linear", instead_of(site::raised, site::grazing))
         .add("fresnel_without_r0", "surfaces seen from above mirror nothing", mistake_at(site::r0, Change::zero))
         .add("fresnel_of_cosine", "the Fresnel term rises where it should fall",
-             mistake_at(site::grazing, Change::instead, -1, &site::cosine))
+             instead_of(site::grazing, site::cosine))
         .add("mirror_of_eye", "the direction to the eye is mirrored",
              mistake_at(site::mirrors_to_eye, Change::inverted))
-        .add("mirror_not_turned", "the mirrored direction stays in view space",
-             mistake_at(site::mirror_y, Change::instead, -1, &site::mirrored))
+        .add("mirror_not_turned", "the mirrored direction stays in view space", spoiled_at(site::mirror_y, mirrored_y))
         .add("mirror_single", "N.I is taken once", mistake_at(site::along_normal, Change::halved))
         .add("sky_turned", "the sky is below", mistake_at(site::sky_share, Change::opposite))
         .add("sky_bias_missing", "the sky has no bias", mistake_at(site::sky_bias, Change::zero))
         .add("sky_left_out", "no sky is mirrored", mistake_at(site::sky, Change::zero))
         .add("alpha_turned", "alpha and 1 - alpha are swapped", mistake_at(site::alpha, Change::opposite))
+        .add("scattered_by_alpha", "scattered light is weighted by alpha, not by 1 - alpha",
+             instead_of(site::scattered, site::alpha))
         .add("alpha_of_surface_missing", "the surface is not weighted by alpha",
              spoiled_at(site::surface_light, surface_whole))
         .add("scene_left_out", "where there is no fluid the scene is black", mistake_at(site::background, Change::zero))

@@ -15,7 +15,8 @@ template <class R> class DepthCode {
     [[nodiscard]] bool is_metric() const { return value() == DepthValue::view; }
 
     [[nodiscard]] Real ndc(const Real& z) const {
-        const Real clip_z = r_.note(site::clip_z, a() * z + b());
+        const auto of = coefficients();
+        const Real clip_z = r_.note(site::clip_z, of.x * z + of.y);
         return r_.note(site::ndc, r_.divide(site::ndc, clip_z, -z));
     }
     [[nodiscard]] Real window(const Real& z) const { return r_.note(site::window, ndc(z) * Real(0.5F) + Real(0.5F)); }
@@ -30,7 +31,8 @@ template <class R> class DepthCode {
         if (host_.switches().depth_format != DepthFormat::d24)
             return v;
         const Real codes = r_.uniform(site::codes, depth_codes);
-        return r_.divide(site::depth_code, r_.note(site::depth_code, r_.floor(v * codes + Real(0.5F))), codes);
+        return r_.divide(site::depth_code,
+                         r_.note(site::depth_code, r_.floor(v * codes + r_.uniform(site::half_code, 0.5F))), codes);
     }
     /// What the depth test compares: of equal ones the stored depths are equal, so no order of spheres shows.
     [[nodiscard]] Real tested(const Real& z, const Real& stored) const {
@@ -51,9 +53,14 @@ template <class R> class DepthCode {
 
   private:
     [[nodiscard]] DepthValue value() const { return host_.switches().depth_value; }
-    [[nodiscard]] Real a() const { return r_.uniform(site::depth_a, host_.depth_coefficients().x); }
-    [[nodiscard]] Real b() const { return r_.uniform(site::depth_b, host_.depth_coefficients().y); }
-    [[nodiscard]] Real of_ndc(const Real& ndc) const { return r_.divide(site::decoded, -b(), ndc + a()); }
+    [[nodiscard]] typename R::Vec2 coefficients() const {
+        const glm::vec2 of = host_.depth_coefficients();
+        return r_.note(site::depth_coefficients, typename R::Vec2{Real(of.x), Real(of.y)});
+    }
+    [[nodiscard]] Real of_ndc(const Real& ndc) const {
+        const auto of = coefficients();
+        return r_.divide(site::decoded, -of.y, ndc + of.x);
+    }
 
     R& r_;
     const Host& host_;

@@ -79,8 +79,10 @@ template <class R> class NarrowRange {
         } else if (own.is_empty || r_.decide(site::too_far, own.z < range.low)) {
             own.z = r_.note(site::clamped_sample, z - r_.uniform(site::mu, host_.narrow_mu()));
         } else {
-            range.high = r_.note(site::high, r_.max(range.high, own.z + delta()));
-            range.low = r_.note(site::low, r_.min(range.low, own.z - delta()));
+            if (r_.setting(site::widens_high, true))
+                range.high = r_.note(site::high, r_.max(range.high, own.z + delta()));
+            if (r_.setting(site::widens_low, true))
+                range.low = r_.note(site::low, r_.min(range.low, own.z - delta()));
         }
     }
     template <std::size_t n> void add(Sums& sums, const std::array<Sample, n>& samples) const {

@@ -27,8 +27,10 @@ struct NormalTwin {
             // The published code takes the left on equal steps, and the upper.
             const bool to_right = right.exists && (!left.exists || takes_right(r, here, right.point, left.point));
             const bool upwards = up.exists && (!down.exists || takes_upper(r, here, up.point, down.point));
-            const Vec3 dx = r.note(site::step_x, to_right ? right.point - here : here - left.point),
-                       dy = r.note(site::step_y, upwards ? up.point - here : here - down.point);
+            const auto step_from = [&](At at, const Vec3& before) { return r.note(at, here - before); };
+            const Vec3 dx =
+                           r.note(site::step_x, to_right ? right.point - here : step_from(site::step_left, left.point)),
+                       dy = r.note(site::step_y, upwards ? up.point - here : step_from(site::step_up, down.point));
             const Vec3 cross = r.note(
                 site::cross, Vec3{dx.y * dy.z - dx.z * dy.y, dx.z * dy.x - dx.x * dy.z, dx.x * dy.y - dx.y * dy.x});
             if (!r.decide(site::has_no_length, r.dot(site::cross, cross, cross) == Real(0.0F)))

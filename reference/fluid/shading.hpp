@@ -37,7 +37,8 @@ template <class R> struct Shading {
         const Real alpha = r.uniform(site::alpha, fluid_colour[3]), one(1.0F);
 
         const Vec3 refracted = r.note(site::refracted, seen_through(pixel, n, world) * transmission(item, colour));
-        const Vec3 diffuse = r.note(site::diffuse, lambert(light, n, world, colour) * (one - alpha));
+        const Vec3 diffuse =
+            r.note(site::diffuse, lambert(light, n, world, colour) * r.note(site::scattered, one - alpha));
         const Real cosine = r.note(site::cosine, r.max(Real(0.0F), r.dot(site::cosine, n, to_eye)));
         const Vec3 surface = r.note(site::surface, mixed(refracted, sky(to_eye, n), fresnel(cosine)));
         const Real shine = specular(light, n, to_eye);
@@ -53,13 +54,14 @@ template <class R> struct Shading {
     [[nodiscard]] Vec3 seen_through(const Pixel& pixel, const Vec3& n, const Vec3& world) const {
         const Real bend = r.note(site::bend_of, Real(0.03325F) * step(r, 0.1F, 0.4F, world.y));
         const Settings& s = host.settings();
-        const auto place = [&](At at, int i, const Real& offset, At size_at, int size) {
-            return r.note(at, (r.real(i) + Real(0.5F)) + offset * r.uniform(size_at, static_cast<float>(size)));
+        const auto place = [&](At at, At centre_at, int i, const Real& offset, At size_at, int size) {
+            const Real centre = r.note(centre_at, r.real(i) + Real(0.5F));
+            return r.note(at, centre + offset * r.uniform(size_at, static_cast<float>(size)));
         };
         const Real x = r.note(site::offset, (bend * Real(0.75F)) * n.x), y = r.note(site::offset, bend * n.y);
         return r.note(site::seen, RefractedScene<R>(r, host, state)
-                                      .at({place(site::fetch_x, pixel.x, x, site::width, s.width),
-                                           place(site::fetch_y, pixel.y, y, site::height, s.height)}));
+                                      .at({place(site::fetch_x, site::pixel_x, pixel.x, x, site::width, s.width),
+                                           place(site::fetch_y, site::pixel_y, pixel.y, y, site::height, s.height)}));
     }
     /// Beer and Lambert's.
     [[nodiscard]] Vec3 transmission(std::size_t item, const Vec3& colour) const {

@@ -15,21 +15,24 @@ inline constexpr Site handed{"position of the frame", {}, "m"}, position{"positi
     w{"distance along the view", {}, "m"}, near{"u_Near"}, beyond_near{"beyond the near plane", {}, "m"},
     radius{"pointRadius", {}, "m"}, point_scale{"pointScale"}, sprite_scale{"scale times radius"},
     distance{"distance", {}, "m"}, size{"sprite's size", {}, "pixel"}, half{"half of the sprite", {}, "pixel"},
-    p00{"P00"}, p11{"P11"}, width{"width"}, height{"height"}, window_x{"window x", {}, "pixel"},
-    window_y{"window y", {}, "pixel"}, pixel_x{"pixel centre x", {}, "pixel"}, pixel_y{"pixel centre y", {}, "pixel"},
-    nx{"nx"}, ny{"ny"}, magnitude{"squared distance on the disc"}, off_disc{"off the disc"}, nz{"nz"},
+    p00{"P00"}, p11{"P11"}, width{"width"}, height{"height"}, place_x{"place x"}, place_y{"place y"},
+    window_x{"window x", {}, "pixel"}, window_y{"window y", {}, "pixel"}, pixel_x{"pixel centre x", {}, "pixel"},
+    pixel_y{"pixel centre y", {}, "pixel"}, nx{"nx"}, ny{"ny"}, magnitude{"squared distance on the disc"},
+    off_disc{"off the disc"}, nz{"nz"}, rise{"surface before the middle", {}, "m"},
     surface_z{"z of the surface", {}, "m"};
 inline constexpr Site unit_slope_x{"u_Slope.x"}, unit_slope_y{"u_Slope.y"}, slope_x{"slope x"}, slope_y{"slope y"},
     ray_squared{"d.d"}, ray_centre{"d.c"}, along{"middle of the ray"}, to_ray{"way from the ray to the centre"},
-    chord{"squared half chord"}, off_sphere{"off the sphere"}, half_chord{"half chord"};
+    chord{"squared half chord"}, off_sphere{"off the sphere"}, chord_by_ray{"squared half chord over d.d"},
+    half_chord{"half chord"};
 
 // Depth.
-inline constexpr Site depth_a{"A"}, depth_b{"B"}, clip_z{"clip z"}, ndc{"ndc"}, window{"window depth"},
-    clamped{"clamped depth"}, codes{"u_DepthCodes"}, depth_code{"code of the depth"}, depth_scale{"u_DepthScale"},
-    tested{"depth that is tested"}, in_front_of_eye{"in front of the eye", {}, "m"},
+inline constexpr Site depth_coefficients{"u_DepthCoefficients"}, clip_z{"clip z"}, ndc{"ndc"}, window{"window depth"},
+    clamped{"clamped depth"}, codes{"u_DepthCodes"}, half_code{"half a code"}, depth_code{"code of the depth"},
+    depth_scale{"u_DepthScale"}, tested{"depth that is tested"}, in_front_of_eye{"in front of the eye", {}, "m"},
     nearer_than_scene{"nearer than the scene"}, tests_scene{"scene is tested"}, scene_depth_in{"scene's depth"},
-    nearest_sphere{"nearest sphere"}, sphere_here{"sphere at the pixel"}, depth{"depth", "depth"},
-    unprojected{"unprojected depth", {}, "m"}, decoded{"decoded depth", {}, "m"}, reads_ndc{"stored is taken for ndc"};
+    nearest_sphere{"nearest sphere"}, sphere_here{"sphere at the pixel"}, sphere_depth{"depth of a sphere"},
+    depth{"depth", "depth"}, unprojected{"unprojected depth", {}, "m"}, decoded{"decoded depth", {}, "m"},
+    reads_ndc{"stored is taken for ndc"};
 
 // Scene.
 inline constexpr Site tile{"tile of the floor"}, check{"share of the check"}, scene{"scene", "scene"},
@@ -38,27 +41,29 @@ inline constexpr Site tile{"tile of the floor"}, check{"share of the check"}, sc
 // Filters.
 inline constexpr Site blur_direction{"blurDir"}, centre_depth{"depth at the pixel"}, sample{"sample"},
     empty{"is empty"}, centre_empty{"pixel is empty"}, is_black{"stored 0"}, samples{"samples"},
-    rows{"rows of samples"}, weight{"weight"}, exponent{"exponent"}, in_exponent{"exponent within reach"},
-    blur_scale{"blurScale"}, range_scale{"u_RangeScale"}, range_step{"step to the sample"},
-    range_weight{"range weight"}, weighted_sum{"weighted sum"}, sum_of_weights{"sum of weights"}, mean{"mean"},
-    skips_empty{"empty samples are skipped"}, smooth_depth{"smooth_depth", "smooth_depth"};
+    rows{"rows of samples"}, weight{"weight"}, row_weight{"weight of the row"}, exponent{"exponent"},
+    in_exponent{"exponent within reach"}, blur_scale{"blurScale"}, range_scale{"u_RangeScale"},
+    range_step{"step to the sample"}, range_weight{"range weight"}, weighted_sum{"weighted sum"},
+    sum_of_weights{"sum of weights"}, mean{"mean"}, skips_empty{"empty samples are skipped"},
+    smooth_depth{"smooth_depth", "smooth_depth"};
 inline constexpr Site narrow_scale{"u_NarrowScale"}, reach{"reach", {}, "pixel"}, most_reach{"most pixels"},
     delta{"u_NarrowDelta", {}, "m"}, mu{"u_NarrowMu", {}, "m"}, high{"high", {}, "m"}, low{"low", {}, "m"},
-    too_near{"too near", {}, "m"}, too_far{"too far", {}, "m"}, clamped_sample{"sample drawn in", {}, "m"},
-    partner_weight{"partner's weight"}, own_weight{"refused sample's weight"}, screen_width{"screenSize.x"};
+    widens_high{"range is widened forwards"}, widens_low{"range is widened backwards"}, too_near{"too near", {}, "m"},
+    too_far{"too far", {}, "m"}, clamped_sample{"sample drawn in", {}, "m"}, partner_weight{"partner's weight"},
+    own_weight{"refused sample's weight"}, screen_width{"screenSize.x"};
 inline constexpr Site flow_scale_x{"Cx"}, flow_scale_y{"Cy"}, flow_step{"u_FlowStep"},
     flow_reach{"u_FlowReach", {}, "m"}, within_reach{"neighbour within reach", {}, "m"}, zx{"zx"}, zy{"zy"}, zxx{"zxx"},
     zyy{"zyy"}, zxy{"zxy"}, e0{"E0"}, fx{"Fx"}, fy{"Fy"}, ex{"Ex"}, ey{"Ey"}, curvature{"mean curvature"};
 
 // Normals.
 inline constexpr Site point{"point", {}, "m"}, neighbour_empty{"neighbour is empty"}, right_side{"right side taken"},
-    upper_side{"upper side taken"}, faces_at_edges{"facing where no side is"}, step_x{"step along x", {}, "m"},
-    step_y{"step along y", {}, "m"}, cross{"cross product"}, has_no_length{"cross product is 0"},
-    normal{"normal", "normal"}, facing{"facing normal"};
+    upper_side{"upper side taken"}, faces_at_edges{"facing where no side is"}, step_left{"step from the left", {}, "m"},
+    step_up{"step from below", {}, "m"}, step_x{"step along x", {}, "m"}, step_y{"step along y", {}, "m"},
+    cross{"cross product"}, has_no_length{"cross product is 0"}, normal{"normal", "normal"}, facing{"facing normal"};
 
 // Thickness.
 inline constexpr Site is_cleared{"is cleared"}, gain{"u_ThicknessGain"}, addend{"thickness of a sphere", {}, "m"},
-    units{"65536"}, half_unit{"half a unit"}, quantum{"units of 2^-16"}, spheres{"spheres"},
+    units{"65536"}, half_unit{"half a unit"}, quantum{"units of 2^-16"}, takes_last_sphere{"last sphere is taken"},
     thickness{"thickness", "thickness"};
 
 // Shading.
@@ -70,8 +75,8 @@ inline constexpr Site to_eye{"direction to the eye"}, inverse_view{"u_InverseVie
     thickness_in{"thickness at the pixel", {}, "m"}, floor_of_thickness{"u_ThicknessFloor", {}, "m"},
     dark{"thickness that darkens", {}, "m"}, colour{"color"}, alpha{"color.a"}, absorbed{"absorbed"},
     transmission{"transmission"}, refracted{"refracted"}, down{"direction down"}, spot{"spot"}, lambert{"l.N"},
-    wrapped{"wrapped light"}, diffuse{"diffuse"}, cosine{"N.V"}, r0{"u_FresnelR0"}, grazing{"1 - N.V"},
-    raised{"(1 - N.V)^p"}, fresnel{"fresnel"}, mirrors_to_eye{"mirror of the direction to the eye"},
+    wrapped{"wrapped light"}, scattered{"1 - color.a"}, diffuse{"diffuse"}, cosine{"N.V"}, r0{"u_FresnelR0"},
+    grazing{"1 - N.V"}, raised{"(1 - N.V)^p"}, fresnel{"fresnel"}, mirrors_to_eye{"mirror of the direction to the eye"},
     incident{"incident direction"}, along_normal{"2 N.I"}, mirrored{"mirrored direction"},
     mirror_y{"height of the mirrored direction"}, sky_share{"share of the sky"}, sky_bias{"u_SkyBias"}, sky{"sky"},
     surface{"mirror and refraction"}, normal_in{"normal at the pixel"}, background{"scene at the pixel"},

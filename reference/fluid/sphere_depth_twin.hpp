@@ -26,18 +26,23 @@ struct SphereDepthTwin {
         return {host, sprite_boxes(*host, in.before, spheres())};
     }
 
+    [[nodiscard]] HandedSpheres<SphereDepthTwin> handed(std::span<const Mistake> made) const { return {*this, made}; }
+
     template <class R> ItemWords<R> operator()(R& r, const PassInput& in, std::size_t item) const {
+        return at_pixel(r, in, item, Tried::in_their_boxes);
+    }
+    template <class R> ItemWords<R> at_pixel(R& r, const PassInput& in, std::size_t item, Tried tried) const {
         using Real = typename R::Real;
         const Pixel pixel = Pixel::of(host->settings().width, item);
         const SpriteTwin<R> sprite(r, *host, in.before, spheres());
         auto nearest = least<SphereAt<R>>(r, site::nearest_sphere, 1.0F);
-        for (const std::uint32_t i : boxes.near(pixel))
-            if (pixel.is_in(boxes.box(i)))
-                if (const auto ball = sprite.ball(i))
-                    offer(r, in.before, sprite, *ball, pixel, item,
-                          [&](const auto& condition, const Real& key, const Real& stored) {
-                              nearest.offer(site::sphere_here, condition, key, SphereAt<R>{stored});
-                          });
+        for_each_tried(boxes, in.before, pixel, tried, [&](std::uint32_t i) {
+            if (const auto ball = sprite.ball(i))
+                offer(r, in.before, sprite, *ball, pixel, item,
+                      [&](const auto& condition, const Real& key, const Real& stored) {
+                          nearest.offer(site::sphere_here, condition, key, SphereAt<R>{stored});
+                      });
+        });
         const std::optional<SphereAt<R>> found = nearest.take();
         ItemWords<R> words;
         words.add(r.note(site::depth, found ? found->stored : Real(DepthCode<R>(r, *host).empty())));
@@ -79,9 +84,9 @@ struct SphereDepthTwin {
         const DepthCode<R> code(r, *host);
         const Real zero(0.0F), one(1.0F);
         const auto offer_at = [&](const Real& height_of, const auto& covered) {
-            const Real z = r.note(site::surface_z, height_of), stored = code.stored(z);
-            made(covered && z < zero && before_scene(r, *host, state, item, code.window(z)), code.tested(z, stored),
-                 stored);
+            const Real z = r.note(site::surface_z, height_of), window = code.window(z), stored = code.stored(z);
+            made(covered && z < zero && before_scene(r, *host, state, item, window), code.tested(z, stored),
+                 r.note(site::sphere_depth, stored));
         };
         if (host->switches().sphere == Sphere::ray) {
             const RayOfPixel<R> ray = ray_at(r, sprite, ball, pixel);
@@ -92,13 +97,13 @@ struct SphereDepthTwin {
         const Real squared = sprite.squared(ball, pixel);
         // A point's edge is open: one fork among all spheres, not one for each.
         if (host->switches().sprite == Sprite::points || !r.decide(site::off_disc, squared > one))
-            offer_at(ball.centre.z + sprite.radius() * sprite.height(squared), squared <= one);
+            offer_at(ball.centre.z + r.note(site::rise, sprite.radius() * sprite.height(squared)), squared <= one);
     }
 
     /// A pixel's ray through a sphere: where its middle lies, and the square of half its chord.
     template <class R> struct RayOfPixel { typename R::Real squared, middle, chord; };
     template <class R> static auto half_chord(R& r, const RayOfPixel<R>& ray) {
-        return r.note(site::half_chord, r.sqrt(site::half_chord, r.divide(site::half_chord, ray.chord, ray.squared)));
+        return r.note(site::half_chord, r.sqrt(site::half_chord, r.divide(site::chord_by_ray, ray.chord, ray.squared)));
     }
     template <class R>
     RayOfPixel<R> ray_at(R& r, const SpriteTwin<R>& sprite, const Ball<R>& ball, const Pixel& pixel) const {

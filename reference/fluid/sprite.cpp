@@ -1,5 +1,7 @@
 #include "reference/fluid/sprite.hpp"
 
+#include <algorithm>
+#include <array>
 #include <utility>
 #include <vector>
 
@@ -25,6 +27,19 @@ PixelRect ray_box(const Host& host, const RoughWindow& window, const glm::dvec3&
 }
 
 } // namespace
+
+bool may_leave_boxes(std::span<const Mistake> made, std::size_t spheres) {
+    constexpr std::size_t few = 4096;
+    static constexpr std::array placing{
+        site::before.id,      site::view.id,         site::centre.id,   site::w.id,      site::near.id,
+        site::beyond_near.id, site::radius.id,       site::distance.id, site::size.id,   site::half.id,
+        site::point_scale.id, site::sprite_scale.id, site::p00.id,      site::p11.id,    site::width.id,
+        site::height.id,      site::place_x.id,      site::place_y.id,  site::nx.id,     site::ny.id,
+        site::window_x.id,    site::window_y.id,     site::pixel_x.id,  site::pixel_y.id};
+    return spheres <= few && std::ranges::any_of(made, [](const Mistake& mistake) {
+               return std::ranges::find(placing, mistake.site) != placing.end();
+           });
+}
 
 BoxesByTile sprite_boxes(const Host& host, const SystemView& state, const Spheres& spheres) {
     const Settings& s = host.settings();

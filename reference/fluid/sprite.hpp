@@ -1,11 +1,14 @@
 #pragma once
 #include <cmath>
+#include <cstddef>
 #include <cstdint>
 #include <optional>
+#include <span>
 #include <tuple>
 
 #include "reference/fluid/depth_code.hpp"
 #include "reference/model/fluid/schema.hpp"
+#include "reference/readings/mistake.hpp"
 #include "reference/system/item_twin.hpp"
 #include "reference/system/pixel_boxes.hpp"
 
@@ -19,6 +22,36 @@ struct Spheres {
 
 /// Of each particle the pixels that its sphere may cover: what lies outside is not tried.
 BoxesByTile sprite_boxes(const Host& host, const SystemView& state, const Spheres& spheres);
+
+/// Whether mistakes may take spheres out of their boxes, and they are few enough to be tried at every pixel.
+bool may_leave_boxes(std::span<const Mistake> made, std::size_t spheres);
+
+/// Which spheres a pixel is tried with.
+enum class Tried { in_their_boxes, everywhere };
+
+/// A twin of spheres as a host that makes mistakes hands it its inputs.
+template <class Twin> struct HandedSpheres {
+    const Twin& twin;
+    std::span<const Mistake> made;
+
+    template <class R> auto operator()(R& r, const PassInput& in, std::size_t item) const {
+        const bool leave = may_leave_boxes(made, in.before[particle_buffer].count());
+        return twin.at_pixel(r, in, item, leave ? Tried::everywhere : Tried::in_their_boxes);
+    }
+};
+
+/// Calls `visit` with the number of each sphere that a pixel is tried with.
+template <class Visit> void for_each_tried(const BoxesByTile& boxes, const SystemView& state, const Pixel& pixel,
+                                           Tried tried, const Visit& visit) {
+    if (tried == Tried::everywhere) {
+        for (std::uint32_t i = 0; i < state[particle_buffer].count(); ++i)
+            visit(i);
+        return;
+    }
+    for (const std::uint32_t i : boxes.near(pixel))
+        if (pixel.is_in(boxes.box(i)))
+            visit(i);
+}
 
 /// A particle before the camera.
 template <class R> struct Ball {
@@ -81,13 +114,16 @@ template <class R> class SpriteTwin {
         const Real scale = r_.note(site::sprite_scale, r_.uniform(site::point_scale, host_.point_scale()) * radius());
         const Real size = r_.note(site::size, r_.divide(site::size, scale, away));
         ball.half = r_.note(site::half, Real(0.5F) * size);
-        const auto window = [&](At at, At scale_at, At size_at, const Real& along, float unit, int pixels) {
+        const auto window = [&](At at, At place_at, At scale_at, At size_at, const Real& along, float unit,
+                                int pixels) {
             const Real clip = r_.uniform(scale_at, unit) * along;
-            return r_.note(at, (r_.divide(at, clip, ball.w) + Real(1.0F)) * Real(0.5F) *
-                                   r_.uniform(size_at, static_cast<float>(pixels)));
+            const Real place = r_.note(place_at, r_.divide(place_at, clip, ball.w));
+            return r_.note(at, (place + Real(1.0F)) * Real(0.5F) * r_.uniform(size_at, static_cast<float>(pixels)));
         };
-        ball.x = window(site::window_x, site::p00, site::width, ball.centre.x, host_.projection()[0][0], s.width);
-        ball.y = window(site::window_y, site::p11, site::height, ball.centre.y, host_.projection()[1][1], s.height);
+        ball.x = window(site::window_x, site::place_x, site::p00, site::width, ball.centre.x, host_.projection()[0][0],
+                        s.width);
+        ball.y = window(site::window_y, site::place_y, site::p11, site::height, ball.centre.y, host_.projection()[1][1],
+                        s.height);
     }
     /// GL takes gl_PointCoord from the exact place, but fixes no arithmetic (4.5, 14.4.1): up to 2/256 of a pixel off.
     [[nodiscard]] Real point_coordinate(At at, const Real& from, const Ball<R>& ball) const {

@@ -30,20 +30,24 @@ struct ThicknessTwin {
         return {host, sprite_boxes(*host, in.before, spheres())};
     }
 
+    [[nodiscard]] HandedSpheres<ThicknessTwin> handed(std::span<const Mistake> made) const { return {*this, made}; }
+
     template <class R> ItemWords<R> operator()(R& r, const PassInput& in, std::size_t item) const {
+        return at_pixel(r, in, item, Tried::in_their_boxes);
+    }
+    template <class R> ItemWords<R> at_pixel(R& r, const PassInput& in, std::size_t item, Tried tried) const {
         using Real = typename R::Real;
         const Pixel pixel = Pixel::of(host->settings().width, item);
         const SpriteTwin<R> sprite(r, *host, in.before, spheres());
         std::vector<Real> terms;
-        const std::span<const std::uint32_t> near = boxes.near(pixel);
-        for (const auto k : r.range(site::spheres, 0, static_cast<int>(near.size()) - 1)) {
-            const std::uint32_t i = near[static_cast<std::size_t>(static_cast<int>(k))];
-            if (!pixel.is_in(boxes.box(i)))
-                continue;
+        const std::size_t count = in.before[particle_buffer].count();
+        for_each_tried(boxes, in.before, pixel, tried, [&](std::uint32_t i) {
+            if (i + 1 == count && !r.setting(site::takes_last_sphere, true))
+                return;
             if (const auto ball = sprite.ball(i))
                 if (const auto t = addend(r, in.before, sprite, *ball, pixel, item))
                     terms.push_back(*t);
-        }
+        });
         ItemWords<R> words;
         if (is_fixed())
             words.add(units_of(in.before.word(field::thickness, item), terms));

@@ -28,7 +28,7 @@ template <class R> class WeightedMean {
             for (const auto row : r_.range(site::rows, -reach, reach))
                 for (const auto column : r_.range(site::samples, -reach, reach)) {
                     const int dx = static_cast<int>(column), dy = static_cast<int>(row);
-                    add(sums, sample(x + dx, y + dy), weight(dx) * weight(dy), centre);
+                    add(sums, sample(x + dx, y + dy), weight(dx) * r_.note(site::row_weight, weight(dy)), centre);
                 }
         }
         return r_.note(site::mean, r_.divide(site::mean, sums.weighted, sums.weights));

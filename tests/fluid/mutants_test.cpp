@@ -1,3 +1,4 @@
+#include <cmath>
 #include <functional>
 #include <string>
 #include <variant>
@@ -5,6 +6,7 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 #include <glm/matrix.hpp>
+#include <glm/trigonometric.hpp>
 
 #include "tests/fluid/fluid_run.hpp"
 #include "tests/text_mutants.hpp"
@@ -17,9 +19,29 @@ namespace {
 
 constexpr int frames = 1;
 
+/// Each pixel its own sphere at its own depth: steps of every size beside each other, and here and there no neighbour.
+fluid::Settings relief() {
+    fluid::Settings s;
+    s.width = 24;
+    s.height = 20;
+    s.camera = {.eye = {}, .target = {0.0F, 0.0F, -1.0F}, .fov_y = 60.0F, .near_plane = 0.125F, .far_plane = 40.0F};
+    const double pixel = 2.0 * std::tan(glm::radians(30.0)) / s.height; // at 1 m
+    s.radius = static_cast<float>(0.95 * pixel);
+    Random random(5, 0);
+    for (int y = 0; y < s.height; ++y)
+        for (int x = 0; x < s.width; ++x) {
+            const double away = 1.0 + 15.0 * s.radius * random.unit();
+            if (random.unit() < 0.75)
+                s.particles.emplace_back(away * pixel * (x + 0.5 - 0.5 * s.width),
+                                         away * pixel * (y + 0.5 - 0.5 * s.height), -away);
+        }
+    return s;
+}
+
 /// In which the change has something to do.
 fluid::Settings settings_of(const std::string& run) {
-    fluid::Settings s = heap(5);
+    const bool is_relief = run.starts_with("relief") || run == "narrow" || run == "quadrants";
+    fluid::Settings s = is_relief ? relief() : heap(5);
     s.filter_radius = 3;
     s.flow_iterations = 2;
     fluid::Switches& on = s.switches;
@@ -28,6 +50,7 @@ fluid::Settings settings_of(const std::string& run) {
     } else if (run == "ndc" || run == "d24") {
         on.depth_value = fluid::DepthValue::ndc;
         on.depth_format = run == "d24" ? fluid::DepthFormat::d24 : fluid::DepthFormat::r32f;
+        s.arithmetic = run == "d24" ? ArithmeticSwitch::exact : ArithmeticSwitch::plain; // else codes are open
     } else if (run == "near_ndc") {
         on.depth_value = fluid::DepthValue::ndc;
         on.filter_constants = fluid::FilterConstants::published;
@@ -37,13 +60,24 @@ fluid::Settings settings_of(const std::string& run) {
     } else if (run == "narrow" || run == "quadrants") {
         on.filter = fluid::Filter::narrow_range;
         on.narrow_cleanup = run == "narrow" ? fluid::NarrowCleanup::full : fluid::NarrowCleanup::quadrants;
-        s.radius = 0.02F;
-    } else if (run == "flow") {
+    } else if (run == "flow" || run == "relief_flow") {
         on.filter = fluid::Filter::curvature_flow;
     } else if (run == "fixed") {
         on.thickness_sum = fluid::ThicknessSum::fixed;
     } else if (run == "floor") {
         s.shading.thickness_floor = 0.3F;
+    } else if (run == "near") {
+        s.particles.emplace_back(0.5839F, 0.8624F, 1.9087F); // 0.1 m before the camera
+    } else if (run == "behind") {
+        place(sphere_surface(0.05, 2), {.position = {0.49, 0.77, 1.72}}, s.obstacles);
+    } else if (run == "low") { // before a floor that reaches far
+        s.camera.eye.y = 0.45F;
+    } else if (run == "aside") { // of the spot of light
+        constexpr glm::vec3 aside(200.0F, 0.0F, 0.0F);
+        for (glm::vec3& particle : s.particles)
+            particle += aside;
+        s.camera.eye += aside;
+        s.camera.target += aside;
     } else if (run == "moves") {
         s.wave = fluid::Wave{.amplitude = 0.05F, .length = 0.5F, .period = 1.0F};
     }
@@ -81,8 +115,9 @@ TEST_CASE("fluid mutants: the whole catalogue", "[.][mutants]") {
 TEST_CASE("fluid mutants: the shipped shaders agree in every run of the catalogue", "[.][mutants]") {
     if (!gl())
         return skip(gl().missing());
-    for (const std::string run : {"plain", "ray", "ndc", "d24", "near_ndc", "full2d", "narrow", "quadrants", "flow",
-                                  "fixed", "floor", "moves"}) {
+    for (const std::string run :
+         {"plain", "ray", "ndc", "d24", "near_ndc", "full2d", "narrow", "quadrants", "flow", "relief", "relief_flow",
+          "near", "behind", "low", "aside", "fixed", "floor", "moves"}) {
         INFO(run);
         CHECK(run_of("shaders/fluid", run).verdict == "AGREE");
     }
@@ -126,7 +161,7 @@ std::vector<HostMutant> host_catalogue() {
     };
     return {
         {"motion_left_out", "moves", "motion_left_out", left_out("motion_pass")},
-        {"thickness_not_cleared", "fixed", "", left_out("thickness_clear_pass")},
+        {"thickness_not_cleared", "fixed", "clear_left_out", left_out("thickness_clear_pass")},
         {"thickness_without_blending", "plain", "not_blended",
          [](GlPass& pass) {
              if (pass.name == "thickness_pass" && pass.draw)
@@ -144,12 +179,13 @@ std::vector<HostMutant> host_catalogue() {
          }},
         {"vertical_pass_twice", "plain", "axes_swapped",
          uniform("depth_filter_pass", "blurDir", [](const Uniforms&) { return glm::ivec2(0, 1); })},
-        {"radius_doubled", "plain", "", uniform("sphere_depth_pass", "pointRadius", scaled("pointRadius", 2.0F))},
+        {"radius_doubled", "plain", "pointRadius: doubled",
+         uniform("sphere_depth_pass", "pointRadius", scaled("pointRadius", 2.0F))},
         {"scale_halved", "plain", "half_of_half", uniform("thickness_pass", "pointScale", scaled("pointScale", 0.5F))},
-        {"near_not_set", "ray", "", uniform("sphere_depth_pass", "u_Near", zero)},
+        {"near_not_set", "ray", "near_plane_ignored", uniform("sphere_depth_pass", "u_Near", zero)},
         {"view_transposed", "plain", "mView: transposed", uniform("sphere_depth_pass", "mView", transposed("mView"))},
         {"range_scale_not_set", "plain", "range_weight_left_out", uniform("depth_filter_pass", "u_RangeScale", zero)},
-        {"radius_of_the_filter", "plain", "",
+        {"radius_of_the_filter", "plain", "ends_left_out",
          uniform("depth_filter_pass", "filterRadius",
                  [](const Uniforms& all) { return std::get<int>(all.at("filterRadius")) - 1; })},
         {"mu_not_set", "narrow", "u_NarrowMu: zero", uniform("depth_filter_pass", "u_NarrowMu", zero)},
@@ -160,7 +196,7 @@ std::vector<HostMutant> host_catalogue() {
         {"inverse_view_transposed", "plain", "u_InverseView: transposed",
          uniform("fluid_shade_pass", "u_InverseView", transposed("u_InverseView"))},
         {"r0_not_set", "plain", "fresnel_without_r0", uniform("fluid_shade_pass", "u_FresnelR0", zero)},
-        {"slope_of_x", "plain", "",
+        {"slope_of_x", "plain", "u_Slope.y: instead u_Slope.x",
          uniform("normal_pass", "u_Slope",
                  [](const Uniforms& all) { return glm::vec2(std::get<glm::vec2>(all.at("u_Slope")).x); })},
     };

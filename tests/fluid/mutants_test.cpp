@@ -49,6 +49,8 @@ fluid::Settings settings_of(const std::string& run) {
         on.sphere = fluid::Sphere::ray;
     } else if (run == "ndc" || run == "d24") {
         on.depth_value = fluid::DepthValue::ndc;
+        // Behind the sphere that would hide the others; depths near 0 have codes that are more than rounding apart.
+        s.camera.near_plane = run == "d24" ? 1.0F : 0.15F;
         on.depth_format = run == "d24" ? fluid::DepthFormat::d24 : fluid::DepthFormat::r32f;
         s.arithmetic = run == "d24" ? ArithmeticSwitch::exact : ArithmeticSwitch::plain; // else codes are open
     } else if (run == "near_ndc") {

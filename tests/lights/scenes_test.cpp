@@ -37,7 +37,7 @@ lights::Settings scene(const std::string& name, const std::string& preset) {
     lights::Settings s = lights::load_scene(file, {.particles = std::min(count, written), .preset = preset, .set = {}});
     s.width = 64;
     s.height = 36;
-    if (name == "crowd" || name == "hall")
+    if (name == "crowd" || name == "hall" || name == "swarms")
         s.grid = {.size = {32, 8, 32}, .voxel = 4.0F, .origin = {-64.0F, 0.0F, -64.0F}};
     return s;
 }

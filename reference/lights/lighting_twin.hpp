@@ -76,7 +76,7 @@ struct DrawnTwin {
             return words_of<R>(surface ? lit_pixel(r, radiance(r, *host, in.before, *surface))
                                        : background_pixel(r, *host));
         case Drawn::depth:
-            words.add(r.note(site::depth, surface ? surface->depth : Real(1.0F)));
+            words.add(surface ? r.note(site::depth, surface->depth) : Real(1.0F));
             return words;
         case Drawn::albedo:
             add_codes(r, words, surface);

@@ -113,9 +113,13 @@ template <class R> class SamplingTwin {
                 one + ff * (Real(-2.5F) + Real(1.5F) * f), f * (half + f * (Real(2.0F) - Real(1.5F) * f)),
                 ff * (Real(-0.5F) + half * f)};
     }
+    [[nodiscard]] int first_of_four(const Axis& along) const {
+        return static_cast<int>(r_.note(site::first_texel, typename R::Int(along.base - 1)));
+    }
     [[nodiscard]] Sample<R> cubic(const Vec3& u) const {
         const Axis x = axis(u.x), y = axis(u.y), z = axis(u.z);
         const std::array<Real, 4> wx = weights(x.f), wy = weights(y.f), wz = weights(z.f);
+        const int first_x = first_of_four(x), first_y = first_of_four(y), first_z = first_of_four(z);
         const auto add = [](Sample<R>& sum, const Sample<R>& one, const Real& w, bool first) {
             for (std::size_t c = 0; c < sum.size(); ++c)
                 sum[c] = first ? one[c] * w : sum[c] + one[c] * w;
@@ -126,8 +130,7 @@ template <class R> class SamplingTwin {
             for (int j = 0; j < 4; ++j) {
                 Sample<R> row{};
                 for (int i = 0; i < 4; ++i)
-                    add(row, texel(x.base - 1 + i, y.base - 1 + j, z.base - 1 + k), wx[static_cast<std::size_t>(i)],
-                        i == 0);
+                    add(row, texel(first_x + i, first_y + j, first_z + k), wx[static_cast<std::size_t>(i)], i == 0);
                 add(plane, row, wy[static_cast<std::size_t>(j)], j == 0);
             }
             add(sum, plane, wz[static_cast<std::size_t>(k)], k == 0);

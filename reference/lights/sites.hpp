@@ -49,8 +49,8 @@ inline constexpr Site eye{"u_Eye"}, normal_sum{"cross product"}, normal_length{"
 // Sampling.
 inline constexpr Site grid_place{"place in the grid"}, inv_voxel{"u_InvVoxelSize"}, sample_offset{"offset of a sample"},
     sample_place{"place of a sample"}, sample_mean{"1 / samples"}, half_texel{"half a texel"}, base{"base texel"},
-    fraction{"fraction"}, fraction8{"fraction of 8 bits"}, in_grid{"in the grid"}, texel_x{"texel's x"},
-    texel_y{"texel's y"}, texel_z{"texel's z"}, texel{"texel"}, sampled_colour{"sampled colour"},
+    first_texel{"first texel of four"}, fraction{"fraction"}, fraction8{"fraction of 8 bits"}, in_grid{"in the grid"},
+    texel_x{"texel's x"}, texel_y{"texel's y"}, texel_z{"texel's z"}, texel{"texel"}, sampled_colour{"sampled colour"},
     sampled_direction{"sampled direction"}, weight_before{"weight of the texel before"}, filtered{"filtered"},
     not_below{"colour below 0"};
 

@@ -13,7 +13,7 @@ namespace lockstep {
 /// another, of which more is legal, where it was not (Profile::not_followed). Both make the same buffer of one stage.
 class PassByDriver final : public ItemPass {
   public:
-    PassByDriver(std::string row, std::unique_ptr<ItemPass> followed, std::unique_ptr<ItemPass> open)
+    PassByDriver(std::string row, std::shared_ptr<const ItemPass> followed, std::shared_ptr<const ItemPass> open)
         : row_(std::move(row)), followed_(std::move(followed)), open_(std::move(open)) {}
 
     [[nodiscard]] std::string_view name() const override { return followed_->name(); }
@@ -36,6 +36,13 @@ class PassByDriver final : public ItemPass {
     }
     bool run_all(const PassInput& in, const Profile& profile, const WritableView& after) const override {
         return on(profile).run_all(in, profile, after);
+    }
+    [[nodiscard]] std::unique_ptr<ItemPass> prepared(const PassInput& in) const override {
+        const auto ready = [&](const std::shared_ptr<const ItemPass>& pass) {
+            const std::shared_ptr<const ItemPass> one = pass->prepared(in);
+            return one ? one : pass;
+        };
+        return std::make_unique<PassByDriver>(row_, ready(followed_), ready(open_));
     }
     [[nodiscard]] std::vector<ItemOutcome> outcomes(const PassInput& in, std::size_t item, const Profile& profile,
                                                     const KnownOperations& known, const View* observed) const override {
@@ -64,7 +71,7 @@ class PassByDriver final : public ItemPass {
     }
 
     std::string row_;
-    std::unique_ptr<ItemPass> followed_, open_;
+    std::shared_ptr<const ItemPass> followed_, open_;
 };
 
 } // namespace lockstep

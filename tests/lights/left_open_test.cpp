@@ -139,6 +139,28 @@ TEST_CASE(
     CHECK(half_nearest(-70000.0F) == -HUGE_VALF);
 }
 
+TEST_CASE("lights left open: a pass by driver that is prepared for its input is the same pass") {
+    lights::Settings s = room();
+    s.width = s.height = 16;
+    const System system = lights::system(host_of(s));
+    const auto glow = std::ranges::find(system.passes, "glow_pass", &ItemPass::name);
+    REQUIRE(glow != system.passes.end());
+    ReferenceRun run(system, named_profile("strict"));
+    for (auto pass = system.passes.begin(); pass != glow; ++pass)
+        run.step_pass(static_cast<std::size_t>(pass - system.passes.begin()), 0);
+    const SystemView before = run.state().view();
+    const PassInput in{before, 0};
+    const std::unique_ptr<ItemPass> prepared = (*glow)->prepared(in);
+    REQUIRE(prepared != nullptr);
+    CHECK(prepared->name() == "glow_pass");
+    for (const Profile& profile : {not_following({}), not_following({lights::float_blend_row})})
+        for (std::size_t pixel = 0; pixel < 256; ++pixel) {
+            CHECK(prepared->mistaken(in, pixel, profile, {}) == (*glow)->mistaken(in, pixel, profile, {}));
+            CHECK(prepared->outcomes(in, pixel, profile, measured_operations(profile), nullptr).size() ==
+                  (*glow)->outcomes(in, pixel, profile, measured_operations(profile), nullptr).size());
+        }
+}
+
 TEST_CASE("lights left open: a report says on what a value rests, and which one promises bits") {
     const auto lines = [](const lights::Switches& on, const std::vector<std::string>& rows) {
         return fmt::format("{}", fmt::join(lights::left_open(on, not_following(rows)), "\n"));

@@ -101,7 +101,7 @@ std::vector<NamedMistake> of_volumes() {
             mistake_at(site::distance, Change::not_done));
         add("direction_not_weighted", "directions are not weighted", mistake_at(site::weight, Change::one));
         add("direction_weighted_twice", "directions are weighted twice",
-            mistake_at(site::weight, Change::times, -1, &site::attenuation));
+            mistake_at(site::light_direction, Change::times, -1, &site::attenuation));
         add("weight_is_one", "the sum of weights is a count", mistake_at(site::sum_weight, Change::one));
         add("point_guard_missing", "a light on the voxel's point has a direction",
             mistake_at(site::on_the_point, Change::never));
@@ -145,6 +145,8 @@ std::vector<NamedMistake> of_lighting() {
                        .mistake = spoiled_at(site::sample_offset, offset_by_constant),
                        .constants = {{0.25F}, {0.125F}}});
         add("supersample_sum", "samples are added up, not averaged", mistake_at(site::sample_mean, Change::one));
+        add("cubic_base_late", "the four texels along each axis begin one late",
+            mistake_at(site::first_texel, Change::one_more));
         add("cubic_not_clamped", "a negative colour stays", mistake_at(site::not_below, Change::never));
         add("lambert_not_clamped", "light from behind darkens", mistake_at(site::faces_light, Change::never));
         add("direction_not_normalised", "the sampled direction is not normalised",
@@ -170,6 +172,8 @@ const std::vector<NamedMistake>& mistakes() {
              mistake_at(site::turned, Change::negated)},
             {"stops_at_lower_wall", "at a lower wall a light stops", "light_step_pass",
              mistake_at(site::mirrored_low, Change::instead, -1, &site::wall_low)},
+            {"upper_wall_missing", "at an upper wall a light stops, and keeps its direction", "light_step_pass",
+             mistake_at(site::above, Change::never)},
             {"steps_backwards", "lights go backwards", "light_step_pass", mistake_at(site::step, Change::negated)},
             {"light_stays", "lights stay where they are", "light_step_pass",
              mistake_at(site::position, Change::instead, -1, &site::before)},

@@ -53,6 +53,16 @@ void in_box_of_disc(Words value, const CameBy& run) {
                         std::abs(first(run, site::centre_y) - first(run, site::glow_y)) <= reach;
     value[0] = in_box ? 1.0F : 0.0F;
 }
+/// Of discs about a place half a pixel aside: no more pixels are drawn.
+void in_box_of_disc_beside(Words value, const CameBy& run) {
+    const float centre = first(run, site::centre_x) + 0.5F;
+    if (std::abs(centre - first(run, site::glow_x)) > first(run, site::glow_radius) + 0.0625F)
+        value[0] = 0.0F;
+}
+void of_area(Words value, const CameBy& /*run*/) {
+    const float side = std::cbrt(value[0]);
+    value[0] = side * side;
+}
 void by_255(Words value, const CameBy& /*run*/) {
     for (float& x : value)
         x = x * 256.0F / 255.0F;
@@ -84,6 +94,8 @@ std::vector<NamedMistake> of_volumes() {
             mistake_at(site::in_range, Change::or_equal, 0));
         add("range_not_squared", "the squared distance is compared with the range",
             mistake_at(site::range2, Change::instead, -1, &site::range_before));
+        add("weights_not_added", "the sum of weights stays 0", mistake_at(site::sum_weight, Change::zero));
+        add("z_not_added", "the sum of z stays 0", mistake_at(site::sum_z, Change::zero));
         add("range_ignored", "a light reaches beyond its range", mistake_at(site::in_range, Change::always));
         add("own_voxel_only", "a light reaches its own voxel alone", mistake_at(site::by_own_voxel, Change::always));
         add("falloff_by_share", "the window is of the squared share, not of its square",
@@ -145,6 +157,16 @@ std::vector<NamedMistake> of_lighting() {
                        .mistake = spoiled_at(site::sample_offset, offset_by_constant),
                        .constants = {{0.25F}, {0.125F}}});
         add("supersample_sum", "samples are added up, not averaged", mistake_at(site::sample_mean, Change::one));
+        add("supersample_of_area", "the sum of the samples is divided by their number in a plane",
+            spoiled_at(site::sample_mean, of_area));
+        add("outside_clamped", "beside the grid its border goes on", mistake_at(site::in_grid, Change::always));
+        add("colour_of_direction", "the texture of directions is read for colours",
+            mistake_at(site::sampled_colour, Change::instead, -1, &site::sampled_direction));
+        add("length_not_rooted", "the direction is divided by its squared length",
+            mistake_at(site::direction_length, Change::not_done));
+        add("albedo_ignored", "surfaces are white", mistake_at(site::albedo, Change::one));
+        add("grid_at_world_origin", "textures are sampled as if the grid began at the world's origin",
+            mistake_at(site::low, Change::zero));
         add("cubic_base_late", "the four texels along each axis begin one late",
             mistake_at(site::first_texel, Change::one_more));
         add("cubic_not_clamped", "a negative colour stays", mistake_at(site::not_below, Change::never));
@@ -167,7 +189,15 @@ std::vector<NamedMistake> of_lighting() {
 
 const std::vector<NamedMistake>& mistakes() {
     static const std::vector<NamedMistake> all = [] {
+        static const Mistake drawn{
+            .site = site::on_disc.id, .change = Change::decided_by_formula, .formula = in_box_of_disc_beside};
+        Mistake beside = mistake_at(site::centre_x, Change::half_less);
+        beside.also = &drawn;
         std::vector<NamedMistake> made{
+            {"step_without_tick", "lights go their way of a second in each frame", "light_step_pass",
+             mistake_at(site::tick, Change::one)},
+            {"step_without_speed", "every light goes 1 m a second", "light_step_pass",
+             mistake_at(site::speed_before, Change::one)},
             {"bounce_keeps_direction", "at a wall a light keeps its direction", "light_step_pass",
              mistake_at(site::turned, Change::negated)},
             {"stops_at_lower_wall", "at a lower wall a light stops", "light_step_pass",
@@ -203,6 +233,10 @@ const std::vector<NamedMistake>& mistakes() {
              mistake_at(site::depth, Change::opposite)},
             {"normal_of_position", "the position is stored as the normal", "gbuffer_pass_normal",
              mistake_at(site::surface_normal, Change::instead, -1, &site::surface_point)},
+            {"normal_never_turned", "normals face the way of their triangle, not the viewer", "gbuffer_pass_normal",
+             mistake_at(site::faces_away, Change::never)},
+            {"normal_turned_away", "normals are turned from the viewer", "gbuffer_pass_normal",
+             mistake_at(site::faces_away, Change::inverted)},
             {"normal_not_unit", "normals are as long as the triangle is large", "gbuffer_pass_normal",
              spoiled_at(site::surface_normal, cross_product)},
             {"glow_through_walls", "glows are seen through what is before them", "glow_pass",
@@ -211,11 +245,16 @@ const std::vector<NamedMistake>& mistakes() {
              "glows are as large as what is drawn for them",
              "glow_pass",
              {.site = site::on_disc.id, .change = Change::decided_by_formula, .formula = in_box_of_disc}},
+            {"glow_by_corner", "discs are measured from the corners of pixels", "glow_pass", beside},
+            {"glow_without_gain", "glows are not multiplied by their gain", "glow_pass",
+             mistake_at(site::glow_gain, Change::one)},
             {"glow_not_fading", "glows are even discs", "glow_pass", mistake_at(site::glow_share, Change::one)},
         };
         for (const char* const pass : {"light_volume_resolve", "light_volume_resolve_direction"})
             made.insert(made.end(), {{"high_word_unsigned", "negative sums are read as great ones", pass,
                                       spoiled_at(site::high_word, unsigned_word)},
+                                     {"low_word_lost", "sums are cut to whole numbers", pass,
+                                      mistake_at(site::low_word, Change::zero)},
                                      {"words_swapped", "the two words of a sum are swapped", pass,
                                       mistake_at(site::low_first, Change::never)}});
         for (const char* const pass : {"gbuffer_pass", "gbuffer_pass_normal", "gbuffer_pass_albedo",

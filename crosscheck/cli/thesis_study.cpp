@@ -26,6 +26,9 @@ ThesisRun measure(const ThesisStudy& study) {
     options.frames = study.run.frames;
     options.seconds = study.seconds;
     options.octree = context.describe().compute;
+    options.on_left_out = [](std::string_view scene, std::string_view reason) {
+        fmt::print("left out: {}, since {}\n", scene, reason);
+    };
     options.on_cell = [](const ThesisCell& cell) {
         fmt::print("{}", thesis_cell_text(cell));
         std::fflush(stdout);

@@ -74,10 +74,32 @@ TEST_CASE("thesis_report: tables, figures and ratios, the thesis's beside") {
     CHECK(has_row({"bunny", "B", "6.0", "6.0", "6.0", "6.0", "7.7", "6.3", "5.7", "5.9"}));
     CHECK(has_row({"x-streams", "6.0", "6.0", "6.0", "6.0", "-", "-", "-", "-"}));
     CHECK_THAT(text,
-               Catch::Contains("25.0 / 93.8") && Catch::Contains("12.50 ms at 125000 particles") &&
-                   Catch::Contains("x 1.00 to 1.00 (CDT), 1.00 to 1.00 (octree)") &&
+               Catch::Contains("25.0 / 93.8") && Catch::Contains("x 1.00 to 1.00 (CDT), 1.00 to 1.00 (octree)") &&
                    Catch::Contains("0.0 to 0.0 % (CDT), 0.0 to 0.0 % (octree) at most") &&
                    Catch::Contains("octree / CDT: 6.0 to 6.0 (thesis 4.5 to 7.7); octree slower in every cell: yes"));
+}
+
+TEST_CASE("thesis_report: each average of the thesis stands beside what it is the average of") {
+    CHECK_THAT(
+        thesis_text(linear_run()),
+        Catch::Contains("average of table 4-1: 12.50 ms at 125000 particles (16 cells; the thesis's 16 cells, at "
+                        "125000 particles, average 43.00 ms)") &&
+            Catch::Contains("average of dragon B: 12.50 ms (thesis 46.75 ms") &&
+            Catch::Contains("abstract says 71 ms"));
+}
+
+TEST_CASE("thesis_report: scenes that were left out have empty rows") {
+    ThesisRun run = linear_run();
+    run.cells.erase(std::remove_if(run.cells.begin(), run.cells.end(),
+                                   [](const ThesisCell& cell) { return cell.scene.starts_with("dragon"); }),
+                    run.cells.end());
+    const std::string text = thesis_text(run);
+    CHECK_THAT(text, Catch::Contains("at 125000 particles (8 cells;") && Catch::Contains("average of dragon B: - ms"));
+    CHECK_THAT(text, Catch::Contains("\ndragon B            -         -         -         -         -"));
+    CHECK_THAT(thesis_chart(run), Catch::Contains("\n50000 NaN NaN 13.5 102\n"));
+
+    run.cells.erase(run.cells.begin(), run.cells.end() - 4);
+    CHECK_THAT(thesis_text(run), Catch::Contains("average of table 4-1: - ms at - particles (0 cells;"));
 }
 
 TEST_CASE("thesis_report: how time grows without what a frame costs anyway") {
@@ -123,7 +145,10 @@ TEST_CASE("thesis_report: what was written as JSON is read back, what is wrong i
 
     run.cells.pop_back();
     folder.write("run.json", thesis_json(run).dump());
-    CHECK_THROWS_WITH(read_thesis_json(file), Catch::Contains("/cells: scene x_streams has another number of cells"));
+    CHECK_THROWS_WITH(read_thesis_json(file),
+                      Catch::Contains("/cells: scene x_streams has other particle counts than bunny_a"));
+    folder.write("run.json", R"({"context": "made up", "cells": []})");
+    CHECK_THROWS_WITH(read_thesis_json(file), Catch::Contains("/cells: no cells; a run has one at least"));
     nlohmann::json json = thesis_json(run);
     json["cells"][0]["cdt"]["recall"] = 2.0;
     folder.write("run.json", json.dump());

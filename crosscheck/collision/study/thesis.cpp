@@ -10,6 +10,7 @@
 #include "crosscheck/scene/scene_file.hpp"
 #include "gpu/collision/simulation.hpp"
 #include "reference/collision/octree_pass.hpp"
+#include "reference/model/error.hpp"
 
 namespace lockstep {
 namespace {
@@ -60,15 +61,35 @@ double octree_recall(const std::vector<glm::vec3>& positions, const TrueNeighbou
                                : static_cast<double>(recalled) / static_cast<double>(with_neighbour);
 }
 
-ThesisCell measure(const std::string& name, std::size_t count, const ThesisOptions& options) {
+Scene load(std::string_view name, std::size_t count, const ThesisOptions& options) {
     SceneOptions scene_options;
     scene_options.particles = count;
     scene_options.emitter_length = static_cast<float>(count) / full_count;
     scene_options.preset = options.preset;
     scene_options.set = options.set;
     scene_options.set.insert(scene_options.set.begin(), fmt::format("octree_size={}", thesis_octree_size));
-    Scene scene = load_scene(options.scenes / (name + ".json"), scene_options);
-    ThesisCell cell{name, count, {}, {}};
+    return load_scene(options.scenes / fmt::format("{}.json", name), scene_options);
+}
+
+/// The scenes that can be measured. The last one needs no mesh: what keeps it from loading keeps all.
+std::vector<std::string_view> loadable(const ThesisOptions& options) {
+    std::vector<std::string_view> scenes;
+    for (const std::string_view scene : thesis_scenes)
+        try {
+            static_cast<void>(load(scene, 1, options));
+            scenes.push_back(scene);
+        } catch (const Error& error) {
+            if (scene == thesis_scenes.back())
+                throw;
+            if (options.on_left_out)
+                options.on_left_out(scene, error.what());
+        }
+    return scenes;
+}
+
+ThesisCell measure(std::string_view name, std::size_t count, const ThesisOptions& options) {
+    Scene scene = load(name, count, options);
+    ThesisCell cell{std::string(name), count, {}, {}};
     Particles last, ignored;
     scene.switches.search = Search::cdt;
     cell.cdt = time_system(scene, options, last);
@@ -94,9 +115,9 @@ std::optional<double> ThesisCell::ratio() const {
 
 std::vector<ThesisCell> thesis_study(const ThesisOptions& options) {
     std::vector<ThesisCell> cells;
-    for (const std::string_view scene : thesis_scenes)
+    for (const std::string_view scene : loadable(options))
         for (const std::size_t count : options.counts) {
-            cells.push_back(measure(std::string(scene), count, options));
+            cells.push_back(measure(scene, count, options));
             if (options.on_cell)
                 options.on_cell(cells.back());
         }

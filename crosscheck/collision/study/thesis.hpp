@@ -48,10 +48,12 @@ struct ThesisOptions {
     int frames = 60;      ///< a measurement, at most; frame 0, in which nobody searches, is not measured
     double seconds = 5.0; ///< a measurement ends with the frame in which this is over
     bool octree = true;
+    std::function<void(std::string_view scene, std::string_view reason)> on_left_out; ///< before anything is measured
     std::function<void(const ThesisCell&)> on_cell;
 };
 
-/// Every scene with every count, both systems. Throws Error as load_scene and GpuSimulation do.
+/// Every scene that loads with every count, both systems; without its mesh a scene is left out. Throws Error as
+/// load_scene does of x_streams, which needs no mesh, and as GpuSimulation does.
 std::vector<ThesisCell> thesis_study(const ThesisOptions& options);
 
 } // namespace lockstep

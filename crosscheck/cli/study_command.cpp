@@ -16,6 +16,7 @@
 #include "crosscheck/collision/study/catalogue_pictures.hpp"
 #include "crosscheck/collision/study/recall_table.hpp"
 #include "crosscheck/collision/study/remedy_table.hpp"
+#include "crosscheck/collision/study/rest.hpp"
 #include "crosscheck/collision/study/study.hpp"
 #include "crosscheck/collision/study/study_pictures.hpp"
 #include "crosscheck/collision/study/study_report.hpp"
@@ -49,6 +50,7 @@ struct StudyRequest {
     bool recall_table = false;
     bool catalogue = false;
     bool cameras = false;
+    bool rest = false;
     StudySide side = StudySide::cpu;
     bool remedies = false;
     bool gl_asked = false;
@@ -126,6 +128,22 @@ void print_cameras(const StudyRequest& options, const Scene& scene, const Profil
     fmt::print("{}", camera_head());
     camera_experiments(scene, profile, cameras);
     fmt::print("\nHoles: of the particles in contact that the viewer sees, those that find no neighbour.\n");
+}
+
+void print_rest(const StudyRequest& options) {
+    const Scene scene = load(options.run);
+    RestOptions rest;
+    rest.frames = options.run.frames;
+    rest.every = options.every;
+    rest.on_frame = [](const RestFrame& row) {
+        fmt::print("{}", rest_text(row));
+        std::fflush(stdout);
+    };
+    fmt::print("{}", rest_head());
+    rest_run(scene, named_profile(options.profile), rest);
+    fmt::print("\nAt rest: above the lowest point of the obstacles and slower than {} units a second, of all "
+               "particles; heights are over that point.\n",
+               rest_speed);
 }
 
 void study_scene(const StudyRequest& options) {
@@ -211,6 +229,10 @@ Mode mode_of(const StudyRequest& options) {
     const auto add = [&](std::initializer_list<std::string_view> more) {
         mode.options.insert(mode.options.end(), more);
     };
+    if (options.rest)
+        return {
+            "--rest",
+            {"--rest", "scene", "--particles", "--preset", "--set", "--threads", "--frames", "--every", "--profile"}};
     if (options.cameras) {
         mode.text = "--cameras";
         add({"--cameras"});
@@ -260,7 +282,10 @@ int run(StudyRequest options, const Call& call) {
         throw Error("study: --frames 1 is the frame with the empty CDT; 2 or more have something to study");
     const Mode mode = mode_of(options);
     check_options(call, mode.text, mode.options);
-    study_scene(options);
+    if (options.rest)
+        print_rest(options);
+    else
+        study_scene(options);
     return status_agree;
 }
 
@@ -287,6 +312,8 @@ Verb study_command() {
                   "the thesis's failure catalogue as a table; exit status 1 if an effect is not there"));
     verb.add(flag("--cameras", options->cameras,
                   "SCENE with the thesis's collision cameras (chapter 3.4): z offsets, fixed, side, rear"));
+    verb.add(flag("--rest", options->rest,
+                  "how many particles of SCENE have come to rest over the frames, and how high they lie"));
     verb.add(choice_option<StudySide>("--side", options->side, {{"cpu", StudySide::cpu}, {"gpu", StudySide::gpu}},
                                       "the side that runs SCENE: the reference, or the shaders, read back each frame"));
     verb.add(flag("--thesis", options->thesis,

@@ -81,6 +81,7 @@ TEST_CASE("study: an option that its mode would ignore is refused") {
     refused({scene(), "--cameras", "--json", "a"}, "--json does not go with --cameras --side cpu");
     refused({"--catalogue", "--csv", "a"}, "--csv does not go with --catalogue");
     refused({"--remedies", "--csv", "a"}, "--csv does not go with --remedies without --gl");
+    refused({scene(), "--rest", "--csv", "a"}, "--csv does not go with --rest");
     refused({"--recall-table", "--json", "a"}, "--json does not go with --recall-table");
     refused({"--recall-table", "--catalogue"}, "--catalogue does not go with --recall-table");
     refused({scene(), "--seconds", "3"}, "--seconds does not go with SCENE --side cpu");
@@ -135,6 +136,15 @@ TEST_CASE("study: the thesis's tables, measured, and told again from what was wr
     CHECK_THAT(told.out, Catch::StartsWith("GL ") && Catch::Contains("Figure 5-5"));
     CHECK_THAT(measured.out, Catch::Contains(" 2 ") && Catch::EndsWith(told.out));
 
+    scenes.write("dragon_a.json", R"({"emitters": [{"count": 9, "min": [0, 0, 0], "max": [1, 1, 1]}],
+        "obstacles": [{"shape": "mesh", "file": "nowhere.obj", "height": 1}]})");
+    const auto part = run_lockstep({"study", "--thesis", "--scenes", scenes.path().string(), "--counts", "100",
+                                    "--frames", "1", "--gl", test::software_gl(), "--json", path("part.json")});
+    CHECK(part.status == 0);
+    CHECK_THAT(part.out, Catch::Contains("left out: dragon_a, since ") && Catch::Contains("nowhere.obj: no such mesh"));
+    CHECK(part.out.find("left out") < part.out.find("\nbunny_a "));
+    CHECK(run_lockstep({"study", "--thesis", "--from", path("part.json")}).status == 0);
+
     const auto without = run_lockstep({"study", "--thesis", "--scenes", scenes.path().string(), "--counts", "100",
                                        "--frames", "1", "--gl", test::software_gl()},
                                       {{{"GALLIUM_DRIVER", "softpipe"}}});
@@ -156,6 +166,21 @@ TEST_CASE("study: the GL side, and the collision cameras") {
     CHECK_THAT(cameras, Catch::StartsWith("| collision camera |") &&
                             Catch::Contains("\n| fixed behind | 0.00 | stands |") && Catch::Contains("\nHoles: "));
     CHECK(std::count(cameras.begin(), cameras.end(), '\n') == 12);
+}
+
+TEST_CASE("study: who has come to rest, over the frames") {
+    const test::TemporaryFolder folder;
+    const std::string standing = folder.write("standing.json", R"({"constants": {"gravity": [0, 0, 0]},
+        "emitters": [{"count": 10, "min": [0, 1, 0], "max": [0.5, 1, 0], "speed": 0.01, "direction": [1, 0, 0]}],
+        "obstacles": [{"shape": "plane", "size": [1, 1]}]})");
+    const auto rest = run_lockstep({"study", standing, "--rest", "--frames", "4", "--every", "2"});
+    CHECK(rest.status == 0);
+    CHECK_THAT(rest.out, Catch::StartsWith("| frames |") && Catch::Contains("\n| 2 | 0.0 | 100.0 | 100.0 | 1.000 |") &&
+                             Catch::Contains("\n| 4 | ") && Catch::Contains("\nAt rest: "));
+    const std::string nothing = folder.write("nothing.json", R"({"emitters": [{"count": 10, "min": [0, 0, 0],
+        "max": [1, 1, 1]}]})");
+    CHECK(refusal(run_lockstep({"study", nothing, "--rest", "--frames", "4"})) ==
+          "study: --rest tells who lies on an obstacle; this scene has none");
 }
 
 TEST_CASE("study: what the thesis's tables cannot be made of is refused in one line") {

@@ -3,6 +3,7 @@
 #include <optional>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include <fmt/format.h>
@@ -135,11 +136,10 @@ void print_rest(const StudyRequest& options) {
     RestOptions rest;
     rest.frames = options.run.frames;
     rest.every = options.every;
-    rest.on_frame = [](const RestFrame& row) {
-        fmt::print("{}", rest_text(row));
+    rest.on_frame = [first = true](const RestFrame& row) mutable {
+        fmt::print("{}{}", std::exchange(first, false) ? rest_head() : "", rest_text(row));
         std::fflush(stdout);
     };
-    fmt::print("{}", rest_head());
     rest_run(scene, named_profile(options.profile), rest);
     fmt::print("\nAt rest: above the lowest point of the obstacles and slower than {} units a second, of all "
                "particles; heights are over that point.\n",

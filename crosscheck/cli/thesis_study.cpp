@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cstdio>
+#include <utility>
 
 #include <fmt/format.h>
 
@@ -29,13 +30,12 @@ ThesisRun measure(const ThesisStudy& study) {
     options.on_left_out = [](std::string_view scene, std::string_view reason) {
         fmt::print("left out: {}, since {}\n", scene, reason);
     };
-    options.on_cell = [](const ThesisCell& cell) {
-        fmt::print("{}", thesis_cell_text(cell));
+    options.on_cell = [first = true](const ThesisCell& cell) mutable {
+        fmt::print("{}{}", std::exchange(first, false) ? thesis_cell_head() : "", thesis_cell_text(cell));
         std::fflush(stdout);
     };
     if (!options.octree)
         fmt::print("no octree: it needs compute shaders, GL 4.3; this context is {}\n", context.describe().version);
-    fmt::print("{}", thesis_cell_head());
     ThesisRun run{summary(context.describe()), thesis_study(options)};
     fmt::print("\n");
     return run;

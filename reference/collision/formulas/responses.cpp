@@ -7,7 +7,7 @@
 namespace lockstep::formulas {
 namespace {
 
-constexpr std::array epsilons{1e-1F, 1e-2F, 1e-3F, 1e-4F, 1e-5F, 1e-6F, 1e-7F, 1e-8F};
+constexpr std::array added_lengths{1e-1F, 1e-2F, 1e-3F, 1e-4F, 1e-5F, 1e-6F, 1e-7F, 1e-8F};
 constexpr std::array three{0.0F, 1.0F, 2.0F};
 constexpr std::array six{0.0F, 1.0F, 2.0F, 3.0F, 4.0F, 5.0F};
 
@@ -140,7 +140,7 @@ void add_responses(std::vector<FormulaMistake>& all) {
                        const glm::vec3 away = vec3(run, site::away);
                        set(v, away / (glm::length(away) + run.constants[0]));
                    }),
-                   epsilons});
+                   added_lengths});
     all.push_back({"speed_factor_by_tick", "at a hit: the factor to the power of 60 u_Tick",
                    value(site::speed_factor, [](Floats v, Run run) { v[0] = std::pow(v[0], 60.0F * tick(run)); })});
     all.push_back({"speed_by_depth", "at a hit: speed * factor * distance / range",

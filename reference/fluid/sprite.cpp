@@ -29,7 +29,7 @@ PixelRect ray_box(const Host& host, const RoughWindow& window, const glm::dvec3&
 } // namespace
 
 bool may_leave_boxes(std::span<const Mistake> made, std::size_t spheres) {
-    constexpr std::size_t few = 4096;
+    constexpr std::size_t few = 256;
     static constexpr std::array placing{
         site::before.id,      site::view.id,         site::centre.id,   site::w.id,      site::near.id,
         site::beyond_near.id, site::radius.id,       site::distance.id, site::size.id,   site::half.id,

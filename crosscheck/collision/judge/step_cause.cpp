@@ -227,6 +227,10 @@ void TexelCauses::add(const JudgedFrame& frame, const FrameVerdicts& verdicts, c
         // Each trial draws a whole image: only what explains something alone is worth a partner.
         std::vector<TriedCause> two = causes_.pairs();
         std::erase_if(two, [&](const TriedCause& pair) {
+            // What is drawn beside obstacles that are wrong in their own way fits too much.
+            if (changes_obstacles(deviation_at(pair.mistakes.front())) ||
+                changes_obstacles(deviation_at(pair.mistakes.back())))
+                return true;
             return std::none_of(causes_.tried().begin(), causes_.tried().end(), [&](const TriedCause& alone) {
                 return alone.explained > 0 && (alone.mistakes.front() == pair.mistakes.front() ||
                                                alone.mistakes.front() == pair.mistakes.back());

@@ -62,10 +62,7 @@ template <class A> class DeviatingPoint {
     [[nodiscard]] PointFragment operator()(glm::vec3 position) {
         const auto projected = image_.clip({position.x, position.y, position.z});
         glm::vec4 clip(as_float(projected.x), as_float(projected.y), as_float(projected.z), as_float(projected.w));
-        const float most = std::max({std::abs(clip.x), std::abs(clip.y), std::abs(clip.z)});
-        if ((has(Deviation::near_half_discarded) && clip.z < 0.0F) ||
-            (has(Deviation::far_half_discarded) && clip.z > 0.0F) ||
-            (has(Deviation::clip_space_as_ndc_discarded) && most > 1.0F))
+        if (has(Deviation::near_half_discarded) && clip.z < 0.0F)
             return {};
         if (has(Deviation::point_without_divide))
             clip.w = 1.0F;

@@ -156,8 +156,6 @@ enum class Deviation {
     alpha_is_collide_time,
     waiting_discarded,
     near_half_discarded,
-    far_half_discarded,
-    clip_space_as_ndc_discarded,
     // Of the obstacles, where they are drawn as triangles.
     obstacle_first_and_second_swapped,
     obstacle_second_and_third_swapped,

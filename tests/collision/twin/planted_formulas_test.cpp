@@ -139,8 +139,6 @@ std::vector<Plant> drawing_plants() {
         point("point_depth_doubled", "crowd", "vec4(c.xy, 2.0 * c.z - c.w, c.w)"),
         point("point_depth_clamped", "wide_and_fast", "vec4(c.xy, c.w > 0.0 ? clamp(c.z, -c.w, c.w) : c.z, c.w)"),
         point("near_half_discarded", "crowd", "c.z < 0.0 ? vec4(2.0, 0.0, 0.0, 1.0) : c"),
-        point("clip_space_as_ndc_discarded", "wide_and_fast",
-              "any(greaterThan(abs(c.xyz), vec3(1.0))) ? vec4(2.0, 0.0, 0.0, 1.0) : c"),
         stored("stores_negated", "o_Texel = encode_position(-out_Position);"),
         stored("stores_remapped", "o_Texel = encode_position(out_Position * 0.5 + 0.5);"),
         stored("fragment_depth_zero", "o_Texel = encode_position(out_Position);\n    gl_FragDepth = 0.0;"),

@@ -32,6 +32,8 @@ void spoil(Corners<glm::vec3>& stored, const Deviations& deviations) {
         stored.fill(stored[0]);
     if (deviations.has(Deviation::obstacle_last_corner_alone))
         stored.fill(stored[2]);
+    if (deviations.has(Deviation::obstacle_centroid_alone))
+        stored.fill((stored[0] + stored[1] + stored[2]) / 3.0F);
 }
 
 /// Where its corners are taken to be.
@@ -53,8 +55,9 @@ template <class A> void draw(A fp, const Mesh& obstacles, const FrameParams& par
         Corners<glm::vec3> stored;
         Corners<glm::vec4> placed;
         for (std::size_t i = 0; i < 3; ++i) {
-            stored[i] = fp.flush(obstacles.positions[index[i]]);
             placed[i] = clip[index[i]];
+            stored[i] = deviations.has(Deviation::obstacle_stores_clip_space) ? glm::vec3(placed[i])
+                                                                              : fp.flush(obstacles.positions[index[i]]);
         }
         spoil(stored, deviations);
         misplace(placed, deviations);

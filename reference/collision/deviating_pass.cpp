@@ -144,6 +144,12 @@ glm::vec3 stored_wrongly(glm::vec3 position, const Deviations& deviations, const
         position = position / 3.0F * 3.0F; // as a mean of equal corners may round
     if (deviations.has(Deviation::stores_negated))
         position = -position;
+    if (deviations.has(Deviation::stores_x_negated))
+        position.x = -position.x;
+    if (deviations.has(Deviation::stores_y_negated))
+        position.y = -position.y;
+    if (deviations.has(Deviation::stores_z_negated))
+        position.z = -position.z;
     if (deviations.has(Deviation::stores_remapped))
         position = position * 0.5F + 0.5F;
     return position;

@@ -45,7 +45,7 @@ FrameInputs with_obstacles(FrameInputs inputs, const Mesh& obstacles) {
 bool rounds_freely(Deviation deviation) {
     using enum Deviation;
     return deviation == stores_srgb || deviation == alpha_is_depth || deviation == stores_remapped ||
-           deviation == obstacle_interpolated_on_screen;
+           (changes_obstacles(deviation) && deviation < obstacle_depth_not_halved);
 }
 
 std::vector<JointMistake> all_deviations() {

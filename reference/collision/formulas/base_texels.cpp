@@ -1,5 +1,6 @@
 #include "reference/collision/formulas/words.hpp"
 
+#include <string_view>
 #include <utility>
 
 #include <glm/mat4x4.hpp>
@@ -62,6 +63,19 @@ void add_base_texels(std::vector<FormulaMistake>& all) {
         for (std::size_t c = 0; c < 2; ++c)
             v[c] = std::floor(p[c]);
     });
+    static const auto within = [](Run run, int right, int upper) {
+        const auto& p = run.of(site::image_position);
+        return p[0] >= 0.0F && p[1] >= 0.0F && p[0] < static_cast<float>(right) && p[1] < static_cast<float>(upper);
+    };
+    const auto bounds = [&](std::string_view name, std::string_view meaning, Formula formula) {
+        all.push_back({name, meaning, at(site::base_texel, Change::decided_by_formula, formula, &from_outside)});
+    };
+    bounds("base_bounds_of_width_alone", "whether it is on the image is held against the width, of y as well",
+           [](Floats v, Run run) { v[0] = within(run, params(run).width, params(run).width) ? 1.0F : 0.0F; });
+    bounds("base_bounds_of_height_alone", "whether it is on the image is held against the height, of x as well",
+           [](Floats v, Run run) { v[0] = within(run, params(run).height, params(run).height) ? 1.0F : 0.0F; });
+    bounds("base_bounds_swapped", "whether it is on the image is held against the height for x, the width for y",
+           [](Floats v, Run run) { v[0] = within(run, params(run).height, params(run).width) ? 1.0F : 0.0F; });
     all.push_back({"guard_band_searches", "who is outside the image by less than a constant of NDC searches, too",
                    at(
                        site::base_texel, Change::decided_by_formula,
@@ -104,6 +118,10 @@ void add_base_texels(std::vector<FormulaMistake>& all) {
                        const auto& clip = run.of(site::clip);
                        v[0] = clip[0] / clip[2], v[1] = clip[1] / clip[2];
                    })});
+    all.push_back({"x_divided_by_z", "clip x is divided by z",
+                   value(site::ndc, [](Floats v, Run run) { v[0] = run.of(site::clip)[0] / run.of(site::clip)[2]; })});
+    all.push_back({"y_divided_by_z", "clip y is divided by z",
+                   value(site::ndc, [](Floats v, Run run) { v[1] = run.of(site::clip)[1] / run.of(site::clip)[2]; })});
     all.push_back({"divided_by_w_twice", "clip xy is divided by w twice",
                    value(site::ndc, [](Floats v, Run run) { v[0] /= clip_w(run), v[1] /= clip_w(run); })});
     all.push_back({"divided_by_size_of_w", "clip xy is divided by |w|", value(site::ndc, [](Floats v, Run run) {

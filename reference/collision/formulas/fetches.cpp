@@ -71,6 +71,12 @@ void add_fetches(std::vector<FormulaMistake>& all) {
                    fetch([](Floats v, Run) { std::swap(v[0], v[1]); })});
     all.push_back({"fetched_upside_down", "the texel read is size.y - 1 - y",
                    fetch([](Floats v, Run) { v[1] = v[3] - 1.0F - v[1]; })});
+    all.push_back(
+        {"offsets_doubled", "the texel read is twice as far from the base texel", fetch([](Floats v, Run run) {
+             const auto& base = run.of(site::base_texel);
+             for (std::size_t c = 0; c < 2; ++c)
+                 v[c] = 2.0F * v[c] - base[c];
+         })});
     all.push_back({"fetched_upside_down_from_height", "the texel read is size.y - y",
                    fetch([](Floats v, Run) { v[1] = v[3] - v[1]; })});
     all.push_back({"fetched_mirrored", "the texel read is size.x - 1 - x",

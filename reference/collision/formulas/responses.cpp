@@ -8,6 +8,7 @@ namespace lockstep::formulas {
 namespace {
 
 constexpr std::array added_lengths{1e-1F, 1e-2F, 1e-3F, 1e-4F, 1e-5F, 1e-6F, 1e-7F, 1e-8F};
+constexpr std::array parts{0.1F, 0.2F, 0.25F, 0.3F, 0.5F, 0.7F, 0.75F, 0.8F, 0.9F};
 constexpr std::array three{0.0F, 1.0F, 2.0F};
 constexpr std::array six{0.0F, 1.0F, 2.0F, 3.0F, 4.0F, 5.0F};
 
@@ -135,6 +136,17 @@ void add_responses(std::vector<FormulaMistake>& all) {
          hit_position([](Floats v, Run run) { set(v, before(run) + hit_step(run) * (tick(run) * tick(run))); })});
     all.push_back({"moves_back_at_hit", "at a hit: moves backwards",
                    hit_position([](Floats v, Run run) { set(v, before(run) - (get(v) - before(run))); })});
+    all.push_back({"old_direction_kept_in_part", "at a hit: away and a part of the old direction, as a unit vector",
+                   hit_direction([](Floats v, Run run) {
+                       set(v, glm::normalize(unit_away(run) + run.constants[0] * old_direction(run)));
+                   }),
+                   parts});
+    all.push_back({"mixed_with_old_direction", "at a hit: mix(old direction, away, a constant), as a unit vector",
+                   hit_direction([](Floats v, Run run) {
+                       const float c = run.constants[0];
+                       set(v, glm::normalize((1.0F - c) * old_direction(run) + c * unit_away(run)));
+                   }),
+                   parts});
     all.push_back({"length_with_epsilon_at_hit", "at a hit: away / (length + a constant)",
                    hit_direction([](Floats v, Run run) {
                        const glm::vec3 away = vec3(run, site::away);

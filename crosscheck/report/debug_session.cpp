@@ -319,7 +319,8 @@ std::string DebugSession::print(const std::string& argument) {
 }
 
 std::string DebugSession::history(const std::string& argument) {
-    const Resource& about = run_->states(item_.group).gpu.about();
+    const DebugRun::States now = run_->states(item_.group);
+    const Resource& about = now.gpu.about();
     std::vector<Component> wanted;
     std::vector<std::string> labels;
     for (const Component& c : components(about)) {

@@ -48,6 +48,10 @@ constexpr std::array change_names{"as it is",
                                   "with twice the right",
                                   "with half the right",
                                   "or for and",
+                                  "the loop left if so",
+                                  "the loop left if not",
+                                  "all loops left if so",
+                                  "all loops left if not",
                                   "first skipped",
                                   "last skipped",
                                   "first alone",
@@ -70,9 +74,13 @@ constexpr std::array change_names{"as it is",
                                   "the first taken",
                                   "the greatest taken",
                                   "the last of equals",
+                                  "compared with the first",
+                                  "compared with the one before",
                                   "one a turn",
                                   "all added up",
                                   "all added up as unit vectors",
+                                  "the least so far added up",
+                                  "the least so far added up as unit vectors",
                                   "sums left to right",
                                   "sums right to left",
                                   "sums fused",
@@ -166,6 +174,10 @@ std::vector<Mistake> mistakes_at(std::span<const SeenSite> sites) {
                         found.push_back({.site = seen.site->id, .change = change, .part = part});
             if (seen.size > 1)
                 all({Change::and_is_or});
+            if (seen.loops > 0)
+                all({Change::loop_left_if_so, Change::loop_left_if_not});
+            if (seen.loops > 1)
+                all({Change::loops_left_if_so, Change::loops_left_if_not});
             break;
         case SeenSite::Kind::setting:
             all({Change::inverted});
@@ -176,6 +188,10 @@ std::vector<Mistake> mistakes_at(std::span<const SeenSite> sites) {
             break;
         case SeenSite::Kind::fetch:
             all({Change::outside_is_edge, Change::outside_is_other_side, Change::outside_is_zero});
+            if (seen.loops > 0)
+                all({Change::loop_left_if_not});
+            if (seen.loops > 1)
+                all({Change::loops_left_if_not});
             break;
         case SeenSite::Kind::length:
             all({Change::squared, Change::sum_of_magnitudes, Change::without_x, Change::without_y, Change::without_z});
@@ -188,7 +204,8 @@ std::vector<Mistake> mistakes_at(std::span<const SeenSite> sites) {
             break;
         case SeenSite::Kind::choice:
             all({Change::last_taken, Change::first_taken, Change::greatest_taken, Change::last_of_equals,
-                 Change::one_a_turn, Change::added_up, Change::units_added_up});
+                 Change::compared_with_first, Change::compared_with_last, Change::one_a_turn, Change::added_up,
+                 Change::units_added_up, Change::improving_added_up, Change::improving_units_added_up});
             break;
         }
         if (!is_value(seen))

@@ -59,6 +59,11 @@ enum class Change : std::uint8_t {
     right_doubled, ///< and so on
     right_halved,
     and_is_or,
+    // A condition or a fetch in a loop: what its answer ends. A fetch answers yes where there is a texel.
+    loop_left_if_so,
+    loop_left_if_not,
+    loops_left_if_so, ///< all that it stands in
+    loops_left_if_not,
     // A loop.
     first_skipped,
     last_skipped,
@@ -85,9 +90,13 @@ enum class Change : std::uint8_t {
     first_taken,
     greatest_taken,
     last_of_equals,
-    one_a_turn,     ///< after one that was taken, none before the next loop begins
-    added_up,       ///< what was found is the sum of all
-    units_added_up, ///< of all as unit vectors
+    compared_with_first, ///< the last that is less than the first
+    compared_with_last,  ///< the last that is less than the one before it
+    one_a_turn,          ///< after one that was taken, none before the next loop begins
+    added_up,            ///< what was found is the sum of all
+    units_added_up,      ///< of all as unit vectors
+    improving_added_up,  ///< of those that were the least so far
+    improving_units_added_up,
     // Of the whole pass, at no site: its arithmetic.
     sums_left_to_right,
     sums_right_to_left,
@@ -103,6 +112,7 @@ enum class Change : std::uint8_t {
 std::string_view change_name(Change change);
 
 /// What a run has come by: each site's values as they last were. A condition has its left operands, a fetch the texel.
+/// Once a choice is made, they are those of what was chosen.
 class CameBy {
   public:
     static constexpr std::size_t most_values = 4;
@@ -152,7 +162,7 @@ struct Mistake {
     /// Whether it is written in one way among many, that round otherwise.
     [[nodiscard]] bool rounds() const {
         return also != nullptr || (formula != nullptr && change != Change::spoiled) ||
-               (change >= Change::one_a_turn && change <= Change::units_added_up);
+               (change >= Change::one_a_turn && change <= Change::improving_units_added_up);
     }
 };
 
@@ -181,7 +191,8 @@ struct SeenSite {
     };
     const Site* site;
     Kind kind;
-    int size = 1; ///< components, or comparisons
+    int size = 1;  ///< components, or comparisons
+    int loops = 0; ///< that it stands in
 
     bool operator==(const SeenSite&) const = default;
 };

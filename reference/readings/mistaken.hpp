@@ -3,6 +3,7 @@
 #include <array>
 #include <cmath>
 #include <cstddef>
+#include <limits>
 #include <optional>
 #include <span>
 #include <tuple>
@@ -11,6 +12,7 @@
 
 #include <glm/matrix.hpp>
 
+#include "reference/readings/changed.hpp"
 #include "reference/readings/condition.hpp"
 #include "reference/readings/mistake.hpp"
 #include "reference/readings/values.hpp"
@@ -88,6 +90,33 @@ template <class A> class Mistaken {
     using Vec4 = lockstep::Vec4<Real>;
     using IVec2 = lockstep::Vec2<Int>;
 
+    /// A loop's turns, which end where the loop is left.
+    class Turns {
+      public:
+        Turns(Mistaken& reading, IntRange<Int> turns)
+            : reading_(reading), turns_(turns), depth_(++reading.loops_open_) {}
+        Turns(const Turns&) = delete;
+        Turns& operator=(const Turns&) = delete;
+        ~Turns() {
+            if (reading_.left_from_ == reading_.loops_open_--)
+                reading_.left_from_ = never_left;
+        }
+        struct Iterator {
+            typename IntRange<Int>::Iterator at;
+            const Turns& of;
+            Int operator*() const { return *at; }
+            Iterator& operator++() { return ++at, *this; }
+            bool operator!=(const Iterator& end) const { return at != end.at && of.depth_ < of.reading_.left_from_; }
+        };
+        [[nodiscard]] Iterator begin() const { return {turns_.begin(), *this}; }
+        [[nodiscard]] Iterator end() const { return {turns_.end(), *this}; }
+
+      private:
+        Mistaken& reading_;
+        IntRange<Int> turns_;
+        int depth_;
+    };
+
     Mistaken(A arithmetic, std::span<const Mistake> made) : fp_(arithmetic) {
         for (const Mistake& mistake : made)
             for (const Mistake* one = &mistake; one != nullptr && count_ < made_.size(); one = one->also) {
@@ -151,38 +180,12 @@ template <class A> class Mistaken {
     template <bool all, std::size_t n> bool decide(At p, const OpenComparisons<Real, all, n>& condition) {
         return holds(p, condition);
     }
-    IntRange<Int> range(At p, int first, int last) {
+    Turns range(At p, int first, int last) {
         see(p, Kind::loop);
         ++loops_begun_;
-        const Change change = change_at(p);
-        if (change == Change::backwards)
-            return {last, first, -1};
-        if (const Made* made = formula_at(p, Change::ranged_by_formula)) {
-            std::array<float, 3> loop{static_cast<float>(first), static_cast<float>(last), 1.0F};
-            ask(*made, loop);
-            const int from = static_cast<int>(loop[0]), step = std::max(static_cast<int>(loop[2]), 1);
-            const int turns = static_cast<int>(loop[1]) < from ? -1 : (static_cast<int>(loop[1]) - from) / step;
-            return {from, from + turns * step, step};
-        }
-        const int middle = first + (last - first) / 2;
-        switch (change) {
-        case Change::first_skipped:
-            return {first + 1, last};
-        case Change::last_skipped:
-            return {first, last - 1};
-        case Change::first_alone:
-            return {first, std::min(first, last)};
-        case Change::last_alone:
-            return {std::max(first, last), last};
-        case Change::first_half:
-            return {first, std::min(middle, last)};
-        case Change::last_half:
-            return {middle, last};
-        case Change::every_second:
-            return {first, last < first ? last : last - (last - first) % 2, 2};
-        default:
-            return {first, last};
-        }
+        const Made* made = formula_at(p, Change::ranged_by_formula);
+        return {*this,
+                made != nullptr ? asked_turns(*made, first, last) : changed_turns<Int>(change_at(p), first, last)};
     }
     /// Outside the image, where only a wrong size leads, drivers answer 0.
     template <class Texel> const Texel* fetch(At p, const Image<Texel>& image, const IVec2& size, const IVec2& at) {
@@ -208,6 +211,7 @@ template <class A> class Mistaken {
             case Change::outside_is_zero:
                 return &zero_but_alpha;
             default:
+                leave(change_at(p), false);
                 return nullptr;
             }
         }
@@ -296,21 +300,33 @@ template <class A> class Mistaken {
             std::array<float, 2> by{static_cast<float>(key), 0.0F};
             if (made_ != nullptr)
                 reading_.ask(*made_, by);
-            if (!better(by[0]) && !(found_ && by[0] == least_ && by[1] < of_equals_))
+            if (!better(by[0]) && !(found_ && by[0] == least_ && by[1] < of_equals_)) {
+                if (change_ == Change::compared_with_last)
+                    least_ = by[0];
                 return;
-            least_ = by[0];
+            }
+            if (!(change_ == Change::compared_with_first && found_))
+                least_ = by[0];
             of_equals_ = by[1];
             turn_ = reading_.loops_begun_;
-            const bool adds = change_ == Change::added_up || change_ == Change::units_added_up;
-            if (adds && found_)
+            if (reading_.run_)
+                run_ = reading_.run_;
+            if (adds() && found_)
                 return reading_.add(*found_, std::optional(payload), change_);
             found_ = payload;
-            if (adds)
+            if (adds())
                 reading_.add(*found_, std::optional<Payload>(), change_);
         }
-        [[nodiscard]] const std::optional<Payload>& take() const { return found_; }
+        [[nodiscard]] const std::optional<Payload>& take() {
+            if (run_)
+                reading_.run_ = run_;
+            return found_;
+        }
 
       private:
+        [[nodiscard]] bool adds() const {
+            return change_ >= Change::added_up && change_ <= Change::improving_units_added_up;
+        }
         [[nodiscard]] bool better(float key) const {
             switch (change_) {
             case Change::last_taken:
@@ -338,6 +354,7 @@ template <class A> class Mistaken {
         float of_equals_ = 0.0F; ///< what chose among those whose key is the least
         int turn_ = 0;
         std::optional<Payload> found_;
+        std::optional<CameBy> run_; ///< as it was when that was found
     };
 
   private:
@@ -348,7 +365,7 @@ template <class A> class Mistaken {
     void see(At p, Kind kind, int size = 1) {
         if (!looks_)
             return;
-        const SeenSite seen{&p.site, kind, size};
+        const SeenSite seen{&p.site, kind, size, loops_open_};
         if (std::find(sites_.begin(), sites_.end(), seen) == sites_.end())
             sites_.push_back(seen);
     }
@@ -364,6 +381,21 @@ template <class A> class Mistaken {
             if (made.mistake.site == p.site.id && made.mistake.change > Change::chosen_by_formula)
                 return made.mistake.change;
         return Change::none;
+    }
+
+    IntRange<Int> asked_turns(const Made& made, int first, int last) {
+        std::array<float, 3> loop{static_cast<float>(first), static_cast<float>(last), 1.0F};
+        ask(made, loop);
+        const int from = static_cast<int>(loop[0]), step = std::max(static_cast<int>(loop[2]), 1);
+        const int turns = static_cast<int>(loop[1]) < from ? -1 : (static_cast<int>(loop[1]) - from) / step;
+        return {from, from + turns * step, step};
+    }
+    /// What becomes of the loops around a condition, or a fetch, that answers so.
+    void leave(Change change, bool answer) {
+        if (change == (answer ? Change::loop_left_if_so : Change::loop_left_if_not))
+            left_from_ = std::min(left_from_, loops_open_);
+        if (change == (answer ? Change::loops_left_if_so : Change::loops_left_if_not))
+            left_from_ = 1;
     }
 
     /// The mistake there that a formula says, of one kind.
@@ -391,7 +423,9 @@ template <class A> class Mistaken {
     template <class Payload> void add(Payload& sum, const std::optional<Payload>& more, Change change) {
         if constexpr (requires { sum.fields(); }) {
             const auto as_asked = [&](const Vec3& v) {
-                return change == Change::units_added_up ? vector(fp_.normalize(floats(v))) : v;
+                return change == Change::units_added_up || change == Change::improving_units_added_up
+                           ? vector(fp_.normalize(floats(v)))
+                           : v;
             };
             const auto visit = [&]<class Field>(Field& field, const Field* other) {
                 if constexpr (std::is_same_v<Field, Vec3>)
@@ -450,59 +484,16 @@ template <class A> class Mistaken {
         } else if (mistake.source == 0 || made.kept_size > 0) {
             for (std::size_t i = 0; i < all.size(); ++i)
                 if (mistake.part < 0 || mistake.part == static_cast<int>(i))
-                    set(*all[i], changed(mistake.change, as_float(*all[i]), made.kept[made.kept_size > 1 ? i : 0]));
+                    set(*all[i],
+                        changed_value<A>(mistake.change, as_float(*all[i]), made.kept[made.kept_size > 1 ? i : 0]));
         }
     }
-    template <class T> static void reorder(T& x, T& y, T& z, Change change) {
-        if (change == Change::rotated)
-            std::swap(x, y);
-        if (change == Change::xz_swapped || change == Change::rotated_back)
-            std::swap(x, z);
-        if (change != Change::xz_swapped)
-            std::swap(y, z);
-    }
-    static float changed(Change change, float x, float other) {
-        switch (change) {
-        case Change::zero:
-            return 0.0F;
-        case Change::one:
-            return 1.0F;
-        case Change::negated:
-            return -x;
-        case Change::doubled:
-            return x * 2.0F;
-        case Change::halved:
-            return x * 0.5F;
-        case Change::reciprocal:
-            return 1.0F / x;
-        case Change::opposite:
-            return 1.0F - x;
-        case Change::one_more:
-            return x + 1.0F;
-        case Change::one_less:
-            return x - 1.0F;
-        case Change::half_more:
-            return x + 0.5F;
-        case Change::half_less:
-            return x - 0.5F;
-        case Change::instead:
-            return other;
-        case Change::plus:
-            return A::flush(x + other);
-        case Change::minus:
-            return A::flush(x - other);
-        case Change::times:
-            return static_cast<float>(NumberOf<A>(x) * NumberOf<A>(other));
-        default:
-            return x;
-        }
-    }
-
     bool known(At p, bool condition, Kind kind) {
         see(p, kind);
         return whole(change_at(p), condition);
     }
-    static bool whole(Change change, bool condition) {
+    bool whole(Change change, bool condition) {
+        leave(change, condition);
         switch (change) {
         case Change::inverted:
             return !condition;
@@ -542,7 +533,7 @@ template <class A> class Mistaken {
         bool answer = is_all;
         for (std::size_t i = 0; i < n; ++i) {
             const bool part = at_site ? part_holds(p, condition.part[i], static_cast<int>(i), all)
-                                      : holds(condition.part[i], Change::none);
+                                      : changed_answer(condition.part[i], Change::none);
             answer = is_all ? answer && part : answer || part;
         }
         return at_site ? whole(change_of(p, -1), answer) : answer;
@@ -550,7 +541,7 @@ template <class A> class Mistaken {
     template <bool all, std::size_t n> static bool holds(const OpenComparisons<Real, all, n>& condition) {
         bool answer = all;
         for (const OpenComparison<Real>& part : condition)
-            answer = all ? answer && holds(part, Change::none) : answer || holds(part, Change::none);
+            answer = all ? answer && changed_answer(part, Change::none) : answer || changed_answer(part, Change::none);
         return answer;
     }
     [[nodiscard]] Change change_of(At p, int part) const {
@@ -561,55 +552,19 @@ template <class A> class Mistaken {
     }
     bool part_holds(At p, const OpenComparison<Real>& c, int part, bool all) const {
         const Change change = change_of(p, part);
-        return change == Change::dropped ? all : holds(c, change);
+        return change == Change::dropped ? all : changed_answer(c, change);
     }
-    static bool holds(const OpenComparison<Real>& c, Change change) {
-        const float a = change == Change::left_zero ? 0.0F : static_cast<float>(c.a);
-        const float b = right(static_cast<float>(c.b), change);
-        switch (c.op) {
-        case CompareOp::less:
-        case CompareOp::less_equal:
-            return ordered(a, b, c.op, change) != c.negated;
-        case CompareOp::equal:
-            if (change == Change::at_most || change == Change::at_least)
-                return (change == Change::at_most ? a <= b : a >= b) != c.negated;
-            return (a == b) != (c.negated != (change == Change::reversed));
-        case CompareOp::always:
-        case CompareOp::never:
-            break;
-        }
-        return (c.op == CompareOp::always) != c.negated;
-    }
-    static float right(float b, Change change) {
-        switch (change) {
-        case Change::right_zero:
-            return 0.0F;
-        case Change::right_doubled:
-            return b * 2.0F;
-        case Change::right_halved:
-            return b * 0.5F;
-        default:
-            return b;
-        }
-    }
-    static bool ordered(float a, float b, CompareOp op, Change change) {
-        if (change == Change::differs)
-            return a != b;
-        const bool or_equal = (op == CompareOp::less_equal) != (change == Change::or_equal);
-        if (change == Change::reversed)
-            return or_equal ? a >= b : a > b;
-        return or_equal ? a <= b : a < b;
-    }
-
     static constexpr glm::vec4 zero{0.0F}, zero_but_alpha{0.0F, 0.0F, 0.0F, 1.0F};
 
     A fp_;
-    std::array<Made, 4> made_;
+    std::array<Made, 8> made_;
     std::size_t count_ = 0;
     std::uint64_t touched_ = 0;
     bool looks_ = false;
-    int loops_begun_ = 0;
-    std::optional<CameBy> run_; ///< where a formula asks for it
+    static constexpr int never_left = std::numeric_limits<int>::max();
+    int loops_begun_ = 0, loops_open_ = 0;
+    int left_from_ = never_left; ///< this loop and those in it end with this turn
+    std::optional<CameBy> run_;  ///< where a formula asks for it
     std::vector<SeenSite> sites_;
 };
 

@@ -1,7 +1,9 @@
 #include <catch2/catch.hpp>
 
+#include <algorithm>
 #include <array>
 #include <cstdint>
+#include <tuple>
 #include <vector>
 
 #include "reference/arithmetic.hpp"
@@ -89,4 +91,77 @@ TEST_CASE("readings: a mistaken comparison answers as its change says") {
     CHECK(answers(Change::right_zero, 1.0F, 2.0F) == Answers{false, false, false});
     CHECK(answers(Change::right_doubled, 3.0F, 2.0F) == Answers{true, true, false});
     CHECK(answers(Change::right_halved, 1.0F, 2.0F) == Answers{false, true, true});
+}
+
+namespace {
+
+constexpr Site rows{"rows"}, columns{"columns"}, refuses{"refuses"}, least_of{"least of"}, offered{"offered"};
+
+/// The turns of two loops, 1 to 3, that come by a condition, which is that both are 2, and go on where it holds.
+std::vector<int> gone_through(Change change) {
+    const std::array made{mistake_at(refuses, change)};
+    Mistaken<Strict> r(Strict{}, made);
+    std::vector<int> all;
+    for (const int row : r.range(rows, 1, 3))
+        for (const int column : r.range(columns, 1, 3)) {
+            if (r.decide(refuses, row == 2 && column == 2))
+                continue;
+            all.push_back(10 * row + column);
+        }
+    return all;
+}
+
+/// A payload of one vector, its x the key.
+struct Found {
+    Mistaken<Strict>::Vec3 at;
+    auto fields() { return std::tie(at); }
+    auto fields() const { return std::tie(at); }
+};
+float chosen(Change change, const std::vector<float>& keys) {
+    const std::array made{mistake_at(least_of, change)};
+    Mistaken<Strict> r(Strict{}, made);
+    auto nearest = least<Found>(r, least_of, 100.0F);
+    for (const float key : keys)
+        nearest.offer(offered, true, key, {{key, 0.0F, 0.0F}});
+    return static_cast<float>(nearest.take()->at.x);
+}
+
+} // namespace
+
+TEST_CASE("readings: a condition may end one loop or all that it stands in, and none after them") {
+    using Turns = std::vector<int>;
+    CHECK(gone_through(Change::none) == Turns{11, 12, 13, 21, 23, 31, 32, 33});
+    CHECK(gone_through(Change::loop_left_if_so) == Turns{11, 12, 13, 21, 31, 32, 33});
+    CHECK(gone_through(Change::loops_left_if_so) == Turns{11, 12, 13, 21});
+    CHECK(gone_through(Change::loop_left_if_not) == Turns{11, 21, 31});
+    CHECK(gone_through(Change::loops_left_if_not) == Turns{11});
+}
+
+TEST_CASE("readings: a mistaken choice takes what its change says") {
+    const std::vector<float> keys{5.0F, 4.0F, 6.0F, 3.0F, 4.5F};
+    CHECK(chosen(Change::none, keys) == 3.0F);
+    CHECK(chosen(Change::last_taken, keys) == 4.5F);
+    CHECK(chosen(Change::first_taken, keys) == 5.0F);
+    CHECK(chosen(Change::greatest_taken, keys) == 6.0F);
+    CHECK(chosen(Change::compared_with_first, keys) == 4.5F);
+    CHECK(chosen(Change::compared_with_last, {5.0F, 4.0F, 6.0F, 5.5F, 7.0F}) == 5.5F);
+    CHECK(chosen(Change::added_up, keys) == 22.5F);
+    CHECK(chosen(Change::units_added_up, keys) == 5.0F);
+    CHECK(chosen(Change::improving_added_up, keys) == 12.0F);
+    CHECK(chosen(Change::improving_units_added_up, keys) == 3.0F);
+}
+
+TEST_CASE("readings: what is in a loop can leave it") {
+    Mistaken<Strict> r(Strict{}, {});
+    r.look_at_sites();
+    (void)r.decide(test, true);
+    for (const int row : r.range(rows, 1, 1))
+        (void)r.decide(refuses, row == 2);
+    const std::vector<Mistake> found = mistakes_at(r.sites());
+    const auto has = [&](const Site& site, Change change) {
+        return std::find(found.begin(), found.end(), mistake_at(site, change)) != found.end();
+    };
+    CHECK(has(refuses, Change::loop_left_if_so));
+    CHECK_FALSE(has(refuses, Change::loops_left_if_so));
+    CHECK_FALSE(has(test, Change::loop_left_if_so));
 }

@@ -13,6 +13,10 @@
 namespace lockstep {
 namespace {
 
+bool is_hit(float time_before, float time_after, float collision_time) {
+    return time_before < 0.0F && time_after == collision_time;
+}
+
 constexpr std::size_t place(Situation situation) { return static_cast<std::size_t>(situation); }
 
 /// Looks at particles one by one.
@@ -32,7 +36,7 @@ template <class A> class Observer {
             note(Situation::behind_camera, i, found);
         const float time = before_.collide_time[i];
         const bool searches = time < 0.0F;
-        const bool hit = searches && after_.collide_time[i] == params_.constants.collision_time;
+        const bool hit = is_hit(time, after_.collide_time[i], params_.constants.collision_time);
         if (hit)
             note(Situation::hit, i, found);
         const auto p = image_.image_position(clip);
@@ -116,6 +120,16 @@ template <class A> class Observer {
 };
 
 } // namespace
+
+std::uint64_t count_hits(std::span<const float> before, std::span<const float> after, float collision_time) {
+    const auto n = static_cast<std::ptrdiff_t>(after.size());
+    const float *const time_before = before.data(), *const time_after = after.data();
+    std::uint64_t hits = 0;
+#pragma omp parallel for simd reduction(+ : hits) schedule(static)
+    for (std::ptrdiff_t i = 0; i < n; ++i)
+        hits += is_hit(time_before[i], time_after[i], collision_time) ? 1U : 0U;
+    return hits;
+}
 
 Situations situations_of(const Particles& before, const CollisionImage& cdt, const FrameParams& params,
                          const Profile& profile, const Particles& after, std::size_t looked_at) {

@@ -2,6 +2,7 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <span>
 #include <string_view>
 #include <vector>
 
@@ -37,6 +38,10 @@ struct Situations {
 
     [[nodiscard]] std::uint64_t of(Situation situation) const { return count[static_cast<std::size_t>(situation)]; }
 };
+
+/// How many searched and found something, by the collide times before and after a step: a time that runs down can come
+/// to the collision time, too.
+std::uint64_t count_hits(std::span<const float> before, std::span<const float> after, float collision_time);
 
 /// Of a step from `before` that read `cdt` and led to `after`. Hits, borders, what is behind the camera and NaN are
 /// counted over all particles; of those without a hit, `looked_at` or so have their neighbours looked at.

@@ -18,6 +18,7 @@
 #include "crosscheck/judge/stopwatch.hpp"
 #include "gpu/collision/gpu_side.hpp"
 #include "reference/collision/simulation.hpp"
+#include "reference/collision/situations.hpp"
 #include "reference/collision/step_pass.hpp"
 #include "reference/model/collision/collision_state.hpp"
 #include "reference/model/collision/layered_cdt.hpp"
@@ -54,18 +55,6 @@ Comparison compare_again(const State& first, const GpuSide& gpu, const Scene& sc
         result.add(lockstep::compare(first.particles, again.particles));
     }
     return result;
-}
-
-/// Those that searched and found something: a time that runs down can come to the same value.
-std::uint64_t count_hits(const Particles& before, const Particles& after, float collision_time) {
-    const auto n = static_cast<std::ptrdiff_t>(after.size());
-    const float* const time_before = before.collide_time.data();
-    const float* const time_after = after.collide_time.data();
-    std::uint64_t hits = 0;
-#pragma omp parallel for simd reduction(+ : hits) schedule(static)
-    for (std::ptrdiff_t i = 0; i < n; ++i)
-        hits += time_before[i] < 0.0F && time_after[i] == collision_time ? 1U : 0U;
-    return hits;
 }
 
 std::uint64_t count_drawn(const CollisionImage& cdt) {
@@ -282,7 +271,8 @@ CheckReport check(const Scene& scene, const Profile& profile, GpuSide& gpu, cons
             if (!comparison.agree() || options.mode == CheckMode::free)
                 note_difference(report, frame, comparison);
             report.total.add(comparison);
-            report.hits += count_hits(before.particles, reference.particles(), scene.constants.collision_time);
+            report.hits += count_hits(before.particles.collide_time, reference.particles().collide_time,
+                                      scene.constants.collision_time);
             report.drawn_texels += count_drawn(reference.cdt());
         }
         std::optional<FrameVerdicts> verdicts;

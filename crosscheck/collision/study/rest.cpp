@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 
 #include "reference/collision/simulation.hpp"
+#include "reference/collision/situations.hpp"
 #include "reference/model/error.hpp"
 
 namespace lockstep {
@@ -28,13 +29,6 @@ double quantile(std::vector<float>& heights, double part) {
     const auto at = heights.begin() + static_cast<std::ptrdiff_t>(part * static_cast<double>(heights.size() - 1));
     std::nth_element(heights.begin(), at, heights.end());
     return static_cast<double>(*at);
-}
-
-std::size_t count_hits(const std::vector<float>& before, const Particles& after, float collision_time) {
-    std::size_t hits = 0;
-    for (std::size_t i = 0; i < before.size(); ++i)
-        hits += before[i] < 0.0F && after.collide_time[i] == collision_time ? 1U : 0U;
-    return hits;
 }
 
 RestFrame measure(const Particles& particles, float floor) {
@@ -70,7 +64,7 @@ std::vector<RestFrame> rest_run(const Scene& scene, const Profile& profile, cons
         const Particles& after = simulation.particles();
         RestFrame row = measure(after, floor);
         row.frames = frame + 1;
-        row.hits = share(count_hits(before, after, scene.constants.collision_time), after.size());
+        row.hits = share(count_hits(before, after.collide_time, scene.constants.collision_time), after.size());
         rows.push_back(row);
         if (options.on_frame)
             options.on_frame(row);

@@ -34,6 +34,7 @@ constexpr std::array change_names{"as it is",
                                   "ranged otherwise",
                                   "fetched elsewhere",
                                   "chosen otherwise",
+                                  "found otherwise",
                                   "inverted",
                                   "always",
                                   "never",
@@ -75,6 +76,7 @@ constexpr std::array change_names{"as it is",
                                   "the greatest taken",
                                   "the last of equals",
                                   "compared with the first",
+                                  "the second least",
                                   "compared with the one before",
                                   "one a turn",
                                   "all added up",
@@ -113,6 +115,16 @@ void add_values(std::vector<Mistake>& found, const SeenSite& seen, std::span<con
     if (seen.size == 3)
         for (const Change change : {Change::yz_swapped, Change::xz_swapped, Change::rotated, Change::rotated_back})
             found.push_back({.site = seen.site->id, .change = change});
+}
+
+/// That a condition leaves the loops it stands in, or a comparison of it does.
+void add_ends_of_loops(std::vector<Mistake>& found, const SeenSite& seen) {
+    constexpr std::array ends{Change::loop_left_if_so, Change::loop_left_if_not, Change::loops_left_if_so,
+                              Change::loops_left_if_not};
+    const std::size_t count = seen.loops > 1 ? ends.size() : seen.loops > 0 ? 2 : 0;
+    for (const Change change : std::span(ends).first(count))
+        for (int part = -1; part < (seen.size > 1 ? seen.size : 0); ++part)
+            found.push_back({.site = seen.site->id, .change = change, .part = part});
 }
 
 bool is_value(const SeenSite& seen) {
@@ -174,10 +186,7 @@ std::vector<Mistake> mistakes_at(std::span<const SeenSite> sites) {
                         found.push_back({.site = seen.site->id, .change = change, .part = part});
             if (seen.size > 1)
                 all({Change::and_is_or});
-            if (seen.loops > 0)
-                all({Change::loop_left_if_so, Change::loop_left_if_not});
-            if (seen.loops > 1)
-                all({Change::loops_left_if_so, Change::loops_left_if_not});
+            add_ends_of_loops(found, seen);
             break;
         case SeenSite::Kind::setting:
             all({Change::inverted});
@@ -204,8 +213,9 @@ std::vector<Mistake> mistakes_at(std::span<const SeenSite> sites) {
             break;
         case SeenSite::Kind::choice:
             all({Change::last_taken, Change::first_taken, Change::greatest_taken, Change::last_of_equals,
-                 Change::compared_with_first, Change::compared_with_last, Change::one_a_turn, Change::added_up,
-                 Change::units_added_up, Change::improving_added_up, Change::improving_units_added_up});
+                 Change::compared_with_first, Change::second_least, Change::compared_with_last, Change::one_a_turn,
+                 Change::added_up, Change::units_added_up, Change::improving_added_up,
+                 Change::improving_units_added_up});
             break;
         }
         if (!is_value(seen))

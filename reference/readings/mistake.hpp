@@ -44,6 +44,7 @@ enum class Change : std::uint8_t {
     ranged_by_formula,
     fetched_by_formula,
     chosen_by_formula,
+    found_by_formula,
     // A condition, or one comparison of it.
     inverted,
     always,
@@ -91,6 +92,7 @@ enum class Change : std::uint8_t {
     greatest_taken,
     last_of_equals,
     compared_with_first, ///< the last that is less than the first
+    second_least,        ///< where there are two
     compared_with_last,  ///< the last that is less than the one before it
     one_a_turn,          ///< after one that was taken, none before the next loop begins
     added_up,            ///< what was found is the sum of all
@@ -112,7 +114,6 @@ enum class Change : std::uint8_t {
 std::string_view change_name(Change change);
 
 /// What a run has come by: each site's values as they last were. A condition has its left operands, a fetch the texel.
-/// Once a choice is made, they are those of what was chosen.
 class CameBy {
   public:
     static constexpr std::size_t most_values = 4;
@@ -121,8 +122,16 @@ class CameBy {
     /// The values kept, 0 where there are none.
     [[nodiscard]] const std::array<float, most_values>& of(const Site& site) const;
     [[nodiscard]] bool has(const Site& site) const { return find(site.id) != nullptr; }
+    /// As they were when what is chosen so far was offered; if nothing is, as they last were.
+    [[nodiscard]] const std::array<float, most_values>& of_chosen(const Site& site) const {
+        return chosen == nullptr ? of(site) : chosen->of(site);
+    }
 
     const void* world = nullptr; ///< what the system foretold, see Mistaken::foretell
+    std::size_t item = 0;        ///< whose run it is
+    const CameBy* chosen = nullptr;
+    int offered = 0; ///< how many the choice could be made of
+    int taken = 0;   ///< of these, how many were the least so far
     std::array<float, 3> constants{};
 
   private:
@@ -140,7 +149,8 @@ class CameBy {
 /// - of a condition its answer, followed by both operands of each comparison;
 /// - a loop's first, last and step;
 /// - a fetch's x and y, followed by the image's width and height;
-/// - the key by which one is chosen, followed by a second one, 0, by which one is chosen among equals.
+/// - the key by which one is chosen, followed by a second one, 0, by which one is chosen among equals;
+/// - of what was chosen, 1: whether it counts.
 using Formula = void (*)(std::span<float> value, const CameBy& run);
 
 /// One change of a twin at one site.

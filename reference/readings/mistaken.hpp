@@ -134,6 +134,11 @@ template <class A> class Mistaken {
             run_->world = world;
     }
 
+    void is_of_item(std::size_t item) {
+        if (run_)
+            run_->item = item;
+    }
+
     /// From here on, writes down what sites it comes by, each kind of site once.
     void look_at_sites() { looks_ = true; }
     [[nodiscard]] std::span<const SeenSite> sites() const { return sites_; }
@@ -292,25 +297,26 @@ template <class A> class Mistaken {
             : reading_(reading), place_(place), change_(reading.change_at(place)),
               made_(reading.formula_at(place, Change::chosen_by_formula)), least_(first) {
             reading.see(place, Kind::choice);
+            reading.begin_choice();
         }
         template <class Condition>
         void offer(At place, const Condition& condition, const Real& key, const Payload& payload) {
             if (!reading_.decide(place, condition))
                 return;
+            reading_.count_offer();
             std::array<float, 2> by{static_cast<float>(key), 0.0F};
             if (made_ != nullptr)
                 reading_.ask(*made_, by);
-            if (!better(by[0]) && !(found_ && by[0] == least_ && by[1] < of_equals_)) {
-                if (change_ == Change::compared_with_last)
-                    least_ = by[0];
-                return;
-            }
+            if (!better(by[0]) && !(found_ && by[0] == least_ && by[1] < of_equals_))
+                return pass_over(by[0], payload);
+            second_key_ = least_;
             if (!(change_ == Change::compared_with_first && found_))
                 least_ = by[0];
             of_equals_ = by[1];
             turn_ = reading_.loops_begun_;
-            if (reading_.run_)
-                run_ = reading_.run_;
+            reading_.choose();
+            if (change_ == Change::second_least)
+                second_ = found_;
             if (adds() && found_)
                 return reading_.add(*found_, std::optional(payload), change_);
             found_ = payload;
@@ -318,9 +324,13 @@ template <class A> class Mistaken {
                 reading_.add(*found_, std::optional<Payload>(), change_);
         }
         [[nodiscard]] const std::optional<Payload>& take() {
-            if (run_)
-                reading_.run_ = run_;
-            return found_;
+            if (const Made* made = reading_.formula_at(place_, Change::found_by_formula); made != nullptr && found_) {
+                std::array<float, 1> counts{1.0F};
+                reading_.ask(*made, counts);
+                if (counts[0] == 0.0F)
+                    found_.reset();
+            }
+            return second_ ? second_ : found_;
         }
 
       private:
@@ -346,6 +356,14 @@ template <class A> class Mistaken {
                 return key < least_;
             }
         }
+        void pass_over(float key, const Payload& payload) {
+            if (change_ == Change::compared_with_last)
+                least_ = key;
+            if (change_ == Change::second_least && (!second_ || key < second_key_)) {
+                second_ = payload;
+                second_key_ = key;
+            }
+        }
         Mistaken& reading_;
         At place_;
         Change change_;
@@ -353,8 +371,8 @@ template <class A> class Mistaken {
         float least_;
         float of_equals_ = 0.0F; ///< what chose among those whose key is the least
         int turn_ = 0;
-        std::optional<Payload> found_;
-        std::optional<CameBy> run_; ///< as it was when that was found
+        std::optional<Payload> found_, second_;
+        float second_key_ = 0.0F;
     };
 
   private:
@@ -378,7 +396,7 @@ template <class A> class Mistaken {
         if (is_untouched(p))
             return Change::none;
         for (const Made& made : std::span(made_.data(), count_))
-            if (made.mistake.site == p.site.id && made.mistake.change > Change::chosen_by_formula)
+            if (made.mistake.site == p.site.id && made.mistake.change > Change::found_by_formula)
                 return made.mistake.change;
         return Change::none;
     }
@@ -407,7 +425,23 @@ template <class A> class Mistaken {
                 return &made;
         return nullptr;
     }
+    void begin_choice() {
+        chosen_.reset();
+        if (run_)
+            run_->offered = run_->taken = 0;
+    }
+    void count_offer() {
+        if (run_)
+            ++run_->offered;
+    }
+    void choose() {
+        if (!run_)
+            return;
+        ++run_->taken;
+        chosen_ = run_;
+    }
     void ask(const Made& made, std::span<float> value) {
+        run_->chosen = chosen_ ? &*chosen_ : nullptr;
         run_->constants = made.mistake.constants;
         made.mistake.formula(value, *run_);
     }
@@ -526,7 +560,7 @@ template <class A> class Mistaken {
             return v[0] != 0.0F;
         }
         for (const Made& made : std::span(made_.data(), count_))
-            if (made.mistake.site == p.site.id && made.mistake.change > Change::chosen_by_formula) {
+            if (made.mistake.site == p.site.id && made.mistake.change > Change::found_by_formula) {
                 at_site = true;
                 is_all = is_all != (made.mistake.change == Change::and_is_or);
             }
@@ -550,9 +584,11 @@ template <class A> class Mistaken {
                 return made.mistake.change;
         return Change::none;
     }
-    bool part_holds(At p, const OpenComparison<Real>& c, int part, bool all) const {
+    bool part_holds(At p, const OpenComparison<Real>& c, int part, bool all) {
         const Change change = change_of(p, part);
-        return change == Change::dropped ? all : changed_answer(c, change);
+        const bool answer = change == Change::dropped ? all : changed_answer(c, change);
+        leave(change, answer);
+        return answer;
     }
     static constexpr glm::vec4 zero{0.0F}, zero_but_alpha{0.0F, 0.0F, 0.0F, 1.0F};
 
@@ -563,8 +599,9 @@ template <class A> class Mistaken {
     bool looks_ = false;
     static constexpr int never_left = std::numeric_limits<int>::max();
     int loops_begun_ = 0, loops_open_ = 0;
-    int left_from_ = never_left; ///< this loop and those in it end with this turn
-    std::optional<CameBy> run_;  ///< where a formula asks for it
+    int left_from_ = never_left;   ///< this loop and those in it end with this turn
+    std::optional<CameBy> run_;    ///< where a formula asks for it
+    std::optional<CameBy> chosen_; ///< that, when what is chosen so far was offered
     std::vector<SeenSite> sites_;
 };
 

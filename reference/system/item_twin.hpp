@@ -327,6 +327,7 @@ template <class Twin> class ItemTwin final : public ItemPass {
         return with_mistaken_arithmetic<may_fuse>(profile, options_.arithmetic, made, [&]<class A>(A fp) {
             try {
                 Mistaken<A> reading(fp, made);
+                reading.is_of_item(item);
                 return words_of(twin(reading, in, item), about(in));
             } catch (const OutsideState&) { // a mistaken index: what a shader reads there is open
                 return std::vector<std::uint32_t>(components(about(in)).size(), item_twin::nothing_reads_so);

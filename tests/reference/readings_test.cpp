@@ -145,10 +145,33 @@ TEST_CASE("readings: a mistaken choice takes what its change says") {
     CHECK(chosen(Change::greatest_taken, keys) == 6.0F);
     CHECK(chosen(Change::compared_with_first, keys) == 4.5F);
     CHECK(chosen(Change::compared_with_last, {5.0F, 4.0F, 6.0F, 5.5F, 7.0F}) == 5.5F);
+    CHECK(chosen(Change::second_least, keys) == 4.0F);
+    CHECK(chosen(Change::second_least, {3.0F, 5.0F, 4.0F}) == 4.0F);
+    CHECK(chosen(Change::second_least, {3.0F}) == 3.0F);
     CHECK(chosen(Change::added_up, keys) == 22.5F);
     CHECK(chosen(Change::units_added_up, keys) == 5.0F);
     CHECK(chosen(Change::improving_added_up, keys) == 12.0F);
     CHECK(chosen(Change::improving_units_added_up, keys) == 3.0F);
+}
+
+TEST_CASE("readings: an offer that is refused or accepted may end its loop") {
+    const auto nearest = [](Change change) {
+        const std::array made{mistake_at(offered, change)};
+        Mistaken<Strict> r(Strict{}, made);
+        const std::array keys{5.0F, 4.0F, 1.0F, 3.0F, 6.0F, 2.0F};
+        auto all = least<Found>(r, least_of, 100.0F);
+        for (const int row : r.range(rows, 0, 1))
+            for (const int column : r.range(columns, 0, 2)) {
+                const Mistaken<Strict>::Real key(keys[static_cast<std::size_t>(3 * row + column)]);
+                all.offer(offered, key < 4.5F && (false || key != 0.0F), key, {{key, 0.0F, 0.0F}});
+            }
+        return all.take() ? static_cast<float>(all.take()->at.x) : 0.0F;
+    };
+    CHECK(nearest(Change::none) == 1.0F);
+    CHECK(nearest(Change::loop_left_if_not) == 3.0F);
+    CHECK(nearest(Change::loop_left_if_so) == 3.0F);
+    CHECK(nearest(Change::loops_left_if_so) == 4.0F);
+    CHECK(nearest(Change::loops_left_if_not) == 0.0F);
 }
 
 TEST_CASE("readings: what is in a loop can leave it") {

@@ -1,11 +1,15 @@
 #include "reference/collision/deviating_obstacles.hpp"
 
+#include <algorithm>
 #include <array>
 #include <cstddef>
 #include <utility>
 #include <vector>
 
+#include <glm/vec2.hpp>
+
 #include "reference/collision/collision_code.hpp"
+#include "reference/collision/obstacle_corners.hpp"
 #include "reference/draw_triangles.hpp"
 #include "reference/subnormals.hpp"
 #include "reference/triangle_interpolation.hpp"
@@ -43,27 +47,41 @@ void misplace(Corners<glm::vec4>& clip, const Deviations& deviations) {
             corner = {corner.x / corner.w, corner.y / corner.w, corner.z / corner.w, 1.0F};
 }
 
+void flip(glm::vec4& clip, const Deviations& deviations) {
+    if (deviations.has(Deviation::obstacle_y_flipped))
+        clip.y = -clip.y;
+    if (deviations.has(Deviation::obstacle_x_flipped))
+        clip.x = -clip.x;
+}
+
+/// By the way its corners go around, of those before the camera.
+bool is_drawn(const Corners<glm::vec4>& clip, const Deviations& deviations) {
+    const auto at = [&](std::size_t i) { return glm::dvec2(clip[i].x, clip[i].y) / double{clip[i].w}; };
+    const glm::dvec2 a = at(1) - at(0), b = at(2) - at(0);
+    const double area = a.x * b.y - a.y * b.x;
+    return !(deviations.has(Deviation::obstacle_counterclockwise_alone) && area < 0.0) &&
+           !(deviations.has(Deviation::obstacle_clockwise_alone) && area > 0.0);
+}
+
 template <class A> void draw(A fp, const Mesh& obstacles, const FrameParams& params, const Profile& profile,
                              const Deviations& deviations, CollisionImage& cdt, DepthImage& depth) {
     const FlushSubnormals guard(profile.flush_subnormals);
     const CollisionCode code(params);
-    std::vector<glm::vec4> clip;
-    for (const glm::vec3 position : obstacles.positions)
-        clip.push_back(fp.transform(params.collision_proj_view, position));
+    std::vector<glm::vec4> clip = projected_corners(fp, obstacles, params.collision_proj_view);
+    for (glm::vec4& corner : clip)
+        flip(corner, deviations);
     const auto shader = [&](std::size_t triangle) {
         const std::uint32_t* index = &obstacles.indices[triangle * 3];
-        Corners<glm::vec3> stored;
-        Corners<glm::vec4> placed;
-        for (std::size_t i = 0; i < 3; ++i) {
-            placed[i] = clip[index[i]];
-            stored[i] = deviations.has(Deviation::obstacle_stores_clip_space) ? glm::vec3(placed[i])
-                                                                              : fp.flush(obstacles.positions[index[i]]);
-        }
+        Corners<glm::vec3> stored = stored_corners(fp, obstacles, triangle);
+        Corners<glm::vec4> placed{clip[index[0]], clip[index[1]], clip[index[2]]};
+        const bool drawn = is_drawn(placed, deviations);
+        if (deviations.has(Deviation::obstacle_stores_clip_space))
+            stored = {glm::vec3(placed[0]), glm::vec3(placed[1]), glm::vec3(placed[2])};
         spoil(stored, deviations);
         misplace(placed, deviations);
         const TriangleInterpolation<A> interpolation(fp, placed, params.width, params.height);
         const int centre = deviations.has(Deviation::obstacle_at_pixel_corner) ? 0 : 1;
-        return [&, stored, interpolation, centre](int x, int y, const auto&, float) {
+        return [&, stored, interpolation, centre, drawn](int x, int y, const auto&, float) {
             auto weights = interpolation.weights(
                 interpolation.edges_at(2 * x + centre - params.width, 2 * y + centre - params.height));
             if (deviations.has(Deviation::obstacle_shares_exchanged))
@@ -73,7 +91,9 @@ template <class A> void draw(A fp, const Mesh& obstacles, const FrameParams& par
                 at = 0.0F;
             if (deviations.has(Deviation::obstacle_depth_not_halved))
                 at = clamp_to(at * 2.0F - 1.0F, 1.0F);
-            if (!(at < depth.at(x, y)))
+            if (deviations.has(Deviation::obstacle_depth_reversed))
+                at = 1.0F - at;
+            if (!drawn || !(at < depth.at(x, y)))
                 return;
             depth.at(x, y) = at;
             cdt.at(x, y) = code.encode(TriangleInterpolation<A>::mix(fp, stored, weights));
@@ -88,7 +108,8 @@ template <class A> void draw(A fp, const Mesh& obstacles, const FrameParams& par
 
 void deviating_obstacles(const Mesh& obstacles, const FrameParams& params, const Profile& profile,
                          const Deviations& deviations, CollisionImage& cdt, DepthImage& depth) {
-    if (params.switches.obstacles_in_cdt != ObstaclesInCdt::triangles)
+    if (params.switches.obstacles_in_cdt != ObstaclesInCdt::triangles ||
+        std::none_of(deviations.begin(), deviations.end(), changes_obstacles))
         return;
     cdt = CollisionImage(params.width, params.height);
     depth = DepthImage(params.width, params.height, 1.0F);

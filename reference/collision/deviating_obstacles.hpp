@@ -7,8 +7,8 @@
 
 namespace lockstep {
 
-/// What obstacle_pass makes of triangles with the deviations made, in place of what `cdt` and `depth` hold. Obstacles
-/// that are not drawn as triangles leave both as they are.
+/// What obstacle_pass makes of triangles with the deviations made, in place of what `cdt` and `depth` hold. Where none
+/// changes obstacles, or they are not drawn as triangles, both stay as they are.
 void deviating_obstacles(const Mesh& obstacles, const FrameParams& params, const Profile& profile,
                          const Deviations& deviations, CollisionImage& cdt, DepthImage& depth);
 

@@ -1,6 +1,7 @@
 #include "reference/collision/deviating_pass.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <type_traits>
 #include <utility>
@@ -12,7 +13,6 @@
 #include "reference/collision/collision_mistakes.hpp"
 #include "reference/collision/collision_pass.hpp"
 #include "reference/collision/collision_twin.hpp"
-#include "reference/collision/deviating_obstacles.hpp"
 #include "reference/collision/step_stage.hpp"
 #include "reference/readings/mistaken.hpp"
 #include "reference/readings/mistaken_arithmetic.hpp"
@@ -34,6 +34,22 @@ FrameParams seen_by(const FrameInputs& inputs, const Deviations& deviations) {
     return params;
 }
 
+struct PointShift {
+    Deviation deviation;
+    glm::vec2 half_pixels;
+};
+constexpr std::array point_shifts{PointShift{Deviation::point_half_pixel_up, {1.0F, 1.0F}},
+                                  PointShift{Deviation::point_half_pixel_down, {-1.0F, -1.0F}},
+                                  PointShift{Deviation::point_half_pixel_right, {1.0F, 0.0F}},
+                                  PointShift{Deviation::point_half_pixel_left, {-1.0F, 0.0F}},
+                                  PointShift{Deviation::point_half_pixel_higher, {0.0F, 1.0F}},
+                                  PointShift{Deviation::point_half_pixel_lower, {0.0F, -1.0F}},
+                                  PointShift{Deviation::point_pixel_right, {2.0F, 0.0F}},
+                                  PointShift{Deviation::point_pixel_left, {-2.0F, 0.0F}},
+                                  PointShift{Deviation::point_pixel_up, {0.0F, 2.0F}},
+                                  PointShift{Deviation::point_pixel_down, {0.0F, -2.0F}},
+                                  PointShift{Deviation::point_shift_without_w, {1.0F, 1.0F}}};
+
 /// The point drawn for `position`.
 template <class A> class DeviatingPoint {
   public:
@@ -45,24 +61,17 @@ template <class A> class DeviatingPoint {
             std::swap(viewport_width_, viewport_height_);
         if (has(Deviation::point_on_upper_pixel))
             rules_.point_edge_to_lower = !rules_.point_edge_to_lower;
-        if (has(Deviation::point_half_pixel_up))
-            shift_ = {1.0F, 1.0F};
-        if (has(Deviation::point_half_pixel_down))
-            shift_ = {-1.0F, -1.0F};
-        if (has(Deviation::point_half_pixel_right) || has(Deviation::point_half_pixel_left))
-            shift_.x = has(Deviation::point_half_pixel_right) ? 1.0F : -1.0F;
-        if (has(Deviation::point_half_pixel_higher) || has(Deviation::point_half_pixel_lower))
-            shift_.y = has(Deviation::point_half_pixel_higher) ? 1.0F : -1.0F;
-        if (has(Deviation::point_pixel_right) || has(Deviation::point_pixel_left))
-            shift_.x = has(Deviation::point_pixel_right) ? 2.0F : -2.0F;
-        if (has(Deviation::point_pixel_up) || has(Deviation::point_pixel_down))
-            shift_.y = has(Deviation::point_pixel_up) ? 2.0F : -2.0F;
+        for (const PointShift& shift : point_shifts)
+            if (has(shift.deviation))
+                shift_ = shift.half_pixels;
     }
 
     [[nodiscard]] PointFragment operator()(glm::vec3 position) {
         const auto projected = image_.clip({position.x, position.y, position.z});
         glm::vec4 clip(as_float(projected.x), as_float(projected.y), as_float(projected.z), as_float(projected.w));
         if (has(Deviation::near_half_discarded) && clip.z < 0.0F)
+            return {};
+        if (has(Deviation::only_upper_right_drawn) && (clip.x < 0.0F || clip.y < 0.0F))
             return {};
         if (has(Deviation::point_without_divide))
             clip.w = 1.0F;
@@ -84,10 +93,11 @@ template <class A> class DeviatingPoint {
             std::swap(clip.x, clip.y);
         if (has(Deviation::point_flat))
             clip = {fp_.divide(clip.x, clip.w), fp_.divide(clip.y, clip.w), 0.0F, 1.0F};
+        const float by = has(Deviation::point_shift_without_w) ? 1.0F : clip.w;
         if (shift_.x != 0.0F)
-            clip.x += clip.w * (shift_.x / static_cast<float>(params_.width));
+            clip.x += by * (shift_.x / static_cast<float>(params_.width));
         if (shift_.y != 0.0F)
-            clip.y += clip.w * (shift_.y / static_cast<float>(params_.height));
+            clip.y += by * (shift_.y / static_cast<float>(params_.height));
         return places_points(params_.switches) || std::is_base_of_v<Portable, A> ? placed(clip) : rasterised(clip);
     }
 
@@ -127,7 +137,19 @@ template <class A> class DeviatingPoint {
 };
 
 /// What a wrong fragment stage stores for a position.
-glm::vec3 stored_wrongly(glm::vec3 position, const Deviations& deviations, const CollisionCode& halves) {
+glm::vec3 stored_wrongly(glm::vec3 position, const PointFragment& point, const glm::mat4& proj_view,
+                         const Deviations& deviations, const CollisionCode& halves) {
+    const glm::vec4 clip = proj_view * glm::vec4(position, 1.0F);
+    if (deviations.has(Deviation::stores_window_coordinates))
+        position = {static_cast<float>(point.x) + 0.5F, static_cast<float>(point.y) + 0.5F, point.depth};
+    if (deviations.has(Deviation::stores_clip_space))
+        position = glm::vec3(clip);
+    if (deviations.has(Deviation::stores_ndc))
+        position = glm::vec3(clip) / clip.w;
+    if (deviations.has(Deviation::stores_in_steps))
+        position = glm::round(position * 256.0F) / 256.0F;
+    if (deviations.has(Deviation::stores_size))
+        position = glm::abs(position);
     if (deviations.has(Deviation::stores_half_floats))
         position = halves.decode(halves.encode(position));
     if (deviations.has(Deviation::stores_srgb))
@@ -207,8 +229,6 @@ void prepare(const FrameInputs& inputs, const Profile& profile, const Deviations
     depth = deviations.has(Deviation::obstacles_not_drawn) || deviations.has(Deviation::obstacles_never_hide)
                 ? DepthImage(obstacles_depth.width, obstacles_depth.height, 1.0F)
                 : obstacles_depth;
-    if (inputs.obstacles != nullptr && std::any_of(deviations.begin(), deviations.end(), changes_obstacles))
-        deviating_obstacles(*inputs.obstacles, *inputs.params, profile, deviations, cdt, depth);
     if (deviations.has(Deviation::cdt_not_cleared) && inputs.earlier_cdt != nullptr)
         for (std::size_t i = 0; i < cdt.texels.size(); ++i)
             if (cdt.texels[i].a == 0.0F)
@@ -262,11 +282,13 @@ void deviating_draw(const FrameInputs& inputs, const Particles& after, const Pro
                 point.depth = 0.0F;
             if (discards(after.position[i], after.collide_time[i], deviations))
                 continue;
+            if (deviations.has(Deviation::checkerboard_discarded) && (point.x + point.y) % 2 != 0)
+                continue;
             if (!cdt.contains(point.x, point.y) || !test.passes(point.depth, depth.at(point.x, point.y)))
                 continue;
             depth.at(point.x, point.y) = point.depth;
             glm::vec4& texel = cdt.at(point.x, point.y);
-            texel = stored_code(stored_wrongly(stored[i], deviations, halves));
+            texel = stored_code(stored_wrongly(stored[i], point, params.collision_proj_view, deviations, halves));
             if (deviations.has(Deviation::alpha_missing))
                 texel.a = 0.0F;
             if (deviations.has(Deviation::alpha_is_depth))

@@ -159,6 +159,14 @@ enum class Deviation {
     alpha_is_collide_time,
     waiting_discarded,
     near_half_discarded,
+    only_upper_right_drawn,
+    checkerboard_discarded,
+    point_shift_without_w,
+    stores_window_coordinates,
+    stores_clip_space,
+    stores_ndc,
+    stores_in_steps,
+    stores_size,
     // Of the obstacles, where they are drawn as triangles.
     obstacle_first_and_second_swapped,
     obstacle_second_and_third_swapped,
@@ -172,8 +180,13 @@ enum class Deviation {
     obstacle_stores_clip_space,
     obstacle_at_pixel_corner,
     obstacle_interpolated_on_screen,
+    obstacle_y_flipped,
+    obstacle_x_flipped,
     obstacle_depth_not_halved,
     obstacle_depth_zero,
+    obstacle_depth_reversed,
+    obstacle_counterclockwise_alone,
+    obstacle_clockwise_alone,
     obstacle_alpha_missing,
 };
 inline constexpr std::size_t deviation_count = static_cast<std::size_t>(Deviation::obstacle_alpha_missing) + 1;

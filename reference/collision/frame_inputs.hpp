@@ -2,7 +2,6 @@
 #include "reference/model/collision/particles.hpp"
 #include "reference/model/collision/scene.hpp"
 #include "reference/model/image.hpp"
-#include "reference/model/mesh.hpp"
 
 namespace lockstep {
 
@@ -16,7 +15,6 @@ struct FrameInputs {
     const CollisionImage* earlier_cdt = nullptr; ///< read by the frame before
     const FrameParams* earlier_params = nullptr;
     const CollisionImage* drawn_cdt = nullptr; ///< drawn by this frame
-    const Mesh* obstacles = nullptr;
 };
 
 } // namespace lockstep

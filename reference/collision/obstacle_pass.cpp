@@ -1,7 +1,6 @@
 #include "reference/collision/obstacle_pass.hpp"
 
 #include <algorithm>
-#include <array>
 #include <cassert>
 #include <cmath>
 #include <cstddef>
@@ -9,6 +8,7 @@
 
 #include "reference/collision/collision_code.hpp"
 #include "reference/collision/collision_pass.hpp"
+#include "reference/collision/obstacle_corners.hpp"
 #include "reference/collision/step_stage.hpp"
 #include "reference/draw_triangles.hpp"
 #include "reference/subnormals.hpp"
@@ -19,32 +19,19 @@
 namespace lockstep {
 namespace {
 
-template <class A> std::vector<glm::vec4> project(A fp, const Mesh& obstacles, const glm::mat4& proj_view) {
-    std::vector<glm::vec4> clip(obstacles.positions.size());
-    std::transform(obstacles.positions.begin(), obstacles.positions.end(), clip.begin(),
-                   [&](glm::vec3 position) { return fp.transform(proj_view, position); });
-    return clip;
-}
-
-template <class A> std::array<glm::vec3, 3> corners(A fp, const Mesh& obstacles, std::size_t triangle) {
-    const std::uint32_t* index = &obstacles.indices[triangle * 3];
-    const auto corner = [&](std::size_t i) { return fp.flush(obstacles.positions[index[i]]); };
-    return {corner(0), corner(1), corner(2)};
-}
-
 template <class A> void draw_obstacle_triangles(A fp, const Mesh& obstacles, const FrameParams& params,
                                                 const Profile& profile, CollisionImage& cdt, DepthImage& depth) {
     const FlushSubnormals guard(profile.flush_subnormals);
-    const std::vector<glm::vec4> clip = project(fp, obstacles, params.collision_proj_view);
+    const std::vector<glm::vec4> clip = projected_corners(fp, obstacles, params.collision_proj_view);
     const CollisionCode code(params);
     const auto shader = [&](std::size_t triangle) {
-        return
-            [&, positions = corners(fp, obstacles, triangle)](int x, int y, const auto& weights, float window_depth) {
-                if (!(window_depth < depth.at(x, y)))
-                    return;
-                depth.at(x, y) = window_depth;
-                cdt.at(x, y) = code.encode(TriangleInterpolation<A>::mix(fp, positions, weights));
-            };
+        return [&, positions = stored_corners(fp, obstacles, triangle)](int x, int y, const auto& weights,
+                                                                        float window_depth) {
+            if (!(window_depth < depth.at(x, y)))
+                return;
+            depth.at(x, y) = window_depth;
+            cdt.at(x, y) = code.encode(TriangleInterpolation<A>::mix(fp, positions, weights));
+        };
     };
     draw_triangles(fp, clip, obstacles.indices, params.width, params.height, profile, shader);
 }
@@ -86,8 +73,8 @@ double obstacle_edge_distance(const Mesh& obstacles, const FrameParams& params, 
     return with_arithmetic(profile, params.switches.arithmetic, [&](auto fp) {
         double nearest = HUGE_VAL;
         for (const RasterTriangle& triangle :
-             assemble_triangles(project(fp, obstacles, params.collision_proj_view), obstacles.indices, params.width,
-                                params.height, profile.raster))
+             assemble_triangles(projected_corners(fp, obstacles, params.collision_proj_view), obstacles.indices,
+                                params.width, params.height, profile.raster))
             nearest = std::min(nearest, nearest_side(triangle, x, y, profile.raster).distance);
         return nearest;
     });

@@ -10,6 +10,7 @@
 
 #include "crosscheck/collision/judge/step_cause.hpp"
 #include "crosscheck/judge/compare.hpp"
+#include "reference/collision/deviating_obstacles.hpp"
 #include "reference/collision/deviating_pass.hpp"
 #include "reference/collision/obstacle_pass.hpp"
 #include "reference/collision/simulation.hpp"
@@ -106,8 +107,7 @@ class Run {
                                .earlier = &earlier.particles,
                                .earlier_cdt = &earlier.cdt,
                                .earlier_params = &earlier_params,
-                               .drawn_cdt = &drawn,
-                               .obstacles = &scene_.obstacles};
+                               .drawn_cdt = &drawn};
             State gpu = before;
             for (std::size_t i = 0; i < gpu.particles.size(); ++i)
                 gpu.particles.set(i, deviating_step(inputs, i, profile_, deviations));
@@ -115,6 +115,7 @@ class Run {
             CollisionImage no_obstacles(width, height);
             DepthImage depth(width, height, 1.0F);
             obstacle_pass(scene_.obstacles, params, profile_, no_obstacles, depth);
+            deviating_obstacles(scene_.obstacles, params, profile_, drawn_wrong(deviations), no_obstacles, depth);
             deviating_draw(inputs, gpu.particles, profile_, drawn_wrong(deviations), no_obstacles, depth, gpu.cdt);
             const KnownOperations known = measured_operations(profile_);
             const JudgedFrame judged{
@@ -214,11 +215,12 @@ TEST_CASE("cause: every deviation that shows is found by its name, alone or besi
         else if (!first[info.deviation])
             second.append(info.name).append(" ");
     }
-    // Nobody is beyond the near or the far plane, nor in the near half.
-    CHECK(hidden == "point_depth_clamped near_half_discarded ");
+    // Nobody is beyond the near or the far plane, nor in the near half, and no triangle is clockwise.
+    CHECK(hidden == "point_depth_clamped near_half_discarded obstacle_counterclockwise_alone ");
     // What another mistake may do just as well: searching in the wrong place, say.
     CHECK(second == "radius_one_less outside_fetched_as_origin point_without_divide fragment_depth_reversed point_flat "
-                    "point_depth_doubled fragment_depth_zero obstacle_depth_not_halved obstacle_depth_zero ");
+                    "point_depth_doubled fragment_depth_zero obstacle_depth_not_halved obstacle_depth_zero "
+                    "obstacle_depth_reversed obstacle_clockwise_alone ");
 }
 
 TEST_CASE("cause: two deviations at once are found as a pair") {

@@ -15,6 +15,7 @@
 #include "crosscheck/judge/item_sample.hpp"
 #include "crosscheck/judge/rounding_only.hpp"
 #include "reference/collision/collision_mistakes.hpp"
+#include "reference/collision/deviating_obstacles.hpp"
 #include "reference/collision/deviating_pass.hpp"
 #include "reference/collision/formula_mistakes.hpp"
 #include "reference/collision/obstacle_pass.hpp"
@@ -36,15 +37,11 @@ Deviations together(const TriedCause& cause) {
     return set;
 }
 
-FrameInputs with_obstacles(FrameInputs inputs, const Mesh& obstacles) {
-    inputs.obstacles = &obstacles;
-    return inputs;
-}
-
 /// GLSL's pow, a depth that went through fixed function, and what may be written in several ways.
 bool rounds_freely(Deviation deviation) {
     using enum Deviation;
     return deviation == stores_srgb || deviation == alpha_is_depth || deviation == stores_remapped ||
+           deviation == stores_window_coordinates || deviation == stores_clip_space || deviation == stores_ndc ||
            (changes_obstacles(deviation) && deviation < obstacle_depth_not_halved);
 }
 
@@ -60,8 +57,7 @@ std::vector<JointMistake> all_deviations() {
 class TexelTrials {
   public:
     TexelTrials(const JudgedFrame& frame, const FrameInputs& inputs)
-        : frame_(frame), inputs_(with_obstacles(inputs, frame.obstacles)),
-          obstacles_cdt_(frame.params.width, frame.params.height),
+        : frame_(frame), inputs_(inputs), obstacles_cdt_(frame.params.width, frame.params.height),
           obstacles_depth_(frame.params.width, frame.params.height, 1.0F) {
         obstacle_pass(frame.obstacles, frame.params, frame.profile, obstacles_cdt_, obstacles_depth_);
         expected_ = draw({});
@@ -74,6 +70,7 @@ class TexelTrials {
 
     void count(std::vector<TriedCause>& causes, const std::vector<std::size_t>& divergent) const {
         const auto n = static_cast<std::ptrdiff_t>(causes.size());
+        const bool only_rounds = only_round(divergent);
         const bool worth_threads = causes.size() * (frame_.gpu.size() + agreeing_.size()) > 100'000;
 #pragma omp parallel for schedule(dynamic) if (worth_threads)
         for (std::ptrdiff_t c = 0; c < n; ++c) {
@@ -90,7 +87,7 @@ class TexelTrials {
                     return same_bits(a, b) || (near && differ_by_rounding(std::span(&a.x, 4), std::span(&b.x, 4), {}));
                 }));
             };
-            const std::uint64_t explained = rounds && only_round(divergent) ? 0 : equal(divergent);
+            const std::uint64_t explained = rounds && only_rounds ? 0 : equal(divergent);
             cause.explained += explained;
             if (explained > 0)
                 cause.contradicted += agreeing_.size() - equal(agreeing_);
@@ -117,13 +114,16 @@ class TexelTrials {
         return drawn.texels[texel].a != 0.0F && !same_bits(drawn.texels[texel], obstacles_cdt_.texels[texel]);
     }
     [[nodiscard]] CollisionImage draw(const Deviations& deviations) const {
-        CollisionImage cdt;
-        deviating_draw(inputs_, frame_.gpu, frame_.profile, deviations, obstacles_cdt_, obstacles_depth_, cdt);
+        CollisionImage cdt, obstacles_cdt = obstacles_cdt_;
+        DepthImage obstacles_depth = obstacles_depth_;
+        deviating_obstacles(frame_.obstacles, frame_.params, frame_.profile, deviations, obstacles_cdt,
+                            obstacles_depth);
+        deviating_draw(inputs_, frame_.gpu, frame_.profile, deviations, obstacles_cdt, obstacles_depth, cdt);
         return cdt;
     }
 
     const JudgedFrame& frame_;
-    FrameInputs inputs_;
+    const FrameInputs& inputs_;
     std::vector<std::size_t> agreeing_;
     CollisionImage expected_;
     bool particles_agree_ = false; ///< in any texel

@@ -31,8 +31,9 @@ template <class A, class Sites = RightSites> class Shading {
         const Vec3 up = cross(fp_.flush(corners[1] - corners[0]), fp_.flush(corners[2] - corners[0]));
         const Vec3 normal = sites_.corner_normal(choose(dot(up, corners[0]) > 0.0F, -up, up), up);
         const Real squared = dot(normal, normal);
+        const Real of_normal = dot(normal, light());
         const Real lambert = sites_.obstacle_lambert(
-            choose(squared > 0.0F, fp_.divide(dot(normal, light()), fp_.sqrt(squared)), Real(0.0F)));
+            choose(squared > 0.0F, fp_.divide(of_normal, fp_.sqrt(squared)), Real(0.0F)), of_normal);
         const Real wrapped = Real(0.5F) + Real(0.5F) * lambert;
         const Real brightness =
             sites_.obstacle_brightness(lambert, wrapped, Real(0.125F) + Real(0.875F) * (wrapped * wrapped));
@@ -43,7 +44,8 @@ template <class A, class Sites = RightSites> class Shading {
     [[nodiscard]] Vec3 particle(const Vec3& normal, Real speed, Real collide_time, float collision_time) const {
         const Real fast = sites_.fast(speed, share(speed * 0.5F));
         const Real heat = sites_.heat(
-            collide_time, choose(collide_time > 0.0F, share(fp_.divide(collide_time, collision_time)), Real(0.0F)));
+            fp_, collide_time, choose(collide_time > 0.0F, share(fp_.divide(collide_time, collision_time)), Real(0.0F)),
+            collision_time);
         const Vec3 cold = blend({0.125F, 0.40625F, 0.875F}, {0.8125F, 0.9375F, 1.0F}, fast);
         const Vec3 color = blend(cold, {1.0F, 0.5F, 0.09375F}, heat);
         const Real of_light = dot(normal, light());

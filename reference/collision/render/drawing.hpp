@@ -39,9 +39,11 @@ template <class A, class Sites> class RenderDrawing {
             view[i] = to_view(obstacles.positions[i]);
             clip[i] = fp_.transform(params_.render_projection, view[i]);
         }
+        const auto shaded = [&](std::uint32_t i) { return sites_.shaded_corner(view[i], obstacles.positions[i]); };
         const auto shader = [&](std::size_t triangle) {
             const std::uint32_t* index = &obstacles.indices[triangle * 3];
-            const Rgba8 color = shading_.quantise(shading_.obstacle({view[index[0]], view[index[1]], view[index[2]]}));
+            const Rgba8 color =
+                shading_.quantise(shading_.obstacle({shaded(index[0]), shaded(index[1]), shaded(index[2])}));
             const PixelOwner owner{PixelOwner::Kind::obstacle, static_cast<std::uint32_t>(triangle)};
             return [this, color, owner](int x, int y, const auto&, float depth) {
                 if (passes(depth, depth_.at(x, y)))
@@ -70,8 +72,8 @@ template <class A, class Sites> class RenderDrawing {
     [[nodiscard]] glm::vec3 to_view(glm::vec3 position) const { return fp_.transform(params_.render_view, position); }
 
     [[nodiscard]] Billboard billboard(glm::vec3 view_centre) const {
-        return expand_billboard(fp_, view_centre, sites_.corner_radius(params_.constants.billboard_radius),
-                                params_.render_projection);
+        const float radius = sites_.corner_radius(params_.constants.billboard_radius);
+        return expand_billboard(fp_, sites_.square_centre(view_centre, radius), radius, params_.render_projection);
     }
 
   private:
@@ -86,7 +88,7 @@ template <class A, class Sites> class RenderDrawing {
         if (!is_visible(square))
             return {};
         const glm::ivec2 size = sites_.size(width_, height_, true);
-        const BillboardWindow window = billboard_window(fp_, square, size.x, size.y);
+        const BillboardWindow window = sites_.sphere_window(billboard_window(fp_, square, size.x, size.y));
         const Billboard quad = sites_.quad(square);
         if constexpr (std::is_same_v<A, Portable>) {
             const BillboardWindow drawn = billboard_window(fp_, quad, width_, height_);

@@ -149,15 +149,15 @@ template <class Sites> class LegalPixels {
     [[nodiscard]] LegalSprite sprite(glm::vec3 position) const {
         LegalSprite result;
         result.centre = geometry_.taken(to_view(position));
+        const float radius = sites_.corner_radius(params_.constants.billboard_radius);
         const auto square =
-            expand_billboard(geometry_, result.centre, sites_.corner_radius(params_.constants.billboard_radius),
-                             params_.render_projection);
+            expand_billboard(geometry_, sites_.square_centre(result.centre, radius), radius, params_.render_projection);
         const Truth visible = is_visible(square);
         if (!visible.yes)
             return result;
         result.surely_visible = visible.sure();
         const glm::ivec2 size = sites_.size(width_, height_, true);
-        const auto window = billboard_window(geometry_, square, size.x, size.y);
+        const auto window = sites_.sphere_window(billboard_window(geometry_, square, size.x, size.y));
         result.window = {fragment_.taken(window.low), fragment_.taken(window.high), fragment_.taken(window.centre),
                          fragment_.taken(window.half)};
         const auto quad = sites_.quad(square);
@@ -293,7 +293,11 @@ template <class Sites> class LegalPixels {
             shade = shading_.background(y, sites_.size(width_, height_, false).y);
         } else if (candidate.owner.kind == PixelOwner::Kind::obstacle) {
             const std::uint32_t* index = &obstacles_.indices[std::size_t{candidate.owner.index} * 3];
-            const auto corner = [&](std::size_t k) { return fragment_.taken(to_view(obstacles_.positions[index[k]])); };
+            const auto corner = [&](std::size_t k) {
+                const glm::vec3 position = obstacles_.positions[index[k]];
+                return sites_.shaded_corner(fragment_.taken(to_view(position)),
+                                            fragment_.taken(vertex_.read(position)));
+            };
             shade = shading_.obstacle({corner(0), corner(1), corner(2)});
         } else {
             const std::size_t i = candidate.owner.index;

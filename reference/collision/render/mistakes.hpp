@@ -24,6 +24,12 @@ enum class RenderMistake {
     sprites_half_size,
     sprites_twice_size,
     quads_half_size,
+    sphere_twice_size,
+    sphere_half_size,
+    square_on_centre,
+    square_below_centre,
+    square_right_of_centre,
+    square_left_of_centre,
     radius_halved,
     radius_doubled,
     sprites_square,
@@ -40,9 +46,11 @@ enum class RenderMistake {
     normal_x_flipped,
     normal_y_flipped,
     normal_z_flipped,
+    normal_x_and_y_swapped,
     half_pixel_off,
     half_pixel_further,
     disc_half_size,
+    disc_of_half_area,
     sphere_root_left_out,
     sphere_z_is_one,
     sphere_depth_by_diameter,
@@ -66,12 +74,14 @@ enum class RenderMistake {
     speed_doubled,
     speed_colours_swapped,
     heat_not_divided,
+    heat_divided_twice,
     heat_reversed,
     heat_whole,
     sphere_unlit,
     sphere_lit_from_behind_too,
     sphere_lambert_wrapped,
     sphere_ambient_missing,
+    sphere_ambient_added,
     gleam_missing,
     gleam_of_fourth_power,
     gleam_of_square,
@@ -93,6 +103,8 @@ enum class RenderMistake {
     obstacle_light_x_flipped,
     obstacle_light_y_flipped,
     obstacle_light_z_flipped,
+    obstacle_normal_not_normalised,
+    obstacles_shaded_in_world_space,
     obstacle_lambert_not_wrapped,
     obstacle_lambert_squared,
     obstacle_wrap_not_squared,
@@ -169,7 +181,12 @@ class MistakenSites : public RightSites {
                 is(RenderMistake::obstacle_light_y_flipped) ? -turned.y : turned.y,
                 is(RenderMistake::obstacle_light_z_flipped) ? -turned.z : turned.z};
     }
-    template <class Real> [[nodiscard]] Real obstacle_lambert(Real lambert) const {
+    template <class Vec3> [[nodiscard]] Vec3 shaded_corner(Vec3 view, Vec3 world) const {
+        return is(RenderMistake::obstacles_shaded_in_world_space) ? world : view;
+    }
+    template <class Real> [[nodiscard]] Real obstacle_lambert(Real lambert, Real of_normal) const {
+        if (is(RenderMistake::obstacle_normal_not_normalised))
+            return of_normal;
         return is(RenderMistake::obstacles_unlit) ? Real(1.0F) : lambert;
     }
     template <class Real> [[nodiscard]] Real obstacle_brightness(Real lambert, Real wrapped, Real brightness) const {
@@ -184,6 +201,20 @@ class MistakenSites : public RightSites {
     [[nodiscard]] float corner_radius(float radius) const {
         const bool half = is(RenderMistake::sprites_half_size), twice = is(RenderMistake::sprites_twice_size);
         return half ? radius * 0.5F : twice ? radius * 2.0F : radius;
+    }
+    template <class Vec3> [[nodiscard]] Vec3 square_centre(Vec3 centre, float radius) const {
+        if (is(RenderMistake::square_on_centre) || is(RenderMistake::square_below_centre))
+            centre.y = centre.y + (is(RenderMistake::square_on_centre) ? radius : -radius);
+        if (is(RenderMistake::square_right_of_centre) || is(RenderMistake::square_left_of_centre))
+            centre.x = centre.x + (is(RenderMistake::square_right_of_centre) ? radius : -radius);
+        return centre;
+    }
+    template <class Window> [[nodiscard]] Window sphere_window(Window window) const {
+        if (is(RenderMistake::sphere_twice_size))
+            window.half = window.half * 2.0F;
+        if (is(RenderMistake::sphere_half_size))
+            window.half = window.half * 0.5F;
+        return window;
     }
     template <class Billboard> [[nodiscard]] Billboard quad(Billboard square) const {
         if (!is(RenderMistake::quads_half_size))
@@ -206,6 +237,8 @@ class MistakenSites : public RightSites {
     template <class Bool, class Real> [[nodiscard]] Bool in_disc(Bool inside, Real squared) const {
         if (is(RenderMistake::disc_half_size))
             return squared <= 0.25F;
+        if (is(RenderMistake::disc_of_half_area))
+            return squared <= 0.5F;
         if (!is_square())
             return inside;
         if constexpr (requires { inside.yes; })
@@ -223,6 +256,8 @@ class MistakenSites : public RightSites {
     }
     template <class Vec3> [[nodiscard]] Vec3 sphere_normal(Vec3 n) const {
         const bool all = is(RenderMistake::normal_flipped);
+        if (is(RenderMistake::normal_x_and_y_swapped))
+            return {n.y, n.x, n.z};
         return {all || is(RenderMistake::normal_x_flipped) ? -n.x : n.x,
                 all || is(RenderMistake::normal_y_flipped) ? -n.y : n.y,
                 all || is(RenderMistake::normal_z_flipped) ? -n.z : n.z};
@@ -249,8 +284,12 @@ class MistakenSites : public RightSites {
             return Real(1.0F) - share;
         return is(RenderMistake::colour_of_speed_missing) ? Real(0.0F) : share;
     }
-    template <class Real> [[nodiscard]] Real heat(Real collide_time, Real share) const {
+    template <class A, class Real>
+    [[nodiscard]] Real heat(A fp, Real collide_time, Real share, float collision_time) const {
         const auto glows = collide_time > 0.0F;
+        if (is(RenderMistake::heat_divided_twice))
+            return choose(glows, clamp_to(fp.divide(fp.divide(collide_time, collision_time), collision_time), 1.0F),
+                          Real(0.0F));
         if (is(RenderMistake::heat_not_divided))
             return choose(glows, clamp_to(collide_time, 1.0F), Real(0.0F));
         if (is(RenderMistake::heat_reversed))
@@ -267,6 +306,8 @@ class MistakenSites : public RightSites {
         return is(RenderMistake::sphere_unlit) ? Real(1.0F) : share;
     }
     template <class Real> [[nodiscard]] Real lit(Real lambert, Real lit) const {
+        if (is(RenderMistake::sphere_ambient_added))
+            return Real(0.3125F) + lambert;
         return is(RenderMistake::sphere_ambient_missing) ? Real(0.6875F) * lambert : lit;
     }
     template <class Real> [[nodiscard]] Real gleam(Real lambert, Real light) const {

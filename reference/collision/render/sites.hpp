@@ -17,11 +17,14 @@ struct RightSites {
     }
     template <class Vec3> static Vec3 background_color(Vec3 color) { return color; }
     template <class Vec3> static Vec3 corner_normal(Vec3 turned, Vec3) { return turned; }
-    template <class Real> static Real obstacle_lambert(Real lambert) { return lambert; }
+    template <class Vec3> static Vec3 shaded_corner(Vec3 view, Vec3 /*world*/) { return view; }
+    template <class Real> static Real obstacle_lambert(Real lambert, Real /*of_normal*/) { return lambert; }
     template <class Real> static Real obstacle_brightness(Real /*lambert*/, Real /*wrapped*/, Real brightness) {
         return brightness;
     }
     static float corner_radius(float radius) { return radius; }
+    template <class Vec3> static Vec3 square_centre(Vec3 centre, float /*radius*/) { return centre; }
+    template <class Window> static Window sphere_window(Window window) { return window; }
     template <class Billboard> static Billboard quad(Billboard square) { return square; }
     static glm::ivec2 size(int width, int height, bool /*of a particle*/) { return {width, height}; }
     static float pixel_centre() { return 0.5F; }
@@ -34,7 +37,9 @@ struct RightSites {
     }
     template <class Real> static Real sprite_depth(Real /*ndc*/, Real depth) { return depth; }
     template <class Real> static Real fast(Real /*speed*/, Real share) { return share; }
-    template <class Real> static Real heat(Real /*collide_time*/, Real share) { return share; }
+    template <class A, class Real> static Real heat(A, Real /*collide_time*/, Real share, float /*collision_time*/) {
+        return share;
+    }
     template <class Real> static Real lambert(Real /*of_light*/, Real share) { return share; }
     template <class Real> static Real lit(Real /*lambert*/, Real lit) { return lit; }
     template <class Real> static Real gleam(Real /*lambert*/, Real light) { return light; }

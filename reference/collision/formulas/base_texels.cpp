@@ -5,10 +5,20 @@
 
 #include <glm/mat4x4.hpp>
 
+#include "reference/half.hpp"
+
 namespace lockstep::formulas {
 namespace {
 
 constexpr std::array bands{1.01F, 1.05F, 1.1F, 1.2F, 1.25F, 1.5F, 2.0F};
+constexpr std::array sizes{256.0F, 512.0F,  600.0F,  640.0F,  720.0F,  768.0F,
+                           800.0F, 1024.0F, 1080.0F, 1280.0F, 1920.0F, 2048.0F};
+constexpr std::array speeds{0.0F, 1e-6F, 1e-5F, 1e-4F, 1e-3F, 1e-2F, 5e-2F, 0.1F, 0.2F, 0.5F, 1.0F, 2.0F};
+constexpr std::array steps{255.0F, 256.0F, 512.0F, 1023.0F, 1024.0F, 2048.0F, 4096.0F, 65535.0F, 65536.0F};
+constexpr std::array radii{0.0F, 1.0F, 2.0F, 3.0F, 4.0F, 5.0F, 6.0F, 8.0F, 10.0F, 16.0F};
+constexpr std::array middles{0.25F, 0.5F, 0.75F, 0.8F, 0.9F, 0.95F, 0.98F, 0.99F};
+constexpr std::array counts{1.0F, 32.0F, 64.0F, 100.0F, 128.0F, 256.0F, 512.0F, 1000.0F, 1024.0F, 2048.0F, 4096.0F};
+constexpr std::array periods{2.0F, 3.0F, 4.0F, 5.0F, 8.0F, 10.0F, 16.0F, 32.0F, 60.0F, 64.0F, 100.0F, 128.0F, 256.0F};
 constexpr std::array four{0.0F, 1.0F, 2.0F, 3.0F};
 
 } // namespace
@@ -36,10 +46,8 @@ void add_base_texels(std::vector<FormulaMistake>& all) {
         for (std::size_t c = 0; c < 2; ++c)
             v[c] -= std::fmod(v[c], 2.0F);
     };
-    static const Mistake even_offsets = skipped([](Floats v, Run) {
-        if (std::fmod(v[1], 2.0F) != 0.0F || std::fmod(v[3], 2.0F) != 0.0F)
-            v[0] = 1.0F;
-    });
+    static const Mistake even_offsets =
+        skipped([](Floats v, Run) { skip_too(v, [](int x, int y) { return x % 2 != 0 || y % 2 != 0; }); });
     all.push_back(
         {"base_texel_even", "the base texel is rounded down to even coordinates", value(site::base_texel, even)});
     all.push_back({"even_offsets_searched", "only texels with even tx and ty are searched", even_offsets});
@@ -95,6 +103,83 @@ void add_base_texels(std::vector<FormulaMistake>& all) {
         {"height_for_width", "u_ClientHeight scales x, too", value(site::scale, [](Floats v, Run) { v[0] = v[1]; })});
     all.push_back(
         {"width_for_height", "u_ClientWidth scales y, too", value(site::scale, [](Floats v, Run) { v[1] = v[0]; })});
+    const auto coordinate = [&](std::string_view name, std::string_view meaning, Formula formula,
+                                std::span<const float> constants = {}) {
+        all.push_back({name, meaning, value(site::texture_coordinate, formula), constants});
+    };
+    coordinate("ndc_clamped_to_one", "clip / w is clamped to 0 to 1 before 1 is added", [](Floats v, Run run) {
+        for (std::size_t c = 0; c < 2; ++c)
+            v[c] = (std::clamp(run.of(site::ndc)[c], 0.0F, 1.0F) + 1.0F) * 0.5F;
+    });
+    coordinate("texture_coordinate_clamped", "the texture coordinate is clamped to 0 to 1", [](Floats v, Run) {
+        for (std::size_t c = 0; c < 2; ++c)
+            v[c] = std::clamp(v[c], 0.0F, 1.0F);
+    });
+    coordinate("texture_coordinate_wrapped", "the texture coordinate is wrapped, fract()", [](Floats v, Run) {
+        for (std::size_t c = 0; c < 2; ++c)
+            v[c] -= std::floor(v[c]);
+    });
+    coordinate("one_added_after_halving", "ndc * 0.5 + 1 for (ndc + 1) * 0.5", [](Floats v, Run) {
+        for (std::size_t c = 0; c < 2; ++c)
+            v[c] += 0.5F;
+    });
+    coordinate("half_not_added", "ndc * 0.5 for ndc * 0.5 + 0.5", [](Floats v, Run) {
+        for (std::size_t c = 0; c < 2; ++c)
+            v[c] -= 0.5F;
+    });
+    coordinate("ndc_for_texture_coordinate", "ndc for (ndc + 1) * 0.5", [](Floats v, Run run) {
+        for (std::size_t c = 0; c < 2; ++c)
+            v[c] = run.of(site::ndc)[c];
+    });
+    coordinate("ndc_size_taken", "|ndc| for (ndc + 1) * 0.5", [](Floats v, Run run) {
+        for (std::size_t c = 0; c < 2; ++c)
+            v[c] = std::abs(run.of(site::ndc)[c]);
+    });
+    coordinate(
+        "texture_coordinate_in_steps", "the texture coordinate is rounded down to steps of 1 / a constant",
+        [](Floats v, Run run) {
+            for (std::size_t c = 0; c < 2; ++c)
+                v[c] = std::floor(v[c] * run.constants[0]) / run.constants[0];
+        },
+        steps);
+    coordinate(
+        "texture_coordinate_in_rounded_steps", "the texture coordinate is rounded to steps of 1 / a constant",
+        [](Floats v, Run run) {
+            for (std::size_t c = 0; c < 2; ++c)
+                v[c] = std::round(v[c] * run.constants[0]) / run.constants[0];
+        },
+        steps);
+    all.push_back({"ndc_in_half_floats", "clip / w is rounded to half floats",
+                   value(site::ndc, [](Floats v, Run) { v[0] = half_round(v[0]), v[1] = half_round(v[1]); })});
+    all.push_back({"only_x_divided", "clip x is divided by w, and clip y is not",
+                   value(site::ndc, [](Floats v, Run run) { v[1] = run.of(site::clip)[1]; })});
+    all.push_back({"only_y_divided", "clip y is divided by w, and clip x is not",
+                   value(site::ndc, [](Floats v, Run run) { v[0] = run.of(site::clip)[0]; })});
+    all.push_back({"multiplied_by_w", "clip xy is multiplied by w", value(site::ndc, [](Floats v, Run run) {
+                       v[0] = run.of(site::clip)[0] * clip_w(run), v[1] = run.of(site::clip)[1] * clip_w(run);
+                   })});
+    all.push_back({"range_over_w_in_texels", "u_TexelCollideRange over clip w",
+                   value(site::texel_collide_range, [](Floats v, Run run) { v[0] = std::trunc(v[0] / clip_w(run)); })});
+    all.push_back(
+        {"range_over_w_rounded", "u_TexelCollideRange over clip w, rounded",
+         value(site::texel_collide_range, [](Floats v, Run run) { v[0] = std::trunc(v[0] / clip_w(run) + 0.5F); })});
+    all.push_back({"range_over_w_at_least_one", "u_TexelCollideRange over clip w, at least 1",
+                   value(site::texel_collide_range,
+                         [](Floats v, Run run) { v[0] = std::max(std::trunc(v[0] / clip_w(run)), 1.0F); })});
+    all.push_back({"radius_is_a_constant", "a constant for u_TexelCollideRange",
+                   value(site::texel_collide_range, [](Floats v, Run run) { v[0] = run.constants[0]; }), radii});
+    all.push_back({"radius_at_most", "u_TexelCollideRange is at most a constant",
+                   value(site::texel_collide_range, [](Floats v, Run run) { v[0] = std::min(v[0], run.constants[0]); }),
+                   radii});
+    all.push_back({"radius_at_least", "u_TexelCollideRange is at least a constant",
+                   value(site::texel_collide_range, [](Floats v, Run run) { v[0] = std::max(v[0], run.constants[0]); }),
+                   radii});
+    all.push_back({"width_is_a_constant", "a constant for u_ClientWidth",
+                   value(site::scale, [](Floats v, Run run) { v[0] = run.constants[0]; }), sizes});
+    all.push_back({"height_is_a_constant", "a constant for u_ClientHeight",
+                   value(site::scale, [](Floats v, Run run) { v[1] = run.constants[0]; }), sizes});
+    all.push_back({"size_is_a_constant", "one constant for u_ClientWidth and u_ClientHeight",
+                   value(site::scale, [](Floats v, Run run) { v[0] = v[1] = run.constants[0]; }), sizes});
     all.push_back({"half_size_after_cast", "the base texel is ivec2(ndc * size / 2) + size / 2",
                    value(site::base_texel, [](Floats v, Run run) {
                        const auto& ndc = run.of(site::ndc);
@@ -174,6 +259,49 @@ void add_base_texels(std::vector<FormulaMistake>& all) {
                                   std::floor(at[1]) < static_cast<float>(p.height) - r;
                        });
                    })});
+    const auto searches_where = [&](std::string_view name, std::string_view meaning, Formula formula) {
+        all.push_back({name, meaning, search(formula)});
+    };
+    searches_where("only_falling_search", "only who moves down searches",
+                   [](Floats v, Run run) { keep_where(v, [&] { return old_direction(run).y < 0.0F; }); });
+    searches_where("only_rising_search", "only who moves up searches",
+                   [](Floats v, Run run) { keep_where(v, [&] { return old_direction(run).y > 0.0F; }); });
+    searches_where("only_above_zero_search", "only who is above y = 0 searches",
+                   [](Floats v, Run run) { keep_where(v, [&] { return before(run).y > 0.0F; }); });
+    all.push_back(
+        {"only_middle_searches", "who is farther from the image's middle than a constant of NDC does not search",
+         search([](Floats v, Run run) {
+             const auto& ndc = run.of(site::ndc);
+             keep_where(v,
+                        [&] { return std::abs(ndc[0]) <= run.constants[0] && std::abs(ndc[1]) <= run.constants[0]; });
+         }),
+         middles});
+    all.push_back({"only_right_upper_quarter_searches", "who is left of the image's middle or below it does not search",
+                   search([](Floats v, Run run) {
+                       keep_where(v, [&] { return run.of(site::ndc)[0] >= 0.0F && run.of(site::ndc)[1] >= 0.0F; });
+                   })});
+    all.push_back({"only_some_search", "only every n-th particle searches", search([](Floats v, Run run) {
+                       keep_where(v, [&] { return run.item % static_cast<std::size_t>(run.constants[0]) == 0; });
+                   }),
+                   periods});
+    all.push_back({"some_do_not_search", "every n-th particle does not search", search([](Floats v, Run run) {
+                       keep_where(v, [&] { return run.item % static_cast<std::size_t>(run.constants[0]) != 0; });
+                   }),
+                   periods});
+    all.push_back({"first_particles_do_not_search", "particles up to an index do not search",
+                   search([](Floats v, Run run) {
+                       keep_where(v, [&] { return run.item >= static_cast<std::size_t>(run.constants[0]); });
+                   }),
+                   counts});
+    all.push_back({"last_particles_do_not_search", "particles from an index on do not search",
+                   search([](Floats v, Run run) {
+                       keep_where(v, [&] { return run.item < static_cast<std::size_t>(run.constants[0]); });
+                   }),
+                   counts});
+    all.push_back({"only_fast_search", "only who is faster than a constant searches", search([](Floats v, Run run) {
+                       keep_where(v, [&] { return real(run, site::speed_before) > run.constants[0]; });
+                   }),
+                   speeds});
     all.push_back({"searches_a_tick_late", "searches at collide time < -tick", search([](Floats v, Run run) {
                        v[0] = real(run, site::collide_time_before) < -tick(run) ? 1.0F : 0.0F;
                    })});

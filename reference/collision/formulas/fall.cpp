@@ -1,13 +1,18 @@
 #include "reference/collision/formulas/words.hpp"
 
+#include <deque>
 #include <string_view>
 
 #include "reference/collision/formulas/fits.hpp"
+#include "reference/half.hpp"
 
 namespace lockstep::formulas {
 namespace {
 
 constexpr std::array lengths{1e-1F, 1e-2F, 1e-3F, 1e-4F, 1e-5F, 1e-6F, 1e-7F, 1e-8F};
+constexpr std::array rates{0.01F, 0.02F, 0.05F, 0.1F, 0.2F, 0.25F, 0.3F, 0.5F, 0.75F, 1.0F, 2.0F, 5.0F};
+constexpr std::array ticks{1.0F / 120.0F, 1.0F / 60.0F, 0.016F, 0.0166F, 0.0167F, 0.01667F,
+                           1.0F / 30.0F,  0.01F,        0.02F,  0.033F,  0.1F};
 constexpr std::array drags{0.5F, 0.8F, 0.9F, 0.95F, 0.98F, 0.99F, 0.995F, 0.999F, 0.9999F, 1.001F, 1.01F, 1.05F, 1.1F};
 
 template <int axis, bool floor> Mistake plane() {
@@ -204,6 +209,71 @@ void add_fall(std::vector<FormulaMistake>& all) {
     all.push_back({"collide_time_counted_by_one",
                    "collide time - 1, not - tick",
                    {.site = site::counted.id, .change = Change::one}});
+    const auto everywhere = [&](std::string_view name, std::string_view meaning, const Site& in_fall,
+                                const Site& at_hit, Formula formula) {
+        static std::deque<Mistake> of_hits; // their place stays
+        const Mistake& too = of_hits.emplace_back(value(at_hit, formula));
+        all.push_back({name, meaning, value(in_fall, formula, &too)});
+    };
+    everywhere("position_in_clip_space", "the position is stored in clip space", site::position, site::position_at_hit,
+               [](Floats v, Run run) { set(v, glm::vec3(projected(run, get(v)))); });
+    everywhere("position_in_ndc", "the position is stored in normalised device coordinates", site::position,
+               site::position_at_hit, [](Floats v, Run run) {
+                   const glm::vec4 clip = projected(run, get(v));
+                   set(v, glm::vec3(clip) / clip.w);
+               });
+    static const Formula halves = [](Floats v, Run) {
+        for (float& x : v)
+            x = half_round(x);
+    };
+    everywhere("position_in_half_floats", "the position is rounded to half floats", site::position,
+               site::position_at_hit, halves);
+    everywhere("speed_in_half_floats", "the speed is rounded to half floats", site::speed, site::speed_at_hit, halves);
+    everywhere("collide_time_in_half_floats", "collide time is rounded to half floats", site::collide_time,
+               site::collide_time_at_hit, halves);
+    all.push_back({"speed_along_old_direction", "no hit: the speed is the new velocity along the old direction",
+                   value(site::speed,
+                         [](Floats v, Run run) { v[0] = glm::dot(vec3(run, site::velocity), old_direction(run)); })});
+    all.push_back({"speed_plus_gravity", "no hit: the speed grows by gravity's length, whatever the direction",
+                   value(site::speed, [](Floats v, Run run) {
+                       v[0] = real(run, site::speed_before) + glm::length(vec3(run, site::fall));
+                   })});
+    all.push_back({"drag_by_tick", "no hit: the speed is multiplied by 1 - a constant * u_Tick",
+                   value(site::speed, [](Floats v, Run run) { v[0] *= 1.0F - run.constants[0] * tick(run); }), rates});
+    all.push_back({"drag_by_exponential", "no hit: the speed is multiplied by exp(-a constant * u_Tick)",
+                   value(site::speed, [](Floats v, Run run) { v[0] *= std::exp(-run.constants[0] * tick(run)); }),
+                   rates});
+    all.push_back({"drag_before_gravity", "no hit: the old speed is multiplied by a constant before gravity acts",
+                   value(site::velocity_before, [](Floats v, Run run) { set(v, get(v) * run.constants[0]); }), drags});
+    all.push_back(
+        {"factor_before_gravity", "no hit: the old speed is multiplied by u_SpeedFactor before gravity acts",
+         value(site::velocity_before, [](Floats v, Run run) { set(v, get(v) * params(run).switches.speed_factor); })});
+    all.push_back({"collide_time_counted_above_zero", "collide time is counted only where it is above 0",
+                   value(site::collide_time, [](Floats v, Run run) {
+                       if (!(real(run, site::collide_time_before) > 0.0F))
+                           v[0] = real(run, site::collide_time_before);
+                   })});
+    all.push_back({"collide_time_counted_from_zero", "collide time is counted only where it is 0 or above",
+                   value(site::collide_time, [](Floats v, Run run) {
+                       if (!(real(run, site::collide_time_before) >= 0.0F))
+                           v[0] = real(run, site::collide_time_before);
+                   })});
+    all.push_back({"gravity_by_height", "gravity acts only above y = 0", value(site::fall, [](Floats v, Run run) {
+                       if (!(before(run).y > 0.0F))
+                           set(v, glm::vec3(0.0F));
+                   })});
+    all.push_back({"gravity_times_speed", "gravity * tick * speed",
+                   value(site::fall, [](Floats v, Run run) { set(v, get(v) * real(run, site::speed_before)); })});
+    all.push_back(
+        {"gravity_of_constant_tick", "gravity acts for a constant time, not for u_Tick",
+         value(site::fall, [](Floats v, Run run) { set(v, params(run).constants.gravity * run.constants[0]); }),
+         ticks});
+    all.push_back({"move_by_speed_alone", "no hit: moves by the speed along each axis",
+                   value(site::step, [](Floats v, Run run) { set(v, glm::vec3(real(run, site::speed))); })});
+    all.push_back({"move_by_direction_alone", "no hit: moves by the direction, without the speed",
+                   value(site::step, [](Floats v, Run run) { set(v, vec3(run, site::direction)); })});
+    all.push_back({"moves_along_old_direction", "no hit: moves along the old direction by the new speed",
+                   value(site::step, [](Floats v, Run run) { set(v, old_direction(run) * real(run, site::speed)); })});
 }
 
 } // namespace lockstep::formulas

@@ -1,8 +1,11 @@
 #include "reference/collision/formulas/words.hpp"
 
+#include <bit>
+#include <cstdint>
 #include <utility>
 
 #include "reference/collision/formulas/fits.hpp"
+#include "reference/half.hpp"
 
 namespace lockstep::formulas {
 namespace {
@@ -10,7 +13,22 @@ namespace {
 constexpr std::array added_lengths{1e-1F, 1e-2F, 1e-3F, 1e-4F, 1e-5F, 1e-6F, 1e-7F, 1e-8F};
 constexpr std::array parts{0.1F, 0.2F, 0.25F, 0.3F, 0.5F, 0.7F, 0.75F, 0.8F, 0.9F};
 constexpr std::array three{0.0F, 1.0F, 2.0F};
+constexpr std::array codes{127.0F, 128.0F, 255.0F, 256.0F, 511.0F, 1000.0F, 1023.0F, 1024.0F, 32767.0F, 65535.0F};
 constexpr std::array six{0.0F, 1.0F, 2.0F, 3.0F, 4.0F, 5.0F};
+
+glm::vec3 halves(glm::vec3 v) { return {half_round(v.x), half_round(v.y), half_round(v.z)}; }
+
+/// As in Quake III Arena, with so many of Newton's steps.
+float fast_inverse_root(float x, int steps) {
+    auto y = std::bit_cast<float>(0x5f3759dfU - (std::bit_cast<std::uint32_t>(x) >> 1U));
+    for (int step = 0; step < steps; ++step)
+        y = y * (1.5F - 0.5F * x * y * y);
+    return y;
+}
+
+const Mistake mean_of_all = at(site::direction_at_hit, Change::by_formula, [](Floats v, Run run) {
+    set(v, vec3(run, site::away) / static_cast<float>(std::max(run.offered, 1)));
+});
 
 } // namespace
 
@@ -195,6 +213,159 @@ void add_responses(std::vector<FormulaMistake>& all) {
     all.push_back(
         {"collide_time_added_at_hit", "at a hit: collision time is added to the collide time",
          value(site::collide_time_at_hit, [](Floats v, Run run) { v[0] += real(run, site::collide_time_before); })});
+    static const auto offset_of_hit = [](Run run) {
+        const auto& texel = run.of_chosen(site::own_texel_skipped);
+        return glm::vec3(texel[0], texel[1], 0.0F);
+    };
+    all.push_back({"direction_from_texels", "at a hit: away in the image, by the texel's offset",
+                   hit_direction([](Floats v, Run run) { set(v, -glm::normalize(offset_of_hit(run))); })});
+    all.push_back({"direction_towards_texel", "at a hit: towards the texel's offset, in the image",
+                   hit_direction([](Floats v, Run run) { set(v, glm::normalize(offset_of_hit(run))); })});
+    all.push_back({"dominant_axis_at_hit", "at a hit: away's greatest component alone, as a unit vector",
+                   hit_direction([](Floats v, Run run) {
+                       const glm::vec3 away = vec3(run, site::away), size = glm::abs(away);
+                       const int axis = size.x >= size.y && size.x >= size.z ? 0 : size.y >= size.z ? 1 : 2;
+                       glm::vec3 along(0.0F);
+                       along[axis] = away[axis] < 0.0F ? -1.0F : 1.0F;
+                       set(v, along);
+                   })});
+    all.push_back({"signs_of_away_at_hit", "at a hit: sign(away), not normalised",
+                   hit_direction([](Floats v, Run run) { set(v, glm::sign(vec3(run, site::away))); })});
+    all.push_back({"direction_in_steps_at_hit", "at a hit: away as a unit vector, rounded to steps of 1 / a constant",
+                   hit_direction([](Floats v, Run run) {
+                       set(v, glm::round(unit_away(run) * run.constants[0]) / run.constants[0]);
+                   }),
+                   codes});
+    all.push_back({"direction_in_half_floats_at_hit", "at a hit: away as a unit vector, in half floats",
+                   hit_direction([](Floats v, Run run) { set(v, halves(unit_away(run))); })});
+    all.push_back({"mean_of_neighbours_at_hit",
+                   "at a hit: the mean of what was added up, not normalised",
+                   {.site = site::nearest.id, .change = Change::added_up, .also = &mean_of_all}});
+    all.push_back(
+        {"last_distance_divides", "at a hit: away over the distance that was looked at last",
+         hit_direction([](Floats v, Run run) { set(v, vec3(run, site::away) / real(run, site::distance)); })});
+    static const Formula by_fast_root = [](Floats v, Run run) {
+        const glm::vec3 away = vec3(run, site::away);
+        set(v, away * fast_inverse_root(glm::dot(away, away), static_cast<int>(run.constants[0])));
+    };
+    static const Mistake fall_by_fast_root = value(site::direction, [](Floats v, Run run) {
+        const glm::vec3 velocity = vec3(run, site::velocity);
+        set(v, velocity * fast_inverse_root(glm::dot(velocity, velocity), static_cast<int>(run.constants[0])));
+    });
+    all.push_back({"fast_inverse_root_at_hit", "at a hit: 0x5f3759df for the inverse root, improved n times",
+                   hit_direction(by_fast_root), three});
+    all.push_back({"fast_inverse_root_in_fall", "no hit: 0x5f3759df for the inverse root, improved n times",
+                   fall_by_fast_root, three});
+    all.push_back({"fast_inverse_root", "0x5f3759df for the inverse root, improved n times",
+                   value(site::direction_at_hit, by_fast_root, &fall_by_fast_root), three});
+    const auto speeds = [&](std::string_view name, std::string_view meaning, Formula formula,
+                            std::span<const float> constants = {}) {
+        all.push_back({name, meaning, value(site::speed_at_hit, formula), constants});
+    };
+    speeds("speed_damped_by_each_nearer", "at a hit: speed * factor for each that was the nearest so far",
+           [](Floats v, Run run) {
+               v[0] = real(run, site::speed_before);
+               for (int i = 0; i < run.taken; ++i)
+                   v[0] *= params(run).switches.speed_factor;
+           });
+    speeds("speed_damped_by_each_in_range", "at a hit: speed * factor for each in range", [](Floats v, Run run) {
+        v[0] = real(run, site::speed_before);
+        for (int i = 0; i < run.offered; ++i)
+            v[0] *= params(run).switches.speed_factor;
+    });
+    speeds("speed_over_neighbours", "at a hit: speed * factor over the number in range",
+           [](Floats v, Run run) { v[0] /= static_cast<float>(std::max(run.offered, 1)); });
+    speeds("speed_times_neighbours", "at a hit: speed * factor times the number in range",
+           [](Floats v, Run run) { v[0] *= static_cast<float>(run.offered); });
+    speeds("speed_by_angle", "at a hit: speed * factor times max(0, -dot(old, new direction))",
+           [](Floats v, Run run) { v[0] *= std::max(0.0F, -glm::dot(old_direction(run), unit_away(run))); });
+    speeds("speed_by_angle_forwards", "at a hit: speed * factor times max(0, dot(old, new direction))",
+           [](Floats v, Run run) { v[0] *= std::max(0.0F, glm::dot(old_direction(run), unit_away(run))); });
+    speeds("speed_by_size_of_angle", "at a hit: speed * factor times |dot(old, new direction)|",
+           [](Floats v, Run run) { v[0] *= std::abs(glm::dot(old_direction(run), unit_away(run))); });
+    speeds("speed_factor_rooted", "at a hit: speed * sqrt(factor)", [](Floats v, Run run) {
+        v[0] = real(run, site::speed_before) * std::sqrt(params(run).switches.speed_factor);
+    });
+    speeds("speed_plus_factor", "at a hit: speed + factor",
+           [](Floats v, Run run) { v[0] = real(run, site::speed_before) + params(run).switches.speed_factor; });
+    speeds("speed_times_one_more", "at a hit: speed * (1 + factor)", [](Floats v, Run run) {
+        v[0] = real(run, site::speed_before) * (1.0F + params(run).switches.speed_factor);
+    });
+    all.push_back({"speed_capped_at_hit",
+                   "at a hit: the speed is at most a constant",
+                   value(site::speed_at_hit, [](Floats v, Run run) { v[0] = std::min(v[0], run.constants[0]); }),
+                   {},
+                   speed_of});
+    all.push_back({"speed_at_least_at_hit",
+                   "at a hit: the speed is at least a constant",
+                   value(site::speed_at_hit, [](Floats v, Run run) { v[0] = std::max(v[0], run.constants[0]); }),
+                   {},
+                   speed_of});
+    static const auto bounced = [](Run run) {
+        const glm::vec3 n = unit_away(run), u = old_velocity(run);
+        return u - (1.0F + params(run).switches.speed_factor) * glm::dot(u, n) * n;
+    };
+    static const Mistake bounced_speed =
+        value(site::speed_at_hit, [](Floats v, Run run) { v[0] = glm::length(bounced(run)); });
+    all.push_back(
+        {"bounces_by_factor", "at a hit: velocity - (1 + factor) * its part along away",
+         value(
+             site::direction_at_hit, [](Floats v, Run run) { set(v, glm::normalize(bounced(run))); }, &bounced_speed)});
+    static const auto slid = [](Run run) {
+        const glm::vec3 n = unit_away(run), u = old_velocity(run);
+        return u - glm::dot(u, n) * n;
+    };
+    static const Mistake slid_speed =
+        value(site::speed_at_hit, [](Floats v, Run run) { v[0] = glm::length(slid(run)); });
+    all.push_back(
+        {"slides_with_what_is_left", "at a hit: velocity without its part along away, undamped",
+         value(
+             site::direction_at_hit, [](Floats v, Run run) { set(v, glm::normalize(slid(run))); }, &slid_speed)});
+    static const auto kicked = [](Run run) {
+        return old_velocity(run) + unit_away(run) * real(run, site::speed_before) * params(run).switches.speed_factor;
+    };
+    static const Mistake kicked_speed =
+        value(site::speed_at_hit, [](Floats v, Run run) { v[0] = glm::length(kicked(run)); });
+    all.push_back(
+        {"velocity_added_at_hit", "at a hit: away * speed * factor is added to the velocity",
+         value(
+             site::direction_at_hit, [](Floats v, Run run) { set(v, glm::normalize(kicked(run))); }, &kicked_speed)});
+    all.push_back({"moves_on_before_hit", "at a hit: moves by the old velocity, too",
+                   hit_position([](Floats v, Run run) { set(v, get(v) + old_velocity(run) * tick(run)); })});
+    all.push_back(
+        {"falls_on_before_hit", "at a hit: moves by the old velocity and gravity, too",
+         hit_position([](Floats v, Run run) { set(v, get(v) + (old_velocity(run) + fall(run)) * tick(run)); })});
+    all.push_back({"moves_by_old_velocity_at_hit", "at a hit: moves by the old velocity",
+                   hit_position([](Floats v, Run run) { set(v, before(run) + old_velocity(run) * tick(run)); })});
+    all.push_back({"moves_twice_at_hit", "at a hit: moves by twice the step",
+                   hit_position([](Floats v, Run run) { set(v, get(v) + (get(v) - before(run))); })});
+    all.push_back({"moves_back_out_of_step", "at a hit: goes back by the old step, then moves",
+                   hit_position([](Floats v, Run run) { set(v, get(v) - old_velocity(run) * tick(run)); })});
+    static const Mistake moves_as_unit = value(site::moves_along, [](Floats v, Run run) { set(v, unit_away(run)); });
+    static const Formula velocity_of_hit = [](Floats v, Run run) {
+        set(v, unit_away(run) * real(run, site::speed_at_hit));
+    };
+    static const Mistake velocity_at_hit = value(site::direction_at_hit, velocity_of_hit, &moves_as_unit);
+    all.push_back(
+        {"velocity_stored_as_direction_at_hit", "at a hit: the velocity is stored as the direction", velocity_at_hit});
+    static const Mistake falls_by_velocity = value(
+        site::step, [](Floats v, Run run) { set(v, vec3(run, site::velocity)); }, &velocity_at_hit);
+    all.push_back({"velocity_stored_as_direction_everywhere",
+                   "the velocity is stored as the direction",
+                   {.site = site::direction.id, .change = Change::not_done, .also = &falls_by_velocity}});
+    all.push_back({"collide_time_is_not_below", "at a hit: the greater of collision time and collide time",
+                   value(site::collide_time_at_hit,
+                         [](Floats v, Run run) { v[0] = std::max(v[0], real(run, site::collide_time_before)); })});
+    all.push_back({"collide_time_times_tick", "at a hit: u_CollisionTime * u_Tick",
+                   value(site::collide_time_at_hit, [](Floats v, Run run) { v[0] *= tick(run); })});
+    all.push_back({"collide_time_over_tick", "at a hit: u_CollisionTime / u_Tick",
+                   value(site::collide_time_at_hit, [](Floats v, Run run) { v[0] /= tick(run); })});
+    all.push_back({"collide_time_by_distance", "at a hit: u_CollisionTime * distance / range",
+                   value(site::collide_time_at_hit, [](Floats v, Run run) {
+                       v[0] *= glm::length(vec3(run, site::away)) / params(run).constants.collision_range;
+                   })});
+    all.push_back({"collide_time_by_speed", "at a hit: u_CollisionTime * the old speed",
+                   value(site::collide_time_at_hit, [](Floats v, Run run) { v[0] *= real(run, site::speed_before); })});
 }
 
 } // namespace lockstep::formulas

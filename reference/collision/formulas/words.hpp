@@ -5,8 +5,11 @@
 #include <span>
 #include <vector>
 
+#include <glm/common.hpp>
 #include <glm/geometric.hpp>
+#include <glm/mat4x4.hpp>
 #include <glm/vec3.hpp>
+#include <glm/vec4.hpp>
 
 #include "reference/collision/formula_mistakes.hpp"
 #include "reference/collision/sites.hpp"
@@ -19,6 +22,11 @@ using Run = const CameBy&;
 inline const FrameParams& params(Run run) { return *static_cast<const FrameParams*>(run.world); }
 inline glm::vec3 vec3(Run run, const Site& site) {
     const auto& v = run.of(site);
+    return {v[0], v[1], v[2]};
+}
+/// Of the neighbour that is taken.
+inline glm::vec3 chosen_vec3(Run run, const Site& site) {
+    const auto& v = run.of_chosen(site);
     return {v[0], v[1], v[2]};
 }
 inline float real(Run run, const Site& site) { return run.of(site)[0]; }
@@ -36,7 +44,24 @@ inline glm::vec3 old_direction(Run run) { return vec3(run, site::direction_befor
 inline glm::vec3 old_velocity(Run run) { return old_direction(run) * real(run, site::speed_before); }
 inline int reach(Run run) { return params(run).constants.texel_collide_range; }
 inline float clip_w(Run run) { return run.of(site::clip)[3]; }
+inline glm::vec4 projected(Run run, glm::vec3 position) {
+    return params(run).collision_proj_view * glm::vec4(position, 1.0F);
+}
 inline void leave_out(Floats fetch) { fetch[0] = -1.0F; }
+/// Of a texel that is looked at: which one, counted from the base texel.
+struct Offset {
+    int x, y;
+};
+inline Offset offset(Floats skipped) { return {static_cast<int>(skipped[1]), static_cast<int>(skipped[3])}; }
+template <class Skip> void skip_too(Floats answer, const Skip& skip) {
+    const Offset o = offset(answer);
+    if (skip(o.x, o.y))
+        answer[0] = 1.0F;
+}
+inline void skip_instead(Floats answer, int x, int y) {
+    const Offset o = offset(answer);
+    answer[0] = o.x == x && o.y == y ? 1.0F : 0.0F;
+}
 template <class Keep> void keep_where(Floats answer, const Keep& keep) {
     answer[0] = answer[0] != 0.0F && keep() ? 1.0F : 0.0F;
 }

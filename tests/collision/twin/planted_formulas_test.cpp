@@ -1,58 +1,14 @@
-#include <algorithm>
 #include <string>
 #include <vector>
 
 #include <catch2/catch.hpp>
-#include <fmt/ranges.h>
 
-#include "crosscheck/scene/scene_file.hpp"
-#include "tests/collision/twin/llvmpipe.hpp"
-#include "tests/collision/twin/told_causes.hpp"
-#include "tests/collision/twin/twin_scenes.hpp"
-#include "tests/planted_shader.hpp"
+#include "tests/collision/twin/planted_formulas.hpp"
 
 using namespace lockstep;
+using namespace lockstep::test::formulas;
 
 namespace {
-
-/// A formula of a stage's, and the one that stands there instead.
-struct Plant {
-    std::string cause, scene, text, replacement, file = "collision_pass.vert";
-};
-
-const std::string in_range = "u_CollisionRange > len && len < particle_min_length";
-const std::string w_of_neighbour = "ls_transform(u_ProjView, decode_position(stored)).w";
-const std::string w_of_own = "ls_transform(u_ProjView, a_Position).w";
-const std::string hit_position = "    v_Position = sum(a_Position, step);\n";
-const std::string moved = R"(
-    step = product(v_Dir, v_Speed);
-#if COLLISION_STEP == COLLISION_STEP_TICK
-    step = product(step, u_Tick);
-#endif
-    v_Position = sum(a_Position, step);)";
-const std::string hit = "        collide(away);\n    else\n        integrate();";
-
-/// The neighbour in range with the least `key` is taken.
-Plant least(const std::string& cause, const std::string& scene, const std::string& key) {
-    return {cause, scene, "            if (" + in_range + ") {\n                particle_min_length = len;",
-            "            if (u_CollisionRange > len && " + key +
-                " < particle_min_length) {\n"
-                "                particle_min_length = " +
-                key + ";"};
-}
-/// Texels for which `condition` holds are skipped, and no others.
-Plant skips(const std::string& cause, const std::string& condition) {
-    return {cause, "crowd", "(tx == 0 && ty == 0)", "(" + condition + ")"};
-}
-/// At a hit, `statement` follows.
-Plant after_hit(const std::string& cause, const std::string& statement) {
-    return {cause, "crowd", hit_position, hit_position + "    " + statement + "\n"};
-}
-/// In free fall, `statement` follows.
-Plant after_fall(const std::string& cause, const std::string& statement) {
-    return {cause, "crowd", hit,
-            "        collide(away);\n    else {\n        integrate();\n        " + statement + "\n    }"};
-}
 
 const std::string stays = "v_Position = a_Position; v_Dir = a_Dir; v_Speed = a_Speed;";
 
@@ -145,6 +101,14 @@ std::vector<Plant> drawing_plants() {
         stored("stores_negated", "o_Texel = encode_position(-out_Position);"),
         stored("stores_z_negated", "o_Texel = encode_position(vec3(out_Position.xy, -out_Position.z));"),
         stored("stores_remapped", "o_Texel = encode_position(out_Position * 0.5 + 0.5);"),
+        stored("checkerboard_discarded", "ivec2 p = ivec2(gl_FragCoord.xy); if (((p.x + p.y) & 1) != 0) discard;\n"
+                                         "    o_Texel = encode_position(out_Position);"),
+        stored("stores_window_coordinates", "o_Texel = encode_position(gl_FragCoord.xyz);"),
+        stored("stores_in_steps", "o_Texel = encode_position(round(out_Position * 256.0) / 256.0);"),
+        point("only_upper_right_drawn", "crowd", "c.x < 0.0 || c.y < 0.0 ? vec4(2.0, 0.0, 0.0, 1.0) : c"),
+        point("point_shift_without_w", "crowd",
+              "vec4(c.xy + vec2(1.0 / float(u_ClientWidth), 1.0 / float(u_ClientHeight)), c.zw)"),
+        obstacle("obstacle_depth_reversed", "gl_FragDepth = fragment.depth", "gl_FragDepth = 1.0 - fragment.depth"),
         stored("fragment_depth_zero", "o_Texel = encode_position(out_Position);\n    gl_FragDepth = 0.0;"),
         obstacle("obstacle_first_and_second_swapped", mixed, corners("g_Position[1], g_Position[0], g_Position[2]")),
         obstacle("obstacle_second_and_third_swapped", mixed, corners("g_Position[0], g_Position[2], g_Position[1]")),
@@ -163,23 +127,6 @@ std::vector<Plant> drawing_plants() {
         obstacle("obstacle_depth_not_halved", "gl_FragDepth = fragment.depth",
                  "gl_FragDepth = max(2.0 * fragment.depth - 1.0, 0.0)"),
     };
-}
-
-void check_told(const std::vector<Plant>& plants) {
-    const auto context = test::open_llvmpipe();
-    if (!context)
-        return;
-    for (const Plant& plant : plants) {
-        const test::TemporaryFolder shaders;
-        test::plant(shaders, plant.file, plant.text, plant.replacement);
-        const Scene scene = load_scene("data/scenes/stress/" + plant.scene + ".json", {});
-        const CheckReport report = test::check_twins(scene, 8, shaders.path());
-        const std::vector<std::string> told = test::told_causes(report);
-        INFO(plant.cause << ": " << verdict_name(report.verdict)
-                         << ", told: " << fmt::format("{}", fmt::join(told, " ")));
-        CHECK(report.verdict == Verdict::divergent);
-        CHECK(std::find(told.begin(), told.end(), plant.cause) != told.end());
-    }
 }
 
 } // namespace

@@ -75,8 +75,12 @@ template <class A> void draw(A fp, const Mesh& obstacles, const FrameParams& par
         Corners<glm::vec3> stored = stored_corners(fp, obstacles, triangle);
         Corners<glm::vec4> placed{clip[index[0]], clip[index[1]], clip[index[2]]};
         const bool drawn = is_drawn(placed, deviations);
-        if (deviations.has(Deviation::obstacle_stores_clip_space))
-            stored = {glm::vec3(placed[0]), glm::vec3(placed[1]), glm::vec3(placed[2])};
+        for (std::size_t i = 0; i < stored.size(); ++i) {
+            if (deviations.has(Deviation::obstacle_stores_clip_space))
+                stored[i] = glm::vec3(placed[i]);
+            if (deviations.has(Deviation::obstacle_stores_ndc))
+                stored[i] = glm::vec3(placed[i]) / placed[i].w;
+        }
         spoil(stored, deviations);
         misplace(placed, deviations);
         const TriangleInterpolation<A> interpolation(fp, placed, params.width, params.height);

@@ -197,6 +197,8 @@ constexpr std::array infos = [] {
         DeviationInfo{obstacle_centroid_alone, "obstacle_centroid_alone", "a triangle stores its centroid everywhere"},
         DeviationInfo{obstacle_stores_clip_space, "obstacle_stores_clip_space",
                       "obstacles store clip xyz for the position"},
+        DeviationInfo{obstacle_stores_ndc, "obstacle_stores_ndc",
+                      "obstacles store normalised device coordinates for the position"},
         DeviationInfo{obstacle_at_pixel_corner, "obstacle_at_pixel_corner",
                       "obstacles are interpolated to the pixel's lower left corner, not its centre"},
         DeviationInfo{obstacle_interpolated_on_screen, "obstacle_interpolated_on_screen",

@@ -178,6 +178,7 @@ enum class Deviation {
     obstacle_last_corner_alone,
     obstacle_centroid_alone,
     obstacle_stores_clip_space,
+    obstacle_stores_ndc,
     obstacle_at_pixel_corner,
     obstacle_interpolated_on_screen,
     obstacle_y_flipped,

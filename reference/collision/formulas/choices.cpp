@@ -12,15 +12,15 @@ namespace {
 
 constexpr std::array epsilons{1e-1F, 1e-2F, 1e-3F, 1e-4F, 1e-5F, 1e-6F, -1e-1F, -1e-2F, -1e-3F, -1e-4F, -1e-5F, -1e-6F};
 constexpr std::array nearnesses{0.5F, 0.25F, 0.2F, 1e-1F, 5e-2F, 1e-2F, 5e-3F, 1e-3F, 1e-4F, 1e-5F, 1e-6F, 1e-7F};
-constexpr std::array ranges{0.001F, 0.01F, 0.02F, 0.05F, 0.1F, 0.2F, 0.25F, 0.5F, 1.0F, 2.0F, 5.0F, 10.0F};
+constexpr std::array ranges{0.001F, 0.01F, 0.02F, 0.05F, 0.1F, 0.2F, 0.25F, 0.5F, 0.75F, 1.0F, 2.0F, 5.0F, 10.0F};
 
 constexpr std::array shares{0.001F, 0.01F, 0.05F, 0.1F, 0.2F, 0.25F, 0.5F};
 constexpr std::array factors{0.1F,  0.25F, 0.7F, 0.75F, 0.8F,  0.9F, 0.95F, 0.99F,
                              1.01F, 1.05F, 1.1F, 1.2F,  1.25F, 1.5F, 3.0F,  4.0F};
 constexpr std::array betas{0.25F, 0.3F, 0.34F, 0.375F, 0.4F, 0.5F};
-constexpr std::array scales{1.0F,    10.0F,   15.0F,    16.0F,    31.0F,    63.0F,    64.0F,     100.0F,
-                            127.0F,  128.0F,  255.0F,   256.0F,   1000.0F,  1023.0F,  1024.0F,   4095.0F,
-                            4096.0F, 8191.0F, 10000.0F, 32767.0F, 65535.0F, 65536.0F, 100000.0F, 1e6F};
+constexpr std::array scales{1.0F,    10.0F,   15.0F,    16.0F,    31.0F,    63.0F,   64.0F,   100.0F,
+                            127.0F,  128.0F,  255.0F,   256.0F,   1000.0F,  1023.0F, 1024.0F, 4095.0F,
+                            4096.0F, 8191.0F, 10000.0F, 32767.0F, 65535.0F, 65536.0F};
 
 /// Of the neighbour that is offered: its place, counted from the base texel.
 struct Texels {
@@ -108,7 +108,7 @@ void add_choices(std::vector<FormulaMistake>& all) {
     static const auto rounded_key = [](Floats v, Run run, bool by_range, bool nearest) {
         const float range = by_range ? params(run).constants.collision_range : 1.0F;
         const float key = v[0] / range * run.constants[0];
-        v[0] = nearest ? std::round(key) : std::floor(key);
+        v[0] = (nearest ? std::round(key) : std::floor(key)) / run.constants[0];
     };
     const auto keyed = [&](std::string_view name, std::string_view meaning, Formula formula) {
         all.push_back({name, meaning, at(site::nearest, Change::chosen_by_formula, formula), scales});
@@ -161,8 +161,6 @@ void add_choices(std::vector<FormulaMistake>& all) {
     all.push_back({"range_in_each_axis", "in range where |x|, |y| and |z| are", in_range([](Floats v, Run run) {
                        v[0] = greatest(vec3(run, site::apart)) < v[2] && v[1] != 0.0F ? 1.0F : 0.0F;
                    })});
-    all.push_back({"alpha_in_distance", "the distance is of four components, alpha's 1 included",
-                   value(site::distance, [](Floats v, Run) { v[0] = std::sqrt(v[0] * v[0] + 1.0F); })});
     all.push_back({"estimated_distance", "the greatest component plus a constant times the others, for the length",
                    value(site::distance,
                          [](Floats v, Run run) {

@@ -194,6 +194,30 @@ void add_fall(std::vector<FormulaMistake>& all) {
     rests(all, "rests_while_collide_time_runs", "who does not search neither moves nor counts",
           "moves_only_when_searching", "who does not search does not move",
           [](Run run) { return !(real(run, site::collide_time_before) < 0.0F); });
+    rests(all, "rests_while_collide_time_is_above_zero", "who has a collide time above 0 neither moves nor counts",
+          "moves_only_from_collide_time_zero_on", "who has a collide time above 0 does not move, nor is it pulled",
+          [](Run run) { return real(run, site::collide_time_before) > 0.0F; });
+    const auto held = [&](std::string_view name, std::string_view meaning, Formula formula) {
+        all.push_back({name, meaning, value(site::position, formula)});
+    };
+    held("held_until_it_searches", "who does not search stays in place, and is pulled on", [](Floats v, Run run) {
+        if (!(real(run, site::collide_time_before) < 0.0F))
+            set(v, before(run));
+    });
+    held("held_while_collide_time_is_above_zero", "who has a collide time above 0 stays in place, and is pulled on",
+         [](Floats v, Run run) {
+             if (real(run, site::collide_time_before) > 0.0F)
+                 set(v, before(run));
+         });
+    static const Formula length_of_direction = [](Floats v, Run) { v[0] = 1.0F; };
+    static const Mistake moves_by_speed = value(site::moves_by, [](Floats v, Run run) {
+        v[0] = real(run, site::speed_before) * params(run).switches.speed_factor;
+    });
+    static const Mistake length_at_hit = value(site::speed_at_hit, length_of_direction, &moves_by_speed);
+    static const Mistake falls_by_velocity = value(
+        site::step, [](Floats v, Run run) { set(v, vec3(run, site::velocity)); }, &length_at_hit);
+    all.push_back({"length_of_direction_stored_as_speed", "the direction's length is stored as the speed",
+                   value(site::speed, length_of_direction, &falls_by_velocity)});
     static const Formula a_constant = [](Floats v, Run run) { v[0] = run.constants[0]; };
     all.push_back({"tick_is_a_constant", "a constant for u_Tick", value(site::tick, a_constant), {}, counted_of});
     all.push_back({"collide_time_counted_by_a_constant",

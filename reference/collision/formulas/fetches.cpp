@@ -101,11 +101,6 @@ void add_fetches(std::vector<FormulaMistake>& all) {
                        const auto& base = run.of(site::base_texel);
                        v[0] = base[0], v[1] = base[1];
                    })});
-    all.push_back(
-        {"read_at_offset", "the texel read is the offset, without the base texel", fetch([](Floats v, Run run) {
-             const auto& base = run.of(site::base_texel);
-             v[0] -= base[0], v[1] -= base[1];
-         })});
     all.push_back({"offsets_swapped", "the texel read is base + (ty, tx)", fetch([](Floats v, Run run) {
                        const auto& base = run.of(site::base_texel);
                        const float x = v[0] - base[0], y = v[1] - base[1];

@@ -73,7 +73,10 @@ template <class A, class Sites> class RenderDrawing {
 
     [[nodiscard]] Billboard billboard(glm::vec3 view_centre) const {
         const float radius = sites_.corner_radius(params_.constants.billboard_radius);
-        return expand_billboard(fp_, sites_.square_centre(view_centre, radius), radius, params_.render_projection);
+        const glm::mat4& projection = params_.render_projection;
+        return sites_.square(
+            expand_billboard(fp_, sites_.square_centre(view_centre, radius), radius, projection),
+            [&] { return fp_.transform(projection, view_centre); }, radius);
     }
 
   private:

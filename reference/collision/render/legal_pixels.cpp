@@ -150,8 +150,10 @@ template <class Sites> class LegalPixels {
         LegalSprite result;
         result.centre = geometry_.taken(to_view(position));
         const float radius = sites_.corner_radius(params_.constants.billboard_radius);
-        const auto square =
-            expand_billboard(geometry_, sites_.square_centre(result.centre, radius), radius, params_.render_projection);
+        const glm::mat4& projection = params_.render_projection;
+        const auto square = sites_.square(
+            expand_billboard(geometry_, sites_.square_centre(result.centre, radius), radius, projection),
+            [&] { return geometry_.transform(projection, result.centre); }, radius);
         const Truth visible = is_visible(square);
         if (!visible.yes)
             return result;

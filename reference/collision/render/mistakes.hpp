@@ -25,7 +25,8 @@ enum class RenderMistake {
     sprites_twice_size,
     quads_half_size,
     sphere_twice_size,
-    sphere_half_size,
+    radius_in_clip_space,
+    radius_in_ndc,
     square_on_centre,
     square_below_centre,
     square_right_of_centre,
@@ -209,11 +210,22 @@ class MistakenSites : public RightSites {
             centre.x = centre.x + (is(RenderMistake::square_right_of_centre) ? radius : -radius);
         return centre;
     }
+    template <class Billboard, class Project>
+    [[nodiscard]] Billboard square(Billboard square, const Project& project, float radius) const {
+        if (!is(RenderMistake::radius_in_clip_space) && !is(RenderMistake::radius_in_ndc))
+            return square;
+        const auto centre = project();
+        const auto side = is(RenderMistake::radius_in_ndc) ? centre.w * radius : centre.w * 0.0F + radius;
+        square.low = square.high = centre;
+        square.low.x = centre.x - side;
+        square.low.y = centre.y - side;
+        square.high.x = centre.x + side;
+        square.high.y = centre.y + side;
+        return square;
+    }
     template <class Window> [[nodiscard]] Window sphere_window(Window window) const {
         if (is(RenderMistake::sphere_twice_size))
             window.half = window.half * 2.0F;
-        if (is(RenderMistake::sphere_half_size))
-            window.half = window.half * 0.5F;
         return window;
     }
     template <class Billboard> [[nodiscard]] Billboard quad(Billboard square) const {

@@ -24,6 +24,11 @@ struct RightSites {
     }
     static float corner_radius(float radius) { return radius; }
     template <class Vec3> static Vec3 square_centre(Vec3 centre, float /*radius*/) { return centre; }
+    /// `project` takes the square's centre to clip space.
+    template <class Billboard, class Project>
+    static Billboard square(Billboard square, const Project& /*project*/, float) {
+        return square;
+    }
     template <class Window> static Window sphere_window(Window window) { return window; }
     template <class Billboard> static Billboard quad(Billboard square) { return square; }
     static glm::ivec2 size(int width, int height, bool /*of a particle*/) { return {width, height}; }

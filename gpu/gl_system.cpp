@@ -14,6 +14,7 @@
 
 #include "gpu/bound_storage.hpp"
 #include "gpu/check.hpp"
+#include "gpu/pass_timer.hpp"
 #include "gpu/program.hpp"
 #include "gpu/record_buffer.hpp"
 #include "gpu/shader_words.hpp"
@@ -376,14 +377,12 @@ template <class Work> void GlSystem::Parts::timed(const Work& work) {
     gl::Finish();
     const auto start = std::chrono::steady_clock::now();
     {
-        const RunningQuery timing(GL_TIME_ELAPSED, timer);
+        const RunningTimer timing(timer);
         work();
     }
     gl::Finish();
     seconds.wall = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
-    GLuint64 nanoseconds = 0;
-    gl::GetQueryObjectui64v(timer.id(), GL_QUERY_RESULT, &nanoseconds);
-    seconds.timer = static_cast<double>(nanoseconds) * 1e-9;
+    seconds.timer = seconds_of(timer);
 }
 
 GlSystem::Seconds GlSystem::seconds() const { return parts_->seconds; }

@@ -7,6 +7,19 @@
 
 namespace lockstep {
 
+/// A GL_TIME_ELAPSED query that runs while this lives. A driver may put its begin off until it draws, and so time no
+/// dispatch: at the barrier it begins.
+class RunningTimer {
+  public:
+    explicit RunningTimer(const GlQuery& query);
+
+  private:
+    RunningQuery query_;
+};
+
+/// What a timer found; waits for the GPU.
+double seconds_of(const GlQuery& query);
+
 /// GPU time between marks by GL_TIMESTAMP queries. A mark may have the GPU wait for what was before it: frames that are
 /// timed so are not those whose whole is timed.
 class PassTimer {

@@ -25,6 +25,7 @@
 #include "gpu/collision/render_pass.hpp"
 #include "gpu/collision/simulation.hpp"
 #include "gpu/context.hpp"
+#include "gpu/pass_timer.hpp"
 #include "reference/model/collision/layered_cdt.hpp"
 #include "reference/model/error.hpp"
 #include "reference/model/state_hash.hpp"
@@ -93,14 +94,12 @@ double time_rendering(const GpuSimulation& gpu, const Scene& scene, const BenchR
     std::vector<double> seconds;
     for (int frame = 0; frame < options.warm_up + options.run.frames; ++frame) {
         {
-            const RunningQuery timing(GL_TIME_ELAPSED, timer);
+            const RunningTimer timing(timer);
             pass.run(gpu.particle_buffer(), gpu.obstacle_buffer(), params);
         }
         gl::Finish();
-        GLuint64 nanoseconds = 0;
-        gl::GetQueryObjectui64v(timer.id(), GL_QUERY_RESULT, &nanoseconds);
         if (frame >= options.warm_up)
-            seconds.push_back(static_cast<double>(nanoseconds) * 1e-9);
+            seconds.push_back(seconds_of(timer));
     }
     return median(seconds);
 }

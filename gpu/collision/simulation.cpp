@@ -74,13 +74,11 @@ void GpuSimulation::run_frame(const FrameParams& params, std::size_t from, std::
     if (octree_pass_)
         octree_pass_->refresh(particles_[from]);
     {
-        const RunningQuery timing(GL_TIME_ELAPSED, timer_);
+        const RunningTimer timing(timer_);
         run_passes(params, from, to);
     }
     gl::Finish();
-    GLuint64 nanoseconds = 0;
-    gl::GetQueryObjectui64v(timer_.id(), GL_QUERY_RESULT, &nanoseconds);
-    frame_seconds_ = static_cast<double>(nanoseconds) * 1e-9;
+    frame_seconds_ = seconds_of(timer_);
     verify_written();
 }
 

@@ -3,6 +3,7 @@
 #include <cstddef>
 #include <span>
 
+#include "reference/fluid/shading.hpp"
 #include "reference/fluid/sites.hpp"
 
 namespace lockstep::fluid {
@@ -30,7 +31,7 @@ void shorter_at_both_ends(Words loop, const CameBy& /*run*/) {
     loop[0] += 1.0F;
     loop[1] -= 1.0F;
 }
-void bent_whole(Words value, const CameBy& /*run*/) { value[0] = 0.03325F; }
+void bent_whole(Words value, const CameBy& /*run*/) { value[0] = most_bend; }
 void mirrored_y(Words value, const CameBy& run) { value[0] = run.of(site::mirrored)[1]; }
 void mirror_for_refraction(Words value, const CameBy& run) {
     const float share = first(run, site::fresnel);

@@ -8,6 +8,9 @@
 
 namespace lockstep::fluid {
 
+/// How far light is bent that comes from high enough, of the image's side.
+inline constexpr float most_bend = 0.03325F;
+
 /// t t (3 - 2 t) of the share t that x has of a to b.
 template <class R, class Real> Real step(R& r, float a, float b, const Real& x) {
     const Real t =
@@ -52,7 +55,7 @@ template <class R> struct Shading {
     }
     /// The scene behind, as far aside as the normal leans.
     [[nodiscard]] Vec3 seen_through(const Pixel& pixel, const Vec3& n, const Vec3& world) const {
-        const Real bend = r.note(site::bend_of, Real(0.03325F) * step(r, 0.1F, 0.4F, world.y));
+        const Real bend = r.note(site::bend_of, Real(most_bend) * step(r, 0.1F, 0.4F, world.y));
         const Settings& s = host.settings();
         const auto place = [&](At at, At centre_at, int i, const Real& offset, At size_at, int size) {
             const Real centre = r.note(centre_at, r.real(i) + Real(0.5F));

@@ -144,10 +144,10 @@ inline VoxelBox box_of(const Host& host, const SystemView& state, std::size_t li
             {std::min(all.high.x, size.x - 1), std::min(all.high.y, size.y - 1), std::min(all.high.z, size.z - 1)}};
 }
 
-/// Calls `add(voxel's index, contribution)` for each light of `order` and each voxel that it reaches: of one voxel in
-/// that order, on all threads, a layer of voxels each.
-template <class R, class Add> void scatter(const R& r, const Host& host, const SystemView& state,
-                                           const std::vector<std::uint32_t>& order, const Add& add) {
+/// Calls `layer_of(z)(voxel's index, contribution)` for each light of `order` and each voxel that it reaches: of one
+/// voxel in that order, on all threads, a layer of voxels each.
+template <class R, class LayerOf> void scatter(const R& r, const Host& host, const SystemView& state,
+                                               const std::vector<std::uint32_t>& order, const LayerOf& layer_of) {
     std::vector<VoxelBox> boxes;
     boxes.reserve(order.size());
     std::vector<std::vector<std::uint32_t>> layers(static_cast<std::size_t>(host.grid().size.z)); // places in `order`
@@ -162,6 +162,7 @@ template <class R, class Add> void scatter(const R& r, const Host& host, const S
         R mine(r);
         LightRow<R> row(mine, host);
         const auto z = static_cast<int>(layer);
+        auto add = layer_of(layer);
         for (const std::uint32_t k : layers[static_cast<std::size_t>(layer)]) {
             const VoxelBox& box = boxes[k];
             row.take(state, order[k]);

@@ -1,7 +1,13 @@
 #pragma once
+#include <algorithm>
+#include <cstddef>
 #include <cstdint>
+#include <memory>
+#include <mutex>
 #include <span>
 #include <vector>
+
+#include <glm/vec3.hpp>
 
 #include "reference/lights/contribution.hpp"
 #include "reference/model/lights/host.hpp"
@@ -23,12 +29,49 @@ struct TriedVoxels {
     Voxel cell;
 };
 
-/// Those of each light of `order`: around its cell (gather, blending) or its ball.
-std::vector<TriedVoxels> tried_voxels(const Host& host, const SystemView& state,
-                                      const std::vector<std::uint32_t>& order);
-
 /// Fewer of them, by mistake: the parts of Change::handed_over.
 enum class FewerTried { two_short, own_column, next_rows, next_layers };
-std::vector<TriedVoxels> mistaken_voxels(std::vector<TriedVoxels> tried, std::span<const Mistake> made);
+
+/// The voxels of each light of an order: around its cell (gather, blending) or its ball.
+class TriedLights {
+  public:
+    TriedLights() = default;
+    TriedLights(const Host& host, const SystemView& state, const std::vector<std::uint32_t>& order);
+    [[nodiscard]] TriedLights mistaken(std::span<const Mistake> made) const;
+
+    /// Calls `visit` with the place in the order of each light that is tried at the voxel, of those in `range`.
+    template <class Range, class Visit> void for_each(const Range& range, const Voxel& v, const Visit& visit) const {
+        const std::span<const std::uint32_t> near = near_to(v);
+        const auto visit_one = [&](std::uint32_t k) {
+            const int from_first = static_cast<int>(k) - range.first, to_last = range.last - static_cast<int>(k);
+            const bool between = range.step > 0 ? from_first >= 0 && to_last >= 0 : from_first <= 0 && to_last <= 0;
+            if (between && from_first % range.step == 0 && (*voxels_)[k].box.has(v))
+                visit(k);
+        };
+        if (range.step > 0)
+            std::for_each(near.begin(), near.end(), visit_one);
+        else
+            std::for_each(near.rbegin(), near.rend(), visit_one);
+    }
+
+  private:
+    /// Lights by blocks of voxels that they are tried at.
+    struct Blocks {
+        glm::ivec3 count{0};
+        std::vector<std::size_t> starts; ///< of each block in `lights`, and the end
+        std::vector<std::uint32_t> lights;
+    };
+    struct MadeOnce {
+        std::once_flag once;
+        Blocks blocks;
+    };
+    /// All that may be tried at a voxel of the grid, ascending.
+    [[nodiscard]] std::span<const std::uint32_t> near_to(const Voxel& v) const;
+    [[nodiscard]] Blocks blocks() const;
+
+    glm::ivec3 grid_{0};
+    std::shared_ptr<const std::vector<TriedVoxels>> voxels_;
+    std::shared_ptr<MadeOnce> made_once_; ///< before any mistake, which takes voxels away and adds none
+};
 
 } // namespace lockstep::lights

@@ -57,7 +57,10 @@ struct FixedSum {
 };
 
 /// floor(x 2^32): bits under 2^-32 are cut.
-inline std::int64_t to_fixed64(double x) { return static_cast<std::int64_t>(std::floor(x * 0x1p32)); }
+inline std::int64_t to_fixed64(double x) {
+    const auto cut = static_cast<std::int64_t>(x * 0x1p32);
+    return cut - (static_cast<double>(cut) > x * 0x1p32 ? 1 : 0);
+}
 
 /// The place of a channel of a voxel: r g b, x y z, W.
 inline const Site& channel_site(std::size_t k) {
@@ -67,17 +70,15 @@ inline const Site& channel_site(std::size_t k) {
 }
 
 /// Calls `add` with what each light that reaches the voxel adds to it, of those that the shader tries there.
-template <class R, class Add>
-void for_each_light(R& r, const Host& host, const SystemView& state, const std::vector<std::uint32_t>& order,
-                    const std::vector<TriedVoxels>& tried, const Voxel& v, const Add& add) {
+template <class R, class Add> void for_each_light(R& r, const Host& host, const SystemView& state,
+                                                  const std::vector<std::uint32_t>& order, const TriedLights& tried,
+                                                  const Voxel& v, const Add& add) {
     const auto point = voxel_point(r, host, v);
-    for (const auto i : r.range(site::all_lights, 0, static_cast<int>(order.size()) - 1)) {
-        const auto k = static_cast<std::size_t>(static_cast<int>(i));
-        if (!tried[k].box.has(v))
-            continue;
+    const auto lights = r.range(site::all_lights, 0, static_cast<int>(order.size()) - 1);
+    tried.for_each(lights, v, [&](std::size_t k) {
         if (const auto made = contribution(r, host, state, order[k], point, v))
             add(*made);
-    }
+    });
 }
 
 /// One word of the accumulator: a channel of a voxel. Twin of shaders/lights/light_volume_scatter.comp, whose
@@ -85,15 +86,15 @@ void for_each_light(R& r, const Host& host, const SystemView& state, const std::
 struct ScatterTwin {
     HostPtr host;
     std::vector<std::uint32_t> order = {};
-    std::vector<TriedVoxels> tried = {}; ///< of each of them
+    TriedLights tried = {}; ///< of them
 
     [[nodiscard]] ScatterTwin at(const PassInput& in) const {
         ScatterTwin made{host, light_order(*host, in.before)};
-        made.tried = tried_voxels(*host, in.before, made.order);
+        made.tried = TriedLights(*host, in.before, made.order);
         return made;
     }
     [[nodiscard]] ScatterTwin handed(std::span<const Mistake> made) const {
-        return {host, order, mistaken_voxels(tried, made)};
+        return {host, order, tried.mistaken(made)};
     }
 
     template <class R> ItemWords<R> operator()(R& r, const PassInput& in, std::size_t item) const {
@@ -113,49 +114,99 @@ struct ScatterTwin {
     }
 
     template <class R> bool all(R& r, const PassInput& in, const WritableView& after) const {
-        const std::size_t voxels = host->grid().count();
         std::memcpy(after.columns[0], in.before[accumulator_image].columns[0], after.count() * sizeof(std::uint32_t));
-        const auto get = [&](std::size_t word) {
-            std::uint32_t bits = 0;
-            std::memcpy(&bits, after.columns[0] + word * sizeof bits, sizeof bits);
-            return bits;
-        };
-        const auto put = [&](std::size_t word, std::uint32_t bits) {
-            std::memcpy(after.columns[0] + word * sizeof bits, &bits, sizeof bits);
-        };
-        const Accumulate how = host->switches().accumulate;
-        scatter(r, *host, in.before, order, [&](std::size_t voxel, const Contribution<R>& made) {
-            const auto channels = made.channels();
-            for (std::size_t k = 0; k < channels.size(); ++k) {
-                const auto x = static_cast<float>(channels[k]);
-                if (adds_floats(how)) {
-                    const auto sum = typename R::Real(std::bit_cast<float>(get(voxel + k * voxels))) + channels[k];
-                    put(voxel + k * voxels, std::bit_cast<std::uint32_t>(static_cast<float>(sum)));
-                } else if (how == Accumulate::fixed64) {
-                    if (!(std::abs(x) < 0x1p31F))
-                        continue;
-                    const std::size_t low = voxel + 2 * k * voxels, high = low + voxels;
-                    const std::uint64_t sum = (std::uint64_t{get(high)} << 32U | get(low)) +
-                                              static_cast<std::uint64_t>(to_fixed64(double{x}));
-                    put(low, static_cast<std::uint32_t>(sum));
-                    put(high, static_cast<std::uint32_t>(sum >> 32U));
-                } else {
-                    const auto q = static_cast<float>(r.floor(channels[k] * scale() + typename R::Real(0.5F)));
-                    if (std::abs(q) < 0x1p31F)
-                        put(voxel + k * voxels,
-                            get(voxel + k * voxels) +
-                                static_cast<std::uint32_t>(static_cast<std::int32_t>(static_cast<std::int64_t>(q))));
-                }
-            }
-            const std::size_t last = voxel + (how == Accumulate::fixed64 ? 14 : 7) * voxels;
-            put(last, adds_floats(how) ? std::bit_cast<std::uint32_t>(std::bit_cast<float>(get(last)) + 1.0F)
-                                       : get(last) + 1);
-        });
+        const Words words{after, host->grid().count()};
+        if (host->switches().accumulate == Accumulate::fixed64) {
+            const std::size_t layer = words.voxels / static_cast<std::size_t>(host->grid().size.z);
+            scatter(r, *host, in.before, order,
+                    [&](std::ptrdiff_t z) { return FixedLayer(words, static_cast<std::size_t>(z) * layer, layer); });
+        } else {
+            scatter(r, *host, in.before, order, [&](std::ptrdiff_t) {
+                return [&](std::size_t voxel, const Contribution<R>& made) { add_words(r, words, voxel, made); };
+            });
+        }
         return true;
     }
 
   private:
+    /// The accumulator's words, channel by channel.
+    struct Words {
+        WritableView view;
+        std::size_t voxels;
+
+        [[nodiscard]] std::uint32_t get(std::size_t voxel, std::size_t k) const {
+            std::uint32_t bits = 0;
+            std::memcpy(&bits, place(voxel, k), sizeof bits);
+            return bits;
+        }
+        void put(std::size_t voxel, std::size_t k, std::uint32_t bits) const {
+            std::memcpy(place(voxel, k), &bits, sizeof bits);
+        }
+
+      private:
+        [[nodiscard]] std::byte* place(std::size_t voxel, std::size_t k) const {
+            return view.columns[0] + (voxel + k * voxels) * sizeof(std::uint32_t);
+        }
+    };
+
+    /// The sums of a layer, a voxel's side by side while they grow: in the accumulator every word is far from the next.
+    class FixedLayer {
+      public:
+        FixedLayer(const Words& words, std::size_t first, std::size_t count)
+            : words_(words), first_(first), sums_(count) {
+            for (std::size_t k = 0; k < 7; ++k)
+                for (std::size_t i = 0; i < count; ++i)
+                    sums_[i][k] = std::uint64_t{words_.get(first + i, 2 * k + 1)} << 32U | words_.get(first + i, 2 * k);
+            for (std::size_t i = 0; i < count; ++i)
+                sums_[i][7] = words_.get(first + i, 14);
+        }
+        ~FixedLayer() {
+            for (std::size_t k = 0; k < 7; ++k)
+                for (std::size_t i = 0; i < sums_.size(); ++i) {
+                    words_.put(first_ + i, 2 * k, static_cast<std::uint32_t>(sums_[i][k]));
+                    words_.put(first_ + i, 2 * k + 1, static_cast<std::uint32_t>(sums_[i][k] >> 32U));
+                }
+            for (std::size_t i = 0; i < sums_.size(); ++i)
+                words_.put(first_ + i, 14, static_cast<std::uint32_t>(sums_[i][7]));
+        }
+        FixedLayer(const FixedLayer&) = delete;
+        FixedLayer& operator=(const FixedLayer&) = delete;
+
+        template <class R> void operator()(std::size_t voxel, const Contribution<R>& made) {
+            const auto channels = made.channels();
+            std::array<std::uint64_t, 8>& sums = sums_[voxel - first_];
+            for (std::size_t k = 0; k < channels.size(); ++k)
+                if (const auto x = static_cast<float>(channels[k]); std::abs(x) < 0x1p31F)
+                    sums[k] += static_cast<std::uint64_t>(to_fixed64(double{x}));
+            ++sums[7];
+        }
+
+      private:
+        Words words_;
+        std::size_t first_;
+        std::vector<std::array<std::uint64_t, 8>> sums_; ///< of each channel, and how many
+    };
+
     [[nodiscard]] float scale() const { return std::ldexp(1.0F, host->fixed_bits()); }
+
+    /// With the other ways to accumulate, which have a word a channel.
+    template <class R> void add_words(R& r, const Words& words, std::size_t voxel, const Contribution<R>& made) const {
+        const bool floats = adds_floats(host->switches().accumulate);
+        const auto channels = made.channels();
+        for (std::size_t k = 0; k < channels.size(); ++k) {
+            const std::uint32_t before = words.get(voxel, k);
+            if (floats) {
+                const auto sum = typename R::Real(std::bit_cast<float>(before)) + channels[k];
+                words.put(voxel, k, std::bit_cast<std::uint32_t>(static_cast<float>(sum)));
+            } else {
+                const auto q = static_cast<float>(r.floor(channels[k] * scale() + typename R::Real(0.5F)));
+                if (std::abs(q) < 0x1p31F)
+                    words.put(voxel, k, before + static_cast<std::uint32_t>(static_cast<std::int32_t>(q)));
+            }
+        }
+        const std::uint32_t count = words.get(voxel, 7);
+        words.put(voxel, 7, floats ? std::bit_cast<std::uint32_t>(std::bit_cast<float>(count) + 1.0F) : count + 1);
+    }
 
     /// Calls `add` with what each light that reaches the voxel adds to it.
     template <class R, class Add> void for_each(R& r, const PassInput& in, const Voxel& v, const Add& add) const {
@@ -294,15 +345,15 @@ struct GatherTwin {
     HostPtr host;
     Texture texture;
     std::vector<std::uint32_t> order = {};
-    std::vector<TriedVoxels> tried = {}; ///< of each of them
+    TriedLights tried = {}; ///< of them
 
     [[nodiscard]] GatherTwin at(const PassInput& in) const {
         GatherTwin made{host, texture, light_order(*host, in.before)};
-        made.tried = tried_voxels(*host, in.before, made.order);
+        made.tried = TriedLights(*host, in.before, made.order);
         return made;
     }
     [[nodiscard]] GatherTwin handed(std::span<const Mistake> made) const {
-        return {host, texture, order, mistaken_voxels(tried, made)};
+        return {host, texture, order, tried.mistaken(made)};
     }
 
     template <class R> ItemWords<R> operator()(R& r, const PassInput& in, std::size_t item) const {
@@ -323,9 +374,11 @@ struct GatherTwin {
     template <class R> bool all(R& r, const PassInput& in, const WritableView& after) const {
         using Real = typename R::Real;
         std::vector<std::array<Real, 4>> sums(host->grid().count());
-        scatter(r, *host, in.before, order, [&](std::size_t voxel, const Contribution<R>& made) {
-            for (std::size_t c = 0; c < 4; ++c)
-                sums[voxel][c] = next(sums[voxel][c], addend(r, made, c));
+        scatter(r, *host, in.before, order, [&](std::ptrdiff_t) {
+            return [&](std::size_t voxel, const Contribution<R>& made) {
+                for (std::size_t c = 0; c < 4; ++c)
+                    sums[voxel][c] = next(sums[voxel][c], addend(r, made, c));
+            };
         });
         for (std::size_t voxel = 0; voxel < sums.size(); ++voxel) {
             ItemWords<R> words;

@@ -40,6 +40,7 @@ struct BenchRequest {
     int warm_up = 3;
     Legal legal = Legal::measured;
     PassRules rules;
+    bool gl_only = false, floor = false;
 };
 
 /// GPU time of a pass by itself, and of all frames' picture: medians, seconds.
@@ -176,7 +177,9 @@ std::size_t peak_bytes() {
 int run(const BenchRequest& options) {
     check_scene_exists(options.run.scene);
     if (const RegisteredSystem* system = system_of(options.run))
-        return bench_system(*system, options.run, {options.counts, options.warm_up, options.legal, options.rules});
+        return bench_system(
+            *system, options.run,
+            {options.counts, options.warm_up, options.legal, options.rules, options.gl_only, options.floor});
     static_cast<void>(
         shaders_to_run(options.run, load(options.run))); // says what is wrong with the scene before the table begins
     const Context context(parse_context_request(options.run.gl));
@@ -235,6 +238,9 @@ Verb bench_command() {
     verb.add(integer_option("--warm-up", "N", {0, 10'000}, options->warm_up, "frames run before the measured ones"));
     verb.add(
         integers_option("--radius", "R,...", {0, widest_neighbourhood}, options->radii, "neighbourhood radii, texels"));
+    verb.add(flag("--gl-only", options->gl_only, "time GL alone: neither reference nor check, and so no verdict"));
+    verb.add(flag("--floor", options->floor,
+                  "time also what passes rest on by itself: of system lights, as many atomics and nothing else"));
     add_legal_option(verb, options->legal);
     add_pass_options(verb, options->rules);
     verb.footer = "Exit status: as lockstep check's, 1 where a row does not pass.\n"
@@ -244,6 +250,9 @@ Verb bench_command() {
             throw Error("bench: --particles does not go with it; --counts N,... names how many");
         if (call.has("--radius") && system_of(options->run) != nullptr)
             throw Error("bench: --radius goes with scenes of system collision");
+        for (const char* const option : {"--gl-only", "--floor"})
+            if (call.has(option) && system_of(options->run) == nullptr)
+                throw Error(fmt::format("bench: {} does not go with scenes of system collision", option));
         return run(*options);
     };
     return verb;

@@ -41,6 +41,8 @@ struct SystemBench {
     int warm_up = 0;
     Legal legal = Legal::measured;
     PassRules rules;
+    bool gl_only = false; ///< neither reference nor check
+    bool floor = false;   ///< SystemScene::floor, too
 };
 
 /// The options of `lockstep check` that such a scene has.

@@ -28,6 +28,12 @@ struct SystemPicture {
     std::vector<OverlayLine> overlay;
 };
 
+/// Passes that no twin answers: nothing but what a pass of the system rests on, by itself, to hold its time against.
+struct Floor {
+    std::vector<GlPass> passes = {};
+    std::string meaning = {}; ///< one line, for people
+};
+
 /// What a scene file of a registered system comes to, on both sides.
 struct SystemScene {
     System system;              ///< the twins; its `settings` are what a report says of switches
@@ -41,6 +47,9 @@ struct SystemScene {
     /// What its passes leave open that the driver does otherwise than the reference can follow, each in words of a
     /// report, with what promises bits instead. Empty: nothing rests on such.
     std::function<std::vector<std::string>(const Profile& profile)> left_open = {};
+
+    /// Of what `lockstep bench --floor` times. Empty: there is none.
+    std::function<Floor()> floor = {};
 
     [[nodiscard]] bool has_pictures() const { return picture || image; }
 };

@@ -1,6 +1,9 @@
 #include "crosscheck/lights/system.hpp"
 
 #include <algorithm>
+#include <utility>
+
+#include <fmt/format.h>
 
 #include "crosscheck/judge/coded_image.hpp"
 #include "crosscheck/lights/left_open.hpp"
@@ -27,6 +30,18 @@ System system(const HostPtr& host, const std::string& name) {
     return made;
 }
 
+namespace {
+
+Floor floor_of(const HostPtr& host) {
+    AtomicsAlone alone = atomics_alone(host);
+    if (alone.passes.empty())
+        return {};
+    return {std::move(alone.passes), fmt::format("{} atomics in each of {} voxels of each light, and nothing else",
+                                                 alone.words, alone.voxels_each)};
+}
+
+} // namespace
+
 SystemScene load(const JsonValue& scene, const std::string& name, const SceneOptions& options) {
     const auto host = std::make_shared<const Host>(read_scene(scene, options));
     return {system(host, name),
@@ -34,7 +49,8 @@ SystemScene load(const JsonValue& scene, const std::string& name, const SceneOpt
             host->settings().arithmetic,
             {},
             [](const SystemState& state) { return coded_image(state, field::code); },
-            [host](const Profile& profile) { return left_open(host->switches(), profile); }};
+            [host](const Profile& profile) { return left_open(host->switches(), profile); },
+            [host] { return floor_of(host); }};
 }
 
 } // namespace lockstep::lights

@@ -92,7 +92,55 @@ void add_surfaces(const HostPtr& host, GlPassList& all) {
     filter(s.switches, all.add("deferred_light_pass", Stage::compute, lit_image));
 }
 
+std::size_t voxels_reached(const Host& host, const Light& light) {
+    const Grid& grid = host.grid();
+    std::size_t count = 0;
+    for (int z = 0; z < grid.size.z; ++z)
+        for (int y = 0; y < grid.size.y; ++y) {
+            const glm::vec3 row = grid.origin + (glm::vec3(0, y, z) + host.point_offset()) * grid.voxel;
+            const glm::vec3 away = light.position - row;
+            const float left = light.range * light.range - away.y * away.y - away.z * away.z;
+            if (left < 0.0F)
+                continue;
+            const float half = std::sqrt(left), last = static_cast<float>(grid.size.x - 1);
+            const float low = std::fmax(std::ceil((away.x - half) * host.inv_voxel()), 0.0F),
+                        high = std::fmin(std::floor((away.x + half) * host.inv_voxel()), last);
+            count += low <= high ? static_cast<std::size_t>(high - low) + 1 : 0;
+        }
+    return count;
+}
+
+/// The mean of at most some thousand of the lights.
+std::size_t voxels_each(const Host& host) {
+    const std::vector<Light>& lights = host.settings().lights;
+    const std::size_t step = lights.size() / 2048 + 1;
+    std::size_t sum = 0, looked_at = 0;
+    for (std::size_t i = 0; i < lights.size(); i += step, ++looked_at)
+        sum += voxels_reached(host, lights[i]);
+    return looked_at == 0 ? 0 : (sum + looked_at / 2) / looked_at;
+}
+
 } // namespace
+
+AtomicsAlone atomics_alone(const HostPtr& host) {
+    const Accumulate how = host->switches().accumulate;
+    if (how != Accumulate::fixed64 && how != Accumulate::fixed32)
+        return {};
+    const std::size_t each = voxels_each(*host);
+    const int words = how == Accumulate::fixed64 ? 15 : 8;
+    GlPassList all({}, [host, each, words](int) {
+        return Uniforms{{"u_GridSize", host->grid().size},
+                        {"u_LightCount", static_cast<unsigned>(host->settings().lights.size())},
+                        {"u_VoxelsEach", static_cast<unsigned>(each)},
+                        {"u_WordCount", words}};
+    });
+    for (const char* name : {"atomics_at_random", "atomics_in_one_voxel"}) {
+        GlPass& pass = all.add(name, Stage::compute, accumulator_image);
+        pass.invocations = [count = host->settings().lights.size()](int) { return count; };
+        pass.writes_words = true;
+    }
+    return {all.take(), each, words};
+}
 
 std::vector<GlPass> passes(const HostPtr& host) {
     const Switches& on = host->switches();

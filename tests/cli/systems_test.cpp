@@ -122,6 +122,23 @@ TEST_CASE("systems: bench has a row a pass that runs, and a frame's with its has
           "bench: --radius goes with scenes of system collision");
 }
 
+TEST_CASE("systems: bench times GL alone, and as many atomics as lights make") {
+    if (!test::have_software_gl())
+        return;
+    const std::string lights = "data/scenes/lights/one_light.json";
+    const std::vector<std::string> alone =
+        on_gl({"bench", lights, "--counts", "1", "--frames", "1", "--warm-up", "0", "--gl-only", "--floor"});
+    const test::Outcome bench = run_lockstep(test::joined(alone, {"--set", "accumulate=fixed64"}));
+    CHECK(bench.status == 0);
+    CHECK_THAT(bench.out, Contains("        1 floor: 15 atomics in each of ") &&
+                              Contains("        1 atomics_at_random ") && Contains("        1 atomics_in_one_voxel ") &&
+                              !Contains("AGREE"));
+    CHECK(refusal(run_lockstep(test::joined(alone, {"--set", "accumulate=gather"}))) ==
+          "bench: --floor: system lights has none with these switches");
+    CHECK(refusal(run_lockstep({"bench", "data/scenes/lattice.json", "--floor"})) ==
+          "bench: --floor does not go with scenes of system collision");
+}
+
 TEST_CASE("systems: check agrees on the shipped kernels and names a planted mistake, with a line that explains it") {
     if (!test::have_software_gl())
         return;

@@ -5,16 +5,17 @@
   fluid    the filters by radius
   hashes   preset exact, both sides run free: each frame's hash of all images, in OUT/hashes
 Usage: scripts/image_tables.py LOCKSTEP OUT [--gl KIND] [--parts lights,fluid,hashes] [--lights-up-to N] [--frames N]
-           [--seconds N] [--table-frames N] [--twins] [--scenes DIR] [--commit NAME]
+           [--seconds N] [--table-frames N] [--twins] [--scenes DIR] [--commit NAME] [--cores N]
   --frames, --seconds  of the hashes: how many frames, and when those that still run are ended; their verdict is then of
                        the frames before
   --twins              times the reference as well
-Exit status: 0 every hash is equal, 1 one is not."""
+Exit status: 0 every hash is equal, 1 one is not, 2 a part could not be run."""
 import argparse
 import json
 import os
 import pathlib
 import re
+import shutil
 import signal
 import subprocess
 import sys
@@ -48,6 +49,7 @@ def options():
     parser.add_argument("--twins", action="store_true")
     parser.add_argument("--scenes", type=pathlib.Path, default=ROOT / "data/scenes")
     parser.add_argument("--commit")
+    parser.add_argument("--cores", type=int, default=len(os.sched_getaffinity(0)))
     return parser.parse_args()
 
 
@@ -103,7 +105,7 @@ def output_of(words):
     print("+", *words, file=sys.stderr, flush=True)
     done = subprocess.run(list(map(str, words)), capture_output=True, text=True)
     if done.returncode not in (0, 1):
-        sys.exit(done.stdout + done.stderr)
+        raise RuntimeError(done.stdout + done.stderr)
     return done.stdout.splitlines()
 
 
@@ -217,8 +219,7 @@ def fluid_tables(run):
 
 def hash_jobs(run):
     """Name, scene, items, settings and threads, those that take longest last."""
-    cores = os.cpu_count() or 1
-    few, many = max(1, cores // 8), max(1, cores // 2)
+    few, many = max(1, run.asked.cores // 8), max(1, run.asked.cores // 2)
     jobs = [(f"fluid_{name}", run.fluid("wave"), DROPS, [f"filter={name}"], few)
             for name in ("gaussian", "bilateral", "narrow_range", "curvature_flow")]
     for count in (n for n in run.counts if n in (1024, 16384, 131072) or n == run.counts[-1]):
@@ -230,12 +231,12 @@ def hash_jobs(run):
 
 def hashed(run, jobs):
     """Runs jobs side by side as far as there are cores; ends what still runs when the time is up. Of each its report."""
-    asked, cores, waiting, running, reports = run.asked, os.cpu_count() or 1, list(jobs), {}, {}
+    asked, waiting, running, reports = run.asked, list(jobs), {}, {}
     end = time.monotonic() + asked.seconds
     (asked.out / "hashes").mkdir(exist_ok=True)
     while waiting or running:
         over = time.monotonic() > end
-        while waiting and not over and (not running or sum(job[4] for job in running.values()) + waiting[0][4] <= cores):
+        while waiting and not over and (not running or sum(job[4] for job in running.values()) + waiting[0][4] <= asked.cores):
             job = waiting.pop(0)
             name, scene, items, settings, threads = job
             words = [asked.lockstep, "check", scene, "--preset", "exact", "--mode", "free", "--no-render", "--particles", items,
@@ -278,6 +279,8 @@ def hashes_table(run):
 def commit_of(asked):
     if asked.commit:
         return asked.commit
+    if shutil.which("git") is None:
+        return "an unknown commit"
     done = subprocess.run(["git", "describe", "--always", "--dirty", "--abbrev=7"], cwd=ROOT, capture_output=True, text=True)
     return done.stdout.strip() or "an unknown commit"
 
@@ -287,16 +290,19 @@ def main():
     asked.out.mkdir(parents=True, exist_ok=True)
     run = Run(asked)
     parts = {"lights": lights_tables, "fluid": fluid_tables, "hashes": hashes_table}
-    text, kept, seconds = [], {}, {}
+    text, kept, seconds, failed = [], {}, {}, False
     for part in asked.parts.split(","):
         begun = time.monotonic()
-        lines, kept[part] = parts[part](run)
+        try:
+            lines, kept[part] = parts[part](run)
+        except RuntimeError as error:
+            failed, lines = True, ["", f"## {part}: not run to the end", "", f"    {str(error).strip()}"]
         seconds[part] = round(time.monotonic() - begun)
         text += lines
     if not run.gl:
         run.bench(run.lights(GRIDS[0], IMAGES[0]), [1], [])
     took = ", ".join(f"{part} {n} s" for part, n in seconds.items())
-    head = ["# Lights and fluid", "", f"{run.gl}, at {commit_of(asked)}; {os.cpu_count()} cores; {took}.", "",
+    head = ["# Lights and fluid", "", f"{run.gl}, at {commit_of(asked)}; {asked.cores} cores; {took}.", "",
             f"    {' '.join(['scripts/image_tables.py LOCKSTEP OUT', *sys.argv[3:]])}", ""]
     page = re.sub(r"\n{3,}", "\n\n", "\n".join(head + text)).rstrip() + "\n"
     (asked.out / "image_tables.md").write_text(page)
@@ -304,7 +310,7 @@ def main():
                                                             indent=1) + "\n")
     print(page, end="")
     wrong = [name for name, one in kept.get("hashes", {}).items() if one["equal"] != one["frames"]]
-    sys.exit(1 if wrong else 0)
+    sys.exit(2 if failed else 1 if wrong else 0)
 
 
 main()

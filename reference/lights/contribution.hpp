@@ -43,7 +43,7 @@ inline Voxel cell_of(const Grid& grid, const glm::vec3& p) {
 }
 /// The nearest one of the grid.
 inline Voxel clamped_cell(const Grid& grid, Voxel v) {
-    const auto clamped = [](int i, int n) { return i < 0 ? 0 : i >= n ? n - 1 : i; };
+    const auto clamped = [](int i, int n) { return std::clamp(i, 0, n - 1); };
     return {clamped(v.x, grid.size.x), clamped(v.y, grid.size.y), clamped(v.z, grid.size.z)};
 }
 

@@ -84,9 +84,11 @@ template <class R> class SamplingTwin {
         if (host_.switches().outside == Outside::black && !r_.decide(site::in_grid, inside))
             return found;
         const std::size_t i = v.index(host_.grid());
+        const glm::vec4 colour = state_.vec4(field::voxel_colour, i),
+                        direction = state_.vec4(field::voxel_direction, i);
         for (int c = 0; c < 4; ++c) {
-            found[static_cast<std::size_t>(c)] = r_.read(site::texel, state_.real(field::voxel_colour, i, c));
-            found[static_cast<std::size_t>(c) + 4] = r_.read(site::texel, state_.real(field::voxel_direction, i, c));
+            found[static_cast<std::size_t>(c)] = r_.read(site::texel, colour[c]);
+            found[static_cast<std::size_t>(c) + 4] = r_.read(site::texel, direction[c]);
         }
         return found;
     }

@@ -25,8 +25,8 @@ ROOT = pathlib.Path(__file__).resolve().parent.parent
 GRIDS = ((64, 16, 64), (128, 32, 128))
 COUNTS = (1024, 4096, 16384, 65536, 262144, 1048576)
 IMAGES = ((640, 360), (1280, 720), (1920, 1080))
-RADII = (1, 3, 7, 15, 31)
-FLOWS = (15, 30, 60)
+# What a filter's size follows from, a key of a scene's "fluid": narrow_range takes its radius from the spheres'.
+SIZES = {"filter_radius": (1, 3, 7, 15, 31), "radius": (0.01, 0.02, 0.04), "flow_iterations": (15, 30, 60)}
 FILTERS = {"gaussian": ("filter=gaussian", "filter_shape=separable_vh"),
            "gaussian, full2d": ("filter=gaussian", "filter_shape=full2d"),
            "bilateral": ("filter=bilateral", "filter_shape=separable_vh"),
@@ -201,19 +201,19 @@ def pixels_table(run, kept):
 def fluid_tables(run):
     text, kept = ["", "## Fluid: filters by radius", "",
                   f"Scene dam, {DROPS:,} particles at 800 x 800; milliseconds of all steps of the filter by the GPU's clock."], {}
-    rows, flows = [], []
-    for name, settings in FILTERS.items():
-        flow = name == "curvature_flow"
-        cells = []
-        for size in FLOWS if flow else RADII:
-            scene = run.fluid("dam", flow_iterations=size) if flow else run.fluid("dam", filter_radius=size)
-            found = run.bench(scene, [DROPS], settings)[DROPS]
-            kept[f"{name}, {size}"] = found
-            cells.append(" / ".join(ms(found["depth_filter_pass"][side]) for _, side in sides(run)))
-        (flows if flow else rows).append([name, *cells])
     both = " (GL / twin)" if run.asked.twins else ""
-    text += table([f"filter{both}", *(f"radius {r}" for r in RADII)], rows)
-    text += table([f"filter{both}", *(f"{n} steps" for n in FLOWS)], flows)
+    for key, sizes in SIZES.items():
+        rows = []
+        for name, settings in FILTERS.items():
+            if key != {"narrow_range": "radius", "curvature_flow": "flow_iterations"}.get(name, "filter_radius"):
+                continue
+            cells = []
+            for size in sizes:
+                found = run.bench(run.fluid("dam", **{key: size}), [DROPS], settings)[DROPS]
+                kept[f"{name}, {key} {size}"] = found
+                cells.append(" / ".join(ms(found["depth_filter_pass"][side]) for _, side in sides(run)))
+            rows.append([name, *cells])
+        text += table([f"filter{both}", *(f"`{key}` {size}" for size in sizes)], rows)
     return text, kept
 
 

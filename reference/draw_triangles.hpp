@@ -20,9 +20,9 @@ namespace lockstep {
 /// fragment shader of triangle i, which is called with x, y, its TriangleInterpolation<A>::Weights and the window depth
 /// of every pixel covered. What is covered, the driver's rasteriser decides (triangle_raster.hpp), or, where A is
 /// Portable, the fragment shader itself.
-template <class A, class Shader> void draw_triangles(A fp, std::span<const glm::vec4> clip,
-                                                     std::span<const std::uint32_t> indices, int width, int height,
-                                                     const Profile& profile, const Shader& shader) {
+template <class A, class Shader>
+void draw_triangles(A fp, std::span<const glm::vec4> clip, std::span<const std::uint32_t> indices, int width,
+                    int height, const Profile& profile, const Shader& shader, const ClipDepth& depth = {}) {
     const auto corners = [&](std::size_t i) {
         return std::array{clip[indices[3 * i]], clip[indices[3 * i + 1]], clip[indices[3 * i + 2]]};
     };
@@ -32,7 +32,7 @@ template <class A, class Shader> void draw_triangles(A fp, std::span<const glm::
             boxes[i] = triangle_box(fp, corners(i), width, height);
         const auto rows = [&](std::size_t i) { return std::pair{boxes[i].y0, boxes[i].y1 - 1}; };
         const auto draw = [&](std::size_t i, const PixelRect& area) {
-            const TriangleInterpolation interpolation(fp, corners(i), width, height);
+            const TriangleInterpolation interpolation(fp, corners(i), width, height, depth);
             const auto shade = shader(i);
             for (int y = std::max(boxes[i].y0, area.y0); y < std::min(boxes[i].y1, area.y1); ++y)
                 for (int x = boxes[i].x0; x < boxes[i].x1; ++x)
@@ -41,11 +41,11 @@ template <class A, class Shader> void draw_triangles(A fp, std::span<const glm::
         };
         draw_in_bands(boxes.size(), width, height, profile, rows, draw);
     } else {
-        const auto triangles = assemble_triangles(clip, indices, width, height, profile.raster);
+        const auto triangles = assemble_triangles(clip, indices, width, height, profile.raster, depth);
         const auto rows = [&](std::size_t i) { return rows_touched(triangles[i], profile.raster); };
         const auto draw = [&](std::size_t i, const PixelRect& area) {
             const std::size_t triangle = triangles[i].primitive;
-            const TriangleInterpolation interpolation(fp, corners(triangle), width, height);
+            const TriangleInterpolation interpolation(fp, corners(triangle), width, height, depth);
             const auto shade = shader(triangle);
             for_each_pixel(triangles[i], profile.raster, area, [&](int x, int y) {
                 const auto weights = interpolation.weights(x, y);

@@ -1,10 +1,12 @@
 #pragma once
 #include <algorithm>
 #include <array>
+#include <cmath>
 
 #include <glm/vec3.hpp>
 
 #include "reference/interval.hpp"
+#include "reference/model/clip_space.hpp"
 
 namespace lockstep {
 
@@ -12,14 +14,15 @@ namespace lockstep {
 /// (interpolation_bound, depth_bound).
 struct LegalFragment {
     std::array<Interval, 3> position;
-    Interval depth; ///< 0..1
+    Interval depth; ///< as ClipDepth has it
 };
 
 /// TriangleInterpolation (triangle_interpolation.hpp) of corners in clip space that may lie anywhere in sets, as where
 /// the order of a vertex stage's sums is open: + and * are rounded (half an ULP), quotients right to 2.5 ULP and again
 /// rounded. What may be seen edge-on has the whole triangle.
 inline LegalFragment legal_fragment(const std::array<std::array<Interval, 4>, 3>& clip,
-                                    const std::array<glm::vec3, 3>& positions, int x, int y, int width, int height) {
+                                    const std::array<glm::vec3, 3>& positions, int x, int y, int width, int height,
+                                    const ClipDepth& depth = {}) {
     using namespace interval;
     const auto sum_of = [](Interval a, Interval b) { return widen(add(a, b), 0.5); };
     const auto product_of = [](Interval a, Interval b) { return widen(multiply(a, b), 0.5); };
@@ -58,9 +61,11 @@ inline LegalFragment legal_fragment(const std::array<std::array<Interval, 4>, 3>
     for (int c = 0; c < 3; ++c)
         fragment.position[static_cast<std::size_t>(c)] = mix(positions[0][c], positions[1][c], positions[2][c]);
     const Interval ndc = divide(mix(clip[0][2], clip[1][2], clip[2][2]), mix(clip[0][3], clip[1][3], clip[2][3]));
-    fragment.depth =
-        ndc.any ? Interval(0.0, 1.0)
-                : Interval(std::clamp(0.5 * ndc.low + 0.5, 0.0, 1.0), std::clamp(0.5 * ndc.high + 0.5, 0.0, 1.0));
+    const double scale = std::abs(depth.scale()), offset = std::abs(depth.offset());
+    const auto window = [&](double z) { return std::clamp(scale * z + offset, 0.0, 1.0); };
+    fragment.depth = ndc.any ? Interval(0.0, 1.0) : Interval(window(ndc.low), window(ndc.high));
+    if (depth.reversed())
+        fragment.depth = negate(fragment.depth);
     return fragment;
 }
 

@@ -42,11 +42,11 @@ inline const WindowAccuracy& window_accuracy(bool measured) {
 }
 
 /// z and w interpolate like positions; their quotient is halved and moved, 2.5 ULP and two roundings.
-inline double depth_bound(const std::array<glm::vec4, 3>& c) {
+inline double depth_bound(const std::array<glm::vec4, 3>& c, const ClipDepth& depth = {}) {
     const double z = interpolation_bound(c[0].z, c[1].z, c[2].z);
     const double w = interpolation_bound(c[0].w, c[1].w, c[2].w);
     const double least_w = std::min({std::abs(c[0].w), std::abs(c[1].w), std::abs(c[2].w)});
-    return least_w > 0.0 ? 0.5 * (z + w) / least_w + 3.0 * 0x1p-23 : 1.0;
+    return least_w > 0.0 ? std::abs(depth.scale()) * (z + w) / least_w + 3.0 * 0x1p-23 : 1.0;
 }
 
 /// A triangle at a pixel that it may cover.
@@ -64,13 +64,13 @@ class LegalTriangles {
   public:
     /// `all_known`: nothing is open.
     LegalTriangles(std::span<const glm::vec4> clip, std::span<const std::uint32_t> indices, int width, int height,
-                   const RasterRules& rules, const KnownRaster& known, bool all_known)
+                   const RasterRules& rules, const KnownRaster& known, bool all_known, const ClipDepth& depth = {})
         : clip_(clip), indices_(indices), width_(width), height_(height), rules_(rules), known_(known),
-          all_known_(all_known) {}
+          all_known_(all_known), depth_(depth) {}
 
     /// Calls visit(cover) in drawing order for the pixels for which wanted(x, y) holds.
     template <class Wanted, class Visit> void for_each(const Wanted& wanted, const Visit& visit) const {
-        const auto drawn = assemble_triangles(clip_, indices_, width_, height_, rules_);
+        const auto drawn = assemble_triangles(clip_, indices_, width_, height_, rules_, depth_);
         const auto primitives = static_cast<std::uint32_t>(indices_.size() / 3);
         std::vector<bool> judged(primitives, false);
         auto next = drawn.begin();
@@ -91,7 +91,7 @@ class LegalTriangles {
         // What the reference's grid makes a line of may be a triangle on the driver's.
         RasterRules finer = rules_;
         finer.subpixel_bits = 12;
-        for (const RasterTriangle& triangle : assemble_triangles(clip_, indices_, width_, height_, finer))
+        for (const RasterTriangle& triangle : assemble_triangles(clip_, indices_, width_, height_, finer, depth_))
             if (!judged[triangle.primitive])
                 visit_triangle(triangle, finer, wanted, visit);
     }
@@ -106,7 +106,7 @@ class LegalTriangles {
         std::array<std::vector<glm::ivec2>, 3> places;
         for (std::size_t k = 0; k < 3; ++k) {
             const glm::vec4 corner = clip_[indices_[std::size_t{primitive} * 3 + k]];
-            if (!in_clip_volume(corner))
+            if (!in_clip_volume(corner, depth_))
                 return {};
             const auto along = [&](float coordinate, int size) {
                 const Interval window =
@@ -196,6 +196,7 @@ class LegalTriangles {
     const RasterRules& rules_;
     KnownRaster known_;
     bool all_known_;
+    ClipDepth depth_;
 };
 
 } // namespace lockstep

@@ -6,6 +6,8 @@
 #include <glm/vec3.hpp>
 #include <glm/vec4.hpp>
 
+#include "reference/model/clip_space.hpp"
+
 namespace lockstep {
 
 /// To 0..high; NaN becomes 0.
@@ -35,14 +37,15 @@ template <class A> class TriangleInterpolation {
         float sum = 0.0F;
     };
 
-    /// A pixel that the triangle covers, and its window depth, 0..1.
+    /// A pixel that the triangle covers, and its window depth.
     struct Fragment {
         Weights weights;
         float depth = 0.0F;
     };
 
-    TriangleInterpolation(A fp, const std::array<glm::vec4, 3>& clip, int width, int height)
-        : fp_(fp), clip_(clip), width_(width), height_(height) {
+    TriangleInterpolation(A fp, const std::array<glm::vec4, 3>& clip, int width, int height,
+                          const ClipDepth& depth = {})
+        : fp_(fp), clip_(clip), width_(width), height_(height), depth_(depth) {
         for (std::size_t i = 0; i < 3; ++i) {
             x_[i] = clip[i].x * static_cast<float>(width);
             y_[i] = clip[i].y * static_cast<float>(height);
@@ -80,8 +83,8 @@ template <class A> class TriangleInterpolation {
 
     [[nodiscard]] Weights weights(int x, int y) const { return weights(edges(x, y)); }
 
-    /// Window depth, 0..1.
-    [[nodiscard]] float depth(const Weights& w) const { return clamp_to(depth_unclamped(w), 1.0F); }
+    /// Window depth, as ClipDepth has it.
+    [[nodiscard]] float depth(const Weights& w) const { return depth_.sign() * clamp_to(depth_unclamped(w), 1.0F); }
 
     /// The exact preset's own coverage of pixel (x, y). The triangle is closed, so triangles that share a side leave no
     /// gap: a centre on the side belongs to both, and the depth test decides. Nothing where it is seen edge-on, behind
@@ -99,7 +102,7 @@ template <class A> class TriangleInterpolation {
         if (!(mix(fp_, clip_[0].w, clip_[1].w, clip_[2].w, w) > 0.0F) ||
             !(window_depth >= 0.0F && window_depth <= 1.0F))
             return {};
-        return Fragment{w, window_depth};
+        return Fragment{w, depth_.sign() * window_depth};
     }
 
     [[nodiscard]] static glm::vec3 mix(A fp, const std::array<glm::vec3, 3>& p, const Weights& w) {
@@ -111,7 +114,8 @@ template <class A> class TriangleInterpolation {
     [[nodiscard]] float depth_unclamped(const Weights& w) const {
         const float clip_z = mix(fp_, clip_[0].z, clip_[1].z, clip_[2].z, w);
         const float clip_w = mix(fp_, clip_[0].w, clip_[1].w, clip_[2].w, w);
-        return fp_.divide(clip_z, clip_w) * 0.5F + 0.5F;
+        const float ndc = fp_.divide(clip_z, clip_w);
+        return depth_.from_zero() ? ndc : ndc * 0.5F + 0.5F;
     }
 
     static float mix(A fp, float first, float second, float third, const Weights& w) {
@@ -124,6 +128,7 @@ template <class A> class TriangleInterpolation {
     std::array<glm::vec4, 3> clip_;
     std::array<float, 3> x_{}, y_{};
     int width_, height_;
+    ClipDepth depth_;
 };
 
 /// By how much a component of an interpolated position may differ where a driver's division is not correctly rounded.

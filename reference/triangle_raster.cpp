@@ -13,17 +13,19 @@ namespace {
 constexpr unsigned plane_count = 6;
 
 /// Not negative inside.
-float plane_distance(glm::vec4 v, unsigned plane) {
+float plane_distance(glm::vec4 v, unsigned plane, const ClipDepth& depth) {
+    if (plane == 4 && depth.from_zero())
+        return v.z;
     const float coordinate = plane < 2 ? v.x : plane < 4 ? v.y : v.z;
     const bool lower = plane == 1 || plane == 3 || plane == 4;
     return lower ? coordinate + v.w : -coordinate + v.w;
 }
 
 /// One bit a plane the corner lies beyond; NaN lies beyond all.
-unsigned outside_planes(glm::vec4 v) {
+unsigned outside_planes(glm::vec4 v, const ClipDepth& depth) {
     unsigned planes = 0;
     for (unsigned plane = 0; plane < plane_count; ++plane)
-        planes |= !(plane_distance(v, plane) >= 0.0F) ? 1U << plane : 0U;
+        planes |= !(plane_distance(v, plane, depth) >= 0.0F) ? 1U << plane : 0U;
     return planes;
 }
 
@@ -38,13 +40,13 @@ glm::vec4 cut(glm::vec4 inside, float in_distance, glm::vec4 outside, float out_
 }
 
 /// Sutherland and Hodgman 1974, one plane.
-ClipPolygon clip_to_plane(const ClipPolygon& polygon, unsigned plane) {
+ClipPolygon clip_to_plane(const ClipPolygon& polygon, unsigned plane, const ClipDepth& depth) {
     ClipPolygon kept;
     for (std::size_t i = 0; i < polygon.size; ++i) {
         const glm::vec4 a = polygon.corners[i];
         const glm::vec4 b = polygon.corners[(i + 1) % polygon.size];
-        const float a_distance = plane_distance(a, plane);
-        const float b_distance = plane_distance(b, plane);
+        const float a_distance = plane_distance(a, plane, depth);
+        const float b_distance = plane_distance(b, plane, depth);
         if (!std::isfinite(a_distance) || !std::isfinite(b_distance))
             return {};
         const bool a_inside = a_distance >= 0.0F;
@@ -59,11 +61,11 @@ ClipPolygon clip_to_plane(const ClipPolygon& polygon, unsigned plane) {
     return kept;
 }
 
-ClipPolygon clip_to_planes(const std::array<glm::vec4, 3>& triangle, unsigned planes) {
+ClipPolygon clip_to_planes(const std::array<glm::vec4, 3>& triangle, unsigned planes, const ClipDepth& depth) {
     ClipPolygon polygon{{triangle[0], triangle[1], triangle[2]}, 3};
     for (unsigned plane = 0; plane < plane_count && polygon.size >= 3; ++plane)
         if ((planes & 1U << plane) != 0)
-            polygon = clip_to_plane(polygon, plane);
+            polygon = clip_to_plane(polygon, plane, depth);
     return polygon.size >= 3 ? polygon : ClipPolygon{};
 }
 
@@ -117,19 +119,21 @@ std::optional<RasterTriangle> raster_triangle(glm::ivec2 a, glm::ivec2 b, glm::i
     return RasterTriangle{{a, b, c}, primitive};
 }
 
-ClipPolygon clip_triangle(const std::array<glm::vec4, 3>& triangle) {
-    const std::array outside{outside_planes(triangle[0]), outside_planes(triangle[1]), outside_planes(triangle[2])};
+ClipPolygon clip_triangle(const std::array<glm::vec4, 3>& triangle, const ClipDepth& depth) {
+    const std::array outside{outside_planes(triangle[0], depth), outside_planes(triangle[1], depth),
+                             outside_planes(triangle[2], depth)};
     if ((outside[0] & outside[1] & outside[2]) != 0)
         return {};
-    return clip_to_planes(triangle, outside[0] | outside[1] | outside[2]);
+    return clip_to_planes(triangle, outside[0] | outside[1] | outside[2], depth);
 }
 
 std::vector<RasterTriangle> assemble_triangles(std::span<const glm::vec4> clip, std::span<const std::uint32_t> indices,
-                                               int width, int height, const RasterRules& rules) {
+                                               int width, int height, const RasterRules& rules,
+                                               const ClipDepth& depth) {
     const Viewport viewport{width, height, rules};
     std::vector<AssembledVertex> vertices(clip.size());
     for (std::size_t i = 0; i < clip.size(); ++i) {
-        vertices[i].outside = outside_planes(clip[i]);
+        vertices[i].outside = outside_planes(clip[i], depth);
         if (vertices[i].outside != 0)
             continue;
         const auto snapped = viewport.snap(clip[i]);
@@ -148,7 +152,7 @@ std::vector<RasterTriangle> assemble_triangles(std::span<const glm::vec4> clip, 
             append(triangles, a.snapped, b.snapped, c.snapped, primitive);
         else if (outside != 0 && (a.outside & b.outside & c.outside) == 0)
             append_fan(triangles,
-                       clip_to_planes({clip[indices[i]], clip[indices[i + 1]], clip[indices[i + 2]]}, outside),
+                       clip_to_planes({clip[indices[i]], clip[indices[i + 1]], clip[indices[i + 2]]}, outside, depth),
                        viewport, primitive);
     }
     return triangles;

@@ -26,11 +26,11 @@ struct ClipPolygon {
     std::size_t size = 0;
 };
 
-/// The part of a triangle inside the clip volume -w <= x, y, z <= w: planes x = w, x = -w, y = w, y = -w, z = -w, z = w
-/// in this order, each only if a corner of the triangle lies beyond it. A cut is interpolated from whichever end of the
-/// side lies nearer to the plane, so triangles sharing a side share its cut. A triangle with a distance that is not
-/// finite is dropped.
-ClipPolygon clip_triangle(const std::array<glm::vec4, 3>& triangle);
+/// The part of a triangle inside the clip volume -w <= x, y, z <= w: planes x = w, x = -w, y = w, y = -w, z = -w (0 as
+/// ClipDepth has it), z = w in this order, each only if a corner of the triangle lies beyond it. A cut is interpolated
+/// from whichever end of the side lies nearer to the plane, so triangles sharing a side share its cut. A triangle with
+/// a distance that is not finite is dropped.
+ClipPolygon clip_triangle(const std::array<glm::vec4, 3>& triangle, const ClipDepth& depth = {});
 
 /// A triangle on the sub-pixel grid, corners counterclockwise with y up.
 struct RasterTriangle {
@@ -44,7 +44,8 @@ std::optional<RasterTriangle> raster_triangle(glm::ivec2 a, glm::ivec2 b, glm::i
 /// Clips and snaps the triangles `indices` makes of `clip` for a viewport of width x height at the origin, and drops
 /// those of no area. Clipped ones become fans. Drawing order is kept.
 std::vector<RasterTriangle> assemble_triangles(std::span<const glm::vec4> clip, std::span<const std::uint32_t> indices,
-                                               int width, int height, const RasterRules& rules);
+                                               int width, int height, const RasterRules& rules,
+                                               const ClipDepth& depth = {});
 
 /// Calls visit(x, y) for every pixel of `area` that `triangle` covers, row by row.
 template <class Visit>

@@ -6,6 +6,7 @@
 #include <glm/vec2.hpp>
 #include <glm/vec4.hpp>
 
+#include "reference/model/clip_space.hpp"
 #include "reference/model/profile.hpp"
 
 namespace lockstep {
@@ -19,14 +20,15 @@ struct PixelRect {
     int x0 = 0, y0 = 0, x1 = 0, y1 = 0;
 };
 
-/// Window coordinates of a vertex: x, y in pixels, z in 0..1 (default depth range), and 1 / clip w.
+/// Window coordinates of a vertex: x, y in pixels, the depth as ClipDepth has it, and 1 / clip w.
 struct WindowPosition {
     float x = 0.0F, y = 0.0F, z = 0.0F;
     float inverse_w = 0.0F;
 };
 
 /// Perspective divide and viewport transform for a viewport of width x height at the origin.
-inline WindowPosition window_position(glm::vec4 clip, int width, int height, ViewportRounding rounding) {
+inline WindowPosition window_position(glm::vec4 clip, int width, int height, ViewportRounding rounding,
+                                      const ClipDepth& depth = {}) {
     const float half_width = static_cast<float>(width) * 0.5F;
     const float half_height = static_cast<float>(height) * 0.5F;
     const float inverse_w = 1.0F / clip.w;
@@ -37,12 +39,13 @@ inline WindowPosition window_position(glm::vec4 clip, int width, int height, Vie
         return rounding == ViewportRounding::fused ? std::fma(ndc, scale, offset) : ndc * scale + offset;
     };
     return {to_window(clip.x, half_width, half_width), to_window(clip.y, half_height, half_height),
-            to_window(clip.z, 0.5F, 0.5F), inverse_w};
+            to_window(clip.z, depth.scale(), depth.offset()), inverse_w};
 }
 
 /// The same for a point.
-inline WindowPosition window_position(glm::vec4 clip, int width, int height, const RasterRules& rules) {
-    return window_position(clip, width, height, rules.viewport);
+inline WindowPosition window_position(glm::vec4 clip, int width, int height, const RasterRules& rules,
+                                      const ClipDepth& depth = {}) {
+    return window_position(clip, width, height, rules.viewport, depth);
 }
 
 /// Sub-pixel position of a coordinate. Needs |window| < 2^20.
@@ -78,13 +81,13 @@ inline int point_pixel(std::int32_t snapped, const RasterRules& rules) {
     return (snapped + half - (rules.point_edge_to_lower ? 1 : 0)) >> rules.subpixel_bits;
 }
 
-/// Whether a point's centre lies in the closed clip volume -w <= x, y, z <= w (GL 13.5). False for NaN, and for
-/// w = 0, subnormal or infinite, which have no place on the image. No short cuts, so that a loop over points runs on
-/// vectors.
-inline bool in_clip_volume(glm::vec4 clip) {
+/// Whether a point's centre lies in the closed clip volume -w <= x, y, z <= w (GL 13.5), z as ClipDepth has it. False
+/// for NaN, and for w = 0, subnormal or infinite, which have no place on the image. No short cuts, so that a loop over
+/// points runs on vectors.
+inline bool in_clip_volume(glm::vec4 clip, const ClipDepth& depth = {}) {
     constexpr float least = std::numeric_limits<float>::min(), most = std::numeric_limits<float>::max();
     return (clip.w >= least) & (clip.w <= most) & (std::abs(clip.x) <= clip.w) & (std::abs(clip.y) <= clip.w) &
-           (std::abs(clip.z) <= clip.w);
+           (clip.z >= depth.least(clip.w)) & (clip.z <= clip.w);
 }
 
 } // namespace lockstep

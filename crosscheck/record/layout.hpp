@@ -14,6 +14,9 @@ namespace layout {
 std::string group(const Resource& buffer, const Field& field);
 std::string value(const Resource& buffer, const Field& field);
 
+/// float32 [rows][particles][3], where there are no directions and speeds: one vector (Velocity, switches.hpp).
+inline constexpr const char* velocity = "particles/all/velocity/value";
+
 /// Stored codes: float32 [frames][height][width][4], the bottom row first; row k is the CDT after frame k.
 inline constexpr const char* cdt = "observables/cdt/value";
 

@@ -1,6 +1,7 @@
 #include "crosscheck/record/trace_file.hpp"
 
 #include <algorithm>
+#include <cstring>
 #include <utility>
 
 #include <fmt/format.h>
@@ -46,7 +47,25 @@ TraceFile::TraceFile(const OpenedFile& file, const Resource& buffer) : RecordedF
 
 void TraceFile::look_at_contents() {
     find_head();
+    find_velocity();
     find_cdt(find_particles());
+}
+
+void TraceFile::find_velocity() {
+    has_velocity_ = exists(layout::velocity);
+    if (!has_velocity_)
+        return;
+    for (const Field& field : buffer_->fields)
+        if (const std::string path = layout::value(*buffer_, field); path_of(field) != path && exists(path))
+            fail(layout::velocity, fmt::format("is there beside {}; right is the velocity as one vector, or direction "
+                                               "and speed, not both",
+                                               path));
+}
+
+std::string TraceFile::path_of(const Field& field) const {
+    if (has_velocity_ && field.name == "direction")
+        return layout::velocity;
+    return has_velocity_ && field.name == "speed" ? "" : layout::value(*buffer_, field);
 }
 
 /// Gives the rows of the longest field.
@@ -58,7 +77,11 @@ std::size_t TraceFile::find_particles() {
     for (std::size_t f = 0; f < fields; ++f) {
         const Field& field = buffer_->fields[f];
         const std::string right = fmt::format("[rows][{}s]", buffer_->item);
-        const std::string path = layout::value(*buffer_, field);
+        const std::string path = path_of(field);
+        if (path.empty()) {
+            fields_.emplace_back();
+            continue;
+        }
         fields_.push_back(field.components == 1
                               ? values(path, field.scalar, right, {})
                               : values(path, field.scalar, fmt::format("{}[{}]", right, field.components),
@@ -119,8 +142,14 @@ std::size_t TraceFile::cdt_bytes() const {
 
 void TraceFile::read_particles(std::size_t row, std::byte* into) {
     for (std::size_t f = 0; f < fields_.size(); ++f) {
-        read_row(fields_[f], row, into);
-        into += particles_ * sizeof(float) * static_cast<std::size_t>(buffer_->fields[f].components);
+        const std::size_t bytes = particles_ * sizeof(float) * static_cast<std::size_t>(buffer_->fields[f].components);
+        if (fields_[f].path.empty()) {
+            const std::vector<float> ones(particles_, 1.0F);
+            std::memcpy(into, ones.data(), bytes);
+        } else {
+            read_row(fields_[f], row, into);
+        }
+        into += bytes;
     }
 }
 

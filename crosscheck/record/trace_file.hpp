@@ -22,6 +22,7 @@ class TraceFile : public RecordedFile {
 
     [[nodiscard]] std::size_t rows() const { return rows_; } ///< states: the start, and one a whole frame
     [[nodiscard]] std::size_t particles() const { return particles_; }
+    [[nodiscard]] bool has_velocity() const { return has_velocity_; } ///< as directions; speeds are 1
     [[nodiscard]] bool has_cdt() const { return cdt_.set.get() >= 0; }
     [[nodiscard]] const hdf5::Extents& cdt_extents() const { return cdt_.extents; } ///< height, width, 4
 
@@ -39,9 +40,13 @@ class TraceFile : public RecordedFile {
 
   private:
     std::size_t find_particles();
+    void find_velocity();
+    /// Where the values of a field are; empty: nowhere, they are 1.
+    [[nodiscard]] std::string path_of(const Field& field) const;
     void find_cdt(std::size_t rows_of_particles);
-    const Resource* buffer_; ///< that its particles are
-    std::vector<Dataset> fields_;
+    const Resource* buffer_;      ///< that its particles are
+    std::vector<Dataset> fields_; ///< the buffer's; without a set where all values are 1
+    bool has_velocity_ = false;
     Dataset cdt_;
     std::size_t rows_ = 0;
     std::size_t particles_ = 0;

@@ -53,6 +53,13 @@ void set_constant(Constants& constants, std::string_view name, const JsonValue& 
             info.set(constants, value);
 }
 
+void read_constants(const JsonValue& json, Constants& constants) {
+    json.check_keys(constant_names());
+    for (const std::string_view name : constant_names())
+        if (const auto value = json.find(name))
+            set_constant(constants, name, *value);
+}
+
 nlohmann::json constants_json(const Constants& constants) {
     nlohmann::json json = nlohmann::json::object();
     for (const ConstantInfo& info : table)

@@ -17,6 +17,9 @@ std::span<const std::string_view> constant_names();
 /// Sets the constant `name`, one of constant_names(). Throws Error saying what it may be.
 void set_constant(Constants& constants, std::string_view name, const JsonValue& value);
 
+/// Sets those that an object names.
+void read_constants(const JsonValue& json, Constants& constants);
+
 /// All of them by these names.
 nlohmann::json constants_json(const Constants& constants);
 

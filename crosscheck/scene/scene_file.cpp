@@ -10,6 +10,7 @@
 #include "crosscheck/scene/scene_emitters.hpp"
 #include "crosscheck/scene/scene_obstacles.hpp"
 #include "crosscheck/scene/scene_settings.hpp"
+#include "crosscheck/scene/start_file.hpp"
 #include "reference/model/collision/emitters.hpp"
 #include "reference/model/error.hpp"
 
@@ -17,6 +18,31 @@ namespace lockstep {
 namespace {
 
 constexpr std::int64_t largest_seed = (std::int64_t{1} << 53) - 1; // every JSON reader keeps it
+
+Particles emitted(const JsonValue& json, const SceneOptions& options, const Switches& switches) {
+    std::vector<Emitter> emitters = read_emitters(json.at("emitters"));
+    const auto seed_value = json.find("seed");
+    const std::int64_t seed = seed_value ? seed_value->integer(0, largest_seed) : 1;
+    if (options.particles)
+        scale_counts(emitters, *options.particles);
+    if (options.emitter_length != 1.0F)
+        scale_lengths(emitters, options.emitter_length);
+    Particles particles = emit(emitters, static_cast<std::uint64_t>(seed));
+    hold_velocity(particles, switches);
+    return particles;
+}
+
+Particles started(const JsonValue& start, const JsonValue& scene, const std::filesystem::path& folder,
+                  const SceneOptions& options, const Switches& switches) {
+    for (const char* key : {"emitters", "seed"})
+        if (scene.find(key))
+            start.fail(fmt::format("is there beside {}; right is one of both", key));
+    Particles particles = read_start(folder / start.text(), switches);
+    if (options.particles && *options.particles != particles.size())
+        throw Error(fmt::format("--particles {}: {} has {} particles, which no option changes", *options.particles,
+                                (folder / start.text()).string(), particles.size()));
+    return particles;
+}
 
 } // namespace
 
@@ -37,17 +63,12 @@ Scene read_scene(const nlohmann::json& document, const std::filesystem::path& fi
     scene.origin = scene_arguments(file, options);
     read_settings(json, options.preset, options.set, scene);
 
-    std::vector<Emitter> emitters = read_emitters(json.at("emitters"));
-    const auto seed_value = json.find("seed");
-    const std::int64_t seed = seed_value ? seed_value->integer(0, largest_seed) : 1;
     if (const auto obstacles = json.find("obstacles"))
         scene.obstacles = read_obstacles(*obstacles, file.parent_path());
 
-    if (options.particles)
-        scale_counts(emitters, *options.particles);
-    if (options.emitter_length != 1.0F)
-        scale_lengths(emitters, options.emitter_length);
-    scene.start = emit(emitters, static_cast<std::uint64_t>(seed));
+    const auto start = json.find("start");
+    scene.start = start ? started(*start, json, file.parent_path(), options, scene.switches)
+                        : emitted(json, options, scene.switches);
     return scene;
 }
 
@@ -57,6 +78,8 @@ std::vector<std::filesystem::path> scene_files(const nlohmann::json& document, c
         for (const JsonValue& obstacle : obstacles->items())
             if (const auto mesh = obstacle.find("file"))
                 files.push_back(file.parent_path() / mesh->text());
+    if (const auto start = JsonValue(document, file.string()).find("start"); start && start->is_text())
+        files.push_back(file.parent_path() / start->text());
     return files;
 }
 

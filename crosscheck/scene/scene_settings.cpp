@@ -9,6 +9,7 @@
 
 #include "crosscheck/scene/scene_constants.hpp"
 #include "crosscheck/scene/scene_fields.hpp"
+#include "crosscheck/scene/scene_frames.hpp"
 #include "reference/model/collision/layered_cdt.hpp"
 #include "reference/model/error.hpp"
 #include "reference/model/near_name.hpp"
@@ -54,13 +55,6 @@ void read_switches(const JsonValue& json, Switches& switches) {
             else
                 info.set(switches, static_cast<int>(value->choice(info.values)));
         }
-}
-
-void read_constants(const JsonValue& json, Constants& constants) {
-    json.check_keys(constant_names());
-    for (const std::string_view name : constant_names())
-        if (const auto value = json.find(name))
-            set_constant(constants, name, *value);
 }
 
 /// Of the switches and the constants.
@@ -173,20 +167,30 @@ void read_settings(const JsonValue& json, const std::optional<std::string>& pres
             if (!(scene.cdt_box.min[axis] < scene.cdt_box.max[axis]))
                 box->fail(fmt::format("the box has no extent in {}", "xyz"[axis]));
     }
+    if (const auto space = json.find("clip_space"))
+        scene.clip_space = read_clip_space(*space, scene.switches);
+    if (const auto frames = json.find("frames"))
+        scene.frames = read_frames(*frames, scene);
 }
 
 nlohmann::json settings_json(const Scene& scene) {
     nlohmann::json path = nlohmann::json::array();
     for (const CameraKey& key : scene.camera_path)
         path.push_back({{"frame", key.frame}, {"eye", vector_json(key.eye)}, {"target", vector_json(key.target)}});
-    return {{"switches", switches_json(scene.switches)},
-            {"constants", constants_json(scene.constants)},
-            {"camera", camera_json(scene.camera)},
-            {"camera_path", path},
-            {"collision_camera", camera_json(scene.collision_camera)},
-            {"image", {scene.width, scene.height}},
-            {"render", {scene.render_width, scene.render_height}},
-            {"cdt_box", {{"min", vector_json(scene.cdt_box.min)}, {"max", vector_json(scene.cdt_box.max)}}}};
+    nlohmann::json json{
+        {"switches", switches_json(scene.switches)},
+        {"constants", constants_json(scene.constants)},
+        {"camera", camera_json(scene.camera)},
+        {"camera_path", path},
+        {"collision_camera", camera_json(scene.collision_camera)},
+        {"image", {scene.width, scene.height}},
+        {"render", {scene.render_width, scene.render_height}},
+        {"cdt_box", {{"min", vector_json(scene.cdt_box.min)}, {"max", vector_json(scene.cdt_box.max)}}}};
+    if (scene.clip_space != ClipSpace{})
+        json["clip_space"] = clip_space_json(scene.clip_space);
+    if (!scene.frames.empty())
+        json["frames"] = frames_json(scene);
+    return json;
 }
 
 } // namespace lockstep

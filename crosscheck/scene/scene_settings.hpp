@@ -13,9 +13,10 @@
 namespace lockstep {
 
 /// The keys of a scene file.
-inline constexpr std::array<std::string_view, 14> scene_keys{
-    "description", "system",           "seed",  "preset", "switches", "constants", "camera",
-    "camera_path", "collision_camera", "image", "render", "cdt_box",  "emitters",  "obstacles"};
+inline constexpr std::array<std::string_view, 17> scene_keys{
+    "description", "system",           "seed",     "preset", "switches", "constants",  "camera",
+    "camera_path", "collision_camera", "image",    "render", "cdt_box",  "clip_space", "frames",
+    "start",       "emitters",         "obstacles"};
 
 /// Reads everything of a scene file but its particles, obstacles and name. `preset`: instead of the file's. `set`:
 /// "name=value", last of all. Throws Error as load_scene does.

@@ -37,6 +37,9 @@ GpuSimulation::GpuSimulation(const Scene& scene, const std::filesystem::path& sh
       cdts_{CollisionTexture(scene.width, scene.height, scene.switches.cdt_format),
             CollisionTexture(scene.width, scene.height, scene.switches.cdt_format)},
       layered_(layered(scene, shaders)) {
+    if (scene.clip_space.depth != ClipDepth{})
+        throw Error(fmt::format("{}: clip_space: depth [{}, {}] is for recordings; GL here draws with [-1, 1]",
+                                scene.name, scene.clip_space.depth.near_plane, scene.clip_space.depth.far_plane));
     if (scene.switches.search == Search::octree)
         octree_pass_.emplace(scene, shaders);
     else if (scene.switches.step == Step::compute)

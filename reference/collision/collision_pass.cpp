@@ -46,24 +46,29 @@ template <class A> BaseTexelIndex base_texel(A fp, glm::vec4 clip, const FramePa
 /// The fixed function decides, in the driver's way.
 template <class A>
 PointFragment rasterised_point(A fp, glm::vec4 clip, const FrameParams& params, const RasterRules& rules) {
-    if (!in_clip_volume(clip))
+    if (!in_clip_volume(clip, params.clip_depth))
         return {};
-    const WindowPosition window = window_position(clip, params.width, params.height, rules);
+    const WindowPosition window = window_position(clip, params.width, params.height, rules, params.clip_depth);
     const int x = point_pixel(snap_point(window.x, rules), rules);
     const int y = point_pixel(snap_point(window.y, rules), rules);
     if (x < 0 || y < 0 || x >= params.width || y >= params.height)
         return {};
-    return {x, y, rules.depth_by_driver_reciprocal ? (clip.z * fp.reciprocal(clip.w)) * 0.5F + 0.5F : window.z};
+    const auto by_reciprocal = [&] {
+        return (clip.z * fp.reciprocal(clip.w)) * params.clip_depth.scale() + params.clip_depth.offset();
+    };
+    return {x, y, rules.depth_by_driver_reciprocal ? by_reciprocal() : window.z};
 }
 
 /// The pass itself decides: the texel that the next frame will compute. With arithmetic exact its depth is on a grid of
 /// 2^-24, so that a driver that draws it has nothing left to round.
 template <class A> PointFragment placed_point(A fp, glm::vec4 clip, const FrameParams& params) {
     const BaseTexelIndex texel = base_texel(fp, clip, params);
-    const float depth = (fp.divide(clip.z, clip.w) + 1.0F) * 0.5F;
+    const float ndc = fp.divide(clip.z, clip.w);
+    const float depth = params.clip_depth.from_zero() ? ndc : (ndc + 1.0F) * 0.5F;
     if (texel.x < 0 || !(clip.w > 0.0F) || !(depth >= 0.0F) || !(depth <= 1.0F))
         return {};
-    return {texel.x, texel.y, std::is_same_v<A, Portable> ? std::floor(depth * 0x1p24F) * 0x1p-24F : depth};
+    const float kept = std::is_same_v<A, Portable> ? std::floor(depth * 0x1p24F) * 0x1p-24F : depth;
+    return {texel.x, texel.y, params.clip_depth.sign() * kept};
 }
 
 template <class A>

@@ -22,15 +22,22 @@ namespace lockstep {
 namespace {
 
 /// What the depth test keeps in a texel: depth above, particle below, so that the least key is the nearest particle
-/// and, of equally near ones, the first. A depth inside the clip volume is at least +0, and ordered like its bits.
+/// and, of equally near ones, the first.
 using DrawingKey = std::uint64_t;
 constexpr DrawingKey undrawn = ~DrawingKey{0};
 
+/// Ordered like the depths.
 DrawingKey drawing_key(float depth, std::size_t particle) {
-    return DrawingKey{std::bit_cast<std::uint32_t>(depth)} << 32U | particle;
+    constexpr std::uint32_t sign = 0x80000000U;
+    const auto bits = std::bit_cast<std::uint32_t>(depth);
+    return DrawingKey{(bits & sign) != 0 ? ~bits : bits | sign} << 32U | particle;
 }
 
-float depth_of(DrawingKey key) { return std::bit_cast<float>(static_cast<std::uint32_t>(key >> 32U)); }
+float depth_of(DrawingKey key) {
+    constexpr std::uint32_t sign = 0x80000000U;
+    const auto bits = static_cast<std::uint32_t>(key >> 32U);
+    return std::bit_cast<float>((bits & sign) != 0 ? bits & ~sign : ~bits);
+}
 
 std::size_t particle_of(DrawingKey key) { return key & 0xffffffffU; }
 
@@ -43,11 +50,12 @@ void point_fragments(A fp, const Columns& position, std::size_t count, const Fra
     const glm::mat4 proj_view = params.collision_proj_view;
     const int width = params.width;
     const int height = params.height;
+    const ClipDepth clip_depth = params.clip_depth;
     LOCKSTEP_VECTOR_LOOP
     for (std::size_t i = 0; i < count; ++i) {
         const glm::vec4 clip = fp.transform(proj_view, position.at(i));
-        const bool inside = in_clip_volume(clip);
-        const WindowPosition window = window_position(clip, width, height, rules);
+        const bool inside = in_clip_volume(clip, clip_depth);
+        const WindowPosition window = window_position(clip, width, height, rules, clip_depth);
         const int x = point_pixel(snap_point(inside ? window.x : 0.0F, rules), rules);
         const int y = point_pixel(snap_point(inside ? window.y : 0.0F, rules), rules);
         const bool drawn = inside & (x >= 0) & (y >= 0) & (x < width) & (y < height);
@@ -62,14 +70,17 @@ template <class A> void placed_fragments(A fp, const Columns& position, std::siz
     const glm::mat4 proj_view = params.collision_proj_view;
     const TexelLookup lookup(fp, params);
     const int width = params.width;
+    const bool from_zero = params.clip_depth.from_zero();
+    const float sign = params.clip_depth.sign();
     LOCKSTEP_VECTOR_LOOP
     for (std::size_t i = 0; i < count; ++i) {
         const glm::vec4 clip = fp.transform(proj_view, position.at(i));
         const auto base = lookup(clip);
-        const float z = (fp.divide(clip.z, clip.w) + 1.0F) * 0.5F;
+        const float ndc = fp.divide(clip.z, clip.w);
+        const float z = from_zero ? ndc : (ndc + 1.0F) * 0.5F;
         const bool drawn = base.inside & (clip.w > 0.0F) & (z >= 0.0F) & (z <= 1.0F);
         texel[i] = drawn ? base.y * width + base.x : -1;
-        depth[i] = std::is_same_v<A, Portable> ? std::floor(z * 0x1p24F) * 0x1p-24F : z;
+        depth[i] = sign * (std::is_same_v<A, Portable> ? std::floor(z * 0x1p24F) * 0x1p-24F : z);
     }
 }
 

@@ -83,7 +83,7 @@ template <class A> void draw(A fp, const Mesh& obstacles, const FrameParams& par
         }
         spoil(stored, deviations);
         misplace(placed, deviations);
-        const TriangleInterpolation<A> interpolation(fp, placed, params.width, params.height);
+        const TriangleInterpolation<A> interpolation(fp, placed, params.width, params.height, params.clip_depth);
         const int centre = deviations.has(Deviation::obstacle_at_pixel_corner) ? 0 : 1;
         return [&, stored, interpolation, centre, drawn](int x, int y, const auto&, float) {
             auto weights = interpolation.weights(
@@ -105,7 +105,7 @@ template <class A> void draw(A fp, const Mesh& obstacles, const FrameParams& par
                 cdt.at(x, y).a = 0.0F;
         };
     };
-    draw_triangles(fp, clip, obstacles.indices, params.width, params.height, profile, shader);
+    draw_triangles(fp, clip, obstacles.indices, params.width, params.height, profile, shader, params.clip_depth);
 }
 
 } // namespace
@@ -116,7 +116,7 @@ void deviating_obstacles(const Mesh& obstacles, const FrameParams& params, const
         std::none_of(deviations.begin(), deviations.end(), changes_obstacles))
         return;
     cdt = CollisionImage(params.width, params.height);
-    depth = DepthImage(params.width, params.height, 1.0F);
+    depth = DepthImage(params.width, params.height, params.clip_depth.cleared());
     with_arithmetic(profile, params.switches.arithmetic,
                     [&](auto fp) { draw(fp, obstacles, params, profile, deviations, cdt, depth); });
 }

@@ -80,7 +80,7 @@ template <class A> class DeviatingPoint {
         if (has(Deviation::point_depth_constant))
             clip.z = 0.0F;
         if (has(Deviation::point_depth_reversed))
-            clip.z = -clip.z;
+            clip.z = params_.clip_depth.from_zero() ? clip.w - clip.z : -clip.z;
         if (has(Deviation::point_depth_zero_to_one))
             clip.z = (clip.z + clip.w) * 0.5F;
         if (has(Deviation::point_depth_doubled))
@@ -108,21 +108,27 @@ template <class A> class DeviatingPoint {
 
     [[nodiscard]] PointFragment placed(glm::vec4 clip) const {
         const auto texel = image_.base_texel(image_.image_position({clip.x, clip.y, clip.z, clip.w}));
-        const float depth = (fp_.divide(clip.z, clip.w) + 1.0F) * 0.5F;
+        const float ndc = fp_.divide(clip.z, clip.w);
+        const float depth = params_.clip_depth.from_zero() ? ndc : (ndc + 1.0F) * 0.5F;
         if (!texel || !(clip.w > 0.0F) || !(depth >= 0.0F) || !(depth <= 1.0F))
             return {};
-        return {texel->x, texel->y, std::is_base_of_v<Portable, A> ? std::floor(depth * 0x1p24F) * 0x1p-24F : depth};
+        const float kept = std::is_base_of_v<Portable, A> ? std::floor(depth * 0x1p24F) * 0x1p-24F : depth;
+        return {texel->x, texel->y, params_.clip_depth.sign() * kept};
     }
 
     [[nodiscard]] PointFragment rasterised(glm::vec4 clip) const {
-        if (!in_clip_volume(clip))
+        if (!in_clip_volume(clip, params_.clip_depth))
             return {};
-        const WindowPosition window = window_position(clip, viewport_width_, viewport_height_, rules_);
+        const WindowPosition window =
+            window_position(clip, viewport_width_, viewport_height_, rules_, params_.clip_depth);
         const int x = point_pixel(snap_point(window.x, rules_), rules_);
         const int y = point_pixel(snap_point(window.y, rules_), rules_);
         if (x < 0 || y < 0 || x >= params_.width || y >= params_.height)
             return {};
-        return {x, y, rules_.depth_by_driver_reciprocal ? clip.z * fp_.reciprocal(clip.w) * 0.5F + 0.5F : window.z};
+        const auto by_reciprocal = [&] {
+            return clip.z * fp_.reciprocal(clip.w) * params_.clip_depth.scale() + params_.clip_depth.offset();
+        };
+        return {x, y, rules_.depth_by_driver_reciprocal ? by_reciprocal() : window.z};
     }
 
     A fp_;
@@ -227,7 +233,7 @@ void prepare(const FrameInputs& inputs, const Profile& profile, const Deviations
     cdt = deviations.has(Deviation::obstacles_not_drawn) ? CollisionImage(obstacles_cdt.width, obstacles_cdt.height)
                                                          : obstacles_cdt;
     depth = deviations.has(Deviation::obstacles_not_drawn) || deviations.has(Deviation::obstacles_never_hide)
-                ? DepthImage(obstacles_depth.width, obstacles_depth.height, 1.0F)
+                ? DepthImage(obstacles_depth.width, obstacles_depth.height, inputs.params->clip_depth.cleared())
                 : obstacles_depth;
     if (deviations.has(Deviation::cdt_not_cleared) && inputs.earlier_cdt != nullptr)
         for (std::size_t i = 0; i < cdt.texels.size(); ++i)
@@ -277,7 +283,7 @@ void deviating_draw(const FrameInputs& inputs, const Particles& after, const Pro
                              after.collide_time[i] > inputs.before->collide_time[i];
             PointFragment point = fragment(was ? inputs.before->position[i] : positions[i]);
             if (deviations.has(Deviation::fragment_depth_reversed))
-                point.depth = 1.0F - point.depth;
+                point.depth = params.clip_depth.sign() - point.depth;
             if (deviations.has(Deviation::fragment_depth_zero))
                 point.depth = 0.0F;
             if (discards(after.position[i], after.collide_time[i], deviations))

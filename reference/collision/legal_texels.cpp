@@ -77,7 +77,7 @@ PixelRange pixels_of(Interval window, const KnownRaster& known, const RasterRule
 
 enum class InVolume { no, maybe, yes };
 
-InVolume in_clip_volume(const std::array<Interval, 4>& clip) {
+InVolume in_clip_volume(const std::array<Interval, 4>& clip, const ClipDepth& depth) {
     const Interval w = clip[3];
     if (w.any || !(w.high > 0.0))
         return InVolume::no;
@@ -92,6 +92,8 @@ InVolume in_clip_volume(const std::array<Interval, 4>& clip) {
         if (most > w.low)
             result = InVolume::maybe;
     }
+    if (depth.from_zero() && clip[2].low < 0.0)
+        return clip[2].high < 0.0 ? InVolume::no : InVolume::maybe;
     return result;
 }
 
@@ -123,7 +125,7 @@ template <class A> class Candidates {
             return;
         }
         const auto clip = arithmetic_.transform(params_.collision_proj_view, arithmetic_.read(drawn_at));
-        const InVolume inside = in_clip_volume(clip);
+        const InVolume inside = in_clip_volume(clip, params_.clip_depth);
         if (inside == InVolume::no || clip[3].contains_zero())
             return;
         const bool clip_known = clip[0].is_point() && clip[1].is_point() && clip[2].is_point() && clip[3].is_point();
@@ -131,7 +133,7 @@ template <class A> class Candidates {
         WindowPosition window;
         if (clip_known)
             window = window_position({clip[0].as_float(), clip[1].as_float(), clip[2].as_float(), clip[3].as_float()},
-                                     params_.width, params_.height, profile_.raster);
+                                     params_.width, params_.height, profile_.raster, params_.clip_depth);
         const double half_width = params_.width * 0.5;
         const double half_height = params_.height * 0.5;
         const auto along = [&](const Interval& coordinate, float followed, double half) {
@@ -145,7 +147,8 @@ template <class A> class Candidates {
         const PixelRange rows = along(clip[1], window.y, half_height);
         owner.depth = known().raster.point_depth && drawn
                           ? Interval(reference.depth)
-                          : window_coordinate(clip[2], clip[3], 0.5, 0.5, gl_window_accuracy);
+                          : window_coordinate(clip[2], clip[3], params_.clip_depth.scale(), params_.clip_depth.offset(),
+                                              gl_window_accuracy);
         owner.place = place_of(window.x, window.y);
         if (clip[2].is_point() && clip[3].is_point() && known().raster.equal_depth)
             owner.clip_zw = glm::vec2(clip[2].as_float(), clip[3].as_float());
@@ -169,12 +172,15 @@ template <class A> class Candidates {
             return placing_.product(placing_.product(doubled(coordinate, divides), 0.5F), static_cast<float>(size));
         };
         const Interval x = along(clip[0], params_.width), y = along(clip[1], params_.height);
-        const Interval depth = placing_.product(doubled(clip[2], true), 0.5F);
+        const Interval depth = params_.clip_depth.from_zero() ? placing_.divide(clip[2], clip[3])
+                                                              : placing_.product(doubled(clip[2], true), 0.5F);
         if (x.any || y.any || depth.any || depth.high < 0.0 || depth.low > 1.0)
             return;
         TexelOwner owner{.kind = TexelOwner::Kind::particle, .index = index, .code = code_.encode(stored)};
         owner.reference_depth = reference.depth;
-        owner.depth = depth.is_point() ? Interval(reference.depth) : depth;
+        owner.depth = depth.is_point()                ? Interval(reference.depth)
+                      : params_.clip_depth.reversed() ? interval::negate(depth)
+                                                      : depth;
         owner.place = place_of(x.as_float(), y.as_float());
         if (clip[2].is_point() && clip[3].is_point())
             owner.clip_zw = glm::vec2(clip[2].as_float(), clip[3].as_float());
@@ -192,7 +198,7 @@ template <class A> class Candidates {
         if (corners_open()) // a corner may be where no rounding of the reference's is
             raster.triangle_window = raster.corner_window_accurate = false;
         const LegalTriangles triangles(clip, obstacles.indices, params_.width, params_.height, profile_.raster, raster,
-                                       known().points && !corners_open());
+                                       known().points && !corners_open(), params_.clip_depth);
         triangles.for_each([&](int x, int y) { return wanted_.slot(x, y) >= 0; },
                            [&](const LegalCover& cover) {
                                add_fragment(obstacles, clip, cover.triangle, cover.rules, cover.x, cover.y,
@@ -243,7 +249,7 @@ template <class A> class Candidates {
         const std::array<glm::vec4, 3> corners{clip[index[0]], clip[index[1]], clip[index[2]]};
         const std::array<glm::vec3, 3> positions{obstacles.positions[index[0]], obstacles.positions[index[1]],
                                                  obstacles.positions[index[2]]};
-        const TriangleInterpolation interpolation(fp_, corners, params_.width, params_.height);
+        const TriangleInterpolation interpolation(fp_, corners, params_.width, params_.height, params_.clip_depth);
         const auto weights = interpolation.weights(x, y);
         TexelOwner owner{.kind = TexelOwner::Kind::obstacle, .index = triangle.primitive};
         const glm::vec3 position = interpolation.mix(fp_, positions, weights);
@@ -252,7 +258,7 @@ template <class A> class Candidates {
         LegalFragment legal{{position.x, position.y, position.z}, owner.reference_depth};
         if (corners_open())
             legal = legal_fragment({legal_corner(positions[0]), legal_corner(positions[1]), legal_corner(positions[2])},
-                                   positions, x, y, params_.width, params_.height);
+                                   positions, x, y, params_.width, params_.height, params_.clip_depth);
         owner.depth = legal.depth;
         glm::vec3 low = position, high = position;
         if (corners_open() || !known().interpolation) {
@@ -263,7 +269,7 @@ template <class A> class Candidates {
                 high[k] = static_cast<float>(place.high) + bound;
             }
             owner.code_range = {code_.encode(low), code_.encode(high)};
-            const double error = depth_bound(corners);
+            const double error = depth_bound(corners, params_.clip_depth);
             owner.depth = {legal.depth.low - error, legal.depth.high + error};
         }
         if (converts_.triangles)

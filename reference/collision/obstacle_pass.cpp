@@ -33,7 +33,7 @@ template <class A> void draw_obstacle_triangles(A fp, const Mesh& obstacles, con
             cdt.at(x, y) = code.encode(TriangleInterpolation<A>::mix(fp, positions, weights));
         };
     };
-    draw_triangles(fp, clip, obstacles.indices, params.width, params.height, profile, shader);
+    draw_triangles(fp, clip, obstacles.indices, params.width, params.height, profile, shader, params.clip_depth);
 }
 
 template <class A> void draw_obstacle_vertices(A fp, const Mesh& obstacles, const FrameParams& params,
@@ -74,7 +74,7 @@ double obstacle_edge_distance(const Mesh& obstacles, const FrameParams& params, 
         double nearest = HUGE_VAL;
         for (const RasterTriangle& triangle :
              assemble_triangles(projected_corners(fp, obstacles, params.collision_proj_view), obstacles.indices,
-                                params.width, params.height, profile.raster))
+                                params.width, params.height, profile.raster, params.clip_depth))
             nearest = std::min(nearest, nearest_side(triangle, x, y, profile.raster).distance);
         return nearest;
     });

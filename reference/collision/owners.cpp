@@ -27,7 +27,7 @@ std::int32_t texel_index(const PointFragment& point, const FrameParams& params) 
 Owners draw_owners(const Particles& before, const Particles& after, const Mesh& obstacles, const FrameParams& params,
                    const Profile& profile) {
     CollisionImage cdt(params.width, params.height);
-    DepthImage depth(params.width, params.height, 1.0F);
+    DepthImage depth(params.width, params.height, params.clip_depth.cleared());
     obstacle_pass(obstacles, params, profile, cdt, depth);
 
     Owners owners{Image<std::int32_t>(params.width, params.height, empty_owner), {}};

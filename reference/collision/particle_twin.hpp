@@ -35,8 +35,12 @@ template <class R> class ParticleTwin {
         const Real tick = r.uniform(site::tick, constants_.tick);
         const Vec3 away = r.note(site::away, apart);
         State v;
-        v.speed = r.note(site::speed_at_hit, a.speed * r.uniform(site::speed_factor, switches_.speed_factor));
-        v.direction = r.note(site::direction_at_hit, r.normalize(site::direction_at_hit, away));
+        const Real factor = r.uniform(site::speed_factor, switches_.speed_factor);
+        const bool vector = is_vector();
+        v.speed = r.note(site::speed_at_hit, vector ? a.speed : a.speed * factor);
+        const Vec3 along = r.normalize(site::direction_at_hit, away);
+        v.direction = r.note(site::direction_at_hit,
+                             vector ? along * (r.length(site::direction_at_hit, a.direction) * factor) : along);
         v.collide_time = r.note(site::collide_time_at_hit, r.uniform(site::collision_time, constants_.collision_time));
         Vec3 step = r.note(site::moves_along, v.direction) * r.note(site::moves_by, v.speed);
         if (r.setting(site::step_by_tick, switches_.collision_step == CollisionStep::tick))
@@ -51,8 +55,9 @@ template <class R> class ParticleTwin {
         const Vec3 fall = r.note(site::fall, r.read(site::gravity, constants_.gravity) * tick);
         const Vec3 velocity = r.note(site::velocity, r.note(site::velocity_before, a.direction * a.speed) + fall);
         State v;
-        v.direction = r.note(site::direction, r.normalize(site::direction, velocity));
-        v.speed = r.note(site::speed, r.length(site::speed, velocity));
+        const bool vector = is_vector();
+        v.direction = r.note(site::direction, vector ? velocity : r.normalize(site::direction, velocity));
+        v.speed = r.note(site::speed, vector ? a.speed : r.length(site::speed, velocity));
         v.collide_time = r.note(site::collide_time, a.collide_time - r.note(site::counted, tick));
         const Vec3 step = r.note(site::step, v.direction * v.speed);
         v.position = r.note(site::position, a.position + r.note(site::move, step * tick));
@@ -60,6 +65,8 @@ template <class R> class ParticleTwin {
     }
 
   private:
+    [[nodiscard]] bool is_vector() const { return switches_.velocity == Velocity::vector; }
+
     R& r;
     const Constants& constants_;
     const Switches& switches_;

@@ -32,7 +32,7 @@ void ReferenceSimulation::draw(const Particles& before, const Particles& after, 
                                CollisionImage& cdt) {
     if (has_remedies(params.switches))
         return draw_layered_cdt(after, obstacles_, params, profile_, cdt);
-    clear(cdt);
+    clear(cdt, params);
     if (params.switches.search == Search::octree)
         return;
     obstacle_pass(obstacles_, params, profile_, cdt, depth_);
@@ -45,9 +45,9 @@ void ReferenceSimulation::step(const FrameParams& params) {
     step_from(before_, cdt_before_, params);
 }
 
-void ReferenceSimulation::clear(CollisionImage& cdt) {
+void ReferenceSimulation::clear(CollisionImage& cdt, const FrameParams& params) {
     std::fill(cdt.texels.begin(), cdt.texels.end(), glm::vec4(0.0F));
-    std::fill(depth_.texels.begin(), depth_.texels.end(), 1.0F);
+    std::fill(depth_.texels.begin(), depth_.texels.end(), params.clip_depth.cleared());
 }
 
 } // namespace lockstep

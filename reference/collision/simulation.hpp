@@ -26,7 +26,7 @@ class ReferenceSimulation {
     [[nodiscard]] const CollisionImage& cdt() const { return cdt_after_; }
 
   private:
-    void clear(CollisionImage& cdt);
+    void clear(CollisionImage& cdt, const FrameParams& params);
 
     const Mesh& obstacles_;
     Profile profile_;

@@ -17,14 +17,17 @@ constexpr glm::vec4 nowhere{0.0F, 0.0F, 2.0F, 1.0F};
 
 glm::vec4 texel_centre(glm::vec4 clip, const FrameParams& params) {
     const auto texel = TexelLookup(Portable(), params)(clip);
-    const float depth = (Portable::divide(clip.z, clip.w) + 1.0F) * 0.5F;
+    const float ndc = Portable::divide(clip.z, clip.w);
+    const bool from_zero = params.clip_depth.from_zero();
+    const float depth = from_zero ? ndc : (ndc + 1.0F) * 0.5F;
     if (!texel.inside || !(clip.w > 0.0F) || !(depth >= 0.0F) || !(depth <= 1.0F))
         return nowhere;
     const auto centre = [](std::int32_t index, int size) {
         return static_cast<float>(2 * index + 1) * Portable::divide(1.0F, static_cast<float>(size)) - 1.0F;
     };
     const float on_grid = std::floor(depth * 0x1p24F) * 0x1p-24F;
-    return {centre(texel.x, params.width), centre(texel.y, params.height), 2.0F * on_grid - 1.0F, 1.0F};
+    return {centre(texel.x, params.width), centre(texel.y, params.height), from_zero ? on_grid : 2.0F * on_grid - 1.0F,
+            1.0F};
 }
 
 /// What the listing's sites came to, put where the table wants it.
@@ -64,18 +67,19 @@ void fill_in(StepTrace& trace, const RecordedRow& row, bool zero_is_hit) {
 
 glm::vec4 point_position(glm::vec4 clip, const FrameParams& params) {
     const glm::vec4 placed = params.switches.arithmetic == ArithmeticSwitch::exact ? texel_centre(clip, params) : clip;
-    return in_clip_volume(placed) ? placed : nowhere;
+    return in_clip_volume(placed, params.clip_depth) ? placed : nowhere;
 }
 
 PointWindow point_window(glm::vec4 point_position, const FrameParams& params, const RasterRules& rules) {
-    if (!in_clip_volume(point_position))
+    if (!in_clip_volume(point_position, params.clip_depth))
         return {};
-    const WindowPosition window = window_position(point_position, params.width, params.height, rules);
+    const WindowPosition window =
+        window_position(point_position, params.width, params.height, rules, params.clip_depth);
     return {{window.x, window.y, window.z}, {snap_point(window.x, rules), snap_point(window.y, rules)}};
 }
 
 PointFragment drawn_point(glm::vec4 point_position, const FrameParams& params, const RasterRules& rules) {
-    if (!in_clip_volume(point_position))
+    if (!in_clip_volume(point_position, params.clip_depth))
         return {};
     const PointWindow window = point_window(point_position, params, rules);
     const int x = point_pixel(window.snapped.x, rules);

@@ -166,8 +166,13 @@ Particle collide(Particle a, vec3 away) {
     TRACE(traced.trace_hit, 1);
     TRACE(traced.trace_away, away);
     Particle v;
+#if VELOCITY == VELOCITY_VECTOR
+    v.direction = product(ls_normalize(away), product(ls_length(a.direction), u_SpeedFactor));
+    v.speed = ls_flush(a.speed);
+#else
     v.speed = product(a.speed, u_SpeedFactor);
     v.direction = ls_normalize(away);
+#endif
     v.collide_time = u_CollisionTime;
     vec3 step = product(v.direction, v.speed);
 #if COLLISION_STEP == COLLISION_STEP_TICK
@@ -182,8 +187,13 @@ Particle integrate(Particle a) {
     Particle v;
     vec3 temp = sum(product(a.direction, a.speed), product(u_Gravity, u_Tick));
     TRACE(traced.trace_velocity, temp);
+#if VELOCITY == VELOCITY_VECTOR
+    v.direction = temp;
+    v.speed = ls_flush(a.speed);
+#else
     v.direction = ls_normalize(temp);
     v.speed = ls_length(temp);
+#endif
     precise float collide_time = ls_flush(a.collide_time) - u_Tick;
     v.collide_time = ls_flush(collide_time);
     v.position = sum(a.position, product(product(v.direction, v.speed), u_Tick));

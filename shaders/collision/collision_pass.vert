@@ -148,8 +148,13 @@ bool nearest_collision(ivec2 texel_base, out vec3 away) {
 void collide(vec3 away) {
     TRACE(trace_hit, 1);
     TRACE(trace_away, away);
+#if VELOCITY == VELOCITY_VECTOR
+    v_Dir = product(ls_normalize(away), product(ls_length(a_Dir), u_SpeedFactor));
+    v_Speed = ls_flush(a_Speed);
+#else
     v_Speed = product(a_Speed, u_SpeedFactor);
     v_Dir = ls_normalize(away);
+#endif
     v_CollideTime = u_CollisionTime;
     vec3 step = product(v_Dir, v_Speed);
 #if COLLISION_STEP == COLLISION_STEP_TICK
@@ -162,8 +167,13 @@ void collide(vec3 away) {
 void integrate() {
     vec3 temp = sum(product(a_Dir, a_Speed), product(u_Gravity, u_Tick));
     TRACE(trace_velocity, temp);
+#if VELOCITY == VELOCITY_VECTOR
+    v_Dir = temp;
+    v_Speed = ls_flush(a_Speed);
+#else
     v_Dir = ls_normalize(temp);
     v_Speed = ls_length(temp);
+#endif
     precise float collide_time = ls_flush(a_CollideTime) - u_Tick;
     v_CollideTime = ls_flush(collide_time);
     v_Position = sum(a_Position, product(product(v_Dir, v_Speed), u_Tick));

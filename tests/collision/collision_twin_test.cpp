@@ -72,7 +72,7 @@ TEST_CASE(
         for (const char* profile : {"strict", "llvmpipe", "nvidia"})
             hits += check_equal(scene, named_profile(profile));
     }
-    CHECK(combinations.size() == 2 * 64 * 3);
+    CHECK(combinations.size() == 2 * 64 * 2 * 3);
     CHECK(hits > 20000);
 }
 

@@ -2,8 +2,10 @@
 
 #include <filesystem>
 #include <string>
+#include <vector>
 
 #include "crosscheck/scene/scene_file.hpp"
+#include "crosscheck/scene/scene_frames.hpp"
 #include "crosscheck/scene/scene_settings.hpp"
 #include "tests/trace/small_trace.hpp"
 
@@ -62,4 +64,47 @@ TEST_CASE("scene settings: all switches and constants are in them by name") {
         CHECK(json["switches"].contains(std::string(info.name)));
     CHECK(json["constants"].size() == 7);
     CHECK(json["constants"]["collision_range"] == 0.2F);
+}
+
+TEST_CASE("scene settings: an engine's clip space and frames come back as they were") {
+    Scene scene = test::small_scene();
+    CHECK_FALSE(settings_json(scene).contains("frames"));
+    CHECK_FALSE(settings_json(scene).contains("clip_space"));
+    scene.clip_space = {1.0F, {1.0F, 0.0F}};
+    for (const int frame : {0, 3, 4}) {
+        FrameSettings& settings = scene.frames.emplace_back();
+        settings.frame = frame;
+        settings.constants = scene.constants;
+        settings.constants.tick = 0.1F / static_cast<float>(frame + 1);
+        settings.speed_factor = 0.1F * static_cast<float>(frame);
+        if (frame > 0)
+            settings.proj_view = glm::mat4(1.0F / static_cast<float>(frame));
+    }
+    const Scene back = again(scene);
+    CHECK(back.clip_space == scene.clip_space);
+    CHECK(settings_json(back) == settings_json(scene));
+    for (const int frame : {0, 1, 3, 4, 99}) {
+        CHECK(same_matrices(frame_params(back, frame), frame_params(scene, frame)));
+        CHECK(frame_params(back, frame).constants.tick == frame_params(scene, frame).constants.tick);
+        CHECK(frame_params(back, frame).switches == frame_params(scene, frame).switches);
+    }
+}
+
+TEST_CASE("scene settings: a capsule keeps those of its frame and of the one before") {
+    const auto near = [](int frame) {
+        std::vector<FrameSettings> all(3);
+        all[0].frame = 2, all[1].frame = 5, all[2].frame = 6;
+        std::vector<int> kept;
+        for (const FrameSettings& settings : settings_near(all, frame))
+            kept.push_back(settings.frame);
+        return kept;
+    };
+    CHECK(near(0) == std::vector<int>{});
+    CHECK(near(1) == std::vector<int>{});
+    CHECK(near(2) == std::vector{2});
+    CHECK(near(4) == std::vector{2});
+    CHECK(near(5) == std::vector{2, 5});
+    CHECK(near(6) == std::vector{5, 6});
+    CHECK(near(7) == std::vector{6});
+    CHECK(near(9) == std::vector{6});
 }

@@ -116,7 +116,7 @@ class RunJudge {
         if ((f.number >= first_frames && f.number % first_frames != 0) || power_.has_seen_all())
             return;
         std::vector<std::size_t> hits;
-        const float hit = scene_.constants.collision_time;
+        const float hit = f.params.constants.collision_time;
         for (std::size_t i = 0; i < f.before.particles.size() && hits.size() < 4096; ++i)
             if (f.before.particles.collide_time[i] < 0.0F && f.reference.particles().collide_time[i] == hit)
                 hits.push_back(i);
@@ -272,7 +272,7 @@ CheckReport check(const Scene& scene, const Profile& profile, GpuSide& gpu, cons
                 note_difference(report, frame, comparison);
             report.total.add(comparison);
             report.hits += count_hits(before.particles.collide_time, reference.particles().collide_time,
-                                      scene.constants.collision_time);
+                                      params.constants.collision_time);
             report.drawn_texels += count_drawn(reference.cdt());
         }
         std::optional<FrameVerdicts> verdicts;

@@ -57,7 +57,8 @@ class Drawing {
             std::size_t stride)
         : scene_(scene), profile_(profile), known_(known), params_(*frame.inputs.params),
           before_(every(*frame.inputs.before, stride)), after_(every(frame.after, stride)), inputs_(frame.inputs),
-          obstacles_cdt_(params_.width, params_.height), obstacles_depth_(params_.width, params_.height, 1.0F) {
+          obstacles_cdt_(params_.width, params_.height),
+          obstacles_depth_(params_.width, params_.height, params_.clip_depth.cleared()) {
         inputs_.before = &before_;
         if (inputs_.earlier != nullptr) {
             earlier_ = every(*inputs_.earlier, stride);

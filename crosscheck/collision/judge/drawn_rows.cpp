@@ -68,11 +68,11 @@ template <class A> class DrawnRows {
             point_position(clip.value_or(fp_.transform(params_.collision_proj_view, drawn_at)), params_);
         if (!gpu_.drawn_alone)
             gpu_.position = follows;
-        const bool gpu_drawn = in_clip_volume(gpu_.position);
-        const bool reference_drawn = in_clip_volume(reference_.point_position);
+        const bool gpu_drawn = in_clip_volume(gpu_.position, params_.clip_depth);
+        const bool reference_drawn = in_clip_volume(reference_.point_position, params_.clip_depth);
         const auto yes = [](bool drawn) { return std::string(drawn ? "yes" : "no"); };
-        rows_.decision("in clip volume", yes(in_clip_volume(strict_.point_position)), yes(reference_drawn),
-                       told(yes(gpu_drawn)), yes(in_clip_volume(follows)));
+        rows_.decision("in clip volume", yes(in_clip_volume(strict_.point_position, params_.clip_depth)),
+                       yes(reference_drawn), told(yes(gpu_drawn)), yes(in_clip_volume(follows, params_.clip_depth)));
         if (!gpu_drawn && !reference_drawn)
             return;
         Interval legal[4];
@@ -80,7 +80,9 @@ template <class A> class DrawnRows {
             legal[c] = clip || params_.switches.arithmetic == ArithmeticSwitch::exact
                            ? Interval(follows[c])
                            : legal_clip[static_cast<std::size_t>(c)];
-        const auto of = [](glm::vec4 p) { return in_clip_volume(p) ? std::optional(p) : std::nullopt; };
+        const auto of = [&](glm::vec4 p) {
+            return in_clip_volume(p, params_.clip_depth) ? std::optional(p) : std::nullopt;
+        };
         rows_.numbers<glm::vec4>("gl_Position", of(strict_.point_position), of(reference_.point_position),
                                  gpu_.drawn_alone ? of(gpu_.position) : std::nullopt, legal);
         rasterise();

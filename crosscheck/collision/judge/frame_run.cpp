@@ -84,7 +84,7 @@ const CollisionImage& FrameRun::redrawn() {
 const DepthImage& FrameRun::obstacle_depth() {
     if (!obstacle_depth_) {
         CollisionImage cdt(params_.width, params_.height);
-        obstacle_depth_.emplace(params_.width, params_.height, 1.0F);
+        obstacle_depth_.emplace(params_.width, params_.height, params_.clip_depth.cleared());
         obstacle_pass(scene_.obstacles, params_, profile_, cdt, *obstacle_depth_);
     }
     return *obstacle_depth_;

@@ -58,7 +58,7 @@ class TexelTrials {
   public:
     TexelTrials(const JudgedFrame& frame, const FrameInputs& inputs)
         : frame_(frame), inputs_(inputs), obstacles_cdt_(frame.params.width, frame.params.height),
-          obstacles_depth_(frame.params.width, frame.params.height, 1.0F) {
+          obstacles_depth_(frame.params.width, frame.params.height, frame.params.clip_depth.cleared()) {
         obstacle_pass(frame.obstacles, frame.params, frame.profile, obstacles_cdt_, obstacles_depth_);
         expected_ = draw({});
         for (std::size_t texel = 0; texel < expected_.texels.size(); ++texel)

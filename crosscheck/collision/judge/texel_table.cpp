@@ -128,7 +128,7 @@ std::optional<Interval> legal_depth(const JudgedFrame& frame, glm::ivec2 texel, 
 void add_contest(FrameRun& run, glm::ivec2 texel, std::size_t particle, StepRows& rows) {
     const std::vector<Contender> wanted = contenders(run.judged(), texel);
     std::string rivals = list_of(wanted, particle);
-    if (run.obstacle_depth().at(texel.x, texel.y) < 1.0F)
+    if (run.obstacle_depth().at(texel.x, texel.y) < run.judged().params.clip_depth.cleared())
         rivals = rivals == "nobody" ? "an obstacle" : "an obstacle, " + rivals;
     rows.only_reference("also wanted by", {}, {{}, rivals});
     add_winner(run, texel, wanted, rows);
@@ -149,10 +149,10 @@ TexelTable texel_table(FrameRun& run, std::size_t texel) {
         return std::any_of(wanted.begin(), wanted.end(), [&](const Contender& c) { return c.particle == particle; });
     };
     if (gpu_code.a != 0.0F && gpu_owner && !has(*gpu_owner))
-        wanted.push_back({*gpu_owner, 1.0F});
+        wanted.push_back({*gpu_owner, frame.params.clip_depth.cleared()});
 
     StepRows rows;
-    if (const float depth = run.obstacle_depth().at(at.x, at.y); depth < 1.0F)
+    if (const float depth = run.obstacle_depth().at(at.x, at.y); depth < frame.params.clip_depth.cleared())
         rows.only_reference("an obstacle's depth", {}, {depth, {}});
     const LegalTexel legal = legal_texel(frame, texel);
     constexpr std::size_t most = 32;

@@ -250,7 +250,7 @@ CollisionImage redraw(const JudgedFrame& frame) {
     CollisionImage cdt(frame.params.width, frame.params.height);
     if (!is_listing(frame.params.switches))
         return cdt;
-    DepthImage depth(frame.params.width, frame.params.height, 1.0F);
+    DepthImage depth(frame.params.width, frame.params.height, frame.params.clip_depth.cleared());
     obstacle_pass(frame.obstacles, frame.params, frame.profile, cdt, depth);
     rasterise_particles(frame.before, frame.gpu, frame.params, frame.profile, cdt, depth);
     return cdt;

@@ -128,6 +128,8 @@ std::string why_unavailable(const Scene& scene) {
         return "step = compute runs in compute shaders, which WebGL2 does not have";
     if (has_remedies(scene.switches))
         return "the layered collision pass (cdt_layers, cdt_cameras, search_window, response) is not in it";
+    if (!scene.frames.empty() || scene.clip_space != ClipSpace{})
+        return "clip_space and frames, which an engine recorded, are not in it";
     if (scene.start.size() > most_live_particles)
         return fmt::format("of {} particles the page would grow too large; it takes {}", scene.start.size(),
                            most_live_particles);

@@ -9,6 +9,7 @@
 #include "crosscheck/collision/judge/step_table.hpp"
 #include "crosscheck/record/capsule_parts.hpp"
 #include "crosscheck/scene/profiles.hpp"
+#include "crosscheck/scene/scene_frames.hpp"
 #include "reference/collision/octree/octree_leaves.hpp"
 #include "reference/collision/step_pass.hpp"
 #include "reference/model/collision/collision_state.hpp"
@@ -114,6 +115,7 @@ Capsule cut_capsule(const JudgedFrame& frame, const CapsuleSource& source) {
         throw Error(fmt::format("particle {}: there are {}, counted from 0", source.particle, frame.before.size()));
     Capsule capsule;
     capsule.scene = source.scene;
+    capsule.scene.frames = settings_near(source.scene.frames, source.frame);
     capsule.scene.start = {};
     capsule.scene.obstacles = {};
     capsule.renderer = source.renderer;

@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 
 #include "crosscheck/scene/profiles.hpp"
+#include "crosscheck/scene/scene_frames.hpp"
 #include "reference/model/error.hpp"
 
 namespace lockstep {
@@ -77,6 +78,7 @@ PixelCapsule cut_pixel_capsule(const JudgedPicture& picture, const PixelCapsuleS
     const Named named = named_in(table);
     PixelCapsule capsule;
     capsule.scene = source.scene;
+    capsule.scene.frames = settings_near(source.scene.frames, table.frame);
     capsule.scene.start = {};
     capsule.scene.obstacles = {};
     capsule.renderer = source.renderer;

@@ -38,6 +38,8 @@ Scene read_scene(const JsonValue& contents, const std::string& file) {
     json.check_keys(scene_keys);
     Scene scene;
     read_settings(json, {}, {}, scene);
+    if (const auto velocity = contents.find("has_velocity"); velocity && velocity->integer(0, 1) == 1)
+        scene.switches.velocity = Velocity::vector;
     check_switches(scene.switches);
     scene.name = contents.at("name").label();
     if (scene.name.empty())
@@ -69,6 +71,13 @@ void check_obstacles(const Mesh& mesh, const std::string& file) {
                                 mesh.positions.size()));
 }
 
+void check_frames(const TraceInfo& info) {
+    const std::vector<FrameSettings>& frames = info.scene.frames;
+    if (!frames.empty() && frames.back().frame >= info.frames)
+        throw Error(fmt::format("{}: {}: /frames/{}: frame {}; {} were recorded, counted from 0", info.file,
+                                layout::scene, frames.size() - 1, frames.back().frame, info.frames));
+}
+
 void check_cdt_size(const JsonValue& contents, const Scene& scene) {
     const auto width = contents.at("cdt_width").integer(1, INT32_MAX);
     const auto height = contents.at("cdt_height").integer(1, INT32_MAX);
@@ -98,6 +107,7 @@ TraceInfo read_contents(ByteSource& source, const std::string& file, std::uint64
         info.warnings.push_back(warning.label());
     info.has_cdt = contents.at("has_cdt").integer(0, 1) == 1;
     info.scene = read_scene(contents, file);
+    check_frames(info);
     const auto texels =
         static_cast<std::uint64_t>(info.scene.width) * static_cast<std::uint64_t>(cdt_height(info.scene));
     expect_affordable({texels, particles}, file_bytes, file);

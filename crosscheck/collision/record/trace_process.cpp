@@ -50,6 +50,7 @@ class Reader {
         nlohmann::json json{{"rows", file_.rows()},
                             {"particles", file_.particles()},
                             {"has_cdt", file_.has_cdt() ? 1 : 0},
+                            {"has_velocity", file_.has_velocity() ? 1 : 0},
                             {"has_obstacles", triangles.empty() ? 0 : 1},
                             {"has_roots", has_roots ? 1 : 0},
                             {"scene", file_.text(layout::scene)},

@@ -29,6 +29,9 @@ void check_switches(const Switches& switches) {
     if (switches.step == Step::compute && switches.search == Search::octree)
         throw Error("switch step: search = octree has a compute pass of its own and needs transform_feedback, not "
                     "compute");
+    if (switches.velocity == Velocity::vector && (has_remedies(switches) || switches.search == Search::octree))
+        throw Error("switch velocity: search = octree, cdt_layers, cdt_cameras, search_window and response need "
+                    "direction_and_speed, not vector");
     if (!has_remedies(switches))
         return;
     if (switches.step == Step::compute)

@@ -1,9 +1,11 @@
 #pragma once
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "reference/model/box.hpp"
 #include "reference/model/camera.hpp"
+#include "reference/model/clip_space.hpp"
 #include "reference/model/collision/particles.hpp"
 #include "reference/model/collision/switches.hpp"
 #include "reference/model/mesh.hpp"
@@ -21,6 +23,15 @@ struct Constants {
     float octree_size = 50.0F;             ///< world units, side of the octree's root (octree.hpp)
 };
 
+/// What a host gives its passes from a frame on, where that is not the scene's.
+struct FrameSettings {
+    int frame = 0;
+    std::optional<glm::mat4> proj_view = {};        ///< in the host's clip space
+    std::optional<glm::mat4> second_proj_view = {}; ///< likewise
+    Constants constants;
+    float speed_factor = 0.8F;
+};
+
 /// Everything a run needs, ready to use: both sides start from this and nothing else.
 struct Scene {
     std::string name;
@@ -36,6 +47,8 @@ struct Scene {
     Box cdt_box; ///< the box an rgba8 CDT scales positions by
     Constants constants;
     Switches switches;
+    ClipSpace clip_space;              ///< of the matrices in `frames`, and of the depth test
+    std::vector<FrameSettings> frames; ///< sorted by frame
     /// The command line's words that load it again ("/scenes/lattice.json --particles 500"); empty for one made, or
     /// changed, in code. A report repeats a run by them.
     std::string origin;
@@ -54,6 +67,7 @@ struct FrameParams {
     Box cdt_box;
     Constants constants;
     Switches switches;
+    ClipDepth clip_depth;
 };
 
 FrameParams frame_params(const Scene& scene, int frame);

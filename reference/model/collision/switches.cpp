@@ -28,6 +28,7 @@ constexpr std::array<Names, 1> search_when{"collide_time_negative"};
 constexpr std::array<Names, 3> cdt_format{"rgba32f", "rgba16f", "rgba8"};
 constexpr std::array<Names, 2> cdt_camera{"moving", "fixed"};
 constexpr std::array<Names, 3> obstacles_in_cdt{"off", "vertices", "triangles"};
+constexpr std::array<Names, 2> velocity{"direction_and_speed", "vector"};
 constexpr std::array<Names, 2> raster_position{"before_step", "updated"};
 constexpr std::array<Names, 2> arithmetic{"plain", "exact"};
 constexpr std::array<Names, 8> one_to_eight{"1", "2", "3", "4", "5", "6", "7", "8"};
@@ -91,6 +92,7 @@ std::span<const SwitchInfo> switch_table() {
         named<&S::cdt_camera>("cdt_camera", cdt_camera,
                               "the collision camera follows the render camera, or stands still"),
         named<&S::obstacles_in_cdt>("obstacles_in_cdt", obstacles_in_cdt, "how obstacles are drawn into the CDT"),
+        named<&S::velocity>("velocity", velocity, "a particle holds direction and speed, or one vector and speed 1"),
         named<&S::raster_position>("raster_position", raster_position,
                                    "the point is drawn where the particle was, or is now"),
         named<&S::arithmetic>("arithmetic", arithmetic, "GLSL's own functions, or portable.glsl"),

@@ -30,6 +30,8 @@ enum class SearchWhen { collide_time_negative };
 enum class CdtFormat { rgba32f, rgba16f, rgba8 };
 enum class CdtCamera { moving, fixed };
 enum class ObstaclesInCdt { off, vertices, triangles };
+/// How a particle holds its velocity: as the listing does, or as one vector, which is its direction then, its speed 1.
+enum class Velocity { direction_and_speed, vector };
 /// Which position the point is rasterised at: the text projects the updated one, the listing writes gl_Position
 /// once, from the position before the step.
 enum class RasterPosition { before_step, updated };
@@ -54,6 +56,7 @@ struct Switches {
     CdtFormat cdt_format = CdtFormat::rgba32f;
     CdtCamera cdt_camera = CdtCamera::moving;
     ObstaclesInCdt obstacles_in_cdt = ObstaclesInCdt::triangles;
+    Velocity velocity = Velocity::direction_and_speed;
     RasterPosition raster_position = RasterPosition::updated;
     ArithmeticSwitch arithmetic = ArithmeticSwitch::plain;
     int cdt_layers = 1;  ///< 1 to 8

@@ -202,9 +202,10 @@ TEST_CASE("scene_file: an emitter that is wrong is told with path and what is al
 
 TEST_CASE("scene_file: a member that is wrong is told with path and what is allowed") {
     const auto [member, expected] = GENERATE(table<std::string, std::string>({
-        {R"("particels": 3)", "/: unknown key \"particels\"; the keys here are description, system, seed, preset, "
-                              "switches, constants, camera, "
-                              "camera_path, collision_camera, image, render, cdt_box, emitters, obstacles"},
+        {R"("particels": 3)",
+         "/: unknown key \"particels\"; the keys here are description, system, seed, preset, "
+         "switches, constants, camera, "
+         "camera_path, collision_camera, image, render, cdt_box, clip_space, frames, start, emitters, obstacles"},
         {R"("description": 3)", "/description: 3 is not a text"},
         {R"("seed": -1)", "/seed: -1 is not an integer from 0 to 9007199254740991"},
         {R"("preset": "papper")", "/preset: unknown preset 'papper'; the presets are paper, corrected, exact"},

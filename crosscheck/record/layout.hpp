@@ -20,6 +20,9 @@ inline constexpr const char* velocity = "particles/all/velocity/value";
 /// Stored codes: float32 [frames][height][width][4], the bottom row first; row k is the CDT after frame k.
 inline constexpr const char* cdt = "observables/cdt/value";
 
+/// int32 [frames]: how many particles there are in each; missing: all.
+inline constexpr const char* counts = "observables/count/value";
+
 /// Texts.
 inline constexpr const char* scene = "parameters/lockstep/scene"; ///< of a scene file
 inline constexpr const char* name = "parameters/lockstep/name";   ///< the scene's

@@ -155,6 +155,20 @@ void TraceFile::read_particles(std::size_t row, std::byte* into) {
 
 void TraceFile::read_cdt(std::size_t frame, std::byte* into) { read_row(cdt_, frame, into); }
 
+std::vector<std::int32_t> TraceFile::counts() const {
+    if (!exists(layout::counts))
+        return {};
+    std::vector<std::int32_t> all = integers(layout::counts);
+    if (all.size() + 1 < rows_)
+        fail(layout::counts, fmt::format("has {} frames; right is one of each, so {}", all.size(), rows_ - 1));
+    all.resize(rows_ - 1);
+    for (std::size_t frame = 0; frame < all.size(); ++frame)
+        if (all[frame] < 0 || static_cast<std::size_t>(all[frame]) > particles_)
+            fail(layout::counts,
+                 fmt::format("frame {}: {}; right is 0 to {}, the particles", frame, all[frame], particles_));
+    return all;
+}
+
 std::vector<float> TraceFile::obstacle_positions() const {
     const std::string path = layout::obstacle_positions;
     if (!exists(path))

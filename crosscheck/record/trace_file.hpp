@@ -35,6 +35,7 @@ class TraceFile : public RecordedFile {
     void read_cdt(std::size_t frame, std::byte* into);
 
     /// Values of a small dataset, or nothing where there is none.
+    [[nodiscard]] std::vector<std::int32_t> counts() const;
     [[nodiscard]] std::vector<float> obstacle_positions() const;
     [[nodiscard]] std::vector<std::uint32_t> obstacle_triangles() const;
 

@@ -1,4 +1,7 @@
 #pragma once
+#include <cstddef>
+#include <cstdint>
+
 #include "gpu/side_description.hpp"
 #include "reference/model/collision/particles.hpp"
 #include "reference/model/collision/scene.hpp"
@@ -28,6 +31,10 @@ class GpuSide {
     /// Whether there is a CDT to compare. If not, read(cdt) is never called, and the reference draws the CDT of the
     /// particles that were read.
     [[nodiscard]] virtual bool has_cdt() const { return true; }
+
+    /// How many particles there are in a frame, from the first on; what the others hold is nobody's before a frame in
+    /// which they are there.
+    [[nodiscard]] virtual std::size_t present(int /*frame*/) const { return SIZE_MAX; }
 
     [[nodiscard]] virtual SideDescription describe() const { return {}; }
 

@@ -1,6 +1,8 @@
 #include <catch2/catch.hpp>
 
+#include <cstdint>
 #include <cstdlib>
+#include <cstring>
 #include <string>
 
 #include "crosscheck/collision/judge/check.hpp"
@@ -33,10 +35,11 @@ class EngineRecording {
 
     [[nodiscard]] TraceInfo info() const { return TraceReader(file_).info(); }
 
-    [[nodiscard]] CheckReport check() const {
+    [[nodiscard]] CheckReport check(CheckMode mode = CheckMode::resync) const {
         TraceReader trace(file_);
         TraceSide recorded(trace);
         CheckOptions options;
+        options.mode = mode;
         options.frames = trace.info().frames;
         options.known = known_operations(trace.info());
         return lockstep::check(trace.info().scene, followed_profile(trace.info()), recorded, options);
@@ -46,6 +49,13 @@ class EngineRecording {
     test::TemporaryFolder folder_;
     std::filesystem::path file_ = folder_.path() / "run.h5";
 };
+
+std::string bytes_of(std::int32_t first, std::int32_t second) {
+    std::string bytes(8, '\0');
+    std::memcpy(bytes.data(), &first, 4);
+    std::memcpy(bytes.data() + 4, &second, 4);
+    return bytes;
+}
 
 /// The name of the best cause, if it explains all.
 std::string cause_of(const CheckReport& report, std::size_t resource) {
@@ -62,6 +72,8 @@ TEST_CASE(
     const TraceInfo info = recording.info();
     CHECK(info.warnings == std::vector<std::string>{});
     CHECK(info.has_cdt);
+    CHECK(info.counts.front() == 2000);
+    CHECK(info.counts.back() == 3000);
     CHECK(info.scene.switches.velocity == Velocity::vector);
     CHECK(info.scene.clip_space == ClipSpace{1.0F, {1.0F, 0.0F}});
     CHECK(info.scene.frames.size() == 36);
@@ -116,4 +128,16 @@ TEST_CASE("engine recording: what does not fit is refused by its place") {
     CHECK_THAT(refusal("[1.33333337, 0, ", "[ 1.33333337,   "),
                Contains("/frames/0/proj_view: 15 elements; right is 16 numbers"));
     CHECK_THAT(refusal("\"tick\": 0.0166", "\"tick\":-0.0166"), Contains("/frames/0/constants/tick"));
+}
+
+TEST_CASE("engine recording: particles that are not there yet are not compared, and those that are, are") {
+    EngineRecording one_more, too_many, whole;
+    const CheckReport report = one_more.replace(bytes_of(2000, 2040), bytes_of(2000, 2041)).check();
+    CHECK(report.verdict == Verdict::divergent);
+    CHECK(report.first_frame == 1);
+    too_many.replace(bytes_of(2000, 2040), bytes_of(2000, 3001));
+    CHECK_THAT(test::error_of([&] { static_cast<void>(too_many.info()); }),
+               Contains("observables/count/value: frame 1: 3001; right is 0 to 3000, the particles"));
+    CHECK_THAT(test::error_of([&] { static_cast<void>(whole.check(CheckMode::free)); }),
+               Contains("frame 0 has 2000 of 3000 particles; --mode free needs all in every frame"));
 }

@@ -5,6 +5,7 @@
 
 #include <fmt/format.h>
 
+#include "crosscheck/collision/judge/absent_particles.hpp"
 #include "crosscheck/collision/judge/collision_power.hpp"
 #include "crosscheck/collision/judge/diagnosis.hpp"
 #include "crosscheck/collision/judge/drawn_cause.hpp"
@@ -229,6 +230,12 @@ CheckReport check(const Scene& scene, const Profile& profile, GpuSide& gpu, cons
 
     for (int frame = 0; frame < options.frames && !(options.stop != nullptr && *options.stop); ++frame) {
         const FrameParams params = frame_params(scene, frame);
+        const std::size_t present = gpu.present(frame);
+        if (!judged && present < scene.start.size())
+            throw Error(fmt::format("{}: frame {} has {} of {} particles; --mode free needs all in every frame",
+                                    scene.name, frame, present, scene.start.size()));
+        AbsentParticles absent_before, absent_after;
+        absent_before.hide(before.particles, present);
         FrameTimes times;
         const bool repeat = frame < options.repeated_frames && gpu.repeats();
         if (repeat)
@@ -240,6 +247,7 @@ CheckReport check(const Scene& scene, const Profile& profile, GpuSide& gpu, cons
         {
             const Stopwatch watch(times.readback);
             read_side(gpu, scene, now.particles, now.cdt);
+            absent_after.hide(now.particles, present);
         }
         if (repeat) {
             gpu.find_canary(now.particles, now.cdt, frame);
@@ -291,6 +299,7 @@ CheckReport check(const Scene& scene, const Profile& profile, GpuSide& gpu, cons
                               verdicts ? &*verdicts : nullptr});
         std::swap(earlier, before);
         std::swap(before, now);
+        absent_after.put_back(before.particles);
         if (options.on_frame)
             options.on_frame(report.frames);
     }

@@ -21,9 +21,12 @@ FrameRun::FrameRun(Scene scene, Profile profile, const KnownOperations& known, G
 void FrameRun::step(int frame) {
     std::swap(before_, after_);
     std::swap(cdt_before_, cdt_after_);
+    absent_.put_back(before_);
+    absent_.hide(before_, gpu_.present(frame));
     params_ = frame_params(scene_, frame);
     gpu_.step(params_);
     read_side(gpu_, scene_, after_, cdt_after_);
+    absent_.hide(after_, gpu_.present(frame));
     if (!gpu_.has_cdt())
         reference_.draw(before_, after_, params_, cdt_after_);
     frame_ = frame;
@@ -34,6 +37,7 @@ void FrameRun::go_to(int frame) {
         return;
     if (frame < frame_ || frame_ < 0) {
         after_ = scene_.start;
+        absent_ = {};
         cdt_after_ = empty_cdt(scene_);
         gpu_.upload(after_, cdt_after_);
         frame_ = -1;
@@ -45,6 +49,7 @@ void FrameRun::go_to(int frame) {
         params_ = frame_params(scene_, frame - 2);
         gpu_.step(params_);
         read_side(gpu_, scene_, after_, cdt_after_);
+        absent_ = {};
         frame_ = frame - 2;
     }
     while (frame_ < frame)

@@ -4,6 +4,7 @@
 #include <memory>
 #include <optional>
 
+#include "crosscheck/collision/judge/absent_particles.hpp"
 #include "crosscheck/collision/judge/verdict.hpp"
 #include "gpu/collision/simulation.hpp"
 #include "reference/collision/simulation.hpp"
@@ -31,7 +32,7 @@ class FrameRun {
     /// Of this frame, made when first asked for.
     const FrameVerdicts& verdicts();
     const CollisionImage& redrawn();    ///< the CDT the reference draws of the GPU's particles
-    const DepthImage& obstacle_depth(); ///< 1 where there is none
+    const DepthImage& obstacle_depth(); ///< as cleared where there is none
     StepCapture capture(std::size_t particle);
 
   private:
@@ -46,6 +47,7 @@ class FrameRun {
     FrameParams params_;
     int frame_ = -1;
     Particles before_, after_;
+    AbsentParticles absent_; ///< of after_
     CollisionImage cdt_before_, cdt_after_;
     std::optional<FrameVerdicts> verdicts_;
     std::optional<CollisionImage> redrawn_;

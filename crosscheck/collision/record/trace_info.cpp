@@ -13,6 +13,8 @@ std::vector<std::string> notes_on(const TraceInfo& info) {
     if (!info.has_cdt)
         notes.emplace_back("no CDT was recorded: particles alone are compared, and the reference draws the CDT of the "
                            "recorded ones; where the GPU drew another texel, a particle that reads it may differ");
+    if (!info.counts.empty())
+        notes.emplace_back("not every particle is there in every frame: those that are not are NaN");
     if (!info.profile)
         notes.emplace_back("the driver was not measured: the reference is strict, and what differs is judged by "
                            "GLSL's rules alone");

@@ -1,4 +1,5 @@
 #pragma once
+#include <cstdint>
 #include <optional>
 #include <string>
 #include <vector>
@@ -19,6 +20,7 @@ struct TraceInfo {
     std::string shaders;            ///< whose ran, as a report tells it; empty: not told
     std::string probe;              ///< what `lockstep probe --json` writes; may be empty
     bool has_cdt = false;
+    std::vector<std::uint32_t> counts; ///< of each frame how many particles there are; empty: all, in every frame
 
     // What the reader adds.
     std::string file;                  ///< where it lies

@@ -106,6 +106,12 @@ TraceInfo read_contents(ByteSource& source, const std::string& file, std::uint64
     for (const JsonValue& warning : contents.at("warnings").items())
         info.warnings.push_back(warning.label());
     info.has_cdt = contents.at("has_cdt").integer(0, 1) == 1;
+    if (const auto counts = contents.find("counts"))
+        for (const JsonValue& count : counts->items())
+            info.counts.push_back(static_cast<std::uint32_t>(count.integer(0, static_cast<std::int64_t>(particles))));
+    if (!info.counts.empty() && info.counts.size() != static_cast<std::size_t>(info.frames))
+        throw Error(fmt::format("{}: its reading process broke: {} counts of {} frames", file, info.counts.size(),
+                                info.frames));
     info.scene = read_scene(contents, file);
     check_frames(info);
     const auto texels =

@@ -62,6 +62,8 @@ class Reader {
                             {"probe", file_.text(layout::probe)},
                             {"program", file_.program()},
                             {"warnings", warnings_}};
+        if (const std::vector<std::int32_t> counts = file_.counts(); !counts.empty())
+            json["counts"] = counts;
         if (file_.has_cdt()) {
             json["cdt_height"] = file_.cdt_extents()[0];
             json["cdt_width"] = file_.cdt_extents()[1];

@@ -14,4 +14,9 @@ void TraceSide::step(const FrameParams& /*params*/) {
     ++frame_;
 }
 
+std::size_t TraceSide::present(int frame) const {
+    const std::vector<std::uint32_t>& counts = trace_.info().counts;
+    return counts.empty() ? GpuSide::present(frame) : counts.at(static_cast<std::size_t>(frame));
+}
+
 } // namespace lockstep

@@ -15,6 +15,7 @@ class TraceSide : public GpuSide {
     void step(const FrameParams& params) override;
     void read(Particles& particles) const override { trace_.read(frame_, particles); }
     void read(CollisionImage& cdt) const override { trace_.read(frame_, cdt); }
+    [[nodiscard]] std::size_t present(int frame) const override;
     [[nodiscard]] bool has_cdt() const override { return trace_.info().has_cdt; }
 
   private:

@@ -15,15 +15,15 @@
 namespace lockstep {
 namespace {
 
-constexpr std::array depths{ClipDepth{-1.0F, 1.0F}, ClipDepth{0.0F, 1.0F}, ClipDepth{1.0F, 0.0F},
-                            ClipDepth{1.0F, -1.0F}};
+constexpr std::array clip_depths{ClipDepth{-1.0F, 1.0F}, ClipDepth{0.0F, 1.0F}, ClipDepth{1.0F, 0.0F},
+                                 ClipDepth{1.0F, -1.0F}};
 
 ClipDepth read_depth(const JsonValue& json) {
     constexpr const char* right =
         "z / w at the near and at the far plane: [-1, 1], [0, 1], or reversed [1, 0], [1, -1]";
     const std::vector<JsonValue> planes = elements(json, 2, right);
     const ClipDepth depth{planes[0].number(), planes[1].number()};
-    if (std::find(depths.begin(), depths.end(), depth) == depths.end())
+    if (std::find(clip_depths.begin(), clip_depths.end(), depth) == clip_depths.end())
         json.fail(fmt::format("[{}, {}]; right is {}", depth.near_plane, depth.far_plane, right));
     return depth;
 }

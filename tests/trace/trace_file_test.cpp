@@ -384,3 +384,36 @@ TEST_CASE("trace: obstacles may stand in the scene's text, but not as the name o
         .replace_text(layout::scene, R"({"obstacles": [{"shape": "mesh", "file": "/etc/passwd", "height": 1}]})");
     CHECK_THAT(mesh.refusal(), Contains("/obstacles/0/file: no mesh file is read here"));
 }
+
+TEST_CASE("trace: a velocity stands in the place of direction and speed, not beside them") {
+    Changed both(false), moved(false);
+    both.with_file([](hid_t file) {
+        const hid_t links = H5Pcreate(H5P_LINK_CREATE);
+        H5Pset_create_intermediate_group(links, 1);
+        REQUIRE(H5Lcreate_hard(file, "particles/all/direction/value", file, layout::velocity, links, H5P_DEFAULT) >= 0);
+        H5Pclose(links);
+    });
+    CHECK_THAT(both.refusal(), Contains("particles/all/velocity/value: is there beside particles/all/direction/value"));
+    moved.with_file([](hid_t file) {
+        REQUIRE(H5Lmove(file, "particles/all/direction", file, "particles/all/velocity", H5P_DEFAULT, H5P_DEFAULT) >=
+                0);
+        REQUIRE(H5Ldelete(file, "particles/all/speed", H5P_DEFAULT) >= 0);
+    });
+    TraceReader trace(moved.file());
+    CHECK(trace.info().scene.switches.velocity == Velocity::vector);
+    Particles particles;
+    trace.read(2, particles);
+    CHECK(particles.speed == std::vector<float>(particles.size(), 1.0F));
+}
+
+TEST_CASE("trace: settings of a frame that was not recorded are refused") {
+    const test::TemporaryFolder folder;
+    const auto file = folder.path() / "run.h5";
+    TraceInfo info = test::small_info(false);
+    info.scene.frames.push_back({.frame = 2, .constants = info.scene.constants});
+    test::record(file, info, 3);
+    CHECK(TraceReader(file).info().scene.frames.size() == 1);
+    test::record(file, info, 2);
+    CHECK_THAT(test::error_of([&] { TraceReader reader(file); }),
+               Contains("parameters/lockstep/scene: /frames/0: frame 2; 2 were recorded, counted from 0"));
+}

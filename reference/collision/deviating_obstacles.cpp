@@ -96,7 +96,7 @@ template <class A> void draw(A fp, const Mesh& obstacles, const FrameParams& par
             if (deviations.has(Deviation::obstacle_depth_not_halved))
                 at = clamp_to(at * 2.0F - 1.0F, 1.0F);
             if (deviations.has(Deviation::obstacle_depth_reversed))
-                at = 1.0F - at;
+                at = params.clip_depth.sign() - at;
             if (!drawn || !(at < depth.at(x, y)))
                 return;
             depth.at(x, y) = at;

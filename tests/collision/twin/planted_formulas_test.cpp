@@ -116,6 +116,8 @@ std::vector<Plant> drawing_plants() {
         obstacle("obstacle_corners_rotated", mixed, corners("g_Position[1], g_Position[2], g_Position[0]")),
         obstacle("obstacle_centroid_alone", mixed, "(g_Position[0] + g_Position[1] + g_Position[2]) / 3.0"),
         obstacle("obstacle_stores_clip_space", mixed, corners("g_Clip[0].xyz, g_Clip[1].xyz, g_Clip[2].xyz")),
+        obstacle("obstacle_stores_ndc", mixed,
+                 corners("g_Clip[0].xyz / g_Clip[0].w, g_Clip[1].xyz / g_Clip[1].w, g_Clip[2].xyz / g_Clip[2].w")),
         obstacle("obstacle_depth_zero", "gl_FragDepth = fragment.depth", "gl_FragDepth = 0.0"),
         obstacle("obstacle_first_corner_alone", mixed, "g_Position[0]"),
         obstacle("obstacle_last_corner_alone", mixed, "g_Position[2]"),

@@ -123,6 +123,11 @@ std::vector<Plant> answers() {
         after_hit("velocity_stored_as_direction_at_hit", "v_Dir = product(v_Dir, v_Speed);"),
         after_hit("moves_on_before_hit", "v_Position = v_Position + a_Dir * a_Speed * u_Tick;"),
         after_fall("collide_time_counted_above_zero", "if (!(a_CollideTime > 0.0)) v_CollideTime = a_CollideTime;"),
+        after_fall("held_until_it_searches", "if (!(a_CollideTime < 0.0)) v_Position = a_Position;"),
+        {"length_of_direction_stored_as_speed", "crowd", "out_Speed = v_Speed[0];", "out_Speed = length(v_Dir[0]);",
+         "collision_pass.geom"},
+        planted("positions_added", "sum(curr_pos, -decode_position(stored))", "sum(curr_pos, decode_position(stored))",
+                "origin"),
         after_fall("move_by_direction_alone", "v_Position = sum(a_Position, product(v_Dir, u_Tick));"),
         after_fall("drag_by_tick", "v_Speed = v_Speed * (1.0 - 0.5 * u_Tick); v_Position = sum(a_Position, "
                                    "product(product(v_Dir, v_Speed), u_Tick));"),

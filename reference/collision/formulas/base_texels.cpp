@@ -13,11 +13,12 @@ namespace {
 constexpr std::array bands{1.01F, 1.05F, 1.1F, 1.2F, 1.25F, 1.5F, 2.0F};
 constexpr std::array sizes{256.0F, 512.0F,  600.0F,  640.0F,  720.0F,  768.0F,
                            800.0F, 1024.0F, 1080.0F, 1280.0F, 1920.0F, 2048.0F};
-constexpr std::array speeds{0.0F, 1e-6F, 1e-5F, 1e-4F, 1e-3F, 1e-2F, 5e-2F, 0.1F, 0.2F, 0.5F, 1.0F, 2.0F};
+constexpr std::array least_speeds{0.0F, 1e-6F, 1e-5F, 1e-4F, 1e-3F, 1e-2F, 5e-2F, 0.1F, 0.2F, 0.5F, 1.0F, 2.0F};
 constexpr std::array steps{255.0F, 256.0F, 512.0F, 1023.0F, 1024.0F, 2048.0F, 4096.0F, 65535.0F, 65536.0F};
 constexpr std::array radii{0.0F, 1.0F, 2.0F, 3.0F, 4.0F, 5.0F, 6.0F, 8.0F, 10.0F, 16.0F};
 constexpr std::array middles{0.25F, 0.5F, 0.75F, 0.8F, 0.9F, 0.95F, 0.98F, 0.99F};
-constexpr std::array counts{1.0F, 32.0F, 64.0F, 100.0F, 128.0F, 256.0F, 512.0F, 1000.0F, 1024.0F, 2048.0F, 4096.0F};
+constexpr std::array first_indices{1.0F,   32.0F,   64.0F,   100.0F,  128.0F, 256.0F,
+                                   512.0F, 1000.0F, 1024.0F, 2048.0F, 4096.0F};
 constexpr std::array periods{2.0F, 3.0F, 4.0F, 5.0F, 8.0F, 10.0F, 16.0F, 32.0F, 60.0F, 64.0F, 100.0F, 128.0F, 256.0F};
 constexpr std::array four{0.0F, 1.0F, 2.0F, 3.0F};
 
@@ -292,16 +293,16 @@ void add_base_texels(std::vector<FormulaMistake>& all) {
                    search([](Floats v, Run run) {
                        keep_where(v, [&] { return run.item >= static_cast<std::size_t>(run.constants[0]); });
                    }),
-                   counts});
+                   first_indices});
     all.push_back({"last_particles_do_not_search", "particles from an index on do not search",
                    search([](Floats v, Run run) {
                        keep_where(v, [&] { return run.item < static_cast<std::size_t>(run.constants[0]); });
                    }),
-                   counts});
+                   first_indices});
     all.push_back({"only_fast_search", "only who is faster than a constant searches", search([](Floats v, Run run) {
                        keep_where(v, [&] { return real(run, site::speed_before) > run.constants[0]; });
                    }),
-                   speeds});
+                   least_speeds});
     all.push_back({"searches_a_tick_late", "searches at collide time < -tick", search([](Floats v, Run run) {
                        v[0] = real(run, site::collide_time_before) < -tick(run) ? 1.0F : 0.0F;
                    })});

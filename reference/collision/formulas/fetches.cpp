@@ -11,7 +11,8 @@ namespace lockstep::formulas {
 namespace {
 
 constexpr std::array tiles{4.0F, 8.0F, 16.0F, 32.0F, 64.0F};
-constexpr std::array codes{15.0F, 16.0F, 127.0F, 128.0F, 255.0F, 256.0F, 1000.0F, 1023.0F, 1024.0F, 4096.0F, 65535.0F};
+constexpr std::array stored_steps{15.0F,   16.0F,   127.0F,  128.0F,  255.0F,  256.0F,
+                                  1000.0F, 1023.0F, 1024.0F, 4096.0F, 65535.0F};
 
 } // namespace
 
@@ -178,10 +179,10 @@ void add_fetches(std::vector<FormulaMistake>& all) {
     });
     reads(
         "stored_read_in_steps", "the stored position is read in steps of 1 / a constant",
-        [](Floats v, Run run) { set(v, glm::round(get(v) * run.constants[0]) / run.constants[0]); }, codes);
+        [](Floats v, Run run) { set(v, glm::round(get(v) * run.constants[0]) / run.constants[0]); }, stored_steps);
     reads(
         "stored_read_in_whole_steps", "the stored position is rounded down to steps of 1 / a constant",
-        [](Floats v, Run run) { set(v, glm::floor(get(v) * run.constants[0]) / run.constants[0]); }, codes);
+        [](Floats v, Run run) { set(v, glm::floor(get(v) * run.constants[0]) / run.constants[0]); }, stored_steps);
     reads("stored_in_clip_space", "the stored position is taken to clip space, and the own is not",
           [](Floats v, Run run) { set(v, glm::vec3(projected(run, get(v)))); });
     reads("stored_size_taken", "the stored position's components without their signs",

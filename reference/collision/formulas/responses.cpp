@@ -13,10 +13,11 @@ namespace {
 constexpr std::array added_lengths{1e-1F, 1e-2F, 1e-3F, 1e-4F, 1e-5F, 1e-6F, 1e-7F, 1e-8F};
 constexpr std::array parts{0.1F, 0.2F, 0.25F, 0.3F, 0.5F, 0.7F, 0.75F, 0.8F, 0.9F};
 constexpr std::array three{0.0F, 1.0F, 2.0F};
-constexpr std::array codes{127.0F, 128.0F, 255.0F, 256.0F, 511.0F, 1000.0F, 1023.0F, 1024.0F, 32767.0F, 65535.0F};
+constexpr std::array direction_steps{127.0F,  128.0F,  255.0F,  256.0F,   511.0F,
+                                     1000.0F, 1023.0F, 1024.0F, 32767.0F, 65535.0F};
 constexpr std::array six{0.0F, 1.0F, 2.0F, 3.0F, 4.0F, 5.0F};
 
-glm::vec3 halves(glm::vec3 v) { return {half_round(v.x), half_round(v.y), half_round(v.z)}; }
+glm::vec3 in_half_floats(glm::vec3 v) { return {half_round(v.x), half_round(v.y), half_round(v.z)}; }
 
 /// As in Quake III Arena, with so many of Newton's steps.
 float fast_inverse_root(float x, int steps) {
@@ -235,9 +236,9 @@ void add_responses(std::vector<FormulaMistake>& all) {
                    hit_direction([](Floats v, Run run) {
                        set(v, glm::round(unit_away(run) * run.constants[0]) / run.constants[0]);
                    }),
-                   codes});
+                   direction_steps});
     all.push_back({"direction_in_half_floats_at_hit", "at a hit: away as a unit vector, in half floats",
-                   hit_direction([](Floats v, Run run) { set(v, halves(unit_away(run))); })});
+                   hit_direction([](Floats v, Run run) { set(v, in_half_floats(unit_away(run))); })});
     all.push_back({"mean_of_neighbours_at_hit",
                    "at a hit: the mean of what was added up, not normalised",
                    {.site = site::nearest.id, .change = Change::added_up, .also = &mean_of_all}});

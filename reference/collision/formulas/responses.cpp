@@ -19,10 +19,10 @@ constexpr std::array six{0.0F, 1.0F, 2.0F, 3.0F, 4.0F, 5.0F};
 
 glm::vec3 in_half_floats(glm::vec3 v) { return {half_round(v.x), half_round(v.y), half_round(v.z)}; }
 
-/// As in Quake III Arena, with so many of Newton's steps.
-float fast_inverse_root(float x, int steps) {
+/// As in Quake III Arena, improved so many times.
+float fast_inverse_root(float x, int times) {
     auto y = std::bit_cast<float>(0x5f3759dfU - (std::bit_cast<std::uint32_t>(x) >> 1U));
-    for (int step = 0; step < steps; ++step)
+    for (int i = 0; i < times; ++i)
         y = y * (1.5F - 0.5F * x * y * y);
     return y;
 }

@@ -91,10 +91,10 @@ template <class A> class Mistaken {
     using IVec2 = lockstep::Vec2<Int>;
 
     /// A loop's turns, which end where the loop is left.
-    class Turns {
+    class Turns : public IntRange<Int> {
       public:
         Turns(Mistaken& reading, IntRange<Int> turns)
-            : reading_(reading), turns_(turns), depth_(++reading.loops_open_) {}
+            : IntRange<Int>(turns), reading_(reading), depth_(++reading.loops_open_) {}
         Turns(const Turns&) = delete;
         Turns& operator=(const Turns&) = delete;
         ~Turns() {
@@ -108,12 +108,11 @@ template <class A> class Mistaken {
             Iterator& operator++() { return ++at, *this; }
             bool operator!=(const Iterator& end) const { return at != end.at && of.depth_ < of.reading_.left_from_; }
         };
-        [[nodiscard]] Iterator begin() const { return {turns_.begin(), *this}; }
-        [[nodiscard]] Iterator end() const { return {turns_.end(), *this}; }
+        [[nodiscard]] Iterator begin() const { return {IntRange<Int>::begin(), *this}; }
+        [[nodiscard]] Iterator end() const { return {IntRange<Int>::end(), *this}; }
 
       private:
         Mistaken& reading_;
-        IntRange<Int> turns_;
         int depth_;
     };
 

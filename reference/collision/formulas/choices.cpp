@@ -170,6 +170,10 @@ void add_choices(std::vector<FormulaMistake>& all) {
                          }),
                    betas});
     all.push_back(
+        {"positions_added", "both positions are added, and not subtracted", value(site::apart, [](Floats v, Run run) {
+             set(v, vec3(run, site::own_position) + vec3(run, site::stored_position));
+         })});
+    all.push_back(
         {"distance_of_sum", "the length of the sum of both positions", value(site::distance, [](Floats v, Run run) {
              v[0] = glm::length(before(run) + vec3(run, site::stored_position));
          })});

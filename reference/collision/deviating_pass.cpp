@@ -142,16 +142,23 @@ template <class A> class DeviatingPoint {
     glm::vec2 shift_{0.0F}; ///< half pixels
 };
 
+/// Whether something else than the position is stored.
+bool spoils_stored(Deviation deviation) {
+    using enum Deviation;
+    return (deviation >= stores_half_floats && deviation <= stores_x_and_z_swapped) ||
+           deviation == position_interpolated || (deviation >= stores_negated && deviation <= stores_remapped) ||
+           (deviation >= stores_window_coordinates && deviation <= stores_size);
+}
+
 /// What a wrong fragment stage stores for a position.
 glm::vec3 stored_wrongly(glm::vec3 position, const PointFragment& point, const glm::mat4& proj_view,
                          const Deviations& deviations, const CollisionCode& halves) {
-    const glm::vec4 clip = proj_view * glm::vec4(position, 1.0F);
     if (deviations.has(Deviation::stores_window_coordinates))
         position = {static_cast<float>(point.x) + 0.5F, static_cast<float>(point.y) + 0.5F, point.depth};
-    if (deviations.has(Deviation::stores_clip_space))
-        position = glm::vec3(clip);
-    if (deviations.has(Deviation::stores_ndc))
-        position = glm::vec3(clip) / clip.w;
+    if (deviations.has(Deviation::stores_clip_space) || deviations.has(Deviation::stores_ndc)) {
+        const glm::vec4 clip = proj_view * glm::vec4(position, 1.0F);
+        position = glm::vec3(clip) / (deviations.has(Deviation::stores_ndc) ? clip.w : 1.0F);
+    }
     if (deviations.has(Deviation::stores_in_steps))
         position = glm::round(position * 256.0F) / 256.0F;
     if (deviations.has(Deviation::stores_size))
@@ -273,6 +280,7 @@ void deviating_draw(const FrameInputs& inputs, const Particles& after, const Pro
     const std::vector<glm::vec3>& stored = deviations.has(Deviation::stores_direction)         ? after.direction
                                            : deviations.has(Deviation::stores_position_before) ? inputs.before->position
                                                                                                : after.position;
+    const bool stores_position = std::none_of(deviations.begin(), deviations.end(), spoils_stored);
     const DeviatingDepthTest test(deviations);
     const std::vector<Mistake> made = mistakes_of(deviations);
     const FrameParams params = seen_by(inputs, deviations);
@@ -294,7 +302,9 @@ void deviating_draw(const FrameInputs& inputs, const Particles& after, const Pro
                 continue;
             depth.at(point.x, point.y) = point.depth;
             glm::vec4& texel = cdt.at(point.x, point.y);
-            texel = stored_code(stored_wrongly(stored[i], point, params.collision_proj_view, deviations, halves));
+            texel = stored_code(stores_position
+                                    ? stored[i]
+                                    : stored_wrongly(stored[i], point, params.collision_proj_view, deviations, halves));
             if (deviations.has(Deviation::alpha_missing))
                 texel.a = 0.0F;
             if (deviations.has(Deviation::alpha_is_depth))

@@ -236,7 +236,12 @@ class Deviations {
             made_.at(count_++) = one;
         return *this;
     }
-    [[nodiscard]] bool has(Deviation one) const { return std::find(begin(), end(), one) != end(); }
+    [[nodiscard]] bool has(Deviation one) const {
+        for (const Deviation made : *this)
+            if (made == one)
+                return true;
+        return false;
+    }
     [[nodiscard]] const Deviation* begin() const { return made_.data(); }
     [[nodiscard]] const Deviation* end() const { return made_.data() + count_; }
 

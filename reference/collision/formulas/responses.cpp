@@ -2,6 +2,7 @@
 
 #include <bit>
 #include <cstdint>
+#include <string_view>
 #include <utility>
 
 #include "reference/collision/formulas/fits.hpp"
@@ -25,6 +26,17 @@ float fast_inverse_root(float x, int times) {
     for (int i = 0; i < times; ++i)
         y = y * (1.5F - 0.5F * x * y * y);
     return y;
+}
+
+/// Who leaves a hit with another velocity.
+template <class Velocity>
+void leaves_with(std::vector<FormulaMistake>& all, std::string_view name, std::string_view meaning, const Velocity&) {
+    static const Mistake speed =
+        value(site::speed_at_hit, [](Floats v, Run run) { v[0] = glm::length(Velocity()(run)); });
+    all.push_back(
+        {name, meaning,
+         value(
+             site::direction_at_hit, [](Floats v, Run run) { set(v, glm::normalize(Velocity()(run))); }, &speed)});
 }
 
 const Mistake mean_of_all = at(site::direction_at_hit, Change::by_formula, [](Floats v, Run run) {
@@ -91,15 +103,11 @@ void add_responses(std::vector<FormulaMistake>& all) {
                    hit_direction(by_greatest)});
     all.push_back({"normalised_by_greatest_in_fall", "no hit: the direction is divided by its greatest component",
                    fall_by_greatest});
-    static const auto pulled = [](Run run) {
-        return unit_away(run) * (real(run, site::speed_before) * params(run).switches.speed_factor) + fall(run);
+    static const auto speed_of_hit = [](Run run) {
+        return real(run, site::speed_before) * params(run).switches.speed_factor;
     };
-    static const Mistake pulled_speed =
-        value(site::speed_at_hit, [](Floats v, Run run) { v[0] = glm::length(pulled(run)); });
-    all.push_back(
-        {"gravity_at_hit", "at a hit: gravity acts, too",
-         value(
-             site::direction_at_hit, [](Floats v, Run run) { set(v, glm::normalize(pulled(run))); }, &pulled_speed)});
+    static const auto velocity_after_hit = [](Run run) { return unit_away(run) * speed_of_hit(run) + fall(run); };
+    leaves_with(all, "gravity_at_hit", "at a hit: gravity acts, too", velocity_after_hit);
     all.push_back({"gravity_moves_at_hit", "at a hit: gravity * tick * tick is added to the position",
                    hit_position([](Floats v, Run run) { set(v, get(v) + fall(run) * tick(run)); })});
     all.push_back({"gravity_added_to_position_at_hit", "at a hit: gravity * tick is added to the position",
@@ -120,10 +128,6 @@ void add_responses(std::vector<FormulaMistake>& all) {
                    })});
     all.push_back({"pushed_by_distance", "at a hit: moves by the distance to the neighbour",
                    hit_position([](Floats v, Run run) { set(v, before(run) + vec3(run, site::away)); })});
-    static const auto speed_of_hit = [](Run run) {
-        return real(run, site::speed_before) * params(run).switches.speed_factor;
-    };
-    static const auto velocity_after_hit = [](Run run) { return unit_away(run) * speed_of_hit(run) + fall(run); };
     static const Mistake falls_to = hit_position([](Floats v, Run run) {
         const bool by_tick = params(run).switches.collision_step == CollisionStep::tick;
         const glm::vec3 step = unit_away(run) * speed_of_hit(run) * (by_tick ? tick(run) : 1.0F);
@@ -302,35 +306,18 @@ void add_responses(std::vector<FormulaMistake>& all) {
                    value(site::speed_at_hit, [](Floats v, Run run) { v[0] = std::max(v[0], run.constants[0]); }),
                    {},
                    speed_of});
-    static const auto bounced = [](Run run) {
+    leaves_with(all, "bounces_by_factor", "at a hit: velocity - (1 + factor) * its part along away", [](Run run) {
         const glm::vec3 n = unit_away(run), u = old_velocity(run);
         return u - (1.0F + params(run).switches.speed_factor) * glm::dot(u, n) * n;
-    };
-    static const Mistake bounced_speed =
-        value(site::speed_at_hit, [](Floats v, Run run) { v[0] = glm::length(bounced(run)); });
-    all.push_back(
-        {"bounces_by_factor", "at a hit: velocity - (1 + factor) * its part along away",
-         value(
-             site::direction_at_hit, [](Floats v, Run run) { set(v, glm::normalize(bounced(run))); }, &bounced_speed)});
-    static const auto slid = [](Run run) {
-        const glm::vec3 n = unit_away(run), u = old_velocity(run);
-        return u - glm::dot(u, n) * n;
-    };
-    static const Mistake slid_speed =
-        value(site::speed_at_hit, [](Floats v, Run run) { v[0] = glm::length(slid(run)); });
-    all.push_back(
-        {"slides_with_what_is_left", "at a hit: velocity without its part along away, undamped",
-         value(
-             site::direction_at_hit, [](Floats v, Run run) { set(v, glm::normalize(slid(run))); }, &slid_speed)});
-    static const auto kicked = [](Run run) {
+    });
+    leaves_with(all, "slides_with_what_is_left", "at a hit: velocity without its part along away, undamped",
+                [](Run run) {
+                    const glm::vec3 n = unit_away(run), u = old_velocity(run);
+                    return u - glm::dot(u, n) * n;
+                });
+    leaves_with(all, "velocity_added_at_hit", "at a hit: away * speed * factor is added to the velocity", [](Run run) {
         return old_velocity(run) + unit_away(run) * real(run, site::speed_before) * params(run).switches.speed_factor;
-    };
-    static const Mistake kicked_speed =
-        value(site::speed_at_hit, [](Floats v, Run run) { v[0] = glm::length(kicked(run)); });
-    all.push_back(
-        {"velocity_added_at_hit", "at a hit: away * speed * factor is added to the velocity",
-         value(
-             site::direction_at_hit, [](Floats v, Run run) { set(v, glm::normalize(kicked(run))); }, &kicked_speed)});
+    });
     all.push_back({"moves_on_before_hit", "at a hit: moves by the old velocity, too",
                    hit_position([](Floats v, Run run) { set(v, get(v) + old_velocity(run) * tick(run)); })});
     all.push_back(

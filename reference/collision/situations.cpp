@@ -13,10 +13,6 @@
 namespace lockstep {
 namespace {
 
-bool is_hit(float time_before, float time_after, float collision_time) {
-    return time_before < 0.0F && time_after == collision_time;
-}
-
 constexpr std::size_t place(Situation situation) { return static_cast<std::size_t>(situation); }
 
 /// Looks at particles one by one.

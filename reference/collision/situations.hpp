@@ -39,8 +39,11 @@ struct Situations {
     [[nodiscard]] std::uint64_t of(Situation situation) const { return count[static_cast<std::size_t>(situation)]; }
 };
 
-/// How many searched and found something, by the collide times before and after a step: a time that runs down can come
-/// to the collision time, too.
+/// Whether a particle searched and found something, by its collide times before and after a step: a time that runs down
+/// can come to the collision time, too.
+inline bool is_hit(float time_before, float time_after, float collision_time) {
+    return time_before < 0.0F && time_after == collision_time;
+}
 std::uint64_t count_hits(std::span<const float> before, std::span<const float> after, float collision_time);
 
 /// Of a step from `before` that read `cdt` and led to `after`. Hits, borders, what is behind the camera and NaN are

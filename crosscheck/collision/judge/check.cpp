@@ -117,9 +117,9 @@ class RunJudge {
         if ((f.number >= first_frames && f.number % first_frames != 0) || power_.has_seen_all())
             return;
         std::vector<std::size_t> hits;
-        const float hit = f.params.constants.collision_time;
+        const float time = f.params.constants.collision_time;
         for (std::size_t i = 0; i < f.before.particles.size() && hits.size() < 4096; ++i)
-            if (f.before.particles.collide_time[i] < 0.0F && f.reference.particles().collide_time[i] == hit)
+            if (is_hit(f.before.particles.collide_time[i], f.reference.particles().collide_time[i], time))
                 hits.push_back(i);
         const StepInputs inputs{f.before.particles, f.before.cdt, scene_.obstacles, f.params};
         const auto pass = step_pass(inputs);

@@ -11,22 +11,13 @@
 #include "tests/trace/small_trace.hpp"
 
 using namespace lockstep;
+using test::check_trace;
 using test::record;
 using test::small_info;
 
 namespace {
 
 constexpr int frames = 8;
-
-CheckReport check_trace(const std::filesystem::path& file, CheckMode mode = CheckMode::resync) {
-    TraceReader trace(file);
-    TraceSide recorded(trace);
-    CheckOptions options;
-    options.mode = mode;
-    options.frames = trace.info().frames;
-    options.known = known_operations(trace.info());
-    return check(trace.info().scene, followed_profile(trace.info()), recorded, options);
-}
 
 float next_float(float x) { return std::bit_cast<float>(std::bit_cast<std::uint32_t>(x) + 1U); }
 

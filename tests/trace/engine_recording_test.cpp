@@ -35,15 +35,7 @@ class EngineRecording {
 
     [[nodiscard]] TraceInfo info() const { return TraceReader(file_).info(); }
 
-    [[nodiscard]] CheckReport check(CheckMode mode = CheckMode::resync) const {
-        TraceReader trace(file_);
-        TraceSide recorded(trace);
-        CheckOptions options;
-        options.mode = mode;
-        options.frames = trace.info().frames;
-        options.known = known_operations(trace.info());
-        return lockstep::check(trace.info().scene, followed_profile(trace.info()), recorded, options);
-    }
+    [[nodiscard]] CheckReport check(CheckMode mode = CheckMode::resync) const { return test::check_trace(file_, mode); }
 
   private:
     test::TemporaryFolder folder_;

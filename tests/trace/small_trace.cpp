@@ -3,6 +3,7 @@
 #include <fstream>
 #include <iterator>
 
+#include "crosscheck/collision/record/trace_side.hpp"
 #include "crosscheck/collision/record/trace_writer.hpp"
 #include "crosscheck/record/seal.hpp"
 #include "crosscheck/scene/scene_file.hpp"
@@ -45,6 +46,16 @@ void record(const std::filesystem::path& file, const TraceInfo& info, int frames
         writer.add(particles, info.has_cdt ? &cdt : nullptr);
     }
     writer.commit();
+}
+
+CheckReport check_trace(const std::filesystem::path& file, CheckMode mode) {
+    TraceReader trace(file);
+    TraceSide recorded(trace);
+    CheckOptions options;
+    options.mode = mode;
+    options.frames = trace.info().frames;
+    options.known = known_operations(trace.info());
+    return check(trace.info().scene, followed_profile(trace.info()), recorded, options);
 }
 
 std::string error_of(const std::function<void()>& action) {

@@ -3,6 +3,7 @@
 #include <functional>
 #include <string>
 
+#include "crosscheck/collision/judge/check.hpp"
 #include "crosscheck/collision/record/trace_info.hpp"
 #include "reference/model/collision/particles.hpp"
 #include "reference/model/image.hpp"
@@ -20,6 +21,9 @@ using Edit = std::function<void(int frame, Particles& particles, CollisionImage&
 
 /// Writes a trace of what the reference computes with info's profile, and `edit` makes of it.
 void record(const std::filesystem::path& file, const TraceInfo& info, int frames, const Edit& edit = {});
+
+/// All of a trace's frames, by the profile of the driver that it names.
+CheckReport check_trace(const std::filesystem::path& file, CheckMode mode = CheckMode::resync);
 
 /// What an Error says, or nothing if there is none.
 std::string error_of(const std::function<void()>& action);

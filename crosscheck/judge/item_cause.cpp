@@ -229,7 +229,8 @@ void ItemCauseFinder::try_single(const JudgedPass& pass, const std::vector<ItemV
     if (frames_ <= trial_frames && whole_ones().empty() &&
         !(joint.explains_all() && joint.best.front().mistakes.size() == 1))
         try_pairs(part(0, first_items), held, divergent_before);
-    if (!tried_.empty() && tried_.front().explained == divergent_)
+    if (!tried_.empty() && tried_.front().explained == divergent_ &&
+        std::any_of(tried_.begin(), tried_.end(), [](const Hypothesis& h) { return h.telling != 0; }))
         try_all(part(first_items, agreeing_items_held));
 }
 

@@ -17,19 +17,16 @@ auto values_of(std::span<const std::uint32_t> words, const View& like) {
     };
 }
 
-} // namespace
-
-bool alike(Value a, Value b) {
-    return same_bits(a, b) || (a.scalar == Scalar::float32 && a.real() == 0.0F && b.real() == 0.0F);
-}
-
-bool ItemLikeness::near(std::size_t item, const ValueOf& a, const ValueOf& b, float ulps) const {
-    const View& before = pass_.before[pass_.pass.resource()];
+/// Whether the values of an item differ by rounding alone, in every field; `a` and `b`: of a component and its word.
+bool are_near(const ItemLikeness& likeness, std::size_t item, const auto& a, const auto& b, float ulps) {
+    const JudgedPass& pass = likeness.pass();
+    const std::span<const Component> parts = likeness.parts();
+    const View& before = pass.before[pass.pass.resource()];
     std::array<std::array<float, 4>, 3> field{};
-    for (std::size_t from = 0, to = 0; from < parts_.size(); from = to) {
+    for (std::size_t from = 0, to = 0; from < parts.size(); from = to) {
         std::size_t n = 0;
-        for (to = from; to < parts_.size() && parts_[to].field == parts_[from].field && n < 4; ++to) {
-            const Value x = a(parts_[to], to), y = b(parts_[to], to);
+        for (to = from; to < parts.size() && parts[to].field == parts[from].field && n < 4; ++to) {
+            const Value x = a(parts[to], to), y = b(parts[to], to);
             if (x.scalar != Scalar::float32) {
                 if (!same_bits(x, y))
                     return false;
@@ -37,13 +34,19 @@ bool ItemLikeness::near(std::size_t item, const ValueOf& a, const ValueOf& b, fl
             }
             field[0][n] = x.real();
             field[1][n] = y.real();
-            field[2][n++] = before.value(parts_[to].field, item, parts_[to].component).real();
+            field[2][n++] = before.value(parts[to].field, item, parts[to].component).real();
         }
         if (!differ_by_rounding(std::span(field[0].data(), n), std::span(field[1].data(), n),
                                 std::span(field[2].data(), n), ulps))
             return false;
     }
     return true;
+}
+
+} // namespace
+
+bool alike(Value a, Value b) {
+    return same_bits(a, b) || (a.scalar == Scalar::float32 && a.real() == 0.0F && b.real() == 0.0F);
 }
 
 bool ItemLikeness::are(const View& side, std::size_t item, std::span<const std::uint32_t> words) const {
@@ -64,15 +67,15 @@ bool ItemLikeness::are_references(std::size_t item, std::span<const std::uint32_
 }
 
 bool ItemLikeness::are_near_gpus(std::size_t item, std::span<const std::uint32_t> words, float ulps) const {
-    return near(item, values_of(words, pass_.gpu), values_of(pass_.gpu, item), ulps);
+    return are_near(*this, item, values_of(words, pass_.gpu), values_of(pass_.gpu, item), ulps);
 }
 
 bool ItemLikeness::are_near_references(std::size_t item, std::span<const std::uint32_t> words, float ulps) const {
-    return near(item, values_of(words, pass_.reference), values_of(pass_.reference, item), ulps);
+    return are_near(*this, item, values_of(words, pass_.reference), values_of(pass_.reference, item), ulps);
 }
 
 bool ItemLikeness::is_off_by_rounding(std::size_t item) const {
-    return near(item, values_of(pass_.gpu, item), values_of(pass_.reference, item), rewritten_ulps);
+    return are_near(*this, item, values_of(pass_.gpu, item), values_of(pass_.reference, item), rewritten_ulps);
 }
 
 } // namespace lockstep

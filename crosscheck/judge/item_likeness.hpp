@@ -1,7 +1,6 @@
 #pragma once
 #include <cstddef>
 #include <cstdint>
-#include <functional>
 #include <span>
 #include <vector>
 
@@ -29,9 +28,7 @@ class ItemLikeness {
     [[nodiscard]] bool is_off_by_rounding(std::size_t item) const;
 
   private:
-    using ValueOf = std::function<Value(const Component& part, std::size_t word)>;
     [[nodiscard]] bool are(const View& side, std::size_t item, std::span<const std::uint32_t> words) const;
-    [[nodiscard]] bool near(std::size_t item, const ValueOf& a, const ValueOf& b, float ulps) const;
 
     const JudgedPass& pass_;
     std::vector<Component> parts_;

@@ -15,24 +15,74 @@ namespace {
 
 constexpr std::size_t place(Situation situation) { return static_cast<std::size_t>(situation); }
 
+/// Which particles lie in the image beyond any doubt, out of reach of its border: far more than rounding can move them,
+/// in whatever order a driver sums.
+class WellInside {
+  public:
+    explicit WellInside(const FrameParams& params)
+        : matrix_(params.collision_proj_view), half_width_(0.5F * static_cast<float>(params.width)),
+          half_height_(0.5F * static_cast<float>(params.height)),
+          margin_(static_cast<float>(params.constants.texel_collide_range + 1)),
+          is_known_(params.switches.perspective_divide == PerspectiveDivide::on && params.width <= widest &&
+                    params.height <= widest) {}
+
+    [[nodiscard]] bool holds(const glm::vec3& p) const {
+        const float x = row(0, p), y = row(1, p), w = row(3, p);
+        const float left = half_width_ * (x + w), below = half_height_ * (y + w);
+        const float terms = magnitude(0, p) + magnitude(1, p) + magnitude(3, p);
+        return is_known_ && w > 0.0F && terms < most_cancelled * w && left > margin_ * w &&
+               left < (2.0F * half_width_ - margin_) * w && below > margin_ * w &&
+               below < (2.0F * half_height_ - margin_) * w;
+    }
+
+  private:
+    /// Four roundings of a sum whose terms are 32 w together, 2^-17 w, are an eighth of a texel in the widest image.
+    static constexpr int widest = 1 << 14;
+    static constexpr float most_cancelled = 32.0F;
+
+    [[nodiscard]] float row(int r, const glm::vec3& p) const {
+        return matrix_[0][r] * p.x + matrix_[1][r] * p.y + matrix_[2][r] * p.z + matrix_[3][r];
+    }
+    [[nodiscard]] float magnitude(int r, const glm::vec3& p) const {
+        return std::abs(matrix_[0][r] * p.x) + std::abs(matrix_[1][r] * p.y) + std::abs(matrix_[2][r] * p.z) +
+               std::abs(matrix_[3][r]);
+    }
+
+    glm::mat4 matrix_;
+    float half_width_, half_height_, margin_;
+    bool is_known_;
+};
+
 /// Looks at particles one by one.
 template <class A> class Observer {
   public:
     Observer(A fp, const Particles& before, const CollisionImage& cdt, const FrameParams& params,
              const Particles& after)
         : fp_(fp), before_(before), cdt_(cdt), params_(params), after_(after), values_(fp), image_(values_, params),
-          code_(params) {}
+          code_(params), inside_(params) {}
 
+    /// `closely`: its neighbours are looked at even without a hit.
     void look(std::size_t i, bool closely, Situations& found) {
+        const bool searches = before_.collide_time[i] < 0.0F;
+        if (closely || is_hit(i) || !inside_.holds(before_.position[i]))
+            look_at_all(i, closely, found);
+        else if (searches)
+            note(Situation::search, i, found);
+    }
+
+  private:
+    [[nodiscard]] bool is_hit(std::size_t i) const {
+        return lockstep::is_hit(before_.collide_time[i], after_.collide_time[i], params_.constants.collision_time);
+    }
+
+    void look_at_all(std::size_t i, bool closely, Situations& found) {
         const glm::vec3 position = before_.position[i];
         if (std::isnan(position.x) || std::isnan(position.y) || std::isnan(position.z))
             note(Situation::not_a_number, i, found);
         const auto clip = image_.clip({position.x, position.y, position.z});
         if (static_cast<float>(clip.w) <= 0.0F)
             note(Situation::behind_camera, i, found);
-        const float time = before_.collide_time[i];
-        const bool searches = time < 0.0F;
-        const bool hit = is_hit(time, after_.collide_time[i], params_.constants.collision_time);
+        const bool searches = before_.collide_time[i] < 0.0F, hit = is_hit(i);
         if (hit)
             note(Situation::hit, i, found);
         const auto p = image_.image_position(clip);
@@ -52,7 +102,6 @@ template <class A> class Observer {
             look_around(i, {base->x, base->y}, searches, hit, found);
     }
 
-  private:
     static bool between(float x) { return x > -1.0F && x < 0.0F; }
 
     [[nodiscard]] bool holds_particle(const glm::vec4& texel) const {
@@ -113,6 +162,7 @@ template <class A> class Observer {
     Values<A> values_;
     BaseTexelTwin<Values<A>> image_;
     CollisionCode code_;
+    WellInside inside_;
 };
 
 } // namespace

@@ -1,6 +1,7 @@
 #include "reference/collision/situations.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include "reference/collision/collision_code.hpp"
@@ -15,43 +16,39 @@ namespace {
 
 constexpr std::size_t place(Situation situation) { return static_cast<std::size_t>(situation); }
 
-/// Which particles lie in the image beyond any doubt, out of reach of its border: far more than rounding can move them,
-/// in whatever order a driver sums.
-class WellInside {
-  public:
-    explicit WellInside(const FrameParams& params)
-        : matrix_(params.collision_proj_view), half_width_(0.5F * static_cast<float>(params.width)),
-          half_height_(0.5F * static_cast<float>(params.height)),
-          margin_(static_cast<float>(params.constants.texel_collide_range + 1)),
-          is_known_(params.switches.perspective_divide == PerspectiveDivide::on && params.width <= widest &&
-                    params.height <= widest) {}
-
-    [[nodiscard]] bool holds(const glm::vec3& p) const {
-        const float x = row(0, p), y = row(1, p), w = row(3, p);
-        const float left = half_width_ * (x + w), below = half_height_ * (y + w);
-        const float terms = magnitude(0, p) + magnitude(1, p) + magnitude(3, p);
-        return is_known_ && w > 0.0F && terms < most_cancelled * w && left > margin_ * w &&
-               left < (2.0F * half_width_ - margin_) * w && below > margin_ * w &&
-               below < (2.0F * half_height_ - margin_) * w;
+/// Marks the particles that lie in the image beyond any doubt, out of reach of its border: farther inside than rounding
+/// can move them, in whatever order a driver sums.
+void mark_well_inside(std::span<const glm::vec3> positions, const FrameParams& params, std::uint8_t* marks) {
+    constexpr int widest = 1 << 14;
+    // Four roundings of sums whose terms are 32 w together, 2^-17 w, are an eighth of a texel in the widest image.
+    constexpr float most_cancelled = 32.0F;
+    const bool is_known =
+        params.switches.perspective_divide == PerspectiveDivide::on && std::max(params.width, params.height) <= widest;
+    std::fill_n(marks, positions.size(), std::uint8_t{0});
+    if (!is_known)
+        return;
+    const glm::mat4 m = params.collision_proj_view;
+    const float half_width = 0.5F * static_cast<float>(params.width),
+                half_height = 0.5F * static_cast<float>(params.height),
+                margin = static_cast<float>(params.constants.texel_collide_range + 1);
+    const std::size_t n = positions.size();
+    const glm::vec3* const position = positions.data();
+#pragma omp simd
+    for (std::size_t i = 0; i < n; ++i) {
+        const glm::vec3 p = position[i];
+        std::array<float, 4> row{}, terms{};
+        for (int r = 0; r < 4; ++r) {
+            const float x = m[0][r] * p.x, y = m[1][r] * p.y, z = m[2][r] * p.z;
+            row[r] = x + y + z + m[3][r];
+            terms[r] = std::abs(x) + std::abs(y) + std::abs(z) + std::abs(m[3][r]);
+        }
+        const float w = row[3], left = half_width * (row[0] + w), below = half_height * (row[1] + w);
+        const bool inside = (w > 0.0F) & (terms[0] + terms[1] + terms[3] < most_cancelled * w) & (left > margin * w) &
+                            (left < (2.0F * half_width - margin) * w) & (below > margin * w) &
+                            (below < (2.0F * half_height - margin) * w);
+        marks[i] = inside ? 1 : 0;
     }
-
-  private:
-    /// Four roundings of a sum whose terms are 32 w together, 2^-17 w, are an eighth of a texel in the widest image.
-    static constexpr int widest = 1 << 14;
-    static constexpr float most_cancelled = 32.0F;
-
-    [[nodiscard]] float row(int r, const glm::vec3& p) const {
-        return matrix_[0][r] * p.x + matrix_[1][r] * p.y + matrix_[2][r] * p.z + matrix_[3][r];
-    }
-    [[nodiscard]] float magnitude(int r, const glm::vec3& p) const {
-        return std::abs(matrix_[0][r] * p.x) + std::abs(matrix_[1][r] * p.y) + std::abs(matrix_[2][r] * p.z) +
-               std::abs(matrix_[3][r]);
-    }
-
-    glm::mat4 matrix_;
-    float half_width_, half_height_, margin_;
-    bool is_known_;
-};
+}
 
 /// Looks at particles one by one.
 template <class A> class Observer {
@@ -59,15 +56,17 @@ template <class A> class Observer {
     Observer(A fp, const Particles& before, const CollisionImage& cdt, const FrameParams& params,
              const Particles& after)
         : fp_(fp), before_(before), cdt_(cdt), params_(params), after_(after), values_(fp), image_(values_, params),
-          code_(params), inside_(params) {}
+          code_(params) {}
 
-    /// `closely`: its neighbours are looked at even without a hit.
-    void look(std::size_t i, bool closely, Situations& found) {
-        const bool searches = before_.collide_time[i] < 0.0F;
-        if (closely || is_hit(i) || !inside_.holds(before_.position[i]))
-            look_at_all(i, closely, found);
-        else if (searches)
-            note(Situation::search, i, found);
+    /// Every `stride`th has its neighbours looked at even without a hit.
+    void look(std::size_t first, std::size_t last, std::size_t stride, Situations& found) const {
+        std::vector<std::uint8_t> well_inside(last - first);
+        mark_well_inside(std::span(before_.position).subspan(first, last - first), params_, well_inside.data());
+        for (std::size_t i = first; i < last; ++i)
+            if (const bool closely = i % stride == 0; closely || well_inside[i - first] == 0 || is_hit(i))
+                look(i, closely, found);
+            else if (before_.collide_time[i] < 0.0F)
+                note(Situation::search, i, found);
     }
 
   private:
@@ -75,7 +74,7 @@ template <class A> class Observer {
         return lockstep::is_hit(before_.collide_time[i], after_.collide_time[i], params_.constants.collision_time);
     }
 
-    void look_at_all(std::size_t i, bool closely, Situations& found) {
+    void look(std::size_t i, bool closely, Situations& found) const {
         const glm::vec3 position = before_.position[i];
         if (std::isnan(position.x) || std::isnan(position.y) || std::isnan(position.z))
             note(Situation::not_a_number, i, found);
@@ -162,7 +161,6 @@ template <class A> class Observer {
     Values<A> values_;
     BaseTexelTwin<Values<A>> image_;
     CollisionCode code_;
-    WellInside inside_;
 };
 
 } // namespace
@@ -185,10 +183,9 @@ Situations situations_of(const Particles& before, const CollisionImage& cdt, con
     with_arithmetic(profile, params.switches.arithmetic, [&](auto fp) {
         parallel_blocks(static_cast<std::ptrdiff_t>(parts.size()), [&](std::ptrdiff_t b) {
             const FlushSubnormals guard = flush_in_step(params.switches, profile);
-            Observer observer(fp, before, cdt, params, after);
+            const Observer observer(fp, before, cdt, params, after);
             const std::size_t first = static_cast<std::size_t>(b) * block;
-            for (std::size_t i = first; i < std::min(first + block, n); ++i)
-                observer.look(i, i % stride == 0, parts[static_cast<std::size_t>(b)]);
+            observer.look(first, std::min(first + block, n), stride, parts[static_cast<std::size_t>(b)]);
         });
     });
     Situations all;

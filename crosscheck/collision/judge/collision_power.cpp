@@ -19,7 +19,7 @@
 namespace lockstep {
 namespace {
 
-constexpr std::size_t looked_at = 16384;     ///< particles of a frame, of those without a hit
+constexpr std::size_t looked_at = 8192;      ///< particles of a frame, of those without a hit
 constexpr std::size_t drawn_at_most = 16384; ///< particles, where it does not matter which of two is nearer
 constexpr std::size_t texels_judged = 16;
 constexpr std::size_t steps_a_frame = 3000; ///< that are tried with a mistake
@@ -35,6 +35,15 @@ bool is_about_depth(Deviation deviation) {
                   Deviation::depth_not_cleared, Deviation::obstacles_never_hide, Deviation::cdt_not_cleared});
 }
 
+/// Whether it can show in one of these situations alone, which are counted over all particles, and nobody was in them.
+bool has_no_place(Deviation deviation, const Situations& met) {
+    if (among(deviation, {Deviation::outside_fetched_as_edge, Deviation::outside_fetched_as_opposite_side,
+                          Deviation::outside_fetched_as_origin}))
+        return met.of(Situation::at_border) == 0;
+    return among(deviation, {Deviation::truncate_instead_of_floor, Deviation::floor_instead_of_truncate}) &&
+           met.of(Situation::left_of_image) == 0;
+}
+
 Particles every(const Particles& all, std::size_t stride) {
     Particles some;
     some.resize((all.size() + stride - 1) / stride);
@@ -46,7 +55,7 @@ Particles every(const Particles& all, std::size_t stride) {
 /// In which frames something is drawn again: in the first few, then in ever fewer; of many particles in fewer still.
 bool draws_in(int frame, std::size_t particles) {
     if (particles > 2 * drawn_at_most)
-        return frame < 3 || frame == 16 || frame % 64 == 0;
+        return frame == 2 || frame == 16 || frame % 64 == 0;
     return frame < 4 || std::has_single_bit(static_cast<unsigned>(frame)) || frame % 16 == 0;
 }
 
@@ -218,16 +227,17 @@ void CollisionPower::add(const PowerFrame& frame) {
 }
 
 void CollisionPower::try_steps(const PowerFrame& frame, const Situations& found) {
-    const std::vector<Deviation> all = unseen(false);
+    std::vector<Deviation> all = unseen(false);
     if (all.empty() || frame.after.size() == 0)
         return;
+    const std::size_t most = std::max<std::size_t>(steps_a_frame / all.size(), 2 * situation_count);
+    std::erase_if(all, [&](Deviation deviation) { return has_no_place(deviation, found); });
     const FrameInputs& in = frame.inputs;
     const StepInputs step_inputs{*in.before, *in.cdt, scene_.obstacles, *in.params, &in};
     const auto pass = step_pass(step_inputs);
     const SystemView before = step_state(step_inputs);
     const View reference = view(frame.after);
     const JudgedPass judged{*pass, profile_, known_, frame.number, before, reference, reference};
-    const std::size_t most = std::max<std::size_t>(steps_a_frame / all.size(), 2 * situation_count);
     std::vector<std::size_t> telling;
     const auto take = [&](const std::vector<std::size_t>& some, std::size_t count) { // others in every frame
         for (std::size_t i = 0; i < std::min(count, some.size()); ++i)

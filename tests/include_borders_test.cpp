@@ -66,7 +66,7 @@ std::optional<std::string> any_system_of(const std::string& file) {
 bool system_in_crosscheck(const std::string& file) { return file.starts_with("crosscheck/") && any_system_of(file); }
 
 /// The file that names the systems there are.
-const std::string registration = "crosscheck/cli/systems.cpp", default_system = "collision";
+const std::string registration = "crosscheck/cli/registered_systems.cpp.in", default_system = "collision";
 
 /// The system in whose folder a file lies, of those with one in crosscheck/ that puts both of its sides together; but
 /// for the system that the verbs are of besides.
@@ -169,7 +169,7 @@ TEST_CASE("include borders: a crossing is seen, with its line") {
           Strings{"crosscheck/judge/a.cpp:1: judge knows nothing of report"});
     CHECK(crossings("crosscheck/report/a.cpp", "#include \"crosscheck/judge/check.hpp\"\n").empty());
     CHECK(crossings("crosscheck/judge/a.cpp", "#include \"crosscheck/dust/system.hpp\"\n") ==
-          Strings{"crosscheck/judge/a.cpp:1: only crosscheck/cli/systems.cpp knows dust"});
+          Strings{"crosscheck/judge/a.cpp:1: only crosscheck/cli/registered_systems.cpp.in knows dust"});
     CHECK(crossings("crosscheck/report/a.cpp", "#include \"reference/model/dust/settings.hpp\"\n").size() == 1);
     CHECK(crossings("crosscheck/report/a.cpp", "#include \"reference/model/collision/scene.hpp\"\n") ==
           Strings{"crosscheck/report/a.cpp:1: report knows no system, collision neither"});
@@ -187,7 +187,7 @@ TEST_CASE("include borders: a crossing is seen, with its line") {
         CHECK(crossings(file, "#include \"reference/model/collision/scene.hpp\"\n") ==
               Strings{std::string(file) + ":1: verbs on any system know none, collision neither"});
     CHECK(crossings("crosscheck/dust/a.cpp", "#include \"gpu/dust/passes.hpp\"\n").empty());
-    CHECK(crossings("crosscheck/cli/systems.cpp", "#include \"crosscheck/dust/system.hpp\"\n").empty());
+    CHECK(crossings("crosscheck/cli/registered_systems.cpp.in", "#include \"crosscheck/dust/system.hpp\"\n").empty());
     CHECK(crossings("reference/readings/a.hpp", "#include \"reference/model/collision/scene.hpp\"\n") ==
           Strings{"reference/readings/a.hpp:1: only the system's own folders know collision"});
     CHECK(crossings("gpu/dust/a.hpp", "#include \"gpu/collision/octree.hpp\"\n").size() == 1);

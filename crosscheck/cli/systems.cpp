@@ -7,30 +7,12 @@
 #include <fmt/ranges.h>
 #include <nlohmann/json.hpp>
 
-#include "crosscheck/dust/system.hpp"
 #include "crosscheck/files/json_reader.hpp"
 #include "crosscheck/files/plain_text.hpp"
-#include "crosscheck/fluid/system.hpp"
 #include "crosscheck/judge/registered_system.hpp"
-#include "crosscheck/lifecycle/system.hpp"
-#include "crosscheck/lights/system.hpp"
 #include "reference/model/near_name.hpp"
 
 namespace lockstep {
-namespace {
-
-// One line a system.
-const std::vector<RegisteredSystem> registered{
-    {"dust", "grains that tools, balls and colliders move, by compute shaders", dust::load},
-    {"fluid", "particles as a fluid's surface, drawn in screen space", fluid::load},
-    {"lifecycle", "particles that are born, move, die and are packed, by compute shaders", lifecycle::load},
-    {"lights", "particles that are lights, through two 3D textures", lights::load},
-};
-
-} // namespace
-
-std::span<const RegisteredSystem> registered_systems() { return registered; }
-
 std::string_view name_of(const RegisteredSystem& system) { return system.name; }
 
 const RegisteredSystem* system_of_scene(const JsonValue& scene) {
@@ -44,6 +26,8 @@ const RegisteredSystem* system_of_scene(const JsonValue& scene) {
             return &system;
         names.emplace_back(system.name);
     }
+    if (const auto left_out = left_out_systems(); std::find(left_out.begin(), left_out.end(), name) != left_out.end())
+        value->fail(fmt::format("this program is built without system {}; cmake -DLOCKSTEP_SYSTEMS adds it", name));
     value->fail(fmt::format("'{}' is no system; there are {}{}", plain_line(name), fmt::join(names, ", "),
                             did_you_mean(name, names)));
 }

@@ -2,7 +2,6 @@
 #include <filesystem>
 #include <span>
 #include <string>
-
 #include <string_view>
 
 namespace lockstep {
@@ -13,8 +12,9 @@ struct RegisteredSystem;
 /// The system that a scene without "system" is of. It has a state and verbs of its own.
 inline constexpr std::string_view default_system = "collision";
 
-/// Every other that scene files may name.
+/// Every other that scene files may name, and those that this program is built without (CMake's LOCKSTEP_SYSTEMS).
 std::span<const RegisteredSystem> registered_systems();
+std::span<const std::string_view> left_out_systems();
 
 std::string_view name_of(const RegisteredSystem& system);
 

@@ -1,10 +1,13 @@
 #pragma once
 #include <string>
+#include <string_view>
 
 #include "crosscheck/judge/registered_system.hpp"
 #include "reference/model/dust/host.hpp"
 
 namespace lockstep::dust {
+
+inline constexpr std::string_view meaning = "grains that tools, balls and colliders move, by compute shaders";
 
 /// The dust system as a check sees it: its state, the kernels' twins, its named mistakes, and the start that the
 /// settings give. gpu/dust/passes.hpp has its other side.

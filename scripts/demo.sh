@@ -13,7 +13,7 @@ fi
 scripts/fetch_meshes.sh bunny
 $program check data/scenes/bunny_a.json --particles 50000 "$@"
 echo
-echo "That was after $((SECONDS / 60)) min $((SECONDS % 60)) s. The other systems (dust, fluid, lifecycle, lights) are built now."
+echo "The first verdict came after $((SECONDS / 60)) min $((SECONDS % 60)) s. The other systems (dust, fluid, lifecycle, lights) are built now."
 cmake --preset release -ULOCKSTEP_SYSTEMS >/dev/null
 cmake --build --preset release
 echo

@@ -67,6 +67,8 @@ constexpr std::array table{
     Row{Deviation::collide_time_not_tested, site::searches, Change::always},
     Row{Deviation::collide_time_zero_searches, site::searches, Change::or_equal, 0},
     Row{Deviation::collide_time_test_reversed, site::searches, Change::reversed, 0},
+    Row{Deviation::stands_unless_it_searches, site::stands, Change::always},
+    Row{Deviation::moves_without_search, site::stands, Change::never},
     Row{Deviation::own_position_from_texel, site::own_from_texel, Change::always},
     Row{Deviation::own_position_from_vertex, site::own_from_texel, Change::never},
     Row{Deviation::phantom_origin, site::phantom, Change::always},
@@ -239,10 +241,19 @@ bool can_make(std::string_view pass, const Mistake& mistake) {
     if (pass != "collision_pass" && (site == 0 || mistake.change == Change::spoiled))
         return false;
     using namespace lockstep::site;
-    static constexpr std::array<std::uint32_t, 12> of_listing{
-        perspective_divide.id, half.id,           base_by_floor.id, scale.id,
-        texture_coordinate.id, own_from_texel.id, own_texel.id,     own_texel_skipped.id,
-        neighbour.id,          phantom.id,        own_position.id,  zero_distance_hits.id};
+    static constexpr std::array<std::uint32_t, 13> of_listing{stands.id,
+                                                              perspective_divide.id,
+                                                              half.id,
+                                                              base_by_floor.id,
+                                                              scale.id,
+                                                              texture_coordinate.id,
+                                                              own_from_texel.id,
+                                                              own_texel.id,
+                                                              own_texel_skipped.id,
+                                                              neighbour.id,
+                                                              phantom.id,
+                                                              own_position.id,
+                                                              zero_distance_hits.id};
     static constexpr std::array<std::uint32_t, 14> of_images{
         proj_view.id, client_size.id,     texel_collide_range.id, clip.id,           ndc.id,
         rows.id,      columns.id,         image_position.id,      holds_particle.id, stored.id,

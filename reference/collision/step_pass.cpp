@@ -12,7 +12,6 @@
 #include "reference/collision/octree/octree_leaves.hpp"
 #include "reference/collision/octree/octree_twin.hpp"
 #include "reference/model/collision/collision_state.hpp"
-#include "reference/model/collision/layered_cdt.hpp"
 #include "reference/system/item_twin.hpp"
 
 namespace lockstep {
@@ -90,8 +89,6 @@ ItemPassOptions options(PassStage stage, const FrameParams& params) {
 }
 
 } // namespace
-
-bool is_listing(const Switches& switches) { return switches.search == Search::cdt && !has_remedies(switches); }
 
 std::string_view step_name(const Switches& switches) {
     if (switches.search == Search::octree)

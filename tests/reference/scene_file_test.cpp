@@ -174,7 +174,7 @@ TEST_CASE("scene_file: what is not a scene is told with path and what is allowed
 }
 
 TEST_CASE("scene_file: an emitter that is wrong is told with path and what is allowed") {
-    const std::string keys = "shape, count, min, max, direction, direction_jitter, speed, speed_jitter";
+    const std::string keys = "shape, count, min, max, direction, direction_jitter, speed, speed_jitter, collide_time";
     const auto [member, expected] = GENERATE_COPY(table<std::string, std::string>({
         {R"("count": -5)", "/count: -5 is not an integer from 1 to 100000000"},
         {R"("count": 0)", "/count: 0 is not an integer from 1 to 100000000"},
@@ -195,6 +195,7 @@ TEST_CASE("scene_file: an emitter that is wrong is told with path and what is al
         {R"("count": 1, "direction_jitter": 0.6)", "/direction_jitter: 0.6 is not a number from 0 to 0.5"},
         {R"("count": 1, "speed": -1)", "/speed: -1 is not a number from 0 up"},
         {R"("count": 1, "speed": true)", "/speed: true is not a number from 0 up"},
+        {R"("count": 1, "collide_time": "now")", "/collide_time: \"now\" is not a finite number"},
         {R"("count": 1, "speed_jitter": -0.1)", "/speed_jitter: -0.1 is not a fraction from 0 to 1"},
     }));
     CHECK(error_of_emitter(member) == "x.json: /emitters/0" + expected);

@@ -33,7 +33,7 @@ TEST_CASE("scene settings: every shipped scene in every preset comes back as it 
         const std::string name = entry.path().stem().string();
         if (entry.path().extension() != ".json" || name.starts_with("bunny") || name.starts_with("dragon"))
             continue; // their meshes may not be there; they have no settings of their own
-        for (const char* preset : {"paper", "corrected", "exact"}) {
+        for (const char* preset : {"listing", "paper", "corrected", "exact"}) {
             SceneOptions options;
             options.particles = 10;
             options.preset = preset;

@@ -35,7 +35,7 @@ struct FrameSettings {
 /// Everything a run needs, ready to use: both sides start from this and nothing else.
 struct Scene {
     std::string name;
-    Particles start;                    ///< collide_time 0, so frame 0 only builds the CDT
+    Particles start;                    ///< at collide_time 0 nobody searches, and frame 0 only builds the CDT
     Mesh obstacles;                     ///< all obstacles, world space, in drawing order; may be empty
     Camera camera;                      ///< render camera
     std::vector<CameraKey> camera_path; ///< motion of the render camera, sorted by frame

@@ -27,6 +27,9 @@ enum class OutsideImage { skip };
 enum class ZeroDistance { hit, skip };
 enum class CollisionStep { full, tick };
 enum class SearchWhen { collide_time_negative };
+/// What becomes of a particle that does not search. By its indentation, the listing's branch without a hit (line 25)
+/// lies inside that of the search (line 8): then it keeps its state, collide time included. The text has it fall.
+enum class NotSearching { moves, stands };
 enum class CdtFormat { rgba32f, rgba16f, rgba8 };
 enum class CdtCamera { moving, fixed };
 enum class ObstaclesInCdt { off, vertices, triangles };
@@ -53,6 +56,7 @@ struct Switches {
     ZeroDistance zero_distance = ZeroDistance::skip;
     CollisionStep collision_step = CollisionStep::tick;
     SearchWhen search_when = SearchWhen::collide_time_negative;
+    NotSearching not_searching = NotSearching::moves;
     CdtFormat cdt_format = CdtFormat::rgba32f;
     CdtCamera cdt_camera = CdtCamera::moving;
     ObstaclesInCdt obstacles_in_cdt = ObstaclesInCdt::triangles;
@@ -84,8 +88,12 @@ struct SwitchInfo {
 
 std::span<const SwitchInfo> switch_table();
 
-/// `paper`: the listing at its word. `corrected`: what the text means. `exact`: corrected, in portable arithmetic.
-/// Throws Error naming the presets for any other name.
+/// What preset() knows, in the order in which they are told.
+std::span<const std::string_view> preset_names();
+
+/// `listing`: the listing (Fig. 3-3) as printed, line by line. `paper`: its search and its answers, with the divide and
+/// the drawn position of the text, without which nothing is found where it is stored. `corrected`: what the text means.
+/// `exact`: corrected, in portable arithmetic. Throws Error naming the presets for any other name.
 Switches preset(std::string_view name);
 
 /// Sets one switch from text. Throws Error naming the switches, or the allowed values.

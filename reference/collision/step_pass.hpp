@@ -21,8 +21,8 @@ struct StepInputs {
     const FrameInputs* mixed_up = nullptr; ///< what the host's mistakes take instead; null: nothing
 };
 
-/// The twin of the particles' step of one frame, by the scene's switches: the listing's search, the octree's, or the
-/// one with remedies.
+/// The twin of the particles' step of one frame, by the scene's switches: the listing's search, the octree's, the
+/// depth's, or the one with remedies.
 std::unique_ptr<ItemPass> step_pass(const StepInputs& inputs);
 
 /// Its name: "collision_pass".

@@ -216,7 +216,7 @@ TEST_CASE("scene_file: a member that is wrong is told with path and what is allo
         {R"("switches": {"speed_factor": "fast"})", "/switches/speed_factor: \"fast\" is not a finite number"},
         {R"("constants": {"ticks": 1})",
          "/constants: unknown key \"ticks\"; the keys here are tick, gravity, collision_range, collision_time, "
-         "texel_collide_range, billboard_radius, octree_size"},
+         "texel_collide_range, billboard_radius, octree_size, surface_thickness"},
         {R"("constants": {"tick": 0})", "/constants/tick: 0 is not a number above 0"},
         {R"("constants": {"tick": 1e-39})", "/constants/tick: 1e-39 is not a normal float, which is 1.2e-38 or more"},
         {R"("constants": {"collision_range": -0.01})", "/constants/collision_range: -0.01 is not a number above 0"},
@@ -309,7 +309,7 @@ TEST_CASE("scene_file: an option that is wrong is told with what is allowed") {
     CHECK_THAT(error_of_option(options),
                Catch::StartsWith("--set warp=9: nothing is named warp; the switches are perspective_divide, ") &&
                    Catch::EndsWith("; the constants are tick, gravity, collision_range, collision_time, "
-                                   "texel_collide_range, billboard_radius, octree_size"));
+                                   "texel_collide_range, billboard_radius, octree_size, surface_thickness"));
 }
 
 TEST_CASE("scene_file: a long value is cut short and stays on one line") {

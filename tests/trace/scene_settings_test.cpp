@@ -46,6 +46,7 @@ TEST_CASE("scene settings: every shipped scene in every preset comes back as it 
             CHECK(back.constants.tick == scene.constants.tick);
             CHECK(back.constants.gravity == scene.constants.gravity);
             CHECK(back.constants.octree_size == scene.constants.octree_size);
+            CHECK(back.constants.surface_thickness == scene.constants.surface_thickness);
             CHECK(back.width == scene.width);
             CHECK(back.height == scene.height);
             CHECK(back.cdt_box.min == scene.cdt_box.min);

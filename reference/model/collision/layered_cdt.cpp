@@ -23,6 +23,14 @@ void require_corrected(const Switches& switches, std::span<const std::string_vie
     }
 }
 
+/// A texel of depth is unprojected as it was projected, and holds a float.
+void check_depth_search(const Switches& switches) {
+    constexpr std::array<std::string_view, 3> corrected{"perspective_divide", "base_texel", "cdt_format"};
+    require_corrected(switches, corrected, "search = depth needs");
+    if (switches.obstacles_in_cdt == ObstaclesInCdt::vertices)
+        throw Error("switch obstacles_in_cdt: search = depth needs triangles or off, not vertices");
+}
+
 } // namespace
 
 CdtPlanes cdt_planes(const Switches& switches) {
@@ -47,11 +55,13 @@ void check_switches(const Switches& switches) {
                                 "not compute",
                                 switch_value(switches, "search")));
     if (switches.velocity == Velocity::vector && !is_listing(switches))
-        throw Error("switch velocity: search = octree, cdt_layers, cdt_cameras, search_window and "
+        throw Error("switch velocity: search = octree, search = depth, cdt_layers, cdt_cameras, search_window and "
                     "response need direction_and_speed, not vector");
     if (switches.not_searching == NotSearching::stands && !is_listing(switches))
-        throw Error("switch not_searching: search = octree, cdt_layers, cdt_cameras, search_window and "
+        throw Error("switch not_searching: search = octree, search = depth, cdt_layers, cdt_cameras, search_window and "
                     "response need moves, not stands");
+    if (switches.search == Search::depth)
+        check_depth_search(switches);
     if (!has_remedies(switches))
         return;
     if (switches.step == Step::compute)

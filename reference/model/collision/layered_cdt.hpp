@@ -49,7 +49,7 @@ bool chooses_pass(std::string_view switch_name);
 
 /// Throws Error naming a switch that does not go with another. The remedies repair the corrected reading of the
 /// listing and know no other, nor do all of them go together; step = compute, velocity = vector and
-/// not_searching = stands are the listing's own search.
+/// not_searching = stands are the listing's own search; search = depth needs a divide, whole texels and floats.
 void check_switches(const Switches& switches);
 
 /// Height of a scene's CDT in texels. Throws Error like check_switches. With remedies, plane p lies in rows

@@ -14,7 +14,7 @@ namespace lockstep {
 namespace {
 
 using Names = std::string_view;
-constexpr std::array<Names, 2> search{"cdt", "octree"};
+constexpr std::array<Names, 3> search{"cdt", "octree", "depth"};
 constexpr std::array<Names, 2> step{"transform_feedback", "compute"};
 constexpr std::array<Names, 2> off_on{"off", "on"};
 constexpr std::array<Names, 1> times_half{"times_half"};
@@ -102,7 +102,7 @@ std::span<const SwitchInfo> switch_table() {
                                    "the point is drawn where the particle was, or is now"),
         named<&S::arithmetic>("arithmetic", arithmetic, "GLSL's own functions, or portable.glsl"),
         named<&S::search>("search", search,
-                          "neighbours are looked for in the CDT, or in an octree (thesis, chapter 5)"),
+                          "hits are looked for in the CDT, in an octree (thesis, chapter 5), or in obstacles' depth"),
         named<&S::step>("step", step, "the listing's step is made by vertex and fragment stages, or by compute stages"),
         count<&S::cdt_layers>("cdt_layers", one_to_eight, "particles a texel of the CDT holds, nearest first"),
         count<&S::cdt_cameras>("cdt_cameras", std::span(one_to_eight).first(2),

@@ -10,9 +10,10 @@ namespace lockstep {
 /// Where the thesis's listing (Fig. 3-3) and its text disagree or are silent, both readings can be chosen
 /// (spec, "The listing"). Every switch works in the reference and in the shader.
 
-/// Where a particle looks for neighbours: in the CDT, or in the octree the thesis compares it with (octree.hpp), which
-/// then takes the place of the passes that draw and read the CDT.
-enum class Search { cdt, octree };
+/// Where a particle looks for what it hits: in the CDT; in the octree the thesis compares it with (octree.hpp), which
+/// then takes the place of the passes that draw and read the CDT; or in the obstacles' depth, as engines do, which is
+/// drawn into the CDT in the place of positions.
+enum class Search { cdt, octree, depth };
 /// Which stage makes the listing's step: a vertex stage whose outputs are captured, drawn as points, or a compute stage
 /// that finds the texel of each point, and the nearest point of each texel, by itself.
 enum class Step { transform_feedback, compute };

@@ -148,8 +148,10 @@ void print_rest(const StudyRequest& options) {
 
 void study_scene(const StudyRequest& options) {
     const Scene scene = load(options.run);
-    if (scene.switches.search == Search::octree)
-        throw Error("study: search = octree leaves no CDT to study; --thesis has the octree's recall");
+    if (scene.switches.search != Search::cdt)
+        throw Error(
+            fmt::format("study: search = {} leaves no CDT of particles to study; --thesis has the octree's recall",
+                        switch_value(scene.switches, "search")));
     if (!options.chart.empty() && !have_gnuplot())
         throw Error(fmt::format("study: --chart: {}", no_gnuplot));
     std::optional<Context> context;

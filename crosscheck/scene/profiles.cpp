@@ -222,7 +222,8 @@ bool lacks_precise(const std::filesystem::path& shaders) {
     constexpr std::pair<std::string_view, Stage> computing[] = {{"collision_pass", Stage::vertex},
                                                                 {"collision_pass", Stage::compute},
                                                                 {"layered_collision_pass", Stage::vertex},
-                                                                {"octree_pass", Stage::compute}};
+                                                                {"octree_pass", Stage::compute},
+                                                                {"depth_pass", Stage::compute}};
     return !shaders.empty() && std::any_of(std::begin(computing), std::end(computing), [&](const auto& of) {
         return !says(load_stage(collision_shaders(shaders), of.first, of.second).text, "precise");
     });

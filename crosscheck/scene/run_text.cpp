@@ -26,6 +26,9 @@ std::string switches_text(const Scene& scene) {
     if (scene.switches.search == Search::octree)
         return fmt::format("arithmetic {}, octree of depth {}, root {}", arithmetic, octree_depth,
                            scene.constants.octree_size);
+    if (scene.switches.search == Search::depth)
+        return fmt::format("arithmetic {}, depth {}x{}, surfaces {} thick", arithmetic, scene.width, scene.height,
+                           scene.constants.surface_thickness);
     return fmt::format("arithmetic {}, CDT {} {}x{}, radius {}{}", arithmetic,
                        switch_value(scene.switches, "cdt_format"), scene.width, scene.height,
                        scene.constants.texel_collide_range, scene.switches.step == Step::compute ? ", compute" : "");

@@ -33,6 +33,7 @@ const std::array table{
                  [](const Constants& c) { return nlohmann::json(c.texel_collide_range); }},
     real<&Constants::billboard_radius, number::positive>("billboard_radius"),
     real<&Constants::octree_size, octree_size>("octree_size"),
+    real<&Constants::surface_thickness, number::positive>("surface_thickness"),
 };
 
 } // namespace

@@ -17,10 +17,11 @@ Emitter read_emitter(const JsonValue& json) {
     if (const auto shape = json.find("shape"))
         emitter.shape = static_cast<EmitterShape>(shape->choice({"box", "lattice", "shell"}));
     if (emitter.shape == EmitterShape::shell)
-        json.check_keys(
-            {"shape", "count", "min", "max", "thickness", "direction", "direction_jitter", "speed", "speed_jitter"});
+        json.check_keys({"shape", "count", "min", "max", "thickness", "direction", "direction_jitter", "speed",
+                         "speed_jitter", "collide_time"});
     else
-        json.check_keys({"shape", "count", "min", "max", "direction", "direction_jitter", "speed", "speed_jitter"});
+        json.check_keys(
+            {"shape", "count", "min", "max", "direction", "direction_jitter", "speed", "speed_jitter", "collide_time"});
     emitter.count = static_cast<std::size_t>(json.at("count").integer(1, most_particles));
     emitter.box = read_box(json);
     if (const auto thickness = json.find("thickness"))
@@ -36,6 +37,8 @@ Emitter read_emitter(const JsonValue& json) {
         emitter.speed = speed->number(number::not_negative);
     if (const auto jitter = json.find("speed_jitter"))
         emitter.speed_jitter = jitter->number(fraction);
+    if (const auto time = json.find("collide_time"))
+        emitter.collide_time = time->number();
     return emitter;
 }
 

@@ -77,8 +77,8 @@ ClipSpace read_clip_space(const JsonValue& json, const Switches& switches) {
                                         space.first_row));
     }
     read_field(json, "depth", space.depth, read_depth);
-    if (space.depth != ClipDepth{} && has_remedies(switches))
-        json.fail("depth: cdt_layers, cdt_cameras, search_window and response need [-1, 1]");
+    if (space.depth != ClipDepth{} && (has_remedies(switches) || switches.search == Search::depth))
+        json.fail("depth: search = depth, cdt_layers, cdt_cameras, search_window and response need [-1, 1]");
     return space;
 }
 

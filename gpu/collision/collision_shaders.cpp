@@ -28,9 +28,10 @@ void add_listing(const Switches& switches, std::vector<PassStages>& passes) {
 
 /// Of the settings of one switch, the first that has a file run; empty where there is none, or where it runs as it is.
 std::string setting_that_runs(const std::string& file, const Switches& switches) {
-    constexpr std::array<std::pair<std::string_view, std::string_view>, 6> choices{{{"step", "compute"},
+    constexpr std::array<std::pair<std::string_view, std::string_view>, 7> choices{{{"step", "compute"},
                                                                                     {"step", "transform_feedback"},
                                                                                     {"search", "octree"},
+                                                                                    {"search", "depth"},
                                                                                     {"cdt_layers", "2"},
                                                                                     {"obstacles_in_cdt", "triangles"},
                                                                                     {"obstacles_in_cdt", "vertices"}}};
@@ -69,6 +70,8 @@ std::vector<PassStages> collision_stages(const Scene& scene, bool rendered) {
     std::vector<PassStages> passes;
     if (octree)
         passes.push_back({"octree_pass", compute_alone});
+    else if (switches.search == Search::depth)
+        passes.push_back({"depth_pass", compute_alone});
     else if (has_remedies(switches))
         passes.insert(passes.end(), {{"layered_collision_pass", vertex_alone}, {"layered_cdt", no_geometry}});
     else

@@ -42,6 +42,8 @@ GpuSimulation::GpuSimulation(const Scene& scene, const std::filesystem::path& sh
                                 scene.name, scene.clip_space.depth.near_plane, scene.clip_space.depth.far_plane));
     if (scene.switches.search == Search::octree)
         octree_pass_.emplace(scene, shaders);
+    else if (scene.switches.search == Search::depth)
+        depth_pass_.emplace(scene, shaders);
     else if (scene.switches.step == Step::compute)
         compute_pass_.emplace(scene, shaders);
     else if (!layered_)
@@ -97,6 +99,10 @@ void GpuSimulation::run_passes(const FrameParams& params, std::size_t from, std:
     cdts_[to].bind_target();
     obstacle_pass_.run(obstacles_, params);
     pass_timer_.mark("obstacle_pass");
+    if (depth_pass_) {
+        depth_pass_->run(params, particles_[from], particles_[to], cdts_[from]);
+        return pass_timer_.mark("depth_pass");
+    }
     if (compute_pass_)
         return compute_pass_->run(params, particles_[from], particles_[to], cdts_[from], cdts_[to], pass_timer_);
     collision_pass_->run(params, particles_[from], particles_[to], cdts_[from], cdts_[to]);

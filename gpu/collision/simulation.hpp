@@ -10,6 +10,7 @@
 #include "gpu/collision/collision_trace.hpp"
 #include "gpu/collision/compute_collision_pass.hpp"
 #include "gpu/collision/compute_trace.hpp"
+#include "gpu/collision/depth_pass.hpp"
 #include "gpu/collision/gpu_side.hpp"
 #include "gpu/collision/layered_collision_pass.hpp"
 #include "gpu/collision/obstacle_pass.hpp"
@@ -31,7 +32,8 @@ class GpuSimulation final : public GpuSide {
     void upload(const Particles& particles, const CollisionImage& cdt) override;
 
     /// One frame: clear, obstacles, collision pass, or with remedies the layered one; with search = octree the octree's
-    /// two passes and a CDT that stays empty. Returns when the GPU is done.
+    /// two passes and a CDT that stays empty; with search = depth the depth pass and a CDT of obstacles' depth. Returns
+    /// when the GPU is done.
     void step(const FrameParams& params) override;
 
     [[nodiscard]] bool repeats() const override { return true; }
@@ -81,6 +83,7 @@ class GpuSimulation final : public GpuSide {
     std::optional<CollisionPass> collision_pass_;      ///< the listing's, step = transform_feedback
     std::optional<ComputeCollisionPass> compute_pass_; ///< step = compute: takes the place of collision_pass_
     std::optional<OctreePass> octree_pass_;            ///< search = octree: takes the place of these
+    std::optional<DepthPass> depth_pass_;              ///< search = depth: likewise
     std::array<ParticleBuffer, 2> particles_;
     std::array<CollisionTexture, 2> cdts_;
     std::optional<CollisionTrace> trace_;

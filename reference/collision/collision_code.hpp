@@ -29,4 +29,7 @@ class CollisionCode {
     glm::vec3 low_, step_, scale_, size_;
 };
 
+/// What a texel of the obstacles' depth holds, search = depth; alpha 0: no obstacle.
+inline glm::vec4 depth_code(float window_depth) { return {window_depth, 0.0F, 0.0F, 1.0F}; }
+
 } // namespace lockstep

@@ -5,6 +5,7 @@
 #include <span>
 
 #include "reference/collision/collision_code.hpp"
+#include "reference/collision/depth/depth_twin.hpp"
 #include "reference/collision/layered_twin.hpp"
 #include "reference/collision/octree/octree_twin.hpp"
 #include "reference/collision/sites.hpp"
@@ -67,6 +68,8 @@ constexpr std::array table{
     Row{Deviation::collide_time_not_tested, site::searches, Change::always},
     Row{Deviation::collide_time_zero_searches, site::searches, Change::or_equal, 0},
     Row{Deviation::collide_time_test_reversed, site::searches, Change::reversed, 0},
+    Row{Deviation::stands_unless_it_searches, site::stands, Change::always},
+    Row{Deviation::moves_without_search, site::stands, Change::never},
     Row{Deviation::own_position_from_texel, site::own_from_texel, Change::always},
     Row{Deviation::own_position_from_vertex, site::own_from_texel, Change::never},
     Row{Deviation::phantom_origin, site::phantom, Change::always},
@@ -129,7 +132,7 @@ constexpr std::array table{
     Row{Deviation::collide_time_counted_twice, site::counted, Change::doubled},
 };
 
-constexpr std::string_view octree = "octree_pass", layered = "layered_collision_pass";
+constexpr std::string_view octree = "octree_pass", depth = "depth_pass", layered = "layered_collision_pass";
 const std::array searches{
     SearchMistake{octree, "itself_not_skipped", "the particle is its own neighbour",
                   mistake_at(site::itself, Change::never)},
@@ -147,6 +150,19 @@ const std::array searches{
                   mistake_at(site::corner, Change::zero)},
     SearchMistake{octree, "range_reversed", "len > u_CollisionRange for <",
                   mistake_at(site::in_range, Change::reversed, 0)},
+    SearchMistake{depth, "normal_reversed", "the normal points into the surface",
+                  mistake_at(site::normal, Change::negated)},
+    SearchMistake{depth, "thickness_not_tested", "a particle any way behind a surface hits it",
+                  mistake_at(site::within_thickness, Change::always)},
+    SearchMistake{depth, "front_is_behind", "a particle before a surface hits it",
+                  mistake_at(site::behind_surface, Change::reversed, 0)},
+    SearchMistake{depth, "thickness_in_front", "a particle before a surface hits it, too",
+                  mistake_at(site::behind_surface, Change::always)},
+    SearchMistake{depth, "behind_camera_seen", "clip w is not tested", mistake_at(site::in_front, Change::always)},
+    SearchMistake{depth, "empty_texels_shown", "an empty texel is a surface",
+                  mistake_at(site::shows_surface, Change::always)},
+    SearchMistake{depth, "texel_corner", "a texel is unprojected at its corner",
+                  mistake_at(site::texel_centre, Change::half_less)},
     SearchMistake{layered, "range_reversed", "len > u_CollisionRange for <",
                   mistake_at(site::in_range, Change::reversed, 0)},
     SearchMistake{layered, "obstacles_not_searched", "the obstacles' plane is not looked at",
@@ -239,17 +255,49 @@ bool can_make(std::string_view pass, const Mistake& mistake) {
     if (pass != "collision_pass" && (site == 0 || mistake.change == Change::spoiled))
         return false;
     using namespace lockstep::site;
-    static constexpr std::array<std::uint32_t, 12> of_listing{
-        perspective_divide.id, half.id,           base_by_floor.id, scale.id,
-        texture_coordinate.id, own_from_texel.id, own_texel.id,     own_texel_skipped.id,
-        neighbour.id,          phantom.id,        own_position.id,  zero_distance_hits.id};
+    static constexpr std::array<std::uint32_t, 13> of_listing{stands.id,
+                                                              perspective_divide.id,
+                                                              half.id,
+                                                              base_by_floor.id,
+                                                              scale.id,
+                                                              texture_coordinate.id,
+                                                              own_from_texel.id,
+                                                              own_texel.id,
+                                                              own_texel_skipped.id,
+                                                              neighbour.id,
+                                                              phantom.id,
+                                                              own_position.id,
+                                                              zero_distance_hits.id};
     static constexpr std::array<std::uint32_t, 14> of_images{
         proj_view.id, client_size.id,     texel_collide_range.id, clip.id,           ndc.id,
         rows.id,      columns.id,         image_position.id,      holds_particle.id, stored.id,
         box_low.id,   stored_position.id, scaled_to_box.id,       base_texel.id};
+    static constexpr std::array<std::uint32_t, 21> not_of_depth{stands.id,
+                                                                own_from_texel.id,
+                                                                own_texel.id,
+                                                                own_position.id,
+                                                                own_texel_skipped.id,
+                                                                rows.id,
+                                                                columns.id,
+                                                                texel_collide_range.id,
+                                                                neighbour.id,
+                                                                phantom.id,
+                                                                nearest.id,
+                                                                holds_particle.id,
+                                                                stored.id,
+                                                                box_low.id,
+                                                                stored_position.id,
+                                                                distance.id,
+                                                                zero_distance_hits.id,
+                                                                collision_range.id,
+                                                                in_range.id,
+                                                                scaled_to_box.id,
+                                                                away.id};
     const auto among = [&](const auto& sites) { return std::find(sites.begin(), sites.end(), site) != sites.end(); };
     if (pass == "collision_pass")
         return true;
+    if (pass == "depth_pass")
+        return !among(not_of_depth);
     if (pass == "octree_pass" && site == zero_distance_hits.id)
         return true;
     return !among(of_listing) && !(pass == "octree_pass" && among(of_images));

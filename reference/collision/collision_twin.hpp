@@ -81,10 +81,13 @@ template <class R> class CollisionTwin {
     [[nodiscard]] State operator()(const ParticleState& before) const {
         const ParticleTwinState<R> a = particle_.read(before);
         const auto position = image_.image_position(image_.clip(a.position));
-        if (r.decide(site::searches, a.collide_time < 0.0F))
+        if (r.decide(site::searches, a.collide_time < 0.0F)) {
             if (const auto base = image_.base_texel(position))
                 if (const auto hit = nearest_collision(a.position, *base))
                     return {particle_.collide(a, hit->away), hit};
+        } else if (r.setting(site::stands, switches_.not_searching == NotSearching::stands)) {
+            return {particle_.stand(a)};
+        }
         return {particle_.integrate(a)};
     }
 

@@ -246,7 +246,8 @@ void update_particles_fast(const Particles& before, const CollisionImage& cdt, c
     const int radius = params.constants.texel_collide_range;
     const bool exact = params.switches.arithmetic == ArithmeticSwitch::exact;
     const bool vector = params.switches.velocity == Velocity::vector;
-    if (vector || radius < 1 || radius > widest_radius || // the driver's roots may not be monotonic
+    const bool stands = params.switches.not_searching == NotSearching::stands;
+    if (vector || stands || radius < 1 || radius > widest_radius || // the driver's roots may not be monotonic
         (!exact && (profile.roots != nullptr || !has_fast_orders(profile))))
         return update_particles(before, cdt, params, profile, after);
     assert(&before != &after && cdt.width == params.width && cdt.height == params.height);

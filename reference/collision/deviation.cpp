@@ -26,6 +26,8 @@ constexpr std::array infos = [] {
         DeviationInfo{collide_time_not_tested, "collide_time_not_tested", "every particle searches"},
         DeviationInfo{collide_time_zero_searches, "collide_time_zero_searches", "searches at collide time <= 0"},
         DeviationInfo{collide_time_test_reversed, "collide_time_test_reversed", "searches at collide time > 0"},
+        DeviationInfo{stands_unless_it_searches, "stands_unless_it_searches", "who does not search keeps its state"},
+        DeviationInfo{moves_without_search, "moves_without_search", "who does not search moves"},
         DeviationInfo{own_position_from_texel, "own_position_from_texel", "own position is the base texel's"},
         DeviationInfo{own_position_from_vertex, "own_position_from_vertex", "own position is the vertex's"},
         DeviationInfo{phantom_origin, "phantom_origin", "an empty texel is a particle at the origin"},

@@ -27,6 +27,8 @@ enum class Deviation {
     collide_time_not_tested,
     collide_time_zero_searches,
     collide_time_test_reversed,
+    stands_unless_it_searches,
+    moves_without_search,
     own_position_from_texel,
     own_position_from_vertex,
     phantom_origin,

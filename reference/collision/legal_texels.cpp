@@ -274,6 +274,8 @@ template <class A> class Candidates {
         }
         if (converts_.triangles)
             owner.code_range = code_.driver_codes(low, high);
+        if (params_.switches.search == Search::depth)
+            store_depth(owner);
         owner.is_reference = covered && rules == profile_.raster;
         owner.sure = sure;
         const NearestSide side = nearest_side(triangle, x, y, rules);
@@ -283,6 +285,13 @@ template <class A> class Candidates {
         owner.drawn_by_reference = covered;
         owner.place = std::uint64_t{triangle.primitive} << 32U | static_cast<std::uint32_t>(y * params_.width + x);
         add(owner, x, y);
+    }
+
+    static void store_depth(TexelOwner& owner) {
+        owner.code = depth_code(owner.reference_depth);
+        if (owner.code_range)
+            owner.code_range = {depth_code(std::nextafter(static_cast<float>(owner.depth.low), -HUGE_VALF)),
+                                depth_code(std::nextafter(static_cast<float>(owner.depth.high), HUGE_VALF))};
     }
 
     /// Of the obstacles' vertex stage.

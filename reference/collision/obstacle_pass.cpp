@@ -24,13 +24,15 @@ template <class A> void draw_obstacle_triangles(A fp, const Mesh& obstacles, con
     const FlushSubnormals guard(profile.flush_subnormals);
     const std::vector<glm::vec4> clip = projected_corners(fp, obstacles, params.collision_proj_view);
     const CollisionCode code(params);
+    const bool depth_alone = params.switches.search == Search::depth;
     const auto shader = [&](std::size_t triangle) {
         return [&, positions = stored_corners(fp, obstacles, triangle)](int x, int y, const auto& weights,
                                                                         float window_depth) {
             if (!(window_depth < depth.at(x, y)))
                 return;
             depth.at(x, y) = window_depth;
-            cdt.at(x, y) = code.encode(TriangleInterpolation<A>::mix(fp, positions, weights));
+            cdt.at(x, y) = depth_alone ? depth_code(window_depth)
+                                       : code.encode(TriangleInterpolation<A>::mix(fp, positions, weights));
         };
     };
     draw_triangles(fp, clip, obstacles.indices, params.width, params.height, profile, shader, params.clip_depth);

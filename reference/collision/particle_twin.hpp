@@ -64,6 +64,12 @@ template <class R> class ParticleTwin {
         return v;
     }
 
+    /// By the listing's indentation, lines 9 to 30 belong to those that search.
+    [[nodiscard]] State stand(const State& a) const {
+        return {r.note(site::position_kept, a.position), r.note(site::direction_kept, a.direction),
+                r.note(site::speed_kept, a.speed), r.note(site::collide_time_kept, a.collide_time)};
+    }
+
   private:
     [[nodiscard]] bool is_vector() const { return switches_.velocity == Velocity::vector; }
 

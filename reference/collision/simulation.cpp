@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "reference/collision/collision_pass_fast.hpp"
+#include "reference/collision/depth_pass.hpp"
 #include "reference/collision/layered_collision_pass.hpp"
 #include "reference/collision/obstacle_pass.hpp"
 #include "reference/collision/octree_pass.hpp"
@@ -22,6 +23,8 @@ void ReferenceSimulation::step_from(const Particles& before, const CollisionImag
         update_particles_layered(before, cdt, params, profile_, after_);
     } else if (params.switches.search == Search::octree) {
         octree_pass(before, obstacles_, params, profile_, after_);
+    } else if (params.switches.search == Search::depth) {
+        depth_pass(before, cdt, params, profile_, after_);
     } else {
         update_particles_fast(before, cdt, params, profile_, after_);
     }
@@ -36,7 +39,8 @@ void ReferenceSimulation::draw(const Particles& before, const Particles& after, 
     if (params.switches.search == Search::octree)
         return;
     obstacle_pass(obstacles_, params, profile_, cdt, depth_);
-    rasterise_particles_fast(before, after, params, profile_, cdt, depth_);
+    if (params.switches.search == Search::cdt)
+        rasterise_particles_fast(before, after, params, profile_, cdt, depth_);
 }
 
 void ReferenceSimulation::step(const FrameParams& params) {

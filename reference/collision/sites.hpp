@@ -34,6 +34,7 @@ inline constexpr Site base_texel{"base texel", "trace_base_texel", "/256 texel",
 
 // Lines 5 to 19.
 inline constexpr Site searches{"search", "trace_searches", "s"};
+inline constexpr Site stands{"stands where it does not search"};
 inline constexpr Site own_from_texel{"own position from texel"};
 inline constexpr Site own_texel{"own texel"};
 inline constexpr Site own_position{"own position", "trace_own_position"};
@@ -73,5 +74,11 @@ inline constexpr Site collide_time{"collide time", "v_CollideTime"};
 inline constexpr Site step{"step"};
 inline constexpr Site move{"move"};
 inline constexpr Site position{"position", "v_Position"};
+
+// Of a particle that does not search, where not_searching = stands.
+inline constexpr Site position_kept{"position kept", "v_Position"};
+inline constexpr Site direction_kept{"direction kept", "v_Dir"};
+inline constexpr Site speed_kept{"speed kept", "v_Speed"};
+inline constexpr Site collide_time_kept{"collide time kept", "v_CollideTime"};
 
 } // namespace lockstep::site

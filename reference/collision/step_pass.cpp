@@ -8,11 +8,11 @@
 
 #include "reference/collision/collision_mistakes.hpp"
 #include "reference/collision/collision_twin.hpp"
+#include "reference/collision/depth/depth_twin.hpp"
 #include "reference/collision/layered_twin.hpp"
 #include "reference/collision/octree/octree_leaves.hpp"
 #include "reference/collision/octree/octree_twin.hpp"
 #include "reference/model/collision/collision_state.hpp"
-#include "reference/model/collision/layered_cdt.hpp"
 #include "reference/system/item_twin.hpp"
 
 namespace lockstep {
@@ -81,6 +81,15 @@ struct OctreeStep {
     }
 };
 
+struct DepthStep {
+    static constexpr bool may_fuse = true;
+
+    StepInputs inputs;
+    template <class R> auto operator()(R& r, const PassInput& in, std::size_t item) const {
+        return DepthTwin(r, inputs.cdt, inputs.params)(particle(in, item));
+    }
+};
+
 ItemPassOptions options(PassStage stage, const FrameParams& params) {
     return {.name = std::string(step_name(params.switches)),
             .resource = collision::particles,
@@ -91,11 +100,11 @@ ItemPassOptions options(PassStage stage, const FrameParams& params) {
 
 } // namespace
 
-bool is_listing(const Switches& switches) { return switches.search == Search::cdt && !has_remedies(switches); }
-
 std::string_view step_name(const Switches& switches) {
     if (switches.search == Search::octree)
         return "octree_pass";
+    if (switches.search == Search::depth)
+        return "depth_pass";
     return has_remedies(switches) ? "layered_collision_pass" : "collision_pass";
 }
 
@@ -105,6 +114,8 @@ std::unique_ptr<ItemPass> step_pass(const StepInputs& inputs) {
         return item_pass(options(PassStage::compute, params),
                          OctreeStep{inputs, std::make_shared<const OctreeLeaves>(
                                                 fill_leaves(inputs.before.position, inputs.obstacles, params))});
+    if (params.switches.search == Search::depth)
+        return item_pass(options(PassStage::compute, params), DepthStep{inputs});
     if (has_remedies(params.switches))
         return item_pass(options(PassStage::vertex, params), LayeredStep{inputs});
     const PassStage stage = params.switches.step == Step::compute ? PassStage::compute : PassStage::vertex;

@@ -3,6 +3,7 @@
 #include <string_view>
 
 #include "reference/collision/frame_inputs.hpp"
+#include "reference/model/collision/layered_cdt.hpp"
 #include "reference/model/collision/particles.hpp"
 #include "reference/model/collision/scene.hpp"
 #include "reference/model/image.hpp"
@@ -10,9 +11,6 @@
 #include "reference/system/item_pass.hpp"
 
 namespace lockstep {
-
-/// Whether particles search as the listing does, and are drawn by its pass.
-bool is_listing(const Switches& switches);
 
 /// What the particles' step of one frame reads; outlives the pass.
 struct StepInputs {
@@ -23,8 +21,8 @@ struct StepInputs {
     const FrameInputs* mixed_up = nullptr; ///< what the host's mistakes take instead; null: nothing
 };
 
-/// The twin of the particles' step of one frame, by the scene's switches: the listing's search, or the octree's. Null
-/// for a search that has no twin.
+/// The twin of the particles' step of one frame, by the scene's switches: the listing's search, the octree's, the
+/// depth's, or the one with remedies.
 std::unique_ptr<ItemPass> step_pass(const StepInputs& inputs);
 
 /// Its name: "collision_pass".

@@ -200,6 +200,16 @@ Particle integrate(Particle a) {
     return v;
 }
 
+// By the listing's indentation, lines 9 to 30 belong to those that search.
+Particle stand(Particle a) {
+    Particle v;
+    v.position = ls_flush3(a.position);
+    v.direction = ls_flush3(a.direction);
+    v.speed = ls_flush(a.speed);
+    v.collide_time = ls_flush(a.collide_time);
+    return v;
+}
+
 void main() {
     uint self = PARTICLE;
     if (self >= u_ParticleCount)
@@ -215,6 +225,11 @@ void main() {
     TRACE(traced.trace_image_position, last_image_position);
     TRACE(traced.trace_base_texel, visible ? texel_base : ivec2(-1));
     Particle v;
+#if NOT_SEARCHING == NOT_SEARCHING_STANDS
+    if (!(0.0 > ls_flush(a.collide_time)))
+        v = stand(a);
+    else
+#endif
     if (ls_flush(a.collide_time) < 0.0 && visible && nearest_collision(a.position, texel_base, away))
         v = collide(a, away);
     else

@@ -179,6 +179,14 @@ void integrate() {
     v_Position = sum(a_Position, product(product(v_Dir, v_Speed), u_Tick));
 }
 
+// By the listing's indentation, lines 9 to 30 belong to those that search.
+void stand() {
+    v_Position = ls_flush3(a_Position);
+    v_Dir = ls_flush3(a_Dir);
+    v_Speed = ls_flush(a_Speed);
+    v_CollideTime = ls_flush(a_CollideTime);
+}
+
 void main() {
     START_TRACE();
     ivec2 texel_base;
@@ -189,6 +197,11 @@ void main() {
     TRACE(trace_texture_coordinate, last_texture_coordinate);
     TRACE(trace_image_position, last_image_position);
     TRACE(trace_base_texel, visible ? texel_base : ivec2(-1));
+#if NOT_SEARCHING == NOT_SEARCHING_STANDS
+    if (!(0.0 > ls_flush(a_CollideTime)))
+        stand();
+    else
+#endif
     if (ls_flush(a_CollideTime) < 0.0 && visible && nearest_collision(texel_base, away))
         collide(away);
     else

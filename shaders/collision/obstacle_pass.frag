@@ -1,6 +1,7 @@
 #version 330 core
 #extension GL_ARB_gpu_shader5 : require
-// Writes the obstacle's world position at the texel's centre into the collision detection texture.
+// Writes the obstacle's world position at the texel's centre into the collision detection texture; with search = depth
+// its window depth.
 #include "arithmetic.glsl"
 #include "clamp_to.glsl"
 #include "collision_code.glsl"
@@ -21,5 +22,9 @@ void main() {
     if (!fragment.covered)
         discard;
     gl_FragDepth = fragment.depth;
+#if SEARCH == SEARCH_DEPTH
+    o_Texel = vec4(fragment.depth, 0.0, 0.0, 1.0);
+#else
     o_Texel = encode_position(interpolate(g_Position, fragment.shares));
+#endif
 }

@@ -157,7 +157,8 @@ TEST_CASE("arguments: an unknown choice is told with the choices") {
     check_all({
         {{"check", scene, "--mode", "fre"}, "--mode: 'fre' is not one of resync, free" + help},
         {{"render", scene, "-o", "x.png", "--side", "tpu"}, "--side: 'tpu' is not one of cpu, gpu" + help},
-        {{"check", scene, "--preset", "correct"}, "unknown preset 'correct'; the presets are paper, corrected, exact"},
+        {{"check", scene, "--preset", "correct"},
+         "unknown preset 'correct'; the presets are listing, paper, corrected, exact"},
         {{"hash", scene, "--profile", "amd"}, "unknown profile 'amd'; the profiles are strict, llvmpipe, nvidia"},
         {{"check", scene, "--gl", "glx"},
          "unknown GL context 'glx'; allowed are auto, osmesa, egl, egl-device:N (N = 0, 1, ...)"},

@@ -45,8 +45,8 @@ std::vector<std::string> at_rest(const std::string& table) {
     std::istringstream lines(table);
     for (std::string line; std::getline(lines, line);) {
         const std::vector<std::string> row = words(line);
-        if (row.size() == 13 && row[1].find_first_not_of("0123456789") == std::string::npos)
-            column.push_back(row[7]);
+        if (row.size() == 15 && row[1].find_first_not_of("0123456789") == std::string::npos)
+            column.push_back(row[9]);
     }
     return column;
 }

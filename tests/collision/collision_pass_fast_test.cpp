@@ -85,7 +85,7 @@ TEST_CASE("fast collision: the obvious pass's bits for every combination of swit
             }
         combinations = std::move(next);
     }
-    CHECK(combinations.size() == 2 * 64 * 2 * 2 * 3);
+    CHECK(combinations.size() == 2 * 64 * 2 * 2 * 2 * 3);
     const std::vector<glm::vec4> positions = scene.cdt.texels;
     std::size_t hits = 0, nans = 0, round = 0;
     for (const Switches& switches : combinations) {

@@ -130,7 +130,7 @@ TEST_CASE("mistakes: every named one comes by itself from the sites of the step,
             CHECK(same(mistaken_step(inputs_of(scene), i, profile, one).position,
                        deviating_step(inputs_of(scene), i, profile, info.deviation).position));
     }
-    CHECK(named == 76);
+    CHECK(named == 78);
     CHECK(mistakes.size() > 2000);
 
     Particles after;

@@ -6,8 +6,12 @@
 #include <utility>
 #include <vector>
 
+#include <glm/matrix.hpp>
+
 #include "reference/collision/collision_pass.hpp"
+#include "reference/collision/depth_pass.hpp"
 #include "reference/collision/layered_collision_pass.hpp"
+#include "reference/collision/obstacle_pass.hpp"
 #include "reference/collision/octree_pass.hpp"
 #include "reference/collision/step_pass.hpp"
 #include "reference/model/collision/collision_state.hpp"
@@ -32,6 +36,14 @@ struct Stepped {
         change(switches);
         scene.params.constants.texel_collide_range = 4;
         scene.params.second_proj_view = scene.params.collision_proj_view;
+        if (switches.search == Search::depth) {
+            scene.params.earlier_proj_view = scene.params.collision_proj_view;
+            scene.params.earlier_inverse = glm::mat4(glm::inverse(glm::dmat4(scene.params.collision_proj_view)));
+            scene.params.constants.surface_thickness = 0.5F;
+            scene.cdt = {scene.params.width, scene.params.height};
+            DepthImage nearest(scene.params.width, scene.params.height, 1.0F);
+            obstacle_pass(wall, scene.params, {}, scene.cdt, nearest);
+        }
         if (has_remedies(switches)) {
             scene.cdt = {scene.params.width, scene.params.height * cdt_planes(switches).count()};
             draw_layered_cdt(scene.particles, wall, scene.params, {}, scene.cdt);
@@ -42,6 +54,8 @@ struct Stepped {
         Particles after;
         if (scene.params.switches.search == Search::octree)
             octree_pass(scene.particles, wall, scene.params, profile, after);
+        else if (scene.params.switches.search == Search::depth)
+            depth_pass(scene.particles, scene.cdt, scene.params, profile, after);
         else if (has_remedies(scene.params.switches))
             update_particles_layered(scene.particles, scene.cdt, scene.params, profile, after);
         else
@@ -54,6 +68,7 @@ const std::vector<std::pair<std::string, std::function<void(Switches&)>>>& searc
     static const std::vector<std::pair<std::string, std::function<void(Switches&)>>> all{
         {"listing", [](Switches&) {}},
         {"octree", [](Switches& s) { s.search = Search::octree; }},
+        {"depth", [](Switches& s) { s.search = Search::depth; }},
         {"two layers", [](Switches& s) { s.cdt_layers = 2; }},
         {"three layers, rgba16f", [](Switches& s) { s.cdt_layers = 3, s.cdt_format = CdtFormat::rgba16f; }},
         {"three layers, rgba8", [](Switches& s) { s.cdt_layers = 3, s.cdt_format = CdtFormat::rgba8; }},

@@ -174,7 +174,7 @@ TEST_CASE("scene_file: what is not a scene is told with path and what is allowed
 }
 
 TEST_CASE("scene_file: an emitter that is wrong is told with path and what is allowed") {
-    const std::string keys = "shape, count, min, max, direction, direction_jitter, speed, speed_jitter";
+    const std::string keys = "shape, count, min, max, direction, direction_jitter, speed, speed_jitter, collide_time";
     const auto [member, expected] = GENERATE_COPY(table<std::string, std::string>({
         {R"("count": -5)", "/count: -5 is not an integer from 1 to 100000000"},
         {R"("count": 0)", "/count: 0 is not an integer from 1 to 100000000"},
@@ -195,6 +195,7 @@ TEST_CASE("scene_file: an emitter that is wrong is told with path and what is al
         {R"("count": 1, "direction_jitter": 0.6)", "/direction_jitter: 0.6 is not a number from 0 to 0.5"},
         {R"("count": 1, "speed": -1)", "/speed: -1 is not a number from 0 up"},
         {R"("count": 1, "speed": true)", "/speed: true is not a number from 0 up"},
+        {R"("count": 1, "collide_time": "now")", "/collide_time: \"now\" is not a finite number"},
         {R"("count": 1, "speed_jitter": -0.1)", "/speed_jitter: -0.1 is not a fraction from 0 to 1"},
     }));
     CHECK(error_of_emitter(member) == "x.json: /emitters/0" + expected);
@@ -215,7 +216,7 @@ TEST_CASE("scene_file: a member that is wrong is told with path and what is allo
         {R"("switches": {"speed_factor": "fast"})", "/switches/speed_factor: \"fast\" is not a finite number"},
         {R"("constants": {"ticks": 1})",
          "/constants: unknown key \"ticks\"; the keys here are tick, gravity, collision_range, collision_time, "
-         "texel_collide_range, billboard_radius, octree_size"},
+         "texel_collide_range, billboard_radius, octree_size, surface_thickness"},
         {R"("constants": {"tick": 0})", "/constants/tick: 0 is not a number above 0"},
         {R"("constants": {"tick": 1e-39})", "/constants/tick: 1e-39 is not a normal float, which is 1.2e-38 or more"},
         {R"("constants": {"collision_range": -0.01})", "/constants/collision_range: -0.01 is not a number above 0"},
@@ -308,7 +309,7 @@ TEST_CASE("scene_file: an option that is wrong is told with what is allowed") {
     CHECK_THAT(error_of_option(options),
                Catch::StartsWith("--set warp=9: nothing is named warp; the switches are perspective_divide, ") &&
                    Catch::EndsWith("; the constants are tick, gravity, collision_range, collision_time, "
-                                   "texel_collide_range, billboard_radius, octree_size"));
+                                   "texel_collide_range, billboard_radius, octree_size, surface_thickness"));
 }
 
 TEST_CASE("scene_file: a long value is cut short and stays on one line") {

@@ -33,7 +33,7 @@ TEST_CASE("scene settings: every shipped scene in every preset comes back as it 
         const std::string name = entry.path().stem().string();
         if (entry.path().extension() != ".json" || name.starts_with("bunny") || name.starts_with("dragon"))
             continue; // their meshes may not be there; they have no settings of their own
-        for (const char* preset : {"paper", "corrected", "exact"}) {
+        for (const char* preset : {"listing", "paper", "corrected", "exact"}) {
             SceneOptions options;
             options.particles = 10;
             options.preset = preset;
@@ -46,6 +46,7 @@ TEST_CASE("scene settings: every shipped scene in every preset comes back as it 
             CHECK(back.constants.tick == scene.constants.tick);
             CHECK(back.constants.gravity == scene.constants.gravity);
             CHECK(back.constants.octree_size == scene.constants.octree_size);
+            CHECK(back.constants.surface_thickness == scene.constants.surface_thickness);
             CHECK(back.width == scene.width);
             CHECK(back.height == scene.height);
             CHECK(back.cdt_box.min == scene.cdt_box.min);

@@ -153,6 +153,10 @@ bool is_no_mistake(Deviation deviation, const Switches& s, const Profile& profil
         return s.base_texel == BaseTexel::truncate;
     case Deviation::floor_instead_of_truncate:
         return s.base_texel == BaseTexel::floor;
+    case Deviation::stands_unless_it_searches:
+        return s.not_searching == NotSearching::stands;
+    case Deviation::moves_without_search:
+        return s.not_searching == NotSearching::moves;
     case Deviation::own_position_from_texel:
         return s.self_position == SelfPosition::texel;
     case Deviation::own_position_from_vertex:

@@ -176,7 +176,7 @@ bool is_of_window(const Mistake& mistake) {
 
 std::vector<NamedMistake> named_mistakes(const Scene& scene, const Profile& profile) {
     std::vector<NamedMistake> named;
-    for (const char* pass : {"collision_pass", "octree_pass", "layered_collision_pass"})
+    for (const char* pass : {"collision_pass", "octree_pass", "depth_pass", "layered_collision_pass"})
         for (const DeviationInfo& info : deviation_table())
             if (const auto mistake = step_mistake(info.deviation);
                 mistake && can_make(pass, *mistake) && !is_no_mistake(info.deviation, scene.switches, profile))

@@ -15,6 +15,8 @@ namespace {
 
 /// The planes of a CDT that only obstacles are drawn into, by camera; texels of no such plane have none.
 std::optional<int> camera_of_walls(const JudgedFrame& frame, std::size_t texel) {
+    if (frame.params.switches.search == Search::depth)
+        return 0;
     if (!has_remedies(frame.params.switches))
         return {};
     const CdtPlanes planes = cdt_planes(frame.params.switches);

@@ -248,11 +248,12 @@ CollisionImage redraw(const JudgedFrame& frame) {
         return planes;
     }
     CollisionImage cdt(frame.params.width, frame.params.height);
-    if (!is_listing(frame.params.switches))
+    if (frame.params.switches.search == Search::octree)
         return cdt;
     DepthImage depth(frame.params.width, frame.params.height, frame.params.clip_depth.cleared());
     obstacle_pass(frame.obstacles, frame.params, frame.profile, cdt, depth);
-    rasterise_particles(frame.before, frame.gpu, frame.params, frame.profile, cdt, depth);
+    if (frame.params.switches.search == Search::cdt)
+        rasterise_particles(frame.before, frame.gpu, frame.params, frame.profile, cdt, depth);
     return cdt;
 }
 

@@ -124,6 +124,8 @@ json run(const Scene& scene, const std::string& name, int frames, std::span<cons
 std::string why_unavailable(const Scene& scene) {
     if (scene.switches.search == Search::octree)
         return "search = octree runs in a compute shader, which WebGL2 does not have";
+    if (scene.switches.search == Search::depth)
+        return "search = depth runs in a compute shader, which WebGL2 does not have";
     if (scene.switches.step == Step::compute)
         return "step = compute runs in compute shaders, which WebGL2 does not have";
     if (has_remedies(scene.switches))

@@ -82,7 +82,9 @@ CollisionImage looked_at(const JudgedFrame& frame, std::size_t particle) {
     CollisionImage window(frame.cdt.width, frame.cdt.height);
     const glm::vec3 position = frame.before[particle].position;
     if (!has_remedies(params.switches)) {
-        copy_window(position, params.collision_proj_view, params, 0, 1, frame.cdt, window);
+        const bool drawn_before = params.switches.search == Search::depth;
+        copy_window(position, drawn_before ? params.earlier_proj_view : params.collision_proj_view, params, 0, 1,
+                    frame.cdt, window);
         return window;
     }
     const CdtPlanes planes = cdt_planes(params.switches);

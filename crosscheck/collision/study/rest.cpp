@@ -31,6 +31,13 @@ double quantile(std::vector<float>& heights, double part) {
     return static_cast<double>(*at);
 }
 
+std::size_t count_moved(const Particles& before, const Particles& after) {
+    std::size_t moved = 0;
+    for (std::size_t i = 0; i < after.size(); ++i)
+        moved += before.position[i] != after.position[i] ? 1U : 0U;
+    return moved;
+}
+
 RestFrame measure(const Particles& particles, float floor) {
     RestFrame row;
     std::vector<float> heights;
@@ -57,14 +64,16 @@ std::vector<RestFrame> rest_run(const Scene& scene, const Profile& profile, cons
     ReferenceSimulation simulation(scene, profile);
     std::vector<RestFrame> rows;
     for (int frame = 0; frame < options.frames; ++frame) {
-        const std::vector<float> before = simulation.particles().collide_time;
+        const Particles before = simulation.particles();
         simulation.step(frame_params(scene, frame));
         if ((frame + 1) % options.every != 0)
             continue;
         const Particles& after = simulation.particles();
         RestFrame row = measure(after, floor);
         row.frames = frame + 1;
-        row.hits = share(count_hits(before, after.collide_time, scene.constants.collision_time), after.size());
+        row.hits =
+            share(count_hits(before.collide_time, after.collide_time, scene.constants.collision_time), after.size());
+        row.moving = share(count_moved(before, after), after.size());
         rows.push_back(row);
         if (options.on_frame)
             options.on_frame(row);
@@ -73,13 +82,13 @@ std::vector<RestFrame> rest_run(const Scene& scene, const Profile& profile, cons
 }
 
 std::string rest_head() {
-    return "| frames | hits % | above % | at rest % | half lie under | 99 % lie under |\n"
-           "|---:|---:|---:|---:|---:|---:|\n";
+    return "| frames | hits % | moving % | above % | at rest % | half lie under | 99 % lie under |\n"
+           "|---:|---:|---:|---:|---:|---:|---:|\n";
 }
 
 std::string rest_text(const RestFrame& row) {
-    return fmt::format("| {} | {:.1f} | {:.1f} | {:.1f} | {:.3f} | {:.3f} |\n", row.frames, 100.0 * row.hits,
-                       100.0 * row.above, 100.0 * row.at_rest, row.middle, row.top);
+    return fmt::format("| {} | {:.1f} | {:.1f} | {:.1f} | {:.1f} | {:.3f} | {:.3f} |\n", row.frames, 100.0 * row.hits,
+                       100.0 * row.moving, 100.0 * row.above, 100.0 * row.at_rest, row.middle, row.top);
 }
 
 } // namespace lockstep

@@ -15,6 +15,7 @@ inline constexpr float rest_speed = 0.02F; ///< world units a second; who is slo
 struct RestFrame {
     int frames = 0;       ///< run so far
     double hits = 0.0;    ///< particles that hit in the last of them, of all
+    double moving = 0.0;  ///< of all, those whose position changed in it
     double above = 0.0;   ///< particles over that point, of all
     double at_rest = 0.0; ///< of all, those above that are slower than rest_speed
     double middle = 0.0;  ///< height under which half of those at rest lie; 0 without any

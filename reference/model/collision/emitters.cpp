@@ -79,7 +79,7 @@ Particles emit(std::span<const Emitter> emitters, std::uint64_t seed) {
             particles.position[i] = glm::vec3(corner + extent * in_box);
             particles.direction[i] = glm::vec3(unit(direction + jitter));
             particles.speed[i] = static_cast<float>(emitter.speed * (1.0 + emitter.speed_jitter * random.symmetric()));
-            particles.collide_time[i] = 0.0F;
+            particles.collide_time[i] = emitter.collide_time;
         }
         first += emitter.count;
     }

@@ -26,9 +26,10 @@ struct Emitter {
     float direction_jitter = 0.0F;          ///< each component of the unit direction is off by up to this, 0 to 0.5
     float speed = 0.0F;                     ///< world units a second
     float speed_jitter = 0.0F;              ///< the speed is off by up to this fraction of it, 0 to 1
+    float collide_time = 0.0F;              ///< seconds; below 0 they search from frame 0 on
 };
 
-/// The particles of all emitters, one emitter after the other, collide time 0. Particle i is the same for the same
+/// The particles of all emitters, one emitter after the other. Particle i is the same for the same
 /// emitters and seed on every platform and thread count: integers, and doubles with + - * / and square root only,
 /// rounded to float once.
 Particles emit(std::span<const Emitter> emitters, std::uint64_t seed);

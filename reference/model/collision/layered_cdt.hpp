@@ -41,11 +41,15 @@ inline constexpr std::array<std::string_view, 4> remedy_switches{"cdt_layers", "
 /// Whether a remedy is on, so that the layered collision pass runs.
 bool has_remedies(const Switches& switches);
 
+/// Whether particles search as the listing does, and are drawn by its pass.
+bool is_listing(const Switches& switches);
+
 /// Whether the switch of this name says which pass runs, and not how the collision pass does.
 bool chooses_pass(std::string_view switch_name);
 
 /// Throws Error naming a switch that does not go with another. The remedies repair the corrected reading of the
-/// listing and know no other, nor do all of them go together; step = compute is the listing's own search.
+/// listing and know no other, nor do all of them go together; step = compute, velocity = vector and
+/// not_searching = stands are the listing's own search; search = depth needs a divide, whole texels and floats.
 void check_switches(const Switches& switches);
 
 /// Height of a scene's CDT in texels. Throws Error like check_switches. With remedies, plane p lies in rows

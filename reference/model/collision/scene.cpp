@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <vector>
 
+#include <glm/matrix.hpp>
+
 namespace lockstep {
 namespace {
 
@@ -31,9 +33,8 @@ void take_settings(const FrameSettings& settings, const ClipSpace& space, FrameP
     params.switches.speed_factor = settings.speed_factor;
 }
 
-} // namespace
-
-FrameParams frame_params(const Scene& scene, int frame) {
+/// Of one frame, without regard to the one before.
+FrameParams params_of(const Scene& scene, int frame) {
     const Camera render = camera_at(scene.camera, scene.camera_path, frame);
     Camera collision = scene.collision_camera;
     if (scene.switches.cdt_camera == CdtCamera::moving) {
@@ -58,6 +59,17 @@ FrameParams frame_params(const Scene& scene, int frame) {
     params.clip_depth = scene.clip_space.depth;
     if (const FrameSettings* settings = settings_at(scene.frames, frame))
         take_settings(*settings, scene.clip_space, params);
+    return params;
+}
+
+} // namespace
+
+FrameParams frame_params(const Scene& scene, int frame) {
+    FrameParams params = params_of(scene, frame);
+    if (scene.switches.search != Search::depth)
+        return params;
+    params.earlier_proj_view = params_of(scene, std::max(frame - 1, 0)).collision_proj_view;
+    params.earlier_inverse = glm::mat4(glm::inverse(glm::dmat4(params.earlier_proj_view)));
     return params;
 }
 

@@ -21,6 +21,7 @@ struct Constants {
     int texel_collide_range = 1;           ///< neighbourhood radius, texels
     float billboard_radius = 0.004F;       ///< world units, half the side of a rendered quad
     float octree_size = 50.0F;             ///< world units, side of the octree's root (octree.hpp)
+    float surface_thickness = 0.05F;       ///< world units behind a surface that are a hit, search = depth
 };
 
 /// What a host gives its passes from a frame on, where that is not the scene's.
@@ -35,7 +36,7 @@ struct FrameSettings {
 /// Everything a run needs, ready to use: both sides start from this and nothing else.
 struct Scene {
     std::string name;
-    Particles start;                    ///< collide_time 0, so frame 0 only builds the CDT
+    Particles start;                    ///< at collide_time 0 nobody searches, and frame 0 only builds the CDT
     Mesh obstacles;                     ///< all obstacles, world space, in drawing order; may be empty
     Camera camera;                      ///< render camera
     std::vector<CameraKey> camera_path; ///< motion of the render camera, sorted by frame
@@ -58,6 +59,8 @@ struct Scene {
 struct FrameParams {
     glm::mat4 collision_proj_view{1.0F}; ///< u_ProjView of the collision pass
     glm::mat4 second_proj_view{1.0F};    ///< the same of the second collision camera, cdt_cameras = 2
+    glm::mat4 earlier_proj_view{1.0F};   ///< u_ProjView of the frame before: what the CDT that is read was drawn with
+    glm::mat4 earlier_inverse{1.0F};     ///< its inverse, rounded once
     glm::mat4 render_view{1.0F};
     glm::mat4 render_projection{1.0F};
     int width = 500; ///< CDT, texels

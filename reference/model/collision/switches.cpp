@@ -14,7 +14,7 @@ namespace lockstep {
 namespace {
 
 using Names = std::string_view;
-constexpr std::array<Names, 2> search{"cdt", "octree"};
+constexpr std::array<Names, 3> search{"cdt", "octree", "depth"};
 constexpr std::array<Names, 2> step{"transform_feedback", "compute"};
 constexpr std::array<Names, 2> off_on{"off", "on"};
 constexpr std::array<Names, 1> times_half{"times_half"};
@@ -25,6 +25,7 @@ constexpr std::array<Names, 1> outside_image{"skip"};
 constexpr std::array<Names, 2> zero_distance{"hit", "skip"};
 constexpr std::array<Names, 2> collision_step{"full", "tick"};
 constexpr std::array<Names, 1> search_when{"collide_time_negative"};
+constexpr std::array<Names, 2> not_searching{"moves", "stands"};
 constexpr std::array<Names, 3> cdt_format{"rgba32f", "rgba16f", "rgba8"};
 constexpr std::array<Names, 2> cdt_camera{"moving", "fixed"};
 constexpr std::array<Names, 3> obstacles_in_cdt{"off", "vertices", "triangles"};
@@ -34,6 +35,8 @@ constexpr std::array<Names, 2> arithmetic{"plain", "exact"};
 constexpr std::array<Names, 8> one_to_eight{"1", "2", "3", "4", "5", "6", "7", "8"};
 constexpr std::array<Names, 2> search_window{"texels", "projected"};
 constexpr std::array<Names, 2> response{"single", "mutual"};
+
+constexpr std::array<Names, 4> presets{"listing", "paper", "corrected", "exact"};
 
 template <auto Member> SwitchInfo named(Names name, std::span<const Names> values, Names meaning) {
     return {name,
@@ -88,6 +91,8 @@ std::span<const SwitchInfo> switch_table() {
         named<&S::collision_step>("collision_step", collision_step,
                                   "a hit moves by direction * speed, or by that * tick"),
         named<&S::search_when>("search_when", search_when, "a particle searches while its collide time is negative"),
+        named<&S::not_searching>("not_searching", not_searching,
+                                 "a particle that does not search moves and counts down, or keeps its state"),
         named<&S::cdt_format>("cdt_format", cdt_format, "what a texel of the CDT stores"),
         named<&S::cdt_camera>("cdt_camera", cdt_camera,
                               "the collision camera follows the render camera, or stands still"),
@@ -97,7 +102,7 @@ std::span<const SwitchInfo> switch_table() {
                                    "the point is drawn where the particle was, or is now"),
         named<&S::arithmetic>("arithmetic", arithmetic, "GLSL's own functions, or portable.glsl"),
         named<&S::search>("search", search,
-                          "neighbours are looked for in the CDT, or in an octree (thesis, chapter 5)"),
+                          "hits are looked for in the CDT, in an octree (thesis, chapter 5), or in obstacles' depth"),
         named<&S::step>("step", step, "the listing's step is made by vertex and fragment stages, or by compute stages"),
         count<&S::cdt_layers>("cdt_layers", one_to_eight, "particles a texel of the CDT holds, nearest first"),
         count<&S::cdt_cameras>("cdt_cameras", std::span(one_to_eight).first(2),
@@ -116,6 +121,8 @@ bool places_points(const Switches& switches) {
     return switches.arithmetic == ArithmeticSwitch::exact || switches.step == Step::compute;
 }
 
+std::span<const std::string_view> preset_names() { return presets; }
+
 Switches preset(std::string_view name) {
     Switches switches;
     if (name == "corrected")
@@ -124,16 +131,21 @@ Switches preset(std::string_view name) {
         switches.arithmetic = ArithmeticSwitch::exact;
         return switches;
     }
-    if (name == "paper") {
+    if (name == "paper" || name == "listing") {
         switches.base_texel = BaseTexel::truncate;
         switches.self_position = SelfPosition::texel;
         switches.empty_texel = EmptyTexel::phantom;
         switches.zero_distance = ZeroDistance::hit;
         switches.collision_step = CollisionStep::full;
         switches.speed_factor = 0.2F;
+        if (name == "paper")
+            return switches;
+        switches.perspective_divide = PerspectiveDivide::off;
+        switches.raster_position = RasterPosition::before_step;
+        switches.not_searching = NotSearching::stands;
         return switches;
     }
-    throw Error(fmt::format("unknown preset '{}'; the presets are paper, corrected, exact", name));
+    throw Error(fmt::format("unknown preset '{}'; the presets are {}", name, fmt::join(presets, ", ")));
 }
 
 void set_switch(Switches& switches, std::string_view name, std::string_view value) {

@@ -10,9 +10,10 @@ namespace lockstep {
 /// Where the thesis's listing (Fig. 3-3) and its text disagree or are silent, both readings can be chosen
 /// (spec, "The listing"). Every switch works in the reference and in the shader.
 
-/// Where a particle looks for neighbours: in the CDT, or in the octree the thesis compares it with (octree.hpp), which
-/// then takes the place of the passes that draw and read the CDT.
-enum class Search { cdt, octree };
+/// Where a particle looks for what it hits: in the CDT; in the octree the thesis compares it with (octree.hpp), which
+/// then takes the place of the passes that draw and read the CDT; or in the obstacles' depth, as engines do, which is
+/// drawn into the CDT in the place of positions.
+enum class Search { cdt, octree, depth };
 /// Which stage makes the listing's step: a vertex stage whose outputs are captured, drawn as points, or a compute stage
 /// that finds the texel of each point, and the nearest point of each texel, by itself.
 enum class Step { transform_feedback, compute };
@@ -27,6 +28,9 @@ enum class OutsideImage { skip };
 enum class ZeroDistance { hit, skip };
 enum class CollisionStep { full, tick };
 enum class SearchWhen { collide_time_negative };
+/// What becomes of a particle that does not search. By its indentation, the listing's branch without a hit (line 25)
+/// lies inside that of the search (line 8): then it keeps its state, collide time included. The text has it fall.
+enum class NotSearching { moves, stands };
 enum class CdtFormat { rgba32f, rgba16f, rgba8 };
 enum class CdtCamera { moving, fixed };
 enum class ObstaclesInCdt { off, vertices, triangles };
@@ -53,6 +57,7 @@ struct Switches {
     ZeroDistance zero_distance = ZeroDistance::skip;
     CollisionStep collision_step = CollisionStep::tick;
     SearchWhen search_when = SearchWhen::collide_time_negative;
+    NotSearching not_searching = NotSearching::moves;
     CdtFormat cdt_format = CdtFormat::rgba32f;
     CdtCamera cdt_camera = CdtCamera::moving;
     ObstaclesInCdt obstacles_in_cdt = ObstaclesInCdt::triangles;
@@ -84,8 +89,12 @@ struct SwitchInfo {
 
 std::span<const SwitchInfo> switch_table();
 
-/// `paper`: the listing at its word. `corrected`: what the text means. `exact`: corrected, in portable arithmetic.
-/// Throws Error naming the presets for any other name.
+/// What preset() knows, in the order in which they are told.
+std::span<const std::string_view> preset_names();
+
+/// `listing`: the listing (Fig. 3-3) as printed, line by line. `paper`: its search and its answers, with the divide and
+/// the drawn position of the text, without which nothing is found where it is stored. `corrected`: what the text means.
+/// `exact`: corrected, in portable arithmetic. Throws Error naming the presets for any other name.
 Switches preset(std::string_view name);
 
 /// Sets one switch from text. Throws Error naming the switches, or the allowed values.

@@ -1,0 +1,65 @@
+#include "gpu/collision/depth_pass.hpp"
+
+#include <array>
+#include <string>
+
+#include "gpu/check.hpp"
+#include "gpu/collision/collision_shaders.hpp"
+#include "gpu/collision/step_uniforms.hpp"
+#include "gpu/shader_source.hpp"
+#include "reference/model/error.hpp"
+
+namespace lockstep {
+namespace {
+
+constexpr GLuint depth_group_size = 64; // local_size_x of the shader
+
+/// The bindings of the shader's buffers.
+enum Binding : GLuint { before, after };
+
+Program link(const Scene& scene, const std::filesystem::path& shaders) {
+    if (!gl::offers(4, 3))
+        throw Error("depth_pass: search = depth needs compute shaders and storage buffers, GL 4.3; this context is of "
+                    "an earlier version");
+    const std::array stages{Stage::compute};
+    return {"depth_pass",
+            load_stages(collision_shaders(shaders), "depth_pass", stages, switch_defines(scene.switches))};
+}
+
+BoundStorage bind(const Program& program) {
+    static const std::array<std::string, 2> ours{"Before", "After"};
+    return bind_storage(program, ours, ours.size(), {"Before", "After", &particle_records()});
+}
+
+} // namespace
+
+DepthPass::DepthPass(const Scene& scene, const std::filesystem::path& shaders)
+    : program_(link(scene, shaders)), bound_(bind(program_)) {}
+
+void DepthPass::run(const FrameParams& params, const ParticleBuffer& from, ParticleBuffer& to,
+                    const CollisionTexture& depth) {
+    program_.set("u_ParticleCount", static_cast<unsigned>(from.size()));
+    set_step_uniforms(program_, params);
+    program_.set("u_ProjView", params.earlier_proj_view);
+    program_.set("u_InverseProjView", params.earlier_inverse);
+    program_.set("u_SurfaceThickness", params.constants.surface_thickness);
+    program_.set("u_ClientWidth", params.width);
+    program_.set("u_ClientHeight", params.height);
+    program_.set_unit("u_Depth", 0, GL_SAMPLER_2D);
+    program_.check_interface();
+    depth.bind_texture(0);
+    gl::BindBufferBase(GL_SHADER_STORAGE_BUFFER, Binding::before, from.id());
+    gl::BindBufferBase(GL_SHADER_STORAGE_BUFFER, Binding::after, to.id());
+    const RecordBuffer* const read[] = {&from};
+    const RecordBuffer* const written[] = {&to};
+    bound_.fill(read, written);
+    program_.use();
+    gl::DispatchCompute((static_cast<GLuint>(from.size()) + depth_group_size - 1) / depth_group_size, 1, 1);
+    bound_.collect(written);
+    gl::MemoryBarrier(GL_BUFFER_UPDATE_BARRIER_BIT | GL_CLIENT_MAPPED_BUFFER_BARRIER_BIT |
+                      GL_VERTEX_ATTRIB_ARRAY_BARRIER_BIT | GL_SHADER_STORAGE_BARRIER_BIT);
+    gl::UseProgram(0);
+    check_gl("depth_pass");
+}
+
+} // namespace lockstep

@@ -117,7 +117,7 @@ def fit_text(what, rows, units):
         return []
     factors, missed = least_squares(rows)
     terms = [f"{factors[0]:.3f} ms"] + [f"{f * 1e6:.3g} ns a {unit}" for f, unit in zip(factors[1:], units)]
-    return [f"- {what}: {' + '.join(terms)}; at most {100 * missed:.0f} % off"]
+    return [f"- {what}: {' + '.join(terms)}; at most {100 * max(missed):.0f} % off"]
 
 
 def table(head, rows):

@@ -7,12 +7,12 @@ Usage: scripts/cost_law.py LOCKSTEP OUT [--gl KIND] [--scene FILE] [--counts N,.
 import argparse
 import json
 import pathlib
-import re
 import shutil
 import subprocess
 import sys
 from statistics import median
 
+from bench_runs import PASS, STEP, blocks_of, least_of_runs
 from least_squares import least_squares
 
 ROOT = pathlib.Path(__file__).resolve().parent.parent
@@ -21,7 +21,6 @@ KEPT = ROOT / "data/results/h200/bench.txt"
 TITLES = {"DIFFER": "bunny_a, corrected", "AGREE": "bunny_a, exact"}
 THESIS_COUNTS = (50000, 100000, 150000, 200000)
 THESIS = {"bunny A": (12, 27, 52, 65), "bunny B": (13, 31, 50, 70), "dragon A": (12, 34, 54, 81), "dragon B": (14, 34, 56, 83)}
-STEP, PASS = "the whole step", "the collision pass alone"
 
 
 def options():
@@ -36,41 +35,6 @@ def options():
     parser.add_argument("--repeats", type=int, default=3)
     parser.add_argument("--commit")
     return parser.parse_args()
-
-
-def blocks_of(text):
-    """What each run of bench printed: its title, its GL, and (radius, particles, what) -> milliseconds by the GL timer."""
-    blocks, title, before = [], None, ""
-    for line in text.splitlines():
-        words = line.split()
-        if line.startswith("## "):
-            title = line[3:]
-        elif " frames each, " in line:
-            blocks.append([title, before, {}])
-        elif len(words) >= 10 and words[0].isdigit() and words[1].isdigit():
-            cell = (int(words[0]), int(words[1]))
-            blocks[-1][2][(*cell, STEP)] = float(words[3])
-            blocks[-1][0] = blocks[-1][0] or TITLES.get(words[9])
-        elif found := re.search(r"collision_pass ([0-9.]+)", line):
-            blocks[-1][2][(*cell, PASS)] = float(found[1])
-        before = line
-    return blocks
-
-
-def measured(asked):
-    """The GL, and of each cell the least of the runs."""
-    words = [asked.lockstep, "bench", asked.scene, "--gl", asked.gl, "--counts", asked.counts, "--radius", asked.radii,
-             "--frames", str(asked.frames)]
-    least = {}
-    for _ in range(asked.repeats):
-        print("+", *words, file=sys.stderr, flush=True)
-        done = subprocess.run(words, capture_output=True, text=True)
-        if done.returncode not in (0, 1):
-            sys.exit(done.stdout + done.stderr)
-        (_, gl, cells), = blocks_of(done.stdout)
-        for cell, ms in cells.items():
-            least[cell] = min(ms, least.get(cell, ms))
-    return gl, least
 
 
 def texels(radius):
@@ -105,8 +69,8 @@ def cells_table(cells):
 
 def kept_fits():
     merged = {}
-    for title, _, cells in blocks_of(KEPT.read_text()):
-        merged.setdefault(title, {}).update(cells)
+    for block in blocks_of(KEPT.read_text()):
+        merged.setdefault(block["title"] or TITLES[block["verdict"]], {}).update(block["cells"])
     return {title: law(cells, STEP) for title, cells in merged.items()}
 
 
@@ -128,7 +92,8 @@ def commit_of(asked):
 def main():
     asked = options()
     asked.out.mkdir(parents=True, exist_ok=True)
-    gl, cells = measured(asked)
+    gl, cells = least_of_runs(asked.repeats, [asked.lockstep, "bench", asked.scene, "--gl", asked.gl, "--counts", asked.counts,
+                                              "--radius", asked.radii, "--frames", asked.frames])
     here, kept = {what: law(cells, what) for what in (STEP, PASS)}, kept_fits()
     command = " ".join(["scripts/cost_law.py LOCKSTEP OUT", *sys.argv[3:]])
     page = ["# The cost of a step: a + n (b + c (2r + 1)^2)", "", f"{gl}, at {commit_of(asked)}.", "", f"    {command}", "",
@@ -138,7 +103,7 @@ def main():
             "", "## The thesis's table 4-1", "", "One radius, which it does not tell, so that b and c are one number:", "",
             *thesis_table()]
     (asked.out / "cost_law.md").write_text("\n".join(page) + "\n")
-    rows = [{"radius": r, "particles": n, "what": what, "ms": ms} for (r, n, what), ms in cells.items()]
+    rows = [{"radius": r, "particles": n, "what": what, "ms": ms} for (r, n, what), ms in cells.items() if what in here]
     kept_json = {"gl": gl, "commit": commit_of(asked), "command": command, "cells": rows, "fits": here, "h200": kept}
     (asked.out / "cost_law.json").write_text(json.dumps(kept_json, indent=1) + "\n")
     print("\n".join(page))

@@ -21,6 +21,8 @@ import subprocess
 import sys
 import time
 
+from least_squares import least_squares
+
 ROOT = pathlib.Path(__file__).resolve().parent.parent
 GRIDS = ((64, 16, 64), (128, 32, 128))
 COUNTS = (1024, 4096, 16384, 65536, 262144, 1048576)
@@ -109,26 +111,13 @@ def output_of(words):
     return done.stdout.splitlines()
 
 
-def least_squares(rows):
-    """Factors of each row's numbers but its last, whose sums miss the last by least in proportion; the most missed."""
-    rows = [[x / row[-1] for x in row] for row in rows]
-    n = len(rows[0]) - 1
-    normal = [[sum(row[i] * row[j] for row in rows) for j in range(n + 1)] for i in range(n)]
-    for i in range(n):
-        normal[i] = [x / normal[i][i] for x in normal[i]]
-        for j in set(range(n)) - {i}:
-            normal[j] = [x - normal[j][i] * y for x, y in zip(normal[j], normal[i])]
-    factors = [row[n] for row in normal]
-    return factors, max(abs(sum(f * x for f, x in zip(factors, row)) - 1.0) for row in rows)
-
-
 def fit_text(what, rows, units):
     """Of rows 1, numbers of each unit, milliseconds."""
     if len(rows) <= len(units) + 1:
         return []
     factors, missed = least_squares(rows)
     terms = [f"{factors[0]:.3f} ms"] + [f"{f * 1e6:.3g} ns a {unit}" for f, unit in zip(factors[1:], units)]
-    return [f"- {what}: {' + '.join(terms)}; at most {100 * missed:.0f} % off"]
+    return [f"- {what}: {' + '.join(terms)}; at most {100 * max(missed):.0f} % off"]
 
 
 def table(head, rows):

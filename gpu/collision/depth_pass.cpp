@@ -14,10 +14,9 @@ namespace {
 
 constexpr GLuint depth_group_size = 64; // local_size_x of the shader
 
-/// The bindings of the shader's buffers.
-enum Binding : GLuint { before, after };
+constexpr GLuint depth_before_binding = 0, depth_after_binding = 1;
 
-Program link(const Scene& scene, const std::filesystem::path& shaders) {
+Program link_depth(const Scene& scene, const std::filesystem::path& shaders) {
     if (!gl::offers(4, 3))
         throw Error("depth_pass: search = depth needs compute shaders and storage buffers, GL 4.3; this context is of "
                     "an earlier version");
@@ -26,7 +25,7 @@ Program link(const Scene& scene, const std::filesystem::path& shaders) {
             load_stages(collision_shaders(shaders), "depth_pass", stages, switch_defines(scene.switches))};
 }
 
-BoundStorage bind(const Program& program) {
+BoundStorage bind_depth(const Program& program) {
     static const std::array<std::string, 2> ours{"Before", "After"};
     return bind_storage(program, ours, ours.size(), {"Before", "After", &particle_records()});
 }
@@ -34,7 +33,7 @@ BoundStorage bind(const Program& program) {
 } // namespace
 
 DepthPass::DepthPass(const Scene& scene, const std::filesystem::path& shaders)
-    : program_(link(scene, shaders)), bound_(bind(program_)) {}
+    : program_(link_depth(scene, shaders)), bound_(bind_depth(program_)) {}
 
 void DepthPass::run(const FrameParams& params, const ParticleBuffer& from, ParticleBuffer& to,
                     const CollisionTexture& depth) {
@@ -48,8 +47,8 @@ void DepthPass::run(const FrameParams& params, const ParticleBuffer& from, Parti
     program_.set_unit("u_Depth", 0, GL_SAMPLER_2D);
     program_.check_interface();
     depth.bind_texture(0);
-    gl::BindBufferBase(GL_SHADER_STORAGE_BUFFER, Binding::before, from.id());
-    gl::BindBufferBase(GL_SHADER_STORAGE_BUFFER, Binding::after, to.id());
+    gl::BindBufferBase(GL_SHADER_STORAGE_BUFFER, depth_before_binding, from.id());
+    gl::BindBufferBase(GL_SHADER_STORAGE_BUFFER, depth_after_binding, to.id());
     const RecordBuffer* const read[] = {&from};
     const RecordBuffer* const written[] = {&to};
     bound_.fill(read, written);

@@ -132,7 +132,7 @@ constexpr std::array table{
     Row{Deviation::collide_time_counted_twice, site::counted, Change::doubled},
 };
 
-constexpr std::string_view octree = "octree_pass", depth = "depth_pass", layered = "layered_collision_pass";
+constexpr std::string_view octree = "octree_pass", by_depth = "depth_pass", layered = "layered_collision_pass";
 const std::array searches{
     SearchMistake{octree, "itself_not_skipped", "the particle is its own neighbour",
                   mistake_at(site::itself, Change::never)},
@@ -150,18 +150,18 @@ const std::array searches{
                   mistake_at(site::corner, Change::zero)},
     SearchMistake{octree, "range_reversed", "len > u_CollisionRange for <",
                   mistake_at(site::in_range, Change::reversed, 0)},
-    SearchMistake{depth, "normal_reversed", "the normal points into the surface",
+    SearchMistake{by_depth, "normal_reversed", "the normal points into the surface",
                   mistake_at(site::normal, Change::negated)},
-    SearchMistake{depth, "thickness_not_tested", "a particle any way behind a surface hits it",
+    SearchMistake{by_depth, "thickness_not_tested", "a particle any way behind a surface hits it",
                   mistake_at(site::within_thickness, Change::always)},
-    SearchMistake{depth, "front_is_behind", "a particle before a surface hits it",
+    SearchMistake{by_depth, "front_is_behind", "a particle before a surface hits it",
                   mistake_at(site::behind_surface, Change::reversed, 0)},
-    SearchMistake{depth, "thickness_in_front", "a particle before a surface hits it, too",
+    SearchMistake{by_depth, "thickness_in_front", "a particle before a surface hits it, too",
                   mistake_at(site::behind_surface, Change::always)},
-    SearchMistake{depth, "behind_camera_seen", "clip w is not tested", mistake_at(site::in_front, Change::always)},
-    SearchMistake{depth, "empty_texels_shown", "an empty texel is a surface",
+    SearchMistake{by_depth, "behind_camera_seen", "clip w is not tested", mistake_at(site::in_front, Change::always)},
+    SearchMistake{by_depth, "empty_texels_shown", "an empty texel is a surface",
                   mistake_at(site::shows_surface, Change::always)},
-    SearchMistake{depth, "texel_corner", "a texel is unprojected at its corner",
+    SearchMistake{by_depth, "texel_corner", "a texel is unprojected at its corner",
                   mistake_at(site::texel_centre, Change::half_less)},
     SearchMistake{layered, "range_reversed", "len > u_CollisionRange for <",
                   mistake_at(site::in_range, Change::reversed, 0)},

@@ -68,7 +68,7 @@ TEST_CASE("study: what cannot be studied is refused in one line") {
     CHECK(refusal(run_lockstep({"study", scene(), "--frames", "1"})) ==
           "study: --frames 1 is the frame with the empty CDT; 2 or more have something to study");
     CHECK(refusal(run_lockstep({"study", scene(), "--set", "search=octree"})) ==
-          "study: search = octree leaves no CDT to study; --thesis has the octree's recall");
+          "study: search = octree leaves no CDT of particles to study; --thesis has the octree's recall");
     CHECK_THAT(refusal(run_lockstep({"study", scene(), "--csv", "/nowhere/a.csv"})), Catch::StartsWith("/nowhere"));
 }
 
@@ -175,7 +175,8 @@ TEST_CASE("study: who has come to rest, over the frames") {
         "obstacles": [{"shape": "plane", "size": [1, 1]}]})");
     const auto rest = run_lockstep({"study", standing, "--rest", "--frames", "4", "--every", "2"});
     CHECK(rest.status == 0);
-    CHECK_THAT(rest.out, Catch::StartsWith("| frames |") && Catch::Contains("\n| 2 | 0.0 | 100.0 | 100.0 | 1.000 |") &&
+    CHECK_THAT(rest.out, Catch::StartsWith("| frames |") &&
+                             Catch::Contains("\n| 2 | 0.0 | 100.0 | 100.0 | 100.0 | 1.000 |") &&
                              Catch::Contains("\n| 4 | ") && Catch::Contains("\nAt rest: "));
     const std::string nothing = folder.write("nothing.json", R"({"emitters": [{"count": 10, "min": [0, 0, 0],
         "max": [1, 1, 1]}]})");

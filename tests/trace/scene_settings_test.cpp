@@ -63,7 +63,7 @@ TEST_CASE("scene settings: all switches and constants are in them by name") {
     const nlohmann::json json = settings_json(test::small_scene());
     for (const SwitchInfo& info : switch_table())
         CHECK(json["switches"].contains(std::string(info.name)));
-    CHECK(json["constants"].size() == 7);
+    CHECK(json["constants"].size() == 8);
     CHECK(json["constants"]["collision_range"] == 0.2F);
 }
 

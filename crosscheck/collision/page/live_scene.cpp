@@ -84,7 +84,7 @@ json record_json(const RecordLayout& layout) {
 Switches with_preset(const Switches& own, std::string_view name) {
     Switches result = own;
     for (const SwitchInfo& info : switch_table())
-        for (const char* other : presets)
+        for (const std::string_view other : preset_names())
             if (const std::string wanted = switch_value(preset(name), info.name);
                 wanted != switch_value(preset(other), info.name))
                 set_switch(result, info.name, wanted);

@@ -5,9 +5,10 @@
   fluid    the filters by radius
   hashes   preset exact, both sides run free: each frame's hash of all images, in OUT/hashes
 Usage: scripts/image_tables.py LOCKSTEP OUT [--gl KIND] [--parts lights,fluid,hashes] [--lights-up-to N] [--frames N]
-           [--seconds N] [--table-frames N] [--twins] [--scenes DIR] [--commit NAME] [--cores N]
+           [--seconds N] [--runs NAME,...] [--table-frames N] [--twins] [--scenes DIR] [--commit NAME] [--cores N]
   --frames, --seconds  of the hashes: how many frames, and when those that still run are ended; their verdict is then of
                        the frames before
+  --runs               of the hashes: these alone, in this order, as the table names them
   --twins              times the reference as well
 Exit status: 0 every hash is equal, 1 one is not, 2 a part could not be run."""
 import argparse
@@ -47,6 +48,7 @@ def options():
     parser.add_argument("--lights-up-to", type=int, default=COUNTS[-1])
     parser.add_argument("--frames", type=int, default=100)
     parser.add_argument("--seconds", type=float, default=240)
+    parser.add_argument("--runs", type=lambda names: names.split(","))
     parser.add_argument("--table-frames", type=int, default=5)
     parser.add_argument("--twins", action="store_true")
     parser.add_argument("--scenes", type=pathlib.Path, default=ROOT / "data/scenes")
@@ -215,7 +217,13 @@ def hash_jobs(run):
         for grid in GRIDS:
             name = f"lights_{count}_in_{'x'.join(map(str, grid))}"
             jobs.append((name, run.lights(grid, IMAGES[0]), count, [], many if count > 100000 else few))
-    return jobs
+    if run.asked.runs is None:
+        return jobs
+    of = {job[0]: job for job in jobs}
+    for name in run.asked.runs:
+        if name not in of:
+            raise RuntimeError(f"--runs: no run is named {name}; there are {', '.join(of)}")
+    return [of[name] for name in run.asked.runs]
 
 
 def hashed(run, jobs):

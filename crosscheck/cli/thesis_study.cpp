@@ -26,16 +26,17 @@ ThesisRun measure(const ThesisStudy& study) {
     options.counts = study.counts;
     options.frames = study.run.frames;
     options.seconds = study.seconds;
-    options.octree = context.describe().compute;
-    options.on_left_out = [](std::string_view scene, std::string_view reason) {
-        fmt::print("left out: {}, since {}\n", scene, reason);
+    options.compute = context.describe().compute;
+    options.on_left_out = [](std::string_view what, std::string_view reason) {
+        fmt::print("left out: {}, since {}\n", what, reason);
     };
     options.on_cell = [first = true](const ThesisCell& cell) mutable {
         fmt::print("{}{}", std::exchange(first, false) ? thesis_cell_head() : "", thesis_cell_text(cell));
         std::fflush(stdout);
     };
-    if (!options.octree)
-        fmt::print("no octree: it needs compute shaders, GL 4.3; this context is {}\n", context.describe().version);
+    if (!options.compute)
+        fmt::print("no octree and no depth: they need compute shaders, GL 4.3; this context is {}\n",
+                   context.describe().version);
     ThesisRun run{summary(context.describe()), thesis_study(options)};
     fmt::print("\n");
     return run;

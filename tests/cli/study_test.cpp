@@ -149,7 +149,8 @@ TEST_CASE("study: the thesis's tables, measured, and told again from what was wr
                                        "--frames", "1", "--gl", test::software_gl()},
                                       {{{"GALLIUM_DRIVER", "softpipe"}}});
     CHECK(without.status == 0);
-    CHECK_THAT(without.out, Catch::StartsWith("no octree: it needs compute shaders, GL 4.3; this context is 3.3"));
+    CHECK_THAT(without.out,
+               Catch::StartsWith("no octree and no depth: they need compute shaders, GL 4.3; this context is 3.3"));
 }
 
 TEST_CASE("study: the GL side, and the collision cameras") {

@@ -18,16 +18,19 @@ using namespace lockstep;
 
 namespace {
 
-/// CDT: 1 ms per 10,000 particles; octree: six times that and a little more.
-ThesisRun linear_run(bool with_octree = true) {
+/// CDT: 1 ms per 10,000 particles; octree: six times that; depth: 0.4 times that.
+ThesisRun linear_run(bool with_compute = true) {
     ThesisRun run;
     run.context = "made up";
     for (const std::string_view scene : thesis_scenes)
         for (const std::size_t count : {50'000U, 100'000U, 150'000U, 200'000U}) {
-            ThesisCell cell{std::string(scene), count, {}, {}};
-            cell.cdt = {60, static_cast<double>(count) * 1e-7, static_cast<double>(count) * 0.5e-7, 0.0, 0.25};
-            if (with_octree)
-                cell.octree = SystemTimes{30, static_cast<double>(count) * 6e-7, 0.0, 0.0, 0.9375};
+            const double n = static_cast<double>(count);
+            ThesisCell cell{std::string(scene), count, {}, {}, {}};
+            cell.cdt = {60, n * 1e-7, n * 0.5e-7, 0.0, 0.25, 0.5};
+            if (with_compute) {
+                cell.octree = SystemTimes{30, n * 6e-7, 0.0, 0.0, 0.9375, 0.75};
+                cell.depth = SystemTimes{60, n * 0.4e-7, 0.0, 0.0, 0.0, 0.375};
+            }
             run.cells.push_back(cell);
         }
     return run;
@@ -73,10 +76,13 @@ TEST_CASE("thesis_report: tables, figures and ratios, the thesis's beside") {
     CHECK(has_row({"octree", "30.00", "60.00", "90.00", "120", "1.00", "102", "194", "284", "392", "0.96"}));
     CHECK(has_row({"bunny", "B", "6.0", "6.0", "6.0", "6.0", "7.7", "6.3", "5.7", "5.9"}));
     CHECK(has_row({"x-streams", "6.0", "6.0", "6.0", "6.0", "-", "-", "-", "-"}));
-    CHECK_THAT(text,
-               Catch::Contains("25.0 / 93.8") && Catch::Contains("x 1.00 to 1.00 (CDT), 1.00 to 1.00 (octree)") &&
-                   Catch::Contains("0.0 to 0.0 % (CDT), 0.0 to 0.0 % (octree) at most") &&
-                   Catch::Contains("octree / CDT: 6.0 to 6.0 (thesis 4.5 to 7.7); octree slower in every cell: yes"));
+    CHECK(has_row({"dragon", "A", "2.00", "4.00", "6.00", "8.00", "1.00"}));
+    CHECK(has_row({"dragon", "A", "0.4", "0.4", "0.4", "0.4"}));
+    CHECK_THAT(text, Catch::Contains("25.0 / 93.8 / 0.0") && Catch::Contains("50.0 / 75.0 / 37.5") &&
+                         Catch::Contains("x 1.00 to 1.00 (CDT), 1.00 to 1.00 (octree), 1.00 to 1.00 (depth)") &&
+                         Catch::Contains("0.0 to 0.0 % (CDT), 0.0 to 0.0 % (octree), 0.0 to 0.0 % (depth) at most") &&
+                         Catch::Contains("octree / CDT: 6.0 to 6.0 (thesis 4.5 to 7.7); octree slower in every cell: "
+                                         "yes\ndepth / CDT: 0.40 to 0.40\n"));
 }
 
 TEST_CASE("thesis_report: each average of the thesis stands beside what it is the average of") {
@@ -104,30 +110,36 @@ TEST_CASE("thesis_report: scenes that were left out have empty rows") {
 
 TEST_CASE("thesis_report: how time grows without what a frame costs anyway") {
     ThesisRun run = linear_run();
-    CHECK_THAT(thesis_text(run), Catch::Contains("to a frame with one alone: x - (CDT), - (octree)"));
+    CHECK_THAT(thesis_text(run), Catch::Contains("to a frame with one alone: x - (CDT), - (octree), - (depth)"));
     for (ThesisCell& cell : run.cells) {
         cell.cdt.fixed = 0.02;
         cell.cdt.wall += 0.02;
         cell.octree->fixed = 0.001;
         cell.octree->wall = 0.001 + 1e-9 * static_cast<double>(cell.particles) * static_cast<double>(cell.particles);
     }
-    CHECK_THAT(thesis_text(run), Catch::Contains("x 0.33 to 0.33 (CDT), 2.00 to 2.00 (octree); 0.9") &&
-                                     Catch::Contains("alone: x 1.00 to 1.00 (CDT), 2.00 to 2.00 (octree)"));
+    CHECK_THAT(thesis_text(run),
+               Catch::Contains("x 0.33 to 0.33 (CDT), 2.00 to 2.00 (octree), 1.00 to 1.00 (depth); 0.9") &&
+                   Catch::Contains("alone: x 1.00 to 1.00 (CDT), 2.00 to 2.00 (octree), - (depth)\n"));
 }
 
-TEST_CASE("thesis_report: without an octree its columns are empty") {
+TEST_CASE("thesis_report: without compute shaders the columns of octree and depth are empty") {
     const ThesisRun run = linear_run(false);
-    CHECK_THAT(thesis_text(run), Catch::Contains("25.0 / -") && Catch::Contains("octree slower in every cell: no"));
-    CHECK_THAT(thesis_csv(run), Catch::Contains("\nbunny_b,50000,5,2.5,0.25,,,,,13,100\n"));
+    CHECK_THAT(thesis_text(run), Catch::Contains("25.0 / - / -") &&
+                                     Catch::Contains("octree slower in every cell: no") &&
+                                     Catch::Contains("(octree); 0.9"));
+    CHECK_THAT(thesis_csv(run), Catch::Contains("\nbunny_b,50000,5,2.5,0.25,,,,,13,100,,,,0.5,,\n"));
     CHECK_FALSE(thesis_json(run).at("cells").front().contains("octree"));
+    CHECK_FALSE(thesis_json(run).at("cells").front().contains("depth"));
 }
 
 TEST_CASE("thesis_report: CSV has a line a cell, what is not known left empty") {
     const std::string csv = thesis_csv(linear_run());
-    CHECK_THAT(csv, Catch::StartsWith("scene,particles,cdt_ms,cdt_gpu_ms,cdt_recall,octree_ms,octree_gpu_ms,"
-                                      "octree_recall,octree_over_cdt,thesis_cdt_ms,thesis_octree_ms\n"));
-    CHECK_THAT(csv, Catch::Contains("\nbunny_b,50000,5,2.5,0.25,30,,0.9375,6,13,100\n"));
-    CHECK_THAT(csv, Catch::Contains("\nx_streams,200000,20,10,0.25,120,,0.9375,6,,\n"));
+    CHECK_THAT(csv,
+               Catch::StartsWith("scene,particles,cdt_ms,cdt_gpu_ms,cdt_recall,octree_ms,octree_gpu_ms,"
+                                 "octree_recall,octree_over_cdt,thesis_cdt_ms,thesis_octree_ms,depth_ms,depth_gpu_ms,"
+                                 "depth_over_cdt,cdt_answers,octree_answers,depth_answers\n"));
+    CHECK_THAT(csv, Catch::Contains("\nbunny_b,50000,5,2.5,0.25,30,,0.9375,6,13,100,2,,0.4,0.5,0.75,0.375\n"));
+    CHECK_THAT(csv, Catch::Contains("\nx_streams,200000,20,10,0.25,120,,0.9375,6,,,8,,0.4,0.5,0.75,0.375\n"));
     CHECK(std::count(csv.begin(), csv.end(), '\n') == 21);
 }
 
@@ -136,6 +148,8 @@ TEST_CASE("thesis_report: what was written as JSON is read back, what is wrong i
     ThesisRun run = linear_run();
     run.cells[3].cdt.recall = std::numeric_limits<double>::quiet_NaN();
     run.cells[4].octree.reset();
+    run.cells[5].depth.reset();
+    run.cells[6].depth->answers = std::numeric_limits<double>::quiet_NaN();
     for (ThesisCell& cell : run.cells)
         cell.cdt.fixed = 0.001;
     const auto file = folder.write("run.json", thesis_json(run).dump());

@@ -5,6 +5,7 @@
 
 #include <fmt/format.h>
 
+#include "crosscheck/collision/study/answers_at_obstacles.hpp"
 #include "crosscheck/collision/study/study.hpp"
 #include "crosscheck/judge/stopwatch.hpp"
 #include "crosscheck/scene/scene_file.hpp"
@@ -32,7 +33,11 @@ SystemTimes time_system(const Scene& scene, const ThesisOptions& options, Partic
         sum.gpu += gpu.frame_seconds();
     }
     gpu.read(last);
-    return {sum.frames, sum.wall / sum.frames, sum.gpu / sum.frames};
+    SystemTimes mean;
+    mean.frames = sum.frames;
+    mean.wall = sum.wall / sum.frames;
+    mean.gpu = sum.gpu / sum.frames;
+    return mean;
 }
 
 /// Of a frame with the first particle alone.
@@ -61,14 +66,29 @@ double octree_recall(const std::vector<glm::vec3>& positions, const TrueNeighbou
                                : static_cast<double>(recalled) / static_cast<double>(with_neighbour);
 }
 
-Scene load(std::string_view name, std::size_t count, const ThesisOptions& options) {
+Scene load(std::string_view name, std::size_t count, const ThesisOptions& options, std::string_view search = "cdt") {
     SceneOptions scene_options;
     scene_options.particles = count;
     scene_options.emitter_length = static_cast<float>(count) / full_count;
     scene_options.preset = options.preset;
     scene_options.set = options.set;
     scene_options.set.insert(scene_options.set.begin(), fmt::format("octree_size={}", thesis_octree_size));
+    scene_options.set.push_back(fmt::format("search={}", search));
     return load_scene(options.scenes / fmt::format("{}.json", name), scene_options);
+}
+
+/// Whether the depth goes with the switches.
+bool takes_depth(const ThesisOptions& options) {
+    if (!options.compute)
+        return false;
+    try {
+        static_cast<void>(load(thesis_scenes.back(), 1, options, "depth"));
+        return true;
+    } catch (const Error& error) {
+        if (options.on_left_out)
+            options.on_left_out("the scene's depth", error.what());
+        return false;
+    }
 }
 
 /// The scenes that can be measured. The last one needs no mesh: what keeps it from loading keeps all.
@@ -87,37 +107,61 @@ std::vector<std::string_view> loadable(const ThesisOptions& options) {
     return scenes;
 }
 
-ThesisCell measure(std::string_view name, std::size_t count, const ThesisOptions& options) {
+/// Leaves the particles after the last frame in `last`.
+SystemTimes time_both(const Scene& scene, const ThesisOptions& options, Particles& last) {
+    SystemTimes times = time_system(scene, options, last);
+    times.fixed = fixed_time(scene, options);
+    return times;
+}
+
+ThesisCell measure(std::string_view name, std::size_t count, const ThesisOptions& options, bool with_depth) {
     Scene scene = load(name, count, options);
-    ThesisCell cell{std::string(name), count, {}, {}};
+    ThesisCell cell;
+    cell.scene = name;
+    cell.particles = count;
     Particles last, ignored;
-    scene.switches.search = Search::cdt;
-    cell.cdt = time_system(scene, options, last);
-    cell.cdt.fixed = fixed_time(scene, options);
-    if (options.octree) {
+    cell.cdt = time_both(scene, options, last);
+    if (options.compute) {
         scene.switches.search = Search::octree;
-        cell.octree = time_system(scene, options, ignored);
-        cell.octree->fixed = fixed_time(scene, options);
+        cell.octree = time_both(scene, options, ignored);
     }
+    if (with_depth) {
+        scene.switches.search = Search::depth;
+        cell.depth = time_both(scene, options, ignored);
+    }
+    scene.switches.search = Search::cdt;
     scene.start = last;
     const TrueNeighbours truth = find_truth(last.position, scene.constants.collision_range);
-    cell.cdt.recall = study_start(scene, truth, Profile{}).counts.recall();
-    if (cell.octree)
+    const std::vector<std::size_t> at = touching(last.position, scene.obstacles, scene.constants.collision_range);
+    const SearchStudy study = study_start(scene, truth, Profile{});
+    cell.cdt.recall = study.counts.recall();
+    cell.cdt.answers = share_of_hits(hits_of_cdt(study), at);
+    if (cell.octree) {
         cell.octree->recall = octree_recall(last.position, truth, scene.constants.octree_size);
+        cell.octree->answers = share_of_hits(hits_of_octree(scene), at);
+    }
+    if (cell.depth)
+        cell.depth->answers = share_of_hits(hits_of_depth(scene, Profile{}), at);
     return cell;
 }
 
 } // namespace
 
-std::optional<double> ThesisCell::ratio() const {
+std::optional<double> ThesisCell::octree_ratio() const {
     return octree ? std::optional(octree->wall / cdt.wall) : std::nullopt;
+}
+
+std::optional<double> ThesisCell::depth_ratio() const {
+    return depth ? std::optional(depth->wall / cdt.wall) : std::nullopt;
 }
 
 std::vector<ThesisCell> thesis_study(const ThesisOptions& options) {
     std::vector<ThesisCell> cells;
-    for (const std::string_view scene : loadable(options))
+    const std::vector<std::string_view> scenes = loadable(options);
+    const bool with_depth = takes_depth(options);
+    for (const std::string_view scene : scenes)
         for (const std::size_t count : options.counts) {
-            cells.push_back(measure(scene, count, options));
+            cells.push_back(measure(scene, count, options, with_depth));
             if (options.on_cell)
                 options.on_cell(cells.back());
         }

@@ -10,7 +10,8 @@
 
 namespace lockstep {
 
-/// The measurements of the thesis's chapters 4 and 5, made again in the current GL context.
+/// The measurements of the thesis's chapters 4 and 5, made again in the current GL context, and of chapter 2's
+/// collision with the scene's depth beside them.
 ///
 /// A density is a property of an emitter, not of a count: the emitters of the scene files are as dense as they are with
 /// 200,000 particles, and fewer make them shorter along their direction. The thesis does not say where its particles
@@ -24,6 +25,7 @@ struct SystemTimes {
     double fixed = 0.0;  ///< `wall` of the same scene with one particle: obstacles, clearing, waiting; 0: not measured
     double recall = 0.0; ///< of the particles in contact after the CDT's last frame, those that see a neighbour; may be
                          ///< NaN
+    double answers = 0.0; ///< of the particles that touch an obstacle then, those whose search finds anything; likewise
 };
 
 struct ThesisCell {
@@ -31,9 +33,11 @@ struct ThesisCell {
     std::size_t particles = 0;
     SystemTimes cdt;
     std::optional<SystemTimes> octree; ///< needs GL 4.3
+    std::optional<SystemTimes> depth;  ///< likewise; the obstacles' depth, which holds no particles
 
-    /// Octree's time over the CDT's.
-    [[nodiscard]] std::optional<double> ratio() const;
+    /// Time over the CDT's.
+    [[nodiscard]] std::optional<double> octree_ratio() const;
+    [[nodiscard]] std::optional<double> depth_ratio() const;
 };
 
 inline constexpr std::array<std::string_view, 5> thesis_scenes{"bunny_a", "bunny_b", "dragon_a", "dragon_b",
@@ -47,13 +51,14 @@ struct ThesisOptions {
     std::vector<std::size_t> counts{50'000, 100'000, 150'000, 200'000};
     int frames = 60;      ///< a measurement, at most; frame 0, in which nobody searches, is not measured
     double seconds = 5.0; ///< a measurement ends with the frame in which this is over
-    bool octree = true;
-    std::function<void(std::string_view scene, std::string_view reason)> on_left_out; ///< before anything is measured
+    bool compute = true;  ///< octree and depth, too
+    std::function<void(std::string_view what, std::string_view reason)> on_left_out; ///< before anything is measured
     std::function<void(const ThesisCell&)> on_cell;
 };
 
-/// Every scene that loads with every count, both systems; without its mesh a scene is left out. Throws Error as
-/// load_scene does of x_streams, which needs no mesh, and as GpuSimulation does.
+/// Every scene that loads with every count, all systems; a scene without its mesh is left out, as is the depth where it
+/// does not go with `preset` and `set`. Throws Error as load_scene does of x_streams, which needs no mesh, and as
+/// GpuSimulation does.
 std::vector<ThesisCell> thesis_study(const ThesisOptions& options);
 
 } // namespace lockstep

@@ -40,10 +40,20 @@ std::string title(std::string_view scene) {
     return fmt::format("{:<7}{}", scene.substr(0, end), scene.back() == 'a' ? 'A' : 'B');
 }
 
-enum class ParticleSystem { cdt, octree };
+enum class ParticleSystem { cdt, octree, depth };
+
+/// What was measured of it; null: nothing.
+const SystemTimes* times_of(ParticleSystem system, const ThesisCell& cell) {
+    if (system == ParticleSystem::cdt)
+        return &cell.cdt;
+    const std::optional<SystemTimes>& times = system == ParticleSystem::octree ? cell.octree : cell.depth;
+    return times ? &*times : nullptr;
+}
 
 /// The thesis's ms for a scene and count; NaN where it gives none.
 double published_ms(ParticleSystem system, std::string_view scene, std::size_t count) {
+    if (system == ParticleSystem::depth)
+        return not_a_number;
     for (const Published& row : published)
         for (std::size_t c = 0; c < published_counts.size(); ++c)
             if (row.scene == scene && published_counts[c] == count) {
@@ -54,15 +64,14 @@ double published_ms(ParticleSystem system, std::string_view scene, std::size_t c
 }
 
 double measured_ms(ParticleSystem system, const ThesisCell& cell) {
-    if (system == ParticleSystem::octree && !cell.octree)
-        return not_a_number;
-    return 1e3 * (system == ParticleSystem::cdt ? cell.cdt.wall : cell.octree->wall);
+    const SystemTimes* times = times_of(system, cell);
+    return times == nullptr ? not_a_number : 1e3 * times->wall;
 }
 
 /// What the particles add to a frame with one alone; NaN where that was not measured.
 double added_ms(ParticleSystem system, const ThesisCell& cell) {
-    const double fixed = system == ParticleSystem::cdt ? cell.cdt.fixed : cell.octree ? cell.octree->fixed : 0.0;
-    return fixed > 0.0 ? measured_ms(system, cell) - 1e3 * fixed : not_a_number;
+    const SystemTimes* times = times_of(system, cell);
+    return times != nullptr && times->fixed > 0.0 ? 1e3 * (times->wall - times->fixed) : not_a_number;
 }
 
 std::vector<std::size_t> counts_of_scene(const ThesisRun& run, std::string_view scene) {
@@ -181,7 +190,8 @@ std::string ratio_row(std::string_view name, const std::vector<double>& ratios, 
     std::vector<std::string> columns;
     for (const double ratio : ratios)
         columns.push_back(digits_text(ratio, 1));
-    columns.emplace_back("");
+    if (!thesis.empty())
+        columns.emplace_back("");
     for (const double ratio : thesis)
         columns.push_back(digits_text(ratio, 1));
     return line(name, columns);
@@ -230,29 +240,49 @@ std::string averages(const ThesisRun& run) {
         ms_text(mean(series(run, ParticleSystem::cdt, "dragon_b").ms)), published_average, published_abstract_average);
 }
 
+/// A text of each system, one after the other; the depth's where it was measured.
+template <class Text> std::string each_system(const ThesisRun& run, const Text& text) {
+    std::string all = fmt::format("{} (CDT), {} (octree)", text(ParticleSystem::cdt), text(ParticleSystem::octree));
+    const bool depth =
+        std::any_of(run.cells.begin(), run.cells.end(), [](const ThesisCell& cell) { return cell.depth.has_value(); });
+    return depth ? fmt::format("{}, {} (depth)", all, text(ParticleSystem::depth)) : all;
+}
+
 std::string findings(const ThesisRun& run) {
     const std::vector<std::size_t> n = counts(run);
-    std::vector<double> cdt, octree, ratios, cdt_added, octree_added, cdt_off, octree_off;
-    for (const std::string_view scene : thesis_scenes) {
-        cdt.push_back(exponent(n, series(run, ParticleSystem::cdt, scene).ms));
-        octree.push_back(exponent(n, series(run, ParticleSystem::octree, scene).ms));
-        cdt_added.push_back(exponent(n, series(run, ParticleSystem::cdt, scene).added));
-        octree_added.push_back(exponent(n, series(run, ParticleSystem::octree, scene).added));
-        cdt_off.push_back(100.0 * off_line(n, series(run, ParticleSystem::cdt, scene).ms));
-        octree_off.push_back(100.0 * off_line(n, series(run, ParticleSystem::octree, scene).ms));
-    }
+    /// Least and greatest over the scenes.
+    const auto over_scenes = [&](ParticleSystem system, auto&& value, int digits) {
+        std::vector<double> values;
+        for (const std::string_view scene : thesis_scenes)
+            values.push_back(value(series(run, system, scene)));
+        return range(values, digits);
+    };
+    const std::string grows = each_system(run, [&](ParticleSystem system) {
+        return over_scenes(
+            system, [&](const Series& s) { return exponent(n, s.ms); }, 2);
+    });
+    const std::string added = each_system(run, [&](ParticleSystem system) {
+        return over_scenes(
+            system, [&](const Series& s) { return exponent(n, s.added); }, 2);
+    });
+    const std::string off = each_system(run, [&](ParticleSystem system) {
+        return over_scenes(
+                   system, [&](const Series& s) { return 100.0 * off_line(n, s.ms); }, 1) +
+               " %";
+    });
+    std::vector<double> octree, depth;
     bool slower = true;
     for (const ThesisCell& cell : run.cells) {
-        ratios.push_back(cell.ratio().value_or(not_a_number));
-        slower = slower && ratios.back() > 1.0;
+        octree.push_back(cell.octree_ratio().value_or(not_a_number));
+        depth.push_back(cell.depth_ratio().value_or(not_a_number));
+        slower = slower && octree.back() > 1.0;
     }
-    return averages(run) +
-           fmt::format("time ~ particles^x: x {} (CDT), {} (octree); 0.9 to 1.1 is linear\n"
-                       "the same of what particles add to a frame with one alone: x {} (CDT), {} (octree)\n"
-                       "off the line a + b * particles: {} % (CDT), {} % (octree) at most\n"
-                       "octree / CDT: {} (thesis 4.5 to 7.7); octree slower in every cell: {}\n",
-                       range(cdt, 2), range(octree, 2), range(cdt_added, 2), range(octree_added, 2), range(cdt_off, 1),
-                       range(octree_off, 1), range(ratios, 1), slower ? "yes" : "no");
+    return averages(run) + fmt::format("time ~ particles^x: x {}; 0.9 to 1.1 is linear\n"
+                                       "the same of what particles add to a frame with one alone: x {}\n"
+                                       "off the line a + b * particles: {} at most\n"
+                                       "octree / CDT: {} (thesis 4.5 to 7.7); octree slower in every cell: {}\n"
+                                       "depth / CDT: {}\n",
+                                       grows, added, off, range(octree, 1), slower ? "yes" : "no", range(depth, 2));
 }
 
 struct Column {
@@ -260,27 +290,35 @@ struct Column {
     double (*value)(const ThesisCell&);
 };
 
-double octree_value(const ThesisCell& cell, double (*value)(const SystemTimes&)) {
-    return cell.octree ? value(*cell.octree) : not_a_number;
+double value_of(ParticleSystem system, const ThesisCell& cell, double (*value)(const SystemTimes&)) {
+    const SystemTimes* times = times_of(system, cell);
+    return times != nullptr ? value(*times) : not_a_number;
 }
 
 constexpr auto gpu_ms = [](const SystemTimes& times) { return times.gpu > 0.0 ? 1e3 * times.gpu : not_a_number; };
+constexpr auto wall_ms = [](const SystemTimes& times) { return 1e3 * times.wall; };
+constexpr auto recall = [](const SystemTimes& times) { return times.recall; };
+constexpr auto answers = [](const SystemTimes& times) { return times.answers; };
+
+using enum ParticleSystem;
 
 /// What a cell's line of CSV holds after scene and particles.
 constexpr std::array csv_columns{
-    Column{"cdt_ms", [](const ThesisCell& c) { return 1e3 * c.cdt.wall; }},
-    Column{"cdt_gpu_ms", [](const ThesisCell& c) { return gpu_ms(c.cdt); }},
-    Column{"cdt_recall", [](const ThesisCell& c) { return c.cdt.recall; }},
-    Column{"octree_ms",
-           [](const ThesisCell& c) { return octree_value(c, [](const SystemTimes& t) { return 1e3 * t.wall; }); }},
-    Column{"octree_gpu_ms", [](const ThesisCell& c) { return octree_value(c, gpu_ms); }},
-    Column{"octree_recall",
-           [](const ThesisCell& c) { return octree_value(c, [](const SystemTimes& t) { return t.recall; }); }},
-    Column{"octree_over_cdt", [](const ThesisCell& c) { return c.ratio().value_or(not_a_number); }},
-    Column{"thesis_cdt_ms",
-           [](const ThesisCell& c) { return published_ms(ParticleSystem::cdt, c.scene, c.particles); }},
-    Column{"thesis_octree_ms",
-           [](const ThesisCell& c) { return published_ms(ParticleSystem::octree, c.scene, c.particles); }},
+    Column{"cdt_ms", [](const ThesisCell& c) { return value_of(cdt, c, wall_ms); }},
+    Column{"cdt_gpu_ms", [](const ThesisCell& c) { return value_of(cdt, c, gpu_ms); }},
+    Column{"cdt_recall", [](const ThesisCell& c) { return value_of(cdt, c, recall); }},
+    Column{"octree_ms", [](const ThesisCell& c) { return value_of(octree, c, wall_ms); }},
+    Column{"octree_gpu_ms", [](const ThesisCell& c) { return value_of(octree, c, gpu_ms); }},
+    Column{"octree_recall", [](const ThesisCell& c) { return value_of(octree, c, recall); }},
+    Column{"octree_over_cdt", [](const ThesisCell& c) { return c.octree_ratio().value_or(not_a_number); }},
+    Column{"thesis_cdt_ms", [](const ThesisCell& c) { return published_ms(cdt, c.scene, c.particles); }},
+    Column{"thesis_octree_ms", [](const ThesisCell& c) { return published_ms(octree, c.scene, c.particles); }},
+    Column{"depth_ms", [](const ThesisCell& c) { return value_of(depth, c, wall_ms); }},
+    Column{"depth_gpu_ms", [](const ThesisCell& c) { return value_of(depth, c, gpu_ms); }},
+    Column{"depth_over_cdt", [](const ThesisCell& c) { return c.depth_ratio().value_or(not_a_number); }},
+    Column{"cdt_answers", [](const ThesisCell& c) { return value_of(cdt, c, answers); }},
+    Column{"octree_answers", [](const ThesisCell& c) { return value_of(octree, c, answers); }},
+    Column{"depth_answers", [](const ThesisCell& c) { return value_of(depth, c, answers); }},
 };
 
 nlohmann::json system_json(const SystemTimes& times) {
@@ -289,21 +327,27 @@ nlohmann::json system_json(const SystemTimes& times) {
         json["fixed_seconds"] = times.fixed;
     if (!std::isnan(times.recall))
         json["recall"] = times.recall;
+    if (!std::isnan(times.answers))
+        json["answers"] = times.answers;
     return json;
 }
 
 SystemTimes read_system(const JsonValue& json) {
     constexpr NumberRule seconds{0.0, 1e9, "a time in seconds"};
     constexpr NumberRule share{0.0, 1.0, "a share from 0 to 1"};
-    json.check_keys({"frames", "seconds", "gpu_seconds", "fixed_seconds", "recall"});
+    json.check_keys({"frames", "seconds", "gpu_seconds", "fixed_seconds", "recall", "answers"});
     SystemTimes times;
     times.frames = static_cast<int>(json.at("frames").integer(1, 100'000'000));
     times.wall = json.at("seconds").number(seconds);
     times.gpu = json.at("gpu_seconds").number(seconds);
     if (const auto fixed = json.find("fixed_seconds"))
         times.fixed = fixed->number(seconds);
-    const auto recall = json.find("recall");
-    times.recall = recall ? recall->number(share) : not_a_number;
+    const auto share_of = [&](const char* name) {
+        const auto found = json.find(name);
+        return found ? found->number(share) : not_a_number;
+    };
+    times.recall = share_of("recall");
+    times.answers = share_of("answers");
     return times;
 }
 
@@ -331,20 +375,23 @@ std::string panel(std::string_view name, std::string_view title, const std::vect
 } // namespace
 
 std::string thesis_cell_head() {
-    const std::string system = fmt::format(" {:>9} {:>9} {:>6} {:>8}", "ms", "GPU clock", "frames", "recall %");
-    return fmt::format("{:<9} {:>9} {:^35} {:^35}\n{:<9} {:>9}{}{} {:>10}\n", "", "", "CDT", "octree", "scene",
-                       "particles", system, system, "octree/CDT");
+    const std::string system =
+        fmt::format(" {:>9} {:>9} {:>6} {:>8} {:>9}", "ms", "GPU clock", "frames", "recall %", "answers %");
+    return fmt::format("{:<9} {:>9} {:^45} {:^45} {:^45}\n{:<9} {:>9}{}{}{} {:>10} {:>10}\n", "", "", "CDT", "octree",
+                       "depth", "scene", "particles", system, system, system, "octree/CDT", "depth/CDT");
 }
 
 std::string thesis_cell_text(const ThesisCell& cell) {
-    const auto system = [](const SystemTimes& t) {
-        return fmt::format(" {:>9} {:>9} {:>6} {:>8}", ms_text(1e3 * t.wall), ms_text(gpu_ms(t)), t.frames,
-                           percents(t.recall));
+    const auto system = [&](ParticleSystem which) {
+        const auto text = [&](double (*value)(const SystemTimes&)) { return value_of(which, cell, value); };
+        const SystemTimes* times = times_of(which, cell);
+        return fmt::format(" {:>9} {:>9} {:>6} {:>8} {:>9}", ms_text(text(wall_ms)), ms_text(text(gpu_ms)),
+                           times != nullptr ? fmt::format("{}", times->frames) : "-", percents(text(recall)),
+                           percents(text(answers)));
     };
-    std::string text = fmt::format("{:<9} {:>9}{}", cell.scene, cell.particles, system(cell.cdt));
-    if (cell.octree)
-        text += fmt::format("{} {:>10}", system(*cell.octree), digits_text(*cell.ratio(), 1));
-    return text + "\n";
+    return fmt::format("{:<9} {:>9}{}{}{} {:>10} {:>10}\n", cell.scene, cell.particles, system(cdt), system(octree),
+                       system(depth), digits_text(cell.octree_ratio().value_or(not_a_number), 1),
+                       digits_text(cell.depth_ratio().value_or(not_a_number)));
 }
 
 std::string thesis_text(const ThesisRun& run) {
@@ -358,35 +405,48 @@ std::string thesis_text(const ThesisRun& run) {
             }
     };
     out += "\nTable 4-1, CDT\n" + head(n, true);
-    table(ParticleSystem::cdt);
+    table(cdt);
     out += "\nTable 5-1, octree of depth 3\n" + head(n, true);
-    table(ParticleSystem::octree);
+    table(octree);
 
-    const Series cdt = average_of_b(run, ParticleSystem::cdt);
-    const Series octree = average_of_b(run, ParticleSystem::octree);
+    const Series cdt_of_b = average_of_b(run, cdt);
+    const Series octree_of_b = average_of_b(run, octree);
     out += "\nFigure 5-3, bunny and dragon at density B, averaged\n" + head(n, true);
-    out += times_row("CDT", n, cdt.ms, cdt.thesis) + times_row("octree", n, octree.ms, octree.thesis);
+    out +=
+        times_row("CDT", n, cdt_of_b.ms, cdt_of_b.thesis) + times_row("octree", n, octree_of_b.ms, octree_of_b.thesis);
     out += "\nFigure 5-5, streams along x\n" + head(n, false);
-    out += times_row("CDT", n, series(run, ParticleSystem::cdt, "x_streams").ms, {});
-    out += times_row("octree", n, series(run, ParticleSystem::octree, "x_streams").ms, {});
+    out += times_row("CDT", n, series(run, cdt, "x_streams").ms, {});
+    out += times_row("octree", n, series(run, octree, "x_streams").ms, {});
 
     out += "\nOctree / CDT\n" + head(n, true, false);
     for (const std::string_view scene : thesis_scenes) {
-        const Series a = series(run, ParticleSystem::octree, scene);
-        const Series b = series(run, ParticleSystem::cdt, scene);
+        const Series a = series(run, octree, scene);
+        const Series b = series(run, cdt, scene);
         out += ratio_row(title(scene), quotient(a.ms, b.ms), quotient(a.thesis, b.thesis));
     }
-    out += "\nRecall %, CDT / octree\n";
-    for (const std::string_view scene : thesis_scenes) {
-        std::vector<std::string> columns;
-        for (const std::size_t count : n) {
-            const ThesisCell* cell = find_cell(run, scene, count);
-            columns.push_back(
-                fmt::format("{} / {}", percents(cell != nullptr ? cell->cdt.recall : not_a_number),
-                            percents(cell != nullptr && cell->octree ? cell->octree->recall : not_a_number)));
+    out += "\nDepth of the scene\n" + head(n, false);
+    for (const std::string_view scene : thesis_scenes)
+        out += times_row(title(scene), n, series(run, depth, scene).ms, {});
+    out += "\nDepth / CDT\n" + head(n, false, false);
+    for (const std::string_view scene : thesis_scenes)
+        out += ratio_row(title(scene), quotient(series(run, depth, scene).ms, series(run, cdt, scene).ms), {});
+    const auto shares = [&](double (*value)(const SystemTimes&)) {
+        for (const std::string_view scene : thesis_scenes) {
+            std::vector<std::string> columns;
+            for (const std::size_t count : n) {
+                const ThesisCell* cell = find_cell(run, scene, count);
+                const auto share = [&](ParticleSystem system) {
+                    return percents(cell != nullptr ? value_of(system, *cell, value) : not_a_number);
+                };
+                columns.push_back(fmt::format("{} / {} / {}", share(cdt), share(octree), share(depth)));
+            }
+            out += line(title(scene), columns, 19);
         }
-        out += line(title(scene), columns, 14);
-    }
+    };
+    out += "\nRecall %, CDT / octree / depth: who has a particle in range finds one\n";
+    shares(recall);
+    out += "\nAnswers %, CDT / octree / depth: who touches an obstacle finds it, or a particle\n";
+    shares(answers);
     return out + "\n" + findings(run);
 }
 
@@ -412,6 +472,8 @@ nlohmann::json thesis_json(const ThesisRun& run) {
         cells.push_back({{"scene", cell.scene}, {"particles", cell.particles}, {"cdt", system_json(cell.cdt)}});
         if (cell.octree)
             cells.back()["octree"] = system_json(*cell.octree);
+        if (cell.depth)
+            cells.back()["depth"] = system_json(*cell.depth);
     }
     return {{"context", run.context}, {"cells", cells}};
 }
@@ -423,13 +485,15 @@ ThesisRun read_thesis_json(const std::filesystem::path& file) {
     ThesisRun run;
     run.context = json.at("context").text();
     for (const JsonValue& item : json.at("cells").items()) {
-        item.check_keys({"scene", "particles", "cdt", "octree"});
+        item.check_keys({"scene", "particles", "cdt", "octree", "depth"});
         ThesisCell cell;
         cell.scene = thesis_scenes[item.at("scene").choice(thesis_scenes)];
         cell.particles = static_cast<std::size_t>(item.at("particles").integer(1, 100'000'000));
         cell.cdt = read_system(item.at("cdt"));
         if (const auto octree = item.find("octree"))
             cell.octree = read_system(*octree);
+        if (const auto depth = item.find("depth"))
+            cell.depth = read_system(*depth);
         run.cells.push_back(cell);
     }
     if (run.cells.empty())

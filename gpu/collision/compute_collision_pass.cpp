@@ -10,6 +10,7 @@
 #include "gpu/check.hpp"
 #include "gpu/collision/collision_pass.hpp"
 #include "gpu/collision/collision_shaders.hpp"
+#include "gpu/collision/particle_groups.hpp"
 #include "gpu/collision/step_uniforms.hpp"
 #include "gpu/shader_source.hpp"
 #include "reference/model/error.hpp"
@@ -56,27 +57,8 @@ void allocate(const GlBuffer& buffer, std::size_t words) {
                    nullptr, GL_DYNAMIC_COPY);
 }
 
-/// Invocations in a group of a compute stage that makes one a particle.
-std::size_t group_size(const Program& program, std::size_t particles) {
-    std::array<GLint, 3> size{};
-    gl::GetProgramiv(program.id(), GL_COMPUTE_WORK_GROUP_SIZE, size.data());
-    if (size[1] != 1 || size[2] != 1)
-        throw Error(fmt::format("{}: local_size_y is {} and local_size_z {}; particles are counted along x, and both "
-                                "are to be 1",
-                                program.name(), size[1], size[2]));
-    const auto along = static_cast<std::size_t>(size[0]);
-    GLint most = 0;
-    gl::GetIntegeri_v(GL_MAX_COMPUTE_WORK_GROUP_COUNT, 0, &most);
-    if (particles > along * static_cast<std::size_t>(most))
-        throw Error(fmt::format("{}: {} particles are more than {} groups of {}, which is what this context takes; a "
-                                "larger local_size_x is needed",
-                                program.name(), particles, most, along));
-    return along;
-}
-
 void dispatch(const Program& program, std::size_t particles, std::size_t group) {
-    program.use();
-    gl::DispatchCompute(static_cast<GLuint>((particles + group - 1) / group), 1, 1);
+    dispatch_particles(program, particles, group);
     gl::MemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT);
 }
 

@@ -5,14 +5,13 @@
 
 #include "gpu/check.hpp"
 #include "gpu/collision/collision_shaders.hpp"
+#include "gpu/collision/particle_groups.hpp"
 #include "gpu/collision/step_uniforms.hpp"
 #include "gpu/shader_source.hpp"
 #include "reference/model/error.hpp"
 
 namespace lockstep {
 namespace {
-
-constexpr GLuint depth_group_size = 64; // local_size_x of the shader
 
 constexpr GLuint depth_before_binding = 0, depth_after_binding = 1;
 
@@ -33,7 +32,8 @@ BoundStorage bind_depth(const Program& program) {
 } // namespace
 
 DepthPass::DepthPass(const Scene& scene, const std::filesystem::path& shaders)
-    : program_(link_depth(scene, shaders)), bound_(bind_depth(program_)) {}
+    : program_(link_depth(scene, shaders)), bound_(bind_depth(program_)),
+      group_(group_size(program_, scene.start.size())) {}
 
 void DepthPass::run(const FrameParams& params, const ParticleBuffer& from, ParticleBuffer& to,
                     const CollisionTexture& depth) {
@@ -52,8 +52,7 @@ void DepthPass::run(const FrameParams& params, const ParticleBuffer& from, Parti
     const RecordBuffer* const read[] = {&from};
     const RecordBuffer* const written[] = {&to};
     bound_.fill(read, written);
-    program_.use();
-    gl::DispatchCompute((static_cast<GLuint>(from.size()) + depth_group_size - 1) / depth_group_size, 1, 1);
+    dispatch_particles(program_, from.size(), group_);
     bound_.collect(written);
     gl::MemoryBarrier(GL_BUFFER_UPDATE_BARRIER_BIT | GL_CLIENT_MAPPED_BUFFER_BARRIER_BIT |
                       GL_VERTEX_ATTRIB_ARRAY_BARRIER_BIT | GL_SHADER_STORAGE_BARRIER_BIT);

@@ -1,4 +1,5 @@
 #pragma once
+#include <cstddef>
 #include <filesystem>
 
 #include "gpu/bound_storage.hpp"
@@ -22,6 +23,7 @@ class DepthPass {
   private:
     Program program_;
     BoundStorage bound_;
+    std::size_t group_; ///< invocations
 };
 
 } // namespace lockstep

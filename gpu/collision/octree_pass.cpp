@@ -7,6 +7,7 @@
 
 #include "gpu/check.hpp"
 #include "gpu/collision/collision_shaders.hpp"
+#include "gpu/collision/particle_groups.hpp"
 #include "gpu/collision/step_uniforms.hpp"
 #include "gpu/shader_source.hpp"
 #include "gpu/texture.hpp"
@@ -14,8 +15,6 @@
 
 namespace lockstep {
 namespace {
-
-constexpr GLuint octree_group_size = 64; // local_size_x of the shader
 
 /// The bindings of the shader's buffers.
 enum Binding : GLuint { before, after, nodes, indices, obstacle_vertices, order };
@@ -64,8 +63,8 @@ void upload_node_texture(GLuint texture) {
 } // namespace
 
 OctreePass::OctreePass(const Scene& scene, const std::filesystem::path& shaders)
-    : program_(link(scene, shaders)), bound_(bind(program_)), octree_(scene.constants.octree_size),
-      obstacles_(taking_part(scene)) {
+    : program_(link(scene, shaders)), bound_(bind(program_)), group_(group_size(program_, scene.start.size())),
+      octree_(scene.constants.octree_size), obstacles_(taking_part(scene)) {
     upload_node_texture(node_texture_.id());
     upload(obstacle_vertices_.id(), std::span<const glm::vec3>(obstacles_), GL_STATIC_DRAW);
     check_gl("octree_pass");
@@ -96,7 +95,7 @@ void OctreePass::run(const FrameParams& params, const ParticleBuffer& from, Part
     const RecordBuffer* const read[] = {&from};
     const RecordBuffer* const written[] = {&to};
     bound_.fill(read, written);
-    gl::DispatchCompute((static_cast<GLuint>(from.size()) + octree_group_size - 1) / octree_group_size, 1, 1);
+    dispatch_particles(program_, from.size(), group_);
     bound_.collect(written);
     gl::MemoryBarrier(GL_BUFFER_UPDATE_BARRIER_BIT | GL_CLIENT_MAPPED_BUFFER_BARRIER_BIT |
                       GL_VERTEX_ATTRIB_ARRAY_BARRIER_BIT | GL_SHADER_STORAGE_BARRIER_BIT);

@@ -1,4 +1,5 @@
 #pragma once
+#include <cstddef>
 #include <filesystem>
 #include <vector>
 
@@ -29,6 +30,7 @@ class OctreePass {
   private:
     Program program_;
     BoundStorage bound_;
+    std::size_t group_; ///< invocations
     Octree octree_;
     std::vector<glm::vec3> obstacles_; ///< vertices that take part
     Particles read_back_;

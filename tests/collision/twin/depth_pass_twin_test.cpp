@@ -103,6 +103,23 @@ TEST_CASE("depth pass twin: every switch it knows, any thickness and any number 
     }
 }
 
+TEST_CASE("depth pass twin: groups of any size step every particle") {
+    const auto context = test::open_compute();
+    if (!context)
+        return;
+    const Scene scene = depth_scene("corrected", 500);
+    for (const int size : {1, 32, 96, 512}) {
+        const test::TemporaryFolder shaders;
+        test::plant(shaders, "depth_pass.comp", "local_size_x = 64", fmt::format("local_size_x = {}", size));
+        INFO(size);
+        CHECK(test::check_twins(scene, 4, shaders.path()).verdict == Verdict::agree);
+    }
+    const test::TemporaryFolder square;
+    test::plant(square, "depth_pass.comp", "local_size_x = 64", "local_size_x = 8, local_size_y = 8");
+    CHECK_THROWS_WITH(test::check_twins(scene, 4, square.path()),
+                      Catch::StartsWith("depth_pass: local_size_y is 8 and local_size_z 1"));
+}
+
 TEST_CASE("depth pass twin: while the camera moves, both sides read the depth as it was drawn") {
     const auto context = test::open_compute();
     if (!context)

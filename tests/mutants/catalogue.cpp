@@ -143,7 +143,7 @@ std::vector<Mutant> whole_catalogue() {
     std::vector<Mutant> mutants = read_catalogue("tests/mutants/shaders.json");
     const auto add = [&](const std::vector<Mutant>& more) { mutants.insert(mutants.end(), more.begin(), more.end()); };
     add(read_catalogue("tests/mutants/host.json"));
-    for (const char* pass : {"compute_collision_pass", "octree_pass", "layered_collision_pass"})
+    for (const char* pass : {"compute_collision_pass", "octree_pass", "depth_pass", "layered_collision_pass"})
         add(read_catalogue(std::filesystem::path("tests/mutants") / pass += ".json", pass));
     return mutants;
 }

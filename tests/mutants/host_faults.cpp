@@ -63,7 +63,7 @@ bool in_collision_pass() {
 bool in_step() {
     GLint program = 0;
     state.real.GetIntegerv(GL_CURRENT_PROGRAM, &program);
-    return program != 0 && state.real.GetUniformLocation(static_cast<GLuint>(program), "u_CollisionRange") >= 0;
+    return program != 0 && state.real.GetUniformLocation(static_cast<GLuint>(program), "u_SpeedFactor") >= 0;
 }
 
 bool in_obstacle_pass() { return !in_collision_pass(); }

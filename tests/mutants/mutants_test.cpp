@@ -39,6 +39,10 @@ const std::set<std::string> few{"nearest_last_found",
                                 "octree_hit_old_speed_moves",
                                 "apart_added",
                                 "octree_host_speed_factor_complement",
+                                "depth_normal_reversed",
+                                "depth_thickness_included",
+                                "depth_normal_of_left",
+                                "depth_host_gravity_not_set",
                                 "layered_last_layer_skipped",
                                 "layered_own_not_skipped",
                                 "layered_first_matrix_for_both",
@@ -61,8 +65,8 @@ TEST_CASE("mutants: a few of the catalogue are found and named, and the shipped 
     const auto context = open_llvmpipe();
     if (!context)
         return;
-    constexpr std::string_view names[] = {"crowd",  "exact",        "halves", "lattice",    "octree",
-                                          "mutual", "octree_edges", "layers", "two_cameras"};
+    constexpr std::string_view names[] = {"crowd",        "exact",  "halves",      "lattice", "octree",     "mutual",
+                                          "octree_edges", "layers", "two_cameras", "depth",   "depth_edges"};
     std::vector<TrialScene> scenes = trial_scenes(llvmpipe_profile(), names);
     const Outcome unmutated = run_mutant({}, scenes);
     CHECK(unmutated.killer() == nullptr);

@@ -91,6 +91,8 @@ TrialScene::TrialScene(const std::string& name, const std::string& preset, const
 const char* TrialScene::pass() const {
     if (scene_.switches.search == Search::octree)
         return "octree_pass";
+    if (scene_.switches.search == Search::depth)
+        return "depth_pass";
     if (scene_.switches.step == Step::compute)
         return "compute_collision_pass";
     return has_remedies(scene_.switches) ? "layered_collision_pass" : "collision_pass";
@@ -133,6 +135,9 @@ std::vector<TrialScene> trial_scenes(const Profile& profile, std::span<const std
                                                            {"octree", "paper"},
                                                            {"octree", "exact"},
                                                            {"octree_edges", ""},
+                                                           {"depth", ""},
+                                                           {"depth", "exact"},
+                                                           {"depth_edges", ""},
                                                            {"layers", ""},
                                                            {"layers", "exact"},
                                                            {"mutual", ""},

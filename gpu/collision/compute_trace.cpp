@@ -22,12 +22,11 @@ namespace {
 
 constexpr GLuint nowhere = 0xffffffffU;
 
-Program link_trace(const Switches& switches, const std::filesystem::path& shaders) {
+Program link_trace(const std::string& pass, const Switches& switches, const std::filesystem::path& shaders) {
     ShaderDefines defines = switch_defines(switches);
     defines.emplace_back("LOCKSTEP_TRACE", "1");
     const std::array stages{Stage::compute};
-    return {"trace build of collision_pass",
-            load_stages(collision_shaders(shaders), "collision_pass", stages, defines)};
+    return {"trace build of " + pass, load_stages(collision_shaders(shaders), pass, stages, defines)};
 }
 
 /// A storage buffer of this many bytes, of ones.
@@ -71,8 +70,10 @@ CapturedVertex take_neighbour(CapturedVertex& from) {
 
 } // namespace
 
-ComputeTrace::ComputeTrace(const Switches& switches, const std::filesystem::path& shaders, int width, int height)
-    : program_(link_trace(switches, shaders)), bound_(bind_particles(program_)), width_(width), height_(height) {
+ComputeTrace::ComputeTrace(const std::string& pass, SetUniforms set_uniforms, const Switches& switches,
+                           const std::filesystem::path& shaders, int width, int height)
+    : program_(link_trace(pass, switches, shaders)), set_uniforms_(set_uniforms), bound_(bind_particles(program_)),
+      width_(width), height_(height) {
     std::array<GLint, 3> size{};
     gl::GetProgramiv(program_.id(), GL_COMPUTE_WORK_GROUP_SIZE, size.data());
     group_ = static_cast<std::size_t>(size[0]);
@@ -106,7 +107,7 @@ void ComputeTrace::dispatch(const FrameParams& params, const ParticleBuffer& fro
     const std::size_t groups = (invocations + group_ - 1) / group_;
     program_.set("u_ParticleCount", static_cast<unsigned>(from.size()));
     program_.set("u_TracedParticle", static_cast<unsigned>(particle));
-    set_collision_uniforms(program_, params);
+    set_uniforms_(program_, params);
     program_.check_interface();
     cdt.bind_texture(0);
     gl::BindBufferBase(GL_SHADER_STORAGE_BUFFER, before_binding, from.id());

@@ -16,13 +16,17 @@
 
 namespace lockstep {
 
-/// The trace build of shaders/collision/collision_pass.comp: the same file with LOCKSTEP_TRACE defined, run on one
+/// The trace build of a compute stage that steps particles: the same file with LOCKSTEP_TRACE defined, run on one
 /// particle. Its storage buffer at trace_binding is an array of structures whose members named trace_* are found by
 /// introspection; invocation i tells in trace_neighbour_* of the i-th texel that is looked at.
 class ComputeTrace {
   public:
+    /// Sets a pass's uniforms, but for u_ParticleCount.
+    using SetUniforms = void (*)(const Program&, const FrameParams&);
+
     /// `shaders` is looked into first; may be empty. Throws Error where the trace build does not compile or link.
-    ComputeTrace(const Switches& switches, const std::filesystem::path& shaders, int width, int height);
+    ComputeTrace(const std::string& pass, SetUniforms set_uniforms, const Switches& switches,
+                 const std::filesystem::path& shaders, int width, int height);
 
     /// Steps particle `particle` of `from`, reading `cdt`. Of a shader without such a buffer the state alone is told.
     [[nodiscard]] StepCapture run(const FrameParams& params, const ParticleBuffer& from, std::size_t particle,
@@ -42,6 +46,7 @@ class ComputeTrace {
     [[nodiscard]] std::vector<CapturedVertex> told(std::size_t invocations) const;
 
     Program program_;
+    SetUniforms set_uniforms_;
     BoundStorage bound_;
     std::vector<Member> members_;
     std::size_t stride_ = 0; ///< bytes from one structure to the next

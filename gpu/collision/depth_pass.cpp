@@ -31,6 +31,16 @@ BoundStorage bind_depth(const Program& program) {
 
 } // namespace
 
+void set_depth_uniforms(const Program& program, const FrameParams& params) {
+    set_step_uniforms(program, params);
+    program.set("u_ProjView", params.earlier_proj_view);
+    program.set("u_InverseProjView", params.earlier_inverse);
+    program.set("u_SurfaceThickness", params.constants.surface_thickness);
+    program.set("u_ClientWidth", params.width);
+    program.set("u_ClientHeight", params.height);
+    program.set_unit("u_Depth", 0, GL_SAMPLER_2D);
+}
+
 DepthPass::DepthPass(const Scene& scene, const std::filesystem::path& shaders)
     : program_(link_depth(scene, shaders)), bound_(bind_depth(program_)),
       group_(group_size(program_, scene.start.size())) {}
@@ -38,13 +48,7 @@ DepthPass::DepthPass(const Scene& scene, const std::filesystem::path& shaders)
 void DepthPass::run(const FrameParams& params, const ParticleBuffer& from, ParticleBuffer& to,
                     const CollisionTexture& depth) {
     program_.set("u_ParticleCount", static_cast<unsigned>(from.size()));
-    set_step_uniforms(program_, params);
-    program_.set("u_ProjView", params.earlier_proj_view);
-    program_.set("u_InverseProjView", params.earlier_inverse);
-    program_.set("u_SurfaceThickness", params.constants.surface_thickness);
-    program_.set("u_ClientWidth", params.width);
-    program_.set("u_ClientHeight", params.height);
-    program_.set_unit("u_Depth", 0, GL_SAMPLER_2D);
+    set_depth_uniforms(program_, params);
     program_.check_interface();
     depth.bind_texture(0);
     gl::BindBufferBase(GL_SHADER_STORAGE_BUFFER, depth_before_binding, from.id());

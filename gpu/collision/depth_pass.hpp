@@ -10,6 +10,9 @@
 
 namespace lockstep {
 
+/// Sets the uniforms of shaders/collision/depth_pass.comp but for the particles'.
+void set_depth_uniforms(const Program& program, const FrameParams& params);
+
 /// The depth comparator on GL: shaders/collision/depth_pass.comp holds each particle against the obstacles' depth,
 /// which the obstacle pass drew the frame before. Twin of reference/collision/depth_pass.hpp.
 class DepthPass {

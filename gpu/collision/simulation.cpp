@@ -126,9 +126,11 @@ std::vector<std::pair<std::string, double>> GpuSimulation::pass_seconds(const Fr
 }
 
 StepCapture GpuSimulation::trace(const FrameParams& params, std::size_t particle) {
-    if (compute_pass_) {
+    if (compute_pass_ || depth_pass_) {
         if (!compute_trace_)
-            compute_trace_.emplace(switches_, shaders_, params.width, params.height);
+            compute_trace_.emplace(depth_pass_ ? "depth_pass" : "collision_pass",
+                                   depth_pass_ ? set_depth_uniforms : set_collision_uniforms, switches_, shaders_,
+                                   params.width, params.height);
         return compute_trace_->run(params, particles_[1 - current_], particle, cdts_[1 - current_]);
     }
     if (!trace_)

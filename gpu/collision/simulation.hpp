@@ -40,8 +40,8 @@ class GpuSimulation final : public GpuSide {
     void repeat_step(const FrameParams& params) override;
 
     /// What the last frame's step of a particle computed on its way, from the buffers that frame read. Compiles the
-    /// trace build at the first call, and then throws Error for what is wrong with it. Needs search = cdt. A compute
-    /// shader without a trace build tells the state alone.
+    /// trace build at the first call, and then throws Error for what is wrong with it. Needs search = cdt or depth. A
+    /// compute shader without a trace build tells the state alone.
     [[nodiscard]] StepCapture trace(const FrameParams& params, std::size_t particle);
 
     /// GPU time of the last frame by a timer query, seconds, without the octree's refresh, which is the CPU's; 0 where

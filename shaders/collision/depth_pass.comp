@@ -6,6 +6,7 @@
 
 #include "arithmetic.glsl"
 #include "base_texel.glsl"
+#include "trace.glsl"
 
 layout(local_size_x = 64) in;
 
@@ -28,6 +29,57 @@ uniform float u_CollisionTime;
 uniform float u_SpeedFactor;
 uniform float u_Tick;
 uniform vec3 u_Gravity;
+
+#ifdef LOCKSTEP_TRACE
+// One particle, by several invocations: invocation i tells of the i-th texel whose surface is asked for.
+struct Trace {
+    int trace_searches;
+    vec4 trace_clip;
+    int trace_in_front;
+    vec2 trace_ndc;
+    vec2 trace_texture_coordinate;
+    vec2 trace_image_position;
+    ivec2 trace_base_texel; // -1: outside the image
+    int trace_neighbour_count;
+    int trace_neighbour_reached; // 0 outside the image, 1 read, 2 shows a surface
+    vec3 trace_neighbour_ndc;
+    vec4 trace_neighbour_unprojected;
+    vec3 trace_neighbour_surface;
+    float trace_neighbour_w;
+    float trace_behind;
+    int trace_is_behind;
+    int trace_is_within;
+    vec3 trace_to_right;
+    vec3 trace_to_upper;
+    vec3 trace_normal;
+    int trace_hit;
+    vec3 trace_away;     // a hit
+    vec3 trace_velocity; // none
+};
+layout(std430, binding = 4) writeonly buffer Traces { Trace traces[]; };
+uniform uint u_TracedParticle;
+Trace traced;
+
+void start_trace() {
+    traced.trace_searches = 0;
+    traced.trace_in_front = 0;
+    traced.trace_base_texel = ivec2(-1);
+    traced.trace_neighbour_count = 0;
+    traced.trace_neighbour_reached = 0;
+    traced.trace_is_behind = 0;
+    traced.trace_is_within = 0;
+    traced.trace_hit = 0;
+}
+#define START_TRACE() start_trace()
+#define TRACE_NEIGHBOUR(place, value) if (uint(traced.trace_neighbour_count) == gl_GlobalInvocationID.x + 1u) place = value
+#define PARTICLE u_TracedParticle
+#define END_TRACE() traces[gl_GlobalInvocationID.x] = traced
+#else
+#define START_TRACE()
+#define TRACE_NEIGHBOUR(place, value)
+#define PARTICLE gl_GlobalInvocationID.x
+#define END_TRACE()
+#endif
 
 // Each operation a rounding of its own: the locals are `precise`, so no product melts into a sum.
 float product(float a, float b) {
@@ -60,16 +112,24 @@ vec3 cross_product(vec3 a, vec3 b) {
 bool surface(ivec2 texel, out vec3 position, out float distance) {
     position = vec3(0.0);
     distance = 0.0;
+    TRACE(traced.trace_neighbour_count, traced.trace_neighbour_count + 1);
     if (texel.x < 0 || texel.y < 0 || texel.x >= u_ClientWidth || texel.y >= u_ClientHeight)
         return false;
     vec4 stored = texelFetch(u_Depth, texel, 0);
+    TRACE_NEIGHBOUR(traced.trace_neighbour_reached, 1);
     if (stored.a == 0.0)
         return false;
+    float depth = ls_flush(stored.r);
     precise vec3 ndc = vec3(ls_divide(float(texel.x) + 0.5, float(u_ClientWidth)),
-                            ls_divide(float(texel.y) + 0.5, float(u_ClientHeight)), ls_flush(stored.r)) * 2.0 - 1.0;
+                            ls_divide(float(texel.y) + 0.5, float(u_ClientHeight)), depth) * 2.0 - 1.0;
     vec4 p = ls_transform(u_InverseProjView, ndc);
     position = vec3(ls_divide(p.x, p.w), ls_divide(p.y, p.w), ls_divide(p.z, p.w));
     distance = ls_divide(1.0, p.w);
+    TRACE_NEIGHBOUR(traced.trace_neighbour_reached, 2);
+    TRACE_NEIGHBOUR(traced.trace_neighbour_ndc, ndc);
+    TRACE_NEIGHBOUR(traced.trace_neighbour_unprojected, p);
+    TRACE_NEIGHBOUR(traced.trace_neighbour_surface, position);
+    TRACE_NEIGHBOUR(traced.trace_neighbour_w, distance);
     return true;
 }
 
@@ -77,25 +137,43 @@ bool surface(ivec2 texel, out vec3 position, out float distance) {
 bool surface_hit(vec3 own, out vec3 normal) {
     normal = vec3(0.0);
     vec4 clip = ls_transform(u_ProjView, own);
-    ivec2 texel;
-    if (!(clip.w > 0.0) || !base_texel(image_position(clip), texel))
+    TRACE(traced.trace_searches, 1);
+    TRACE(traced.trace_clip, clip);
+    TRACE(traced.trace_in_front, clip.w > 0.0 ? 1 : 0);
+    if (!(clip.w > 0.0))
         return false;
+    ivec2 texel;
+    bool on_image = base_texel(image_position(clip), texel);
+    TRACE(traced.trace_ndc, last_ndc);
+    TRACE(traced.trace_texture_coordinate, last_texture_coordinate);
+    TRACE(traced.trace_image_position, last_image_position);
+    if (!on_image)
+        return false;
+    TRACE(traced.trace_base_texel, texel);
     vec3 here, right, upper;
     float distance, unused;
     if (!surface(texel, here, distance))
         return false;
     float behind = sum(clip.w, -distance);
+    TRACE(traced.trace_behind, behind);
+    TRACE(traced.trace_is_behind, behind > 0.0 ? 1 : 0);
+    TRACE(traced.trace_is_within, behind < u_SurfaceThickness ? 1 : 0);
     if (!(behind > 0.0) || !(behind < u_SurfaceThickness))
         return false;
     if (!surface(texel + ivec2(1, 0), right, unused) || !surface(texel + ivec2(0, 1), upper, unused))
         return false;
     normal = cross_product(sum(right, -here), sum(upper, -here));
+    TRACE(traced.trace_to_right, sum(right, -here));
+    TRACE(traced.trace_to_upper, sum(upper, -here));
+    TRACE(traced.trace_normal, normal);
+    TRACE(traced.trace_hit, 1);
     return true;
 }
 
 // Lines 21 to 24.
 Particle collide(Particle a, vec3 away) {
     Particle v;
+    TRACE(traced.trace_away, away);
     v.speed = product(a.speed, u_SpeedFactor);
     v.direction = ls_normalize(away);
     v.collide_time = u_CollisionTime;
@@ -111,6 +189,7 @@ Particle collide(Particle a, vec3 away) {
 Particle integrate(Particle a) {
     Particle v;
     vec3 temp = sum(product(a.direction, a.speed), product(u_Gravity, u_Tick));
+    TRACE(traced.trace_velocity, temp);
     v.direction = ls_normalize(temp);
     v.speed = ls_length(temp);
     v.collide_time = sum(a.collide_time, -u_Tick);
@@ -119,13 +198,15 @@ Particle integrate(Particle a) {
 }
 
 void main() {
-    uint self = gl_GlobalInvocationID.x;
+    uint self = PARTICLE;
     if (self >= u_ParticleCount)
         return;
+    START_TRACE();
     Particle a = before[self];
     vec3 normal;
     if (ls_flush(a.collide_time) < 0.0 && surface_hit(a.position, normal))
         after[self] = collide(a, normal);
     else
         after[self] = integrate(a);
+    END_TRACE();
 }

@@ -61,7 +61,7 @@ void FrameRun::go_to(int frame) {
 }
 
 StepCapture FrameRun::capture(std::size_t particle) {
-    if (simulation_ && is_listing(scene_.switches))
+    if (simulation_ && (is_listing(scene_.switches) || scene_.switches.search == Search::depth))
         return simulation_->trace(params_, particle);
     StepCapture untold;
     untold.state = after_[particle];

@@ -46,6 +46,9 @@ StepTable table_of(const JudgedFrame& frame, std::size_t particle, StepCapture c
     table.rows = with_step_pass(frame, [&](const JudgedPass& pass) {
         return item_rows(pass, particle, told_by_capture(pass.pass, table.gpu, frame.gpu[particle]));
     });
+    if (!same_bits(table.gpu.state, frame.gpu[particle]))
+        table.warning = "the trace build's outputs are not the ones the frame had; what it tells of the steps "
+                        "between may not be what happened";
     if (!draws) {
         table.reference.before = frame.before[particle];
         return table;
@@ -53,9 +56,6 @@ StepTable table_of(const JudgedFrame& frame, std::size_t particle, StepCapture c
     table.reference = trace_step(frame.before[particle], frame.cdt, frame.params, frame.profile);
     table.rows = with_drawn_rows(std::move(table.rows), frame, particle, table.gpu, table.reference, run);
     add_others(table.gpu, table.rows);
-    if (!same_bits(table.gpu.state, frame.gpu[particle]))
-        table.warning = "the trace build's outputs are not the ones the frame had; what it tells of the steps "
-                        "between may not be what happened";
     return table;
 }
 

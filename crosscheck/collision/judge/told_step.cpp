@@ -3,6 +3,7 @@
 #include <optional>
 
 #include "crosscheck/judge/item_table.hpp"
+#include "reference/collision/depth/depth_twin.hpp"
 #include "reference/collision/sites.hpp"
 #include "reference/model/collision/collision_state.hpp"
 
@@ -40,7 +41,60 @@ class ToldStep {
         return std::move(told_);
     }
 
+    /// Of depth_pass.
+    std::vector<ToldValue> against_depth() {
+        const auto searches = vertex_.integer(site::searches.output);
+        if (!searches)
+            return {};
+        decide(site::searches, *searches);
+        if (*searches != 0)
+            tell_surface_hit();
+        const bool hit = vertex_.integer("trace_hit").value_or(0) != 0;
+        tell(hit ? site::away : site::velocity, vertex_);
+        return std::move(told_);
+    }
+
   private:
+    void decide(const Site& site, int answer) { tell(site, {answer != 0 ? 1.0F : 0.0F}); }
+
+    void tell_surface_hit() {
+        const auto in_front = vertex_.integer(site::in_front.output);
+        const auto base = vertex_.integers(site::base_texel.output);
+        tell(site::clip, vertex_);
+        if (in_front)
+            decide(site::in_front, *in_front);
+        if (in_front.value_or(1) == 0)
+            return;
+        for (const Site* site : {&site::ndc, &site::texture_coordinate, &site::image_position})
+            tell(*site, vertex_);
+        if (base)
+            decide(site::base_texel, base->x >= 0 ? 1 : 0);
+        if (!base || base->x < 0)
+            return;
+        tell(site::base_texel, {static_cast<float>(base->x), static_cast<float>(base->y)});
+        constexpr int outside = 0, shows = 2; // 1: read
+        std::size_t shown = 0;
+        for (const CapturedVertex& texel : capture_.neighbours) {
+            const int reached = texel.integer(site::shows_surface.output).value_or(outside);
+            if (reached != outside)
+                decide(site::shows_surface, reached == shows ? 1 : 0);
+            if (reached != shows)
+                continue;
+            ++shown;
+            for (const Site* site : {&site::texel_ndc, &site::unprojected, &site::surface, &site::surface_distance})
+                tell(*site, texel);
+        }
+        if (shown > 0) {
+            tell(site::depth_behind, vertex_);
+            for (const Site* site : {&site::behind_surface, &site::within_thickness})
+                if (const auto answer = vertex_.integer(site->output))
+                    decide(*site, *answer);
+        }
+        if (shown == 3)
+            for (const Site* site : {&site::to_right, &site::to_upper, &site::normal})
+                tell(*site, vertex_);
+    }
+
     void tell_turn(int turn, const CapturedVertex& vertex) {
         const auto texel = vertex.integers(site::neighbour.output);
         const auto reached = vertex.integer(site::nearest.output);
@@ -78,7 +132,7 @@ class ToldStep {
 } // namespace
 
 std::vector<ToldValue> told_by_capture(const ItemPass& pass, const StepCapture& capture, const ParticleState& state) {
-    std::vector<ToldValue> told = ToldStep(capture)();
+    std::vector<ToldValue> told = pass.name() == "depth_pass" ? ToldStep(capture).against_depth() : ToldStep(capture)();
     const ParticleState left = capture.vertex_state.value_or(state);
     const std::vector<ToldValue> written = told_by_state(pass, view(left), 0);
     told.insert(told.end(), written.begin(), written.end());

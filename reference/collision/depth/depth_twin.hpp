@@ -6,25 +6,25 @@
 namespace lockstep {
 
 namespace site {
-inline constexpr Site in_front{"in front of the camera"};
+inline constexpr Site in_front{"in front of the camera", "trace_in_front"};
 inline constexpr Site surface_texel{"surface's texel"};
-inline constexpr Site shows_surface{"shows a surface"};
+inline constexpr Site shows_surface{"shows a surface", "trace_neighbour_reached"};
 inline constexpr Site stored_depth{"stored depth"};
 inline constexpr Site texel_centre{"texel's centre"};
-inline constexpr Site texel_ndc{"texel's ndc"};
+inline constexpr Site texel_ndc{"texel's ndc", "trace_neighbour_ndc"};
 inline constexpr Site inverse{"u_InverseProjView"};
-inline constexpr Site unprojected{"unprojected"};
-inline constexpr Site surface{"surface position"};
-inline constexpr Site surface_distance{"surface's distance"};
-inline constexpr Site depth_behind{"depth behind"};
-inline constexpr Site behind_surface{"behind the surface", {}, "world units"};
+inline constexpr Site unprojected{"unprojected", "trace_neighbour_unprojected"};
+inline constexpr Site surface{"surface position", "trace_neighbour_surface"};
+inline constexpr Site surface_distance{"surface's distance", "trace_neighbour_w"};
+inline constexpr Site depth_behind{"depth behind", "trace_behind"};
+inline constexpr Site behind_surface{"behind the surface", "trace_is_behind", "world units"};
 inline constexpr Site thickness{"u_SurfaceThickness"};
-inline constexpr Site within_thickness{"within the thickness", {}, "world units"};
+inline constexpr Site within_thickness{"within the thickness", "trace_is_within", "world units"};
 inline constexpr Site right_step{"step to the right texel"};
 inline constexpr Site upper_step{"step to the upper texel"};
-inline constexpr Site to_right{"to the right"};
-inline constexpr Site to_upper{"to the upper"};
-inline constexpr Site normal{"surface's normal"};
+inline constexpr Site to_right{"to the right", "trace_to_right"};
+inline constexpr Site to_upper{"to the upper", "trace_to_upper"};
+inline constexpr Site normal{"surface's normal", "trace_normal"};
 } // namespace site
 
 /// One particle's step against the obstacles' depth, over a reading `R`: what a texel shows is brought back to the

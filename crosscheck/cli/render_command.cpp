@@ -7,9 +7,11 @@
 #include "crosscheck/cli/run_options.hpp"
 #include "crosscheck/cli/system_verbs.hpp"
 #include "crosscheck/collision/report/frame_images.hpp"
+#include "crosscheck/collision/report/octree_overlay.hpp"
 #include "crosscheck/command/option_values.hpp"
 #include "crosscheck/files/output_files.hpp"
 #include "crosscheck/files/png.hpp"
+#include "crosscheck/report/overlay.hpp"
 #include "crosscheck/report/progress.hpp"
 #include "crosscheck/scene/profiles.hpp"
 #include "gpu/collision/simulation.hpp"
@@ -29,9 +31,16 @@ struct RenderRequest {
     Side side = Side::cpu;
     std::filesystem::path output;
     std::string profile = "strict";
+    bool octree = false;
 };
 
-ColorImage render_cpu(const Scene& scene, const RenderRequest& options) {
+/// What a side's run comes to.
+struct Rendered {
+    ColorImage picture;
+    Particles particles;
+};
+
+Rendered render_cpu(const Scene& scene, const RenderRequest& options) {
     const Profile profile = named_profile(options.profile);
     ReferenceSimulation reference(scene, profile);
     Progress progress("render", options.frame + 1, true);
@@ -39,10 +48,11 @@ ColorImage render_cpu(const Scene& scene, const RenderRequest& options) {
         reference.step(frame_params(scene, frame));
         progress.show(frame + 1);
     }
-    return render_pass(reference.particles(), scene.obstacles, frame_params(scene, options.frame), profile);
+    return {render_pass(reference.particles(), scene.obstacles, frame_params(scene, options.frame), profile),
+            reference.particles()};
 }
 
-ColorImage render_gpu(const Scene& scene, const RenderRequest& options) {
+Rendered render_gpu(const Scene& scene, const RenderRequest& options) {
     static_cast<void>(shaders_to_run(options.run, scene, true));
     const Context context(parse_context_request(options.run.gl));
     GpuSimulation gpu(scene, options.run.shaders);
@@ -53,20 +63,28 @@ ColorImage render_gpu(const Scene& scene, const RenderRequest& options) {
     }
     Particles particles;
     gpu.read(particles);
-    return render_on_gpu(particles, scene, frame_params(scene, options.frame), options.run.shaders);
+    return {render_on_gpu(particles, scene, frame_params(scene, options.frame), options.run.shaders), particles};
 }
 
 int run(const RenderRequest& options) {
     check_scene_exists(options.run.scene);
-    if (const RegisteredSystem* system = system_of(options.run))
+    const RegisteredSystem* system = system_of(options.run);
+    if (system != nullptr && options.octree)
+        throw Error("render: --octree goes with a scene of particles that collide; this one is of another system");
+    if (system != nullptr)
         return render_system(*system, options.run,
                              {options.frame, options.side == Side::gpu, options.profile, options.output});
     const Scene scene = load(options.run);
     OutputFiles files;
     protect_inputs(options.run, files);
     files.expect(options.output);
-    files.write(options.output,
-                png(options.side == Side::cpu ? render_cpu(scene, options) : render_gpu(scene, options)));
+    Rendered rendered = options.side == Side::cpu ? render_cpu(scene, options) : render_gpu(scene, options);
+    if (options.octree) {
+        const FrameParams params = frame_params(scene, options.frame);
+        draw_overlay(rendered.picture, params.render_projection * params.render_view,
+                     octree_overlay(rendered.particles.position, params.constants.octree_size));
+    }
+    files.write(options.output, png(rendered.picture));
     files.commit();
     return status_agree;
 }
@@ -84,6 +102,9 @@ Verb render_command() {
                                  "cpu: the reference, needs no GL; gpu: the shaders"));
     verb.add(text_option("--profile", "strict|llvmpipe|nvidia", options->profile,
                          "strict, llvmpipe or nvidia: the reference's order of sums"));
+    verb.add(flag("--octree", options->octree,
+                  "draw the octree's nodes that hold a particle, whichever search the scene makes; octree_size is the "
+                  "side of its root"));
     verb.footer = "Example: lockstep render data/scenes/lattice.json --frame 120 -o lattice.png --side cpu";
     verb.run = [options](const Call& call) {
         const bool cpu = options->side == Side::cpu;

@@ -319,7 +319,7 @@ Verb study_command() {
     verb.add(choice_option<StudySide>("--side", options->side, {{"cpu", StudySide::cpu}, {"gpu", StudySide::gpu}},
                                       "the side that runs SCENE: the reference, or the shaders, read back each frame"));
     verb.add(flag("--thesis", options->thesis,
-                  "the thesis's tables 4-1 and 5-1 and figures 5-3 and 5-5, CDT and octree, on GL; "
+                  "the thesis's tables 4-1 and 5-1 and figures 5-3 and 5-5, CDT, octree and the scene's depth, on GL; "
                   "--frames, --json, --csv, --chart, --set and --gl apply"));
     verb.add(integers_option("--counts", "N,...", {1, most_particles}, options->thesis_study.counts,
                              "--thesis: particle counts"));

@@ -161,6 +161,14 @@ void set_uniforms(const Program& program, const GlPass& pass, std::size_t items,
             std::visit([&](const auto& v) { program.set(name, v); }, value);
 }
 
+void blend_by(GlDraw::Blend blend) {
+    if (blend == GlDraw::Blend::none)
+        return gl::Disable(GL_BLEND);
+    gl::Enable(GL_BLEND);
+    blend == GlDraw::Blend::added ? gl::BlendFunc(GL_ONE, GL_ONE)
+                                  : gl::BlendFunc(GL_SRC_ALPHA, GL_ONE_MINUS_SRC_ALPHA);
+}
+
 /// A framebuffer of one texel. A context without a surface has none, and then draws nothing: not even a point that
 /// transform feedback alone would have.
 class SmallestTarget {
@@ -460,11 +468,7 @@ void GlSystem::Parts::draw(const Linked& linked) {
         gl::DepthMask(GL_TRUE);
         gl::ClearBufferfv(GL_DEPTH, 0, &far_plane);
     }
-    if (how.blend != GlDraw::Blend::none) {
-        gl::Enable(GL_BLEND);
-        how.blend == GlDraw::Blend::added ? gl::BlendFunc(GL_ONE, GL_ONE)
-                                          : gl::BlendFunc(GL_SRC_ALPHA, GL_ONE_MINUS_SRC_ALPHA);
-    }
+    blend_by(how.blend);
     if (how.sized)
         gl::Enable(GL_PROGRAM_POINT_SIZE);
     const bool encodes = image.format().layout.internal == GL_SRGB8_ALPHA8;
@@ -537,25 +541,66 @@ ColorImage GlSystem::Parts::picture(const Linked& linked, int frame, const GlPic
     const std::array background{static_cast<float>(how.background.r) / 255.0F,
                                 static_cast<float>(how.background.g) / 255.0F,
                                 static_cast<float>(how.background.b) / 255.0F, 1.0F};
-    gl::ClearBufferfv(GL_COLOR, 0, background.data());
-    gl::Enable(GL_BLEND);
-    gl::BlendFunc(GL_SRC_ALPHA, GL_ONE_MINUS_SRC_ALPHA);
+    std::vector<GlPicture::Batch> batches = how.batches;
+    if (batches.empty())
+        batches.push_back({.count = items(pass.instances_of.value())});
+    const GlTexture depth;
+    const float far_plane = 1.0F;
+    const bool has_depth =
+        std::any_of(batches.begin(), batches.end(), [](const auto& batch) { return batch.writes_depth; });
+    if (has_depth) {
+        allocate_texture(depth.id(), depth32f, how.width, how.height);
+        gl::FramebufferTexture2D(GL_FRAMEBUFFER, GL_DEPTH_ATTACHMENT, GL_TEXTURE_2D, depth.id(), 0);
+        check_framebuffer(GL_FRAMEBUFFER, "picture with depth");
+        gl::Enable(GL_DEPTH_TEST);
+        gl::DepthFunc(GL_LESS);
+    }
     set_uniforms(program, pass, items(pass.resource), frame);
     lend_images(program, pass);
     const GlVertexArray vertices = inputs(pass, program);
+    const GlBuffer indices, calls;
+    std::vector<std::array<std::uint32_t, 5>> arguments;
+    for (const GlPicture::Batch& batch : batches)
+        arguments.push_back({static_cast<std::uint32_t>(how.indices.size()), static_cast<std::uint32_t>(batch.count), 0,
+                             0, static_cast<std::uint32_t>(batch.first)});
+    const auto set = [&](const GlPicture::Batch& batch) {
+        for (const auto& [name, value] : batch.uniforms)
+            std::visit([&, of = &name](const auto& v) { program.set(*of, v); }, value);
+    };
+    set(batches.front());
     program.check_interface();
     program.use();
     gl::BindVertexArray(vertices.id());
-    const GlBuffer indices, call;
     gl::BindBuffer(GL_ELEMENT_ARRAY_BUFFER, indices.id());
     gl::BufferData(GL_ELEMENT_ARRAY_BUFFER, static_cast<GLsizeiptr>(how.indices.size() * sizeof(std::uint32_t)),
                    how.indices.data(), GL_STATIC_DRAW);
-    const std::array<std::uint32_t, 5> arguments{static_cast<std::uint32_t>(how.indices.size()),
-                                                 static_cast<std::uint32_t>(items(pass.instances_of.value())), 0, 0, 0};
-    gl::BindBuffer(GL_DRAW_INDIRECT_BUFFER, call.id());
-    gl::BufferData(GL_DRAW_INDIRECT_BUFFER, sizeof arguments, arguments.data(), GL_STATIC_DRAW);
-    timed([&] { gl::DrawElementsIndirect(GL_TRIANGLES, GL_UNSIGNED_INT, nullptr); });
-    gl::Disable(GL_BLEND);
+    gl::BindBuffer(GL_DRAW_INDIRECT_BUFFER, calls.id());
+    gl::BufferData(GL_DRAW_INDIRECT_BUFFER, static_cast<GLsizeiptr>(arguments.size() * sizeof arguments[0]),
+                   arguments.data(), GL_STATIC_DRAW);
+    const auto clear = [&] {
+        gl::DepthMask(GL_TRUE);
+        gl::ClearBufferfv(GL_COLOR, 0, background.data());
+        if (has_depth)
+            gl::ClearBufferfv(GL_DEPTH, 0, &far_plane);
+    };
+    const auto draw_all = [&] {
+        for (std::size_t b = 0; b < batches.size(); ++b) {
+            set(batches[b]);
+            blend_by(batches[b].blend);
+            gl::DepthMask(batches[b].writes_depth ? GL_TRUE : GL_FALSE);
+            gl::DrawElementsIndirect(GL_TRIANGLES, GL_UNSIGNED_INT,
+                                     reinterpret_cast<const void*>(b * sizeof arguments[0]));
+        }
+    };
+    clear();
+    if (takes_times) { // drivers compile what is drawn for the first time
+        draw_all();
+        clear();
+    }
+    timed(draw_all);
+    for (const GLenum state : {GL_BLEND, GL_DEPTH_TEST})
+        gl::Disable(state);
+    gl::DepthMask(GL_TRUE);
     gl::BindVertexArray(0);
     gl::UseProgram(0);
     ColorImage image(how.width, how.height);

@@ -101,12 +101,20 @@ struct GlPass {
     [[nodiscard]] bool keeps() const { return invocations || indirect; }
 };
 
-/// How a vertex pass of instances is drawn with NAME.frag: over one colour, triangles in the order of the instances,
-/// blended by GL_SRC_ALPHA, GL_ONE_MINUS_SRC_ALPHA, by one indirect call.
+/// How a vertex pass of instances is drawn with NAME.frag: over one colour, triangles in the order of the instances, by
+/// an indirect call a batch.
 struct GlPicture {
     int width = 960, height = 540;
     Rgba8 background;
     std::vector<std::uint32_t> indices; ///< of an instance's vertices, three a triangle
+    /// Instances that are drawn by one call.
+    struct Batch {
+        std::size_t first = 0, count = 0;
+        GlDraw::Blend blend = GlDraw::Blend::by_alpha;
+        bool writes_depth = false; ///< tested LESS, as all batches are where one writes it
+        Uniforms uniforms = {};    ///< of this call, besides the pass's
+    };
+    std::vector<Batch> batches = {}; ///< in their order; none: all instances, blended by alpha
 };
 
 /// The GPU side of a system, in the current context: each pass reads the state that the one before left, in one copy of

@@ -11,6 +11,7 @@
 #include "crosscheck/judge/system_check.hpp"
 #include "crosscheck/report/report.hpp"
 #include "crosscheck/report/statistics.hpp"
+#include "gpu/copy_time.hpp"
 #include "reference/model/error.hpp"
 #include "reference/model/state_hash.hpp"
 
@@ -120,29 +121,58 @@ void print_row(std::size_t count, std::string_view pass, const PassTimes& times,
                milliseconds(times.timer), milliseconds(times.reference), ratio(times.gl, times.reference), rest);
 }
 
-Floor floor_of(const SystemScene& scene) {
-    Floor floor = scene.floor ? scene.floor() : Floor{};
-    if (floor.passes.empty())
-        throw Error(fmt::format("bench: --floor: system {} has none with these switches", scene.system.schema.system));
-    return floor;
+/// The picture of the last frame's state, drawn as often as frames are timed.
+PassTimes time_drawing(const Gl& gl, const SystemScene& scene, const GlSystemSide& side, const RunOptions& run, int warm_up) {
+    SystemState state = scene.system.start;
+    side.read(state);
+    const SystemPicture picture = scene.picture(state, warm_up + run.frames - 1);
+    PassTimes times;
+    if (picture.how.indices.empty())
+        return times;
+    GlSystemSide drawn = side_of(gl, picture, scene, run);
+    drawn.upload(picture.system.start.view());
+    drawn.time_steps(true);
+    for (int k = 0; k < 1 + run.frames; ++k) {
+        static_cast<void>(drawn.picture(0, 0, picture.how));
+        if (k == 0)
+            continue;
+        times.gl.push_back(drawn.seconds().wall);
+        times.timer.push_back(drawn.seconds().timer);
+    }
+    return times;
 }
 
-void print_floor(const SystemScene& scene, const Floor& floor, const RunOptions& run, std::size_t count, int warm_up) {
-    GlSystem gpu(scene.system.schema, floor.passes, run.shaders, scene.arithmetic);
-    const std::vector<PassTimes> times = time_floor(scene.system, gpu, floor.passes.size(), warm_up, run.frames);
-    fmt::print("{:>9} floor: {}\n", count, floor.meaning);
-    for (std::size_t p = 0; p < times.size(); ++p)
-        print_row(count, floor.passes[p].name, times[p], "");
+/// A row a buffer: all of it, copied.
+void print_copies(const SystemState& state, std::size_t count, int frames) {
+    constexpr std::size_t least_bytes = 1U << 16U;
+    for (std::uint8_t r = 0; r < state.schema().resources.size(); ++r) {
+        const Resource& resource = state.schema().resources[r];
+        const std::size_t bytes = item_bytes(resource) * state.extent(r).count();
+        if (resource.dimensions > 1 || bytes < least_bytes)
+            continue;
+        PassTimes times;
+        for (int k = 0; k < frames; ++k)
+            times.timer.push_back(copy_seconds(bytes));
+        print_row(count, "copy_of_" + resource.name, times, fmt::format(" {} bytes", bytes));
+    }
+}
+
+void print_floor(const SystemScene& scene, const RunOptions& run, std::size_t count, int warm_up) {
+    const Floor floor = scene.floor ? scene.floor() : Floor{};
+    if (!floor.passes.empty()) {
+        GlSystem gpu(scene.system.schema, floor.passes, run.shaders, scene.arithmetic);
+        const std::vector<PassTimes> times =
+            time_floor(scene.system, gpu, floor.passes.size(), warm_up, run.frames);
+        fmt::print("{:>9} floor: {}\n", count, floor.meaning);
+        for (std::size_t p = 0; p < times.size(); ++p)
+            print_row(count, floor.passes[p].name, times[p], "");
+    }
+    print_copies(scene.system.start, count, run.frames);
 }
 
 } // namespace
 
 int bench_system(const RegisteredSystem& system, const RunOptions& run, const SystemBench& asked) {
-    if (asked.floor) { // says that there is none before the table begins
-        RunOptions first = run;
-        first.particles = asked.counts.front();
-        static_cast<void>(floor_of(read_scene(system, first).scene));
-    }
     const Gl gl = open_gl(run);
     fmt::print("{}\n{} frames after {}, median ms; GL: the shaders alone, to glFinish\n\n{:>9} {:<18} {:>10} {:>10} "
                "{:>10} {:>8} {:>10} {:>9}  {:<16} {}\n",
@@ -155,7 +185,6 @@ int bench_system(const RegisteredSystem& system, const RunOptions& run, const Sy
         const ReadScene read = read_scene(system, one);
         const System& twins = read.scene.system;
         static_cast<void>(shaders_of(read.scene, one));
-        const Floor floor = asked.floor ? floor_of(read.scene) : Floor{};
         GlSystemSide side = side_of(gl, read.scene, one);
         Times times;
         times.passes.resize(twins.passes.size());
@@ -173,8 +202,13 @@ int bench_system(const RegisteredSystem& system, const RunOptions& run, const Sy
                                                                 ratio(times.check, times.frame.gl),
                                                                 hash_text(report.gpu_hash), verdict_words(report));
         print_row(count, "frame", times.frame, checked);
+        if (read.scene.picture) {
+            const PassTimes drawing = time_drawing(gl, read.scene, side, one, asked.warm_up);
+            if (!drawing.gl.empty())
+                print_row(count, "drawing", drawing, "");
+        }
         if (asked.floor)
-            print_floor(read.scene, floor, one, count, asked.warm_up);
+            print_floor(read.scene, one, count, asked.warm_up);
         std::fflush(stdout);
         if (!asked.gl_only && !passes(report, asked.rules))
             status = status_differ;

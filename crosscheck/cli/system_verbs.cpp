@@ -44,6 +44,7 @@ struct DrawnFrame {
     RunDescription about;
     int frame = 0;
     std::size_t items = 0;
+    std::string item = {}; ///< one of them
     std::vector<std::string> first = {}; ///< options of `explain` for the first that differs
 };
 
@@ -64,8 +65,9 @@ DrawnFrame judge_drawn(const SystemInput& input, const SystemSide& side, const R
     RunDescription about =
         describe_run(picture.system, drawn.describe(), options, check_line(input, asked, report.frames));
     about.scene = fmt::format("what frame {} of {} draws", frame, scene.system.name);
-    const std::size_t items = picture.system.start.extent(picture.system.passes.front()->resource()).count();
-    DrawnFrame judged{check(picture.system, drawn, options), std::move(about), frame, items};
+    const std::uint8_t made = picture.system.passes.front()->resource();
+    DrawnFrame judged{check(picture.system, drawn, options), std::move(about), frame,
+                      picture.system.start.extent(made).count(), picture.system.schema.resources[made].item};
     judged.first = first_item_words(picture.system, *judged.report, frame); // the picture's own only frame is 0
     return judged;
 }
@@ -79,7 +81,7 @@ PassRules drawn_rules(PassRules rules) {
 std::string drawn_words(const DrawnFrame& drawn) {
     const CheckReport& report = *drawn.report;
     return fmt::format("{}: {} {}s that frame {} draws; coverage and blending are not judged", verdict_words(report),
-                       drawn.items, report.schema.resources.back().item, drawn.frame);
+                       drawn.items, drawn.item, drawn.frame);
 }
 
 std::string drawn_text(const DrawnFrame& drawn, const PassRules& rules) {

@@ -1,4 +1,5 @@
 #pragma once
+#include <filesystem>
 #include <string>
 
 #include "reference/model/image.hpp"
@@ -7,5 +8,9 @@ namespace lockstep {
 
 /// An 8-bit RGBA PNG file; top row of the picture = last row of the image. Throws Error if the image is empty.
 std::string png(const ColorImage& image);
+
+/// The picture of a PNG file, 8-bit RGBA whatever it holds; its top row is the last one. Throws Error naming the file,
+/// where it is none, is damaged, or has more than `largest` pixels along a side.
+ColorImage read_png(const std::filesystem::path& file, int largest);
 
 } // namespace lockstep

@@ -9,6 +9,7 @@
 #include <fmt/ranges.h>
 #include <glm/geometric.hpp>
 
+#include "crosscheck/files/png.hpp"
 #include "crosscheck/scene/graph_file.hpp"
 #include "crosscheck/scene/scene_fields.hpp"
 #include "reference/model/error.hpp"
@@ -103,6 +104,36 @@ void read_shape(const JsonValue& json, Emitter& e) {
     refuse(e.shape == Emitter::Shape::point ? "radius" : "position");
 }
 
+/// Found relative to the scene's file.
+std::filesystem::path beside(const JsonValue& named) {
+    return std::filesystem::path(named.file()).parent_path() / named.text();
+}
+
+Sprite read_sprite(const JsonValue& json) {
+    json.check_keys({"texture", "bounding", "alpha_cut", "filter"});
+    Sprite sprite;
+    if (const auto texture = json.find("texture")) {
+        sprite.texture = read_png(beside(*texture), largest_texture);
+        if (sprite.texture.width != sprite.texture.height)
+            texture->fail(fmt::format("is {} x {} texels; right is a square", sprite.texture.width, sprite.texture.height));
+    }
+    if (const auto bounding = json.find("bounding")) {
+        if (bounding->is_object()) {
+            bounding->check_keys({"k"});
+            sprite.polygon = static_cast<std::size_t>(bounding->at("k").integer(3, 8));
+            if (sprite.texture.width == 0)
+                bounding->fail("a polygon is fitted to a texture, and there is none");
+        } else {
+            static_cast<void>(bounding->choice({"quad"}));
+        }
+    }
+    read_field(json, "alpha_cut", sprite.alpha_cut, [](const JsonValue& v) { return static_cast<int>(v.integer(0, 254)); });
+    read_field(json, "filter", sprite.filter, [](const JsonValue& v) {
+        return static_cast<Sprite::Filter>(v.choice({"nearest", "bilinear"}));
+    });
+    return sprite;
+}
+
 /// A graph as it stands, or in a file, found relative to the scene's.
 GraphPtr read_stage(const JsonValue& graphs, std::string_view stage) {
     const auto given = graphs.find(stage);
@@ -110,7 +141,7 @@ GraphPtr read_stage(const JsonValue& graphs, std::string_view stage) {
         return {};
     if (!given->is_text())
         return std::make_shared<const Graph>(read_graph(*given, stage));
-    const std::filesystem::path file = std::filesystem::path(graphs.file()).parent_path() / given->text();
+    const std::filesystem::path file = beside(*given);
     const nlohmann::json document = read_json(file);
     return std::make_shared<const Graph>(read_graph(JsonValue(document, file.string()), stage));
 }
@@ -138,6 +169,7 @@ Emitter read_emitter(const JsonValue& json) {
                      "draw",
                      "uv",
                      "uv_scale",
+                     "blend",
                      "forces",
                      "graphs"});
     Emitter e;
@@ -173,6 +205,9 @@ Emitter read_emitter(const JsonValue& json) {
         return static_cast<Emitter::Uv>(v.choice({"segment", "stretched", "distance"}));
     });
     read_field(json, "uv_scale", e.uv_scale);
+    read_field(json, "blend", e.blend, [](const JsonValue& v) {
+        return static_cast<Emitter::Blend>(v.choice({"over", "additive", "opaque"}));
+    });
     if (const auto forces = json.find("forces"))
         for (const JsonValue& force : forces->items())
             e.forces.push_back(read_force(force));
@@ -188,7 +223,8 @@ Emitter read_emitter(const JsonValue& json) {
 } // namespace
 
 Settings read_scene(const JsonValue& json, const SceneOptions& options) {
-    json.check_keys({"description", "system", "seed", "preset", "tick", "switches", "box", "camera", "emitters"});
+    json.check_keys({"description", "system", "seed", "preset", "tick", "switches", "box", "camera", "render",
+                     "sprite", "emitters"});
     static_cast<void>(json.at("system").choice({"lifecycle"}));
     Settings settings;
     read_field(json, "description", settings.description, [](const JsonValue& v) { return v.label(); });
@@ -206,6 +242,13 @@ Settings read_scene(const JsonValue& json, const SceneOptions& options) {
     }
     if (const auto camera = json.find("camera"))
         settings.camera = read_camera(*camera, settings.camera);
+    if (const auto render = json.find("render")) {
+        const std::vector<JsonValue> two = elements(*render, 2, "the width and height of pictures");
+        settings.width = static_cast<int>(two[0].integer(1, 8192));
+        settings.height = static_cast<int>(two[1].integer(1, 8192));
+    }
+    if (const auto sprite = json.find("sprite"))
+        settings.sprite = read_sprite(*sprite);
     settings.emitters.clear();
     for (const JsonValue& emitter : json.at("emitters").items()) {
         settings.emitters.push_back(read_emitter(emitter));

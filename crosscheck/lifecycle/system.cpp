@@ -10,10 +10,23 @@
 #include "crosscheck/scene/scene_fields.hpp"
 #include "gpu/lifecycle/passes.hpp"
 #include "reference/lifecycle/passes.hpp"
+#include "reference/model/lifecycle/bounding_polygon.hpp"
 #include "reference/model/lifecycle/schema.hpp"
 
 namespace lockstep::lifecycle {
 namespace {
+
+/// What a polygon saves of the quad's area.
+std::string polygon_text(const Host& host) {
+    const Sprite& sprite = host.settings().sprite;
+    if (sprite.polygon == 0)
+        return "";
+    const auto seen = std::count_if(sprite.texture.texels.begin(), sprite.texture.texels.end(),
+                                    [&](const Rgba8& texel) { return int{texel.a} > sprite.alpha_cut; });
+    const std::vector<glm::dvec2> corners(host.sprite_corners().begin(), host.sprite_corners().end());
+    return fmt::format("; sprite: {} of {} texels to be seen, a polygon of {} corners saves {:.1f} % of the quad", seen,
+                       sprite.texture.texels.size(), corners.size(), corners.empty() ? 100.0 : 100.0 * (1.0 - area(corners)));
+}
 
 /// What differs from the preset `corrected`, and where everyone may die though ages would say who.
 std::string text_of(const Host& host) {
@@ -28,7 +41,7 @@ std::string text_of(const Host& host) {
                 text += fmt::format("; emitter {}: {} by a graph of {} nodes", of.number, graph->stage->name,
                                     graph->order.size());
     }
-    return text;
+    return text + polygon_text(host);
 }
 
 /// The slots in the order in which they are given: the last one first.

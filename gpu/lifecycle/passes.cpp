@@ -1,10 +1,12 @@
 #include "gpu/lifecycle/passes.hpp"
 
 #include <algorithm>
+#include <bit>
 #include <initializer_list>
 #include <string>
 #include <utility>
 
+#include <fmt/format.h>
 #include <glm/vec2.hpp>
 
 #include "gpu/lifecycle/graphs.hpp"
@@ -37,7 +39,7 @@ Uniforms uniforms(const Host& host, const HostEmitter& of, int frame) {
                  {"u_Keys", static_cast<unsigned>(of.keys)},
                  {"u_Request", static_cast<unsigned>(of.request(frame))},
                  {"u_Frame", static_cast<unsigned>(frame)},
-                 {"u_Corners", 4U},
+                 {"u_Corners", static_cast<unsigned>(host.sprite_corners().size())},
                  {"u_View", view_matrix(s.camera)},
                  {"u_UvScale", e.uv_scale},
                  {"u_Seed", of.seed},
@@ -177,6 +179,18 @@ class Kernels {
     const HostEmitter& of_;
 };
 
+/// The corners of a polygon, bit by bit.
+std::string polygon_text(const std::vector<glm::vec2>& corners) {
+    std::string all;
+    for (const glm::vec2 c : corners.empty() ? std::vector{glm::vec2(0.0F)} : corners)
+        all += fmt::format("{}vec2(uintBitsToFloat(0x{:08x}u), uintBitsToFloat(0x{:08x}u))", all.empty() ? "" : ", ",
+                           std::bit_cast<unsigned>(c.x), std::bit_cast<unsigned>(c.y));
+    const std::size_t count = std::max<std::size_t>(corners.size(), 1);
+    return fmt::format("#define POLYGON 1\nvec2 corner_of_sprite(int corner) {{\n    vec2 all[{0}] = vec2[{0}]({1});\n"
+                       "    return all[min(corner, {2})];\n}}\n",
+                       count, all, count - 1);
+}
+
 } // namespace
 
 std::vector<GlPass> passes(const HostPtr& host) {
@@ -216,10 +230,16 @@ GlPass draw_gl_pass(const HostPtr& host, const Drawing& drawing) {
     pass.instances_of = quad_buffer;
     pass.defines = switch_defines(host->switches());
     pass.texts = rendering_texts(*host);
+    const Sprite& sprite = host->settings().sprite;
+    if (sprite.polygon != 0)
+        pass.texts["polygon.glsl"] = polygon_text(host->sprite_corners());
+    if (sprite.texture.width > 0) {
+        pass.defines.emplace_back("TEXTURED", "1");
+        add(pass.defines, "filter", {"nearest", "bilinear"}, static_cast<std::size_t>(sprite.filter));
+    }
     const ShaderDefines looks = rendering_defines(*host);
     pass.defines.insert(pass.defines.end(), looks.begin(), looks.end());
-    if (std::any_of(host->emitters().begin(), host->emitters().end(),
-                    [](const HostEmitter& of) { return of.settings().draw == Emitter::Draw::ribbon; }))
+    if (host->has_ribbons())
         pass.defines.emplace_back("SEGMENTS", "1");
     pass.uniforms = [host, drawing](int) {
         Uniforms all{{"u_View", drawing.view},
@@ -227,6 +247,9 @@ GlPass draw_gl_pass(const HostPtr& host, const Drawing& drawing) {
                      {"u_Frame", 0U},
                      {"u_Tick", host->settings().tick},
                      {"u_Time", drawing.time},
+                     {"u_FirstQuad", 0U},
+                     {"u_Blend", 0U},
+                     {"u_AlphaCut", (static_cast<float>(host->settings().sprite.alpha_cut) + 0.5F) / 255.0F},
                      {"u_BoxLow", host->settings().box_low},
                      {"u_BoxScale", host->box_scale()},
                      {"u_BoxStep", host->box_step()}};

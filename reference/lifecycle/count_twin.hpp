@@ -134,7 +134,6 @@ struct IndirectCountersTwin {
 struct IndirectTwin {
     HostPtr host;
     const HostEmitter* of;
-    std::uint32_t corners = 4;
 
     template <class R> ItemWords<R> operator()(R& r, const PassInput& in, std::size_t item) const {
         UintItem<R> calls(r, in.before, argument_buffer, item);
@@ -142,6 +141,7 @@ struct IndirectTwin {
             return calls.record();
         const EmitterTwin<R> emitter(r, *host, *of, in);
         const std::uint32_t alive = emitter.alive(), segments = alive == 0 ? 0 : alive - 1;
+        const auto corners = static_cast<std::uint32_t>(host->sprite_corners().size());
         const bool points = host->settings().arithmetic == ArithmeticSwitch::exact;
         draw(calls, site::draw_sprite, 12, points ? alive : noted(r, site::corners, corners), points ? 1 : alive);
         draw(calls, site::draw_ribbon, 16, points ? segments : 4, points ? 1 : segments);

@@ -1,7 +1,6 @@
 #pragma once
 #include <memory>
 
-#include "reference/model/image.hpp"
 #include "reference/model/lifecycle/drawing.hpp"
 #include "reference/system/item_pass.hpp"
 
@@ -9,8 +8,5 @@ namespace lockstep::lifecycle {
 
 /// The vertex stage that draws sprites and ribbons, as a pass that makes the corners of drawn_schema().
 std::unique_ptr<ItemPass> draw_pass(const HostPtr& host, const Drawing& drawing);
-
-/// The picture of such corners over `background`: triangles in the order of the quads, each blended by its alpha.
-ColorImage draw_image(const SystemView& state, ColorImage background);
 
 } // namespace lockstep::lifecycle

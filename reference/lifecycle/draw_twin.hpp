@@ -1,4 +1,5 @@
 #pragma once
+#include <algorithm>
 #include <cstring>
 #include <optional>
 #include <tuple>
@@ -25,14 +26,17 @@ struct DrawTwin {
     template <class R> Corner<R> operator()(R& r, const PassInput& in, std::size_t item) const {
         using Real = typename R::Real;
         using Vec3 = typename R::Vec3;
-        const std::size_t quad = item / 4;
-        const bool right = (item & 1U) != 0, next = (item & 2U) != 0;
+        const std::size_t each = corners_each(*host), quad = item / each, corner = item % each;
         const DrawnFields fields = drawn_fields(host->switches());
         const Particle<R> particle(r, *host, particle_words(in.before, quad));
         std::uint32_t kind = in.before.word(fields.kind, quad);
         Vec3 seen;
-        Real u(right ? 1.0F : 0.0F), v(next ? 1.0F : 0.0F);
+        const std::vector<glm::vec2>& corners = host->sprite_corners();
+        const glm::vec2 at = corners.empty() ? glm::vec2(0.0F) : corners[std::min(corner, corners.size() - 1)];
+        Real u = r.read(site::corner_of_sprite, at.x), v = r.read(site::corner_of_sprite, at.y);
         if (kind == 2) {
+            const std::size_t of_segment = segment_corner(*host, corner);
+            const bool right = (of_segment & 1U) != 0, next = (of_segment & 2U) != 0;
             const FieldId edge =
                 next ? (right ? fields.next_right : fields.next_left) : (right ? fields.right : fields.left);
             seen = r.read(site::seen_point, in.before.vec3(edge, quad));
@@ -44,8 +48,8 @@ struct DrawTwin {
             const auto centre = r.transform(site::view, r.uniform(site::view, drawing.view), particle.position());
             const auto size = look ? look->real("size") : std::nullopt;
             const Real reach = r.note(site::half_width, (size ? *size : size_of(r, particle)) * 0.5F);
-            seen = {centre.x + Real(right ? 1.0F : -1.0F) * reach, centre.y + Real(next ? 1.0F : -1.0F) * reach,
-                    centre.z};
+            const Real two(2.0F), one(1.0F);
+            seen = {centre.x + (two * u - one) * reach, centre.y + (two * v - one) * reach, centre.z};
             if (host->switches().expired == Expired::hidden && !r.decide(site::is_visible, particle.remaining() > 0.0F))
                 kind = 0;
         }

@@ -1,4 +1,5 @@
 #include "reference/lifecycle/emit_twin.hpp"
+#include "reference/lifecycle/move_fast.hpp"
 #include "reference/lifecycle/pass_options.hpp"
 #include "reference/lifecycle/passes.hpp"
 
@@ -9,7 +10,13 @@ void add_emit(Passes& all, const HostPtr& host, const HostEmitter& of) {
         all.push_back(item_pass(options_of(host, "emit", particle_buffer), EmitListedTwin{host, &of}));
         all.push_back(item_pass(options_of(host, "emit_list", survivor_buffer, true), EmitListTwin{host, &of}));
     } else {
-        all.push_back(item_pass(options_of(host, "emit", particle_buffer), EmitTwin{host, &of}));
+        ItemPassOptions emitting = options_of(host, "emit", particle_buffer);
+        emitting.in_place = true;
+        emitting.fast = [host, one = &of](const PassInput& in, const Profile&, std::size_t first, std::size_t last,
+                                          const WritableView& after, std::vector<std::size_t>& left) {
+            emit_fast(*host, *one, in, first, last, after, left);
+        };
+        all.push_back(item_pass(std::move(emitting), EmitTwin{host, &of}));
     }
     all.push_back(item_pass(options_of(host, "emit_counters", counter_buffer, true), EmitCountersTwin{host, &of}));
     if (host->switches().emit_when == EmitWhen::before_destroy)

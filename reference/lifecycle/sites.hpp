@@ -92,6 +92,7 @@ inline constexpr Site uv_scale{"u_UvScale"}, first_u{"u at the start"}, last_u{"
 inline constexpr Site has_length{"has a length"}, has_unit{"has a direction"}, unit{"direction"};
 inline constexpr Site projection{"u_Projection"}, seen_corner{"corner seen"}, is_visible{"is not expired"};
 inline constexpr Site clip{"clip", "clip"}, tint{"tint", "tint"}, drawn{"drawn", "drawn"};
+inline constexpr Site corner_of_sprite{"corner of the sprite"};
 inline constexpr Site texel_place{"texel_place", "texel_place"};
 inline constexpr Site has_life{"has a lifetime"}, age{"age"}, size{"size"}, stretched{"share of the ribbon"};
 

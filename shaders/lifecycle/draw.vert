@@ -5,6 +5,7 @@
 #include "rounding.glsl"
 #include "layout.glsl"
 #include "appearance.glsl"
+#include "polygon.glsl"
 
 in uint a_Kind; // 0: nothing, 1: a sprite, 2: a segment
 #ifdef SEGMENTS
@@ -46,6 +47,7 @@ in float a_SpawnTime;
 
 uniform mat4 u_View, u_Projection;
 uniform float u_Tick, u_Time;
+uniform uint u_FirstQuad; // of those that are drawn together
 
 #include "rendering_graph.glsl"
 
@@ -100,27 +102,32 @@ void load_instance() {
 
 void main() {
     load_instance();
-    bool right = (gl_VertexID & 1) != 0, next = (gl_VertexID & 2) != 0;
-    vec2 corner = vec2(right ? 1.0 : -1.0, next ? 1.0 : -1.0);
+    uint quad = u_FirstQuad + uint(gl_InstanceID);
     out_Drawn = a_Kind;
     vec3 seen;
     vec4 color = color_now();
 #ifdef SEGMENTS
     if (a_Kind == 2u) {
+#ifdef POLYGON
+        int corner = min(gl_VertexID, 3) ^ (min(gl_VertexID, 3) >> 1); // around
+#else
+        int corner = gl_VertexID;
+#endif
+        bool right = (corner & 1) != 0, next = (corner & 2) != 0;
         seen = ls_flush3(next ? (right ? a_NextRight : a_NextLeft) : (right ? a_Right : a_Left));
         out_TexelPlace = vec2(ls_flush(next ? a_U.y : a_U.x), right ? 1.0 : 0.0);
         float size = 0.0;
-        graph_look(uint(gl_InstanceID), out_TexelPlace.x, out_TexelPlace.y, size, color);
+        graph_look(quad, out_TexelPlace.x, out_TexelPlace.y, size, color);
     } else
 #endif
     {
-        out_TexelPlace = vec2(right ? 1.0 : 0.0, next ? 1.0 : 0.0);
+        out_TexelPlace = corner_of_sprite(gl_VertexID);
         seen = ls_transform(u_View, position()).xyz;
         float size = size_now();
-        graph_look(uint(gl_InstanceID), out_TexelPlace.x, out_TexelPlace.y, size, color);
+        graph_look(quad, out_TexelPlace.x, out_TexelPlace.y, size, color);
         float reach = mul(size, 0.5);
-        seen.x = add(seen.x, mul(corner.x, reach));
-        seen.y = add(seen.y, mul(corner.y, reach));
+        seen.x = add(seen.x, mul(sub(mul(2.0, out_TexelPlace.x), 1.0), reach));
+        seen.y = add(seen.y, mul(sub(mul(2.0, out_TexelPlace.y), 1.0), reach));
 #if EXPIRED == EXPIRED_HIDDEN
         if (!(remaining() > 0.0))
             out_Drawn = 0u;

@@ -1,5 +1,6 @@
 #include "reference/model/lifecycle/drawing.hpp"
 
+#include <algorithm>
 #include <cstring>
 #include <map>
 #include <tuple>
@@ -9,9 +10,11 @@
 
 namespace lockstep::lifecycle {
 
-const Schema& drawn_schema(const Switches& s) {
-    static std::map<std::tuple<Layout, TimeCode, PositionCode, ColorCode>, Schema> all;
-    const std::tuple key(s.layout, s.time_code, s.position_code, s.color_code);
+const Schema& drawn_schema(const Host& host) {
+    static std::map<std::tuple<Layout, TimeCode, PositionCode, ColorCode, bool, bool>, Schema> all;
+    const Switches& s = host.switches();
+    const bool ribbons = host.has_ribbons(), textured = host.settings().sprite.texture.width > 0;
+    const std::tuple key(s.layout, s.time_code, s.position_code, s.color_code, ribbons, textured);
     if (const auto known = all.find(key); known != all.end())
         return known->second;
     Resource quads = schema(s).resources[particle_buffer];
@@ -19,9 +22,11 @@ const Schema& drawn_schema(const Switches& s) {
     quads.item = "quad";
     quads.title = "the quads";
     quads.fields.push_back({.name = "kind", .scalar = Scalar::uint32});
-    for (const char* const edge : {"left", "right", "next_left", "next_right"})
-        quads.fields.push_back({.name = edge, .components = 3});
-    quads.fields.push_back({.name = "u", .components = 2});
+    if (ribbons) {
+        for (const char* const edge : {"left", "right", "next_left", "next_right"})
+            quads.fields.push_back({.name = edge, .components = 3});
+        quads.fields.push_back({.name = "u", .components = 2});
+    }
     Resource corners{.name = "corners",
                      .item = "corner",
                      .title = "the corners",
@@ -29,7 +34,35 @@ const Schema& drawn_schema(const Switches& s) {
                                 {.name = "tint", .components = 4},
                                 {.name = "drawn", .scalar = Scalar::uint32},
                                 {.name = "texel_place", .components = 2}}};
-    return all.emplace(key, checked({"lifecycle", {std::move(quads), std::move(corners)}})).first->second;
+    Schema made{"lifecycle", {std::move(quads), std::move(corners)}};
+    if (textured)
+        made.resources.push_back({.name = "sprite",
+                                  .item = "texel",
+                                  .title = "the texture",
+                                  .fields = {{.name = "code", .scalar = Scalar::uint32, .components = 4}},
+                                  .dimensions = 2,
+                                  .format = "rgba8"});
+    return all.emplace(key, checked(std::move(made))).first->second;
+}
+
+std::size_t corners_each(const Host& host) {
+    return std::max<std::size_t>(host.sprite_corners().size(), host.has_ribbons() ? 4 : 3);
+}
+
+std::vector<std::uint32_t> triangles_each(const Host& host) {
+    if (host.settings().sprite.polygon == 0)
+        return {0, 1, 2, 2, 1, 3};
+    std::vector<std::uint32_t> all;
+    for (std::uint32_t c = 2; c < corners_each(host); ++c)
+        all.insert(all.end(), {0, c - 1, c});
+    return all;
+}
+
+std::size_t segment_corner(const Host& host, std::size_t corner) {
+    if (host.settings().sprite.polygon == 0)
+        return corner;
+    const std::size_t last = std::min<std::size_t>(corner, 3);
+    return last ^ (last >> 1U); // around
 }
 
 DrawnFields drawn_fields(const Switches& s) {
@@ -54,7 +87,17 @@ std::size_t slot_of(const Host& host, const HostEmitter& of, const SystemView& s
 
 SystemState quads_of(const Host& host, const SystemState& state) {
     const std::size_t slots = host.slots();
-    SystemState quads(drawn_schema(host.switches()), {{slots}, {4 * slots}});
+    const ColorImage& texture = host.settings().sprite.texture;
+    std::vector<Extent> extents{{slots}, {corners_each(host) * slots}};
+    if (texture.width > 0)
+        extents.push_back({static_cast<std::size_t>(texture.width), static_cast<std::size_t>(texture.height)});
+    SystemState quads(drawn_schema(host), std::move(extents));
+    for (std::size_t t = 0; t < texture.texels.size(); ++t) {
+        const Rgba8& texel = texture.texels[t];
+        int channel = 0;
+        for (const std::uint8_t code : {texel.r, texel.g, texel.b, texel.a})
+            quads.set({texture_image, 0}, t, std::uint32_t{code}, channel++);
+    }
     const View from = state[particle_buffer];
     const WritableView to = quads[quad_buffer];
     for (std::size_t f = 0; f < from.columns.size(); ++f)
@@ -81,6 +124,16 @@ SystemState quads_of(const Host& host, const SystemState& state) {
         }
     }
     return quads;
+}
+
+std::vector<const HostEmitter*> drawing_order(const Host& host) {
+    std::vector<const HostEmitter*> all;
+    for (const HostEmitter& of : host.emitters())
+        all.push_back(&of);
+    std::stable_partition(all.begin(), all.end(), [](const HostEmitter* of) {
+        return of->settings().blend == Emitter::Blend::opaque;
+    });
+    return all;
 }
 
 Drawing drawing(const Host& host, float aspect, int frame) {

@@ -9,6 +9,7 @@
 #include <glm/geometric.hpp>
 
 #include "reference/model/error.hpp"
+#include "reference/model/lifecycle/bounding_polygon.hpp"
 #include "reference/model/lifecycle/half.hpp"
 #include "reference/model/lifecycle/layout.hpp"
 #include "reference/model/random.hpp"
@@ -34,6 +35,26 @@ std::size_t nominal_age(float shortest, float tick) {
 
 bool counts_ticks(const Settings& s) {
     return !plan_of(s.switches.layout).floats && s.switches.time_code == TimeCode::ticks16;
+}
+
+HullPoints hull_points(HullOf chosen, Sprite::Filter filter) {
+    if (chosen == HullOf::by_filter)
+        return filter == Sprite::Filter::nearest ? HullPoints::corners : HullPoints::bilinear;
+    return static_cast<HullPoints>(chosen);
+}
+
+std::vector<glm::vec2> corners_of(const Sprite& sprite, HullOf chosen) {
+    if (sprite.polygon == 0)
+        return {{0.0F, 0.0F}, {1.0F, 0.0F}, {0.0F, 1.0F}, {1.0F, 1.0F}};
+    std::vector<std::uint8_t> alpha;
+    for (const Rgba8& texel : sprite.texture.texels)
+        alpha.push_back(texel.a);
+    const int side = sprite.texture.width;
+    const auto points = outermost(alpha, side, sprite.alpha_cut, hull_points(chosen, sprite.filter));
+    std::vector<glm::vec2> corners;
+    for (const glm::dvec2 corner : sprite_polygon(convex_hull(points), sprite.polygon))
+        corners.emplace_back(corner / double(side));
+    return corners;
 }
 
 } // namespace
@@ -157,6 +178,7 @@ bool counts_in_simulation(const Host& host, const HostEmitter& of) {
 
 Host::Host(Settings settings) : settings_(std::move(settings)) {
     check(settings_);
+    sprite_corners_ = corners_of(settings_.sprite, settings_.switches.hull_points);
     std::size_t base = 0, block = 0, in_ring = 0, key = 0;
     for (std::size_t e = 0; e < settings_.emitters.size(); ++e) {
         HostEmitter& one = emitters_.emplace_back(settings_, e);
@@ -181,6 +203,11 @@ std::size_t Host::ring() const {
 }
 
 std::size_t Host::keys() const { return emitters_.back().first_key + emitters_.back().keys; }
+
+bool Host::has_ribbons() const {
+    return std::any_of(emitters_.begin(), emitters_.end(),
+                       [](const HostEmitter& of) { return of.settings().draw == Emitter::Draw::ribbon; });
+}
 
 float Host::time(int frame) const { return static_cast<float>(double(frame) * double{settings_.tick}); }
 

@@ -5,6 +5,7 @@
 #include <optional>
 #include <vector>
 
+#include <glm/vec2.hpp>
 #include <glm/vec3.hpp>
 
 #include "reference/model/basis.hpp"
@@ -83,9 +84,14 @@ class Host {
     /// Of box16: 65,535 / size and size / 65,535.
     [[nodiscard]] glm::vec3 box_scale() const;
     [[nodiscard]] glm::vec3 box_step() const;
+    [[nodiscard]] bool has_ribbons() const;
+    /// What a sprite is drawn as: the corners of its polygon, counterclockwise, or of its quad, as a strip; in shares of
+    /// its side, from the lower left. None where no texel is to be seen.
+    [[nodiscard]] const std::vector<glm::vec2>& sprite_corners() const { return sprite_corners_; }
 
   private:
     Settings settings_;
+    std::vector<glm::vec2> sprite_corners_;
     std::vector<HostEmitter> emitters_;
 };
 using HostPtr = std::shared_ptr<const Host>;

@@ -81,6 +81,19 @@ void check_attributes(const Settings& settings) {
                                 read));
 }
 
+void check(const Sprite& sprite) {
+    const int side = sprite.texture.width;
+    if (side != sprite.texture.height || side > largest_texture)
+        throw Error(fmt::format("sprite/texture: {} x {} texels; right is a square of at most {}", side,
+                                sprite.texture.height, largest_texture));
+    if (sprite.polygon != 0 && side == 0)
+        throw Error("sprite/bounding: a polygon is fitted to a texture, and there is none; right is a texture, or quad");
+    if (sprite.polygon != 0 && (sprite.polygon < 3 || sprite.polygon > 8))
+        throw Error(fmt::format("sprite/bounding: k is {}; right is 3 to 8", sprite.polygon));
+    if (sprite.alpha_cut < 0 || sprite.alpha_cut > 254)
+        throw Error(fmt::format("sprite/alpha_cut: {}; right is 0 to 254", sprite.alpha_cut));
+}
+
 } // namespace
 
 void check(const Settings& settings) {
@@ -89,6 +102,7 @@ void check(const Settings& settings) {
     if (settings.emitters.empty())
         throw Error("there is no emitter");
     check_attributes(settings);
+    check(settings.sprite);
     const Switches& s = settings.switches;
     if (s.management == Management::index_lists && s.overflow == Overflow::replace_oldest)
         throw Error("overflow=replace_oldest needs the order of birth; right is drop_new, or management=move_alives");

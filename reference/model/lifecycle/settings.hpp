@@ -11,6 +11,7 @@
 #include "reference/model/arithmetic_switch.hpp"
 #include "reference/model/camera.hpp"
 #include "reference/model/graph.hpp"
+#include "reference/model/image.hpp"
 #include "reference/model/lifecycle/switches.hpp"
 
 namespace lockstep::lifecycle {
@@ -43,6 +44,8 @@ struct Place {
 struct Emitter {
     enum class Shape { point, box, sphere };
     enum class Draw { sprite, ribbon };
+    /// Over what was drawn before, added to it, or in its place where it is nearer.
+    enum class Blend { over, additive, opaque };
     enum class Uv { segment, stretched, distance };
     std::size_t capacity = 1024;
     double rate = 0.0;                                 ///< particles a second
@@ -62,7 +65,17 @@ struct Emitter {
     Draw draw = Draw::sprite;
     Uv uv = Uv::distance; ///< of a ribbon
     float uv_scale = 1.0F;
+    Blend blend = Blend::over;
     GraphPtr emission, simulation, rendering; ///< of those stages; null: as above
+};
+
+/// What sprites are drawn with.
+struct Sprite {
+    enum class Filter { nearest, bilinear };
+    ColorImage texture;       ///< square; empty: a soft, round blob
+    std::size_t polygon = 0;  ///< corners of the bounding polygon, 3 to 8; 0: the quad
+    int alpha_cut = 0;        ///< texels whose alpha's code is above it are to be seen
+    Filter filter = Filter::nearest;
 };
 
 struct Settings {
@@ -73,8 +86,12 @@ struct Settings {
     ArithmeticSwitch arithmetic = ArithmeticSwitch::plain;
     glm::vec3 box_low{-16.0F}, box_size{32.0F}; ///< of box16
     Camera camera;
+    int width = 960, height = 540; ///< of its pictures
+    Sprite sprite;
     std::vector<Emitter> emitters{1};
 };
+
+inline constexpr int largest_texture = 1024; ///< texels along a side
 
 /// GL's guaranteed number of groups, of 256.
 inline constexpr std::size_t most_particles_of_emitter = std::size_t{65535} * 256;

@@ -22,6 +22,8 @@ Switches preset(std::string_view name) {
     s.distance_sum = DistanceSum::float_blocks;
     s.uv_anchor = UvAnchor::oldest;
     s.ribbon_joint = RibbonJoint::average;
+    s.hull_points = HullOf::centres;
+    s.uv_outside = UvOutside::clamp;
     return s;
 }
 

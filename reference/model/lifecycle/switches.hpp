@@ -26,6 +26,9 @@ enum class DistanceSum { float_blocks, fixed };
 enum class StretchedDivisor { last_index, count };
 enum class UvAnchor { oldest, fixed };
 enum class RibbonJoint { average, mitre };
+/// Which points of a sprite's texels its polygon holds; by_filter: what the filter can touch of them.
+enum class HullOf { centres, corners, bilinear, by_filter };
+enum class UvOutside { clamp, transparent };
 
 /// The preset `corrected`.
 struct Switches {
@@ -50,6 +53,8 @@ struct Switches {
     StretchedDivisor stretched_divisor = StretchedDivisor::last_index;
     UvAnchor uv_anchor = UvAnchor::fixed;
     RibbonJoint ribbon_joint = RibbonJoint::mitre;
+    HullOf hull_points = HullOf::by_filter;
+    UvOutside uv_outside = UvOutside::transparent;
 
     bool operator==(const Switches&) const = default;
 };
@@ -78,6 +83,8 @@ template <class S, class Visit> void for_each_switch(S& s, const Visit& visit) {
     visit("stretched_divisor", s.stretched_divisor, Names{"last_index", "count"});
     visit("uv_anchor", s.uv_anchor, Names{"oldest", "fixed"});
     visit("ribbon_joint", s.ribbon_joint, Names{"average", "mitre"});
+    visit("hull_points", s.hull_points, Names{"centres", "corners", "bilinear", "by_filter"});
+    visit("uv_outside", s.uv_outside, Names{"clamp", "transparent"});
 }
 
 /// paper, corrected or exact. Throws Error naming them for any other name.

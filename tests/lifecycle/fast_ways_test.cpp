@@ -1,0 +1,116 @@
+#include <random>
+#include <string>
+#include <vector>
+
+#include "reference/lifecycle/move_fast.hpp"
+#include "tests/lifecycle/lifecycle_run.hpp"
+
+/// Passes that make many items at once have the bits of their twins, item by item.
+using namespace lockstep;
+using namespace lockstep::test;
+namespace lifecycle = lockstep::lifecycle;
+namespace counter = lifecycle::counter;
+
+namespace {
+
+constexpr std::uint32_t alive = 700, may_die = 90, survivors = 41;
+
+/// Particles of any bits, in the midst of a frame; the second of two emitters.
+SystemState any_state(const System& system, std::mt19937& random) {
+    SystemState state = system.start;
+    const auto any_words = [&](std::uint8_t resource, std::uint32_t below) {
+        const WritableView view = state[resource];
+        for (std::uint8_t f = 0; f < view.fields().size(); ++f)
+            for (std::size_t item = 0; item < view.count(); ++item)
+                for (int c = 0; c < view.fields()[f].components; ++c) {
+                    const auto word = static_cast<std::uint32_t>(random());
+                    // Each fourth a tiny half or none.
+                    state.set({resource, f}, item, below != 0 ? word % below : word & (word % 4 == 0 ? 0x83ff83ffU : ~0U), c);
+                }
+    };
+    any_words(lifecycle::particle_buffer, 0);
+    any_words(lifecycle::survivor_buffer, may_die);
+    for (std::size_t emitter = 0; emitter < 2; ++emitter)
+        for (const auto& [which, value] : {std::pair{counter::alive, alive}, {counter::may_die, may_die},
+                                           {counter::survivors, survivors}, {counter::append, survivors},
+                                           {counter::emitted, 60U}})
+            state.set({lifecycle::counter_buffer, which}, emitter, value);
+    return state;
+}
+
+void expect_bits_of_twin(const lifecycle::Settings& settings) {
+    const System system = lifecycle::system(host_of(settings));
+    std::mt19937 random(11);
+    const SystemState before = any_state(system, random);
+    const Profile profile = named_profile("strict");
+    std::size_t passes = 0;
+    for (const auto& pass : system.passes) {
+        if (pass->resource() != lifecycle::particle_buffer)
+            continue;
+        ++passes;
+        const SystemView view = before.view();
+        const PassInput in{view, 5};
+        SystemState after = before;
+        run_pass(*pass, in, profile, after[lifecycle::particle_buffer]);
+        std::size_t off = 0;
+        for (std::size_t item = 0; item < view[lifecycle::particle_buffer].count(); ++item) {
+            const auto made = item_words(std::as_const(after)[lifecycle::particle_buffer], item);
+            off += made == pass->mistaken(in, item, profile, {}) ? 0 : 1;
+        }
+        INFO(pass->name());
+        CHECK(off == 0);
+    }
+    CHECK(passes >= 4);
+}
+
+lifecycle::Settings two_emitters() {
+    lifecycle::Settings s;
+    lifecycle::Emitter& e = s.emitters.front();
+    e.capacity = 800;
+    e.rate = 3000.0;
+    e.lifetime = {0.1F, 0.4F};
+    e.direction_jitter = 0.5F;
+    s.emitters.push_back(e);
+    return s;
+}
+
+} // namespace
+
+TEST_CASE("fast ways: moving, simulating and emitting many at once has the twin's bits, whatever the particles hold") {
+    using namespace lifecycle;
+    Settings s = two_emitters();
+    s.switches.layout = GENERATE(Layout::bytes_64, Layout::bytes_40);
+    s.switches.integration = GENERATE(Integration::semi_implicit, Integration::explicit_euler, Integration::ballistic);
+    const int more = static_cast<int>(s.switches.integration);
+    s.switches.fuse = GENERATE(Fuse::split, Fuse::fused);
+    s.arithmetic = GENERATE(ArithmeticSwitch::plain, ArithmeticSwitch::exact);
+    s.switches.half_rounding = (more + static_cast<int>(s.arithmetic)) % 2 == 0 ? HalfRounding::nearest_even : HalfRounding::toward_zero;
+    s.switches.time_code = more == 1 ? TimeCode::half_seconds : TimeCode::ticks16;
+    s.switches.emit_when = more == 2 ? EmitWhen::before_destroy : EmitWhen::after_simulation;
+    s.switches.compaction = more == 2 ? Compaction::atomic : Compaction::scan;
+    REQUIRE(has_move_fast(Host(s), Host(s).emitters().front()));
+    expect_bits_of_twin(s);
+}
+
+TEST_CASE("fast ways: where a switch or a force leaves none, the twin runs") {
+    using namespace lifecycle;
+    Settings s = two_emitters();
+    switch (GENERATE(0, 1, 2, 3, 4)) {
+    case 0:
+        s.switches.layout = Layout::bytes_112;
+        break;
+    case 1:
+        s.switches.half_rounding = HalfRounding::dithered;
+        break;
+    case 2:
+        s.switches.position_code = PositionCode::box16;
+        break;
+    case 3:
+        s.emitters.front().forces = {{.kind = Force::Kind::drag, .k = 0.5F}};
+        break;
+    default:
+        s.switches.curl_use = CurlUse::velocity;
+    }
+    REQUIRE_FALSE(has_move_fast(Host(s), Host(s).emitters().front()));
+    expect_bits_of_twin(s);
+}

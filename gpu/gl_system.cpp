@@ -165,8 +165,7 @@ void blend_by(GlDraw::Blend blend) {
     if (blend == GlDraw::Blend::none)
         return gl::Disable(GL_BLEND);
     gl::Enable(GL_BLEND);
-    blend == GlDraw::Blend::added ? gl::BlendFunc(GL_ONE, GL_ONE)
-                                  : gl::BlendFunc(GL_SRC_ALPHA, GL_ONE_MINUS_SRC_ALPHA);
+    blend == GlDraw::Blend::added ? gl::BlendFunc(GL_ONE, GL_ONE) : gl::BlendFunc(GL_SRC_ALPHA, GL_ONE_MINUS_SRC_ALPHA);
 }
 
 /// A framebuffer of one texel. A context without a surface has none, and then draws nothing: not even a point that

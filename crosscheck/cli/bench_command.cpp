@@ -239,8 +239,9 @@ Verb bench_command() {
     verb.add(
         integers_option("--radius", "R,...", {0, widest_neighbourhood}, options->radii, "neighbourhood radii, texels"));
     verb.add(flag("--gl-only", options->gl_only, "time GL alone: neither reference nor check, and so no verdict"));
-    verb.add(flag("--floor", options->floor,
-                  "time also what passes rest on by itself: a copy of each buffer; of system lights, as many atomics too"));
+    verb.add(
+        flag("--floor", options->floor,
+             "time also what passes rest on by itself: a copy of each buffer; of system lights, as many atomics too"));
     add_legal_option(verb, options->legal);
     add_pass_options(verb, options->rules);
     verb.footer = "Exit status: as lockstep check's, 1 where a row does not pass.\n"

@@ -122,7 +122,8 @@ void print_row(std::size_t count, std::string_view pass, const PassTimes& times,
 }
 
 /// The picture of the last frame's state, drawn as often as frames are timed.
-PassTimes time_drawing(const Gl& gl, const SystemScene& scene, const GlSystemSide& side, const RunOptions& run, int warm_up) {
+PassTimes time_drawing(const Gl& gl, const SystemScene& scene, const GlSystemSide& side, const RunOptions& run,
+                       int warm_up) {
     SystemState state = scene.system.start;
     side.read(state);
     const SystemPicture picture = scene.picture(state, warm_up + run.frames - 1);
@@ -161,8 +162,7 @@ void print_floor(const SystemScene& scene, const RunOptions& run, std::size_t co
     const Floor floor = scene.floor ? scene.floor() : Floor{};
     if (!floor.passes.empty()) {
         GlSystem gpu(scene.system.schema, floor.passes, run.shaders, scene.arithmetic);
-        const std::vector<PassTimes> times =
-            time_floor(scene.system, gpu, floor.passes.size(), warm_up, run.frames);
+        const std::vector<PassTimes> times = time_floor(scene.system, gpu, floor.passes.size(), warm_up, run.frames);
         fmt::print("{:>9} floor: {}\n", count, floor.meaning);
         for (std::size_t p = 0; p < times.size(); ++p)
             print_row(count, floor.passes[p].name, times[p], "");

@@ -44,7 +44,7 @@ struct DrawnFrame {
     RunDescription about;
     int frame = 0;
     std::size_t items = 0;
-    std::string item = {}; ///< one of them
+    std::string item = {};               ///< one of them
     std::vector<std::string> first = {}; ///< options of `explain` for the first that differs
 };
 

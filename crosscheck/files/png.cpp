@@ -31,7 +31,8 @@ ColorImage read_png(const std::filesystem::path& file, int largest) {
     const OpenedFile opened(file, "PNG file");
     constexpr std::uint64_t most_bytes = std::uint64_t{64} << 20U;
     if (opened.size() > most_bytes)
-        throw Error(fmt::format("{}: {} bytes; right is a PNG file of at most {}", file.string(), opened.size(), most_bytes));
+        throw Error(
+            fmt::format("{}: {} bytes; right is a PNG file of at most {}", file.string(), opened.size(), most_bytes));
     const std::string bytes = opened.text();
     png_image header{};
     header.version = PNG_IMAGE_VERSION;
@@ -40,7 +41,8 @@ ColorImage read_png(const std::filesystem::path& file, int largest) {
     if (header.width > static_cast<png_uint_32>(largest) || header.height > static_cast<png_uint_32>(largest)) {
         const auto [width, height] = std::pair(header.width, header.height);
         png_image_free(&header);
-        throw Error(fmt::format("{}: {} x {} pixels; right is at most {} along a side", file.string(), width, height, largest));
+        throw Error(
+            fmt::format("{}: {} x {} pixels; right is at most {} along a side", file.string(), width, height, largest));
     }
     header.format = PNG_FORMAT_RGBA;
     ColorImage image(static_cast<int>(header.width), static_cast<int>(header.height));

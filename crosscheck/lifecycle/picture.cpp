@@ -16,7 +16,7 @@ GlPicture::Batch batch_of(const HostEmitter& of) {
     const bool is_opaque = blend == Emitter::Blend::opaque;
     return {.first = of.base,
             .count = of.slots,
-            .blend = is_opaque                          ? Blend::none
+            .blend = is_opaque                           ? Blend::none
                      : blend == Emitter::Blend::additive ? Blend::added
                                                          : Blend::by_alpha,
             .writes_depth = is_opaque,

@@ -115,7 +115,8 @@ Sprite read_sprite(const JsonValue& json) {
     if (const auto texture = json.find("texture")) {
         sprite.texture = read_png(beside(*texture), largest_texture);
         if (sprite.texture.width != sprite.texture.height)
-            texture->fail(fmt::format("is {} x {} texels; right is a square", sprite.texture.width, sprite.texture.height));
+            texture->fail(
+                fmt::format("is {} x {} texels; right is a square", sprite.texture.width, sprite.texture.height));
     }
     if (const auto bounding = json.find("bounding")) {
         if (bounding->is_object()) {
@@ -127,7 +128,8 @@ Sprite read_sprite(const JsonValue& json) {
             static_cast<void>(bounding->choice({"quad"}));
         }
     }
-    read_field(json, "alpha_cut", sprite.alpha_cut, [](const JsonValue& v) { return static_cast<int>(v.integer(0, 254)); });
+    read_field(json, "alpha_cut", sprite.alpha_cut,
+               [](const JsonValue& v) { return static_cast<int>(v.integer(0, 254)); });
     read_field(json, "filter", sprite.filter, [](const JsonValue& v) {
         return static_cast<Sprite::Filter>(v.choice({"nearest", "bilinear"}));
     });
@@ -147,31 +149,10 @@ GraphPtr read_stage(const JsonValue& graphs, std::string_view stage) {
 }
 
 Emitter read_emitter(const JsonValue& json) {
-    json.check_keys({"capacity",
-                     "rate",
-                     "bursts",
-                     "lifetime",
-                     "shape",
-                     "position",
-                     "centre",
-                     "min",
-                     "max",
-                     "radius",
-                     "path",
-                     "direction",
-                     "direction_jitter",
-                     "speed",
-                     "speed_jitter",
-                     "cone",
-                     "acceleration",
-                     "size",
-                     "color",
-                     "draw",
-                     "uv",
-                     "uv_scale",
-                     "blend",
-                     "forces",
-                     "graphs"});
+    json.check_keys(
+        {"capacity", "rate", "bursts",    "lifetime",         "shape", "position",     "centre", "min",          "max",
+         "radius",   "path", "direction", "direction_jitter", "speed", "speed_jitter", "cone",   "acceleration", "size",
+         "color",    "draw", "uv",        "uv_scale",         "blend", "forces",       "graphs"});
     Emitter e;
     read_field(json, "capacity", e.capacity, [](const JsonValue& v) {
         return static_cast<std::size_t>(v.integer(1, static_cast<std::int64_t>(most_particles_of_emitter)));
@@ -223,8 +204,8 @@ Emitter read_emitter(const JsonValue& json) {
 } // namespace
 
 Settings read_scene(const JsonValue& json, const SceneOptions& options) {
-    json.check_keys({"description", "system", "seed", "preset", "tick", "switches", "box", "camera", "render",
-                     "sprite", "emitters"});
+    json.check_keys({"description", "system", "seed", "preset", "tick", "switches", "box", "camera", "render", "sprite",
+                     "emitters"});
     static_cast<void>(json.at("system").choice({"lifecycle"}));
     Settings settings;
     read_field(json, "description", settings.description, [](const JsonValue& v) { return v.label(); });

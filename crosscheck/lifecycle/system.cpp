@@ -25,7 +25,8 @@ std::string polygon_text(const Host& host) {
                                     [&](const Rgba8& texel) { return int{texel.a} > sprite.alpha_cut; });
     const std::vector<glm::dvec2> corners(host.sprite_corners().begin(), host.sprite_corners().end());
     return fmt::format("; sprite: {} of {} texels to be seen, a polygon of {} corners saves {:.1f} % of the quad", seen,
-                       sprite.texture.texels.size(), corners.size(), corners.empty() ? 100.0 : 100.0 * (1.0 - area(corners)));
+                       sprite.texture.texels.size(), corners.size(),
+                       corners.empty() ? 100.0 : 100.0 * (1.0 - area(corners)));
 }
 
 /// What differs from the preset `corrected`, and where everyone may die though ages would say who.

@@ -19,7 +19,9 @@ constexpr FieldId clip{corner_buffer, 0}, tint{corner_buffer, 1}, drawn{corner_b
 
 glm::vec4 shares(const Rgba8& code) { return glm::vec4(code.r, code.g, code.b, code.a) / 255.0F; }
 
-std::uint8_t code_of(float share) { return static_cast<std::uint8_t>(std::lround(glm::clamp(share, 0.0F, 1.0F) * 255.0F)); }
+std::uint8_t code_of(float share) {
+    return static_cast<std::uint8_t>(std::lround(glm::clamp(share, 0.0F, 1.0F) * 255.0F));
+}
 
 glm::vec4 texel(const ColorImage& texture, UvOutside outside, int x, int y) {
     glm::vec4 color = shares(texture.at(std::clamp(x, 0, texture.width - 1), std::clamp(y, 0, texture.height - 1)));

@@ -16,35 +16,43 @@ namespace {
 using Words = std::array<std::uint32_t, block_size>;
 using Reals = std::array<float, block_size>;
 
+/// One of two words by masks: a choice that GCC takes for a branch keeps a loop from its vectors.
+inline std::uint32_t chosen(bool first, std::uint32_t a, std::uint32_t b) {
+    const std::uint32_t mask = 0U - static_cast<std::uint32_t>(first);
+    return (a & mask) | (b & ~mask);
+}
+
 /// half_value without branches.
 inline float decoded(std::uint32_t code) {
     const std::uint32_t magnitude = code & 0x7fffU, sign = (code & 0x8000U) << 16U;
-    const auto small = std::bit_cast<std::uint32_t>(static_cast<float>(static_cast<std::int32_t>(magnitude)) * 0x1p-24F);
-    const std::uint32_t normal = (magnitude << 13U) + (magnitude < 0x7c00U ? 0x38000000U : 0x70000000U);
-    return std::bit_cast<float>((magnitude < 0x400U ? small : normal) | sign);
+    const auto small =
+        std::bit_cast<std::uint32_t>(static_cast<float>(static_cast<std::int32_t>(magnitude)) * 0x1p-24F);
+    const std::uint32_t normal = (magnitude << 13U) + chosen(magnitude < 0x7c00U, 0x38000000U, 0x70000000U);
+    return std::bit_cast<float>(chosen(magnitude < 0x400U, small, normal) | sign);
 }
 
-/// half_code without branches, to the nearest or toward zero.
-template <bool nearest> std::uint32_t encoded(float x, bool zero_is_unsigned) {
+/// half_code without branches, to the nearest or toward zero. `zero_sign`: ~0, or ~0x8000 where zero has none.
+template <bool nearest> std::uint32_t encoded(float x, std::uint32_t zero_sign) {
     const auto bits = std::bit_cast<std::uint32_t>(x);
     const std::uint32_t magnitude = bits & 0x7fffffffU, sign = (bits >> 16U) & 0x8000U;
     const std::uint32_t exponent = std::min(magnitude >> 23U, 112U);
     const bool is_small = magnitude < 0x38800000U;
-    const std::uint32_t cut = is_small ? std::min(126U - exponent, 31U) : 13U;
-    std::uint32_t whole = is_small ? (magnitude & 0x7fffffU) | 0x800000U : magnitude - 0x38000000U;
+    const std::uint32_t cut = chosen(is_small, std::min(126U - exponent, 31U), 13U);
+    std::uint32_t whole = chosen(is_small, (magnitude & 0x7fffffU) | 0x800000U, magnitude - 0x38000000U);
     if (nearest)
         whole += (1U << (cut - 1U)) - 1U + ((whole >> cut) & 1U);
-    const std::uint32_t code = sign | std::min(whole >> cut, 0x7bffU);
-    const std::uint32_t special = magnitude > 0x7f800000U ? 0x7e00U : sign | 0x7c00U;
-    const std::uint32_t half = magnitude >= 0x7f800000U ? special : code;
-    return zero_is_unsigned && half == 0x8000U ? 0U : half;
+    const std::uint32_t finite = std::min(whole >> cut, 0x7bffU);
+    const std::uint32_t code = chosen(magnitude < 0x7f800000U, finite, 0x7c00U) | sign;
+    const std::uint32_t half = chosen(magnitude > 0x7f800000U, 0x7e00U, code);
+    return half & chosen(half == 0x8000U, zero_sign, ~0U);
 }
 
 /// What is the same for all particles of a run.
 struct Flight {
     float tick = 0.0F, half_tick_squared = 0.0F;
     Integration integration = Integration::semi_implicit;
-    bool counts_ticks = false, zero_is_unsigned = false;
+    bool counts_ticks = false;
+    std::uint32_t zero_sign = ~0U; ///< of encoded
 };
 
 /// Words 0 to 5 of particles of halves.
@@ -99,7 +107,8 @@ void fly(Block& b, const Flight& f) {
 }
 
 template <bool nearest> void write(Block& b, const Flight& f) {
-    const auto half = [&](float x) { return encoded<nearest>(x, f.zero_is_unsigned); };
+    const std::uint32_t zero_sign = f.zero_sign;
+    const auto half = [zero_sign](float x) { return encoded<nearest>(x, zero_sign); };
     LOCKSTEP_VECTOR_LOOP
     for (std::size_t i = 0; i < block_size; ++i) {
         b.w[0][i] = (half(b.p[0][i]) << 16U) | half(b.p[1][i]);
@@ -144,7 +153,8 @@ void step(const Host& host, const View& before, std::size_t from, std::size_t fi
           const WritableView& after) {
     const Settings& s = host.settings();
     const Flight flight{s.tick, host.half_tick_squared(), s.switches.integration,
-                        s.switches.time_code == TimeCode::ticks16, s.arithmetic == ArithmeticSwitch::exact};
+                        s.switches.time_code == TimeCode::ticks16,
+                        s.arithmetic == ArithmeticSwitch::exact ? 0xffff7fffU : ~0U};
     Block block{};
     for (std::size_t i = first; i < last; i += block_size) {
         const std::size_t bytes = std::min(block_size, last - i) * sizeof(std::uint32_t);
@@ -168,7 +178,8 @@ bool has_move_fast(const Host& host, const HostEmitter& of) {
     const Switches& s = host.switches();
     return !plan_of(s.layout).floats && s.position_code == PositionCode::half &&
            s.half_rounding != HalfRounding::dithered && s.curl_use == CurlUse::force && !host.lists() &&
-           of.settings().forces.empty() && !of.settings().simulation && host.settings().tick >= 0x1p-20F; // so that nothing is tiny;
+           of.settings().forces.empty() && !of.settings().simulation &&
+           host.settings().tick >= 0x1p-20F; // so that nothing is tiny;
 }
 
 void move_fast(const Host& host, const HostEmitter& of, const PassInput& in, std::size_t first, std::size_t last,
@@ -181,7 +192,8 @@ void move_fast(const Host& host, const HostEmitter& of, const PassInput& in, std
     if (host.switches().emit_when == EmitWhen::before_destroy)
         present += count(in, of, counter::emitted);
     const std::size_t begin = std::clamp(of.base, first, last),
-                      rest = std::clamp(of.base + survivors, begin, std::min(std::max(of.base + of.slots, begin), last)),
+                      rest =
+                          std::clamp(of.base + survivors, begin, std::min(std::max(of.base + of.slots, begin), last)),
                       end = std::clamp(of.base + survivors + present - may_die, rest,
                                        std::min(std::max(of.base + of.slots, rest), last));
     copy(before, first, first, begin, after);

@@ -25,14 +25,17 @@ SystemState any_state(const System& system, std::mt19937& random) {
                 for (int c = 0; c < view.fields()[f].components; ++c) {
                     const auto word = static_cast<std::uint32_t>(random());
                     // Each fourth a tiny half or none.
-                    state.set({resource, f}, item, below != 0 ? word % below : word & (word % 4 == 0 ? 0x83ff83ffU : ~0U), c);
+                    state.set({resource, f}, item,
+                              below != 0 ? word % below : word & (word % 4 == 0 ? 0x83ff83ffU : ~0U), c);
                 }
     };
     any_words(lifecycle::particle_buffer, 0);
     any_words(lifecycle::survivor_buffer, may_die);
     for (std::size_t emitter = 0; emitter < 2; ++emitter)
-        for (const auto& [which, value] : {std::pair{counter::alive, alive}, {counter::may_die, may_die},
-                                           {counter::survivors, survivors}, {counter::append, survivors},
+        for (const auto& [which, value] : {std::pair{counter::alive, alive},
+                                           {counter::may_die, may_die},
+                                           {counter::survivors, survivors},
+                                           {counter::append, survivors},
                                            {counter::emitted, 60U}})
             state.set({lifecycle::counter_buffer, which}, emitter, value);
     return state;
@@ -84,7 +87,8 @@ TEST_CASE("fast ways: moving, simulating and emitting many at once has the twin'
     const int more = static_cast<int>(s.switches.integration);
     s.switches.fuse = GENERATE(Fuse::split, Fuse::fused);
     s.arithmetic = GENERATE(ArithmeticSwitch::plain, ArithmeticSwitch::exact);
-    s.switches.half_rounding = (more + static_cast<int>(s.arithmetic)) % 2 == 0 ? HalfRounding::nearest_even : HalfRounding::toward_zero;
+    s.switches.half_rounding =
+        (more + static_cast<int>(s.arithmetic)) % 2 == 0 ? HalfRounding::nearest_even : HalfRounding::toward_zero;
     s.switches.time_code = more == 1 ? TimeCode::half_seconds : TimeCode::ticks16;
     s.switches.emit_when = more == 2 ? EmitWhen::before_destroy : EmitWhen::after_simulation;
     s.switches.compaction = more == 2 ? Compaction::atomic : Compaction::scan;

@@ -101,7 +101,8 @@ TEST_CASE("sprites: both sides' pictures are the same but for a few pixels, howe
         return skip(gl().missing());
     lifecycle::Settings s = leaves();
     s.emitters.front().blend = GENERATE(Emitter::Blend::over, Emitter::Blend::additive, Emitter::Blend::opaque);
-    s.sprite.filter = s.emitters.front().blend == Emitter::Blend::over ? Sprite::Filter::nearest : Sprite::Filter::bilinear;
+    s.sprite.filter =
+        s.emitters.front().blend == Emitter::Blend::over ? Sprite::Filter::nearest : Sprite::Filter::bilinear;
     s.emitters.push_back(s.emitters.front());
     s.emitters.back().blend = Emitter::Blend::opaque;
     const Drawn drawn(s);

@@ -130,9 +130,8 @@ std::vector<const HostEmitter*> drawing_order(const Host& host) {
     std::vector<const HostEmitter*> all;
     for (const HostEmitter& of : host.emitters())
         all.push_back(&of);
-    std::stable_partition(all.begin(), all.end(), [](const HostEmitter* of) {
-        return of->settings().blend == Emitter::Blend::opaque;
-    });
+    std::stable_partition(all.begin(), all.end(),
+                          [](const HostEmitter* of) { return of->settings().blend == Emitter::Blend::opaque; });
     return all;
 }
 

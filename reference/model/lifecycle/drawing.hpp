@@ -26,7 +26,7 @@ std::size_t segment_corner(const Host& host, std::size_t corner);
 
 /// Where a quad has what it has besides its particle.
 struct DrawnFields {
-    FieldId kind;                                 ///< 0: nothing, 1: a sprite, 2: a segment
+    FieldId kind;                                  ///< 0: nothing, 1: a sprite, 2: a segment
     FieldId left, right, next_left, next_right, u; ///< where there are ribbons
 };
 DrawnFields drawn_fields(const Switches& switches);

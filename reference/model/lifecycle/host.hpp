@@ -85,8 +85,8 @@ class Host {
     [[nodiscard]] glm::vec3 box_scale() const;
     [[nodiscard]] glm::vec3 box_step() const;
     [[nodiscard]] bool has_ribbons() const;
-    /// What a sprite is drawn as: the corners of its polygon, counterclockwise, or of its quad, as a strip; in shares of
-    /// its side, from the lower left. None where no texel is to be seen.
+    /// What a sprite is drawn as: the corners of its polygon, counterclockwise, or of its quad, as a strip; in shares
+    /// of its side, from the lower left. None where no texel is to be seen.
     [[nodiscard]] const std::vector<glm::vec2>& sprite_corners() const { return sprite_corners_; }
 
   private:

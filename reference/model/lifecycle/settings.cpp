@@ -87,7 +87,8 @@ void check(const Sprite& sprite) {
         throw Error(fmt::format("sprite/texture: {} x {} texels; right is a square of at most {}", side,
                                 sprite.texture.height, largest_texture));
     if (sprite.polygon != 0 && side == 0)
-        throw Error("sprite/bounding: a polygon is fitted to a texture, and there is none; right is a texture, or quad");
+        throw Error(
+            "sprite/bounding: a polygon is fitted to a texture, and there is none; right is a texture, or quad");
     if (sprite.polygon != 0 && (sprite.polygon < 3 || sprite.polygon > 8))
         throw Error(fmt::format("sprite/bounding: k is {}; right is 3 to 8", sprite.polygon));
     if (sprite.alpha_cut < 0 || sprite.alpha_cut > 254)

@@ -72,9 +72,9 @@ struct Emitter {
 /// What sprites are drawn with.
 struct Sprite {
     enum class Filter { nearest, bilinear };
-    ColorImage texture;       ///< square; empty: a soft, round blob
-    std::size_t polygon = 0;  ///< corners of the bounding polygon, 3 to 8; 0: the quad
-    int alpha_cut = 0;        ///< texels whose alpha's code is above it are to be seen
+    ColorImage texture;      ///< square; empty: a soft, round blob
+    std::size_t polygon = 0; ///< corners of the bounding polygon, 3 to 8; 0: the quad
+    int alpha_cut = 0;       ///< texels whose alpha's code is above it are to be seen
     Filter filter = Filter::nearest;
 };
 

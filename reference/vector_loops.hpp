@@ -20,7 +20,7 @@ namespace lockstep {
 /// is loaded (too early for sanitizers), with all it calls compiled into it.
 #if defined(__GNUC__) && !defined(__clang__) && defined(__x86_64__) && defined(__linux__) &&                           \
     !defined(__SANITIZE_ADDRESS__)
-#define LOCKSTEP_VECTOR_CLONES __attribute__((target_clones("arch=x86-64-v3", "default"), flatten))
+#define LOCKSTEP_VECTOR_CLONES __attribute__((target_clones("arch=x86-64-v4", "arch=x86-64-v3", "default"), flatten))
 #else
 #define LOCKSTEP_VECTOR_CLONES
 #endif

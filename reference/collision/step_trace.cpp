@@ -16,7 +16,8 @@ namespace {
 constexpr glm::vec4 nowhere{0.0F, 0.0F, 2.0F, 1.0F};
 
 glm::vec4 texel_centre(glm::vec4 clip, const FrameParams& params) {
-    const auto texel = TexelLookup(Portable(), params)(clip);
+    const float w = params.switches.perspective_divide == PerspectiveDivide::on ? clip.w : 1.0F;
+    const auto texel = TexelLookup(params)(Portable::divide(clip.x, w), Portable::divide(clip.y, w));
     const float ndc = Portable::divide(clip.z, clip.w);
     const bool from_zero = params.clip_depth.from_zero();
     const float depth = from_zero ? ndc : (ndc + 1.0F) * 0.5F;

@@ -13,6 +13,7 @@
 #include "reference/model/collision/collision_state.hpp"
 #include "reference/model/collision/emitters.hpp"
 #include "reference/model/state_hash.hpp"
+#include "tests/uneven_roots.hpp"
 
 namespace {
 
@@ -58,7 +59,9 @@ void collision_step(benchmark::State& state, const Pass& pass, EmitterShape shap
     scene.constants.texel_collide_range = static_cast<int>(state.range(0));
     scene.switches = preset(arithmetic == "exact" ? "exact" : "corrected");
     const FrameParams params = frame_params(scene, 0);
-    const Profile profile = named_profile(arithmetic == "exact" ? "strict" : arithmetic);
+    const Profile profile = arithmetic == "nvidia tables"
+                                ? test::profile_with_roots()
+                                : named_profile(arithmetic == "exact" ? "strict" : arithmetic);
     const Frame now = first_frame(shape, params, profile);
     Frame next = now;
     for (auto _ : state)
@@ -74,7 +77,7 @@ void collision_step(benchmark::State& state, const Pass& pass, EmitterShape shap
 
 int main(int argc, char** argv) {
     for (const auto& [shape, shape_name] : {std::pair{EmitterShape::lattice, "lattice"}, {EmitterShape::box, "box"}})
-        for (const std::string arithmetic : {"llvmpipe", "nvidia", "exact"})
+        for (const std::string arithmetic : {"llvmpipe", "nvidia", "nvidia tables", "exact"})
             for (const auto& [pass, pass_name] : {std::pair{obvious, "obvious"}, {fast, "fast"}})
                 benchmark::RegisterBenchmark(fmt::format("{}/{}/{}", shape_name, arithmetic, pass_name).c_str(),
                                              collision_step, pass, shape, arithmetic)

@@ -13,6 +13,7 @@
 #include "reference/collision/collision_pass_fast.hpp"
 #include "reference/model/collision/layered_cdt.hpp"
 #include "tests/collision/collision_scenes.hpp"
+#include "tests/uneven_roots.hpp"
 
 using namespace lockstep;
 using namespace lockstep::test;
@@ -58,6 +59,26 @@ Seen check_equal(const RandomScene& scene, const Profile& profile = {}) {
     return seen;
 }
 
+/// Length and normalize sum in orders of their own.
+Profile own_orders(DotOrder length, DotOrder normalize) {
+    Profile profile;
+    profile.length_dot = length;
+    profile.normalize_dot = normalize;
+    return profile;
+}
+
+/// Of each kind that a driver was found to be.
+std::vector<Profile> profiles() {
+    Profile own_roots = profile_with_roots();
+    own_roots.normalize_dot = DotOrder::sum_then_fused_x;
+    return {named_profile("strict"),
+            named_profile("llvmpipe"),
+            named_profile("nvidia"),
+            profile_with_roots(),
+            own_roots,
+            own_orders(DotOrder::middle_last, DotOrder::fused_y_x_z)};
+}
+
 /// Positions and stored positions moved to multiples of `step`: distances repeat, particles coincide.
 void quantise(RandomScene& scene, float step) {
     const auto nearest = [&](glm::vec3 v) { return glm::floor(v / step + 0.5F) * step; };
@@ -87,6 +108,7 @@ TEST_CASE("fast collision: the obvious pass's bits for every combination of swit
     }
     CHECK(combinations.size() == 2 * 64 * 2 * 2 * 2 * 3);
     const std::vector<glm::vec4> positions = scene.cdt.texels;
+    const std::vector<Profile> all = profiles();
     std::size_t hits = 0, nans = 0, round = 0;
     for (const Switches& switches : combinations) {
         scene.params.switches = switches;
@@ -94,9 +116,8 @@ TEST_CASE("fast collision: the obvious pass's bits for every combination of swit
             for (int x = 0; x < scene.cdt.width; ++x)
                 if (const glm::vec4 p = positions[scene.cdt.index(x, y)]; p.a != 0.0F)
                     store(scene.cdt, scene.params, x, y, glm::vec3(p));
-        scene.params.constants.texel_collide_range = static_cast<int>(1 + round % 5);
-        const Seen seen =
-            check_equal(scene, named_profile(std::array{"strict", "llvmpipe", "nvidia"}[(round + round / 6) % 3]));
+        scene.params.constants.texel_collide_range = static_cast<int>(1 + round % 9);
+        const Seen seen = check_equal(scene, all[(round + round / all.size()) % all.size()]);
         hits += seen.hits;
         nans += seen.nans;
         ++round;
@@ -107,34 +128,52 @@ TEST_CASE("fast collision: the obvious pass's bits for every combination of swit
 
 TEST_CASE("fast collision: equal where distances are equal or zero") {
     for (const ZeroDistance zero : {ZeroDistance::hit, ZeroDistance::skip})
-        for (const char* profile : {"strict", "llvmpipe", "nvidia"})
-            for (int radius = 1; radius <= 4; ++radius) {
+        for (const Profile& profile : profiles())
+            for (int radius = 1; radius <= 8; ++radius) {
                 RandomScene scene = random_scene(41, 1000, 32, 24);
                 scene.params.switches.zero_distance = zero;
                 scene.params.constants.texel_collide_range = radius;
                 quantise(scene, 1.0F / 32.0F);
-                CHECK(check_equal(scene, named_profile(profile)).hits > 250);
+                CHECK(check_equal(scene, profile).hits > 250);
             }
 }
 
-TEST_CASE("fast collision: equal where different squares share a rounded root") {
-    // Stored positions on a sphere round the origin, where all particles are, if in different texels: squares a few
-    // last places apart, two or three to a root.
-    for (int radius = 1; radius <= 4; ++radius) {
-        RandomScene scene = random_scene(45, 2000, 40, 40);
-        Random random(46);
-        scene.params.collision_proj_view = glm::mat4(0.0F);
-        scene.params.collision_proj_view[0][0] = scene.params.collision_proj_view[1][1] = 0x1p30F;
-        scene.params.collision_proj_view[3][3] = 1.0F;
-        scene.params.constants.collision_range = 2.0F;
-        scene.params.constants.texel_collide_range = radius;
-        for (glm::vec3& p : scene.particles.position)
-            p *= 0x1p-30F;
-        for (glm::vec4& texel : scene.cdt.texels) {
-            const glm::vec3 v{random.between(-1.0F, 1.0F), random.between(-1.0F, 1.0F), random.between(-1.0F, 1.0F)};
-            texel = {v * 1.3F / glm::length(v), 1.0F};
+/// Stored positions on a sphere around the origin, where all particles are, if in different texels: squares a few last
+/// places apart, two or three to a root.
+RandomScene sphere_around_all(float range, int radius) {
+    RandomScene scene = random_scene(45, 2000, 40, 40);
+    Random random(46);
+    scene.params.collision_proj_view = glm::mat4(0.0F);
+    scene.params.collision_proj_view[0][0] = scene.params.collision_proj_view[1][1] = 0x1p30F;
+    scene.params.collision_proj_view[3][3] = 1.0F;
+    scene.params.constants.collision_range = range;
+    scene.params.constants.texel_collide_range = radius;
+    for (glm::vec3& p : scene.particles.position)
+        p *= 0x1p-30F;
+    for (glm::vec4& texel : scene.cdt.texels) {
+        const glm::vec3 v{random.between(-1.0F, 1.0F), random.between(-1.0F, 1.0F), random.between(-1.0F, 1.0F)};
+        texel = {v * 1.3F / glm::length(v), 1.0F};
+    }
+    return scene;
+}
+
+TEST_CASE("fast collision: equal where different squares share a root, or the larger has the smaller one") {
+    for (int radius = 1; radius <= 8; ++radius)
+        for (const Profile& profile : profiles())
+            CHECK(check_equal(sphere_around_all(2.0F, radius), profile).hits > 500);
+}
+
+TEST_CASE("fast collision: equal where roots next to each other lie on both sides of the collision range") {
+    for (const Profile& profile : {named_profile("llvmpipe"), profile_with_roots()}) {
+        std::size_t fewest = SIZE_MAX, most = 0;
+        for (int ulp = -4; ulp <= 4; ++ulp) {
+            const std::size_t hits =
+                check_equal(sphere_around_all(1.3F + static_cast<float>(ulp) * 0x1p-23F, 1), profile).hits;
+            fewest = std::min(fewest, hits);
+            most = std::max(most, hits);
         }
-        CHECK(check_equal(scene).hits > 500);
+        CHECK(fewest < 100);
+        CHECK(most > 1000);
     }
 }
 
@@ -174,10 +213,11 @@ TEST_CASE("fast collision: equal with NaN, infinite, huge and tiny values, flush
                 for (glm::vec4& texel : scene.cdt.texels)
                     if (random.chance(0.1F))
                         texel[static_cast<int>(random.below(3))] = pick();
-                Profile profile;
-                profile.flush_subnormals = flush;
-                INFO(name << ", flush " << flush << ", range " << range);
-                check_equal(scene, profile);
+                for (Profile profile : profiles()) {
+                    profile.flush_subnormals = flush;
+                    INFO(name << ", flush " << flush << ", range " << range << ", profile " << profile.name);
+                    check_equal(scene, profile);
+                }
             }
 }
 
@@ -194,20 +234,22 @@ TEST_CASE("fast collision: equal where squares are subnormal, and round the list
                     p *= scale;
                 for (glm::vec4& texel : scene.cdt.texels)
                     texel = glm::vec4(glm::vec3(texel) * scale, texel.a);
-                Profile profile;
-                profile.flush_subnormals = flush;
-                INFO(name << ", flush " << flush << ", scale " << scale);
-                const Seen seen = check_equal(scene, profile);
-                if (scale > 1.0F) {
-                    CHECK(seen.hits > 100);
-                    CHECK(seen.hits < 1100);
+                for (Profile profile : profiles()) {
+                    profile.flush_subnormals = flush;
+                    INFO(name << ", flush " << flush << ", scale " << scale << ", profile " << profile.name);
+                    const Seen seen = check_equal(scene, profile);
+                    if (scale > 1.0F) {
+                        CHECK(seen.hits > 100);
+                        CHECK(seen.hits < 1100);
+                    }
                 }
             }
 }
 
 TEST_CASE("fast collision: equal for every raster rule, and where depths are equal") {
     for (const char* name : {"corrected", "exact"})
-        for (const ViewportRounding viewport : {ViewportRounding::separate, ViewportRounding::fused})
+        for (const ViewportRounding viewport :
+             {ViewportRounding::separate, ViewportRounding::fused, ViewportRounding::scaled})
             for (const SnapRounding snap :
                  {SnapRounding::half_to_even, SnapRounding::half_away, SnapRounding::half_up, SnapRounding::down})
                 for (const bool lower : {true, false})
@@ -219,7 +261,8 @@ TEST_CASE("fast collision: equal for every raster rule, and where depths are equ
                             scene.params.collision_proj_view = glm::mat4(1.0F);
                             if (step > 0.0F)
                                 quantise(scene, step);
-                            Profile profile;
+                            Profile profile = bits == 8 ? profile_with_roots() : Profile();
+                            profile.raster.depth_by_driver_reciprocal = lower;
                             profile.raster.subpixel_bits = bits;
                             profile.raster.point_snap = snap;
                             profile.raster.viewport = viewport;
@@ -247,9 +290,10 @@ TEST_CASE("fast collision: equal for any clip space") {
                 }
             }
             scene.params.switches.raster_position = RasterPosition::before_step;
-            Profile profile;
-            profile.flush_subnormals = flush;
-            CHECK(check_equal(scene, profile).drawn > 100);
+            for (Profile profile : profiles()) {
+                profile.flush_subnormals = flush;
+                CHECK(check_equal(scene, profile).drawn > 100);
+            }
         }
 }
 
@@ -295,9 +339,38 @@ TEST_CASE("fast collision: equal for any number of particles and threads") {
 }
 
 TEST_CASE("fast collision: a radius it is not made for is answered all the same") {
-    for (const int radius : {0, 5, 9}) {
+    for (const int radius : {0, 9, 12}) {
         RandomScene scene = random_scene(91, 300, 20, 20);
         scene.params.constants.texel_collide_range = radius;
         CHECK((check_equal(scene).hits > 0) == (radius > 0));
     }
+}
+
+TEST_CASE("fast collision: tables that cannot be packed are followed all the same") {
+    Profile profile = profile_with_roots();
+    RootTables tables = *profile.roots;
+    for (std::size_t i = 0; i < tables.inverse_sqrt.size(); i += 3)
+        tables.inverse_sqrt[i] *= 1.0F + 0x1p-18F;
+    profile.roots = std::make_shared<const RootTables>(std::move(tables));
+    CHECK(check_equal(random_scene(95, 1000, 32, 24), profile).hits > 100);
+}
+
+TEST_CASE("fast collision: the texels points are drawn to are those of the obvious pass") {
+    RandomScene scene = random_scene(97, 3000, 40, 30);
+    for (const char* name : {"corrected", "paper", "exact"})
+        for (const Step step : {Step::transform_feedback, Step::compute})
+            for (const Profile& profile : profiles()) {
+                scene.params.switches = preset(name);
+                scene.params.switches.step = step;
+                std::vector<std::int32_t> texels;
+                point_texels_fast(scene.particles.position, scene.params, profile, texels);
+                std::size_t wrong = 0, drawn = 0;
+                for (std::size_t i = 0; i < texels.size(); ++i) {
+                    const PointFragment point = point_fragment(scene.particles.position[i], scene.params, profile);
+                    wrong += texels[i] != (point.x < 0 ? no_texel : point.y * scene.params.width + point.x);
+                    drawn += texels[i] != no_texel;
+                }
+                CHECK(wrong == 0);
+                CHECK(drawn > 1000);
+            }
 }

@@ -40,7 +40,7 @@ struct BenchRequest {
     int warm_up = 3;
     Legal legal = Legal::measured;
     PassRules rules;
-    bool gl_only = false, floor = false;
+    bool gl_only = false, floor = false, no_render = false;
 };
 
 /// GPU time of a pass by itself, and of all frames' picture: medians, seconds.
@@ -144,6 +144,17 @@ Timing time_run(const Scene& scene, const Profile& profile, const BenchRequest& 
     std::vector<double> alone, timer, checked, reference, ignored;
     time_alone(gpu, scene, options.warm_up, ignored, ignored);
     time_alone(gpu, scene, options.run.frames, alone, timer);
+    Timing timing;
+    const auto finish = [&] {
+        timing.passes = time_passes(gpu, scene, options.run.frames);
+        if (!options.no_render)
+            timing.render = time_rendering(gpu, scene, options);
+        timing.gl = median(alone);
+        timing.timer = median(timer);
+        return timing;
+    };
+    if (options.gl_only)
+        return finish();
     double last = 0.0;
     CheckOptions check_options;
     check_options.frames = options.run.frames;
@@ -154,18 +165,13 @@ Timing time_run(const Scene& scene, const Profile& profile, const BenchRequest& 
         last = now();
     };
     last = now();
-    Timing timing;
     timing.report = check(scene, profile, gpu, check_options);
     for (const FrameTimes& times : timing.report.times)
         reference.push_back(times.reference);
     time_alone(gpu, scene, options.run.frames, alone, timer);
-    timing.passes = time_passes(gpu, scene, options.run.frames);
-    timing.render = time_rendering(gpu, scene, options);
-    timing.gl = median(alone);
-    timing.timer = median(timer);
     timing.check = median(checked);
     timing.reference = median(reference);
-    return timing;
+    return finish();
 }
 
 std::size_t peak_bytes() {
@@ -183,11 +189,14 @@ int run(const BenchRequest& options) {
     static_cast<void>(
         shaders_to_run(options.run, load(options.run))); // says what is wrong with the scene before the table begins
     const Context context(parse_context_request(options.run.gl));
-    const Profile profile = measured_profile(context, options.run.shaders);
-    fmt::print("{}\n{} frames each, median ms a frame; profile {}\n\n", summary(context.describe()), options.run.frames,
-               describe(profile));
-    fmt::print("{:>6} {:>9} {:>9} {:>9} {:>9} {:>9} {:>8} {:>8}  {:<16} {}\n", "radius", "particles", "GL", "GL timer",
-               "reference", "check", "GL/ref", "check/GL", "hash", "verdict");
+    const Profile profile = options.gl_only ? Profile() : measured_profile(context, options.run.shaders);
+    fmt::print("{}\n{} frames each, median ms a frame; {}\n\n", summary(context.describe()), options.run.frames,
+               options.gl_only ? "GL alone, nothing checked" : fmt::format("profile {}", describe(profile)));
+    if (options.gl_only)
+        fmt::print("{:>6} {:>9} {:>9} {:>9}\n", "radius", "particles", "GL", "GL timer");
+    else
+        fmt::print("{:>6} {:>9} {:>9} {:>9} {:>9} {:>9} {:>8} {:>8}  {:<16} {}\n", "radius", "particles", "GL",
+                   "GL timer", "reference", "check", "GL/ref", "check/GL", "hash", "verdict");
     int status = status_agree;
     std::size_t largest = 0;
     for (const int radius : options.radii) {
@@ -197,15 +206,21 @@ int run(const BenchRequest& options) {
             run.particles = count;
             run.set.push_back(fmt::format("texel_collide_range={}", radius));
             const Timing t = time_run(load(run), profile, options);
-            fmt::print("{:>6} {:>9} {:>9.3f} {:>9.3f} {:>9.3f} {:>9.3f} {:>7.2f}x {:>7.2f}x  {} {}\n", radius, count,
-                       t.gl * 1e3, t.timer * 1e3, t.reference * 1e3, t.check * 1e3, t.gl / t.reference, t.check / t.gl,
-                       hash_text(t.report.gpu_hash), verdict_words(t.report));
+            if (options.gl_only)
+                fmt::print("{:>6} {:>9} {:>9.3f} {:>9.3f}\n", radius, count, t.gl * 1e3, t.timer * 1e3);
+            else
+                fmt::print("{:>6} {:>9} {:>9.3f} {:>9.3f} {:>9.3f} {:>9.3f} {:>7.2f}x {:>7.2f}x  {} {}\n", radius,
+                           count, t.gl * 1e3, t.timer * 1e3, t.reference * 1e3, t.check * 1e3, t.gl / t.reference,
+                           t.check / t.gl, hash_text(t.report.gpu_hash), verdict_words(t.report));
             fmt::print("{:>16} GL timer of each pass:", "");
             for (const auto& [pass, seconds] : t.passes)
                 fmt::print(" {} {:.3f},", pass, seconds * 1e3);
-            fmt::print(" rendering apart {:.3f}\n", t.render * 1e3);
+            if (options.no_render)
+                fmt::print(" nothing rendered\n");
+            else
+                fmt::print(" rendering apart {:.3f}\n", t.render * 1e3);
             std::fflush(stdout);
-            if (!passes(t.report, options.rules))
+            if (!options.gl_only && !passes(t.report, options.rules))
                 status = status_differ;
             gl.push_back(t.gl);
             timer.push_back(t.timer);
@@ -213,10 +228,13 @@ int run(const BenchRequest& options) {
             reference.push_back(t.reference);
             largest = std::max(largest, count);
         }
-        if (options.counts.size() > 1)
+        if (options.counts.size() > 1 && options.gl_only)
+            fmt::print("       time ~ particles^{:.2f} (GL)\n", fitted_exponent(options.counts, gl));
+        else if (options.counts.size() > 1)
             fmt::print("       time ~ particles^{:.2f} (GL), ^{:.2f} (reference)\n",
                        fitted_exponent(options.counts, gl), fitted_exponent(options.counts, reference));
-        if (const std::string line = within_frames(options.counts, timer, rendered); !line.empty())
+        if (const std::string line = within_frames(options.counts, timer, rendered);
+            !line.empty() && !options.no_render)
             fmt::print("       {}, by the GL timer\n", line);
     }
     fmt::print("peak memory {:.0f} MiB, {:.0f} bytes a particle at {} particles\n",
@@ -242,6 +260,7 @@ Verb bench_command() {
     verb.add(
         flag("--floor", options->floor,
              "time also what passes rest on by itself: a copy of each buffer; of system lights, as many atomics too"));
+    verb.add(flag("--no-render", options->no_render, "leave out the time of the picture"));
     add_legal_option(verb, options->legal);
     add_pass_options(verb, options->rules);
     verb.footer = "Exit status: as lockstep check's, 1 where a row does not pass.\n"
@@ -251,9 +270,10 @@ Verb bench_command() {
             throw Error("bench: --particles does not go with it; --counts N,... names how many");
         if (call.has("--radius") && system_of(options->run) != nullptr)
             throw Error("bench: --radius goes with scenes of system collision");
-        for (const char* const option : {"--gl-only", "--floor"})
-            if (call.has(option) && system_of(options->run) == nullptr)
-                throw Error(fmt::format("bench: {} does not go with scenes of system collision", option));
+        if (call.has("--no-render") && system_of(options->run) != nullptr)
+            throw Error("bench: --no-render goes with scenes of system collision");
+        if (call.has("--floor") && system_of(options->run) == nullptr)
+            throw Error("bench: --floor does not go with scenes of system collision");
         return run(*options);
     };
     return verb;

@@ -175,16 +175,22 @@ Comparison compare(const View& reference, const View& gpu) {
 }
 
 std::vector<std::size_t> differing_items(const View& reference, const View& gpu) {
-    std::vector<std::size_t> differing;
     const std::size_t both = std::min(reference.count(), gpu.count());
-    for (std::size_t first = 0; first < both; first += block) {
+    std::vector<std::vector<std::size_t>> parts((both + block - 1) / block);
+    const auto blocks = static_cast<std::ptrdiff_t>(parts.size());
+#pragma omp parallel for schedule(static)
+    for (std::ptrdiff_t b = 0; b < blocks; ++b) {
+        const std::size_t first = static_cast<std::size_t>(b) * block;
         const std::size_t last = std::min(first + block, both);
         if (clean(reference, gpu, first, last - first))
             continue;
         for (std::size_t i = first; i < last; ++i)
             if (!clean(reference, gpu, i, 1) && !has_same_values(reference, gpu, i))
-                differing.push_back(i);
+                parts[static_cast<std::size_t>(b)].push_back(i);
     }
+    std::vector<std::size_t> differing;
+    for (const std::vector<std::size_t>& part : parts)
+        differing.insert(differing.end(), part.begin(), part.end());
     return differing;
 }
 

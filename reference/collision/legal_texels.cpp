@@ -5,13 +5,16 @@
 #include <bit>
 #include <cmath>
 #include <cstdint>
+#include <utility>
 
 #include "reference/collision/collision_code.hpp"
-#include "reference/collision/collision_pass.hpp"
+#include "reference/collision/collision_pass_fast.hpp"
 #include "reference/collision/step_stage.hpp"
 #include "reference/legal_interpolation.hpp"
 #include "reference/legal_triangles.hpp"
 #include "reference/model/same_bits.hpp"
+#include "reference/parallel_blocks.hpp"
+#include "reference/subnormal_mode.hpp"
 #include "reference/subnormals.hpp"
 #include "reference/triangle_interpolation.hpp"
 #include "reference/triangle_raster.hpp"
@@ -24,22 +27,23 @@ namespace {
 /// The texels asked for, by their place in the image.
 class WantedTexels {
   public:
-    WantedTexels(int width, int height, std::span<const std::size_t> texels) : slots_(width, height, -1) {
-        for (std::size_t i = 0; i < texels.size(); ++i)
+    WantedTexels(int width, int height, std::span<const std::size_t> texels)
+        : slots_(width, height, -1), near_(width, height, 0) {
+        for (std::size_t i = 0; i < texels.size(); ++i) {
             slots_.texels[texels[i]] = static_cast<std::int32_t>(i);
+            const int x = static_cast<int>(texels[i]) % width, y = static_cast<int>(texels[i]) / width;
+            for (int ny = std::max(y - 1, 0); ny <= std::min(y + 1, height - 1); ++ny)
+                for (int nx = std::max(x - 1, 0); nx <= std::min(x + 1, width - 1); ++nx)
+                    near_.at(nx, ny) = 1;
+        }
     }
     [[nodiscard]] int slot(int x, int y) const { return slots_.contains(x, y) ? slots_.at(x, y) : -1; }
     /// Whether this texel or one of the eight around it is asked for.
-    [[nodiscard]] bool near(int x, int y) const {
-        for (int dy = -1; dy <= 1; ++dy)
-            for (int dx = -1; dx <= 1; ++dx)
-                if (slot(x + dx, y + dy) >= 0)
-                    return true;
-        return false;
-    }
+    [[nodiscard]] bool near(std::int32_t texel) const { return near_.texels[static_cast<std::size_t>(texel)] != 0; }
 
   private:
     Image<std::int32_t> slots_;
+    Image<std::uint8_t> near_;
 };
 
 /// Pixels of one axis that a point may cover.
@@ -97,6 +101,9 @@ InVolume in_clip_volume(const std::array<Interval, 4>& clip, const ClipDepth& de
     return result;
 }
 
+/// Candidates as they are found, each with the place of its texel among those that are wanted.
+using Found = std::vector<std::pair<int, TexelOwner>>;
+
 /// Collects the candidates of every wanted texel, in drawing order.
 template <class A> class Candidates {
   public:
@@ -108,11 +115,26 @@ template <class A> class Candidates {
           corners_(fp, of_corners(known, profile), profile.other_orders), wanted_(params.width, params.height, texels),
           candidates_(texels.size()) {}
 
-    void add_point(TexelOwner::Kind kind, std::size_t index, glm::vec3 drawn_at, glm::vec3 stored) {
+    /// Points in order, `texels`: where the reference draws them. `add(i, found)` adds what may come of point i; any
+    /// thread calls it, in the subnormal mode of this one, for those near a wanted texel or drawn nowhere.
+    template <class Add> void add_points(std::span<const std::int32_t> texels, const Add& add) {
+        constexpr std::size_t block = 4096;
+        const SubnormalMode mode = subnormal_mode();
+        std::vector<Found> parts((texels.size() + block - 1) / block);
+        parallel_blocks(static_cast<std::ptrdiff_t>(parts.size()), [&](std::ptrdiff_t b) {
+            const FlushSubnormals guard(mode.flush_operands, mode.flush_results);
+            const std::size_t first = static_cast<std::size_t>(b) * block;
+            for (std::size_t i = first; i < std::min(first + block, texels.size()); ++i)
+                if (texels[i] == no_texel || wanted_.near(texels[i]))
+                    add(i, parts[static_cast<std::size_t>(b)]);
+        });
+        for (const Found& found : parts)
+            take_in(found);
+    }
+
+    void add_point(TexelOwner::Kind kind, std::size_t index, glm::vec3 drawn_at, glm::vec3 stored, Found& found) const {
         const PointFragment reference = point_fragment(drawn_at, drawn_, profile_);
         const bool drawn = reference.x >= 0;
-        if (drawn && !wanted_.near(reference.x, reference.y))
-            return;
         TexelOwner owner{.kind = kind, .index = index, .code = code_.encode(stored)};
         owner.reference_depth = reference.depth;
         if (kind == TexelOwner::Kind::particle ? converts_.particles : converts_.vertices)
@@ -121,7 +143,7 @@ template <class A> class Candidates {
             owner.is_reference = true;
             owner.depth = reference.depth;
             if (drawn)
-                add(owner, reference.x, reference.y);
+                add(owner, reference.x, reference.y, found);
             return;
         }
         const auto clip = arithmetic_.transform(params_.collision_proj_view, arithmetic_.read(drawn_at));
@@ -153,14 +175,12 @@ template <class A> class Candidates {
         if (clip[2].is_point() && clip[3].is_point() && known().raster.equal_depth)
             owner.clip_zw = glm::vec2(clip[2].as_float(), clip[3].as_float());
         owner.may_be_clipped = inside != InVolume::yes;
-        add_range(owner, columns, rows, reference);
+        add_range(owner, columns, rows, reference, found);
     }
 
     /// A point whose texel and depth the pass finds by itself (placed_point of collision_pass.cpp).
-    void add_placed_point(std::size_t index, glm::vec3 drawn_at, glm::vec3 stored) {
+    void add_placed_point(std::size_t index, glm::vec3 drawn_at, glm::vec3 stored, Found& found) const {
         const PointFragment reference = point_fragment(drawn_at, params_, profile_);
-        if (reference.x >= 0 && !wanted_.near(reference.x, reference.y))
-            return;
         const auto clip = placing_.transform(params_.collision_proj_view, placing_.read(drawn_at));
         if (clip[3].any || !(clip[3].low > 0.0))
             return;
@@ -187,7 +207,7 @@ template <class A> class Candidates {
         const PixelRange columns = texels_of(x, params_.width), rows = texels_of(y, params_.height);
         owner.may_be_clipped = depth.low < 0.0 || depth.high > 1.0 || columns.first < 0 || rows.first < 0 ||
                                columns.last >= params_.width || rows.last >= params_.height;
-        add_range(owner, columns, rows, reference);
+        add_range(owner, columns, rows, reference, found);
     }
 
     void add_triangles(const Mesh& obstacles) {
@@ -199,11 +219,13 @@ template <class A> class Candidates {
             raster.triangle_window = raster.corner_window_accurate = false;
         const LegalTriangles triangles(clip, obstacles.indices, params_.width, params_.height, profile_.raster, raster,
                                        known().points && !corners_open(), params_.clip_depth);
+        Found found;
         triangles.for_each([&](int x, int y) { return wanted_.slot(x, y) >= 0; },
                            [&](const LegalCover& cover) {
                                add_fragment(obstacles, clip, cover.triangle, cover.rules, cover.x, cover.y,
-                                            cover.covered, cover.sure);
+                                            cover.covered, cover.sure, found);
                            });
+        take_in(found);
     }
 
     std::vector<std::vector<TexelOwner>> take() { return std::move(candidates_); }
@@ -220,8 +242,8 @@ template <class A> class Candidates {
     }
 
     /// To each texel of a range of which it is drawn to one.
-    void add_range(TexelOwner owner, const PixelRange& columns, const PixelRange& rows,
-                   const PointFragment& reference) {
+    void add_range(TexelOwner owner, const PixelRange& columns, const PixelRange& rows, const PointFragment& reference,
+                   Found& found) const {
         owner.sure = !owner.may_be_clipped && columns.one_answer() && rows.one_answer();
         owner.reach = {columns.first, rows.first, columns.last + 1, rows.last + 1};
         owner.edge_margin = HUGE_VAL;
@@ -234,17 +256,22 @@ template <class A> class Candidates {
                 owner.is_reference = x == reference.x && y == reference.y;
                 owner.drawn_by_reference = owner.is_reference;
                 owner.shift = reference.x >= 0 ? glm::dvec2(x - reference.x, y - reference.y) : glm::dvec2(0.0);
-                add(owner, x, y);
+                add(owner, x, y, found);
             }
     }
 
-    void add(const TexelOwner& owner, int x, int y) {
+    void add(const TexelOwner& owner, int x, int y, Found& found) const {
         if (const int slot = wanted_.slot(x, y); slot >= 0)
+            found.emplace_back(slot, owner);
+    }
+
+    void take_in(const Found& found) {
+        for (const auto& [slot, owner] : found)
             candidates_[static_cast<std::size_t>(slot)].push_back(owner);
     }
 
     void add_fragment(const Mesh& obstacles, const std::vector<glm::vec4>& clip, const RasterTriangle& triangle,
-                      const RasterRules& rules, int x, int y, bool covered, bool sure) {
+                      const RasterRules& rules, int x, int y, bool covered, bool sure, Found& found) const {
         const std::uint32_t* index = &obstacles.indices[std::size_t{triangle.primitive} * 3];
         const std::array<glm::vec4, 3> corners{clip[index[0]], clip[index[1]], clip[index[2]]};
         const std::array<glm::vec3, 3> positions{obstacles.positions[index[0]], obstacles.positions[index[1]],
@@ -284,7 +311,7 @@ template <class A> class Candidates {
         owner.is_side = true;
         owner.drawn_by_reference = covered;
         owner.place = std::uint64_t{triangle.primitive} << 32U | static_cast<std::uint32_t>(y * params_.width + x);
-        add(owner, x, y);
+        add(owner, x, y, found);
     }
 
     static void store_depth(TexelOwner& owner) {
@@ -399,18 +426,25 @@ std::vector<LegalTexel> legal_texels(const Mesh& obstacles, const Particles& bef
             Candidates all(fp, params, profile, known, texels);
             if (params.switches.obstacles_in_cdt == ObstaclesInCdt::triangles)
                 all.add_triangles(obstacles);
-            if (params.switches.obstacles_in_cdt == ObstaclesInCdt::vertices)
-                for (std::size_t i = 0; i < obstacles.positions.size(); ++i)
-                    all.add_point(TexelOwner::Kind::obstacle, i, obstacles.positions[i], obstacles.positions[i]);
+            std::vector<std::int32_t> drawn;
+            if (params.switches.obstacles_in_cdt == ObstaclesInCdt::vertices) {
+                point_texels_fast(obstacles.positions, drawn_by_rasteriser(params), profile, drawn);
+                all.add_points(drawn, [&](std::size_t i, Found& found) {
+                    all.add_point(TexelOwner::Kind::obstacle, i, obstacles.positions[i], obstacles.positions[i], found);
+                });
+            }
+            point_texels_fast(positions, params, profile, drawn);
             if (params.switches.step == Step::compute) {
                 const bool subnormals = known_in_step(params.switches, known, profile).subnormals;
                 const FlushSubnormals in_step = flush_in_step(params.switches, profile, subnormals);
-                for (std::size_t i = 0; i < positions.size(); ++i)
-                    all.add_placed_point(i, positions[i], after.position[i]);
-                return all.take();
+                all.add_points(drawn, [&](std::size_t i, Found& found) {
+                    all.add_placed_point(i, positions[i], after.position[i], found);
+                });
+            } else {
+                all.add_points(drawn, [&](std::size_t i, Found& found) {
+                    all.add_point(TexelOwner::Kind::particle, i, positions[i], after.position[i], found);
+                });
             }
-            for (std::size_t i = 0; i < positions.size(); ++i)
-                all.add_point(TexelOwner::Kind::particle, i, positions[i], after.position[i]);
             return all.take();
         });
     std::vector<LegalTexel> legal;

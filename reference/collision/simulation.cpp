@@ -50,8 +50,17 @@ void ReferenceSimulation::step(const FrameParams& params) {
 }
 
 void ReferenceSimulation::clear(CollisionImage& cdt, const FrameParams& params) {
-    std::fill(cdt.texels.begin(), cdt.texels.end(), glm::vec4(0.0F));
-    std::fill(depth_.texels.begin(), depth_.texels.end(), params.clip_depth.cleared());
+    const auto texels = static_cast<std::ptrdiff_t>(cdt.texels.size());
+    const auto depths = static_cast<std::ptrdiff_t>(depth_.texels.size());
+#pragma omp parallel
+    {
+#pragma omp for schedule(static) nowait
+        for (std::ptrdiff_t t = 0; t < texels; ++t)
+            cdt.texels[static_cast<std::size_t>(t)] = glm::vec4(0.0F);
+#pragma omp for schedule(static)
+        for (std::ptrdiff_t t = 0; t < depths; ++t)
+            depth_.texels[static_cast<std::size_t>(t)] = params.clip_depth.cleared();
+    }
 }
 
 } // namespace lockstep

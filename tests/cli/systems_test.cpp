@@ -138,6 +138,12 @@ TEST_CASE("systems: bench times GL alone, and as many atomics as lights make") {
     CHECK_THAT(gathered.out, !Contains("floor: "));
     CHECK(refusal(run_lockstep({"bench", "data/scenes/lattice.json", "--floor"})) ==
           "bench: --floor does not go with scenes of system collision");
+    const test::Outcome particles =
+        run_lockstep(on_gl({"bench", "data/scenes/lattice.json", "--counts", "100", "--radius", "1", "--frames", "1",
+                            "--warm-up", "0", "--gl-only", "--no-render"}));
+    CHECK(particles.status == 0);
+    CHECK_THAT(particles.out, Contains("GL alone, nothing checked") && Contains(" collision_pass ") &&
+                                  Contains("nothing rendered") && !Contains("AGREE"));
 }
 
 TEST_CASE("systems: check agrees on the shipped kernels and names a planted mistake, with a line that explains it") {

@@ -11,7 +11,7 @@
 #include "crosscheck/collision/judge/step_judge.hpp"
 #include "crosscheck/judge/compare.hpp"
 #include "crosscheck/judge/item_judge.hpp"
-#include "reference/collision/collision_pass.hpp"
+#include "reference/collision/collision_pass_fast.hpp"
 #include "reference/collision/layered_collision_pass.hpp"
 #include "reference/collision/legal_texels.hpp"
 #include "reference/collision/obstacle_pass.hpp"
@@ -253,7 +253,7 @@ CollisionImage redraw(const JudgedFrame& frame) {
     DepthImage depth(frame.params.width, frame.params.height, frame.params.clip_depth.cleared());
     obstacle_pass(frame.obstacles, frame.params, frame.profile, cdt, depth);
     if (frame.params.switches.search == Search::cdt)
-        rasterise_particles(frame.before, frame.gpu, frame.params, frame.profile, cdt, depth);
+        rasterise_particles_fast(frame.before, frame.gpu, frame.params, frame.profile, cdt, depth);
     return cdt;
 }
 

@@ -49,6 +49,18 @@ for (const set of [[], ["cdt_format=rgba16f"], ["cdt_format=rgba8"], ["obstacles
     await page.close();
   });
 
+test("live view: what comes first is the scene as it was checked", async () => {
+  const chosen = async (path) => {
+    const { page } = await open(path);
+    const name = await page.locator("#live-run").inputValue();
+    await page.close();
+    return name;
+  };
+  assert.equal(await chosen(scene(["speed_factor=0.2"])), "as checked");
+  const corrected = report(writeScene(temporaryFolder()), "--frames", "3", "--preset", "corrected");
+  assert.equal(await chosen(corrected), "exact");
+});
+
 test("live view: a bug in a shader shows in its frame", async () => {
   const { page } = await open(planted(plain, " && len < particle_min_length", ""));
   assert.match(

@@ -39,10 +39,12 @@ function verdict(check) {
 class LiveView {
   constructor(scene) {
     this.scene = scene;
+    // The scene as it was checked shows what it is about: a preset may leave it no pile.
+    const first = scene.runs.find(({ name }) => name === "as checked") ?? scene.runs.find(({ exact }) => exact);
     this.runs = h(
       "select",
       { id: "live-run", change: () => this.reset() },
-      scene.runs.map(({ name, exact }) => option(name, name, exact)),
+      scene.runs.map((run) => option(run.name, run.name, run === first)),
     );
     this.views = h("select", { id: "live-shown", change: () => this.show() }, [option("rendered", "rendered frame"), option("cdt", "CDT")]);
     const button = (id, text, click) => h("button", { type: "button", id: `live-${id}`, click }, text);

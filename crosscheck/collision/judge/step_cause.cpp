@@ -164,6 +164,13 @@ std::uint64_t seen_in_texels(std::span<const NamedMistake* const> made, const Ju
     return trials->contradicted(deviations);
 }
 
+/// step_mistake, but where who does not search stands, a particle that never collides searches all the same, and falls.
+std::optional<Mistake> mistake_in(const Switches& switches, Deviation deviation) {
+    if (deviation == Deviation::never_collides && switches.not_searching == NotSearching::stands)
+        return Mistake{.site = site::in_range.id, .change = Change::never};
+    return step_mistake(deviation);
+}
+
 /// Whether it changes which texels are looked at, or which of them is taken.
 bool is_of_window(const Mistake& mistake) {
     using namespace lockstep::site;
@@ -178,7 +185,7 @@ std::vector<NamedMistake> named_mistakes(const Scene& scene, const Profile& prof
     std::vector<NamedMistake> named;
     for (const char* pass : {"collision_pass", "octree_pass", "depth_pass", "layered_collision_pass"})
         for (const DeviationInfo& info : deviation_table())
-            if (const auto mistake = step_mistake(info.deviation);
+            if (const auto mistake = mistake_in(scene.switches, info.deviation);
                 mistake && can_make(pass, *mistake) && !is_no_mistake(info.deviation, scene.switches, profile))
                 named.push_back({.name = std::string(info.name),
                                  .meaning = std::string(info.meaning),

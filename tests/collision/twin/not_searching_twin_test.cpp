@@ -81,3 +81,23 @@ TEST_CASE("not searching twin: the other reading in a shader is found and named"
             CHECK_THAT(test::told_causes(report), Catch::VectorContains(cause));
         }
 }
+
+TEST_CASE("not searching twin: who searches without a hit and stands is not said never to collide") {
+    const auto context = test::open_compute();
+    if (!context)
+        return;
+    constexpr const char* step =
+        "    if (ls_flush(a_CollideTime) < 0.0 && visible && nearest_collision(texel_base, away))\n"
+        "        collide(away);\n    else\n        integrate();\n";
+    const auto told = [&](const std::string& replacement) {
+        const test::TemporaryFolder shaders;
+        test::plant(shaders, "collision_pass.vert", step, replacement);
+        const CheckReport report = test::check_twins(standing_scene("corrected"), 6, shaders.path());
+        CHECK(report.verdict == Verdict::divergent);
+        return test::told_causes(report);
+    };
+    const std::vector<std::string> stands = told("    if (visible && nearest_collision(texel_base, away))\n        "
+                                                 "collide(away);\n    else\n        stand();\n");
+    CHECK(stands == std::vector<std::string>{"no_fall_after_missed_search"});
+    CHECK_THAT(told("    integrate();\n"), Catch::VectorContains(std::string("never_collides")));
+}

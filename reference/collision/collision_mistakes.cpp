@@ -223,7 +223,9 @@ const std::array searches{
 
 std::span<const SearchMistake> search_mistakes() { return searches; }
 
-std::optional<Mistake> step_mistake(Deviation deviation) {
+std::optional<Mistake> step_mistake(Deviation deviation, const Switches& switches) {
+    if (deviation == Deviation::never_collides && switches.not_searching == NotSearching::stands)
+        return mistake_at(site::texel_collide_range, Change::zero);
     if (deviation == Deviation::half_cdt || deviation == Deviation::unorm8_cdt)
         return Mistake{.site = site::stored_position.id,
                        .change = Change::spoiled,
@@ -242,10 +244,10 @@ std::optional<Mistake> step_mistake(Deviation deviation) {
                    .source = row->source != nullptr ? row->source->id : 0};
 }
 
-std::vector<Mistake> mistakes_of(const Deviations& deviations) {
+std::vector<Mistake> mistakes_of(const Deviations& deviations, const Switches& switches) {
     std::vector<Mistake> made;
     for (const Deviation deviation : deviations)
-        if (const auto mistake = step_mistake(deviation))
+        if (const auto mistake = step_mistake(deviation, switches))
             made.push_back(*mistake);
     return made;
 }

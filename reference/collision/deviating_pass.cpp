@@ -282,7 +282,7 @@ void deviating_draw(const FrameInputs& inputs, const Particles& after, const Pro
                                                                                                : after.position;
     const bool stores_position = std::none_of(deviations.begin(), deviations.end(), spoils_stored);
     const DeviatingDepthTest test(deviations);
-    const std::vector<Mistake> made = mistakes_of(deviations);
+    const std::vector<Mistake> made = mistakes_of(deviations, inputs.params->switches);
     const FrameParams params = seen_by(inputs, deviations);
     with_mistaken_arithmetic<true>(profile, params.switches.arithmetic, made, [&](auto fp) {
         DeviatingPoint fragment(fp, params, made, deviations, profile.raster);

@@ -114,7 +114,7 @@ TEST_CASE("mistakes: every named one comes by itself from the sites of the step,
     const std::vector<Mistake> mistakes = mistakes_at(sites);
     int named = 0;
     for (const DeviationInfo& info : deviation_table()) {
-        const auto mistake = step_mistake(info.deviation);
+        const auto mistake = step_mistake(info.deviation, scene.params.switches);
         if (!mistake || mistake->site == 0 || mistake->change == Change::spoiled)
             continue; // the host's, or the arithmetic's
         ++named;

@@ -21,7 +21,7 @@ ParticleState mistaken_step(const FrameInputs& inputs, std::size_t i, const Prof
 
 ParticleState deviating_step(const FrameInputs& inputs, std::size_t i, const Profile& profile,
                              const Deviations& deviations) {
-    return mistaken_step(inputs, i, profile, mistakes_of(deviations));
+    return mistaken_step(inputs, i, profile, mistakes_of(deviations, inputs.params->switches));
 }
 
 } // namespace lockstep::test

@@ -256,7 +256,7 @@ void CollisionPower::try_steps(const PowerFrame& frame, const Situations& found)
     parallel_blocks(static_cast<std::ptrdiff_t>(all.size()), [&](std::ptrdiff_t d) {
         const Deviation deviation = all[static_cast<std::size_t>(d)];
         Tried& tried = tried_[static_cast<std::size_t>(deviation)];
-        const std::vector<Mistake> made = mistakes_of(deviation);
+        const std::vector<Mistake> made = mistakes_of(deviation, scene_.switches);
         for (const std::size_t item : items) {
             const MistakenItem is = judge_mistaken(judged, item, pass->mistaken(judged.input(), item, profile_, made));
             tried.changes = tried.changes || is != MistakenItem::same;

@@ -133,10 +133,10 @@ class TexelTrials {
 
 /// What is drawn in a wrong place because the step computes it wrongly would show in the particles, too.
 void contradict_by_steps(std::vector<TriedCause>& causes, std::size_t divergent, const JudgedPass& pass,
-                         const std::vector<std::size_t>& agreeing) {
+                         const Switches& switches, const std::vector<std::size_t>& agreeing) {
     const ItemLikeness likeness(pass);
     for (TriedCause& cause : causes) {
-        const std::vector<Mistake> made = mistakes_of(together(cause));
+        const std::vector<Mistake> made = mistakes_of(together(cause), switches);
         if (cause.explained < divergent || made.empty())
             continue;
         cause.contradicted +=
@@ -164,13 +164,6 @@ std::uint64_t seen_in_texels(std::span<const NamedMistake* const> made, const Ju
     return trials->contradicted(deviations);
 }
 
-/// step_mistake, but where who does not search stands, a particle that never collides searches all the same, and falls.
-std::optional<Mistake> mistake_in(const Switches& switches, Deviation deviation) {
-    if (deviation == Deviation::never_collides && switches.not_searching == NotSearching::stands)
-        return Mistake{.site = site::in_range.id, .change = Change::never};
-    return step_mistake(deviation);
-}
-
 /// Whether it changes which texels are looked at, or which of them is taken.
 bool is_of_window(const Mistake& mistake) {
     using namespace lockstep::site;
@@ -185,7 +178,7 @@ std::vector<NamedMistake> named_mistakes(const Scene& scene, const Profile& prof
     std::vector<NamedMistake> named;
     for (const char* pass : {"collision_pass", "octree_pass", "depth_pass", "layered_collision_pass"})
         for (const DeviationInfo& info : deviation_table())
-            if (const auto mistake = mistake_in(scene.switches, info.deviation);
+            if (const auto mistake = step_mistake(info.deviation, scene.switches);
                 mistake && can_make(pass, *mistake) && !is_no_mistake(info.deviation, scene.switches, profile))
                 named.push_back({.name = std::string(info.name),
                                  .meaning = std::string(info.meaning),
@@ -227,8 +220,9 @@ void TexelCauses::add(const JudgedFrame& frame, const FrameVerdicts& verdicts, c
         agreeing_items(frame.gpu.size(), verdicts.particles, JointCauses::trial_items);
     const auto count = [&](std::vector<TriedCause>& causes, const std::vector<std::size_t>& items) {
         trials.count(causes, items);
-        with_step_pass(frame, &inputs,
-                       [&](const JudgedPass& pass) { contradict_by_steps(causes, items.size(), pass, equal); });
+        with_step_pass(frame, &inputs, [&](const JudgedPass& pass) {
+            contradict_by_steps(causes, items.size(), pass, frame.params.switches, equal);
+        });
     };
     const auto best_pairs = [&] {
         // Each trial draws a whole image: only what explains something alone is worth a partner.

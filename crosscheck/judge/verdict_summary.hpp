@@ -30,12 +30,25 @@ struct TieCount {
 };
 
 /// The first step of a pass at which no legal run reaches what the GPU has, as far as what was captured tells.
+/// A texel that was chosen for what it offered: a distance, a depth.
+struct ChosenTexel {
+    int x = 0, y = 0;
+    float offer = 0.0F;
+};
+
+/// What was chosen among texels, and what the GPU must have chosen; nothing where none was.
+struct ChoiceOfTexels {
+    std::optional<ChosenTexel> right, taken;
+};
+
 struct WrongStep {
     std::string step;      ///< "search", "nearest", "speed", ...
-    std::string operation; ///< what the reference computed there, with its operands
-    std::string gpu;       ///< what the GPU must have done instead, where that is known; else empty
-    std::string margin;    ///< how far the GPU is from what is legal
-    Difference difference; ///< the field that shows it
+    std::string operation; ///< what is right there, with its operands: "texel (70, 294) at 0.25 is right"
+    std::string gpu;       ///< what the GPU must have done instead, where that is known: "took ..."; else empty
+    std::string where;     ///< the line of the twin, "collision_twin.hpp:128"; may be empty
+    std::optional<ChoiceOfTexels> choice; ///< that both texts are about, if they are about one
+    std::string margin;                   ///< how far the GPU is from what is legal
+    Difference difference;                ///< the field that shows it
 };
 
 struct FirstDivergence {

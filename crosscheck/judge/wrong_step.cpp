@@ -22,7 +22,7 @@ namespace {
 using Kind = RecordedRow::Kind;
 
 std::string line_of(const std::source_location& where) {
-    return fmt::format("({}:{})", std::filesystem::path(where.file_name()).filename().string(), where.line());
+    return fmt::format("{}:{}", std::filesystem::path(where.file_name()).filename().string(), where.line());
 }
 
 /// How many ULP a value lies outside of what is legal; 0 inside.
@@ -94,8 +94,9 @@ std::string set_text(const Interval& legal, Scalar scalar) {
 
 /// A decision or choice of the step, answered otherwise.
 struct Otherwise {
-    std::string step, right, instead;
+    std::string step, right, instead, where;
     std::vector<ToldValue> told; ///< besides the state
+    std::optional<ChoiceOfTexels> choice = {};
 };
 
 ToldValue told(const Site& site, std::vector<float> values, int turn = -1) {
@@ -106,12 +107,11 @@ ToldValue told(const Site& site, std::vector<float> values, int turn = -1) {
 struct Offers {
     std::vector<std::pair<RecordedRow, RecordedRow>> turns;
 
-    [[nodiscard]] std::string text(std::size_t turn) const {
+    [[nodiscard]] std::optional<ChosenTexel> texel(std::size_t turn) const {
         if (turn >= turns.size())
-            return "none";
+            return {};
         const auto& [fetch, offer] = turns[turn];
-        return fmt::format("texel ({}, {}) at {:.9g}", static_cast<int>(fetch.values[0]),
-                           static_cast<int>(fetch.values[1]), offer.values[0]);
+        return ChosenTexel{static_cast<int>(fetch.values[0]), static_cast<int>(fetch.values[1]), offer.values[0]};
     }
     /// Whose offer was the best, the last time that one was.
     [[nodiscard]] std::size_t chosen() const {
@@ -123,17 +123,23 @@ struct Offers {
     }
 };
 
+std::string choice_text(const std::optional<ChosenTexel>& chosen) {
+    return chosen ? fmt::format("texel ({}, {}) at {:.9g}", chosen->x, chosen->y, chosen->offer) : "no texel";
+}
+
 /// Each that was not chosen, or nothing.
 void add_choices(const RecordedRow& choice, const Offers& offers, std::vector<Otherwise>& found) {
     const std::size_t count = offers.turns.size(), right = offers.chosen();
     for (std::size_t chosen = 0; chosen <= count; ++chosen) {
         if (chosen == right)
             continue;
-        Otherwise& one =
-            found.emplace_back(Otherwise{std::string(choice.site->label),
-                                         fmt::format("{} follows {}", offers.text(right), line_of(choice.where)),
-                                         offers.text(chosen),
-                                         {told(*choice.site, {chosen < count ? 1.0F : 0.0F})}});
+        const ChoiceOfTexels both{offers.texel(right), offers.texel(chosen)};
+        Otherwise& one = found.emplace_back(Otherwise{std::string(choice.site->label),
+                                                      choice_text(both.right) + " is right",
+                                                      "took " + choice_text(both.taken),
+                                                      line_of(choice.where),
+                                                      {told(*choice.site, {chosen < count ? 1.0F : 0.0F})},
+                                                      both});
         for (std::size_t i = 0; i < count; ++i) {
             const RecordedRow& fetch = offers.turns[i].first;
             one.told.push_back(told(*fetch.site, {fetch.values[0], fetch.values[1]}, static_cast<int>(i)));
@@ -163,8 +169,9 @@ std::vector<Otherwise> decided_otherwise(const std::vector<RecordedRow>& step) {
             continue;
         const bool yes = row.values[0] != 0.0F;
         found.push_back({std::string(row.site->label),
-                         fmt::format("{} follows {}", yes ? "yes" : "no", line_of(row.where)),
-                         yes ? "no" : "yes",
+                         yes ? "yes is right" : "no is right",
+                         yes ? "decided no" : "decided yes",
+                         line_of(row.where),
                          {told(*row.site, {yes ? 0.0F : 1.0F})}});
     }
     return found;
@@ -217,9 +224,9 @@ std::optional<Otherwise> wrong_search(const JudgedPass& p, std::size_t item) {
     for (const Mistake& mistake : mistakes_at(sites))
         if (likeness.are_gpus(item, p.on_input().mistaken(p.input(), item, p.profile, {&mistake, 1})))
             return Otherwise{std::string(choice->site->label),
-                             fmt::format("{} follows {}", choice->values[0] != 0.0F ? "what was found" : "none",
-                                         line_of(choice->where)),
-                             "as by " + mistake_text(mistake, sites),
+                             choice->values[0] != 0.0F ? "what was found is right" : "to find none is right",
+                             "computed as with this mistake: " + mistake_text(mistake, sites),
+                             line_of(choice->where),
                              {}};
     return {};
 }
@@ -254,7 +261,7 @@ WrongStep wrong_step_of_item(const JudgedPass& p, std::size_t item) {
     step.operation = fmt::format("{} {} is legal", component_name(field, c.component),
                                  set_text(nearest->values[wrong.place], field.scalar));
     if (wrong.where)
-        step.operation += " " + line_of(*wrong.where);
+        step.where = line_of(*wrong.where);
     const Value reference = p.reference.value(c.field, item, c.component),
                 gpu = p.gpu.value(c.field, item, c.component);
     if (best.ulps != 0)
@@ -269,6 +276,8 @@ WrongStep wrong_step_of_item(const JudgedPass& p, std::size_t item) {
         step.step = std::move(decision->step);
         step.operation = std::move(decision->right);
         step.gpu = std::move(decision->instead);
+        step.where = std::move(decision->where);
+        step.choice = decision->choice;
         step.margin.clear();
     }
     return step;

@@ -128,7 +128,7 @@ std::string row_text(const FunctionRows& rows, std::size_t row) {
     for (std::size_t f = 0; f < rows.columns.size(); ++f) {
         std::string values;
         for (int c = 0; c < rows.columns[f].components; ++c, ++word)
-            values += fmt::format("{}{}", c == 0 ? "" : ", ", value_text(Value{rows.columns[f].scalar, *word}));
+            values += fmt::format("{}{}", c == 0 ? "" : ", ", decimal_text(Value{rows.columns[f].scalar, *word}));
         text += fmt::format("{} {} {}", f == 0 ? ":" : ",", rows.names[f],
                             rows.columns[f].components == 1 ? values : fmt::format("({})", values));
     }

@@ -50,7 +50,7 @@ class DebugRun {
     /// What is told when a session comes to it, whole lines.
     [[nodiscard]] virtual std::string head(DebugItem item, NumberFormat format) = 0;
     [[nodiscard]] virtual std::string show(DebugItem item, NumberFormat format) = 0;
-    [[nodiscard]] virtual std::string why(DebugItem item) = 0;
+    [[nodiscard]] virtual std::string why(DebugItem item, NumberFormat format) = 0;
     [[nodiscard]] virtual std::vector<StepRow> rows(DebugItem item) = 0;
 
     /// On what differs in this frame, in order; empty for a group that it does not make.

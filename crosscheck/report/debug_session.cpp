@@ -296,7 +296,7 @@ std::vector<DebugItem> DebugSession::with_nan() {
 }
 
 std::string DebugSession::why(const std::string&) {
-    std::string text = run_->why(item_);
+    std::string text = run_->why(item_, setup_.format);
     if (row_ && !rows_[*row_].reason.empty())
         text += fmt::format("  {}: {}\n", rows_[*row_].label, rows_[*row_].reason);
     return text;

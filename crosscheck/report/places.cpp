@@ -22,4 +22,10 @@ std::string first_arguments(const CheckReport& report, int width) {
     return fmt::format("--frame {} --pixel {},{}", report.rendered->frame, pixel % columns, pixel / columns);
 }
 
+int frames_to_repeat(const CheckReport& report) {
+    if (report.verdicts && report.verdicts->first)
+        return report.verdicts->first->place.frame + 1;
+    return report.first_frame && !report.state_verdict ? *report.first_frame + 1 : report.frames;
+}
+
 } // namespace lockstep

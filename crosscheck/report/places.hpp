@@ -13,4 +13,7 @@ std::string place_arguments(const Place& place, const Schema& schema, int width)
 /// there is none.
 std::string first_arguments(const CheckReport& report, int width);
 
+/// As many frames as show a run's first divergence again; without one, its first difference, or all.
+int frames_to_repeat(const CheckReport& report);
+
 } // namespace lockstep

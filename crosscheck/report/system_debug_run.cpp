@@ -77,7 +77,7 @@ std::string SystemDebugRun::show(DebugItem item, NumberFormat format) {
     return explain_item(run_, item.index, format);
 }
 
-std::string SystemDebugRun::why(DebugItem item) {
+std::string SystemDebugRun::why(DebugItem item, NumberFormat) {
     const std::vector<StepRow> all = rows(item);
     return fmt::format("{} in frame {}\n{}", name(item), frame_, item_verdict_text(run_.judged(), item.index, all));
 }

@@ -17,9 +17,8 @@ std::string decimal_text(Value value) {
     return value.scalar == Scalar::float32 ? fmt::format("{:.9g}", value.real()) : std::to_string(value.integer());
 }
 
-std::string value_text(Value value) {
-    return value.scalar == Scalar::float32 ? fmt::format("{:.9g} ({:a})", value.real(), value.real())
-                                           : fmt::format("{} ({:#x})", value.integer(), value.bits);
+std::string value_text(Value value, NumberFormat format) {
+    return format == NumberFormat::hexadecimal ? exact_text(value) : decimal_text(value);
 }
 
 nlohmann::json value_json(Value value) {

@@ -12,14 +12,14 @@ namespace lockstep {
 /// How floats are written.
 enum class NumberFormat { decimal, hexadecimal };
 
-/// "0.1 (0x1.99999ap-4)"; an integer "17 (0x11)".
-std::string value_text(Value value);
-
 /// "0.1", nine digits, which no other float has; an integer "17".
 std::string decimal_text(Value value);
 
 /// "0x1.99999ap-4"; an integer "17".
 std::string exact_text(Value value);
+
+/// Either.
+std::string value_text(Value value, NumberFormat format);
 
 /// A number, or text where JSON has none for it.
 nlohmann::json value_json(Value value);

@@ -93,9 +93,7 @@ std::string first_text(const FirstDivergence& first, const Shape& shape) {
                                   class_names[static_cast<std::size_t>(first.verdict.kind)], wrong.step));
     if (first.verdict.undefined != Undefined::none)
         text += line("", fmt::format("left open by GL: {}", undefined_name(first.verdict.undefined)));
-    text += line("", fmt::format("reference: {}", wrong.operation));
-    if (!wrong.gpu.empty())
-        text += line("", fmt::format("GPU: {}", wrong.gpu));
+    text += line("", wrong_step_text(wrong));
     text += line("", fmt::format("{}{}{}", difference_text(shape.schema, wrong.difference),
                                  wrong.margin.empty() ? "" : "; ", wrong.margin));
     return text;
@@ -173,6 +171,11 @@ nlohmann::json counts_json(const std::array<std::uint64_t, class_names.size()>& 
 
 bool tells_cause(const VerdictSummary& s) { return std::any_of(s.causes.begin(), s.causes.end(), is_told); }
 
+std::string wrong_step_text(const WrongStep& wrong) {
+    return fmt::format("{}{}{}{}", wrong.operation, wrong.gpu.empty() ? "" : "; the GPU ", wrong.gpu,
+                       wrong.where.empty() ? "" : fmt::format(" ({})", wrong.where));
+}
+
 std::string grouped(std::uint64_t value) {
     std::string digits = std::to_string(value);
     for (auto i = static_cast<std::ptrdiff_t>(digits.size()) - 3; i > 0; i -= 3)
@@ -239,9 +242,12 @@ nlohmann::json verdict_json(const VerdictSummary& s, const Schema& schema, std::
                  {"step", wrong.step},
                  {"operation", wrong.operation},
                  {"gpu_did", wrong.gpu},
+                 {"where", wrong.where},
                  {"margin", wrong.margin},
                  {"field", schema[wrong.difference.field].name},
                  {"component", wrong.difference.component},
+                 {"reference", decimal_text(wrong.difference.reference)},
+                 {"gpu", decimal_text(wrong.difference.gpu)},
                  {"reference_hex", exact_text(wrong.difference.reference)},
                  {"gpu_hex", exact_text(wrong.difference.gpu)}};
     }

@@ -82,8 +82,10 @@ TEST_CASE("verdict: a planted difference is status 1, and the line that repeats 
     CHECK(outcome.err.empty());
     CHECK_THAT(outcome.out, Catch::Contains("verdict   DIVERGENT from frame 0 on: 1,"));
     CHECK_THAT(outcome.out,
-               Catch::Matches("(.|\n)*  frame 0 particle \\d+ \\S+: reference \\S+ \\(-?0x1\\.[0-9a-f]+p-\\d+\\), "
-                              "GPU \\S+ \\(-?0x1\\.[0-9a-f]+p-\\d+\\), \\d+ ULP\n(.|\n)*"));
+               Catch::Matches("(.|\n)*  frame 0 particle \\d+ \\S+: reference -?[0-9.e-]+, GPU -?[0-9.e-]+, \\d+ "
+                              "ULP\n(.|\n)*") &&
+                   !Catch::Contains("0x"));
+    CHECK_THAT(setting.check({"--frames", "6", "--hex"}).out, Catch::Contains(": reference 0x1."));
     const nlohmann::json report = json_of(setting.report);
     CHECK(report["verdict"] == "DIVERGENT");
     CHECK(report["first_frame"] == 0);

@@ -25,3 +25,8 @@ TEST_CASE("value text: floats of the same sign, or close to 0, are ULP apart; ot
     CHECK(distance(0.0F, 0.97F).ends_with(" ULP"));
     CHECK(distance(1.0F, std::numeric_limits<float>::quiet_NaN()) == "NaN on one side");
 }
+
+TEST_CASE("value text: decimals of nine digits, or the bits, never both") {
+    CHECK(value_text(0.1F, NumberFormat::decimal) == "0.100000001");
+    CHECK(value_text(0.1F, NumberFormat::hexadecimal) == "0x1.99999ap-4");
+}

@@ -23,9 +23,9 @@ Difference difference(FieldId field, std::size_t index, int component, float ref
 std::string owner_text(const TexelOwner& owner, const JudgedFrame& frame) {
     switch (owner.kind) {
     case TexelOwner::Kind::nothing:
-        return "nothing is drawn here";
+        return "nothing";
     case TexelOwner::Kind::obstacle:
-        return fmt::format("obstacle primitive {} at depth {:a}", owner.index, owner.reference_depth);
+        return fmt::format("obstacle primitive {} at depth {:.9g}", owner.index, owner.reference_depth);
     case TexelOwner::Kind::particle:
         break;
     }
@@ -33,13 +33,25 @@ std::string owner_text(const TexelOwner& owner, const JudgedFrame& frame) {
                                    ? frame.gpu.position[owner.index]
                                    : frame.before.position[owner.index];
     const PointFragment point = point_fragment(position, frame.params, frame.profile);
-    return fmt::format("particle {}, drawn to ({}, {}) at depth {:a}", owner.index, point.x, point.y, point.depth);
+    return fmt::format("particle {}, drawn to ({}, {}) at depth {:.9g}", owner.index, point.x, point.y, point.depth);
+}
+
+/// In the search's words, what texels offer is how far away they are.
+void tell_distances(WrongStep& wrong, float range) {
+    const auto& [right, taken] = *wrong.choice;
+    wrong.operation = right ? fmt::format("texel ({}, {}) is {:.9g} away, inside the range {}, and nearest", right->x,
+                                          right->y, right->offer, range)
+                            : fmt::format("no texel is inside the range {}", range);
+    wrong.gpu = taken ? fmt::format("took ({}, {}), {:.9g} away", taken->x, taken->y, taken->offer) : "took none";
 }
 
 } // namespace
 
 WrongStep wrong_step_of_particle(const JudgedFrame& frame, std::size_t particle) {
-    return with_step_pass(frame, [&](const JudgedPass& pass) { return wrong_step_of_item(pass, particle); });
+    WrongStep wrong = with_step_pass(frame, [&](const JudgedPass& pass) { return wrong_step_of_item(pass, particle); });
+    if (wrong.choice && is_listing(frame.params.switches))
+        tell_distances(wrong, frame.params.constants.collision_range);
+    return wrong;
 }
 
 WrongStep wrong_step_of_texel(const JudgedFrame& frame, std::size_t texel) {
@@ -57,10 +69,10 @@ WrongStep wrong_step_of_texel(const JudgedFrame& frame, std::size_t texel) {
     while (component < 3 && same_bits(owner.code[component], gpu[component]))
         ++component;
     wrong.difference = difference(collision::texel, texel, component, owner.code[component], gpu[component]);
-    wrong.operation = owner_text(owner, frame);
+    wrong.operation = owner_text(owner, frame) + " is right";
     if (gpu.a == 0.0F) {
         wrong.step = "texel";
-        wrong.gpu = "the texel is empty";
+        wrong.gpu = "left the texel empty";
         return wrong;
     }
     const CollisionCode code(frame.params);
@@ -68,7 +80,7 @@ WrongStep wrong_step_of_texel(const JudgedFrame& frame, std::size_t texel) {
         if (!same_bits(code.encode(frame.gpu.position[i]), gpu))
             continue;
         const TexelOwner stored{.kind = TexelOwner::Kind::particle, .index = i};
-        wrong.gpu = owner_text(stored, frame);
+        wrong.gpu = "stored " + owner_text(stored, frame);
         const PointFragment point =
             point_fragment(frame.params.switches.raster_position == RasterPosition::updated ? frame.gpu.position[i]
                                                                                             : frame.before.position[i],
@@ -78,7 +90,7 @@ WrongStep wrong_step_of_texel(const JudgedFrame& frame, std::size_t texel) {
         return wrong;
     }
     wrong.step = "stored value";
-    wrong.gpu = "no particle of this frame has this position";
+    wrong.gpu = "stored a position that no particle of this frame has";
     return wrong;
 }
 

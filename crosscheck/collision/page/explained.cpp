@@ -57,7 +57,7 @@ json particle_json(FrameRun& run, std::size_t particle) {
             {"untraced", table.gpu.vertex.outputs.empty()},
             {"rows", rows_json(table.rows)},
             {"neighbourhood", neighbourhood_json(run, table)},
-            {"why", why_particle(run, particle)}};
+            {"why", why_particle(run, particle, NumberFormat::decimal)}};
 }
 
 } // namespace

@@ -142,7 +142,8 @@ Capsule cut_capsule(const JudgedFrame& frame, const CapsuleSource& source) {
     capsule.capture = source.capture;
 
     const LonelyFrame alone(capsule);
-    if (why_particle(frame, source.particle, "it") != why_particle(alone.judged(), 0, "it"))
+    if (why_particle(frame, source.particle, "it", NumberFormat::hexadecimal) !=
+        why_particle(alone.judged(), 0, "it", NumberFormat::hexadecimal))
         throw Error(fmt::format("{}: its verdict rests on more than the texels around it, so no capsule of it can be "
                                 "cut; a trace holds the whole run",
                                 name_of(capsule)));
@@ -158,7 +159,7 @@ std::string capsule_text(const Capsule& capsule, NumberFormat format) {
     std::string text = fmt::format("scene     {}\nswitches  {}\nGL        {}\nprofile   {}\n\n", capsule.scene.name,
                                    capsule.settings.empty() ? "untold" : capsule.settings,
                                    capsule.renderer.empty() ? "untold" : capsule.renderer, describe(capsule.profile));
-    return text + table_text(frame, table, format) + why_particle(frame, 0, name_of(capsule)) +
+    return text + table_text(frame, table, format) + why_particle(frame, 0, name_of(capsule), format) +
            first_divergent_text(table);
 }
 

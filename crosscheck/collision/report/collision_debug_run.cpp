@@ -53,8 +53,8 @@ std::string CollisionDebugRun::show(DebugItem item, NumberFormat format) {
                                 : explain_particle(*run_, item.index, format);
 }
 
-std::string CollisionDebugRun::why(DebugItem item) {
-    return item.group == texels ? why_texel(*run_, item.index) : why_particle(*run_, item.index);
+std::string CollisionDebugRun::why(DebugItem item, NumberFormat format) {
+    return item.group == texels ? why_texel(*run_, item.index) : why_particle(*run_, item.index, format);
 }
 
 std::vector<StepRow> CollisionDebugRun::rows(DebugItem item) {

@@ -21,7 +21,7 @@ class CollisionDebugRun final : public DebugRun {
     [[nodiscard]] std::string name(DebugItem item) const override;
     [[nodiscard]] std::string head(DebugItem item, NumberFormat format) override;
     [[nodiscard]] std::string show(DebugItem item, NumberFormat format) override;
-    [[nodiscard]] std::string why(DebugItem item) override;
+    [[nodiscard]] std::string why(DebugItem item, NumberFormat format) override;
     [[nodiscard]] std::vector<StepRow> rows(DebugItem item) override;
     [[nodiscard]] std::vector<ItemVerdict> verdicts(std::size_t group) override;
     [[nodiscard]] States states(std::size_t group) override;

@@ -53,26 +53,25 @@ std::string class_text(const ItemVerdict* verdict) {
 }
 
 std::string wrong_text(const WrongStep& wrong) {
-    std::string text = fmt::format("  step {}: reference: {}\n", wrong.step, wrong.operation);
-    if (!wrong.gpu.empty())
-        text += fmt::format("  GPU: {}\n", wrong.gpu);
-    return text + fmt::format("  {}{}{}\n", difference_text(collision_schema(), wrong.difference),
-                              wrong.margin.empty() ? "" : "; ", wrong.margin);
+    return fmt::format("  step {}: {}\n  {}{}{}\n", wrong.step, wrong_step_text(wrong),
+                       difference_text(collision_schema(), wrong.difference), wrong.margin.empty() ? "" : "; ",
+                       wrong.margin);
 }
 
-std::string interval_text(const Interval& set) {
+std::string interval_text(const Interval& set, NumberFormat format) {
     if (set.any)
         return "any";
-    return set.low == set.high ? fmt::format("{:a}", set.low)
-                               : fmt::format("{:a} to {:a}", static_cast<float>(set.low), static_cast<float>(set.high));
+    const std::string low = number_text(static_cast<float>(set.low), format);
+    return set.low == set.high ? low : fmt::format("{} to {}", low, number_text(static_cast<float>(set.high), format));
 }
 
-std::string interval_text(const Interval3& set) {
-    return fmt::format("({}, {}, {})", interval_text(set[0]), interval_text(set[1]), interval_text(set[2]));
+std::string interval_text(const Interval3& set, NumberFormat format) {
+    return fmt::format("({}, {}, {})", interval_text(set[0], format), interval_text(set[1], format),
+                       interval_text(set[2], format));
 }
 
-std::string outcome_text(const LegalOutcome& o) {
-    std::string text = o.hit ? fmt::format("a hit with texel ({}, {}) round ({}, {})", o.neighbour.x, o.neighbour.y,
+std::string outcome_text(const LegalOutcome& o, NumberFormat format) {
+    std::string text = o.hit ? fmt::format("a hit with texel ({}, {}) around ({}, {})", o.neighbour.x, o.neighbour.y,
                                            o.base.x, o.base.y)
                              : std::string("no hit");
     if (o.undefined != Undefined::none)
@@ -80,8 +79,8 @@ std::string outcome_text(const LegalOutcome& o) {
     for (const Tie& tie : o.ties)
         text += fmt::format(", tie of {} ({:.3g} {})", tie.kind.name, tie.margin, tie.kind.unit);
     return text + fmt::format("\n    speed {}, collide time {}\n    direction {}\n    position {}\n",
-                              interval_text(o.speed), interval_text(o.collide_time), interval_text(o.direction),
-                              interval_text(o.position));
+                              interval_text(o.speed, format), interval_text(o.collide_time, format),
+                              interval_text(o.direction, format), interval_text(o.position, format));
 }
 
 std::string agrees_text(const LegalOutcome& o, const ParticleState& gpu) {
@@ -168,11 +167,11 @@ std::string neighbourhood_picture(const JudgedFrame& frame, const StepTable& tab
     return text + "\n  R the reference's nearest, G the GPU's, B both sides'\n";
 }
 
-std::string why_particle(FrameRun& run, std::size_t particle) {
-    return why_particle(run.judged(), particle, fmt::format("particle {} in frame {}", particle, run.frame()));
+std::string why_particle(FrameRun& run, std::size_t particle, NumberFormat format) {
+    return why_particle(run.judged(), particle, fmt::format("particle {} in frame {}", particle, run.frame()), format);
 }
 
-std::string why_particle(const JudgedFrame& frame, std::size_t particle, const std::string& name) {
+std::string why_particle(const JudgedFrame& frame, std::size_t particle, const std::string& name, NumberFormat format) {
     if (!is_listing(frame.params.switches))
         return with_step_pass(frame, [&](const JudgedPass& pass) { return why_item(pass, particle, name); });
     const ParticleState gpu = frame.gpu[particle];
@@ -183,7 +182,7 @@ std::string why_particle(const JudgedFrame& frame, std::size_t particle, const s
         legal_outcomes(frame.before[particle], frame.cdt, frame.params, frame.profile, frame.known, &gpu);
     for (std::size_t i = 0; i < outcomes.size(); ++i)
         text += fmt::format("  legal outcome {} of {}, {}: {}", i + 1, outcomes.size(), agrees_text(outcomes[i], gpu),
-                            outcome_text(outcomes[i]));
+                            outcome_text(outcomes[i], format));
     if (differs && verdict.kind >= DifferenceClass::undefined)
         text += wrong_text(wrong_step_of_particle(frame, particle));
     return text;
@@ -212,7 +211,7 @@ std::string first_divergent_text(const StepTable& table) {
 
 std::string explain_particle(FrameRun& run, std::size_t particle, NumberFormat format) {
     const StepTable table = step_table(run, particle);
-    return table_text(run.judged(), table, format) + why_particle(run, particle) + first_divergent_text(table);
+    return table_text(run.judged(), table, format) + why_particle(run, particle, format) + first_divergent_text(table);
 }
 
 std::string explain_texel(FrameRun& run, std::size_t texel, NumberFormat format) {

@@ -29,8 +29,8 @@ std::string table_text(const JudgedFrame& frame, const StepTable& table, NumberF
 std::string first_divergent_text(const StepTable& table);
 
 /// The verdict on a particle, what it rests on, and where it first shows.
-std::string why_particle(FrameRun& run, std::size_t particle);
-std::string why_particle(const JudgedFrame& frame, std::size_t particle, const std::string& name);
+std::string why_particle(FrameRun& run, std::size_t particle, NumberFormat format);
+std::string why_particle(const JudgedFrame& frame, std::size_t particle, const std::string& name, NumberFormat format);
 std::string why_texel(FrameRun& run, std::size_t texel);
 
 } // namespace lockstep

@@ -8,6 +8,7 @@
 #include "gpu/context_backend.hpp"
 #include "gpu/gl.hpp"
 #include "reference/model/error.hpp"
+#include "reference/model/near_name.hpp"
 
 namespace lockstep {
 namespace {
@@ -74,8 +75,8 @@ ContextRequest parse_context_request(std::string_view text) {
         if (status == std::errc{} && end == number.data() + number.size() && device >= 0)
             return {Backend::egl_device, device};
     }
-    throw Error(
-        fmt::format("unknown GL context '{}'; allowed are auto, osmesa, egl, egl-device:N (N = 0, 1, ...)", text));
+    throw Error(fmt::format("unknown GL context '{}'; allowed are auto, osmesa, egl, egl-device:N (N = 0, 1, ...){}",
+                            text, did_you_mean(text, {"auto", "osmesa", "egl", "egl-device:0"})));
 }
 
 std::string context_request_text(const ContextRequest& request) {

@@ -32,10 +32,28 @@ std::string switch_names() {
     return names;
 }
 
+/// A verb, or a verb's part, and the words that call it: "capsule cut".
+struct Callable {
+    std::string words;
+    const Verb* verb;
+};
+
+std::vector<Callable> callables(const std::vector<Verb>& verbs) {
+    std::vector<Callable> all;
+    for (const Verb& verb : verbs) {
+        all.push_back({verb.name, &verb});
+        for (const Verb& part : verb.verbs)
+            all.push_back({verb.name + " " + part.name, &part});
+    }
+    return all;
+}
+
 constexpr const char* bash_frame = R"(# Completion of lockstep for bash, made by `lockstep completion bash`.
 _lockstep() {{
     local word=${{COMP_WORDS[COMP_CWORD]}} before=${{COMP_WORDS[COMP_CWORD - 1]}} verb=${{COMP_WORDS[1]}} words=
     COMPREPLY=()
+    case "$verb ${{COMP_WORDS[2]}}" in
+{parts}    esac
     if [ "$COMP_CWORD" = 1 ]; then
         words="{verbs} --help --version"
     elif [ "$before" = --set ]; then
@@ -52,7 +70,10 @@ _lockstep() {{
         *)
             case $verb in
 {options}            esac
-            [[ $word == -* ]] || [ "$verb" = completion ] || words=
+            case $verb in
+            {with_words}) [ "$verb" = completion ] || [ "$COMP_CWORD" = 2 ] || [[ $word == -* ]] || words= ;;
+            *) [[ $word == -* ]] || words= ;;
+            esac
             ;;
         esac
     fi
@@ -71,8 +92,18 @@ std::string bash_completion(const std::vector<Verb>& verbs) {
     std::string few;
     std::string with_value;
     std::string options;
-    for (const Verb& verb : verbs) {
+    std::string parts;
+    std::vector<std::string> with_words{"completion"};
+    for (const Verb& verb : verbs)
+        if (!verb.verbs.empty())
+            with_words.push_back(verb.name);
+    for (const Callable& called : callables(verbs)) {
+        const Verb& verb = *called.verb;
+        if (called.words != verb.name)
+            parts += fmt::format("        \"{0}\") [ \"$COMP_CWORD\" = 2 ] || verb=\"{0}\" ;;\n", called.words);
         std::string words = option_names(verb);
+        if (!verb.verbs.empty())
+            words += " " + verb_names(verb.verbs);
         for (const Option& option : all_options(verb)) {
             const std::string given = fmt::format("{}", fmt::join(choices(option), " "));
             if (is_argument(option))
@@ -80,16 +111,17 @@ std::string bash_completion(const std::vector<Verb>& verbs) {
             else
                 for (const std::string& name : names(option)) {
                     if (!given.empty())
-                        few += fmt::format("        \"{} {}\") words=\"{}\" ;;\n", verb.name, name, given);
+                        few += fmt::format("        \"{} {}\") words=\"{}\" ;;\n", called.words, name, given);
                     else if (!option.value.empty())
-                        with_value += fmt::format("{}\"{} {}\"", with_value.empty() ? "" : " | ", verb.name, name);
+                        with_value += fmt::format("{}\"{} {}\"", with_value.empty() ? "" : " | ", called.words, name);
                 }
         }
-        options += fmt::format("            {}) words=\"{}\" ;;\n", verb.name, words);
+        options += fmt::format("            \"{}\") words=\"{}\" ;;\n", called.words, words);
     }
     return fmt::format(bash_frame, fmt::arg("verbs", verb_names(verbs)), fmt::arg("switches", switch_names()),
                        fmt::arg("values", values), fmt::arg("choices", few), fmt::arg("with_value", with_value),
-                       fmt::arg("options", options));
+                       fmt::arg("options", options), fmt::arg("parts", parts),
+                       fmt::arg("with_words", fmt::join(with_words, "|")));
 }
 
 std::string zsh_completion(const std::vector<Verb>& verbs) {
@@ -98,14 +130,22 @@ std::string zsh_completion(const std::vector<Verb>& verbs) {
 
 std::string fish_completion(const std::vector<Verb>& verbs) {
     std::string text = "# Completion of lockstep for fish, made by `lockstep completion fish`.\n";
-    for (const Verb& verb : verbs) {
-        text += fmt::format("complete -c lockstep -n __fish_use_subcommand -f -a {} -d {}\n", verb.name,
-                            shell_word(verb.description));
+    for (const Callable& called : callables(verbs)) {
+        const Verb& verb = *called.verb;
+        const bool is_part = called.words != verb.name;
+        const std::string parent = called.words.substr(0, called.words.find(' '));
+        text += fmt::format("complete -c lockstep -n {} -f -a {} -d {}\n",
+                            is_part ? fmt::format("'__fish_seen_subcommand_from {}'", parent) : "__fish_use_subcommand",
+                            verb.name, shell_word(verb.description));
+        const std::string seen =
+            is_part
+                ? fmt::format("'__fish_seen_subcommand_from {}; and __fish_seen_subcommand_from {}'", parent, verb.name)
+                : fmt::format("'__fish_seen_subcommand_from {}'", verb.name);
         for (const Option& option : all_options(verb)) {
             const std::string given = fmt::format("{}", fmt::join(choices(option), " "));
             if (is_argument(option) && given.empty())
                 continue;
-            text += fmt::format("complete -c lockstep -n '__fish_seen_subcommand_from {}'", verb.name);
+            text += fmt::format("complete -c lockstep -n {}", seen);
             if (!is_argument(option))
                 for (const std::string& name : names(option))
                     text += name.starts_with("--") ? fmt::format(" -l {}", name.substr(2))

@@ -7,6 +7,8 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include "reference/model/near_name.hpp"
+
 namespace lockstep {
 namespace {
 
@@ -31,6 +33,12 @@ template <class Integer> std::string read(Texts texts, IntegerRange range, std::
     return {};
 }
 
+/// The option with what its target holds before the command line is read.
+template <class Value> Option starting_at(Option option, const Value& value) {
+    option.initial = fmt::format("{}", value);
+    return option;
+}
+
 template <class Integer, class Target>
 Option one_integer(std::string name, std::string value, IntegerRange range, Target& target, std::string description) {
     const auto keep = [range, &target](Texts texts) {
@@ -49,7 +57,8 @@ template <class Integer> Option some_integers(std::string name, std::string valu
         target.clear();
         return read(texts, range, target);
     };
-    return {std::move(name), std::move(value), std::move(description), keep, GivenValues::list};
+    return starting_at(Option{std::move(name), std::move(value), std::move(description), keep, GivenValues::list},
+                       fmt::format("{}", fmt::join(target, ",")));
 }
 
 template <class Target> Option one_text(std::string name, std::string value, Target& target, std::string description) {
@@ -71,7 +80,7 @@ Option flag(std::string name, bool& target, std::string description) {
 }
 
 Option text_option(std::string name, std::string value, std::string& target, std::string description) {
-    return one_text(std::move(name), std::move(value), target, std::move(description));
+    return starting_at(one_text(std::move(name), std::move(value), target, std::move(description)), target);
 }
 
 Option text_option(std::string name, std::string value, std::optional<std::string>& target, std::string description) {
@@ -91,16 +100,18 @@ Option path_option(std::string name, std::string value, std::filesystem::path& t
         target = texts.front();
         return target.empty() ? fmt::format("'' names no {}", folder ? "folder" : "file") : "";
     };
-    return {std::move(name), std::move(value), std::move(description), keep};
+    return starting_at(Option{std::move(name), std::move(value), std::move(description), keep}, target.string());
 }
 
 Option integer_option(std::string name, std::string value, IntegerRange range, int& target, std::string description) {
-    return one_integer<int>(std::move(name), std::move(value), range, target, std::move(description));
+    return starting_at(one_integer<int>(std::move(name), std::move(value), range, target, std::move(description)),
+                       target);
 }
 
 Option integer_option(std::string name, std::string value, IntegerRange range, std::size_t& target,
                       std::string description) {
-    return one_integer<std::size_t>(std::move(name), std::move(value), range, target, std::move(description));
+    return starting_at(
+        one_integer<std::size_t>(std::move(name), std::move(value), range, target, std::move(description)), target);
 }
 
 Option integer_option(std::string name, std::string value, IntegerRange range, std::optional<std::size_t>& target,
@@ -126,7 +137,7 @@ Option seconds_option(std::string name, double& target, std::string description)
         target = *value;
         return std::string();
     };
-    return {std::move(name), "S", std::move(description), keep};
+    return starting_at(Option{std::move(name), "S", std::move(description), keep}, target);
 }
 
 Option share_option(std::string name, double& target, std::string description) {
@@ -151,7 +162,8 @@ Option named_option(std::string name, std::vector<std::string> choices, std::fun
     const auto keep = [choices = std::move(choices), choose = std::move(choose)](Texts texts) {
         const auto chosen = std::find(choices.begin(), choices.end(), texts.front());
         if (chosen == choices.end())
-            return fmt::format("'{}' is not one of {}", texts.front(), fmt::join(choices, ", "));
+            return fmt::format("'{}' is not one of {}{}", texts.front(), fmt::join(choices, ", "),
+                               did_you_mean(texts.front(), choices));
         choose(static_cast<std::size_t>(chosen - choices.begin()));
         return std::string();
     };
@@ -160,6 +172,12 @@ Option named_option(std::string name, std::vector<std::string> choices, std::fun
 
 Option required(Option option) {
     option.required = true;
+    option.initial.clear();
+    return option;
+}
+
+Option otherwise(Option option, std::string initial) {
+    option.initial = std::move(initial);
     return option;
 }
 

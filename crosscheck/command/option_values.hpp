@@ -1,4 +1,5 @@
 #pragma once
+#include <concepts>
 #include <cstddef>
 #include <cstdint>
 #include <filesystem>
@@ -50,6 +51,12 @@ Option share_option(std::string name, double& target, std::string description);
 Option named_option(std::string name, std::vector<std::string> choices, std::function<void(std::size_t)> choose,
                     std::string description);
 
+/// Needed, and so without a value of its own.
+Option required(Option option);
+
+/// With what help says of the value without it; empty: nothing.
+Option otherwise(Option option, std::string initial);
+
 /// A value that has a name.
 template <class Value> Option choice_option(std::string name, Value& target,
                                             const std::vector<std::pair<std::string, Value>>& choices,
@@ -60,10 +67,14 @@ template <class Value> Option choice_option(std::string name, Value& target,
         texts.push_back(text);
         values.push_back(value);
     }
+    std::string initial;
+    if constexpr (std::equality_comparable<Value>)
+        for (std::size_t i = 0; i < values.size(); ++i)
+            if (values[i] == target)
+                initial = texts[i];
     const auto choose = [&target, values = std::move(values)](std::size_t place) { target = values[place]; };
-    return named_option(std::move(name), std::move(texts), choose, std::move(description));
+    return otherwise(named_option(std::move(name), std::move(texts), choose, std::move(description)),
+                     std::move(initial));
 }
-
-Option required(Option option);
 
 } // namespace lockstep

@@ -9,6 +9,7 @@
 
 #include "crosscheck/command/line_editor.hpp"
 #include "crosscheck/files/plain_text.hpp"
+#include "crosscheck/report/colour.hpp"
 #include "reference/model/error.hpp"
 
 namespace lockstep {
@@ -21,7 +22,7 @@ void obey_terminal(const Session& session) {
         if (!line)
             return;
         try {
-            fmt::print("{}", plain_text(session.obey(*line)));
+            fmt::print("{}", colored(plain_text(session.obey(*line))));
         } catch (const Error& error) {
             fmt::print("{}\n", plain_line(error.what()));
         }
@@ -37,7 +38,7 @@ void obey_input(const Session& session) {
     std::string line;
     for (int number = 1; !session.ended() && std::getline(std::cin, line); ++number) {
         try {
-            fmt::print("{}", plain_text(session.obey(line)));
+            fmt::print("{}", colored(plain_text(session.obey(line))));
             std::fflush(stdout);
         } catch (const Error& error) {
             throw Error(fmt::format("line {}: {}", number, error.what()));

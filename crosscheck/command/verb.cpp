@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cctype>
+#include <iterator>
 #include <sstream>
 
 #include <fmt/format.h>
@@ -37,11 +38,12 @@ std::vector<std::string> choices(const Option& option) {
     return words;
 }
 
-Option help_option() { return {"-h,--help", {}, "Print this help message and exit", {}}; }
+Option help_option() { return {"-h,--help", {}, "print these lines", {}}; }
 
 std::vector<Option> all_options(const Verb& verb) {
     std::vector<Option> options{help_option()};
-    options.insert(options.end(), verb.options.begin(), verb.options.end());
+    std::copy_if(verb.options.begin(), verb.options.end(), std::back_inserter(options),
+                 [](const Option& option) { return !option.hidden; });
     return options;
 }
 

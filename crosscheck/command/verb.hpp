@@ -21,6 +21,8 @@ struct Option {
     std::function<std::string(std::span<const std::string> values)> keep;
     GivenValues values = GivenValues::one;
     bool required = false;
+    std::string initial = {}; ///< the value without it, as help says it; empty: none, or the description says it
+    bool hidden = false;      ///< from help, the manual and completion: an earlier name
 };
 
 /// "-o", "--output", the last of which messages use; of an argument its one name.
@@ -42,8 +44,8 @@ struct Verb {
     std::string footer;  ///< exit status and example
     std::string version; ///< of a program, which --version prints; empty: it has none
     std::vector<Option> options;
-    std::vector<Verb> verbs;             ///< if any, one of them has to be given
-    std::function<int(const Call&)> run; ///< gives the exit status, or throws Error; unused where there are verbs
+    std::vector<Verb> verbs;             ///< if any, one of them has to be given, unless the verb runs by itself
+    std::function<int(const Call&)> run; ///< gives the exit status, or throws Error
 
     void add(Option option) { options.push_back(std::move(option)); }
 };
@@ -61,7 +63,7 @@ struct Call {
 /// "study: --csv does not go with --catalogue".
 void check_options(const Call& call, std::string_view mode, std::span<const std::string_view> allowed);
 
-/// The one that every verb has by itself, and with it the verb's own, as help lists them.
+/// The one that every verb has by itself, and with it the verb's own, as help lists them: without the hidden ones.
 Option help_option();
 std::vector<Option> all_options(const Verb& verb);
 

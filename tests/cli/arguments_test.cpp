@@ -3,6 +3,7 @@
 #include <cstdlib>
 #include <fstream>
 #include <iterator>
+#include <sstream>
 
 #include <fmt/format.h>
 
@@ -17,6 +18,9 @@ namespace {
 
 const std::string scene = "data/scenes/lattice.json";
 const std::string help = " (lockstep --help says more)";
+
+/// What stands behind a misuse of a verb.
+std::string help_of(const std::string& verb) { return " (lockstep " + verb + " --help says more)"; }
 
 struct Refused {
     std::vector<std::string> arguments;
@@ -46,10 +50,11 @@ TEST_CASE("arguments: a slip is told with what was meant; another word is not") 
     CHECK_THAT(says({"recrd", scene}), Catch::EndsWith("; did you mean record?" + help));
     CHECK_THAT(says({"frobnicate"}), Catch::EndsWith(", manual" + help));
     CHECK(says({"capsule", "shw"}) ==
-          "unknown verb 'shw'; the verbs of capsule are cut, show; did you mean show?" + help);
-    CHECK(says({"capsule"}) == "a verb is missing; the verbs of capsule are cut, show" + help);
-    CHECK(says({"check", scene, "--freams=3"}) == "unknown option '--freams=3'; did you mean --frames?" + help);
-    CHECK(says({"check", scene, "-x"}) == "unknown option '-x'" + help);
+          "unknown verb 'shw'; the verbs of capsule are cut, show; did you mean show?" + help_of("capsule"));
+    CHECK(says({"capsule"}) == "a verb is missing; the verbs of capsule are cut, show" + help_of("capsule"));
+    CHECK(says({"check", scene, "--freams=3"}) ==
+          "unknown option '--freams=3'; did you mean --frames?" + help_of("check"));
+    CHECK(says({"check", scene, "-x"}) == "unknown option '-x'" + help_of("check"));
     CHECK(says({"check", "data/scenes/latice.json"}) ==
           "data/scenes/latice.json: cannot be read: No such file or directory; did you mean data/scenes/lattice.json?");
     CHECK(says({"hash", "lattice"}) ==
@@ -68,35 +73,42 @@ TEST_CASE("arguments: the version is printed") {
 
 TEST_CASE("arguments: an unknown option, or a missing one, is named") {
     check_all({
-        {{"check", scene, "--particle", "3"}, "unknown option '--particle'; did you mean --particles?" + help},
+        {{"check", scene, "--particle", "3"},
+         "unknown option '--particle'; did you mean --particles?" + help_of("check")},
         {{"check"}, "check: a scene or --trace FILE is needed"},
         {{"debug"}, "debug: a scene or --trace FILE is needed"},
-        {{"report"}, "trace is required" + help},
+        {{"report"},
+         "FILE is missing: what `lockstep record` wrote, or an engine of your own (docs/traces.md)" +
+             help_of("report")},
         {{"explain", "--frame", "3"}, "explain: one of --particle I, --texel X,Y and --pixel X,Y is needed"},
         {{"explain", "--frame", "3", "--particle", "1"}, "explain: a scene or --trace FILE is needed"},
-        {{"render", scene}, "--output is required" + help},
-        {{"check", scene, "--frames"}, "--frames needs a value" + help},
-        {{"check", scene, "--frames", "2", "--frames", "3"}, "--frames is given more than once" + help},
-        {{"check", scene, scene}, "'" + scene + "' is one argument too many" + help},
+        {{"render", scene}, "--output FILE is missing: PNG file to write" + help_of("render")},
+        {{"check", scene, "--frames"}, "--frames needs a value" + help_of("check")},
+        {{"check", scene, "--frames", "2", "--frames", "3"}, "--frames is given more than once" + help_of("check")},
+        {{"check", scene, scene}, "'" + scene + "' is one argument too many" + help_of("check")},
     });
 }
 
 TEST_CASE("arguments: a number that is none, or out of range, is told with the range") {
     check_all({
-        {{"check", scene, "--particles", "0"}, "--particles: '0' is not an integer from 1 to 100000000" + help},
-        {{"check", scene, "--particles", "-5"}, "--particles: '-5' is not an integer from 1 to 100000000" + help},
-        {{"check", scene, "--particles", "1e3"}, "--particles: '1e3' is not an integer from 1 to 100000000" + help},
+        {{"check", scene, "--particles", "0"},
+         "--particles: '0' is not an integer from 1 to 100000000" + help_of("check")},
+        {{"check", scene, "--particles", "-5"},
+         "--particles: '-5' is not an integer from 1 to 100000000" + help_of("check")},
+        {{"check", scene, "--particles", "1e3"},
+         "--particles: '1e3' is not an integer from 1 to 100000000" + help_of("check")},
         {{"hash", scene, "--particles", "100000001"},
-         "--particles: '100000001' is not an integer from 1 to 100000000" + help},
-        {{"check", scene, "--frames", "0"}, "--frames: '0' is not an integer from 1 to 100000000" + help},
+         "--particles: '100000001' is not an integer from 1 to 100000000" + help_of("hash")},
+        {{"check", scene, "--frames", "0"}, "--frames: '0' is not an integer from 1 to 100000000" + help_of("check")},
         {{"check", scene, "--frames", "99999999999999999999"},
-         "--frames: '99999999999999999999' is not an integer from 1 to 100000000" + help},
-        {{"hash", scene, "--frames", "-1"}, "--frames: '-1' is not an integer from 1 to 100000000" + help},
+         "--frames: '99999999999999999999' is not an integer from 1 to 100000000" + help_of("check")},
+        {{"hash", scene, "--frames", "-1"}, "--frames: '-1' is not an integer from 1 to 100000000" + help_of("hash")},
         {{"render", scene, "-o", "x.png", "--frame", "-1"},
-         "--frame: '-1' is not an integer from 0 to 100000000" + help},
-        {{"check", scene, "--threads", "-2"}, "--threads: '-2' is not an integer from 0 to 1024" + help},
-        {{"bench", scene, "--counts", "10,0"}, "--counts: '0' is not an integer from 1 to 100000000" + help},
-        {{"bench", scene, "--radius", "65"}, "--radius: '65' is not an integer from 0 to 64" + help},
+         "--frame: '-1' is not an integer from 0 to 100000000" + help_of("render")},
+        {{"check", scene, "--threads", "-2"}, "--threads: '-2' is not an integer from 0 to 1024" + help_of("check")},
+        {{"bench", scene, "--counts", "10,0"},
+         "--counts: '0' is not an integer from 1 to 100000000" + help_of("bench")},
+        {{"bench", scene, "--radius", "65"}, "--radius: '65' is not an integer from 0 to 64" + help_of("bench")},
     });
 }
 
@@ -106,18 +118,18 @@ TEST_CASE("arguments: a number with zeros before it is the same number") {
 }
 
 TEST_CASE("arguments: a file without a name is refused, wherever one can be given") {
-    const std::string no_file = "'' names no file" + help, no_folder = "'' names no folder" + help;
+    const std::string no_file = "'' names no file", no_folder = "'' names no folder";
     check_all({
-        {{"check", scene, "--json", ""}, "--json: " + no_file},
-        {{"check", scene, "--hashes", ""}, "--hashes: " + no_file},
-        {{"check", scene, "--images", ""}, "--images: " + no_folder},
-        {{"check", scene, "--report", ""}, "--report: " + no_folder},
-        {{"check", scene, "--shaders", ""}, "--shaders: " + no_folder},
-        {{"check", "--trace", ""}, "--trace: " + no_file},
-        {{"check", ""}, "scene: " + no_file},
-        {{"record", scene, "-o", ""}, "--output: " + no_file},
-        {{"study", scene, "--csv", ""}, "--csv: " + no_file},
-        {{"capsule", "show", ""}, "capsule: " + no_file},
+        {{"check", scene, "--json", ""}, "--json: " + no_file + help_of("check")},
+        {{"check", scene, "--hashes", ""}, "--hashes: " + no_file + help_of("check")},
+        {{"check", scene, "--images", ""}, "--images: " + no_folder + help_of("check")},
+        {{"check", scene, "--report", ""}, "--report: " + no_folder + help_of("check")},
+        {{"check", scene, "--shaders", ""}, "--shaders: " + no_folder + help_of("check")},
+        {{"check", "--trace", ""}, "--trace: " + no_file + help_of("check")},
+        {{"check", ""}, "scene: " + no_file + help_of("check")},
+        {{"record", scene, "-o", ""}, "--output: " + no_file + help_of("record")},
+        {{"study", scene, "--csv", ""}, "--csv: " + no_file + help_of("study")},
+        {{"capsule", "show", ""}, "capsule: " + no_file + help_of("capsule show")},
     });
 }
 
@@ -127,7 +139,8 @@ TEST_CASE("arguments: an option that the side or the verb would ignore is refuse
         {{"render", scene, "-o", "x.png", "--shaders", "."}, "render: --shaders goes with --side gpu"},
         {{"render", scene, "-o", "x.png", "--side", "gpu", "--profile", "bogus"},
          "render: --profile goes with --side cpu"},
-        {{"bench", scene, "--particles", "3"}, "bench: --particles does not go with it; --counts N,... names how many"},
+        {{"bench", scene, "--particles", "3", "--counts", "5"},
+         "bench: --particles N is --counts N; one of both is enough"},
     });
 }
 
@@ -155,10 +168,11 @@ TEST_CASE("arguments: threads that cannot be started are no verdict; the referen
 
 TEST_CASE("arguments: an unknown choice is told with the choices") {
     check_all({
-        {{"check", scene, "--mode", "fre"}, "--mode: 'fre' is not one of resync, free" + help},
-        {{"render", scene, "-o", "x.png", "--side", "tpu"}, "--side: 'tpu' is not one of cpu, gpu" + help},
+        {{"check", scene, "--mode", "fre"},
+         "--mode: 'fre' is not one of resync, free; did you mean free?" + help_of("check")},
+        {{"render", scene, "-o", "x.png", "--side", "tpu"}, "--side: 'tpu' is not one of cpu, gpu" + help_of("render")},
         {{"check", scene, "--preset", "correct"},
-         "unknown preset 'correct'; the presets are listing, paper, corrected, exact"},
+         "unknown preset 'correct'; the presets are listing, paper, corrected, exact; did you mean corrected?"},
         {{"hash", scene, "--profile", "amd"}, "unknown profile 'amd'; the profiles are strict, llvmpipe, nvidia"},
         {{"check", scene, "--gl", "glx"},
          "unknown GL context 'glx'; allowed are auto, osmesa, egl, egl-device:N (N = 0, 1, ...)"},
@@ -204,10 +218,35 @@ TEST_CASE("arguments: help ends with 0, and every verb has its own") {
         const test::Outcome outcome = run_lockstep(arguments);
         CAPTURE(verb);
         CHECK(outcome.status == 0);
-        // "Usage: lockstep check", or with CLI11 from 2.4 on "lockstep check" on a line of its own.
-        CHECK_THAT(outcome.out, Catch::Contains(fmt::format("lockstep{}{} [OPTIONS]", *verb ? " " : "", verb)));
+        CHECK_THAT(outcome.out,
+                   Catch::Contains(fmt::format("\nUsage: lockstep{}{} [OPTIONS]", *verb ? " " : "", verb)));
         CHECK(outcome.err.empty());
     }
+}
+
+TEST_CASE("arguments: help keeps to 80 columns, and says what holds without an option") {
+    for (const std::vector<std::string>& words : std::vector<std::vector<std::string>>{{},
+                                                                                       {"check"},
+                                                                                       {"study"},
+                                                                                       {"study", "thesis"},
+                                                                                       {"bench"},
+                                                                                       {"capsule", "cut"},
+                                                                                       {"function"},
+                                                                                       {"new", "system"}}) {
+        std::vector<std::string> arguments = words;
+        arguments.emplace_back("--help");
+        std::istringstream help_lines(run_lockstep(arguments).out);
+        for (std::string line; std::getline(help_lines, line);) {
+            CAPTURE(line);
+            CHECK(line.size() <= 80);
+        }
+    }
+    const std::string check = run_lockstep({"check", "--help"}).out;
+    CHECK_THAT(check, Catch::Contains("(default: resync)") && Catch::Contains("(default: auto)") &&
+                          Catch::Contains("\nArguments:\n  SCENE "));
+    CHECK_THAT(run_lockstep({"explain", "--help"}).out, Catch::Contains("counted from 0 (required)"));
+    CHECK_THAT(run_lockstep({"study", "--help"}).out,
+               Catch::Contains("\n  thesis ") && !Catch::Contains("--recall-table"));
 }
 
 TEST_CASE("arguments: a full disk behind standard output is no success") {

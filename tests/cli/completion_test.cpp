@@ -52,6 +52,11 @@ TEST_CASE("completion: verbs, options and values that are few") {
     CHECK(offered(R"(lockstep check --mode "")") == Words{"resync", "free"});
     CHECK(offered(R"(lockstep check a.json --gl e)") == Words{"egl"});
     CHECK(offered(R"(lockstep completion "")") == Words{"-h", "--help", "bash", "zsh", "fish"});
+    CHECK(offered(R"(lockstep capsule "")") == Words{"-h", "--help", "cut", "show"});
+    CHECK(offered(R"(lockstep capsule c)") == Words{"cut"});
+    CHECK(offered(R"(lockstep capsule cut --pix)") == Words{"--pixel"});
+    CHECK(offered(R"(lockstep capsule cut a.json --legal g)") == Words{"glsl"});
+    CHECK(offered(R"(lockstep study re)") == Words{"rest", "recall", "remedies"});
 }
 
 TEST_CASE("completion: switches and their values") {
@@ -71,6 +76,7 @@ TEST_CASE("completion: zsh and fish") {
                Contains("bashcompinit\n") && Contains("complete -o bashdefault"));
     CHECK_THAT(run_lockstep({"completion", "fish"}).out,
                Contains("complete -c lockstep -n __fish_use_subcommand -f -a check -d ") &&
+                   Contains("'__fish_seen_subcommand_from capsule' -f -a cut -d ") &&
                    Contains("'__fish_seen_subcommand_from check' -l mode -r -f -a 'resync free' -d "));
     const Outcome other = run_lockstep({"completion", "csh"});
     CHECK(other.status == 2);
@@ -89,5 +95,7 @@ TEST_CASE("help: every verb has an example, and the manual page has every verb")
         CHECK_THAT(run_lockstep({verb, "--help"}).out, Contains("\nExample"));
         CHECK_THAT(manual.out, Contains(".SS lockstep " + verb + "\n"));
     }
+    CHECK_THAT(manual.out, Contains(".SS lockstep capsule cut\n") && Contains(".SH ENVIRONMENT\n") &&
+                               Contains(".SH FILES\n") && Contains(".SH EXAMPLES\n") && Contains("NO_COLOR"));
     CHECK_THAT(manual.out, Contains(".TP\n\\fB\\-\\-mode\\fR \\fIresync|free\\fR\n"));
 }

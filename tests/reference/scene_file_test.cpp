@@ -209,7 +209,8 @@ TEST_CASE("scene_file: a member that is wrong is told with path and what is allo
          "camera_path, collision_camera, image, render, cdt_box, clip_space, frames, start, emitters, obstacles"},
         {R"("description": 3)", "/description: 3 is not a text"},
         {R"("seed": -1)", "/seed: -1 is not an integer from 0 to 9007199254740991"},
-        {R"("preset": "papper")", "/preset: unknown preset 'papper'; the presets are listing, paper, corrected, exact"},
+        {R"("preset": "papper")",
+         "/preset: unknown preset 'papper'; the presets are listing, paper, corrected, exact; did you mean paper?"},
         {R"("switches": [])", "/switches: [] is not an object"},
         {R"("switches": {"base_texel": "round"})", "/switches/base_texel: \"round\" is not one of truncate, floor"},
         {R"("switches": {"base_texel": 1})", "/switches/base_texel: 1 is not one of truncate, floor"},
@@ -292,7 +293,8 @@ TEST_CASE("scene_file: an option that is wrong is told with what is allowed") {
     CHECK(error_of_option(options) == "--particles 0: not an integer from 1 to 100000000");
     options = {};
     options.preset = "papper";
-    CHECK(error_of_option(options) == "unknown preset 'papper'; the presets are listing, paper, corrected, exact");
+    CHECK(error_of_option(options) ==
+          "unknown preset 'papper'; the presets are listing, paper, corrected, exact; did you mean paper?");
     const auto [setting, expected] = GENERATE(table<std::string, std::string>({
         {"floor", "--set floor: a setting is name=value"},
         {"tick=0", "--set: tick: 0 is not a number above 0"},

@@ -46,5 +46,6 @@ TEST_CASE("switches: a wrong name or value is told with what is allowed") {
     CHECK_THROWS_WITH(set_switch(switches, "speed_factor", "nan"), "switch speed_factor: 'nan' is not a finite number");
     CHECK_THROWS_WITH(set_switch(switches, "speed_factor", "0.5x"),
                       "switch speed_factor: '0.5x' is not a finite number");
-    CHECK_THROWS_WITH(preset("papper"), "unknown preset 'papper'; the presets are listing, paper, corrected, exact");
+    CHECK_THROWS_WITH(preset("papper"),
+                      "unknown preset 'papper'; the presets are listing, paper, corrected, exact; did you mean paper?");
 }

@@ -9,6 +9,7 @@
 #include <fmt/ranges.h>
 
 #include "reference/model/error.hpp"
+#include "reference/model/near_name.hpp"
 
 namespace lockstep {
 namespace {
@@ -145,7 +146,8 @@ Switches preset(std::string_view name) {
         switches.not_searching = NotSearching::stands;
         return switches;
     }
-    throw Error(fmt::format("unknown preset '{}'; the presets are {}", name, fmt::join(presets, ", ")));
+    throw Error(fmt::format("unknown preset '{}'; the presets are {}{}", name, fmt::join(presets, ", "),
+                            did_you_mean(name, {presets.begin(), presets.end()})));
 }
 
 void set_switch(Switches& switches, std::string_view name, std::string_view value) {

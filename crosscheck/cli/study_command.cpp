@@ -1,4 +1,6 @@
+#include <algorithm>
 #include <filesystem>
+#include <initializer_list>
 #include <memory>
 #include <optional>
 #include <string>
@@ -150,7 +152,7 @@ void study_scene(const StudyRequest& options) {
     const Scene scene = load(options.run);
     if (scene.switches.search != Search::cdt)
         throw Error(
-            fmt::format("study: search = {} leaves no CDT of particles to study; --thesis has the octree's recall",
+            fmt::format("study: search = {} leaves no CDT of particles to study; study thesis has the octree's recall",
                         switch_value(scene.switches, "search")));
     if (!options.chart.empty() && !have_gnuplot())
         throw Error(fmt::format("study: --chart: {}", no_gnuplot));
@@ -210,54 +212,61 @@ struct Mode {
     std::vector<std::string_view> options;
 };
 
+using Names = std::vector<std::string_view>;
+
+/// By mode, whatever is asked for besides.
+const Names of_recall{"--scenes", "--threads"};
+const Names of_catalogue{"--scenes", "--threads", "--images"};
+const Names of_remedies{"--scenes", "--threads", "--particles", "--json", "--profile", "--gl", "--shaders"};
+const Names of_thesis{"--scenes", "--threads", "--frames",  "--json",   "--csv",     "--chart", "--set",
+                      "--preset", "--gl",      "--shaders", "--counts", "--seconds", "--from"};
+const Names of_run{"scene", "--particles", "--preset", "--set", "--threads", "--frames", "--every", "--profile"};
+const Names of_side{"--side", "--gl", "--shaders"};
+const Names of_outputs{"--csv", "--json", "--images", "--chart"};
+
+Names joined(std::initializer_list<Names> parts) {
+    Names all;
+    for (const Names& part : parts)
+        all.insert(all.end(), part.begin(), part.end());
+    return all;
+}
+
+/// `names` but for those that an answer to another option takes away.
+Names without(Names names, std::initializer_list<std::string_view> taken) {
+    std::erase_if(names,
+                  [&](std::string_view name) { return std::find(taken.begin(), taken.end(), name) != taken.end(); });
+    return names;
+}
+
 Mode mode_of(const StudyRequest& options) {
     if (options.recall_table)
-        return {"--recall-table", {"--recall-table", "--scenes", "--threads"}};
+        return {"recall", joined({of_recall, {"--recall-table"}})};
     if (options.catalogue)
-        return {"--catalogue", {"--catalogue", "--scenes", "--threads", "--images"}};
-    if (options.remedies && options.gl_asked)
-        return {"--remedies --gl",
-                {"--remedies", "--scenes", "--threads", "--particles", "--json", "--gl", "--shaders"}};
+        return {"catalogue", joined({of_catalogue, {"--catalogue"}})};
     if (options.remedies)
-        return {"--remedies without --gl",
-                {"--remedies", "--scenes", "--threads", "--particles", "--json", "--profile"}};
-    if (options.thesis && !options.thesis_study.from.empty())
-        return {"--thesis --from", {"--thesis", "--from", "--json", "--csv", "--chart"}};
+        return options.gl_asked ? Mode{"remedies --gl", joined({{"--remedies"}, without(of_remedies, {"--profile"})})}
+                                : Mode{"remedies without --gl",
+                                       joined({{"--remedies"}, without(of_remedies, {"--gl", "--shaders"})})};
     if (options.thesis)
-        return {"--thesis",
-                {"--thesis", "--scenes", "--threads", "--frames", "--json", "--csv", "--chart", "--set", "--preset",
-                 "--gl", "--shaders", "--counts", "--seconds"}};
-    Mode mode{"SCENE", {"scene", "--particles", "--preset", "--set", "--threads", "--frames", "--every", "--side"}};
-    const auto add = [&](std::initializer_list<std::string_view> more) {
-        mode.options.insert(mode.options.end(), more);
-    };
+        return options.thesis_study.from.empty()
+                   ? Mode{"thesis", joined({{"--thesis"}, without(of_thesis, {"--from"})})}
+                   : Mode{"thesis --from", {"--thesis", "--from", "--json", "--csv", "--chart"}};
     if (options.rest)
-        return {
-            "--rest",
-            {"--rest", "scene", "--particles", "--preset", "--set", "--threads", "--frames", "--every", "--profile"}};
-    if (options.cameras) {
-        mode.text = "--cameras";
-        add({"--cameras"});
-    } else {
-        add({"--csv", "--json", "--images", "--chart"});
-    }
-    if (options.side == StudySide::gpu) {
-        mode.text += " --side gpu";
-        add({"--gl", "--shaders"});
-    } else {
-        mode.text += " --side cpu";
-        add({"--profile"});
-    }
+        return {"rest", joined({{"--rest"}, of_run})};
+    Mode mode{options.cameras ? "cameras" : "SCENE", joined({of_run, of_side})};
+    mode.options = joined({mode.options, options.cameras ? Names{"--cameras"} : of_outputs});
+    const bool gpu = options.side == StudySide::gpu;
+    mode.text += gpu ? " --side gpu" : " --side cpu";
+    mode.options = gpu ? without(mode.options, {"--profile"}) : without(mode.options, {"--gl", "--shaders"});
     return mode;
 }
 
 int run(StudyRequest options, const Call& call) {
     if (options.thesis && options.run.particles)
-        throw Error("study: --thesis has several counts; --counts N,... names them");
+        throw Error("study: thesis has several counts; --counts N,... names them");
     if (options.recall_table || options.catalogue || options.remedies || options.thesis) {
         if (!options.run.scene.empty())
-            throw Error("study: --recall-table, --catalogue, --remedies and --thesis have scenes of their own; leave "
-                        "SCENE out");
+            throw Error("study: recall, catalogue, remedies and thesis have scenes of their own; leave SCENE out");
         const Mode mode = mode_of(options);
         check_options(call, mode.text, mode.options);
         start_threads(options.run.threads);
@@ -279,7 +288,7 @@ int run(StudyRequest options, const Call& call) {
         return options.catalogue && !print_catalogue(options) ? status_differ : status_agree;
     }
     if (options.run.scene.empty())
-        throw Error("study: a SCENE, --recall-table, --catalogue, --remedies or --thesis is needed");
+        throw Error("study: a SCENE is needed, or one of recall, catalogue, remedies, thesis");
     if (options.run.frames < 2)
         throw Error("study: --frames 1 is the frame with the empty CDT; 2 or more have something to study");
     const Mode mode = mode_of(options);
@@ -291,12 +300,49 @@ int run(StudyRequest options, const Call& call) {
     return status_agree;
 }
 
+/// The study's parts by their own names; `all` has their options.
+std::vector<Verb> parts(const Verb& all, const std::shared_ptr<StudyRequest>& options) {
+    std::vector<Verb> verbs;
+    const auto add = [&](Verb verb, const Names& names, bool StudyRequest::*asked, std::string footer) {
+        for (const Option& option : all.options)
+            if (std::find(names.begin(), names.end(), lockstep::names(option).back()) != names.end()) {
+                verb.add(option);
+                verb.options.back().hidden = false;
+                if (is_argument(option))
+                    verb.options.back() = required(verb.options.back());
+            }
+        verb.footer = std::move(footer);
+        verb.run = [options, asked](const Call& call) {
+            (*options).*asked = true;
+            options->gl_asked = call.has("--gl");
+            return run(*options, call);
+        };
+        verbs.push_back(std::move(verb));
+    };
+    add({"rest", "how many particles of SCENE have come to rest over the frames, and how high they lie"}, of_run,
+        &StudyRequest::rest, "Example: lockstep study rest data/scenes/plane_pile.json --frames 600 --every 60");
+    add({"cameras", "SCENE with the thesis's collision cameras (chapter 3.4): z offsets, fixed, side, rear"},
+        joined({of_run, of_side}), &StudyRequest::cameras,
+        "Example: lockstep study cameras data/scenes/bunny_a.json --frames 60 --every 20");
+    add({"recall", "clouds at rest: what the search finds, by radius"}, of_recall, &StudyRequest::recall_table,
+        "Example: lockstep study recall");
+    add({"catalogue", "the thesis's failures as a table (docs/catalogue.md)"}, of_catalogue, &StudyRequest::catalogue,
+        "Exit status: 0 every effect is there, 1 one is not, 2 could not run.\n"
+        "Example: lockstep study catalogue --images pictures");
+    add({"remedies", "what the remedies find, and with --gl what they cost (docs/remedies.md)"}, of_remedies,
+        &StudyRequest::remedies, "Example: lockstep study remedies --gl egl-device:0");
+    add({"thesis", "the thesis's tables 4-1 and 5-1 and figures 5-3 and 5-5, CDT and octree, on GL"}, of_thesis,
+        &StudyRequest::thesis,
+        "Example: lockstep study thesis --gl egl-device:0 --json thesis.json --chart thesis.svg");
+    return verbs;
+}
+
 } // namespace
 
 Verb study_command() {
     auto options = std::make_shared<StudyRequest>();
     Verb verb{"study", "compare what the CDT search finds with the exact neighbours, and say "
-                       "why it misses what it misses; needs no GL but for --thesis and --side gpu"};
+                       "why it misses what it misses; needs no GL but for thesis and --side gpu"};
     add_scene_options(verb, options->run, SceneArgument::optional);
     verb.add(integer_option("--frames", "N", {1, most_frames}, options->run.frames, "frames to run"));
     verb.add(integer_option("--every", "N", {1, most_frames}, options->every, "study every Nth frame only"));
@@ -306,7 +352,7 @@ Verb study_command() {
     verb.add(path_option("--json", "FILE", options->json, "the same as JSON"));
     verb.add(path_option(
         "--images", "DIR", options->images,
-        "write a false-colour picture of each studied frame, by cause; with --catalogue one of each effect"));
+        "write a false-colour picture of each studied frame, by cause; of the catalogue one of each effect"));
     verb.add(
         path_option("--chart", "FILE", options->chart, "draw recall and misses over the frames as SVG, by gnuplot"));
     verb.add(flag("--recall-table", options->recall_table, "clouds at rest instead of a scene: recall by radius"));
@@ -321,20 +367,24 @@ Verb study_command() {
     verb.add(flag("--thesis", options->thesis,
                   "the thesis's tables 4-1 and 5-1 and figures 5-3 and 5-5, CDT, octree and the scene's depth, on GL; "
                   "--frames, --json, --csv, --chart, --set and --gl apply"));
-    verb.add(integers_option("--counts", "N,...", {1, most_particles}, options->thesis_study.counts,
-                             "--thesis: particle counts"));
+    verb.add(
+        integers_option("--counts", "N,...", {1, most_particles}, options->thesis_study.counts, "particle counts"));
     verb.add(seconds_option("--seconds", options->thesis_study.seconds,
-                            "--thesis: a measurement ends with the frame in which this is over"));
+                            "a measurement ends with the frame in which this is over"));
     verb.add(path_option("--from", "FILE", options->thesis_study.from,
-                         "--thesis: tell and draw what an earlier --json wrote, on a machine without that GL"));
+                         "report and draw what an earlier --json wrote, on a machine without that GL"));
     verb.add(flag("--remedies", options->remedies,
                   "what the remedies find (docs/remedies.md), and with --gl what they cost, as a table; --json and "
                   "--particles apply"));
     add_gl_options(verb, options->run);
     verb.add(path_option("--scenes", "DIR", options->scenes,
-                         "where the scenes of --recall-table, --catalogue and --thesis are"));
+                         "where the study's own scenes are, instead of those that come with lockstep"));
+    verb.verbs = parts(verb, options);
+    const Names own = joined({of_run, of_side, of_outputs});
+    for (Option& option : verb.options) // the others' options stay with it under their earlier names
+        option.hidden = std::find(own.begin(), own.end(), names(option).back()) == own.end();
     verb.footer = "Examples: lockstep study data/scenes/x_streams.json --frames 60 --every 10\n"
-                  "          lockstep study --thesis --gl egl-device:0 --json thesis.json --chart thesis.svg";
+                  "          lockstep study thesis --gl egl-device:0 --json thesis.json --chart thesis.svg";
     verb.run = [options](const Call& call) {
         options->gl_asked = call.has("--gl");
         return run(*options, call);

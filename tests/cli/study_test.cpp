@@ -36,6 +36,16 @@ TEST_CASE("study: a table, and every output") {
           std::vector<std::string>{"misses_00001.png", "misses_00003.png"});
 }
 
+TEST_CASE("study: its parts are verbs; their earlier names as options still say the same") {
+    const std::string moving = run_lockstep({"study", scene(), "--rest", "--frames", "4"}).out;
+    CHECK(run_lockstep({"study", "rest", scene(), "--frames", "4"}).out == moving);
+    CHECK_THAT(moving, Catch::Contains("At rest: "));
+    CHECK(refusal(run_lockstep({"study", "rest"})) ==
+          "SCENE is missing: scene file, data/scenes/*.json (lockstep study rest --help says more)");
+    CHECK_THAT(refusal(run_lockstep({"study", "rest", scene(), "--csv", "a"})),
+               Catch::StartsWith("unknown option '--csv'"));
+}
+
 TEST_CASE("study: a chart, or one line that says what is missing, before the run") {
     const test::TemporaryFolder output;
     const std::string chart = (output.path() / "a.svg").string();
@@ -62,7 +72,7 @@ TEST_CASE("study: gnuplot is given the chart by a pipe, whatever the temporary f
 
 TEST_CASE("study: what cannot be studied is refused in one line") {
     CHECK(refusal(run_lockstep({"study"})) ==
-          "study: a SCENE, --recall-table, --catalogue, --remedies or --thesis is needed");
+          "study: a SCENE is needed, or one of recall, catalogue, remedies, thesis");
     CHECK(refusal(run_lockstep({"study", scene(), "--catalogue"})) ==
           "study: --recall-table, --catalogue, --remedies and --thesis have scenes of their own; leave SCENE out");
     CHECK(refusal(run_lockstep({"study", scene(), "--frames", "1"})) ==
@@ -77,19 +87,19 @@ TEST_CASE("study: an option that its mode would ignore is refused") {
         arguments.insert(arguments.begin(), "study");
         CHECK(refusal(run_lockstep(arguments)) == "study: " + message);
     };
-    refused({scene(), "--cameras", "--csv", "a"}, "--csv does not go with --cameras --side cpu");
-    refused({scene(), "--cameras", "--json", "a"}, "--json does not go with --cameras --side cpu");
-    refused({"--catalogue", "--csv", "a"}, "--csv does not go with --catalogue");
-    refused({"--remedies", "--csv", "a"}, "--csv does not go with --remedies without --gl");
-    refused({scene(), "--rest", "--csv", "a"}, "--csv does not go with --rest");
-    refused({"--recall-table", "--json", "a"}, "--json does not go with --recall-table");
-    refused({"--recall-table", "--catalogue"}, "--catalogue does not go with --recall-table");
+    refused({scene(), "--cameras", "--csv", "a"}, "--csv does not go with cameras --side cpu");
+    refused({scene(), "--cameras", "--json", "a"}, "--json does not go with cameras --side cpu");
+    refused({"--catalogue", "--csv", "a"}, "--csv does not go with catalogue");
+    refused({"--remedies", "--csv", "a"}, "--csv does not go with remedies without --gl");
+    refused({scene(), "--rest", "--csv", "a"}, "--csv does not go with rest");
+    refused({"--recall-table", "--json", "a"}, "--json does not go with recall");
+    refused({"--recall-table", "--catalogue"}, "--catalogue does not go with recall");
     refused({scene(), "--seconds", "3"}, "--seconds does not go with SCENE --side cpu");
     refused({scene(), "--counts", "3"}, "--counts does not go with SCENE --side cpu");
     refused({scene(), "--from", "a"}, "--from does not go with SCENE --side cpu");
     refused({scene(), "--gl", test::software_gl()}, "--gl does not go with SCENE --side cpu");
     refused({scene(), "--side", "gpu", "--profile", "nvidia"}, "--profile does not go with SCENE --side gpu");
-    refused({"--thesis", "--from", "a", "--counts", "3"}, "--counts does not go with --thesis --from");
+    refused({"--thesis", "--from", "a", "--counts", "3"}, "--counts does not go with thesis --from");
     CHECK_THAT(refusal(run_lockstep({"study", "--thesis", "--seconds", "nan"})),
                Catch::Contains("'nan' is not a number of seconds above 0"));
 }
@@ -182,12 +192,12 @@ TEST_CASE("study: who has come to rest, over the frames") {
     const std::string nothing = folder.write("nothing.json", R"({"emitters": [{"count": 10, "min": [0, 0, 0],
         "max": [1, 1, 1]}]})");
     CHECK(refusal(run_lockstep({"study", nothing, "--rest", "--frames", "4"})) ==
-          "study: --rest tells who lies on an obstacle; this scene has none");
+          "study rest counts who lies on an obstacle; this scene has none");
 }
 
 TEST_CASE("study: what the thesis's tables cannot be made of is refused in one line") {
     CHECK(refusal(run_lockstep({"study", "--thesis", "--particles", "9"})) ==
-          "study: --thesis has several counts; --counts N,... names them");
+          "study: thesis has several counts; --counts N,... names them");
     CHECK_THAT(refusal(run_lockstep({"study", "--thesis", "--from", "/nowhere/a.json"})),
                Catch::StartsWith("/nowhere/a.json"));
     CHECK_THAT(refusal(run_lockstep({"study", "--thesis", "--json", "/nowhere/a.json"})),

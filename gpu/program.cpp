@@ -122,10 +122,63 @@ std::string joined_names(std::span<const Capture> captured) {
     return fmt::format("{}", fmt::join(names, ", "));
 }
 
+/// A stage's own name of one of our outputs.
+std::string their_name(const ShaderSource& stage, const std::string& ours) {
+    return stage.bindings != nullptr ? stage.bindings->output(ours) : ours;
+}
+
+/// A stage's input or output, as declared.
+struct Varying {
+    std::string type, place;
+    bool is_flat = false;
+};
+
+std::map<std::string, Varying> varyings(const ShaderSource& stage, std::string_view qualifier) {
+    std::map<std::string, Varying> found;
+    std::vector<std::string> statement;
+    for (ShaderWords words(stage.text); words.next();) {
+        if (words.token() != ";" && words.token() != "}") {
+            statement.emplace_back(words.token());
+            continue;
+        }
+        const auto has = [&](std::string_view word) {
+            return std::find(statement.begin(), statement.end(), word) != statement.end();
+        };
+        if (words.token() == ";" && statement.size() > 2 && has(qualifier) && !has("(")) {
+            const ShaderSource::Origin& origin = stage.origins[words.line() - 1];
+            found[statement.back()] = {statement[statement.size() - 2],
+                                       fmt::format("{}:{}", stage.files[origin.file], origin.line), has("flat")};
+        }
+        statement.clear();
+    }
+    return found;
+}
+
+/// Before GLSL 4.40 both sides of the border say `flat`, or neither.
+std::string missing_flat(std::span<const ShaderSource> stages) {
+    const ShaderSource* last = last_vertex_stage(stages);
+    const auto fragment =
+        std::find_if(stages.begin(), stages.end(), [](const ShaderSource& s) { return s.stage == Stage::fragment; });
+    if (last == nullptr || fragment == stages.end())
+        return {};
+    const std::map<std::string, Varying> written = varyings(*last, "out");
+    for (const auto& [name, read] : varyings(*fragment, "in")) {
+        const std::string theirs = their_name(*last, name);
+        const auto out = written.find(theirs);
+        if (out != written.end() && read.is_flat && !out->second.is_flat)
+            return fmt::format(
+                "shader {}: output {} is interpolated, but {} reads it `flat`; right is `flat out {} {};`",
+                out->second.place, theirs, read.place, out->second.type, theirs);
+    }
+    return {};
+}
+
 /// Why a program that failed to link did: a driver's own message need not name the output that is missing, so each is
 /// tried by itself.
 std::string link_failure(GLuint program, std::span<const ShaderSource> stages, std::span<const Capture> captured) {
     const std::string reason = first_link_error(link_log(program));
+    if (const std::string flat = missing_flat(stages); !flat.empty())
+        return flat;
     if (!captured.empty() && link(program, {}))
         for (const Capture& capture : captured)
             if (!link(program, {&capture, 1}))
@@ -291,7 +344,8 @@ void check_fragment_inputs(std::span<const ShaderSource> stages) {
         std::string first, second, third; // the words before
         bool located = false;
         for (ShaderWords words(stage.text); words.next();) {
-            if (words.token() == ";" && first == "in" && !located && uses[third] > 1 && !written.contains(third)) {
+            if (words.token() == ";" && first == "in" && !located && uses[third] > 1 &&
+                !written.contains(their_name(*last, third))) {
                 const ShaderSource::Origin& origin = stage.origins[words.line() - 1];
                 throw Error(fmt::format("shader {}:{}: input {} is written by no stage before it ({})",
                                         stage.files[origin.file], origin.line, third, last->files.front()));
@@ -370,8 +424,10 @@ Program::Program(std::string name, std::span<const ShaderSource> stages, std::sp
     try {
         for (const Shader& shader : shaders)
             gl::AttachShader(id_, shader.id());
-        if (!link(id_, outputs))
+        if (!link(id_, outputs)) {
+            check_geometry_inputs(stages);
             throw Error(fmt::format("{}: {}", name_, link_failure(id_, stages, outputs)));
+        }
         if (!outputs.empty())
             check_geometry_stage(id_, stages);
         for (std::size_t i = 0; i < outputs.size(); ++i)

@@ -255,6 +255,14 @@ std::string upper(std::string_view text) {
     return result;
 }
 
+/// A shipped fragment stage reads what a user's stage before it writes under names of its own.
+void rename_inputs(const fs::path& fragment, const Bindings* before, ShaderDefines& defines) {
+    if (before == nullptr || bindings_beside(fragment) != nullptr)
+        return;
+    for (const auto& [theirs, ours] : before->outputs)
+        defines.emplace_back(ours, theirs);
+}
+
 bool blank(const std::string& text) { return text.find_first_not_of(" \t\r\n") == std::string::npos; }
 
 } // namespace
@@ -319,8 +327,12 @@ std::vector<ShaderSource> load_stages(const ShaderFolders& folders, std::string_
         const auto [path, text] = find(folders, texts, fmt::format("{}{}", name, extension(stage)), "");
         if (blank(text) && stage != Stage::geometry)
             throw Error(fmt::format("shader {}: is empty; only a geometry stage can be left out", shown(path)));
-        if (!blank(text))
-            sources.push_back(Assembly(folders, defines, texts).assemble(path, text, stage));
+        if (blank(text))
+            continue;
+        ShaderDefines all = defines;
+        if (stage == Stage::fragment && !sources.empty())
+            rename_inputs(path, sources.back().bindings.get(), all);
+        sources.push_back(Assembly(folders, all, texts).assemble(path, text, stage));
     }
     return sources;
 }

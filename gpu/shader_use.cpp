@@ -10,6 +10,7 @@
 #include <fmt/ranges.h>
 
 #include "reference/model/error.hpp"
+#include "reference/model/near_name.hpp"
 
 namespace lockstep {
 namespace fs = std::filesystem;
@@ -18,6 +19,13 @@ namespace {
 std::string content(const fs::path& file) {
     std::ifstream stream(file, std::ios::binary);
     return {std::istreambuf_iterator<char>(stream), {}};
+}
+
+/// The shipped file of that name; empty: there is none.
+fs::path shipped_file(const ShaderFolders& shipped, const std::string& name) {
+    const auto folder = std::find_if(shipped.begin(), shipped.end(),
+                                     [&](const fs::path& one) { return fs::is_regular_file(one / name); });
+    return folder == shipped.end() ? fs::path() : *folder / name;
 }
 
 bool is_copy(const ShaderFolders& shipped, const fs::path& file, const std::string& name) {
@@ -51,6 +59,18 @@ bool looks_like_shader(std::string name, const std::set<std::string>& stems) {
     return std::any_of(stems.begin(), stems.end(), [&](const std::string& stem) { return name.starts_with(stem); });
 }
 
+/// A misspelt bindings.json would leave all names unbound.
+void check_bindings_name(const fs::path& user) {
+    if (fs::exists(user / bindings_file))
+        return;
+    for (const fs::directory_entry& entry : fs::directory_iterator(user)) {
+        const std::string name = entry.path().filename().string();
+        if (name.ends_with(".json") && !nearest_name(name, {std::string(bindings_file)}).empty())
+            throw Error(
+                fmt::format("shader folder {}: {} is read by nobody; right is {}", user.string(), name, bindings_file));
+    }
+}
+
 bool is_used(const ShaderUse& use, const fs::path& file) {
     return std::any_of(use.files.begin(), use.files.end(), [&](const UsedShader& used) {
         return !used.foreign.empty() && used.foreign.lexically_normal() == file.lexically_normal();
@@ -64,14 +84,16 @@ void note_stage(ShaderUse& use, const PassStages& pass, Stage stage, const Shade
     const bool foreign = !own.empty() && fs::is_regular_file(own);
     const ShaderFolders shipped(folders.begin() + (user.empty() ? 0 : 1), folders.end());
     const std::vector<ShaderSource> loaded = load_stages(folders, pass.name, std::span(&stage, 1));
-    use.files.push_back({name, foreign ? own : fs::path(), foreign && is_copy(shipped, own, name), loaded.empty()});
+    use.files.push_back({name, foreign ? own : fs::path(), shipped_file(shipped, name),
+                         foreign && is_copy(shipped, own, name), loaded.empty()});
     if (loaded.empty() || user.empty())
         return;
     const std::string inside = (user / "").string();
     for (const std::string& read : loaded.front().files)
         if (read.starts_with(inside) && !is_used(use, read)) {
             const std::string included = read.substr(inside.size());
-            use.files.push_back({included, read, is_copy(shipped, read, included), false});
+            use.files.push_back(
+                {included, read, shipped_file(shipped, included), is_copy(shipped, read, included), false});
         }
 }
 
@@ -109,8 +131,15 @@ ShaderUse shader_use(std::string_view system, std::span<const PassStages> passes
 void check_shader_use(const ShaderUse& use, const fs::path& user, bool allow_unused) {
     if (user.empty())
         return;
+    check_bindings_name(user);
     const bool none =
         std::all_of(use.files.begin(), use.files.end(), [](const UsedShader& used) { return used.foreign.empty(); });
+    for (const std::string& file : use.unused)
+        if (!allow_unused && file.ends_with(".spv"))
+            throw Error(
+                fmt::format("shader folder {0}: {1} is SPIR-V, and GLSL runs; `spirv-cross {0}/{1} --version 450 "
+                            "--output {0}/{2}` translates it (docs/translators.md)",
+                            user.string(), file, fs::path(file).stem().string()));
     std::string right;
     for (const auto& [file, setting] : use.runs_with)
         right += fmt::format("; {} runs with --set {}", file, setting);

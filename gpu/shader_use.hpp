@@ -14,6 +14,7 @@ namespace lockstep {
 struct UsedShader {
     std::string file;              ///< its name: collision_pass.vert
     std::filesystem::path foreign; ///< where it lies in the user's folder; empty: the shipped one runs
+    std::filesystem::path shipped; ///< where the one of that name lies that comes with lockstep; empty: none does
     bool same_as_shipped = false;  ///< a copy, byte by byte
     bool leaves_out = false;       ///< an empty file, with which its stage is left out
 };

@@ -1,0 +1,83 @@
+#include <catch2/catch.hpp>
+
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+#include <string>
+#include <vector>
+
+#include <nlohmann/json.hpp>
+
+#include "tests/cli/cli_checks.hpp"
+#include "tests/temporary_folder.hpp"
+
+using namespace lockstep;
+namespace fs = std::filesystem;
+using test::run_lockstep;
+
+/// Shaders from elsewhere, each in a folder of tests/foreign with bindings.json for names of its own, and planted.json:
+/// a mistake to plant, and the cause that is told of it.
+namespace {
+
+std::string content(const fs::path& file) {
+    std::ifstream stream(file, std::ios::binary);
+    return {std::istreambuf_iterator<char>(stream), {}};
+}
+
+struct Foreign {
+    explicit Foreign(const fs::path& folder) : planted(nlohmann::json::parse(content(folder / "planted.json"))) {
+        for (const fs::directory_entry& entry : fs::directory_iterator(folder))
+            if (entry.path().filename() != "planted.json" && entry.path().extension() != ".hlsl")
+                fs::copy_file(entry.path(), shaders.path() / entry.path().filename());
+    }
+
+    [[nodiscard]] test::Outcome check() const {
+        const bool of_collision = !planted.contains("scene");
+        std::vector<std::string> words{"check",      "data/scenes/" + planted.value("scene", "x_streams.json"),
+                                       "--gl",       test::software_gl(),
+                                       "--shaders",  shaders.path(),
+                                       "--frames",   std::to_string(planted.value("frames", 20)),
+                                       "--no-render"};
+        if (planted.contains("particles") || of_collision)
+            words.insert(words.end(), {"--particles", std::to_string(planted.value("particles", 4000))});
+        if (planted.contains("set"))
+            words.insert(words.end(), {"--set", planted["set"]});
+        return run_lockstep(words);
+    }
+
+    void plant() const {
+        const fs::path file = shaders.path() / planted["file"];
+        std::string text = content(file);
+        const std::string find = planted["find"], put = planted["put"];
+        const std::size_t place = text.find(find);
+        REQUIRE(place != std::string::npos);
+        std::ofstream(file, std::ios::binary) << text.replace(place, find.size(), put);
+    }
+
+    test::TemporaryFolder shaders;
+    nlohmann::json planted;
+};
+
+} // namespace
+
+TEST_CASE(
+    "foreign shaders: with names, blocks, buffers and images of their own they agree; a planted mistake is named") {
+    if (!test::have_software_gl())
+        return;
+    std::size_t count = 0;
+    for (const fs::directory_entry& entry : fs::directory_iterator("tests/foreign")) {
+        INFO(entry.path().string());
+        const Foreign foreign(entry.path());
+        const test::Outcome right = foreign.check();
+        INFO(right.err);
+        CHECK(right.status == 0);
+        CHECK_THAT(right.out, Catch::Contains("verdict   AGREE"));
+        foreign.plant();
+        const test::Outcome wrong = foreign.check();
+        CHECK(wrong.status == 1);
+        CHECK_THAT(wrong.out, Catch::Contains("verdict   DIVERGENT"));
+        CHECK_THAT(wrong.out, Catch::Contains("are explained by " + std::string(foreign.planted["cause"]) + ":"));
+        ++count;
+    }
+    CHECK(count == 10);
+}

@@ -6,6 +6,7 @@
 
 #include "gpu/check.hpp"
 #include "gpu/collision/collision_shaders.hpp"
+#include "gpu/collision/host_depth.hpp"
 #include "gpu/collision/step_uniforms.hpp"
 #include "gpu/shader_source.hpp"
 #include "reference/model/error.hpp"
@@ -13,10 +14,13 @@
 namespace lockstep {
 namespace {
 
-Program link(const Switches& switches, const std::filesystem::path& shaders) {
+Program link(const Switches& switches, const std::filesystem::path& shaders, const ClipDepth& depth) {
+    ShaderDefines defines = switch_defines(switches);
+    for (const auto& define : clip_depth_defines(depth))
+        defines.push_back(define);
     const std::array stages{Stage::vertex, Stage::geometry, Stage::fragment};
     const std::vector<ShaderSource> sources =
-        load_stages(collision_shaders(shaders), "collision_pass", stages, switch_defines(switches));
+        load_stages(collision_shaders(shaders), "collision_pass", stages, defines);
     Program program("collision_pass", sources, particle_records().captures());
     check_nothing_lost(sources, particle_records().captures());
     return program;
@@ -30,16 +34,15 @@ void set_collision_uniforms(const Program& program, const FrameParams& params) {
     program.set_unit("u_CDTexture", 0);
 }
 
-CollisionPass::CollisionPass(const Switches& switches, const std::filesystem::path& shaders)
-    : program_(link(switches, shaders)) {}
+CollisionPass::CollisionPass(const Switches& switches, const std::filesystem::path& shaders, const ClipDepth& depth)
+    : program_(link(switches, shaders, depth)) {}
 
 void CollisionPass::run(const FrameParams& params, const ParticleBuffer& from, ParticleBuffer& to,
                         const CollisionTexture& cdt, CollisionTexture& target) {
     set_collision_uniforms(program_, params);
     cdt.bind_texture(0);
     target.bind_target();
-    gl::Enable(GL_DEPTH_TEST);
-    gl::DepthFunc(GL_LESS);
+    const HostDepth host(params.clip_depth);
     const GlVertexArray vertices = vertex_array(from, program_);
     program_.check_interface();
     gl::BindVertexArray(vertices.id());

@@ -13,8 +13,8 @@ namespace lockstep {
 /// other buffer, fragments into the CDT of the next frame. Twin of reference/collision/collision_pass.hpp.
 class CollisionPass {
   public:
-    /// `shaders` is looked into first (spec, "Names a foreign shader must use"); may be empty.
-    CollisionPass(const Switches& switches, const std::filesystem::path& shaders);
+    /// `shaders` is looked into first (spec, "Names a foreign shader must use"); may be empty. `depth`: the host's.
+    CollisionPass(const Switches& switches, const std::filesystem::path& shaders, const ClipDepth& depth);
 
     /// Steps `from` into `to`, reading `cdt`, drawing into `target` on top of what it holds.
     void run(const FrameParams& params, const ParticleBuffer& from, ParticleBuffer& to, const CollisionTexture& cdt,

@@ -36,10 +36,9 @@ CollisionTexture::CollisionTexture(int width, int height, CdtFormat format)
     clear();
 }
 
-void CollisionTexture::clear() {
+void CollisionTexture::clear(float far_plane) {
     gl::BindFramebuffer(GL_FRAMEBUFFER, framebuffer_.id());
     const float zero[4] = {0.0F, 0.0F, 0.0F, 0.0F};
-    const float far_plane = 1.0F;
     gl::ClearBufferfv(GL_COLOR, 0, zero);
     gl::ClearBufferfv(GL_DEPTH, 0, &far_plane);
 }

@@ -17,8 +17,8 @@ class CollisionTexture {
     [[nodiscard]] CdtFormat format() const { return format_; }
     [[nodiscard]] GLuint id() const { return color_.id(); }
 
-    /// Every texel zero, depth 1; leaves the framebuffer bound. Current write masks and scissor box apply.
-    void clear();
+    /// Every texel zero, depth `far_plane`; leaves the framebuffer bound. Current write masks and scissor box apply.
+    void clear(float far_plane = 1.0F);
 
     /// Binds the framebuffer and sets the viewport to the whole image.
     void bind_target() const;

@@ -11,6 +11,7 @@
 #include "gpu/check.hpp"
 #include "gpu/collision/collision_pass.hpp"
 #include "gpu/collision/collision_shaders.hpp"
+#include "gpu/collision/host_depth.hpp"
 #include "gpu/collision/trace_outputs.hpp"
 #include "reference/model/collision/collision_state.hpp"
 #include "reference/model/error.hpp"
@@ -18,8 +19,11 @@
 namespace lockstep {
 namespace {
 
-std::vector<ShaderSource> trace_build(const Switches& switches, const std::filesystem::path& shaders) {
+std::vector<ShaderSource> trace_build(const Switches& switches, const std::filesystem::path& shaders,
+                                      const ClipDepth& depth) {
     ShaderDefines defines = switch_defines(switches);
+    for (const auto& define : clip_depth_defines(depth))
+        defines.push_back(define);
     defines.emplace_back("LOCKSTEP_TRACE", "1");
     const std::array stages{Stage::vertex, Stage::geometry, Stage::fragment};
     return load_stages(collision_shaders(shaders), "collision_pass", stages, defines);
@@ -79,9 +83,10 @@ struct NothingDrawn {
 
 } // namespace
 
-CollisionTrace::CollisionTrace(const Switches& switches, const std::filesystem::path& shaders, int width, int height)
+CollisionTrace::CollisionTrace(const Switches& switches, const std::filesystem::path& shaders, int width, int height,
+                               const ClipDepth& depth)
     : target_(width, height, switches.cdt_format) {
-    const std::vector<ShaderSource> stages = trace_build(switches, shaders);
+    const std::vector<ShaderSource> stages = trace_build(switches, shaders, depth);
     const auto vertex = std::find_if(stages.begin(), stages.end(),
                                      [](const ShaderSource& source) { return source.stage == Stage::vertex; });
     const bool geometry = has_stage(stages, Stage::geometry);
@@ -125,9 +130,9 @@ void CollisionTrace::capture_vertex_stage(const FrameParams& params, const Parti
 
 void CollisionTrace::capture_whole_pass(const FrameParams& params, const ParticleBuffer& from, std::size_t particle,
                                         StepCapture& step) {
-    target_.clear();
-    gl::Enable(GL_DEPTH_TEST);
-    gl::DepthFunc(GL_LESS);
+    const float far_plane = params.clip_depth.cleared();
+    target_.clear(far_plane);
+    const HostDepth host(params.clip_depth);
     for (const VertexCapture& part : whole_pass_)
         append(step.last, capture(part, params, from, particle, 1).front());
     step.state = state_of(step.last, "out_").value_or(ParticleState{});
@@ -140,9 +145,9 @@ void CollisionTrace::capture_whole_pass(const FrameParams& params, const Particl
     target_.read(depth);
     for (int y = 0; y < drawn.height; ++y)
         for (int x = 0; x < drawn.width; ++x)
-            if (depth.at(x, y) < 1.0F) {
+            if (depth.at(x, y) != far_plane) {
                 step.texel = {x, y};
-                step.depth = depth.at(x, y);
+                step.depth = params.clip_depth.sign() * depth.at(x, y);
                 step.code = drawn.at(x, y);
             }
 }

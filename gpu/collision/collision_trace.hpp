@@ -37,7 +37,8 @@ struct StepCapture {
 class CollisionTrace {
   public:
     /// `shaders` is looked into first; may be empty. Throws Error where the trace build does not compile or link.
-    CollisionTrace(const Switches& switches, const std::filesystem::path& shaders, int width, int height);
+    CollisionTrace(const Switches& switches, const std::filesystem::path& shaders, int width, int height,
+                   const ClipDepth& depth);
 
     /// Steps particle `particle` of `from`, reading `cdt`.
     [[nodiscard]] StepCapture run(const FrameParams& params, const ParticleBuffer& from, std::size_t particle,

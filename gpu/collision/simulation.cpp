@@ -28,6 +28,21 @@ glm::vec4 canary_texel(CdtFormat format) {
     return {0xca, 0x7c, 0xa7, 0x5a};
 }
 
+/// Another depth than GL's own is drawn by the listing's vertex step alone.
+void check_clip_depth(const Scene& scene) {
+    const ClipDepth& depth = scene.clip_space.depth;
+    const Switches& s = scene.switches;
+    if (depth == ClipDepth{})
+        return;
+    const bool vertex_step = s.search == Search::cdt && s.step != Step::compute && !has_remedies(s);
+    if (vertex_step && s.arithmetic != ArithmeticSwitch::exact && scene.obstacles.positions.empty())
+        return;
+    throw Error(
+        fmt::format("{}: clip_space: depth [{}, {}] is drawn on GL with search=cdt, step=transform_feedback, plain "
+                    "arithmetic, no remedies and no obstacles alone; a recording has it with others too",
+                    scene.name, depth.near_plane, depth.far_plane));
+}
+
 } // namespace
 
 GpuSimulation::GpuSimulation(const Scene& scene, const std::filesystem::path& shaders)
@@ -37,9 +52,7 @@ GpuSimulation::GpuSimulation(const Scene& scene, const std::filesystem::path& sh
       cdts_{CollisionTexture(scene.width, scene.height, scene.switches.cdt_format),
             CollisionTexture(scene.width, scene.height, scene.switches.cdt_format)},
       layered_(layered(scene, shaders)) {
-    if (scene.clip_space.depth != ClipDepth{})
-        throw Error(fmt::format("{}: clip_space: depth [{}, {}] is for recordings; GL here draws with [-1, 1]",
-                                scene.name, scene.clip_space.depth.near_plane, scene.clip_space.depth.far_plane));
+    check_clip_depth(scene);
     if (scene.switches.search == Search::octree)
         octree_pass_.emplace(scene, shaders);
     else if (scene.switches.search == Search::depth)
@@ -47,7 +60,7 @@ GpuSimulation::GpuSimulation(const Scene& scene, const std::filesystem::path& sh
     else if (scene.switches.step == Step::compute)
         compute_pass_.emplace(scene, shaders);
     else if (!layered_)
-        collision_pass_.emplace(scene.switches, shaders);
+        collision_pass_.emplace(scene.switches, shaders, scene.clip_space.depth);
     upload(scene.start, empty_cdt(scene));
 }
 
@@ -90,7 +103,7 @@ void GpuSimulation::run_frame(const FrameParams& params, std::size_t from, std::
 void GpuSimulation::run_passes(const FrameParams& params, std::size_t from, std::size_t to) {
     if (layered_)
         return run_layered(params, from, to);
-    cdts_[to].clear();
+    cdts_[to].clear(params.clip_depth.cleared());
     pass_timer_.mark("clear");
     if (octree_pass_) {
         octree_pass_->run(params, particles_[from], particles_[to]);
@@ -134,7 +147,7 @@ StepCapture GpuSimulation::trace(const FrameParams& params, std::size_t particle
         return compute_trace_->run(params, particles_[1 - current_], particle, cdts_[1 - current_]);
     }
     if (!trace_)
-        trace_.emplace(switches_, shaders_, params.width, params.height);
+        trace_.emplace(switches_, shaders_, params.width, params.height, params.clip_depth);
     return trace_->run(params, particles_[1 - current_], particle, cdts_[1 - current_]);
 }
 

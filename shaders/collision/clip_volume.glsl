@@ -2,6 +2,10 @@
 // pass, and NaN decides differently everywhere, so the rule is written out. At w = 0 (or subnormal, which drivers flush)
 // and at infinity a point has no place on the image.
 bool in_clip_volume(vec4 clip) {
+#ifdef CLIP_DEPTH_FROM_ZERO // a host with glClipControl
+    if (!(clip.z >= 0.0))
+        return false;
+#endif
     bool has_place = clip.w >= 1.17549435e-38 && clip.w <= 3.402823466e38;
     return has_place && abs(clip.x) <= clip.w && abs(clip.y) <= clip.w && abs(clip.z) <= clip.w;
 }

@@ -206,6 +206,19 @@ test("an item of the list opens by keyboard; its first wrong row is marked and h
     assert.match(await text(page, ".steps"), /0x1\./);
   }));
 
+test("what the shader changes stands there line by line, with date and version; pictures grow; both sides' frame is drawn", () =>
+  on("divergent", async (page) => {
+    assert.match(await text(page, "#verdict"), /Written\s+\d{4}-\d\d-\d\d \d\d:\d\d UTC, by lockstep \d/);
+    assert.match(await text(page, "#cause .changes"), /collision_pass\.vert:\d+\n- .*&& len < particle_min_length\) \{\n\+ .*u_CollisionRange > len\) \{/);
+    const width = async () => (await page.locator("[data-side=gpu]").boundingBox()).width;
+    const whole = await width();
+    await page.getByLabel("Zoom").selectOption("4");
+    assert.ok(Math.abs((await width()) / whole - 4) < 0.05);
+    const drawn = await page.locator("#rendered img").evaluateAll((images) => images.map((image) => image.naturalWidth));
+    assert.equal(drawn.length, 3);
+    assert.ok(drawn.every((pixels) => pixels > 0));
+  }));
+
 test("the chart shows what was asked for, and a click on it goes to that frame", () =>
   on("divergent", async (page) => {
     const chart = page.locator(".chart canvas");

@@ -37,6 +37,18 @@ json item_json(const ExplainedItem& explained, int width) {
     return out;
 }
 
+/// Of pictures that would leave no room for anything else, nothing.
+json rendered_json(const RenderedFrame& rendered) {
+    constexpr std::size_t room = 1'500'000;
+    std::size_t size = 0;
+    json pictures = json::array();
+    for (const PagePicture& picture : rendered.pictures) {
+        pictures.push_back({{"title", picture.title}, {"png", base64(picture.png)}});
+        size += picture.png.size() * 4 / 3;
+    }
+    return size == 0 || size > room ? json() : json{{"frame", rendered.frame}, {"pictures", std::move(pictures)}};
+}
+
 } // namespace
 
 PageCollector::PageCollector(const Scene& scene, const Profile& profile, CheckMode mode, int frames)
@@ -53,7 +65,7 @@ void PageCollector::add(const ComparedFrame& frame) {
 
 std::string report_page(std::string_view page_template, const PageCollector& run, const CheckReport& report,
                         const RunDescription& description, const std::vector<PageCommand>& commands,
-                        const std::vector<ExplainedItem>& items, const json& study) {
+                        const std::vector<ExplainedItem>& items, const json& study, const RenderedFrame& rendered) {
     json tables = json::array(), listed = json::array();
     for (const ExplainedItem& item : items) {
         listed.push_back(item_json(item, run.scene().width));
@@ -66,7 +78,8 @@ std::string report_page(std::string_view page_template, const PageCollector& run
                  {"plane_height", run.scene().height},
                  {"format", switch_value(run.scene().switches, "cdt_format")},
                  {"items", listed},
-                 {"study", study}});
+                 {"study", study},
+                 {"rendered", rendered_json(rendered)}});
     std::string blobs;
     const auto add = [&](const std::string& id, const std::string& base64) { blobs += blob_element(id, base64); };
     add("series", packed_json(run.series().json()));

@@ -44,10 +44,17 @@ struct ExplainedItem {
     nlohmann::json told; ///< explained(), or null where it could not be made
 };
 
+/// Both sides' rendered frame and their difference.
+struct RenderedFrame {
+    int frame = 0;
+    std::vector<PagePicture> pictures; ///< none: nothing was rendered
+};
+
 /// The page: `page_template` (template.hpp) with the run's data in it; one file, at most largest_page bytes unless the
 /// step tables alone are more. `study`: study_results(), or null.
 std::string report_page(std::string_view page_template, const PageCollector& run, const CheckReport& report,
                         const RunDescription& description, const std::vector<PageCommand>& commands,
-                        const std::vector<ExplainedItem>& items, const nlohmann::json& study);
+                        const std::vector<ExplainedItem>& items, const nlohmann::json& study,
+                        const RenderedFrame& rendered = {});
 
 } // namespace lockstep

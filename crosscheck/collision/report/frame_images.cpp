@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <iterator>
+#include <utility>
 
 #include "crosscheck/collision/judge/render_judge.hpp"
 #include "crosscheck/collision/report/pictures.hpp"
@@ -51,25 +52,27 @@ void FrameImages::keep(const ComparedFrame& frame) {
     gpu_cdt_ = frame.gpu_cdt;
 }
 
+std::array<std::string, 3> FrameImages::rendered(const Scene& scene, const Profile& profile,
+                                                 const std::filesystem::path& shaders) const {
+    const FrameParams params = frame_params(scene, frame_);
+    const ColorImage reference = render_pass(reference_, scene.obstacles, params, profile);
+    const ColorImage gpu = render_on_gpu(gpu_, scene, params, shaders);
+    return {png(reference), png(gpu), png(difference_picture(reference, gpu))};
+}
+
 void FrameImages::write(OutputFiles& files, const std::filesystem::path& directory, const Scene& scene,
                         const Profile& profile, const std::filesystem::path& shaders) const {
     if (frame_ < 0)
         return;
-    const FrameParams params = frame_params(scene, frame_);
-    const ColorImage reference_frame = render_pass(reference_, scene.obstacles, params, profile);
-    const ColorImage gpu_frame = render_on_gpu(gpu_, scene, params, shaders);
     const Box box = code_box(reference_cdt_);
-    const ColorImage pictures[]{
-        picture(reference_cdt_, box),
-        picture(gpu_cdt_, box),
-        difference_picture(reference_cdt_, gpu_cdt_),
-        reference_frame,
-        gpu_frame,
-        difference_picture(reference_frame, gpu_frame),
-    };
-    static_assert(std::size(pictures) == names.size());
-    for (std::size_t i = 0; i < names.size(); ++i)
-        files.write(directory / names[i], png(pictures[i]));
+    const ColorImage cdts[]{picture(reference_cdt_, box), picture(gpu_cdt_, box),
+                            difference_picture(reference_cdt_, gpu_cdt_)};
+    std::array<std::string, 3> frames = rendered(scene, profile, shaders);
+    static_assert(std::size(cdts) + std::tuple_size_v<decltype(frames)> == names.size());
+    for (std::size_t i = 0; i < std::size(cdts); ++i) {
+        files.write(directory / names[i], png(cdts[i]));
+        files.write(directory / names[i + std::size(cdts)], std::move(frames[i]));
+    }
 }
 
 } // namespace lockstep

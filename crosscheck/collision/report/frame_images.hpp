@@ -1,6 +1,7 @@
 #pragma once
 #include <array>
 #include <filesystem>
+#include <string>
 #include <string_view>
 
 #include "crosscheck/collision/judge/check.hpp"
@@ -33,6 +34,13 @@ class FrameImages {
                                                            "frame_gpu.png",      "frame_difference.png"};
 
     void keep(const ComparedFrame& frame);
+
+    /// The frame that pictures are of; below 0: none was kept.
+    [[nodiscard]] int frame() const { return frame_; }
+
+    /// That frame as each side renders its own particles, and their difference, PNG. Needs the current context.
+    [[nodiscard]] std::array<std::string, 3> rendered(const Scene& scene, const Profile& profile,
+                                                      const std::filesystem::path& shaders) const;
 
     /// Both CDTs and their difference, and the same of the frame as each side renders its own particles. Needs the
     /// current context.

@@ -1,5 +1,9 @@
 #include "crosscheck/report/page/page_parts.hpp"
 
+#include <array>
+#include <cstdlib>
+#include <ctime>
+
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
@@ -24,6 +28,18 @@ std::string element(std::string_view id, std::string_view type, std::string_view
     return fmt::format("<script type=\"{}\" id=\"lockstep-{}\">{}</script>\n", type, id, content);
 }
 
+/// "2026-11-24 13:05 UTC"; SOURCE_DATE_EPOCH (reproducible-builds.org) may say another time.
+std::string written() {
+    std::time_t time = std::time(nullptr);
+    if (const char* given = std::getenv("SOURCE_DATE_EPOCH"); given != nullptr && *given != '\0')
+        time = std::strtoll(given, nullptr, 10);
+    std::tm parts{};
+    std::array<char, 32> text{};
+    const std::size_t size =
+        gmtime_r(&time, &parts) == nullptr ? 0 : std::strftime(text.data(), text.size(), "%Y-%m-%d %H:%M UTC", &parts);
+    return {text.data(), size};
+}
+
 } // namespace
 
 std::string page_text(const json& data) { return data.dump(-1, ' ', false, json::error_handler_t::replace); }
@@ -43,7 +59,9 @@ json page_head(const CheckReport& report, const RunDescription& description, con
     return {{"report", report_json(report, description)},
             {"text", report_text(report, description)},
             {"schema", std::move(schema)},
-            {"commands", std::move(lines)}};
+            {"commands", std::move(lines)},
+            {"written", written()},
+            {"version", LOCKSTEP_VERSION}};
 }
 
 std::string filled_page(std::string_view page_template, const json& head, std::string_view blobs) {

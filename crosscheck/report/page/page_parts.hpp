@@ -20,6 +20,11 @@ struct PageCommand {
     std::string line;
 };
 
+/// A picture for people, PNG.
+struct PagePicture {
+    std::string title, png;
+};
+
 /// JSON as one line; bytes that are no UTF-8 become U+FFFD.
 std::string page_text(const nlohmann::json& data);
 

@@ -71,6 +71,7 @@ export class Frames {
     this.picture = null; // of this.kept
     this.kept = null;
     this.canvases = {};
+    this.views = [];
     this.untold = head.report.fields.texel.compared === 0;
     this.differing = series.frame.filter(
       (_, i) => series.resync.particles[i] + series.resync.texels[i] + series.free.particles[i] + series.free.texels[i] > 0,
@@ -177,7 +178,30 @@ export class Frames {
         cross.style.top = `${(100 * (height - texel.y - 0.5)) / height}%`;
       }
     });
-    return h("figure", {}, h("figcaption", {}, title), button);
+    const view = h("div", { class: "view" }, button);
+    this.views.push({ view, button });
+    return h("figure", {}, h("figcaption", {}, title), view);
+  }
+
+  // All three pictures alike, the chosen texel in the middle.
+  zoom(times) {
+    const { width, height } = this.head;
+    const { x, y } = this.selection.texel ?? { x: width / 2, y: height / 2 };
+    for (const { view, button } of this.views) {
+      view.style.aspectRatio = `${width} / ${height}`;
+      button.style.width = `${100 * times}%`;
+      view.scrollLeft = (button.offsetWidth * (x + 0.5)) / width - view.clientWidth / 2;
+      view.scrollTop = (button.offsetHeight * (height - y - 0.5)) / height - view.clientHeight / 2;
+    }
+  }
+
+  zoomChoice() {
+    const choice = h("select", { id: "zoom", change: () => this.zoom(Number(choice.value)) }, [1, 2, 4, 8].map((times) => h("option", { value: String(times) }, times === 1 ? "whole" : `${times} times`)));
+    for (const { view } of this.views)
+      view.addEventListener("scroll", () => {
+        for (const other of this.views) if (other.view !== view) Object.assign(other.view, { scrollLeft: view.scrollLeft, scrollTop: view.scrollTop });
+      });
+    return h("p", { class: "choices" }, h("label", { for: "zoom" }, "Zoom "), choice);
   }
 
   key(event) {
@@ -233,6 +257,7 @@ export class Frames {
       frameSlider(this.selection, this.head.frames, this.differing),
       statistics,
       h("div", { class: "pictures" }, SIDES.map(([side, title]) => this.figure(side, title))),
+      this.zoomChoice(),
       words,
       this.legend(),
       h(

@@ -9,6 +9,7 @@ import { Frames } from "./frames_section.js";
 import { Inspector } from "./inspector.js";
 import { itemAt } from "./items.js";
 import { liveSection } from "./live/live_section.js";
+import { renderedSection } from "./rendered_section.js";
 import { Selection } from "./selection.js";
 import { stepsSection } from "./steps_section.js";
 import { studySection } from "./study_section.js";
@@ -32,6 +33,7 @@ function showRun(head, series, add) {
   const pictures = frames.section(new Inspector(head, frames, selection).part());
   add(chartSection(head, series, selection));
   add(pictures);
+  add(renderedSection(head));
   openClickedItems(head, frames, selection);
   add(stepsSection(head, selection));
   return frames;

@@ -35,6 +35,7 @@ function facts(head) {
     ["Run", `${counted(report.particles, schema.resources[0].item)}, ${report.partial ? `${report.frames} of ${counted(report.frames_asked, "frame")}` : counted(report.frames, "frame")}, ${report.mode}`],
     ["Compared", compared(head)],
     ["State hash", hash],
+    ["Written", [head.written, head.version && `by lockstep ${head.version}`].filter(Boolean).join(", ")],
   ];
   return h("dl", { class: "facts" }, rows.filter(([, value]) => value).map(([name, value]) => h("div", {}, h("dt", {}, name), h("dd", {}, value))));
 }
@@ -111,7 +112,7 @@ function firstPlace(head) {
     ["Where", `frame ${at.frame}, ${where}, step “${first.step}”`],
     ["Reference", first.operation],
     ["GPU", first.gpu_did],
-    ["Shows in", `${first.field}: reference ${first.reference_hex}, GPU ${first.gpu_hex}${first.margin ? `; ${first.margin}` : ""}`],
+    ["Shows in", `${first.field}: reference ${first.reference}, GPU ${first.gpu}${first.margin ? `; ${first.margin}` : ""}`],
   ];
   return h(
     "div",
@@ -160,6 +161,29 @@ function causeCard(found, what) {
   );
 }
 
+// What a user's shader changes of the shipped one; of one that is mostly its own, how many lines.
+function changesCard({ file, foreign, changes }) {
+  const most = 12;
+  const count = changes.reduce((sum, { before, now }) => sum + Math.max(before.length, now.length), 0);
+  const lines = ({ line, before, now }) => [
+    h("span", { class: "where" }, `${foreign}:${line}\n`),
+    before.map((text) => h("del", {}, `- ${text}\n`)),
+    now.map((text) => h("ins", {}, `+ ${text}\n`)),
+  ];
+  return h(
+    "div",
+    { class: "card" },
+    h("h3", {}, `What ${foreign} changes`),
+    count > most
+      ? h("p", {}, `${counted(count, "line")} are not those of the shipped ${file}.`)
+      : h("pre", { class: "changes", tabindex: "0", "aria-label": `Lines of ${foreign} that differ from the shipped ${file}` }, changes.flatMap(lines).flat()),
+  );
+}
+
+function changeCards(head) {
+  return (head.report.shaders.files ?? []).filter(({ changes }) => changes?.length > 0).map(changesCard);
+}
+
 // Nothing for a run without differences.
 export function causeSection(head) {
   const { verdicts } = head.report;
@@ -171,7 +195,7 @@ export function causeSection(head) {
       "div",
       { class: "cards" },
       h("div", { class: "stack" }, counts(head.schema).map(({ cause, many }) => causeCard(verdicts[cause], many)), h("div", { class: "card" }, classCounts(head))),
-      firstPlace(head),
+      h("div", { class: "stack" }, firstPlace(head), changeCards(head)),
     ),
   );
 }

@@ -1,0 +1,15 @@
+// The rendered frame as each side draws its own particles.
+import { h, section } from "./dom.js";
+import { grouped } from "./numbers.js";
+
+export function renderedSection({ rendered }) {
+  if (!rendered) return null;
+  const figure = ({ title, png }) =>
+    h("figure", {}, h("figcaption", {}, title), h("img", { class: "rendered", src: `data:image/png;base64,${png}`, alt: `${title}: rendered frame ${rendered.frame}` }));
+  return section(
+    "rendered",
+    "The rendered frame",
+    h("p", { class: "muted" }, `What a viewer sees in frame ${grouped(rendered.frame)}, each side's own particles. The difference is black where both have one colour.`),
+    h("div", { class: "pictures" }, rendered.pictures.map(figure)),
+  );
+}

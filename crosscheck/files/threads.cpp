@@ -4,6 +4,9 @@
 #include <atomic>
 #include <cstdio>
 #include <cstdlib>
+#include <future>
+#include <mutex>
+#include <thread>
 
 #include <fcntl.h>
 #include <fmt/format.h>
@@ -54,6 +57,24 @@ void let_waiting_threads_sleep(char** argv) {
     if (std::getenv("OMP_WAIT_POLICY") != nullptr || setenv("OMP_WAIT_POLICY", "passive", 1) != 0)
         return;
     execv("/proc/self/exe", argv); // returns only where it failed: then they spin
+}
+
+void have_waiting_threads_sleep_soon() {
+    static std::once_flag once;
+    if (std::getenv("OMP_WAIT_POLICY") != nullptr)
+        return;
+    std::call_once(once, [] {
+        std::promise<void> pool_is_there;
+        std::thread([&pool_is_there] {
+            std::atomic<int> present{0};
+#pragma omp parallel num_threads(2)
+            ++present;
+            pool_is_there.set_value();
+            for (;;)
+                pause(); // a pool ends with the thread that made it
+        }).detach();
+        pool_is_there.get_future().wait();
+    });
 }
 
 void start_threads(int wanted) {

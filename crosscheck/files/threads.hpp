@@ -15,6 +15,11 @@ std::string stack_problem();
 /// main, so the program starts itself once more with it set; a policy that the user set stays.
 void let_waiting_threads_sleep(char** argv);
 
+/// The same for a program of other people's that lockstep is a part of, which cannot be started once more: holds a
+/// second pool of threads that sleeps. GNU's OpenMP spins a thousand times instead of 300,000 where it has more threads
+/// than there are cores. Only the first call does anything.
+void have_waiting_threads_sleep_soon();
+
 /// Starts the reference's threads, before a GL driver takes its own: `wanted` of them, 0 for what OpenMP would take.
 /// Where so many cannot be started (limits on processes or memory, OMP_STACKSIZE), half of them, and so on; OpenMP
 /// itself would end the program. Results are the same for any number. Only the first call tries.

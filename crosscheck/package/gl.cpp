@@ -1,5 +1,6 @@
 #include <cstdlib>
 
+#include "crosscheck/files/threads.hpp"
 #include "crosscheck/scene/profiles.hpp"
 #include "gpu/probe.hpp"
 #include "lockstep/lockstep.hpp"
@@ -18,6 +19,7 @@ std::string asked_for(std::string_view context) {
 
 Gl::Gl(std::string_view context) : asked_(asked_for(context)) {
     const ContextRequest request = parse_context_request(asked_);
+    have_waiting_threads_sleep_soon();
     try {
         context_.emplace(request);
     } catch (const Error& error) {

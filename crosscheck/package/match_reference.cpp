@@ -7,6 +7,7 @@
 #include "crosscheck/collision/judge/side_state.hpp"
 #include "crosscheck/collision/report/frame_images.hpp"
 #include "crosscheck/files/shell_words.hpp"
+#include "crosscheck/files/threads.hpp"
 #include "crosscheck/package/folded_text.hpp"
 #include "crosscheck/report/places.hpp"
 #include "crosscheck/scene/profiles.hpp"
@@ -42,10 +43,10 @@ class CommandLines {
     [[nodiscard]] std::string repeat(const CheckReport& report) const {
         if (!program_can())
             return options_.repeat.empty() ? this_program(own_arguments()) : options_.repeat;
-        const int frames = report.first_frame ? *report.first_frame + 1 : report.frames;
-        return fmt::format("lockstep check {} --frames {}{}{}{}{}{}", scene_.origin, frames, *side_.arguments,
-                           options_.mode == CheckMode::free ? " --mode free" : "", legal_option_text(options_.legal),
-                           options_.render ? " --render" : "", pass_options_text(rules(options_)));
+        return fmt::format("lockstep check {} --frames {}{}{}{}{}{}", scene_.origin, frames_to_repeat(report),
+                           *side_.arguments, options_.mode == CheckMode::free ? " --mode free" : "",
+                           legal_option_text(options_.legal), options_.render ? " --render" : "",
+                           pass_options_text(rules(options_)));
     }
 
     [[nodiscard]] std::string explain(const CheckReport& report) const {
@@ -90,6 +91,7 @@ std::string MatchResult::failure(std::size_t width) const {
 }
 
 MatchResult match_reference(GpuSide& gpu, const Scene& scene, const MatchOptions& options) {
+    have_waiting_threads_sleep_soon();
     const auto* shaders = dynamic_cast<const UserShaders*>(&gpu);
     if (options.render && shaders == nullptr)
         throw Error("render: an engine of its own draws no frame that could be compared; UserShaders do");

@@ -17,6 +17,7 @@ demo=(
     libassimp-dev libmeshoptimizer-dev            # meshes: reading, decimation
     libhdf5-dev libaec-dev                        # traces: H5MD
     libdeflate-dev nettle-dev                     # reading them fast, their seal
+    libdtl-dev                                    # what a shader changes of the shipped one
     libedit-dev                                   # typed commands: editing, history, completion
     libseccomp-dev                                # the fence around the process that reads one
     libgl-dev libegl-dev                          # GL headers; the libraries are opened at run time

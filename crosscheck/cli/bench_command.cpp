@@ -16,6 +16,7 @@
 #include "crosscheck/command/judging_options.hpp"
 #include "crosscheck/command/option_values.hpp"
 #include "crosscheck/judge/stopwatch.hpp"
+#include "crosscheck/report/progress.hpp"
 #include "crosscheck/report/report.hpp"
 #include "crosscheck/report/statistics.hpp"
 #include "crosscheck/report/verdict_text.hpp"
@@ -160,8 +161,10 @@ Timing time_run(const Scene& scene, const Profile& profile, const BenchRequest& 
     check_options.frames = options.run.frames;
     check_options.repeated_frames = 0;
     check_options.known = known_operations(options.legal, profile);
-    check_options.on_frame = [&](int) {
+    Progress progress(fmt::format("bench {}", scene.start.size()), options.run.frames, true);
+    check_options.on_frame = [&](int done) {
         checked.push_back(now() - last);
+        progress.show(done);
         last = now();
     };
     last = now();
@@ -266,8 +269,10 @@ Verb bench_command() {
     verb.footer = "Exit status: as lockstep check's, 1 where a row does not pass.\n"
                   "Example: lockstep bench data/scenes/lattice.json --counts 50000,200000 --radius 1";
     verb.run = [options](const Call& call) {
-        if (call.has("--particles"))
-            throw Error("bench: --particles does not go with it; --counts N,... names how many");
+        if (call.has("--particles") && call.has("--counts"))
+            throw Error("bench: --particles N is --counts N; one of both is enough");
+        if (options->run.particles)
+            options->counts = {*options->run.particles};
         if (call.has("--radius") && system_of(options->run) != nullptr)
             throw Error("bench: --radius goes with scenes of system collision");
         if (call.has("--no-render") && system_of(options->run) != nullptr)

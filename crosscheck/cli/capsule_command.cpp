@@ -18,6 +18,8 @@
 #include "crosscheck/command/option_values.hpp"
 #include "crosscheck/files/plain_text.hpp"
 #include "crosscheck/files/threads.hpp"
+#include "crosscheck/report/colour.hpp"
+#include "crosscheck/report/progress.hpp"
 #include "crosscheck/scene/profiles.hpp"
 #include "gpu/context.hpp"
 #include "reference/model/error.hpp"
@@ -45,19 +47,33 @@ int status_of(const PixelCapsule& capsule) {
                                                                                                     : status_agree;
 }
 
-/// What is written, and the exit status.
+std::string verdict_of(const Capsule& capsule) {
+    const CapsuleVerdict verdict = judge(capsule);
+    return verdict.differs ? std::string(class_names[static_cast<std::size_t>(verdict.verdict.kind)])
+                           : "every bit agrees";
+}
+
+std::string verdict_of(const PixelCapsule& capsule) {
+    const std::optional<DifferenceClass> kind = table_of(capsule).kind;
+    return kind ? std::string(class_names[static_cast<std::size_t>(*kind)]) : "every bit agrees";
+}
+
+/// What is written, and in words what it holds.
 struct CutCapsule {
-    std::string file;
-    int status;
+    std::string file, words;
 };
 
 CutCapsule cut_from(FrameRun& run, const CapsuleRequest& options, const std::string& renderer,
                     const std::string& settings) {
     const std::size_t particle = particle_named(*options.particle, run.scene());
-    run.go_to(options.frame);
+    {
+        Progress progress("capsule cut", options.frame, true);
+        run.go_to(options.frame, [&](int done) { progress.show(done); });
+    }
     const Capsule capsule =
         cut_capsule(run.judged(), {run.scene(), renderer, settings, options.frame, particle, run.capture(particle)});
-    return {capsule_file(capsule), status_of(capsule)};
+    return {capsule_file(capsule),
+            fmt::format("particle {} of frame {}: {}", particle, options.frame, verdict_of(capsule))};
 }
 
 CutCapsule cut_live(const CapsuleRequest& options) {
@@ -73,7 +89,8 @@ CutCapsule cut_live(const CapsuleRequest& options) {
     run.go_to(options.frame);
     const PixelCapsule capsule =
         cut_pixel_capsule(judged_picture(run, options.run.shaders), {scene, renderer, settings, pixel});
-    return {capsule_file(capsule), status_of(capsule)};
+    return {capsule_file(capsule),
+            fmt::format("pixel ({}) of frame {}: {}", *options.pixel, options.frame, verdict_of(capsule))};
 }
 
 CutCapsule cut_recorded(const CapsuleRequest& options) {
@@ -109,7 +126,8 @@ int cut(const CapsuleRequest& options, const Call& call) {
     const CutCapsule capsule = options.trace.empty() ? cut_live(options) : cut_recorded(options);
     files.write(options.output, capsule.file);
     files.commit();
-    return capsule.status;
+    fmt::print("{}holds     {}\n", files.written_text(), plain_line(capsule.words));
+    return status_agree;
 }
 
 int show(const CapsuleRequest& options) {
@@ -117,7 +135,7 @@ int show(const CapsuleRequest& options) {
         return *status;
     const NumberFormat format = options.hexadecimal ? NumberFormat::hexadecimal : NumberFormat::decimal;
     const auto show_this = [&](const auto& capsule) {
-        fmt::print("{}", plain_text(capsule_text(capsule, format)));
+        fmt::print("{}", colored(plain_text(capsule_text(capsule, format))));
         return status_of(capsule);
     };
     const nlohmann::json document = read_json(options.capsule);
@@ -142,7 +160,7 @@ Verb capsule_command() {
         text_option("--pass", "NAME", options->pass, "of which pass, there; else the first that runs in the frame"));
     cut_verb.add(required(path_option("-o,--output", "FILE", options->output, "the capsule, JSON, at most 100 kB")));
     add_legal_option(cut_verb, options->legal);
-    cut_verb.footer = "Exit status: 0 it agrees or is legal, 1 it is not, 2 could not run.\n"
+    cut_verb.footer = "Exit status: 0 written, 2 could not run.\n"
                       "Example: lockstep capsule cut data/scenes/lattice.json --frame 30 --particle 17 -o 17.json";
     cut_verb.run = [options](const Call& call) { return cut(*options, call); };
 

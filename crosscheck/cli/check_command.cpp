@@ -29,6 +29,7 @@
 #include "crosscheck/files/shell_words.hpp"
 #include "crosscheck/files/signals.hpp"
 #include "crosscheck/files/threads.hpp"
+#include "crosscheck/report/colour.hpp"
 #include "crosscheck/report/page/study_results.hpp"
 #include "crosscheck/report/page/template.hpp"
 #include "crosscheck/report/places.hpp"
@@ -59,6 +60,7 @@ struct CheckRequest {
     bool stress = false; ///< the stress scenes instead of one
     bool power = false;  ///< list the mistakes that would have shown
     bool quiet = false;
+    bool hexadecimal = false;
 };
 
 std::string repeat_line(const CheckRequest& options, int frames) {
@@ -68,7 +70,8 @@ std::string repeat_line(const CheckRequest& options, int frames) {
     if (options.mode == CheckMode::free)
         line += " --mode free";
     line += legal_option_text(options.legal);
-    return line + pass_options_text(options.rules) + (options.no_render ? " --no-render" : "");
+    return line + pass_options_text(options.rules) + (options.no_render ? " --no-render" : "") +
+           (options.render ? " --render" : "");
 }
 
 /// `at`: "--frame 3 --particle 17".
@@ -98,7 +101,7 @@ void expect_files(const CheckRequest& options, OutputFiles& files) {
 std::vector<PageCommand> page_commands(const CheckRequest& options, const RunDescription& run,
                                        const CheckReport& report) {
     std::vector<PageCommand> commands{{"This run", repeat_line(options, report.frames)}};
-    if (report.first_frame && *report.first_frame + 1 < report.frames)
+    if (frames_to_repeat(report) < report.frames)
         commands.push_back({"Up to the first frame that differs", run.repeat});
     if (!run.explain.empty()) {
         commands.push_back({"The first divergence, step by step", run.explain});
@@ -181,20 +184,20 @@ SecondLook look_again(const CheckRequest& options, const Checked& checked, const
 
 RunDescription description(const CheckRequest& options, const Checked& checked, const CheckReport& report) {
     const bool free = options.mode == CheckMode::free;
-    const bool whole = !report.first_frame || report.state_verdict; // the rendered frame is the last
     const std::string first = first_arguments(report, checked.scene.width);
-    const int repeat_frames = whole ? report.frames : *report.first_frame + 1;
     return {fmt::format("{} ({})", checked.scene.name, plain_line(checked.file)),
             checked.context,
             describe(checked.profile),
             checked.settings,
             free ? "free" : "resync",
-            repeat_line(options, repeat_frames),
+            repeat_line(options, frames_to_repeat(report)),
             first.empty() ? first : explain_line(options, first),
             checked.notes,
             checked.shaders,
             checked.recorded_shaders.empty() ? "not in the recording" : "recorded: " + checked.recorded_shaders,
-            checked.shaders ? " (--no-render)" : ": no picture is in a recording"};
+            checked.shaders ? " (--no-render)" : ": no picture is in a recording",
+            true,
+            number_format(options.hexadecimal)};
 }
 
 bool is_rendered(const CheckRequest& options) { return !options.no_render; }
@@ -231,7 +234,7 @@ int check_and_tell(const CheckRequest& options, OutputFiles& files, const Checke
                 earlier = frame.gpu;
             if (!options.hashes.empty())
                 hashes.add(frame);
-            if (!options.images.empty())
+            if (!options.images.empty() || (collector && checked.shaders))
                 images.keep(frame);
             if (collector)
                 collector->add(frame);
@@ -261,7 +264,7 @@ int check_and_tell(const CheckRequest& options, OutputFiles& files, const Checke
     if (!options.quiet) {
         if (report.partial())
             fmt::print("interrupted after {} of {} frames\n", report.frames, options.run.frames);
-        fmt::print("{}{}", plain_text(report_text(report, run)),
+        fmt::print("{}{}", colored(plain_text(report_text(report, run))),
                    options.power ? power_text(report.power) : std::string());
         std::fflush(stdout);
     }
@@ -277,8 +280,14 @@ int check_and_tell(const CheckRequest& options, OutputFiles& files, const Checke
             commands.push_back({"The first divergent particle's step, from the file beside this page; needs no GL",
                                 fmt::format("lockstep capsule show {}", shell_path(options.report / report_files[1]))});
         }
+        RenderedFrame rendered{images.frame(), {}};
+        if (checked.shaders && images.frame() >= 0) {
+            auto [reference, gpu, difference] = images.rendered(checked.scene, checked.profile, options.run.shaders);
+            rendered.pictures = {
+                {"Reference", std::move(reference)}, {"GPU", std::move(gpu)}, {"Difference", std::move(difference)}};
+        }
         files.write(options.report / report_files[0],
-                    report_page(page, *collector, report, run, commands, look.items, study));
+                    report_page(page, *collector, report, run, commands, look.items, study, rendered));
     }
     if (!options.json.empty())
         files.write(options.json, json_text(report_json(report, run)));
@@ -287,6 +296,8 @@ int check_and_tell(const CheckRequest& options, OutputFiles& files, const Checke
     if (!options.images.empty())
         images.write(files, options.images, checked.scene, checked.profile, options.run.shaders);
     files.commit();
+    if (!options.quiet)
+        fmt::print("{}", files.written_text());
     if (report.partial())
         return status_interrupted;
     return passes(report, options.rules) ? status_agree : status_differ;
@@ -353,6 +364,7 @@ SystemCheck system_check(const CheckRequest& options) {
             .report = options.report,
             .power = options.power,
             .quiet = options.quiet,
+            .hexadecimal = options.hexadecimal,
             .render = !options.no_render,
             .trace = options.trace,
             .frames_given = options.frames_given};
@@ -376,8 +388,9 @@ Verb report_command() {
     Verb verb{"report", "check a recorded run, and write report.html about it"};
     verb.add(required(path_option("trace", "FILE", options->trace,
                                   "what `lockstep record` wrote, or an engine of your own (docs/traces.md)")));
-    verb.add(path_option("-o,--output", "DIR", options->report, "where report.html goes; else here"));
-    verb.add(integer_option("--frames", "N", {1, most_frames}, options->run.frames, "frames to compare; else all"));
+    verb.add(path_option("-o,--output", "DIR", options->report, "where report.html goes"));
+    verb.add(
+        otherwise(integer_option("--frames", "N", {1, most_frames}, options->run.frames, "frames to compare"), "all"));
     add_threads_option(verb, options->run);
     add_legal_option(verb, options->legal);
     add_pass_options(verb, options->rules);
@@ -417,6 +430,7 @@ Verb check_command() {
     verb.add(flag("--power", options->power, "list which mistakes the run would have shown, and why not the others"));
     verb.add(flag("--stress", options->stress,
                   "instead of a scene: all of data/scenes/stress, small ones in which mistakes show"));
+    verb.add(hex_option(options->hexadecimal));
     verb.add(flag("--quiet", options->quiet, "no report, only the exit status"));
     verb.footer =
         "Exit status: 0 every bit agrees, or what differs is legal (rounding, ties); 1 divergent, undefined "

@@ -18,6 +18,9 @@
 #include "crosscheck/command/option_values.hpp"
 #include "crosscheck/files/plain_text.hpp"
 #include "crosscheck/files/threads.hpp"
+#include "crosscheck/report/colour.hpp"
+#include "crosscheck/report/progress.hpp"
+#include "crosscheck/report/shader_diff.hpp"
 #include "crosscheck/scene/profiles.hpp"
 #include "gpu/context.hpp"
 #include "reference/model/error.hpp"
@@ -53,21 +56,25 @@ void tell(const ExplainRequest& options, FrameRun& frames, const std::string& fi
           const std::string& renderer) {
     const Scene& scene = frames.scene();
     const std::size_t item = item_of(options, scene);
-    frames.go_to(options.frame);
+    {
+        Progress progress("explain", options.frame, true);
+        frames.go_to(options.frame, [&](int done) { progress.show(done); });
+    }
     const NumberFormat format = options.hexadecimal ? NumberFormat::hexadecimal : NumberFormat::decimal;
     fmt::print("scene     {} ({})\nswitches  {}\nGL        {}\nprofile   {}\n\n", scene.name, plain_line(file),
                settings, plain_line(renderer), describe(frames.profile()));
-    fmt::print("{}", plain_text(text_of(options, frames, item, format)));
+    fmt::print("{}", colored(plain_text(text_of(options, frames, item, format))));
 }
 
 void explain_scene(const ExplainRequest& options) {
     const Scene scene = load(options.run);
-    static_cast<void>(shaders_to_run(options.run, scene, options.pixel.has_value()));
+    const ShaderUse shaders = shaders_to_run(options.run, scene, options.pixel.has_value());
     item_of(options, scene);
     const Context context(parse_context_request(options.run.gl));
     const Profile profile = measured_profile(context, options.run.shaders);
     FrameRun frames(scene, profile, known_operations(options.legal, profile), options.run.shaders);
     tell(options, frames, options.run.scene.string(), settings_text(options.run, scene), summary(context.describe()));
+    fmt::print("{}", plain_text(shader_diff_text(shaders)));
 }
 
 void explain_trace(const ExplainRequest& options) {
@@ -129,7 +136,7 @@ Verb explain_command() {
         text_option("--pass", "NAME", options->pass, "of which pass, there; else the first that runs in the frame"));
     add_legal_option(verb, options->legal);
     verb.add(hex_option(options->hexadecimal));
-    verb.footer = "Exit status: 0 told, 2 could not run.\n"
+    verb.footer = "Exit status: 0 printed, 2 could not run.\n"
                   "Example: lockstep explain data/scenes/lattice.json --frame 30 --particle 17";
     verb.run = [options](const Call& call) { return run(*options, call); };
     return verb;

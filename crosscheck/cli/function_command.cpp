@@ -16,6 +16,7 @@
 #include "crosscheck/files/plain_text.hpp"
 #include "crosscheck/files/shell_words.hpp"
 #include "crosscheck/package/function_signature.hpp"
+#include "crosscheck/report/colour.hpp"
 #include "lockstep/function_table.hpp"
 #include "reference/model/near_name.hpp"
 
@@ -158,7 +159,7 @@ int run_function(const FunctionRequest& options) {
                                          options.like_name.empty() ? options.name : options.like_name, true),
                              how);
     if (!options.quiet)
-        fmt::print("{}", plain_text(result.text()));
+        fmt::print("{}", colored(plain_text(result.text())));
     if (!options.json.empty())
         files.write(options.json, json_text(report_json(result.report(), result.run())));
     files.commit();

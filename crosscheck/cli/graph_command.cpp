@@ -11,6 +11,7 @@
 #include "crosscheck/files/plain_text.hpp"
 #include "crosscheck/files/shell_words.hpp"
 #include "crosscheck/judge/graph_system.hpp"
+#include "crosscheck/report/colour.hpp"
 #include "crosscheck/scene/graph_catalogue.hpp"
 #include "crosscheck/scene/graph_file.hpp"
 #include "crosscheck/scene/profiles.hpp"
@@ -49,7 +50,7 @@ int check_graph(const GraphRequest& options) {
                                                         shell_word(options.file.string()), options.items, options.seed,
                                                         options.exact ? " --exact" : ""));
         about.scene = fmt::format("{} ({})", scene.system.name, plain_line(options.file.string()));
-        fmt::print("{}", plain_text(report_text(report, about)));
+        fmt::print("{}", colored(plain_text(report_text(report, about))));
     }
     return passes(report) ? status_agree : status_differ;
 }

@@ -7,6 +7,7 @@
 #include "crosscheck/cli/run_options.hpp"
 #include "crosscheck/cli/system_verbs.hpp"
 #include "crosscheck/command/option_values.hpp"
+#include "crosscheck/report/progress.hpp"
 #include "reference/collision/simulation.hpp"
 #include "reference/model/collision/collision_state.hpp"
 #include "reference/model/profile.hpp"
@@ -26,8 +27,10 @@ int run(const HashRequest& options) {
         return hash_system(*system, options.run, options.profile, options.every);
     const Scene scene = load(options.run);
     ReferenceSimulation reference(scene, named_profile(options.profile));
+    Progress progress("hash", options.run.frames, true);
     for (int frame = 0; frame < options.run.frames; ++frame) {
         reference.step(frame_params(scene, frame));
+        progress.show(frame + 1);
         if (options.every || frame + 1 == options.run.frames)
             fmt::print("{} {}\n", frame, hash_text(state_hash(reference.particles(), reference.cdt())));
     }

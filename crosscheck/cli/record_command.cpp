@@ -41,8 +41,8 @@ void prove(GpuSimulation& gpu, const FrameParams& params, const Particles& parti
     CollisionImage again;
     gpu.read(again);
     if (!gpu.holds(particles) || !compare(cdt, again).agree())
-        throw Error(fmt::format("the GPU gave two answers to frame {}, so nothing was recorded; lockstep check tells "
-                                "where they differ",
+        throw Error(fmt::format("the GPU gave two answers to frame {}, so nothing was recorded; lockstep check "
+                                "reports where they differ",
                                 frame));
 }
 

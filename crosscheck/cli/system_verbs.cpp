@@ -18,8 +18,10 @@
 #include "crosscheck/judge/system_check.hpp"
 #include "crosscheck/record/capsule_parts.hpp"
 #include "crosscheck/record/item_capsule.hpp"
+#include "crosscheck/report/colour.hpp"
 #include "crosscheck/report/item_text.hpp"
 #include "crosscheck/report/picture_difference.hpp"
+#include "crosscheck/report/places.hpp"
 #include "crosscheck/report/power_text.hpp"
 #include "crosscheck/report/run_to_run.hpp"
 #include "crosscheck/report/system_debug_run.hpp"
@@ -35,7 +37,7 @@ constexpr int capsule_version = 1;
 std::string check_line(const SystemInput& input, const SystemCheck& asked, int frames) {
     return input.command("check", fmt::format("--frames {}", frames)) +
            (asked.mode == CheckMode::free ? " --mode free" : "") + legal_option_text(asked.legal) +
-           pass_options_text(asked.rules);
+           pass_options_text(asked.rules) + (asked.render ? "" : " --no-render");
 }
 
 /// What the last frame draws.
@@ -171,13 +173,13 @@ std::string explain_drawn(SystemInput& input, const RunOptions& run, const Syste
 } // namespace
 
 std::span<const std::string_view> system_check_options() {
-    static constexpr std::array<std::string_view, 21> options{
+    static constexpr std::array<std::string_view, 22> options{
         "--trace",        "--power",     "--power-at-least", "--json",
         "scene",          "--particles", "--preset",         "--set",
         "--threads",      "--gl",        "--shaders",        "--frames",
         "--allow-unused", "--mode",      "--legal",          "--quiet",
         "--no-render",    "--hashes",    "--images",         "--allow-undefined",
-        "--report"};
+        "--report",       "--hex"};
     return options;
 }
 
@@ -220,8 +222,9 @@ int check_system(const RegisteredSystem& system, RunOptions run, const SystemChe
     CheckReport report = check_shown(twins, side, options, asked.quiet, watch);
     ask_power(report, asked.rules.power_at_least);
 
-    const int frames = report.first_frame ? *report.first_frame + 1 : report.frames;
-    RunDescription about = describe_run(twins, side.describe(), options, check_line(input, asked, frames));
+    RunDescription about =
+        describe_run(twins, side.describe(), options, check_line(input, asked, frames_to_repeat(report)));
+    about.numbers = number_format(asked.hexadecimal);
     input.describe(about);
     for (const std::vector<std::string>& some : {input.left_open(side.describe().profile), run_to_run_notes(two_runs)})
         about.notes.insert(about.notes.end(), some.begin(), some.end());
@@ -239,10 +242,10 @@ int check_system(const RegisteredSystem& system, RunOptions run, const SystemChe
     if (!asked.quiet) {
         if (report.partial())
             fmt::print("interrupted after {} of {} frames\n", report.frames, run.frames);
-        fmt::print("{}{}", plain_text(report_text(report, about)),
+        fmt::print("{}{}", colored(plain_text(report_text(report, about))),
                    asked.power ? power_text(report.power) : std::string());
         if (drawn.report)
-            fmt::print("{}", plain_text(drawn_text(drawn, asked.rules)));
+            fmt::print("{}", colored(plain_text(drawn_text(drawn, asked.rules))));
         std::fflush(stdout);
     }
     CheckFiles::Told told{{{"This run", check_line(input, asked, report.frames)}},
@@ -251,7 +254,7 @@ int check_system(const RegisteredSystem& system, RunOptions run, const SystemChe
                           [](const std::filesystem::path& capsule) {
                               return fmt::format("lockstep capsule show {}", shell_path(capsule));
                           }};
-    if (report.first_frame && *report.first_frame + 1 < report.frames)
+    if (frames_to_repeat(report) < report.frames)
         told.commands.push_back({"Up to the first frame that differs", about.repeat});
     if (!about.explain.empty())
         told.commands.push_back({"The first item that differs, step by step", about.explain});
@@ -271,6 +274,8 @@ int check_system(const RegisteredSystem& system, RunOptions run, const SystemChe
     if (!asked.images.empty())
         pictured.write(files, asked.images, input.scene(), input.gl(), side.describe().profile, run);
     files.commit();
+    if (!asked.quiet)
+        fmt::print("{}", files.written_text());
     if (report.partial())
         return status_interrupted;
     return passes(report, asked.rules) && (!drawn.report || passes(*drawn.report, drawn_rules(asked.rules)))
@@ -287,7 +292,7 @@ int explain_system(const RegisteredSystem& system, const RunOptions& run, const 
     }
     static_cast<void>(place_of(item, input.system()));
     SystemSide& side = input.open();
-    fmt::print("{}", explain_text(input.system(), side, item, input.read().file));
+    fmt::print("{}", colored(explain_text(input.system(), side, item, input.read().file)));
     return status_agree;
 }
 
@@ -307,7 +312,8 @@ int cut_system(const RegisteredSystem& system, const RunOptions& run, const Syst
     const ItemCapsule capsule = cut_item(input.system(), side, item);
     files.write(output, capsule_text(input.read(), capsule));
     files.commit();
-    return status_of(capsule, input.system());
+    print_cut(files, input.system(), item, capsule);
+    return status_agree;
 }
 
 int debug_system(const RegisteredSystem& system, const RunOptions& run, Legal legal, DebugSetup setup,
@@ -398,7 +404,7 @@ std::optional<int> show_system(const std::filesystem::path& file, bool hexadecim
         recorded_scene(*system, document.at("scene"), document.at("options"), value.at("name").label(), file.string())
             .scene;
     const ItemCapsule capsule = read_item_capsule(value.at("capsule"), scene.system);
-    fmt::print("{}", shown_text(capsule, scene.system, number_format(hexadecimal)));
+    fmt::print("{}", colored(shown_text(capsule, scene.system, number_format(hexadecimal))));
     return status_of(capsule, scene.system);
 }
 

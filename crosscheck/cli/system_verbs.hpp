@@ -22,6 +22,7 @@ struct SystemCheck {
     std::filesystem::path json, hashes, images, report;
     bool power = false; ///< list the mistakes that would have shown
     bool quiet = false;
+    bool hexadecimal = false;
     bool render = true;               ///< what the last frame draws is judged, too; of a recording it is not
     std::filesystem::path trace = {}; ///< the recording; empty: a scene that runs here
     bool frames_given = false;        ///< else all that were recorded

@@ -6,6 +6,7 @@
 
 #include <fmt/format.h>
 
+#include "crosscheck/files/plain_text.hpp"
 #include "crosscheck/files/signals.hpp"
 #include "reference/model/error.hpp"
 
@@ -70,6 +71,13 @@ void OutputFiles::expect(const fs::path& file) {
     add(file);
 }
 
+std::string OutputFiles::written_text() const {
+    std::string text;
+    for (const fs::path& file : named_)
+        text += fmt::format("{}{}", text.empty() ? "written   " : ", ", plain_line(file.string()));
+    return text.empty() ? text : text + "\n";
+}
+
 void OutputFiles::make_folder(const fs::path& folder) {
     for (const fs::path& path : missing_folders(folder)) {
         Temporary made(path);
@@ -120,6 +128,7 @@ void OutputFiles::commit() {
                 files_.at(*--path).undo();
             throw;
         }
+    named_.insert(named_.end(), whole, written_.end());
     files_.clear();
     written_.clear();
     for (Temporary& folder : new_folders_)

@@ -2,6 +2,7 @@
 #include <filesystem>
 #include <map>
 #include <span>
+#include <string>
 #include <string_view>
 #include <vector>
 
@@ -34,6 +35,10 @@ class OutputFiles {
     /// Gives all files that were written their names.
     void commit();
 
+    /// "written   page/report.html, page/capsule.json\n": what commit gave a name; empty: nothing. Pipes and devices
+    /// are left out.
+    [[nodiscard]] std::string written_text() const;
+
     /// Whether the program has expected any file so far.
     static bool any_expected();
 
@@ -47,6 +52,7 @@ class OutputFiles {
     std::map<std::filesystem::path, AtomicFile> files_;
     std::vector<std::filesystem::path> written_; ///< in files_
     std::vector<std::filesystem::path> folders_; ///< expected
+    std::vector<std::filesystem::path> named_;   ///< by commit
 };
 
 } // namespace lockstep

@@ -103,6 +103,14 @@ ItemCapsule cut_item(const System& system, SystemSide& side, const SystemItem& i
     return cut_item_capsule(run, index, about.name);
 }
 
+void print_cut(const OutputFiles& files, const System& system, const SystemItem& item, const ItemCapsule& capsule) {
+    const auto [pass, index] = place_of(item, system);
+    const std::uint8_t resource = system.passes[pass]->resource();
+    fmt::print("{}holds     {} of frame {}, pass {}: {}\n", files.written_text(),
+               item_name(system.schema.resources[resource], system.start.extent(resource), index), item.frame,
+               system.passes[pass]->name(), class_names[static_cast<std::size_t>(judge(capsule, system).kind)]);
+}
+
 std::string shown_text(const ItemCapsule& capsule, const System& system, NumberFormat format) {
     return heading(system, "", capsule.renderer, capsule.profile) +
            plain_text(item_capsule_text(capsule, system, format));

@@ -56,6 +56,9 @@ std::string explain_drawn_text(const System& picture, SystemSide& drawn, const S
 
 ItemCapsule cut_item(const System& system, SystemSide& side, const SystemItem& item);
 
+/// What `capsule cut` prints: what was written, the item, and its verdict.
+void print_cut(const OutputFiles& files, const System& system, const SystemItem& item, const ItemCapsule& capsule);
+
 /// What `capsule show` prints.
 std::string shown_text(const ItemCapsule& capsule, const System& system, NumberFormat format);
 

@@ -18,6 +18,7 @@
 #include "crosscheck/files/plain_text.hpp"
 #include "crosscheck/judge/item_place.hpp"
 #include "crosscheck/package/item_verbs.hpp"
+#include "crosscheck/report/colour.hpp"
 #include "crosscheck/report/system_debug_run.hpp"
 
 namespace lockstep {
@@ -129,6 +130,7 @@ int check_verb(const OwnProgram& program, const Options& options) {
         check_shown(program.system, *gpu, check, options.quiet, outputs.watch(program.system, *gpu, check.frames));
     ask_power(report, options.rules.power_at_least);
     RunDescription run = describe_run(program.system, gpu->describe(), check, this_program(program.words));
+    run.numbers = number_format(options.item.hexadecimal);
     if (gpu.recording() != nullptr) {
         run.shaders_untold = "recorded: " + gpu.recording()->info().shaders;
         run.notes = gpu.recording()->warnings();
@@ -145,10 +147,10 @@ int check_verb(const OwnProgram& program, const Options& options) {
     if (const auto words = first_item_words(program.system, report); !words.empty())
         run.explain = explain_line(words);
     if (!options.quiet)
-        fmt::print("{}{}{}",
-                   report.partial() ? fmt::format("interrupted after {} of {} frames\n", report.frames, check.frames)
-                                    : "",
-                   plain_text(report_text(report, run)), options.power ? power_text(report.power) : std::string());
+        fmt::print(
+            "{}{}{}",
+            report.partial() ? fmt::format("interrupted after {} of {} frames\n", report.frames, check.frames) : "",
+            colored(plain_text(report_text(report, run))), options.power ? power_text(report.power) : std::string());
     std::fflush(stdout);
     CheckFiles::Told told{{{"This run", run.repeat}}, explain_line, {}, [](const std::filesystem::path& capsule) {
                               return this_program({"capsule", "show", capsule.string()});
@@ -165,6 +167,8 @@ int check_verb(const OwnProgram& program, const Options& options) {
     if (!options.capsule.empty())
         keep_capsule(program, options, report, *gpu, files);
     files.commit();
+    if (!options.quiet)
+        fmt::print("{}", files.written_text());
     if (report.partial())
         return status_interrupted;
     return passes(report, options.rules) ? status_agree : status_differ;
@@ -173,7 +177,7 @@ int check_verb(const OwnProgram& program, const Options& options) {
 int explain_verb(const OwnProgram& program, const Options& options) {
     static_cast<void>(place_of(options.item, program.system));
     OpenSide gpu(program, options);
-    fmt::print("{}", explain_text(program.system, *gpu, options.item, ""));
+    fmt::print("{}", colored(explain_text(program.system, *gpu, options.item, "")));
     return status_agree;
 }
 
@@ -224,7 +228,8 @@ int cut_verb(const OwnProgram& program, const Options& options) {
     const ItemCapsule capsule = cut_item(program.system, *gpu, options.item);
     files.write(options.capsule, item_capsule_file(capsule, program.system));
     files.commit();
-    return status_of(capsule, program.system);
+    print_cut(files, program.system, options.item, capsule);
+    return status_agree;
 }
 
 int show_verb(const OwnProgram& program, const Options& options) {
@@ -269,6 +274,7 @@ Verb verbs_of(const std::string& name, const OwnProgram& program, const std::sha
     check.add(path_option("--hashes", "FILE", options->hashes, "write both sides' state hash of every frame"));
     check.add(path_option("--report", "DIR", options->report, "write report.html, a page that opens in any browser"));
     check.add(path_option("--capsule", "FILE", options->capsule, "keep the first item that is divergent"));
+    check.add(hex_option(options->item.hexadecimal));
     check.add(flag("--quiet", options->quiet, "no report, only the exit status"));
     add_trace_option(check);
     check.run = running(check_verb);
@@ -285,7 +291,8 @@ Verb verbs_of(const std::string& name, const OwnProgram& program, const std::sha
     Verb report{"report", "check a recorded run, and write report.html about it"};
     report.add(required(path_option("trace", "FILE", options->trace, "what `record` wrote")));
     report.add(required(path_option("-o,--output", "DIR", options->report, "where report.html goes")));
-    report.add(integer_option("--frames", "N", {1, most_frames}, options->frames, "frames to compare; else all"));
+    report.add(
+        otherwise(integer_option("--frames", "N", {1, most_frames}, options->frames, "frames to compare"), "all"));
     add_legal_option(report, options->item.legal);
     report.add(flag("--quiet", options->quiet, "the page alone, and the exit status"));
     report.run = running(check_verb);

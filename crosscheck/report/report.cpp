@@ -9,6 +9,7 @@
 
 #include "crosscheck/judge/item_place.hpp"
 #include "crosscheck/report/power_text.hpp"
+#include "crosscheck/report/shader_diff.hpp"
 #include "crosscheck/report/value_text.hpp"
 #include "crosscheck/report/verdict_text.hpp"
 #include "reference/model/state_hash.hpp"
@@ -339,8 +340,9 @@ std::string report_text(const CheckReport& r, const RunDescription& run) {
     const std::string_view second = r.verdict == Verdict::nondeterministic ? "second run" : "GPU";
     const std::string_view first = r.verdict == Verdict::nondeterministic ? "first run" : "reference";
     for (const FrameDifference& d : r.worst)
-        out += fmt::format("  {}: {} {}, {} {}, {}\n", place(r, d), first, value_text(d.difference.reference), second,
-                           value_text(d.difference.gpu), distance_text(d.difference));
+        out +=
+            fmt::format("  {}: {} {}, {} {}, {}\n", place(r, d), first, value_text(d.difference.reference, run.numbers),
+                        second, value_text(d.difference.gpu, run.numbers), distance_text(d.difference));
     if (run.mode == "free" && r.verdict == Verdict::differ) {
         out += growth_text(r);
     }
@@ -350,6 +352,13 @@ std::string report_text(const CheckReport& r, const RunDescription& run) {
 
 namespace {
 
+nlohmann::json changes_json(const UsedShader& used) {
+    nlohmann::json changes = nlohmann::json::array();
+    for (const ShaderChange& change : shader_changes(used))
+        changes.push_back({{"line", change.line}, {"before", change.before}, {"now", change.now}});
+    return changes;
+}
+
 nlohmann::json shaders_json(const RunDescription& run) {
     nlohmann::json files = nlohmann::json::array();
     if (run.shaders)
@@ -358,7 +367,8 @@ nlohmann::json shaders_json(const RunDescription& run) {
                 {{"file", used.file},
                  {"foreign", used.foreign.empty() ? nlohmann::json() : nlohmann::json(used.foreign.string())},
                  {"same_as_shipped", used.foreign.empty() || used.same_as_shipped},
-                 {"left_out", used.leaves_out}});
+                 {"left_out", used.leaves_out},
+                 {"changes", changes_json(used)}});
     return {{"text", shaders_line(run)}, {"files", files}};
 }
 

@@ -6,6 +6,7 @@
 #include <nlohmann/json_fwd.hpp>
 
 #include "crosscheck/judge/check.hpp"
+#include "crosscheck/report/value_text.hpp"
 #include "gpu/shader_use.hpp"
 
 namespace lockstep {
@@ -24,6 +25,7 @@ struct RunDescription {
     std::string shaders_untold = "an engine's own, of which nothing is known";
     std::string render_hint = {}; ///< how the rendered frame would be compared, where it was not
     bool draws = true;            ///< a picture for people, which can be compared
+    NumberFormat numbers = NumberFormat::decimal;
 };
 
 /// "AGREE", "LEGAL", ...

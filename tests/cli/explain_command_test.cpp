@@ -1,5 +1,6 @@
 #include <catch2/catch.hpp>
 
+#include <fstream>
 #include <sstream>
 #include <string>
 #include <vector>
@@ -106,6 +107,29 @@ TEST_CASE("explain_command: check's first divergence names the command that show
     }
 }
 
+TEST_CASE("explain_command: points at the shader's own line, with the shipped one's; of a rewrite at none") {
+    if (!test::have_software_gl())
+        return;
+    const Setting setting;
+    const std::vector<std::string> place{"--frame", "2", "--particle", "17"};
+    CHECK_THAT(setting.explain(place).out, !Catch::Contains("source "));
+    test::plant(setting.shaders, "collision_pass.vert", "v_CollideTime = u_CollisionTime;", "v_CollideTime = 0.5;");
+    const std::string text = setting.explain(place).out, file = setting.shaders.path() / "collision_pass.vert";
+    CHECK_THAT(text,
+               Catch::Contains("source    " + file + " differs from the shipped collision_pass.vert in 1 line:\n") &&
+                   Catch::Contains("- v_CollideTime = u_CollisionTime;\n") &&
+                   Catch::Contains("+ v_CollideTime = 0.5;\n"));
+    std::ifstream stream(file);
+    int line = 1;
+    for (std::string read; std::getline(stream, read) && read.find("= 0.5;") == std::string::npos;)
+        ++line;
+    CHECK_THAT(text, Catch::Contains(file + ":" + std::to_string(line) + "\n"));
+
+    std::ofstream(file, std::ios::app) << "// one\n// two\n// three\n// four\n// five\n// six\n// seven\n"
+                                          "// eight\n// nine\n// ten\n// eleven\n// twelve\n";
+    CHECK_THAT(setting.explain(place).out, Catch::Contains(": 13 lines are not those of the shipped"));
+}
+
 TEST_CASE("explain_command: what cannot be explained is told in one line") {
     const Setting setting;
     const std::vector<std::string> start{"explain", setting.scene};
@@ -113,15 +137,16 @@ TEST_CASE("explain_command: what cannot be explained is told in one line") {
         options.insert(options.begin(), start.begin(), start.end());
         return refusal(run_lockstep(options));
     };
-    CHECK(told({"--particle", "1"}) == "--frame is required (lockstep --help says more)");
+    CHECK(told({"--particle", "1"}) ==
+          "--frame F is missing: the frame, counted from 0 (lockstep explain --help says more)");
     CHECK(told({"--frame", "-1", "--particle", "1"}) ==
-          "--frame: '-1' is not an integer from 0 to 100000000 (lockstep --help says more)");
+          "--frame: '-1' is not an integer from 0 to 100000000 (lockstep explain --help says more)");
     const std::string one = "explain: one of --particle I, --texel X,Y and --pixel X,Y is needed";
     CHECK(told({"--frame", "1"}) == one);
     CHECK(told({"--frame", "1", "--particle", "1", "--texel", "1,1"}) == one);
     CHECK(told({"--frame", "1", "--pixel", "1,1", "--texel", "1,1"}) == one);
     CHECK(told({"--frame", "1", "--particle", "1", "--legal", "loose"}) ==
-          "--legal: 'loose' is not one of measured, glsl, any_order (lockstep --help says more)");
+          "--legal: 'loose' is not one of measured, glsl, any_order (lockstep explain --help says more)");
     for (const char* wrong : {"300", "-1", "x", "1.5", ""})
         CHECK(told({"--frame", "1", "--particle", wrong}) ==
               "there is no particle '" + std::string(wrong) + "'; scene has 0 to 299");

@@ -40,6 +40,24 @@ TEST_CASE("terminal: a bar on a terminal, wiped at the end; none in a pipe, none
     CHECK_THAT(piped.out, !Catch::Contains(bar) && !Catch::Contains("\x1b"));
 }
 
+TEST_CASE("terminal: the verdict is in colour, unless NO_COLOR is set or the terminal has none") {
+    if (!test::have_software_gl() || !test::have_terminal())
+        return;
+    const test::TemporaryFolder folder;
+    const auto shown = [&](const std::vector<std::pair<std::string, std::string>>& environment) {
+        test::Surroundings surroundings;
+        surroundings.environment = environment;
+        return run_lockstep_on_terminal({"check", folder.write("scene.json", test::small_scene).string(), "--frames",
+                                         "2", "--gl", test::software_gl()},
+                                        "", "", 80, surroundings)
+            .out;
+    };
+    const std::string green = "verdict   \x1b[32mAGREE\x1b[0m", plain = "verdict   AGREE";
+    CHECK_THAT(shown({{"TERM", "xterm"}, {"NO_COLOR", ""}}), Catch::Contains(green));
+    CHECK_THAT(shown({{"TERM", "xterm"}, {"NO_COLOR", "1"}}), Catch::Contains(plain));
+    CHECK_THAT(shown({{"TERM", "dumb"}, {"NO_COLOR", ""}}), Catch::Contains(plain));
+}
+
 TEST_CASE("terminal: the bar keeps to one line, however narrow") {
     if (!test::have_software_gl() || !test::have_terminal())
         return;

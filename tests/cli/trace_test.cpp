@@ -145,7 +145,7 @@ TEST_CASE("record: what cannot be written is told before the run, and nothing is
     CHECK_THAT(
         refusal(run_lockstep({"record", setting.scene, "--gl", test::software_gl(), "-o", setting.folder.path()})),
         Contains("it names a folder"));
-    CHECK_THAT(refusal(run_lockstep({"record", setting.scene})), Contains("output is required"));
+    CHECK_THAT(refusal(run_lockstep({"record", setting.scene})), Contains("--output FILE is missing: "));
     CHECK(test::names_in(setting.folder.path()) == std::vector<std::string>{"scene.json"});
 }
 

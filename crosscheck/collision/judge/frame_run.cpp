@@ -32,7 +32,7 @@ void FrameRun::step(int frame) {
     frame_ = frame;
 }
 
-void FrameRun::go_to(int frame) {
+void FrameRun::go_to(int frame, const std::function<void(int)>& on_frame) {
     if (frame == frame_)
         return;
     if (frame < frame_ || frame_ < 0) {
@@ -43,8 +43,11 @@ void FrameRun::go_to(int frame) {
         frame_ = -1;
     }
     // A step from a state that was read takes the two states before it.
-    for (int earlier = frame_ + 1; earlier < frame - 2; ++earlier)
+    for (int earlier = frame_ + 1; earlier < frame - 2; ++earlier) {
         gpu_.step(frame_params(scene_, earlier));
+        if (on_frame)
+            on_frame(earlier + 1);
+    }
     if (frame - 2 > frame_) {
         params_ = frame_params(scene_, frame - 2);
         gpu_.step(params_);

@@ -1,6 +1,7 @@
 #pragma once
 #include <cstddef>
 #include <filesystem>
+#include <functional>
 #include <memory>
 #include <optional>
 
@@ -21,8 +22,9 @@ class FrameRun {
     /// The same of frames computed elsewhere, of whose steps nothing is told in between. `gpu` has to outlive this.
     FrameRun(Scene scene, Profile profile, const KnownOperations& known, GpuSide& gpu);
 
-    /// Runs to the end of frame `frame`, counted from 0; back ones from the scene's start again.
-    void go_to(int frame);
+    /// Runs to the end of frame `frame`, counted from 0; back ones from the scene's start again. `on_frame` is
+    /// given how many frames are behind it.
+    void go_to(int frame, const std::function<void(int)>& on_frame = {});
 
     [[nodiscard]] int frame() const { return frame_; }
     [[nodiscard]] const Scene& scene() const { return scene_; }

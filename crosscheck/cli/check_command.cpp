@@ -280,7 +280,7 @@ int check_and_tell(const CheckRequest& options, OutputFiles& files, const Checke
             commands.push_back({"The first divergent particle's step, from the file beside this page; needs no GL",
                                 fmt::format("lockstep capsule show {}", shell_path(options.report / report_files[1]))});
         }
-        RenderedFrame rendered{images.frame(), {}};
+        RenderedPictures rendered{images.frame(), {}};
         if (checked.shaders && images.frame() >= 0) {
             auto [reference, gpu, difference] = images.rendered(checked.scene, checked.profile, options.run.shaders);
             rendered.pictures = {

@@ -38,7 +38,7 @@ json item_json(const ExplainedItem& explained, int width) {
 }
 
 /// Of pictures that would leave no room for anything else, nothing.
-json rendered_json(const RenderedFrame& rendered) {
+json rendered_json(const RenderedPictures& rendered) {
     constexpr std::size_t room = 1'500'000;
     std::size_t size = 0;
     json pictures = json::array();
@@ -65,7 +65,7 @@ void PageCollector::add(const ComparedFrame& frame) {
 
 std::string report_page(std::string_view page_template, const PageCollector& run, const CheckReport& report,
                         const RunDescription& description, const std::vector<PageCommand>& commands,
-                        const std::vector<ExplainedItem>& items, const json& study, const RenderedFrame& rendered) {
+                        const std::vector<ExplainedItem>& items, const json& study, const RenderedPictures& rendered) {
     json tables = json::array(), listed = json::array();
     for (const ExplainedItem& item : items) {
         listed.push_back(item_json(item, run.scene().width));

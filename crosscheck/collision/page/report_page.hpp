@@ -45,7 +45,7 @@ struct ExplainedItem {
 };
 
 /// Both sides' rendered frame and their difference.
-struct RenderedFrame {
+struct RenderedPictures {
     int frame = 0;
     std::vector<PagePicture> pictures; ///< none: nothing was rendered
 };
@@ -55,6 +55,6 @@ struct RenderedFrame {
 std::string report_page(std::string_view page_template, const PageCollector& run, const CheckReport& report,
                         const RunDescription& description, const std::vector<PageCommand>& commands,
                         const std::vector<ExplainedItem>& items, const nlohmann::json& study,
-                        const RenderedFrame& rendered = {});
+                        const RenderedPictures& rendered = {});
 
 } // namespace lockstep

@@ -81,7 +81,7 @@ constexpr const char* manual_examples[] = {
 
 std::string section(const char* title, std::span<const NamedLine> all) {
     std::string text = fmt::format(".SH {}\n", title);
-    for (const Named& one : all)
+    for (const NamedLine& one : all)
         text += fmt::format(".TP\n\\fB{}\\fR\n{}\n", plain(one.name), plain(one.meaning));
     return text;
 }

@@ -331,8 +331,8 @@ std::vector<Verb> parts(const Verb& all, const std::shared_ptr<StudyRequest>& op
         "Example: lockstep study catalogue --images pictures");
     add({"remedies", "what the remedies find, and with --gl what they cost (docs/remedies.md)"}, of_remedies,
         &StudyRequest::remedies, "Example: lockstep study remedies --gl egl-device:0");
-    add({"thesis", "the thesis's tables 4-1 and 5-1 and figures 5-3 and 5-5, CDT and octree, on GL"}, of_thesis,
-        &StudyRequest::thesis,
+    add({"thesis", "the thesis's tables 4-1 and 5-1 and figures 5-3 and 5-5, CDT, octree and the scene's depth, on GL"},
+        of_thesis, &StudyRequest::thesis,
         "Example: lockstep study thesis --gl egl-device:0 --json thesis.json --chart thesis.svg");
     return verbs;
 }

@@ -85,9 +85,8 @@ class Reader {
             fail(path, "is no object of names; right is { \"name in the shader\": \"name here\" }");
     }
 
-    /// The shaders beside the file have the name; of a member of a structure its own.
-    void check_word(const std::string& path, const std::string& full_name) const {
-        const std::string name = full_name.substr(full_name.rfind('.') + 1);
+    /// The shaders beside the file have the name.
+    void check_word(const std::string& path, const std::string& name) const {
         if (std::find(words_.begin(), words_.end(), name) == words_.end())
             fail(path, fmt::format("no shader beside it has the name {}{}", name, did_you_mean(name, words_)));
     }
@@ -123,7 +122,7 @@ class Reader {
     }
 
     MemberBinding read_member(const std::string& path, const std::string& name, const json& value) const {
-        check_word(path, name);
+        check_word(path, name.substr(name.rfind('.') + 1));
         MemberBinding binding{path};
         binding.is_list = value.is_array();
         for (const json& one : value.is_array() ? value : json::array({value}))

@@ -26,7 +26,7 @@ struct Output {
 };
 
 Output main(Input p) {
-    precise float4 clip = mul(viewProjection, float4(p.position, 1.0));
+    precise float4 clip = mul(float4(p.position, 1.0), viewProjection);
     precise float2 place = (clip.xy / clip.w + 1.0) * 0.5 * float2(extent);
     bool inside = all(place >= 0.0) && all(place < float2(extent));
     bool hit = false;
@@ -64,6 +64,6 @@ Output main(Input p) {
     }
     precise float3 path = o.direction * o.speed;
     o.position = p.position + path * dt;
-    o.clip = mul(viewProjection, float4(o.position, 1.0));
+    o.clip = mul(float4(o.position, 1.0), viewProjection);
     return o;
 }

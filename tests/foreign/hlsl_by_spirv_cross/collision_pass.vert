@@ -10,7 +10,7 @@ layout(binding = 0, std140) uniform Frame
     float radius;
     float rest;
     float damping;
-} _32;
+} _23;
 
 uniform sampler2D SPIRV_Cross_CombinedpositionsSPIRV_Cross_DummySampler;
 
@@ -27,17 +27,17 @@ mat4 spvWorkaroundRowMajor(mat4 wrap) { return wrap; }
 
 void main()
 {
-    precise vec4 _338 = vec4(p_position, 1.0) * spvWorkaroundRowMajor(_32.viewProjection);
+    precise vec4 _338 = spvWorkaroundRowMajor(_23.viewProjection) * vec4(p_position, 1.0);
     precise vec2 _344 = _338.xy / vec2(_338.w);
     precise vec2 _346 = _344 + vec2(1.0);
     precise vec2 _347 = _346 * 0.5;
-    precise vec2 _351 = _347 * vec2(_32.extent);
+    precise vec2 _351 = _347 * vec2(_23.extent);
     bool _581;
     vec3 _583;
-    if ((p_timer < 0.0) && (all(greaterThanEqual(_351, vec2(0.0))) && all(lessThan(_351, vec2(_32.extent)))))
+    if ((p_timer < 0.0) && (all(greaterThanEqual(_351, vec2(0.0))) && all(lessThan(_351, vec2(_23.extent)))))
     {
         ivec2 _369 = ivec2(_351);
-        int _372 = -_32.reach;
+        int _372 = -_23.reach;
         bool _582;
         vec3 _584;
         _584 = vec3(0.0);
@@ -47,19 +47,19 @@ void main()
         vec3 _597;
         int _580 = _372;
         float _591 = 100000.0;
-        for (; _580 <= _32.reach; _584 = _597, _582 = _594, _580++, _591 = _590)
+        for (; _580 <= _23.reach; _584 = _597, _582 = _594, _580++, _591 = _590)
         {
-            int _382 = -_32.reach;
+            int _382 = -_23.reach;
             _590 = _591;
             _597 = _584;
             _594 = _582;
             bool _595;
             vec3 _598;
             float _602;
-            for (int _588 = _382; _588 <= _32.reach; _590 = _602, _588++, _597 = _598, _594 = _595)
+            for (int _588 = _382; _588 <= _23.reach; _590 = _602, _588++, _597 = _598, _594 = _595)
             {
                 ivec2 _394 = _369 + ivec2(_588, _580);
-                if ((((_588 == 0) && (_580 == 0)) || any(lessThan(_394, ivec2(0)))) || any(greaterThanEqual(_394, _32.extent)))
+                if ((((_588 == 0) && (_580 == 0)) || any(lessThan(_394, ivec2(0)))) || any(greaterThanEqual(_394, _23.extent)))
                 {
                     _602 = _590;
                     _598 = _597;
@@ -76,7 +76,7 @@ void main()
                 }
                 precise vec3 _433 = p_position - _423.xyz;
                 float _435 = length(_433);
-                bool _446 = ((_435 != 0.0) && (_435 < _32.radius)) && (_435 < _590);
+                bool _446 = ((_435 != 0.0) && (_435 < _23.radius)) && (_435 < _590);
                 _602 = _446 ? _435 : _590;
                 _598 = mix(_597, _433, bvec3(_446));
                 _595 = _446 ? true : _594;
@@ -95,25 +95,25 @@ void main()
     float _587;
     if (_581)
     {
-        precise float _466 = p_speed * _32.damping;
-        _587 = _32.rest;
+        precise float _466 = p_speed * _23.damping;
+        _587 = _23.rest;
         _586 = _466;
         _585 = normalize(_583);
     }
     else
     {
         precise vec3 _479 = p_direction * p_speed;
-        precise vec3 _484 = _32.gravity * _32.dt;
+        precise vec3 _484 = _23.gravity * _23.dt;
         precise vec3 _485 = _479 + _484;
-        precise float _496 = p_timer - _32.dt;
+        precise float _496 = p_timer - _23.dt;
         _587 = _496;
         _586 = length(_485);
         _585 = normalize(_485);
     }
     precise vec3 _503 = _585 * _586;
-    precise vec3 _509 = _503 * _32.dt;
+    precise vec3 _509 = _503 * _23.dt;
     precise vec3 _510 = p_position + _509;
-    precise vec4 _520 = vec4(_510, 1.0) * spvWorkaroundRowMajor(_32.viewProjection);
+    precise vec4 _520 = spvWorkaroundRowMajor(_23.viewProjection) * vec4(_510, 1.0);
     _entryPointOutput_position = _510;
     _entryPointOutput_direction = _585;
     _entryPointOutput_speed = _586;

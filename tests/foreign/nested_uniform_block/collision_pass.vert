@@ -1,9 +1,11 @@
 #version 420 core
 // One block with a structure in it, an instance name, and the fragment stage of its own.
+struct Motion { vec3 acceleration; float step; };
+struct Limits { int window; float reach; float pause; float loss; };
 layout(std140) uniform Globals {
     mat4 view_projection;
-    struct { vec3 acceleration; float step; } motion;
-    struct { int window; float reach; float pause; float loss; } contact;
+    Motion motion;
+    Limits contact;
     ivec2 size;
 } g;
 layout(binding = 3) uniform sampler2D stored_positions;

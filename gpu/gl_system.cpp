@@ -791,6 +791,16 @@ void GlSystem::read(SystemState& state) const {
         parts_->from(s).read(state[parts_->storages[s].layout.resource]);
 }
 
+std::optional<bool> GlSystem::holds(const View& state) const {
+    if (parts_->is_image(state.resource))
+        return {};
+    std::vector<const RecordBuffer*> buffers;
+    for (std::size_t s = 0; s < parts_->storages.size(); ++s)
+        if (parts_->storages[s].layout.resource == state.resource)
+            buffers.push_back(&parts_->from(s));
+    return hold_numbers(buffers, state);
+}
+
 std::vector<CapturedVertex> GlSystem::trace(std::size_t pass, int frame, std::size_t item) {
     if (parts_->running(pass, frame) == nullptr || parts_->passes[pass]->pass.stage != Stage::vertex ||
         parts_->passes[pass]->pass.instances_of || parts_->passes[pass]->pass.draw)

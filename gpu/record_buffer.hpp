@@ -74,6 +74,9 @@ class RecordBuffer {
     std::size_t count_, spare_;
 };
 
+/// Whether buffers that have the fields of `state` among them have exactly its bits, and none of its floats is NaN.
+bool hold_numbers(std::span<const RecordBuffer* const> buffers, const View& state);
+
 /// Feeds a_Position and so on of `program` from `buffer`. Throws Error if one has a wrong type.
 GlVertexArray vertex_array(const RecordBuffer& buffer, const Program& program);
 /// The same from several buffers, a record an instance.

@@ -9,6 +9,7 @@
 #include "reference/fluid/depth_code.hpp"
 #include "reference/model/fluid/schema.hpp"
 #include "reference/readings/mistake.hpp"
+#include "reference/system/item_reads.hpp"
 #include "reference/system/item_twin.hpp"
 #include "reference/system/pixel_boxes.hpp"
 
@@ -91,7 +92,7 @@ template <class R> class SpriteTwin {
     }
 
     /// The squared distance of a pixel's centre from the sprite's middle; above 1 it is not covered.
-    [[nodiscard]] Real squared(const Ball<R>& ball, const Pixel& pixel) const {
+    template <class Place> [[nodiscard]] Real squared(const Ball<R>& ball, const Place& pixel) const {
         const bool is_point = host_.switches().sprite == Sprite::points;
         const auto along = [&](At at, const Real& centre, const Real& middle) {
             const Real from = r_.divide(at, centre - middle, ball.half);
@@ -127,11 +128,15 @@ template <class R> class SpriteTwin {
     }
     /// GL takes gl_PointCoord from the exact place, but fixes no arithmetic (4.5, 14.4.1): up to 2/256 of a pixel off.
     [[nodiscard]] Real point_coordinate(At at, const Real& from, const Ball<R>& ball) const {
-        const Interval set = item_twin::set_of(from), half = item_twin::set_of(ball.half);
-        if (set.any || half.any || !(half.low > 0.0))
+        if constexpr (HasLanes<R>) {
             return from;
-        const double free = 2.0 / 256.0 / half.low + 0x1p-22;
-        return r_.unspecified(at, from, static_cast<float>(set.low - free), static_cast<float>(set.high + free));
+        } else {
+            const Interval set = item_twin::set_of(from), half = item_twin::set_of(ball.half);
+            if (set.any || half.any || !(half.low > 0.0))
+                return from;
+            const double free = 2.0 / 256.0 / half.low + 0x1p-22;
+            return r_.unspecified(at, from, static_cast<float>(set.low - free), static_cast<float>(set.high + free));
+        }
     }
 
     R& r_;
@@ -141,11 +146,11 @@ template <class R> class SpriteTwin {
 };
 
 /// The condition under which `scene_depth` lets what lies at a window depth be seen.
-template <class R>
-auto before_scene(R& r, const Host& host, const SystemView& state, std::size_t item, const typename R::Real& window) {
+template <class R, class Item>
+auto before_scene(R& r, const Host& host, const SystemView& state, const Item& item, const typename R::Real& window) {
     using Real = typename R::Real;
     const bool tests = r.setting(site::tests_scene, host.switches().scene_depth == SceneDepth::test);
-    const Real scene = tests ? r.read(site::scene_depth_in, state.real(field::scene_depth, item)) : Real(HUGE_VALF);
+    const Real scene = tests ? item_real(r, site::scene_depth_in, state, field::scene_depth, item) : Real(HUGE_VALF);
     return window < scene;
 }
 

@@ -182,14 +182,24 @@ template <class Twin> auto while_same(const Twin& twin, std::uint8_t resource) {
     return [twin, resource, latest = std::make_shared<Made>()](const PassInput& in) {
         const std::lock_guard lock(latest->mutex);
         const View& view = in.before[resource];
-        std::vector<std::byte> bytes;
-        for (std::size_t f = 0; f < view.columns.size(); ++f)
-            bytes.insert(bytes.end(), view.columns[f],
-                         view.columns[f] +
-                             view.count() * static_cast<std::size_t>(view.fields()[f].components) * sizeof(float));
-        if (latest->twin == nullptr || latest->of != bytes) {
+        std::size_t at = 0;
+        bool is_same = latest->twin != nullptr;
+        const auto for_each_column = [&](const auto& visit) {
+            for (std::size_t f = 0; f < view.columns.size(); ++f)
+                visit(view.columns[f],
+                      view.count() * static_cast<std::size_t>(view.fields()[f].components) * sizeof(float));
+        };
+        for_each_column([&](const std::byte* column, std::size_t bytes) {
+            is_same =
+                is_same && at + bytes <= latest->of.size() && std::memcmp(latest->of.data() + at, column, bytes) == 0;
+            at += bytes;
+        });
+        if (!is_same || at != latest->of.size()) {
             latest->twin = std::make_shared<const Twin>(twin.at(in));
-            latest->of = std::move(bytes);
+            latest->of.clear();
+            for_each_column([&](const std::byte* column, std::size_t bytes) {
+                latest->of.insert(latest->of.end(), column, column + bytes);
+            });
         }
         return latest->twin;
     };

@@ -54,6 +54,15 @@ template <class Visit> void for_each_tried(const BoxesByTile& boxes, const Syste
             visit(i);
 }
 
+/// What a pass's reading computes with.
+template <class A> A arithmetic_of(const Values<A>& r) {
+    struct Opened : Values<A> {
+        explicit Opened(const Values<A>& of) : Values<A>(of) {}
+        [[nodiscard]] A arithmetic() const { return this->fp_; }
+    };
+    return Opened(r).arithmetic();
+}
+
 /// A particle before the camera.
 template <class R> struct Ball {
     typename R::Vec3 centre; ///< in view space
@@ -74,7 +83,7 @@ template <class R> class SpriteTwin {
 
     [[nodiscard]] Real radius() const { return r_.uniform(site::radius, spheres_.radius); }
 
-    /// Nothing of one that is not drawn: it is no number, or too near.
+    /// Nothing of one that is not drawn: it is no number, or too near, or a point whose middle is not in sight.
     [[nodiscard]] std::optional<Ball<R>> ball(std::uint32_t particle) const {
         const glm::vec3 p(state_.vec4(field::position, particle));
         if (!(std::isfinite(p.x) && std::isfinite(p.y) && std::isfinite(p.z)))
@@ -85,6 +94,8 @@ template <class R> class SpriteTwin {
         const bool is_ray = spheres_.shape == Sphere::ray;
         const Real near = r_.uniform(site::near, host_.near_plane());
         if (!r_.decide(site::beyond_near, ball.w > (is_ray ? radius() + near : near)))
+            return {};
+        if (host_.switches().sprite == Sprite::points && !is_in_volume(ball))
             return {};
         if (!is_ray)
             place(ball);
@@ -108,6 +119,17 @@ template <class R> class SpriteTwin {
     }
 
   private:
+    /// GL draws all of a point or nothing, by where its middle lies (4.5, 13.5).
+    [[nodiscard]] bool is_in_volume(const Ball<R>& ball) const {
+        const auto clip = [&](At scale_at, const Real& along, float unit) {
+            return r_.abs(r_.uniform(scale_at, unit) * along);
+        };
+        const glm::vec2 depth = host_.depth_coefficients();
+        const Real x = clip(site::p00, ball.centre.x, host_.projection()[0][0]),
+                   y = clip(site::p11, ball.centre.y, host_.projection()[1][1]),
+                   z = r_.abs(r_.note(site::clip_z, Real(depth.x) * ball.centre.z + Real(depth.y)));
+        return r_.decide(site::middle_in_volume, x <= ball.w && y <= ball.w && z <= ball.w);
+    }
     void place(Ball<R>& ball) const {
         const Settings& s = host_.settings();
         const bool by_w = host_.switches().point_size == PointSize::clip_w;

@@ -117,29 +117,6 @@ struct PlainLanes {
     }
 };
 
-/// Each operation as the plain arithmetic of a driver has it, with tables of roots or without, lane by lane.
-struct OwnOrderLanes {
-    using Three = Vec3<FloatLanes>;
-    OwnOrders fp;
-
-    LOCKSTEP_INLINE static FloatLanes flush(const FloatLanes& v) { return v; }
-    [[nodiscard]] LOCKSTEP_INLINE FloatLanes divide(const FloatLanes& a, const FloatLanes& b) const {
-        FloatLanes made = a;
-        for (int k = 0; k < lane_count; ++k)
-            made[k] = fp.divide(a[k], b[k]);
-        return made;
-    }
-    [[nodiscard]] LOCKSTEP_INLINE FloatLanes sqrt(const FloatLanes& a) const {
-        return lanes::each(a, [this](float x) { return fp.sqrt(x); });
-    }
-    [[nodiscard]] LOCKSTEP_INLINE FloatLanes dot(const Three& a, const Three& b) const {
-        FloatLanes made = a.x;
-        for (int k = 0; k < lane_count; ++k)
-            made[k] = fp.dot({a.x[k], a.y[k], a.z[k]}, {b.x[k], b.y[k], b.z[k]});
-        return made;
-    }
-};
-
 /// Portable, on lanes.
 struct PortableLanes {
     using Three = Vec3<FloatLanes>;

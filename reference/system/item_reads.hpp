@@ -7,22 +7,12 @@
 
 #include "reference/model/system_state.hpp"
 #include "reference/readings/decided.hpp"
-#include "reference/readings/values.hpp"
 #include "reference/system/pixel_boxes.hpp"
 
 namespace lockstep {
 
 // What a twin reads of the item that it makes, or of texels beside it: of one, or of as many as a reading has lanes
 // (lane_items.hpp has the same of those).
-
-/// What a pass's reading computes with.
-template <class A> A arithmetic_of(const Values<A>& r) {
-    struct Opened : Values<A> {
-        explicit Opened(const Values<A>& of) : Values<A>(of) {}
-        [[nodiscard]] A arithmetic() const { return this->fp_; }
-    };
-    return Opened(r).arithmetic();
-}
 
 inline Pixel pixel_at(int width, std::size_t item) { return Pixel::of(width, item); }
 inline const Pixel& first_of(const Pixel& pixel) { return pixel; }

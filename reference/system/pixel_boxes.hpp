@@ -95,27 +95,6 @@ class BoxesByTile {
         }
     }
 
-    /// The same, a tile's row of pixels at a time: `draw(row, drawn, place, first, last)` for pixels first to last of
-    /// it, the last excluded, `place` being its first pixel; `done(row, place, count)` with as many as lie in the
-    /// image.
-    template <class Row, class Make, class Draw, class Done>
-    void draw_rows(std::size_t row, const Row& empty, const Make& make, const Draw& draw, const Done& done) const {
-        for (std::size_t k = row * columns_; k < (row + 1) * columns_; ++k) {
-            std::array<Row, side> rows;
-            rows.fill(empty);
-            const PixelRect area = tile(k);
-            for (const std::uint32_t i : of_tile(k)) {
-                const PixelRect& box = boxes_[i];
-                if (const auto drawn = make(i))
-                    for (int y = std::max(area.y0, box.y0); y < std::min(area.y1, box.y1); ++y)
-                        draw(rows[static_cast<std::size_t>(y - area.y0)], *drawn, Pixel{area.x0, y},
-                             std::max(0, box.x0 - area.x0), std::min(area.x1, box.x1) - area.x0);
-            }
-            for (int y = area.y0; y < area.y1; ++y)
-                done(rows[static_cast<std::size_t>(y - area.y0)], Pixel{area.x0, y}, area.x1 - area.x0);
-        }
-    }
-
   private:
     [[nodiscard]] PixelRect tile(std::size_t tile) const; ///< its pixels within the image
 

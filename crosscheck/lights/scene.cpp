@@ -9,6 +9,7 @@
 
 #include "crosscheck/scene/scene_fields.hpp"
 #include "crosscheck/scene/scene_obstacles.hpp"
+#include "crosscheck/scene/scene_settings.hpp"
 #include "reference/model/random.hpp"
 
 namespace lockstep::lights {
@@ -46,8 +47,9 @@ LightGroup read_group(const JsonValue& json) {
         group.max = group.min;
     } else {
         json.check_keys({"shape", "count", "min", "max", "speed", "direction_jitter", "range", "palette", "intensity"});
-        read_field(json, "min", group.min);
-        read_field(json, "max", group.max);
+        const Box box = read_box(json);
+        group.min = box.min;
+        group.max = box.max;
     }
     read_field(json, "count", group.count, [](const JsonValue& v) {
         return static_cast<std::size_t>(v.integer(1, static_cast<std::int64_t>(most_lights)));

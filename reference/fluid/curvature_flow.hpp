@@ -1,5 +1,5 @@
 #pragma once
-#include <initializer_list>
+#include <type_traits>
 
 #include "reference/fluid/depth_map.hpp"
 
@@ -9,19 +9,20 @@ namespace lockstep::fluid {
 /// at a pixel, of depths in view space. Twin of shaders/fluid/curvature_flow.glsl.
 template <class R> class CurvatureFlow {
     using Real = typename R::Real;
+    using Index = IndexOf<R>;
 
   public:
     CurvatureFlow(R& r, const Host& host, const DepthMap<R>& map) : r_(r), host_(host), map_(map) {}
 
-    [[nodiscard]] Real at(int x, int y, const Real& z) const {
-        const Neighbour right = near(x + 1, y, z), left = near(x - 1, y, z), up = near(x, y + 1, z),
-                        down = near(x, y - 1, z);
+    [[nodiscard]] Real at(const Index& x, int y, const Real& z) const {
+        const auto right = near(x + 1, y, z), left = near(x - 1, y, z), up = near(x, y + 1, z),
+                   down = near(x, y - 1, z);
         const Real half(0.5F), zero(0.0F), twice = z + z;
-        const bool has_x = right.counts && left.counts, has_y = up.counts && down.counts;
-        const Real zx = r_.note(site::zx, has_x ? (right.z - left.z) * half : zero),
-                   zy = r_.note(site::zy, has_y ? (up.z - down.z) * half : zero),
-                   zxx = r_.note(site::zxx, has_x ? (right.z + left.z) - twice : zero),
-                   zyy = r_.note(site::zyy, has_y ? (up.z + down.z) - twice : zero),
+        const auto has_x = right.counts && left.counts, has_y = up.counts && down.counts;
+        const Real zx = r_.note(site::zx, choose(has_x, (right.z - left.z) * half, zero)),
+                   zy = r_.note(site::zy, choose(has_y, (up.z - down.z) * half, zero)),
+                   zxx = r_.note(site::zxx, choose(has_x, (right.z + left.z) - twice, zero)),
+                   zyy = r_.note(site::zyy, choose(has_y, (up.z + down.z) - twice, zero)),
                    zxy = r_.note(site::zxy, mixed(x, y, z));
 
         const Real cx = r_.uniform(site::flow_scale_x, host_.flow_scale().x),
@@ -40,26 +41,30 @@ template <class R> class CurvatureFlow {
     }
 
   private:
-    struct Neighbour {
-        bool counts;
+    template <class Counts> struct Neighbour {
+        Counts counts;
         Real z;
     };
-    [[nodiscard]] Neighbour near(int x, int y, const Real& z) const {
-        if (!map_.has(x, y))
-            return {false, z};
+    [[nodiscard]] auto near(const Index& x, int y, const Real& z) const {
+        const auto has = map_.has(x, y);
+        using Found = Neighbour<std::remove_cvref_t<decltype(has)>>;
+        if (nowhere(has))
+            return Found{has, z};
         const Real stored = map_.at(site::sample, x, y);
-        if (map_.is_empty(site::empty, stored))
-            return {false, z};
+        const auto nothing = map_.has_nothing(site::empty, stored);
+        if (everywhere(nothing))
+            return Found{!nothing, z};
         const Real found = map_.code().decoded(stored);
         const Real reach = r_.uniform(site::flow_reach, host_.flow_reach());
-        return {r_.decide(site::within_reach, r_.abs(found - z) <= reach), found};
+        return Found{has && !nothing && decided(r_, site::within_reach, r_.abs(found - z) <= reach), found};
     }
-    [[nodiscard]] Real mixed(int x, int y, const Real& z) const {
-        const Neighbour upper_right = near(x + 1, y + 1, z), upper_left = near(x - 1, y + 1, z),
-                        lower_right = near(x + 1, y - 1, z), lower_left = near(x - 1, y - 1, z);
-        if (!(upper_right.counts && upper_left.counts && lower_right.counts && lower_left.counts))
+    [[nodiscard]] Real mixed(const Index& x, int y, const Real& z) const {
+        const auto upper_right = near(x + 1, y + 1, z), upper_left = near(x - 1, y + 1, z),
+                   lower_right = near(x + 1, y - 1, z), lower_left = near(x - 1, y - 1, z);
+        const auto all = upper_right.counts && upper_left.counts && lower_right.counts && lower_left.counts;
+        if (nowhere(all))
             return Real(0.0F);
-        return ((upper_right.z - upper_left.z) - (lower_right.z - lower_left.z)) * Real(0.25F);
+        return choose(all, ((upper_right.z - upper_left.z) - (lower_right.z - lower_left.z)) * Real(0.25F), Real(0.0F));
     }
 
     R& r_;

@@ -1,6 +1,7 @@
 #pragma once
 #include "reference/fluid/sites.hpp"
 #include "reference/model/fluid/host.hpp"
+#include "reference/readings/decided.hpp"
 
 namespace lockstep::fluid {
 
@@ -67,9 +68,9 @@ template <class R> class DepthCode {
 };
 
 /// The slope of the ray through a pixel's centre.
-template <class R> typename R::Vec2 pixel_slope(R& r, const Host& host, int x, int y) {
+template <class R> typename R::Vec2 pixel_slope(R& r, const Host& host, const IndexOf<R>& x, int y) {
     const Settings& s = host.settings();
-    const auto along = [&](At at, At size_at, At unit_at, int i, int size, float unit) {
+    const auto along = [&](At at, At size_at, At unit_at, const auto& i, int size, float unit) {
         const auto place = r.divide(at, r.real(2 * i + 1 - size), r.uniform(size_at, static_cast<float>(size)));
         return r.note(at, place * r.uniform(unit_at, unit));
     };
@@ -78,7 +79,8 @@ template <class R> typename R::Vec2 pixel_slope(R& r, const Host& host, int x, i
 }
 
 /// The point at depth z of that ray, in view space.
-template <class R> typename R::Vec3 point_at(R& r, const Host& host, int x, int y, const typename R::Real& z) {
+template <class R>
+typename R::Vec3 point_at(R& r, const Host& host, const IndexOf<R>& x, int y, const typename R::Real& z) {
     const auto slope = pixel_slope(r, host, x, y);
     const auto forward = -z;
     return r.note(site::point, typename R::Vec3{forward * slope.x, forward * slope.y, z});

@@ -1,4 +1,6 @@
 #pragma once
+#include <memory>
+
 #include "reference/fluid/curvature_flow.hpp"
 #include "reference/fluid/narrow_range.hpp"
 #include "reference/fluid/weighted_mean.hpp"
@@ -11,10 +13,11 @@ namespace lockstep::fluid {
 struct DepthFilterTwin {
     HostPtr host;
     FilterStep step;
+    std::shared_ptr<const KnownNarrowWeights> weights = {}; ///< null: not of the narrow-range filter
 
-    template <class R> ItemWords<R> operator()(R& r, const PassInput& in, std::size_t item) const {
+    template <class R, class Item> ItemWords<R> operator()(R& r, const PassInput& in, const Item& item) const {
         using Real = typename R::Real;
-        const Pixel pixel = Pixel::of(host->settings().width, item);
+        const auto pixel = pixel_at(host->settings().width, item);
         const DepthMap<R> map(r, *host, in.before, step.of_spheres ? field::depth : field::smooth_depth);
         const Real centre = map.at(site::centre_depth, pixel.x, pixel.y);
         ItemWords<R> words;
@@ -23,8 +26,8 @@ struct DepthFilterTwin {
     }
 
   private:
-    template <class R>
-    typename R::Real filtered(R& r, const DepthMap<R>& map, const Pixel& pixel, const typename R::Real& centre) const {
+    template <class R, class At>
+    typename R::Real filtered(R& r, const DepthMap<R>& map, const At& pixel, const typename R::Real& centre) const {
         using Real = typename R::Real;
         if (map.is_empty(site::centre_empty, centre))
             return centre;
@@ -33,7 +36,7 @@ struct DepthFilterTwin {
         const DepthCode<R>& code = map.code();
         switch (host->switches().filter) {
         case Filter::narrow_range: {
-            const NarrowRange<R> filter(r, *host, map);
+            const NarrowRange<R> filter(r, *host, map, weights.get());
             return code.stored(filter.at(pixel.x, pixel.y, step, code.decoded(centre)));
         }
         case Filter::curvature_flow: {

@@ -4,8 +4,10 @@
 #include "reference/fluid/depth_code.hpp"
 #include "reference/fluid/linear_fetch.hpp"
 #include "reference/model/fluid/schema.hpp"
+#include "reference/readings/decided.hpp"
 #include "reference/readings/exponential.hpp"
 #include "reference/system/item_pass.hpp"
+#include "reference/system/item_reads.hpp"
 
 namespace lockstep::fluid {
 
@@ -15,27 +17,34 @@ inline FieldId last_depth(const Host& host) { return host.filter_steps().empty()
 /// A depth image as a pass reads it. Twin of shaders/fluid/source.glsl.
 template <class R> class DepthMap {
     using Real = typename R::Real;
+    using Index = IndexOf<R>;
 
   public:
     DepthMap(R& r, const Host& host, const SystemView& state, FieldId from)
         : r_(r), host_(host), state_(state), from_(from), code_(r, host) {}
 
     /// What is stored at a pixel, the nearest one of the image.
-    [[nodiscard]] Real at(At place, int x, int y) const {
-        if (host_.switches().depth_fetch == DepthFetch::linear)
-            return filtered(place, x, y);
-        return r_.note(place, r_.read(place, raw(std::clamp(x, 0, host_.settings().width - 1),
-                                                 std::clamp(y, 0, host_.settings().height - 1))));
+    [[nodiscard]] Real at(At place, const Index& x, int y) const {
+        const Settings& s = host_.settings();
+        if constexpr (!HasLanes<R>)
+            if (host_.switches().depth_fetch == DepthFetch::linear)
+                return filtered(place, x, y);
+        return r_.note(place, item_real(r_, place, state_, from_,
+                                        item_of(clamped(x, 0, s.width - 1), clamped(y, 0, s.height - 1), s.width)));
     }
     [[nodiscard]] bool is_empty(At place, const Real& stored) const {
         return r_.decide(place, stored == Real(code_.empty()));
+    }
+    /// The same, to be chosen by.
+    [[nodiscard]] auto has_nothing(At place, const Real& stored) const {
+        return decided(r_, place, stored == Real(code_.empty()));
     }
     /// What NDC depth makes of fluid that is too near.
     [[nodiscard]] bool is_black(const Real& stored) const {
         return !code_.is_metric() && r_.decide(site::is_black, stored <= Real(0.0F));
     }
-    [[nodiscard]] bool has(int x, int y) const {
-        return x >= 0 && y >= 0 && x < host_.settings().width && y < host_.settings().height;
+    [[nodiscard]] auto has(const Index& x, int y) const {
+        return is_among(y, host_.settings().height) && is_among(x, host_.settings().width);
     }
     [[nodiscard]] const DepthCode<R>& code() const { return code_; }
 

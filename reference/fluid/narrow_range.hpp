@@ -1,20 +1,50 @@
 #pragma once
 #include <array>
 #include <cstddef>
+#include <cstdlib>
+#include <memory>
+#include <utility>
+#include <vector>
 
 #include "reference/fluid/depth_map.hpp"
 
 namespace lockstep::fluid {
 
+/// Pixels that a narrow-range filter reaches at most.
+inline constexpr int most_narrow_reach = 20;
+
+/// NarrowRange::weight of every sample, where it was computed beforehand.
+class KnownNarrowWeights {
+  public:
+    /// `weight(dx, dy, n)`
+    template <class Weight> explicit KnownNarrowWeights(const Weight& weight) : all_(side * side * side) {
+        for (int n = 1; n < side; ++n)
+            for (int dx = 0; dx <= n; ++dx)
+                for (int dy = 0; dy <= n; ++dy)
+                    all_[place(dx, dy, n)] = weight(dx, dy, n);
+    }
+    [[nodiscard]] float of(int dx, int dy, int n) const { return all_[place(std::abs(dx), std::abs(dy), n)]; }
+
+  private:
+    static constexpr int side = most_narrow_reach + 1;
+    static std::size_t place(int dx, int dy, int n) { return static_cast<std::size_t>((n * side + dx) * side + dy); }
+    std::vector<float> all_;
+};
+/// Of the host's arithmetic; in the plain one for drivers without tables of roots.
+std::shared_ptr<const KnownNarrowWeights> narrow_weights(const Host& host);
+
 /// The narrow-range filter (Truong and Yuksel, "A Narrow-Range Filter for Screen-Space Fluid Rendering", 2018) at a
 /// pixel, of depths in view space. Twin of shaders/fluid/narrow_range.glsl.
 template <class R> class NarrowRange {
     using Real = typename R::Real;
+    using Index = IndexOf<R>;
 
   public:
-    NarrowRange(R& r, const Host& host, const DepthMap<R>& map) : r_(r), host_(host), map_(map) {}
+    /// `weights`: what weight() gives; null where it is to compute them itself, as all but lanes do.
+    NarrowRange(R& r, const Host& host, const DepthMap<R>& map, const KnownNarrowWeights* weights = nullptr)
+        : r_(r), host_(host), map_(map), weights_(weights) {}
 
-    [[nodiscard]] Real at(int x, int y, const FilterStep& step, const Real& z) const {
+    [[nodiscard]] Real at(const Index& x, int y, const FilterStep& step, const Real& z) const {
         const int n = reach(z);
         Sums sums{z, Real(1.0F)};
         if (step.shape == FilterStep::Shape::along)
@@ -28,6 +58,8 @@ template <class R> class NarrowRange {
 
     /// Of a sample so many pixels aside, of a filter of n.
     [[nodiscard]] Real weight(int dx, int dy, int n) const {
+        if constexpr (HasLanes<R>)
+            return weights_->of(dx, dy, n);
         const Real twice_squared = r_.real(2 * n * n);
         Real nine_times = r_.real(9 * (dx * dx + dy * dy));
         if (host_.switches().narrow_weights == NarrowWeights::texcoord) {
@@ -50,10 +82,11 @@ template <class R> class NarrowRange {
     struct Range {
         Real high, low;
     };
-    struct Sample {
-        bool is_empty;
+    template <class Empty> struct SampleAt {
+        Empty is_empty;
         Real z, weight;
     };
+    using Sample = SampleAt<decltype(std::declval<const DepthMap<R>&>().has_nothing(site::empty, Real{}))>;
 
     [[nodiscard]] Real delta() const { return r_.uniform(site::delta, host_.narrow_delta()); }
     [[nodiscard]] Range around(const Real& z) const {
@@ -61,18 +94,22 @@ template <class R> class NarrowRange {
     }
     [[nodiscard]] int reach(const Real& z) const {
         const Real pixels = r_.divide(site::reach, r_.uniform(site::narrow_scale, host_.narrow_scale()), r_.abs(z));
-        const Real most = r_.uniform(site::most_reach, 20.0F);
+        const Real most = r_.uniform(site::most_reach, static_cast<float>(most_narrow_reach));
         return static_cast<int>(r_.to_int(site::reach, r_.note(site::reach, r_.min(most, -r_.floor(-pixels)))));
     }
-    [[nodiscard]] Sample sample(int x, int y, const Real& w) const {
+    [[nodiscard]] Sample sample(const Index& x, int y, const Real& w) const {
         const Real stored = map_.at(site::sample, x, y);
-        if (map_.is_empty(site::empty, stored))
-            return {true, stored, w};
-        return {false, map_.code().decoded(stored), w};
+        const auto empty = map_.has_nothing(site::empty, stored);
+        if (everywhere(empty))
+            return {empty, stored, w};
+        return {empty, map_.code().decoded(stored), w};
     }
     /// Draws a sample in, widens the range by it, or refuses it with its partner.
     void judge(Sample& own, Sample& partner, Range& range, const Real& z) const {
-        if (!own.is_empty && r_.decide(site::too_near, own.z > range.high)) {
+        if constexpr (HasLanes<R>) {
+            judge_lanes(own, partner, range, z);
+            return;
+        } else if (!own.is_empty && r_.decide(site::too_near, own.z > range.high)) {
             own.weight = r_.note(site::own_weight, Real(0.0F));
             if (r_.setting(site::partner_weight, true))
                 partner.weight = Real(0.0F);
@@ -85,6 +122,16 @@ template <class R> class NarrowRange {
                 range.low = r_.note(site::low, r_.min(range.low, own.z - delta()));
         }
     }
+    /// The same, lane by lane.
+    void judge_lanes(Sample& own, Sample& partner, Range& range, const Real& z) const {
+        const auto near = !own.is_empty && own.z > range.high, far = own.is_empty || own.z < range.low,
+                   drawn_in = !near && far, inside = !(near || far);
+        own.weight = choose(near, Real(0.0F), own.weight);
+        partner.weight = choose(near, Real(0.0F), partner.weight);
+        range.high = choose(inside, r_.max(range.high, own.z + delta()), range.high);
+        range.low = choose(inside, r_.min(range.low, own.z - delta()), range.low);
+        own.z = choose(drawn_in, z - r_.uniform(site::mu, host_.narrow_mu()), own.z);
+    }
     template <std::size_t n> void add(Sums& sums, const std::array<Sample, n>& samples) const {
         Real weighted = samples[0].z * samples[0].weight, weights = samples[0].weight;
         for (std::size_t i = 1; i < n; ++i) {
@@ -95,7 +142,7 @@ template <class R> class NarrowRange {
         sums.weights = r_.note(site::sum_of_weights, sums.weights + weights);
     }
 
-    void along(Sums& sums, int x, int y, const FilterStep& step, int n, const Real& z) const {
+    void along(Sums& sums, const Index& x, int y, const FilterStep& step, int n, const Real& z) const {
         const auto direction = r_.uniform(site::blur_direction, step.direction);
         Range ahead = around(z), behind = ahead;
         for (const auto i : r_.range(site::samples, 1, n)) {
@@ -109,7 +156,7 @@ template <class R> class NarrowRange {
         }
     }
     /// The four samples of each offset, but never those straight above or beside the pixel.
-    void quadrants(Sums& sums, int x, int y, int n, const Real& z) const {
+    void quadrants(Sums& sums, const Index& x, int y, int n, const Real& z) const {
         Range range = around(z);
         for (const auto column : r_.range(site::rows, 1, n))
             for (const auto row : r_.range(site::samples, 1, n)) {
@@ -123,7 +170,7 @@ template <class R> class NarrowRange {
             }
     }
     /// Every sample of the square, in pairs through the pixel.
-    void plane(Sums& sums, int x, int y, int n, const Real& z) const {
+    void plane(Sums& sums, const Index& x, int y, int n, const Real& z) const {
         Range range = around(z);
         for (const auto row : r_.range(site::rows, -n, 0))
             for (const auto column : r_.range(site::samples, -n, n)) {
@@ -141,6 +188,7 @@ template <class R> class NarrowRange {
     R& r_;
     const Host& host_;
     const DepthMap<R>& map_;
+    const KnownNarrowWeights* weights_;
 };
 
 } // namespace lockstep::fluid

@@ -5,6 +5,7 @@
 #include "reference/fluid/linear_fetch.hpp"
 #include "reference/model/fluid/host.hpp"
 #include "reference/model/fluid/schema.hpp"
+#include "reference/system/item_reads.hpp"
 
 namespace lockstep::fluid {
 
@@ -13,6 +14,7 @@ template <class R> class RefractedScene {
     using Real = typename R::Real;
     using Vec2 = typename R::Vec2;
     using Vec3 = typename R::Vec3;
+    using Index = IndexOf<R>;
 
   public:
     RefractedScene(R& r, const Host& host, const SystemView& state) : r_(r), host_(host), state_(state) {}
@@ -24,14 +26,17 @@ template <class R> class RefractedScene {
         case SceneFetch::bilinear:
             return bilinear(place);
         case SceneFetch::linear:
-            return {filtered(place, 0), filtered(place, 1), filtered(place, 2)};
+            if constexpr (HasLanes<R>)
+                break;
+            else
+                return {filtered(place, 0), filtered(place, 1), filtered(place, 2)};
         }
         return {};
     }
 
   private:
-    [[nodiscard]] int whole(const Real& x) const {
-        return static_cast<int>(r_.to_int(site::base, r_.note(site::base, x)));
+    [[nodiscard]] Index whole(const Real& x) const {
+        return index_of<R>(r_.to_int(site::base, r_.note(site::base, x)));
     }
     [[nodiscard]] float raw(int x, int y, int c) const {
         return state_.real(field::scene,
@@ -39,17 +44,18 @@ template <class R> class RefractedScene {
                                static_cast<std::size_t>(x),
                            c);
     }
-    [[nodiscard]] Vec3 texel(int x, int y) const {
-        const int tx = std::clamp(x, 0, host_.settings().width - 1), ty = std::clamp(y, 0, host_.settings().height - 1);
-        return r_.read(site::scene_texel, glm::vec3(raw(tx, ty, 0), raw(tx, ty, 1), raw(tx, ty, 2)));
+    [[nodiscard]] Vec3 texel(const Index& x, const Index& y) const {
+        const Settings& s = host_.settings();
+        return item_vec3(r_, site::scene_texel, state_, field::scene,
+                         item_of(clamped(x, 0, s.width - 1), clamped(y, 0, s.height - 1), s.width));
     }
     struct Axis {
-        int base;
+        Index base;
         Real f;
     };
     [[nodiscard]] Axis axis(const Real& at) const {
         const Real p = at - Real(0.5F);
-        const int base = whole(r_.floor(p));
+        const Index base = whole(r_.floor(p));
         return {base, r_.note(site::fraction, p - r_.real(base))};
     }
     [[nodiscard]] Vec3 bilinear(const Vec2& place) const {

@@ -30,12 +30,12 @@ struct SceneTwin {
         return {host, image, {triangle_boxes(window, in.before, field::corner_position), s.width, s.height}};
     }
 
-    template <class R> ItemWords<R> operator()(R& r, const PassInput& in, std::size_t item) const {
+    template <class R, class Item> ItemWords<R> operator()(R& r, const PassInput& in, const Item& item) const {
         using Real = typename R::Real;
         const Settings& s = host->settings();
         const DrawnTriangles<R> triangles(
             r, {in.before, field::corner_position, host->view_projection(), s.width, s.height, boxes});
-        const auto hit = triangles.nearest(Pixel::of(s.width, item));
+        const auto hit = triangles.nearest(pixel_at(s.width, item));
         if (image == Drawn::depth) {
             ItemWords<R> words;
             words.add(r.note(site::scene_depth, hit ? r.note(site::surface_depth, hit->depth) : Real(1.0F)));

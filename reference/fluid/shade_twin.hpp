@@ -9,15 +9,15 @@ namespace lockstep::fluid {
 struct ShadeTwin {
     HostPtr host;
 
-    template <class R> ItemWords<R> operator()(R& r, const PassInput& in, std::size_t item) const {
+    template <class R, class Item> ItemWords<R> operator()(R& r, const PassInput& in, const Item& item) const {
         using Real = typename R::Real;
         using Vec3 = typename R::Vec3;
-        const Pixel pixel = Pixel::of(host->settings().width, item);
+        const auto pixel = pixel_at(host->settings().width, item);
         const DepthMap<R> map(r, *host, in.before, last_depth(*host));
         const Real stored = map.at(site::centre_depth, pixel.x, pixel.y);
         Vec3 lit{};
         if (map.is_empty(site::centre_empty, stored))
-            lit = r.read(site::background, glm::vec3(in.before.vec4(field::scene, item)));
+            lit = item_vec3(r, site::background, in.before, field::scene, item);
         else if (!map.is_black(stored))
             lit = Shading<R>{r, *host, in.before}.at(pixel, item, map.code().unprojected(stored));
         lit = r.note(site::light_to_eye, lit);

@@ -29,9 +29,10 @@ template <class R> struct Shading {
     const Host& host;
     const SystemView& state;
 
-    [[nodiscard]] Vec3 at(const Pixel& pixel, std::size_t item, const Real& z) const {
+    template <class Place, class Item>
+    [[nodiscard]] Vec3 at(const Place& pixel, const Item& item, const Real& z) const {
         const Vec3 e = point_at(r, host, pixel.x, pixel.y, z);
-        const Vec3 n = r.read(site::normal_in, glm::vec3(state.vec4(field::normal, item)));
+        const Vec3 n = item_vec3(r, site::normal_in, state, field::normal, item);
         const Vec3 to_eye = r.note(site::to_eye, -r.normalize(site::to_eye, e));
         const auto g4 = r.transform(site::world, r.uniform(site::inverse_view, host.inverse_view()), e);
         const Vec3 world = r.note(site::world, Vec3{g4.x, g4.y, g4.z});
@@ -54,10 +55,10 @@ template <class R> struct Shading {
         return r.note(site::specular, power_of(r, host, shine, 500));
     }
     /// The scene behind, as far aside as the normal leans.
-    [[nodiscard]] Vec3 seen_through(const Pixel& pixel, const Vec3& n, const Vec3& world) const {
+    template <class Place> [[nodiscard]] Vec3 seen_through(const Place& pixel, const Vec3& n, const Vec3& world) const {
         const Real bend = r.note(site::bend_of, Real(most_bend) * step(r, 0.1F, 0.4F, world.y));
         const Settings& s = host.settings();
-        const auto place = [&](At at, At centre_at, int i, const Real& offset, At size_at, int size) {
+        const auto place = [&](At at, At centre_at, const auto& i, const Real& offset, At size_at, int size) {
             const Real centre = r.note(centre_at, r.real(i) + Real(0.5F));
             return r.note(at, centre + offset * r.uniform(size_at, static_cast<float>(size)));
         };
@@ -67,11 +68,11 @@ template <class R> struct Shading {
                                            place(site::fetch_y, site::pixel_y, pixel.y, y, site::height, s.height)}));
     }
     /// Beer and Lambert's.
-    [[nodiscard]] Vec3 transmission(std::size_t item, const Vec3& colour) const {
+    template <class Item> [[nodiscard]] Vec3 transmission(const Item& item, const Vec3& colour) const {
         const Real thickness =
             host.switches().thickness_sum == ThicknessSum::fixed
-                ? r.note(site::thickness_in, r.real(state.word(field::thickness, item)) * Real(1.0F / 65536.0F))
-                : r.note(site::thickness_in, r.read(site::thickness_in, state.real(field::thickness, item)));
+                ? r.note(site::thickness_in, whole_real(r, state, field::thickness, item) * Real(1.0F / 65536.0F))
+                : r.note(site::thickness_in, item_real(r, site::thickness_in, state, field::thickness, item));
         const Real dark = r.note(
             site::dark, r.max(r.uniform(site::floor_of_thickness, host.settings().shading.thickness_floor), thickness));
         const Real one(1.0F);

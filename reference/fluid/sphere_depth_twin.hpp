@@ -1,6 +1,5 @@
 #pragma once
 #include <cstdint>
-#include <cstring>
 #include <optional>
 #include <tuple>
 
@@ -16,6 +15,12 @@ template <class R> struct SphereAt {
     auto fields() { return std::tie(stored); }
     auto fields() const { return std::tie(stored); }
 };
+
+struct SphereDepthTwin;
+void draw_row(const SphereDepthTwin& twin, const Portable& arithmetic, const PassInput& in, std::size_t row,
+              const WritableView& after);
+void draw_row(const SphereDepthTwin& twin, const PlainArithmetic& arithmetic, const PassInput& in, std::size_t row,
+              const WritableView& after);
 
 /// The nearest sphere of each pixel. Twin of shaders/fluid/sphere_depth_pass.*.
 struct SphereDepthTwin {
@@ -49,37 +54,19 @@ struct SphereDepthTwin {
         return words;
     }
 
-    // Sphere by sphere, a row of tiles at a time.
+    // Sphere by sphere, a row of tiles at a time (sphere_lanes.cpp).
     [[nodiscard]] std::size_t parts() const { return boxes.rows(); }
-    template <class R> void part(R& r, const PassInput& in, std::size_t row, const WritableView& after) const {
-        using Real = typename R::Real;
-        struct Texel {
-            Real key, stored;
-        };
-        const SpriteTwin<R> sprite(r, *host, in.before, spheres());
-        const Texel empty{Real(1.0F), Real(DepthCode<R>(r, *host).empty())};
-        boxes.template draw<Texel>(
-            row, empty, [&](std::uint32_t i) { return sprite.ball(i); },
-            [&](Texel& texel, const Ball<R>& ball, const Pixel& pixel, std::size_t item) {
-                offer(r, in.before, sprite, ball, pixel, item,
-                      [&](bool condition, const Real& key, const Real& stored) {
-                          if (condition && key < texel.key)
-                              texel = {key, stored};
-                      });
-            },
-            [&](const Texel& texel, std::size_t item) {
-                const std::uint32_t word = item_twin::word_of(texel.stored);
-                std::memcpy(after.columns[0] + item * sizeof word, &word, sizeof word);
-            });
+    template <class A>
+    void part(const Values<A>& r, const PassInput& in, std::size_t row, const WritableView& after) const {
+        draw_row(*this, arithmetic_of(r), in, row, after);
     }
 
-  private:
     [[nodiscard]] Spheres spheres() const { return {host->switches().sphere, host->settings().radius}; }
 
     /// Calls `made(condition, key, stored)` where the sphere may cover the pixel.
-    template <class R, class Made> void offer(R& r, const SystemView& state, const SpriteTwin<R>& sprite,
-                                              const Ball<R>& ball, const Pixel& pixel, std::size_t item,
-                                              const Made& made) const {
+    template <class R, class Place, class Item, class Made>
+    void offer(R& r, const SystemView& state, const SpriteTwin<R>& sprite, const Ball<R>& ball, const Place& pixel,
+               const Item& item, const Made& made) const {
         using Real = typename R::Real;
         const DepthCode<R> code(r, *host);
         const Real zero(0.0F), one(1.0F);
@@ -90,23 +77,24 @@ struct SphereDepthTwin {
         };
         if (host->switches().sphere == Sphere::ray) {
             const RayOfPixel<R> ray = ray_at(r, sprite, ball, pixel);
-            if (!r.decide(site::off_sphere, ray.chord < zero))
+            if (!everywhere(decided(r, site::off_sphere, ray.chord < zero)))
                 offer_at(-(ray.middle - half_chord(r, ray)), ray.chord >= zero);
             return;
         }
         const Real squared = sprite.squared(ball, pixel);
         // A point's edge is open: one fork among all spheres, not one for each.
-        if (host->switches().sprite == Sprite::points || !r.decide(site::off_disc, squared > one))
+        if (host->switches().sprite == Sprite::points || !everywhere(decided(r, site::off_disc, squared > one)))
             offer_at(ball.centre.z + r.note(site::rise, sprite.radius() * sprite.height(squared)), squared <= one);
     }
 
+  private:
     /// A pixel's ray through a sphere: where its middle lies, and the square of half its chord.
     template <class R> struct RayOfPixel { typename R::Real squared, middle, chord; };
     template <class R> static auto half_chord(R& r, const RayOfPixel<R>& ray) {
         return r.note(site::half_chord, r.sqrt(site::half_chord, r.divide(site::chord_by_ray, ray.chord, ray.squared)));
     }
-    template <class R>
-    RayOfPixel<R> ray_at(R& r, const SpriteTwin<R>& sprite, const Ball<R>& ball, const Pixel& pixel) const {
+    template <class R, class Place>
+    RayOfPixel<R> ray_at(R& r, const SpriteTwin<R>& sprite, const Ball<R>& ball, const Place& pixel) const {
         using Real = typename R::Real;
         using Vec3 = typename R::Vec3;
         const auto slope = pixel_slope(r, *host, pixel.x, pixel.y);

@@ -9,6 +9,7 @@
 #include "reference/fluid/depth_code.hpp"
 #include "reference/model/fluid/schema.hpp"
 #include "reference/readings/mistake.hpp"
+#include "reference/system/item_reads.hpp"
 #include "reference/system/item_twin.hpp"
 #include "reference/system/pixel_boxes.hpp"
 
@@ -53,6 +54,15 @@ template <class Visit> void for_each_tried(const BoxesByTile& boxes, const Syste
             visit(i);
 }
 
+/// What a pass's reading computes with.
+template <class A> A arithmetic_of(const Values<A>& r) {
+    struct Opened : Values<A> {
+        explicit Opened(const Values<A>& of) : Values<A>(of) {}
+        [[nodiscard]] A arithmetic() const { return this->fp_; }
+    };
+    return Opened(r).arithmetic();
+}
+
 /// A particle before the camera.
 template <class R> struct Ball {
     typename R::Vec3 centre; ///< in view space
@@ -73,7 +83,7 @@ template <class R> class SpriteTwin {
 
     [[nodiscard]] Real radius() const { return r_.uniform(site::radius, spheres_.radius); }
 
-    /// Nothing of one that is not drawn: it is no number, or too near.
+    /// Nothing of one that is not drawn: it is no number, or too near, or a point whose middle is not in sight.
     [[nodiscard]] std::optional<Ball<R>> ball(std::uint32_t particle) const {
         const glm::vec3 p(state_.vec4(field::position, particle));
         if (!(std::isfinite(p.x) && std::isfinite(p.y) && std::isfinite(p.z)))
@@ -85,13 +95,15 @@ template <class R> class SpriteTwin {
         const Real near = r_.uniform(site::near, host_.near_plane());
         if (!r_.decide(site::beyond_near, ball.w > (is_ray ? radius() + near : near)))
             return {};
+        if (host_.switches().sprite == Sprite::points && !is_in_volume(ball))
+            return {};
         if (!is_ray)
             place(ball);
         return ball;
     }
 
     /// The squared distance of a pixel's centre from the sprite's middle; above 1 it is not covered.
-    [[nodiscard]] Real squared(const Ball<R>& ball, const Pixel& pixel) const {
+    template <class Place> [[nodiscard]] Real squared(const Ball<R>& ball, const Place& pixel) const {
         const bool is_point = host_.switches().sprite == Sprite::points;
         const auto along = [&](At at, const Real& centre, const Real& middle) {
             const Real from = r_.divide(at, centre - middle, ball.half);
@@ -107,6 +119,17 @@ template <class R> class SpriteTwin {
     }
 
   private:
+    /// GL draws all of a point or nothing, by where its middle lies (4.5, 13.5).
+    [[nodiscard]] bool is_in_volume(const Ball<R>& ball) const {
+        const auto clip = [&](At scale_at, const Real& along, float unit) {
+            return r_.abs(r_.uniform(scale_at, unit) * along);
+        };
+        const glm::vec2 depth = host_.depth_coefficients();
+        const Real x = clip(site::p00, ball.centre.x, host_.projection()[0][0]),
+                   y = clip(site::p11, ball.centre.y, host_.projection()[1][1]),
+                   z = r_.abs(r_.note(site::clip_z, Real(depth.x) * ball.centre.z + Real(depth.y)));
+        return r_.decide(site::middle_in_volume, x <= ball.w && y <= ball.w && z <= ball.w);
+    }
     void place(Ball<R>& ball) const {
         const Settings& s = host_.settings();
         const bool by_w = host_.switches().point_size == PointSize::clip_w;
@@ -127,11 +150,15 @@ template <class R> class SpriteTwin {
     }
     /// GL takes gl_PointCoord from the exact place, but fixes no arithmetic (4.5, 14.4.1): up to 2/256 of a pixel off.
     [[nodiscard]] Real point_coordinate(At at, const Real& from, const Ball<R>& ball) const {
-        const Interval set = item_twin::set_of(from), half = item_twin::set_of(ball.half);
-        if (set.any || half.any || !(half.low > 0.0))
+        if constexpr (HasLanes<R>) {
             return from;
-        const double free = 2.0 / 256.0 / half.low + 0x1p-22;
-        return r_.unspecified(at, from, static_cast<float>(set.low - free), static_cast<float>(set.high + free));
+        } else {
+            const Interval set = item_twin::set_of(from), half = item_twin::set_of(ball.half);
+            if (set.any || half.any || !(half.low > 0.0))
+                return from;
+            const double free = 2.0 / 256.0 / half.low + 0x1p-22;
+            return r_.unspecified(at, from, static_cast<float>(set.low - free), static_cast<float>(set.high + free));
+        }
     }
 
     R& r_;
@@ -141,11 +168,11 @@ template <class R> class SpriteTwin {
 };
 
 /// The condition under which `scene_depth` lets what lies at a window depth be seen.
-template <class R>
-auto before_scene(R& r, const Host& host, const SystemView& state, std::size_t item, const typename R::Real& window) {
+template <class R, class Item>
+auto before_scene(R& r, const Host& host, const SystemView& state, const Item& item, const typename R::Real& window) {
     using Real = typename R::Real;
     const bool tests = r.setting(site::tests_scene, host.switches().scene_depth == SceneDepth::test);
-    const Real scene = tests ? r.read(site::scene_depth_in, state.real(field::scene_depth, item)) : Real(HUGE_VALF);
+    const Real scene = tests ? item_real(r, site::scene_depth_in, state, field::scene_depth, item) : Real(HUGE_VALF);
     return window < scene;
 }
 

@@ -2,8 +2,6 @@
 #include <bit>
 #include <cmath>
 #include <cstdint>
-#include <cstring>
-#include <optional>
 #include <vector>
 
 #include "reference/fluid/sprite.hpp"
@@ -20,6 +18,12 @@ struct ThicknessClearTwin {
         return words;
     }
 };
+
+struct ThicknessTwin;
+void draw_row(const ThicknessTwin& twin, const Portable& arithmetic, const PassInput& in, std::size_t row,
+              const WritableView& after);
+void draw_row(const ThicknessTwin& twin, const PlainArithmetic& arithmetic, const PassInput& in, std::size_t row,
+              const WritableView& after);
 
 /// The spheres of each pixel, added up. Twin of shaders/fluid/thickness_pass.*.
 struct ThicknessTwin {
@@ -45,8 +49,10 @@ struct ThicknessTwin {
             if (i + 1 == count && !r.setting(site::takes_last_sphere, true))
                 return;
             if (const auto ball = sprite.ball(i))
-                if (const auto t = addend(r, in.before, sprite, *ball, pixel, item))
-                    terms.push_back(*t);
+                addend(r, in.before, sprite, *ball, pixel, item, [&](bool covered, const Real& t) {
+                    if (covered)
+                        terms.push_back(t);
+                });
         });
         ItemWords<R> words;
         if (is_fixed())
@@ -56,55 +62,45 @@ struct ThicknessTwin {
         return words;
     }
 
-    // Sphere by sphere, a row of tiles at a time.
+    // Sphere by sphere, a row of tiles at a time (sphere_lanes.cpp).
     [[nodiscard]] std::size_t parts() const { return boxes.rows(); }
-    template <class R> void part(R& r, const PassInput& in, std::size_t row, const WritableView& after) const {
-        using Real = typename R::Real;
-        struct Texel {
-            Real sum;
-            std::uint32_t units;
-        };
-        const SpriteTwin<R> sprite(r, *host, in.before, spheres());
-        boxes.template draw<Texel>(
-            row, Texel{Real(0.0F), 0}, [&](std::uint32_t i) { return sprite.ball(i); },
-            [&](Texel& texel, const Ball<R>& ball, const Pixel& pixel, std::size_t item) {
-                if (const auto t = addend(r, in.before, sprite, ball, pixel, item)) {
-                    if (is_fixed())
-                        texel.units += static_cast<std::uint32_t>(static_cast<float>(*t));
-                    else
-                        texel.sum = texel.sum + *t;
-                }
-            },
-            [&](const Texel& texel, std::size_t item) {
-                const std::uint32_t word =
-                    is_fixed() ? in.before.word(field::thickness, item) + texel.units : item_twin::word_of(texel.sum);
-                std::memcpy(after.columns[0] + item * sizeof word, &word, sizeof word);
-            });
+    template <class A>
+    void part(const Values<A>& r, const PassInput& in, std::size_t row, const WritableView& after) const {
+        draw_row(*this, arithmetic_of(r), in, row, after);
     }
 
-  private:
     [[nodiscard]] Spheres spheres() const { return {Sphere::flat, host->thickness_radius()}; }
     [[nodiscard]] bool is_fixed() const { return host->switches().thickness_sum == ThicknessSum::fixed; }
 
-    /// Metres, or units of 2^-16 of a fixed sum.
-    template <class R> std::optional<typename R::Real> addend(R& r, const SystemView& state,
-                                                              const SpriteTwin<R>& sprite, const Ball<R>& ball,
-                                                              const Pixel& pixel, std::size_t item) const {
+    /// Calls `made(covered, t)` where the sphere may cover the pixel: metres, or units of 2^-16 of a fixed sum.
+    template <class R, class Place, class Item, class Made>
+    void addend(R& r, const SystemView& state, const SpriteTwin<R>& sprite, const Ball<R>& ball, const Place& pixel,
+                const Item& item, const Made& made) const {
         using Real = typename R::Real;
         const Real squared = sprite.squared(ball, pixel);
-        if (r.decide(site::off_disc, squared > Real(1.0F)))
-            return {};
-        if (host->switches().scene_depth == SceneDepth::test &&
-            !r.decide(site::nearer_than_scene,
-                      before_scene(r, *host, state, item, DepthCode<R>(r, *host).window(ball.centre.z))))
-            return {};
+        const auto off = decided(r, site::off_disc, squared > Real(1.0F));
+        if (everywhere(off))
+            return;
+        auto covered = !off;
+        if (host->switches().scene_depth == SceneDepth::test) {
+            const auto nearer =
+                decided(r, site::nearer_than_scene,
+                        before_scene(r, *host, state, item, DepthCode<R>(r, *host).window(ball.centre.z)));
+            if (nowhere(nearer))
+                return;
+            covered = covered && nearer;
+        }
         const Real t = r.note(site::addend, r.uniform(site::gain, host->thickness_gain()) * sprite.height(squared));
-        if (host->switches().thickness_sum == ThicknessSum::blend)
-            return t;
+        if (host->switches().thickness_sum == ThicknessSum::blend) {
+            made(covered, t);
+            return;
+        }
         const Real q =
             r.note(site::quantum, r.floor(r.uniform(site::units, 65536.0F) * t + r.uniform(site::half_unit, 0.5F)));
-        return is_fixed() ? q : q * Real(1.0F / 65536.0F);
+        made(covered, is_fixed() ? q : q * Real(1.0F / 65536.0F));
     }
+
+  private:
     /// Whole numbers are added whatever the order.
     template <class Real> static LegalWord units_of(std::uint32_t before, const std::vector<Real>& terms) {
         LegalWord sum = LegalWord::exactly(before);

@@ -9,12 +9,13 @@ namespace lockstep::fluid {
 /// The gaussian and the bilateral filter at a pixel. Twin of shaders/fluid/weighted_mean.glsl.
 template <class R> class WeightedMean {
     using Real = typename R::Real;
+    using Index = IndexOf<R>;
 
   public:
     WeightedMean(R& r, const Host& host, const DepthMap<R>& map) : r_(r), host_(host), map_(map) {}
 
     /// Of a number that the pixel itself has.
-    [[nodiscard]] Real at(int x, int y, const FilterStep& step, const Real& centre) const {
+    [[nodiscard]] Real at(const Index& x, int y, const FilterStep& step, const Real& centre) const {
         Sums sums{Real(0.0F), Real(0.0F)};
         const int reach = host_.settings().filter_radius;
         if (step.shape == FilterStep::Shape::along) {
@@ -41,7 +42,7 @@ template <class R> class WeightedMean {
         Real weighted, weights;
     };
 
-    [[nodiscard]] Real sample(int x, int y) const { return map_.at(site::sample, x, y); }
+    [[nodiscard]] Real sample(const Index& x, int y) const { return map_.at(site::sample, x, y); }
     [[nodiscard]] Real weight(int j) const {
         if (host_.switches().transcendentals == Transcendentals::portable)
             return r_.uniform(site::weight, host_.weights()[static_cast<std::size_t>(std::abs(j))]);
@@ -49,7 +50,9 @@ template <class R> class WeightedMean {
         return r_.note(site::weight, exponential_of(r_, host_, r_.note(site::exponent, -(q * q))));
     }
     void add(Sums& sums, const Real& stored, const Real& w, const Real& centre) const {
-        if (r_.setting(site::skips_empty, true) && map_.is_empty(site::empty, stored))
+        const bool skips = r_.setting(site::skips_empty, true);
+        const auto empty = map_.has_nothing(site::empty, stored);
+        if (skips && everywhere(empty))
             return;
         const Real s = is_metric() ? map_.code().decoded(stored) : stored;
         Real part = s * w, share = w;
@@ -59,8 +62,9 @@ template <class R> class WeightedMean {
             part = part * v;
             share = w * v;
         }
-        sums.weighted = r_.note(site::weighted_sum, sums.weighted + part);
-        sums.weights = r_.note(site::sum_of_weights, sums.weights + share);
+        const auto left_out = skips && empty;
+        sums.weighted = r_.note(site::weighted_sum, choose(left_out, sums.weighted, sums.weighted + part));
+        sums.weights = r_.note(site::sum_of_weights, choose(left_out, sums.weights, sums.weights + share));
     }
 
     R& r_;

@@ -15,11 +15,11 @@ void add_image_passes(const HostPtr& host, std::vector<std::unique_ptr<ItemPass>
         }));
     const bool by_gl = host->switches().encoding == Encoding::srgb_hw;
     const auto encode = [&](const HostPtr& on) {
-        return item_pass({.name = by_gl ? "encode_by_gl_pass" : "encode_pass",
-                          .resource = encoded_image,
-                          .stage = by_gl ? PassStage::fragment : PassStage::compute,
-                          .arithmetic = arithmetic},
-                         EncodeTwin{on->switches().encoding, field::pixel, on->follows_driver()});
+        return lockstep::encode_pass({.name = by_gl ? "encode_by_gl_pass" : "encode_pass",
+                                      .resource = encoded_image,
+                                      .stage = by_gl ? PassStage::fragment : PassStage::compute,
+                                      .arithmetic = arithmetic},
+                                     EncodeTwin{on->switches().encoding, field::pixel, on->follows_driver()});
     };
     all.push_back(by_gl ? by_driver(srgb_row, host, encode) : encode(host));
 }

@@ -2,6 +2,7 @@
 #include "reference/half.hpp"
 #include "reference/lights/sampling.hpp"
 #include "reference/lights/surface.hpp"
+#include "reference/system/item_reads.hpp"
 #include "reference/system/item_words.hpp"
 
 namespace lockstep::lights {
@@ -67,9 +68,9 @@ struct DrawnTwin {
 
     [[nodiscard]] DrawnTwin at(const PassInput& in) const { return {host, image, triangle_boxes(*host, in.before)}; }
 
-    template <class R> ItemWords<R> operator()(R& r, const PassInput& in, std::size_t item) const {
+    template <class R, class Item> ItemWords<R> operator()(R& r, const PassInput& in, const Item& item) const {
         using Real = typename R::Real;
-        const auto surface = SurfaceTwin<R>(r, *host, boxes, in.before).at(Pixel::of(host->settings().width, item));
+        const auto surface = SurfaceTwin<R>(r, *host, boxes, in.before).at(pixel_at(host->settings().width, item));
         ItemWords<R> words;
         switch (image) {
         case Drawn::lit:
@@ -117,20 +118,23 @@ struct DrawnTwin {
 struct DeferredTwin {
     HostPtr host;
 
-    template <class R> ItemWords<R> operator()(R& r, const PassInput& in, std::size_t item) const {
+    template <class R, class Item> ItemWords<R> operator()(R& r, const PassInput& in, const Item& item) const {
         using Real = typename R::Real;
-        const Real valid = r.read(site::valid, in.before.real(field::texel_position, item, 3));
+        const Real valid = item_real(r, site::valid, in.before, field::texel_position, item, 3);
         if (!r.decide(site::is_valid, valid != Real(0.0F)))
             return words_of<R>(background_pixel(r, *host));
-        const auto part = [&](const Site& place, FieldId field) {
-            const glm::vec4 v = in.before.vec4(field, item);
-            return r.read(place, glm::vec3(v));
-        };
         Surface<R> surface;
-        surface.position = part(site::surface_point, field::texel_position);
-        surface.normal = part(site::surface_normal, field::texel_normal);
-        const auto code = [&](int c) { return static_cast<float>(in.before.word(field::texel_albedo, item, c)); };
-        surface.albedo = r.read(site::albedo, glm::vec3(code(0), code(1), code(2)) / 256.0F);
+        surface.position = item_vec3(r, site::surface_point, in.before, field::texel_position, item);
+        surface.normal = item_vec3(r, site::surface_normal, in.before, field::texel_normal, item);
+        if constexpr (HasLanes<R>) {
+            const auto share = [&](int c) {
+                return whole_real(r, in.before, field::texel_albedo, item, c) * Real(1.0F / 256.0F);
+            };
+            surface.albedo = {share(0), share(1), share(2)};
+        } else {
+            const auto code = [&](int c) { return static_cast<float>(in.before.word(field::texel_albedo, item, c)); };
+            surface.albedo = r.read(site::albedo, glm::vec3(code(0), code(1), code(2)) / 256.0F);
+        }
         return words_of<R>(lit_pixel(r, radiance(r, *host, in.before, surface)));
     }
 };

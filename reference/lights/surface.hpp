@@ -30,7 +30,7 @@ template <class R> class SurfaceTwin {
         : r_(r), host_(host), state_(state), triangles_(r, {state, field::corner_position, host.view_projection(),
                                                             host.settings().width, host.settings().height, boxes}) {}
 
-    [[nodiscard]] std::optional<Surface<R>> at(const Pixel& pixel) const {
+    template <class Place> [[nodiscard]] std::optional<Surface<R>> at(const Place& pixel) const {
         const std::optional<TriangleHit<R>> hit = triangles_.nearest(pixel);
         if (!hit)
             return {};
@@ -51,8 +51,7 @@ template <class R> class SurfaceTwin {
         surface.normal = cross * inverse;
         const Vec3 to_eye = r_.uniform(site::eye, host_.settings().camera.eye) - a;
         const Real side = (surface.normal.x * to_eye.x + surface.normal.y * to_eye.y) + surface.normal.z * to_eye.z;
-        if (r_.decide(site::faces_away, side < Real(0.0F)))
-            surface.normal = -surface.normal;
+        surface.normal = choose(decided(r_, site::faces_away, side < Real(0.0F)), -surface.normal, surface.normal);
         surface.normal = r_.note(site::surface_normal, surface.normal);
         surface.albedo =
             r_.read(site::albedo, state_.vec3(field::corner_albedo, 3 * static_cast<std::size_t>(hit.triangle)));

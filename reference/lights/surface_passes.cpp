@@ -1,5 +1,5 @@
 #include "reference/lights/by_driver.hpp"
-#include "reference/lights/lighting_twin.hpp"
+#include "reference/lights/image_lanes.hpp"
 #include "reference/lights/passes.hpp"
 
 namespace lockstep::lights {
@@ -13,7 +13,7 @@ void add_surface_passes(const HostPtr& host, std::vector<std::unique_ptr<ItemPas
     };
     const auto drawn = [&](const char* name, std::uint8_t resource, Drawn image, bool continues) {
         const auto made = [&](const HostPtr& on) {
-            return item_pass({.name = name,
+            return lane_pass({.name = name,
                               .resource = resource,
                               .stage = PassStage::fragment,
                               .arithmetic = arithmetic,
@@ -32,7 +32,7 @@ void add_surface_passes(const HostPtr& host, std::vector<std::unique_ptr<ItemPas
     drawn("gbuffer_pass_albedo", albedo_image, Drawn::albedo, true);
     drawn("gbuffer_pass_depth", depth_image, Drawn::depth, true);
     all.push_back(lit([&](const HostPtr& on) {
-        return item_pass({.name = "deferred_light_pass",
+        return lane_pass({.name = "deferred_light_pass",
                           .resource = lit_image,
                           .stage = PassStage::compute,
                           .arithmetic = arithmetic},

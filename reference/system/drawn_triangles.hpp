@@ -7,6 +7,7 @@
 
 #include "reference/readings/site.hpp"
 #include "reference/readings/values.hpp"
+#include "reference/system/item_reads.hpp"
 #include "reference/system/pixel_boxes.hpp"
 
 namespace lockstep {
@@ -47,10 +48,10 @@ template <class R> class DrawnTriangles {
   public:
     DrawnTriangles(R& r, const TriangleScene& scene) : r_(r), scene_(scene) {}
 
-    [[nodiscard]] std::optional<TriangleHit<R>> nearest(const Pixel& pixel) const {
+    template <class Place> [[nodiscard]] std::optional<TriangleHit<R>> nearest(const Place& pixel) const {
         namespace site = triangle_site;
         auto nearest = least<TriangleHit<R>>(r_, site::nearest, 1.0F);
-        for (const std::uint32_t t : scene_.boxes.near(pixel))
+        for (const std::uint32_t t : scene_.boxes.near(first_of(pixel)))
             if (pixel.is_in(scene_.boxes.box(t)))
                 if (const auto hit = triangle_at(static_cast<int>(t), pixel))
                     nearest.offer(site::in_depth, hit->depth < Real(1.0F), hit->depth, *hit);
@@ -80,7 +81,8 @@ template <class R> class DrawnTriangles {
         return (first + hit.second * (second - first)) + hit.third * (third - first);
     }
 
-    [[nodiscard]] std::optional<TriangleHit<R>> triangle_at(int triangle, const Pixel& pixel) const {
+    template <class Place>
+    [[nodiscard]] std::optional<TriangleHit<R>> triangle_at(int triangle, const Place& pixel) const {
         namespace site = triangle_site;
         std::array<Vec4, 3> clip;
         std::array<std::array<Real, 2>, 3> to_corner;

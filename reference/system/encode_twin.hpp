@@ -1,5 +1,11 @@
 #pragma once
+#include <array>
 #include <cmath>
+#include <cstdint>
+#include <cstring>
+#include <memory>
+#include <utility>
+#include <vector>
 
 #include "reference/model/srgb_table.hpp"
 #include "reference/readings/site.hpp"
@@ -36,7 +42,45 @@ struct EncodeTwin {
         return words;
     }
 
+    /// Whether the curve's thresholds decide the codes.
+    [[nodiscard]] bool has_table() const {
+        return encoding == Encoding::srgb_table || (encoding == Encoding::srgb_hw && nearest_code);
+    }
+    /// Those of items first to last, the last excluded, by a table of where to begin.
+    void by_table(const PassInput& in, std::size_t first, std::size_t last, const WritableView& after) const {
+        const View& from = in.before[numbers.resource];
+        for (std::size_t item = first; item < last; ++item) {
+            std::array<float, 3> v{};
+            std::memcpy(v.data(), from.columns[numbers.field] + item * 4 * sizeof(float), sizeof v);
+            const std::array<std::uint32_t, 4> codes{nearest_code_of(v[0]), nearest_code_of(v[1]),
+                                                     nearest_code_of(v[2]), 255};
+            std::memcpy(after.columns[0] + item * sizeof codes, codes.data(), sizeof codes);
+        }
+    }
+
   private:
+    /// The number of thresholds at or below.
+    static std::uint32_t nearest_code_of(float x) {
+        constexpr int cells = 4096;
+        static const std::array<std::uint8_t, cells + 1> begins = [] {
+            std::array<std::uint8_t, cells + 1> all{};
+            std::size_t code = 0;
+            for (int cell = 0; cell <= cells; ++cell) {
+                while (code < 255 && srgb_threshold(code) <= static_cast<float>(cell) / cells)
+                    ++code;
+                all[static_cast<std::size_t>(cell)] = static_cast<std::uint8_t>(code);
+            }
+            return all;
+        }();
+        if (!(x > 0.0F))
+            return 0;
+        const float clamped = x < 1.0F ? x : 1.0F;
+        std::size_t code = begins[static_cast<std::size_t>(clamped * static_cast<float>(cells))];
+        while (code < 255 && srgb_threshold(code) <= clamped)
+            ++code;
+        return static_cast<std::uint32_t>(code);
+    }
+
     template <class R> typename R::Int code_of(R& r, const typename R::Real& x) const {
         using Real = typename R::Real;
         if (encoding == Encoding::linear8)
@@ -71,5 +115,13 @@ struct EncodeTwin {
                              static_cast<float>(std::fmin(std::ceil(high), 255.0)));
     }
 };
+
+inline std::unique_ptr<ItemPass> encode_pass(ItemPassOptions options, const EncodeTwin& twin) {
+    if (twin.has_table())
+        options.fast = [twin](const PassInput& in, const Profile&, std::size_t first, std::size_t last,
+                              const WritableView& after,
+                              std::vector<std::size_t>&) { twin.by_table(in, first, last, after); };
+    return item_pass(std::move(options), twin);
+}
 
 } // namespace lockstep

@@ -40,6 +40,17 @@ TEST_CASE("fluid passes: every pass of every preset agrees, or differs as GL all
     CHECK(report.untried.empty());
 }
 
+TEST_CASE("fluid passes: a point whose middle lies beside the image is not drawn, a quad is") {
+    if (!gl())
+        return skip(gl().missing());
+    const std::string sprite = GENERATE("sprite=points", "sprite=quad");
+    fluid::Settings s = with(in_preset(heap(), "corrected"), {sprite, "filter=off"});
+    s.camera.eye = {0.35F, 0.5F, 1.0F};
+    const CheckReport report = run_fluid(s, 1);
+    INFO(sprite << "\n" << report_text(report, {}));
+    CHECK(passes(report));
+}
+
 TEST_CASE("fluid passes: every filter agrees in both arithmetics") {
     if (!gl())
         return skip(gl().missing());

@@ -99,6 +99,8 @@ TEST_CASE("fluid scenes: what is wrong in a scene is one line that names the pla
     using Catch::Contains;
     CHECK(told("/seed", 4) == "nothing");
     CHECK_THAT(told("/fluid/radius", 0), Contains("radius is 0 m; right is above 0"));
+    CHECK_THAT(told("/fluid/radius", 1e-40), Contains("right is above 0.000001, to 1000"));
+    CHECK_THAT(told("/fluid/radius", 1e20), Contains("right is above 0.000001, to 1000"));
     CHECK_THAT(told("/fluid/radius", "x"), Contains("/fluid/radius"));
     CHECK_THAT(told("/fluid/filter_radius", 32), Contains("filter_radius is 32 pixels; right is 0 to 31"));
     CHECK_THAT(told("/fluid/rest_density", 1000), Contains("rest_density"));

@@ -97,6 +97,8 @@ TEST_CASE("lights scenes: what is wrong in a scene is one line that names the pl
     CHECK_THAT(told("/grid/origin", {0.5, 0, 0}), Contains("origin.x is 0.5 m; right is a multiple of a voxel, 1 m"));
     CHECK_THAT(told("/lights/0/range", 15), Contains("a range of 15 m; right is up to 14 voxels, 14 m"));
     CHECK_THAT(told("/lights/0/range", 0), Contains("a range of 0 m; right is above 0"));
+    CHECK_THAT(told("/lights/0/range", 1e-30), Contains("right is above 0.000001"));
+    CHECK_THAT(told("/lights/0/min", {1000, 0, 0}), Contains("min is above max in x"));
     CHECK_THAT(told("/obstacles/0/albedo", {0.3, 0.5, 0.5}), Contains("three multiples of 1/256, below 1"));
     CHECK_THAT(told("/obstacles/0/albedo", {1, 0.5, 0.5}), Contains("three multiples of 1/256, below 1"));
     CHECK_THAT(told("/switches/shading", "directional"), Contains("/switches/shading"));

@@ -91,7 +91,7 @@ void check(const Settings& s) {
            s.particles.size(), most_particles);
     expect(s.width >= 1 && s.height >= 1 && s.width <= 8192 && s.height <= 8192,
            "render: {} x {} pixels; right is 1 to 8192 a side", s.width, s.height);
-    expect(is_positive(s.radius), "radius is {} m; right is above 0", s.radius);
+    expect(s.radius > 0.000001F && s.radius <= 1000.0F, "radius is {} m; right is above 0.000001, to 1000", s.radius);
     expect(s.filter_radius >= 0 && s.filter_radius <= most_filter_radius,
            "filter_radius is {} pixels; right is 0 to {}", s.filter_radius, most_filter_radius);
     expect(s.tick >= 0.0F && std::isfinite(s.tick), "tick is {} s; right is 0 or above", s.tick);

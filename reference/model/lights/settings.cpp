@@ -39,7 +39,7 @@ void check_grid(const Grid& grid, Accumulate accumulate) {
 
 void check_light(const Settings& s, std::size_t i) {
     const Light& light = s.lights[i];
-    expect(light.range > 0.0F, "lights: {} has a range of {} m; right is above 0", i, light.range);
+    expect(light.range > 0.000001F, "lights: {} has a range of {} m; right is above 0.000001", i, light.range);
     expect(!(light.range > 14.0F * s.grid.voxel), "lights: {} has a range of {} m; right is up to 14 voxels, {} m", i,
            light.range, 14.0F * s.grid.voxel);
 }

@@ -1,0 +1,225 @@
+#pragma once
+#include <algorithm>
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <cstring>
+#include <memory>
+#include <mutex>
+#include <utility>
+#include <vector>
+
+#include "reference/model/arithmetic_switch.hpp"
+#include "reference/readings/exponential.hpp"
+#include "reference/readings/lanes.hpp"
+#include "reference/system/item_reads.hpp"
+#include "reference/system/item_twin.hpp"
+#include "reference/system/item_words.hpp"
+#include "reference/vector_loops.hpp"
+
+namespace lockstep {
+
+/// An item of each lane, and how many there are.
+struct LaneItems {
+    IntLanes v{};
+    std::size_t count = 0;
+};
+
+/// The places of the items in an image: side by side in one row, of one column of tiles.
+struct LanePixel {
+    LaneInt x;
+    int first = 0, y = 0;
+    [[nodiscard]] bool is_in(const PixelRect& box) const {
+        return first + lane_count > box.x0 && first < box.x1 && y >= box.y0 && y < box.y1;
+    }
+};
+inline Pixel first_of(const LanePixel& pixel) { return {pixel.first, pixel.y}; }
+
+LOCKSTEP_INLINE IntLanes from(int first) { return IntLanes{0, 1, 2, 3, 4, 5, 6, 7} + first; }
+
+inline LanePixel pixel_at(int width, const LaneItems& items) {
+    const int first = items.v[0] % width;
+    return {LaneInt(from(first)), first, items.v[0] / width};
+}
+
+LOCKSTEP_INLINE FloatLanes lane_floats(const SystemView& state, FieldId field, const LaneItems& items, int component) {
+    const View& view = state[field.resource];
+    const auto components = static_cast<std::int32_t>(view.fields()[field.field].components);
+    const std::byte* from_first = view.columns[field.field];
+    FloatLanes found{};
+    const IntLanes& at = items.v;
+    if (components == 1 && lanes::set_of(at == from(at[0])) == (1U << lane_count) - 1) {
+        std::memcpy(&found, from_first + static_cast<std::size_t>(at[0]) * sizeof(float), sizeof found);
+        return found;
+    }
+    for (int lane = 0; lane < lane_count; ++lane) {
+        float one = 0.0F;
+        std::memcpy(&one, from_first + static_cast<std::size_t>(at[lane] * components + component) * sizeof one,
+                    sizeof one);
+        found[lane] = one;
+    }
+    return found;
+}
+
+template <class F> LaneReal<F> item_real(Lanes<F>& r, At at, const SystemView& state, FieldId field,
+                                         const LaneItems& items, int component = 0) {
+    return r.read(at, lane_floats(state, field, items, component));
+}
+template <class F>
+Vec3<LaneReal<F>> item_vec3(Lanes<F>& r, At at, const SystemView& state, FieldId field, const LaneItems& items) {
+    return {item_real(r, at, state, field, items, 0), item_real(r, at, state, field, items, 1),
+            item_real(r, at, state, field, items, 2)};
+}
+/// Of words below 2^31.
+template <class F>
+LaneReal<F> whole_real(Lanes<F>& r, const SystemView& state, FieldId field, const LaneItems& items, int component = 0) {
+    return r.real(LaneInt(lanes::bits(lane_floats(state, field, items, component))));
+}
+
+inline LaneInt clamped(const LaneInt& i, int low, int high) { return i.clamped(low, high); }
+inline LaneMask is_among(const LaneInt& i, int size) { return LaneMask((i.v >= 0) & (i.v < size)); }
+inline LaneItems item_of(const LaneInt& x, int y, int width) { return {x.v + y * width, lane_count}; }
+inline LaneItems item_of(const LaneInt& x, const LaneInt& y, int width) { return {x.v + y.v * width, lane_count}; }
+
+/// The words of an item of each lane.
+template <class F> class ItemWords<Lanes<F>> {
+  public:
+    static constexpr std::size_t most = 8;
+
+    void add(const LaneReal<F>& number) { words_[size_++] = lanes::bits(number.v); }
+    void add(const LaneInt& number) { words_[size_++] = number.v; }
+    void add(std::uint32_t bits) { words_[size_++] = lanes::all(static_cast<std::int32_t>(bits)); }
+
+    [[nodiscard]] std::size_t size() const { return size_; }
+    [[nodiscard]] std::uint32_t word(std::size_t w, int lane) const {
+        return static_cast<std::uint32_t>(words_[w][lane]);
+    }
+
+  private:
+    std::array<IntLanes, most> words_; // NOLINT: as many as were added
+    std::size_t size_ = 0;
+};
+
+/// portable_exponential (readings/exponential.hpp), lane by lane.
+template <class F> LaneReal<F> portable_exponential(Lanes<F>& /*r*/, At, const LaneReal<F>& x) {
+    const LaneReal<F> power = exponential(
+        x, [](const LaneReal<F>& v) { return Lanes<F>::floor(v); },
+        [](const LaneReal<F>& p, const LaneReal<F>& j) {
+            const IntLanes n = __builtin_convertvector(j.v, IntLanes), half = n / 2;
+            const auto two_to = [](const IntLanes& k) { return LaneReal<F>(lanes::floats((k + 127) << 23)); };
+            return p * two_to(half) * two_to(n - half);
+        });
+    return choose(x >= LaneReal<F>(least_exponent), power, LaneReal<F>(0.0F));
+}
+
+// GLSL's own functions, lane by lane: as those of one item give them.
+template <class F> LaneReal<F> built_in_exponential(Lanes<F>& /*r*/, At at, const LaneReal<F>& x) {
+    Values<Strict> one{Strict{}};
+    return lanes::each(x.v, [&](float v) { return built_in_exponential<Values<Strict>, float>(one, at, v); });
+}
+template <class F> LaneReal<F> built_in_power(Lanes<F>& /*r*/, At at, const LaneReal<F>& x, int n) {
+    Values<Strict> one{Strict{}};
+    return lanes::each(x.v, [&](float v) { return built_in_power<Values<Strict>, float>(one, at, v, n); });
+}
+
+/// What is made by lanes: items first to last of an image `width` wide, the last excluded; `left` gets those of which
+/// no lane can be made.
+struct LaneRun {
+    const PassInput& in;
+    int width;
+    std::size_t first, last;
+    const WritableView& after;
+    std::vector<std::size_t>& left;
+};
+
+/// Makes them, those of a tile's row side by side. To be compiled into a function that is compiled for vectors
+/// (vector_loops.hpp).
+template <class F, class Twin> void make_lanes(const Twin& twin, F arithmetic, const LaneRun& run) {
+    const auto& [in, width, begin, last, after, left] = run;
+    std::size_t first = begin;
+    const std::vector<item_twin::WordColumn> columns = item_twin::word_columns(after);
+    const auto row = static_cast<std::size_t>(width);
+    while (first < last) {
+        const std::size_t x = first % row, tile = x % lane_count;
+        const std::size_t count = std::min({lane_count - tile, row - x, last - first});
+        const auto items = static_cast<std::int32_t>(first);
+        unsigned waiting = (1U << count) - 1;
+        while (waiting != 0) {
+            Lanes<F> reading(arithmetic, waiting);
+            const IntLanes behind = from(items);
+            const auto most = static_cast<std::int32_t>(first + count - 1);
+            const ItemWords<Lanes<F>> words =
+                twin(reading, in, LaneItems{behind > most ? lanes::all(most) : behind, count});
+            if (reading.active() == 0)
+                break;
+            for (std::size_t w = 0; w < words.size(); ++w)
+                for (int lane = 0; lane < static_cast<int>(count); ++lane)
+                    if ((reading.active() >> lane & 1U) != 0) {
+                        const std::uint32_t word = words.word(w, lane);
+                        std::memcpy(columns[w].first + (first + static_cast<std::size_t>(lane)) * columns[w].stride,
+                                    &word, sizeof word);
+                    }
+            waiting &= ~reading.active();
+        }
+        for (std::size_t lane = 0; lane < count; ++lane)
+            if ((waiting >> lane & 1U) != 0)
+                left.push_back(first + lane);
+        first += count;
+    }
+}
+
+/// A twin for every input.
+template <class Twin> auto always(const Twin& twin) {
+    return [one = std::make_shared<const Twin>(twin)](const PassInput&) { return one; };
+}
+/// A twin's at(in), made again only where a resource, on which alone it depends, is another.
+template <class Twin> auto while_same(const Twin& twin, std::uint8_t resource) {
+    struct Made {
+        std::mutex mutex;
+        std::vector<std::byte> of;
+        std::shared_ptr<const Twin> twin;
+    };
+    return [twin, resource, latest = std::make_shared<Made>()](const PassInput& in) {
+        const std::lock_guard lock(latest->mutex);
+        const View& view = in.before[resource];
+        std::size_t at = 0;
+        bool is_same = latest->twin != nullptr;
+        const auto for_each_column = [&](const auto& visit) {
+            for (std::size_t f = 0; f < view.columns.size(); ++f)
+                visit(view.columns[f],
+                      view.count() * static_cast<std::size_t>(view.fields()[f].components) * sizeof(float));
+        };
+        for_each_column([&](const std::byte* column, std::size_t bytes) {
+            is_same =
+                is_same && at + bytes <= latest->of.size() && std::memcmp(latest->of.data() + at, column, bytes) == 0;
+            at += bytes;
+        });
+        if (!is_same || at != latest->of.size()) {
+            latest->twin = std::make_shared<const Twin>(twin.at(in));
+            latest->of.clear();
+            for_each_column([&](const std::byte* column, std::size_t bytes) {
+                latest->of.insert(latest->of.end(), column, column + bytes);
+            });
+        }
+        return latest->twin;
+    };
+}
+
+/// ItemPassOptions::fast: `make(twin, arithmetic, run)` of the twin that `at(in)` gives. A driver whose roots come of
+/// tables has no lanes.
+template <class At, class Make> auto fast_by_lanes(ArithmeticSwitch arithmetic, int width, At at, Make make) {
+    return [=](const PassInput& in, const Profile& profile, std::size_t first, std::size_t last,
+               const WritableView& after, std::vector<std::size_t>& left) {
+        const LaneRun run{in, width, first, last, after, left};
+        const auto twin = at(in);
+        if (arithmetic == ArithmeticSwitch::exact)
+            make(*twin, PortableLanes{}, run);
+        else if (profile.roots == nullptr)
+            make(*twin, PlainLanes{profile.dot, profile.length_order(), profile.normalize_order()}, run);
+        else
+            for (std::size_t item = first; item < last; ++item)
+                left.push_back(item);
+    };
+}
+
+} // namespace lockstep

@@ -1,0 +1,47 @@
+#include <string>
+#include <vector>
+
+#include "crosscheck/scene/scene_fields.hpp"
+#include "tests/fluid/fluid_run.hpp"
+#include "tests/item_bits.hpp"
+
+using namespace lockstep;
+using namespace lockstep::test;
+namespace fluid = lockstep::fluid;
+
+namespace {
+
+using Strings = std::vector<std::string>;
+
+fluid::Settings with(fluid::Settings s, const Strings& values) {
+    std::vector<SwitchValue> all = switch_values(s.switches);
+    for (const std::string& one : values)
+        set_value(one, "fluid", all);
+    take_values(s.switches, all);
+    return s;
+}
+
+} // namespace
+
+TEST_CASE("fluid lanes: every pixel of every pass is that of the twin by itself") {
+    const std::string preset = GENERATE("exact", "corrected", "paper");
+    const Strings values = GENERATE(
+        Strings{"filter=gaussian", "filter_shape=full2d"}, Strings{"filter=bilateral"},
+        Strings{"filter=bilateral", "transcendentals=builtin", "filter_constants=published"},
+        Strings{"filter=narrow_range", "depth_value=window"},
+        Strings{"filter=narrow_range", "narrow_cleanup=quadrants", "narrow_weights=texcoord", "depth_value=view"},
+        Strings{"filter=curvature_flow", "scene_fetch=nearest", "depth_value=view", "depth_fetch=texel"});
+    CAPTURE(preset, values);
+    fluid::Settings s = with(in_preset(heap(4), preset), values);
+    s.flow_iterations = 2;
+    const fluid::HostPtr host = host_of(s);
+    check_item_bits(fluid::system(host), Profile{}, 1);
+}
+
+TEST_CASE("fluid lanes: orders of sums are the driver's") {
+    Profile profile;
+    profile.dot =
+        GENERATE(DotOrder::left_to_right, DotOrder::right_to_left, DotOrder::fused_chain, DotOrder::middle_last);
+    const fluid::HostPtr host = host_of(in_preset(heap(3), "corrected"));
+    check_item_bits(fluid::system(host), profile, 1);
+}

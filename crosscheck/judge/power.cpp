@@ -101,10 +101,9 @@ PowerSummary PowerMeter::summary() const {
         mistake.meaning = named_[m].meaning;
         if (tried.first_frame >= 0)
             mistake.first_frame = tried.first_frame;
-        else
-            mistake.why_not = tried.changes   ? "what it changes is legal, too"
-                              : tried.reached ? "it changes nothing in these states"
-                                              : "nothing that was tried came to where it is made";
+        mistake.changes = tried.changes;
+        if (!tried.reached)
+            mistake.reasons.emplace_back("nothing that was tried came to where it is made");
     }
     return summary;
 }

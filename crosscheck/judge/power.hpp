@@ -26,7 +26,7 @@ class PowerMeter {
     /// Whether all mistakes of the passes that were seen have shown: more frames tell nothing more of these.
     [[nodiscard]] bool has_seen_all() const;
 
-    /// Of the mistakes of passes that were seen.
+    /// Of the mistakes of passes that were seen, to be concluded.
     [[nodiscard]] PowerSummary summary() const;
 
   private:

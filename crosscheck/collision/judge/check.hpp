@@ -34,4 +34,8 @@ struct FrameCheckOptions : CheckOptions {
 /// prove nothing: a GL error, an incomplete framebuffer, output that was not written, no frame compared.
 CheckReport check(const Scene& scene, const Profile& profile, GpuSide& gpu, const FrameCheckOptions& options);
 
+/// The same in two steps, between which reports on parts of one run can be joined (crosscheck/judge/joined_parts.hpp).
+CheckReport judge_frames(const Scene& scene, const Profile& profile, GpuSide& gpu, const FrameCheckOptions& options);
+void conclude(CheckReport& report);
+
 } // namespace lockstep

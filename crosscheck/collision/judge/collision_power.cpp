@@ -22,7 +22,12 @@ namespace {
 constexpr std::size_t looked_at = 8192;      ///< particles of a frame, of those without a hit
 constexpr std::size_t drawn_at_most = 16384; ///< particles, where it does not matter which of two is nearer
 constexpr std::size_t texels_judged = 16;
-constexpr std::size_t steps_a_frame = 3000; ///< that are tried with a mistake
+
+/// On so many particles of a frame a mistake is tried that has not shown yet. This follows from the frame alone, so that
+/// parts of a run come together to what the whole run shows. Most show in the first frames; the rest takes more.
+std::size_t particles_tried(int frame) {
+    return std::min<std::size_t>(48 + 16 * static_cast<std::size_t>(frame), 256);
+}
 
 bool among(Deviation deviation, std::initializer_list<Deviation> all) {
     return std::find(all.begin(), all.end(), deviation) != all.end();
@@ -234,7 +239,7 @@ void CollisionPower::try_steps(const PowerFrame& frame, const Situations& found)
     std::vector<Deviation> all = unseen(false);
     if (all.empty() || frame.after.size() == 0)
         return;
-    const std::size_t most = std::max<std::size_t>(steps_a_frame / all.size(), 2 * situation_count);
+    const std::size_t most = particles_tried(frame.number);
     std::erase_if(all, [&](Deviation deviation) { return has_no_place(deviation, found); });
     const FrameInputs& in = frame.inputs;
     const StepInputs step_inputs{*in.before, *in.cdt, scene_.obstacles, *in.params, &in};
@@ -293,7 +298,7 @@ void CollisionPower::try_drawing(const PowerFrame& frame) {
 }
 
 /// Why it could not show, as far as the states tell.
-std::string CollisionPower::why_not(Deviation deviation) const {
+std::vector<std::string> CollisionPower::reasons(Deviation deviation) const {
     struct Reason {
         bool holds;
         std::initializer_list<Deviation> of;
@@ -302,7 +307,7 @@ std::string CollisionPower::why_not(Deviation deviation) const {
     const auto none = [&](Situation situation) { return met_.of(situation) == 0; };
     const bool no_obstacles =
         scene_.obstacles.indices.empty() || scene_.switches.obstacles_in_cdt == ObstaclesInCdt::off;
-    const Reason reasons[] = {
+    const Reason known[] = {
         {no_obstacles,
          {Deviation::obstacles_not_drawn, Deviation::obstacles_never_hide},
          "there are no obstacles in the CDT"},
@@ -350,14 +355,13 @@ std::string CollisionPower::why_not(Deviation deviation) const {
           Deviation::outside_fetched_as_origin},
          "nobody in range would have been found outside the image"},
     };
-    if (tried_[static_cast<std::size_t>(deviation)].changes)
-        return "what it changes is legal, too";
-    for (const Reason& reason : reasons) {
+    std::vector<std::string> holding;
+    for (const Reason& reason : known) {
         const bool of_hit = reason.of.size() == 0 && changes_step(deviation) && deviation < Deviation::gravity_missing;
         if (reason.holds && (of_hit || among(deviation, reason.of)))
-            return std::string(reason.text);
+            holding.emplace_back(reason.text);
     }
-    return "it changes nothing in these states";
+    return holding;
 }
 
 PowerSummary CollisionPower::summary() const {
@@ -371,8 +375,8 @@ PowerSummary CollisionPower::summary() const {
         mistake.meaning = info.meaning;
         if (tried.first_frame >= 0)
             mistake.first_frame = tried.first_frame;
-        else
-            mistake.why_not = why_not(info.deviation);
+        mistake.changes = tried.changes;
+        mistake.reasons = reasons(info.deviation);
     }
     summary.situations = {{"hits", met_.of(Situation::hit)},
                           {"hits with two in range", met_.of(Situation::two_in_range)},

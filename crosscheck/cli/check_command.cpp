@@ -207,10 +207,10 @@ int check_and_tell(const CheckRequest& options, OutputFiles& files, const Checke
         collector.emplace(checked.scene, checked.profile, options.mode, options.frames.end);
     Particles earlier;
     const bool render = checked.run.shaders && is_rendered(options);
-    if (!options.hashes.empty() || render || collector)
+    if (render && options.frames.end > 1)
+        check_options.last_start = &earlier;
+    if (!options.hashes.empty() || !options.images.empty() || collector)
         check_options.on_state = [&](const ComparedFrame& frame) {
-            if (render && frame.frame + 2 == options.frames.end)
-                earlier = frame.gpu;
             if (!options.hashes.empty())
                 hashes.add(frame);
             if (!options.images.empty())
@@ -366,8 +366,12 @@ SystemCheck system_check(const CheckRequest& options) {
 }
 
 void check_stress_options(const Call& call, const CheckRequest& options) {
-    static constexpr std::array<std::string_view, 16> allowed{
-        "--stress",       "--frames", "--preset",          "--set",          "--threads",        "--gl",    "--shaders",
+    if (options.frames.is_part)
+        throw Error(fmt::format("check: --frames {}: --stress checks its scenes from their start; right is a number of "
+                                "frames, or --shard for some of the scenes",
+                                options.frames.text()));
+    static constexpr std::array<std::string_view, 17> allowed{
+        "--shard", "--stress",       "--frames", "--preset",          "--set",          "--threads",        "--gl",    "--shaders",
         "--allow-unused", "--legal",  "--allow-undefined", "--require-hits", "--power-at-least", "--power", "--json",
         "--quiet",        "--help"};
     if (!options.run.scene.empty())
@@ -438,8 +442,10 @@ Verb check_command() {
         options->run.frames = options->frames.end;
         if (options->stress) {
             check_stress_options(call, *options);
-            return check_stress(
-                {options->run, options->legal, options->rules, options->json, options->power, options->quiet});
+            if (!options->shard.is_asked())
+                options->shard = shard_of_environment();
+            return check_stress({options->run, options->legal, options->rules, options->shard, options->json,
+                                 options->power, options->quiet});
         }
         check_scene_or_trace(call, options->run, options->trace);
         options->frames_given = call.has("--frames");

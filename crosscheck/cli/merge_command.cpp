@@ -2,6 +2,7 @@
 #include <filesystem>
 #include <memory>
 #include <string>
+#include <tuple>
 #include <vector>
 
 #include <fmt/format.h>
@@ -13,6 +14,7 @@
 #include "crosscheck/command/option_values.hpp"
 #include "crosscheck/files/json_text.hpp"
 #include "crosscheck/files/output_files.hpp"
+#include "crosscheck/files/plain_text.hpp"
 #include "crosscheck/files/threads.hpp"
 #include "crosscheck/judge/joined_parts.hpp"
 #include "crosscheck/report/junit.hpp"
@@ -79,16 +81,62 @@ void expect_all_frames(const std::vector<RunPart>& parts) {
     expect(parts.front().of);
 }
 
-std::vector<RunPart> read_parts(const std::vector<std::string>& files) {
+std::vector<RunPart> parts_of_run(const std::vector<PartFile>& files) {
     std::vector<RunPart> parts;
-    for (const std::string& file : files) {
-        parts.push_back(read_part_file(file));
+    for (const PartFile& file : files) {
+        parts.push_back(*file.run);
         expect_of_one_run(parts.front(), parts.back());
     }
     std::stable_sort(parts.begin(), parts.end(),
                      [](const RunPart& a, const RunPart& b) { return a.report.first < b.report.first; });
     expect_all_frames(parts);
     return parts;
+}
+
+/// The stress scenes of all parts, each once.
+StressReport join_stress(const std::vector<PartFile>& files) {
+    StressReport all = *files.front().stress;
+    all.scenes.clear();
+    std::vector<const PartFile*> from(all.of, nullptr);
+    for (const PartFile& part : files) {
+        if (part.stress->of != all.of || part.stress->asked != all.asked)
+            throw Error(fmt::format("{}: no part of the run that {} is of: {}, there {}", part.file, files.front().file,
+                                    plain_line(part.stress->asked), plain_line(all.asked)));
+        for (const StressScene& scene : part.stress->scenes) {
+            if (from[scene.index] != nullptr)
+                throw Error(fmt::format("{}: scene {} is in {}, too; right are all parts of the run, each once", part.file,
+                                        scene.name, from[scene.index]->file));
+            from[scene.index] = &part;
+            all.scenes.push_back(scene);
+        }
+    }
+    const auto missing = std::find(from.begin(), from.end(), nullptr);
+    if (missing != from.end())
+        throw Error(fmt::format("scene {} of {}: in no part; right are all parts of the run, each once",
+                                missing - from.begin() + 1, all.of));
+    std::sort(all.scenes.begin(), all.scenes.end(),
+              [](const StressScene& a, const StressScene& b) { return a.index < b.index; });
+    return all;
+}
+
+int merge_stress(const MergeRequest& asked, OutputFiles& files, const std::vector<PartFile>& parts) {
+    if (!asked.junit.empty() || !asked.trace.empty())
+        throw Error(fmt::format("merge: {} goes with parts of a recording, not of check --stress",
+                                asked.junit.empty() ? "--trace" : "--junit"));
+    const StressReport report = join_stress(parts);
+    if (!asked.quiet) {
+        fmt::print("{}", stress_head());
+        bool failed = false;
+        for (const StressScene& scene : report.scenes) {
+            fmt::print("{}", stress_line(scene, !scene.passes && !failed));
+            failed = failed || !scene.passes;
+        }
+        fmt::print("{}", stress_end(report, asked.power));
+    }
+    if (!asked.json.empty())
+        files.write(asked.json, json_text(stress_json(report)));
+    files.commit();
+    return report.passes() ? status_agree : status_differ;
 }
 
 /// What explains all that diverges in several parts follows from all these frames, in their order: they are judged once
@@ -126,7 +174,17 @@ int merge(const MergeRequest& asked) {
     for (const std::filesystem::path& file : {asked.json, asked.junit})
         if (!file.empty())
             files.expect(file);
-    const std::vector<RunPart> parts = read_parts(asked.parts);
+    std::vector<PartFile> read;
+    for (const std::string& part : asked.parts) {
+        read.push_back(read_part_file(part));
+        if (read.back().stress.has_value() != read.front().stress.has_value())
+            throw Error(fmt::format("{}: no part of the run that {} is of: one is of a recording, the other of check "
+                                    "--stress",
+                                    part, read.front().file));
+    }
+    if (read.front().stress)
+        return merge_stress(asked, files, read);
+    const std::vector<RunPart> parts = parts_of_run(read);
     CheckReport report = parts.front().report;
     int diverging = 0;
     for (const RunPart& part : parts) {

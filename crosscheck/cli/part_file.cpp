@@ -84,21 +84,16 @@ json part_file_json(const RunPart& part) {
             {"report", part_json(part.report)}};
 }
 
-RunPart read_part_file(const std::filesystem::path& file) {
-    const json document = read_json(file);
-    const JsonValue whole(document, file.string());
-    if (!document.is_object() || !whole.find("part"))
-        throw Error(fmt::format("{}: holds no part of a run; right is what lockstep check --trace FILE --shard K/N --json "
-                                "PART.json writes",
-                                file.string()));
-    const JsonValue value = whole.at("part");
-    RunPart part;
-    part.file = file.string();
-    static_cast<void>(value.at("version").integer(part_version, part_version));
-    if (const std::string by = value.at("program").label(); by != program)
-        throw Error(fmt::format("{}: was written by '{}'; this is {}, and parts are joined by the program that made them",
-                                part.file, by, program));
+json stress_part_file_json(const StressReport& report) {
+    return {{"version", part_version}, {"program", program}, {"stress", stress_part_json(report)}};
+}
+
+namespace {
+
+RunPart read_run_part(const JsonValue& value, const std::string& file) {
     value.check_keys({"version", "program", "recording", "of", "request", "run", "report"});
+    RunPart part;
+    part.file = file;
     const JsonValue recording = value.at("recording");
     recording.check_keys({"sha256", "bytes", "frames"});
     part.recording.sha256 = recording.at("sha256").label();
@@ -110,7 +105,31 @@ RunPart read_part_file(const std::filesystem::path& file) {
     part.report = read_part(value.at("report"), collision_schema());
     if (part.report.first >= part.of || part.report.frames > part.of - part.report.first)
         value.fail(fmt::format("has frames {} to {} of {}", part.report.first,
-                              std::int64_t{part.report.first} + part.report.frames - 1, part.of));
+                               std::int64_t{part.report.first} + part.report.frames - 1, part.of));
+    return part;
+}
+
+} // namespace
+
+PartFile read_part_file(const std::filesystem::path& file) {
+    const json document = read_json(file);
+    const JsonValue whole(document, file.string());
+    if (!document.is_object() || !whole.find("part"))
+        throw Error(fmt::format("{}: holds no part of a run; right is what lockstep check --trace FILE --shard K/N --json "
+                                "PART.json writes",
+                                file.string()));
+    const JsonValue value = whole.at("part");
+    static_cast<void>(value.at("version").integer(part_version, part_version));
+    if (const std::string by = value.at("program").label(); by != program)
+        throw Error(fmt::format("{}: was written by '{}'; this is {}, and parts are joined by the program that made them",
+                                file.string(), by, program));
+    PartFile part{file.string(), {}, {}};
+    if (const auto stress = value.find("stress")) {
+        value.check_keys({"version", "program", "stress"});
+        part.stress = read_stress_part(*stress, document.at("part").at("stress"));
+    } else {
+        part.run = read_run_part(value, part.file);
+    }
     return part;
 }
 

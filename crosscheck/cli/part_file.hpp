@@ -5,6 +5,7 @@
 #include <nlohmann/json_fwd.hpp>
 
 #include "crosscheck/cli/check_request.hpp"
+#include "crosscheck/cli/stress_report.hpp"
 #include "crosscheck/judge/check.hpp"
 #include "crosscheck/record/seal.hpp"
 
@@ -23,8 +24,16 @@ struct RunPart {
 };
 
 nlohmann::json part_file_json(const RunPart& part);
+nlohmann::json stress_part_file_json(const StressReport& report);
+
+/// A file with part of a run.
+struct PartFile {
+    std::string file;
+    std::optional<RunPart> run;         ///< of a recording
+    std::optional<StressReport> stress; ///< else some of the stress scenes
+};
 
 /// Throws Error naming the place where the file holds no part, or one of another version.
-RunPart read_part_file(const std::filesystem::path& file);
+PartFile read_part_file(const std::filesystem::path& file);
 
 } // namespace lockstep

@@ -12,7 +12,16 @@ void expect(bool fits, const char* what) {
         throw Error(std::string("they are no parts of one run: ") + what);
 }
 
+/// None is tried in a part none of whose frames was looked at for it.
+bool is_untried(const PowerSummary& power) { return power.mistakes.empty() && power.situations.empty(); }
+
 void join(PowerSummary& run, const PowerSummary& next) {
+    if (is_untried(next))
+        return;
+    if (is_untried(run)) {
+        run = next;
+        return;
+    }
     expect(run.mistakes.size() == next.mistakes.size() && run.situations.size() == next.situations.size(),
            "other mistakes were tried");
     for (std::size_t m = 0; m < run.mistakes.size(); ++m) {

@@ -44,7 +44,7 @@ bool may_change(const std::vector<SeenSite>& sites, const Mistake& made) {
 
 } // namespace
 
-void PowerMeter::add(const JudgedPass& p, const std::vector<std::size_t>& telling) {
+void PowerMeter::add(const JudgedPass& p, const std::vector<std::size_t>& telling, std::size_t asked) {
     std::vector<std::size_t> unseen;
     std::size_t of_pass = 0;
     for (std::size_t m = 0; m < named_.size(); ++m)
@@ -56,7 +56,7 @@ void PowerMeter::add(const JudgedPass& p, const std::vector<std::size_t>& tellin
         }
     if (unseen.empty() || p.reference.count() == 0)
         return;
-    const std::size_t most = std::min(tried_a_frame * of_pass / unseen.size(), tried_at_most);
+    const std::size_t most = asked > 0 ? asked : std::min(tried_a_frame * of_pass / unseen.size(), tried_at_most);
     const std::vector<std::size_t> items = items_to_try(p, telling, most);
     std::vector<std::vector<SeenSite>> sites(items.size());
     parallel_blocks(static_cast<std::ptrdiff_t>(items.size()), [&](std::ptrdiff_t i) {

@@ -338,6 +338,12 @@ CheckReport read_part(const JsonValue& value, const Schema& schema) {
         (verdicts.total(DifferenceClass::divergent) == 0) != verdicts.divergent_frames.empty() ||
         (verdicts.ties_beyond_rounding > 0 && !verdicts.first_beyond_rounding))
         value.fail("its counts contradict what it says came first");
+    int later = r.first;
+    for (const int divergent : verdicts.divergent_frames) {
+        if (divergent < later || divergent >= r.first + r.frames)
+            value.fail(fmt::format("frame {} diverges out of its order, or is not of the part", divergent));
+        later = divergent + 1;
+    }
     for (const FrameDifference& worst : r.worst)
         if (worst.difference.field.resource >= r.total.resources.size())
             value.fail("something differs that was not compared");

@@ -114,6 +114,7 @@ class RunJudge {
             return listing_power_.add({f.number, inputs, f.reference.particles()});
         }
         constexpr int first_frames = 8;
+        constexpr std::size_t items_tried = 256; // of each mistake in each such frame, whatever showed in others
         if ((f.number >= first_frames && f.number % first_frames != 0) || power_.has_seen_all())
             return;
         std::vector<std::size_t> hits;
@@ -125,7 +126,7 @@ class RunJudge {
         const auto pass = step_pass(inputs);
         const SystemView before = step_state(inputs);
         const View reference = view(f.reference.particles());
-        power_.add({*pass, profile_, known_, f.number, before, reference, reference}, hits);
+        power_.add({*pass, profile_, known_, f.number, before, reference, reference}, hits, items_tried);
     }
     [[nodiscard]] PowerSummary power() const {
         return is_listing(scene_.switches) ? listing_power_.summary() : power_.summary();
@@ -242,8 +243,8 @@ CheckReport judge_frames(const Scene& scene, const Profile& profile, GpuSide& gp
     const WantedFrames wanted(options);
     ReferenceSimulation reference(scene, profile);
     State before{scene.start, empty_cdt(scene)};
-    State now = before;
-    State earlier = before;
+    State now{{}, before.cdt};
+    State earlier = now;
     const bool has_cdt = gpu.has_cdt();
     const bool judged = options.mode == CheckMode::resync;
     if (!judged && options.first > 0)
@@ -351,6 +352,8 @@ CheckReport judge_frames(const Scene& scene, const Profile& profile, GpuSide& gp
     }
     report.reference_hash = state_hash(reference.particles(), reference.cdt());
     report.gpu_hash = state_hash(before.particles, before.cdt);
+    if (options.last_start != nullptr)
+        *options.last_start = std::move(earlier.particles);
     return report;
 }
 

@@ -28,6 +28,8 @@ struct FrameCheckOptions : CheckOptions {
 
     /// Called after each comparison (hash files, images, traces).
     std::function<void(const ComparedFrame&)> on_state;
+
+    Particles* last_start = nullptr; ///< set: becomes the GPU's particles that the last frame started from
 };
 
 /// Runs both sides from the scene's start and compares every float of every frame. Throws Error when the run would

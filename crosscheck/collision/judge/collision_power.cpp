@@ -4,6 +4,7 @@
 #include <bit>
 #include <initializer_list>
 #include <map>
+#include <optional>
 #include <string_view>
 
 #include "crosscheck/judge/item_sample.hpp"
@@ -49,13 +50,22 @@ bool has_no_place(Deviation deviation, const Situations& met) {
            met.of(Situation::left_of_image) == 0;
 }
 
-Particles every(const Particles& all, std::size_t stride) {
-    Particles some;
-    some.resize((all.size() + stride - 1) / stride);
-    for (std::size_t i = 0; i < some.size(); ++i)
-        some.set(i, all[i * stride]);
-    return some;
-}
+/// Every stride-th particle; where that is all of them, no copy is made.
+class Every {
+  public:
+    Every(const Particles& all, std::size_t stride) : all_(stride == 1 ? &all : nullptr) {
+        if (all_ != nullptr)
+            return;
+        some_.resize((all.size() + stride - 1) / stride);
+        for (std::size_t i = 0; i < some_.size(); ++i)
+            some_.set(i, all[i * stride]);
+    }
+    [[nodiscard]] const Particles& particles() const { return all_ != nullptr ? *all_ : some_; }
+
+  private:
+    const Particles* all_;
+    Particles some_;
+};
 
 /// In which frames something is drawn again: in the first few, then in ever fewer; of many particles in fewer still.
 bool draws_in(int frame, std::size_t particles) {
@@ -70,14 +80,12 @@ class Drawing {
     Drawing(const PowerFrame& frame, const Scene& scene, const Profile& profile, const KnownOperations& known,
             std::size_t stride)
         : scene_(scene), profile_(profile), known_(known), params_(*frame.inputs.params),
-          before_(every(*frame.inputs.before, stride)), after_(every(frame.after, stride)), inputs_(frame.inputs),
+          before_(*frame.inputs.before, stride), after_(frame.after, stride), inputs_(frame.inputs),
           obstacles_cdt_(params_.width, params_.height),
           obstacles_depth_(params_.width, params_.height, params_.clip_depth.cleared()) {
-        inputs_.before = &before_;
-        if (inputs_.earlier != nullptr) {
-            earlier_ = every(*inputs_.earlier, stride);
-            inputs_.earlier = &earlier_;
-        }
+        inputs_.before = &before_.particles();
+        if (inputs_.earlier != nullptr)
+            inputs_.earlier = &earlier_.emplace(*inputs_.earlier, stride).particles();
         obstacle_pass(scene.obstacles, params_, profile, obstacles_cdt_, obstacles_depth_);
         right_ = draw({});
     }
@@ -101,7 +109,7 @@ class Drawing {
             texels.push_back(index);
         }
         const std::vector<LegalTexel> legal =
-            legal_texels(scene_.obstacles, before_, after_, params_, profile_, known_, texels);
+            legal_texels(scene_.obstacles, before_.particles(), after_.particles(), params_, profile_, known_, texels);
         std::vector<MistakenItem> judged;
         for (const std::vector<Changed>& some : changed) {
             const bool divergent = std::any_of(some.begin(), some.end(), [&](const Changed& texel) {
@@ -132,7 +140,7 @@ class Drawing {
     }
     [[nodiscard]] CollisionImage draw(const Deviations& deviations) const {
         CollisionImage cdt;
-        deviating_draw(inputs_, after_, profile_, deviations, obstacles_cdt_, obstacles_depth_, cdt);
+        deviating_draw(inputs_, after_.particles(), profile_, deviations, obstacles_cdt_, obstacles_depth_, cdt);
         return cdt;
     }
 
@@ -140,7 +148,8 @@ class Drawing {
     const Profile& profile_;
     const KnownOperations& known_;
     const FrameParams& params_;
-    Particles before_, after_, earlier_;
+    Every before_, after_;
+    std::optional<Every> earlier_;
     FrameInputs inputs_;
     CollisionImage obstacles_cdt_;
     DepthImage obstacles_depth_;

@@ -34,7 +34,7 @@ constexpr GLbitfield overwrite = GL_MAP_WRITE_BIT | GL_MAP_INVALIDATE_BUFFER_BIT
 
 constexpr std::size_t word = sizeof(std::uint32_t);
 constexpr std::size_t slice_bytes = std::size_t{16} << 20U; ///< of an upload at once
-constexpr std::size_t most_bytes = 256 * 4 * word; ///< of a record: what a schema can have
+constexpr std::size_t most_bytes = 256 * 4 * word;          ///< of a record: what a schema can have
 
 /// Copies `count` values of `Words` words, which lie `from_stride` and are to lie `to_stride` bytes apart.
 template <std::size_t Words> void copy_values(const std::byte* from, std::size_t from_stride, std::byte* to,

@@ -31,9 +31,9 @@
 #include "crosscheck/files/shell_words.hpp"
 #include "crosscheck/files/signals.hpp"
 #include "crosscheck/files/threads.hpp"
+#include "crosscheck/report/junit.hpp"
 #include "crosscheck/report/page/study_results.hpp"
 #include "crosscheck/report/page/template.hpp"
-#include "crosscheck/report/junit.hpp"
 #include "crosscheck/report/places.hpp"
 #include "crosscheck/report/power_text.hpp"
 #include "crosscheck/report/progress.hpp"
@@ -114,7 +114,8 @@ FirstCapsule first_capsule(const Checked& checked, FrameRun& frames, const std::
 
 /// Of part of the frames all that is told is told of these alone. Throws Error where that cannot be.
 void expect_part(const CheckRequest& options) {
-    const std::string by = options.frames.is_part ? fmt::format("--frames {}", options.frames.text()) : options.shard.asked;
+    const std::string by =
+        options.frames.is_part ? fmt::format("--frames {}", options.frames.text()) : options.shard.asked;
     if (options.mode == CheckMode::free)
         throw Error(fmt::format("{}: with --mode free a frame follows from all before it, so that none can be judged "
                                 "without these; right is --mode resync",
@@ -134,9 +135,9 @@ PassRules rules_of_part(PassRules rules) {
 }
 
 std::vector<std::string> part_notes(const CheckRequest& options, int whole) {
-    std::vector<std::string> notes{
-        fmt::format("part of a run: frames {} to {} of {}{}{}; lockstep merge joins the parts' JSON", options.frames.first,
-                    options.frames.end - 1, whole, options.shard.is_asked() ? ", by " : "", options.shard.asked)};
+    std::vector<std::string> notes{fmt::format(
+        "part of a run: frames {} to {} of {}{}{}; lockstep merge joins the parts' JSON", options.frames.first,
+        options.frames.end - 1, whole, options.shard.is_asked() ? ", by " : "", options.shard.asked)};
     if (const PassRules& rules = options.rules; rules.require_hits || rules.power_at_least > 0.0)
         notes.push_back(fmt::format("lockstep merge judges{}, which the run as a whole has to pass",
                                     pass_options_text({false, rules.require_hits, rules.power_at_least})));
@@ -292,10 +293,19 @@ int run_scene(const CheckRequest& options) {
     const Profile profile = measured_profile(context, options.run.shaders);
     GpuSimulation gpu(scene, options.run.shaders);
     return check_and_tell(options, files,
-                          {scene, profile, gpu, known_operations(options.legal, profile),
-                           {scene.name, options.run.scene.string(), summary(context.describe()), describe(profile),
-                            settings_text(options.run, scene), conversion_notes(profile, scene.switches),
-                            std::move(shaders), {}, scene.width}});
+                          {scene,
+                           profile,
+                           gpu,
+                           known_operations(options.legal, profile),
+                           {scene.name,
+                            options.run.scene.string(),
+                            summary(context.describe()),
+                            describe(profile),
+                            settings_text(options.run, scene),
+                            conversion_notes(profile, scene.switches),
+                            std::move(shaders),
+                            {},
+                            scene.width}});
 }
 
 /// The frames that this run is to compare, of all of them.
@@ -309,8 +319,8 @@ FrameRange frames_of(const CheckRequest& options, const TraceInfo& info) {
         return frames;
     const auto count = static_cast<std::size_t>(frames.end);
     if (options.shard.of > count)
-        throw Error(fmt::format("{}: {} frames make {} parts at most, and none may be empty", options.shard.asked, count,
-                                count));
+        throw Error(fmt::format("{}: {} frames make {} parts at most, and none may be empty", options.shard.asked,
+                                count, count));
     return {static_cast<int>(options.shard.first(count)), static_cast<int>(options.shard.end(count)), true};
 }
 
@@ -371,9 +381,9 @@ void check_stress_options(const Call& call, const CheckRequest& options) {
                                 "frames, or --shard for some of the scenes",
                                 options.frames.text()));
     static constexpr std::array<std::string_view, 17> allowed{
-        "--shard", "--stress",       "--frames", "--preset",          "--set",          "--threads",        "--gl",    "--shaders",
-        "--allow-unused", "--legal",  "--allow-undefined", "--require-hits", "--power-at-least", "--power", "--json",
-        "--quiet",        "--help"};
+        "--shard",   "--stress",       "--frames", "--preset",          "--set",          "--threads",        "--gl",
+        "--shaders", "--allow-unused", "--legal",  "--allow-undefined", "--require-hits", "--power-at-least", "--power",
+        "--json",    "--quiet",        "--help"};
     if (!options.run.scene.empty())
         throw Error("check: a scene does not go with --stress, which brings its own");
     check_options(call, "--stress", allowed);
@@ -453,15 +463,17 @@ Verb check_command() {
                 options->trace.empty() ? system_of(options->run) : system_of_recording(options->trace)) {
             check_options(call, fmt::format("a scene of system {}", name_of(*system)), system_check_options());
             if (options->frames.is_part)
-                throw Error(fmt::format("check: --frames {}: a scene of system {} is checked from its start; right is a "
-                                        "number of frames",
-                                        options->frames.text(), name_of(*system)));
+                throw Error(
+                    fmt::format("check: --frames {}: a scene of system {} is checked from its start; right is a "
+                                "number of frames",
+                                options->frames.text(), name_of(*system)));
             return check_system(*system, options->run, system_check(*options));
         }
         if (options->trace.empty() && options->shard.is_asked())
-            throw Error(fmt::format("{}: shares out the frames of a recording (lockstep record, check --trace FILE), or the "
-                                    "scenes of --stress; a scene that is run here has to run from its start",
-                                    options->shard.asked));
+            throw Error(
+                fmt::format("{}: shares out the frames of a recording (lockstep record, check --trace FILE), or the "
+                            "scenes of --stress; a scene that is run here has to run from its start",
+                            options->shard.asked));
         return options->trace.empty() ? run_scene(*options) : run_trace(*options);
     };
     return verb;

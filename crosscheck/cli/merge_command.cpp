@@ -104,8 +104,8 @@ StressReport join_stress(const std::vector<PartFile>& files) {
                                     plain_line(part.stress->asked), plain_line(all.asked)));
         for (const StressScene& scene : part.stress->scenes) {
             if (from[scene.index] != nullptr)
-                throw Error(fmt::format("{}: scene {} is in {}, too; right are all parts of the run, each once", part.file,
-                                        scene.name, from[scene.index]->file));
+                throw Error(fmt::format("{}: scene {} is in {}, too; right are all parts of the run, each once",
+                                        part.file, scene.name, from[scene.index]->file));
             from[scene.index] = &part;
             all.scenes.push_back(scene);
         }
@@ -147,9 +147,10 @@ void find_causes(CheckReport& report, const RunPart& of, const std::filesystem::
     try {
         trace = std::make_unique<TraceReader>(file);
     } catch (const Error& error) {
-        throw Error(fmt::format("{}; several parts diverge, and what explains all of it is looked for in the recording: "
-                                "right is --trace FILE",
-                                error.what()));
+        throw Error(
+            fmt::format("{}; several parts diverge, and what explains all of it is looked for in the recording: "
+                        "right is --trace FILE",
+                        error.what()));
     }
     if (trace->seal().sha256 != of.recording.sha256)
         throw Error(fmt::format("{}: another recording than the parts are of: {}..., theirs is {}...", file.string(),
@@ -229,10 +230,12 @@ Verb merge_command() {
     verb.add(path_option("--junit", "FILE", asked->junit, "write the verdict as JUnit"));
     verb.add(flag("--power", asked->power, "list which mistakes the run would have shown, and why not the others"));
     verb.add(flag("--quiet", asked->quiet, "no report, only the exit status"));
-    verb.add(integer_option("--threads", "N", {0, most_threads}, asked->threads, "threads of the reference, 0: one a core"));
-    verb.footer = "Report and exit status are those of one check of all frames. Parts that are missing, there twice, or of "
-                  "another run: exit status 2.\n"
-                  "Example: lockstep merge part_*.json --json whole.json";
+    verb.add(
+        integer_option("--threads", "N", {0, most_threads}, asked->threads, "threads of the reference, 0: one a core"));
+    verb.footer =
+        "Report and exit status are those of one check of all frames. Parts that are missing, there twice, or of "
+        "another run: exit status 2.\n"
+        "Example: lockstep merge part_*.json --json whole.json";
     verb.run = [asked](const Call&) { return merge(*asked); };
     return verb;
 }

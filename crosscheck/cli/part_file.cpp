@@ -20,14 +20,9 @@ constexpr int most_width = 1 << 20;
 constexpr const char* program = "lockstep " LOCKSTEP_VERSION;
 
 json run_json(const CheckedRun& run) {
-    return {{"name", run.name},
-            {"file", run.file},
-            {"context", run.context},
-            {"profile", run.profile},
-            {"settings", run.settings},
-            {"notes", run.notes},
-            {"shaders", run.recorded_shaders},
-            {"width", run.width}};
+    return {
+        {"name", run.name},         {"file", run.file},   {"context", run.context},          {"profile", run.profile},
+        {"settings", run.settings}, {"notes", run.notes}, {"shaders", run.recorded_shaders}, {"width", run.width}};
 }
 
 CheckedRun read_run(const JsonValue& value) {
@@ -67,7 +62,8 @@ CheckRequest read_request(const JsonValue& value) {
     request.rules.allow_undefined = truth(value.at("allow_undefined"));
     request.rules.require_hits = truth(value.at("require_hits"));
     const std::string share = value.at("power_at_least").text();
-    if (const std::string problem = share_option("", request.rules.power_at_least, "").keep({&share, 1}); !problem.empty())
+    if (const std::string problem = share_option("", request.rules.power_at_least, "").keep({&share, 1});
+        !problem.empty())
         value.at("power_at_least").fail(problem);
     return request;
 }
@@ -75,13 +71,14 @@ CheckRequest read_request(const JsonValue& value) {
 } // namespace
 
 json part_file_json(const RunPart& part) {
-    return {{"version", part_version},
-            {"program", program},
-            {"recording", {{"sha256", part.recording.sha256}, {"bytes", part.recording.bytes}, {"frames", part.recorded}}},
-            {"of", part.of},
-            {"request", request_json(part.request)},
-            {"run", run_json(part.run)},
-            {"report", part_json(part.report)}};
+    return {
+        {"version", part_version},
+        {"program", program},
+        {"recording", {{"sha256", part.recording.sha256}, {"bytes", part.recording.bytes}, {"frames", part.recorded}}},
+        {"of", part.of},
+        {"request", request_json(part.request)},
+        {"run", run_json(part.run)},
+        {"report", part_json(part.report)}};
 }
 
 json stress_part_file_json(const StressReport& report) {
@@ -115,14 +112,16 @@ PartFile read_part_file(const std::filesystem::path& file) {
     const json document = read_json(file);
     const JsonValue whole(document, file.string());
     if (!document.is_object() || !whole.find("part"))
-        throw Error(fmt::format("{}: holds no part of a run; right is what lockstep check --trace FILE --shard K/N --json "
-                                "PART.json writes",
-                                file.string()));
+        throw Error(
+            fmt::format("{}: holds no part of a run; right is what lockstep check --trace FILE --shard K/N --json "
+                        "PART.json writes",
+                        file.string()));
     const JsonValue value = whole.at("part");
     static_cast<void>(value.at("version").integer(part_version, part_version));
     if (const std::string by = value.at("program").label(); by != program)
-        throw Error(fmt::format("{}: was written by '{}'; this is {}, and parts are joined by the program that made them",
-                                file.string(), by, program));
+        throw Error(
+            fmt::format("{}: was written by '{}'; this is {}, and parts are joined by the program that made them",
+                        file.string(), by, program));
     PartFile part{file.string(), {}, {}};
     if (const auto stress = value.find("stress")) {
         value.check_keys({"version", "program", "stress"});

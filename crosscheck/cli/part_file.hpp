@@ -13,13 +13,13 @@ namespace lockstep {
 
 /// What `check` leaves of part of a recording, under the key "part" of its JSON, for `merge`.
 struct RunPart {
-    std::string file;     ///< it was read from
+    std::string file; ///< it was read from
     Seal recording;
-    int recorded = 0;     ///< frames in the recording
-    int of = 0;           ///< frames of the whole run
-    CheckRequest request; ///< trace, legal and rules
-    CheckedRun run;       ///< without what it says of the part alone
-    CheckReport report;   ///< not concluded
+    int recorded = 0;                        ///< frames in the recording
+    int of = 0;                              ///< frames of the whole run
+    CheckRequest request;                    ///< trace, legal and rules
+    CheckedRun run;                          ///< without what it says of the part alone
+    CheckReport report;                      ///< not concluded
     std::vector<std::string> own_notes = {}; ///< what it says of the part alone; not in the file
 };
 

@@ -110,8 +110,7 @@ StressReport read_stress_part(const JsonValue& value, const json& document) {
     if (const std::string problem = share_option("", report.power_at_least, "").keep({&share, 1}); !problem.empty())
         value.at("power_at_least").fail(problem);
     for (const JsonValue& one : value.at("scenes").items()) {
-        one.check_keys(
-            {"index", "name", "particles", "mistakes", "situations", "verdict", "passes", "text", "report"});
+        one.check_keys({"index", "name", "particles", "mistakes", "situations", "verdict", "passes", "text", "report"});
         StressScene& scene = report.scenes.emplace_back();
         scene.index = static_cast<std::size_t>(one.at("index").integer(0, static_cast<std::int64_t>(report.of) - 1));
         scene.name = one.at("name").label();

@@ -25,8 +25,8 @@ struct StressScene {
 
 /// The scenes of a check --stress, or those of one of its parts.
 struct StressReport {
-    std::size_t of = 0;   ///< scenes there are
-    std::string asked;    ///< renderer, options: the same in all parts of a run
+    std::size_t of = 0;          ///< scenes there are
+    std::string asked;           ///< renderer, options: the same in all parts of a run
     double power_at_least = 0.0; ///< of all scenes together
     std::vector<StressScene> scenes;
 

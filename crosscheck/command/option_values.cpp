@@ -108,9 +108,7 @@ Option integer_option(std::string name, std::string value, IntegerRange range, s
     return one_integer<std::size_t>(std::move(name), std::move(value), range, target, std::move(description));
 }
 
-std::string FrameRange::text() const {
-    return is_part ? fmt::format("{}..{}", first, end - 1) : std::to_string(end);
-}
+std::string FrameRange::text() const { return is_part ? fmt::format("{}..{}", first, end - 1) : std::to_string(end); }
 
 Option frames_option(std::string name, FrameRange& target, std::string description) {
     const auto keep = [&target](Texts texts) {
@@ -121,8 +119,8 @@ Option frames_option(std::string name, FrameRange& target, std::string descripti
                                  last = number<int>(is_part ? text.substr(dots + 2) : text);
         const int end = last.value_or(0) + (is_part ? 1 : 0);
         if (!first || !last || *first < 0 || *last < 0 || *last > most_frames || *first >= end)
-            return fmt::format("'{}' is no number of frames from 1 to {}, nor a range A..B of them, counted from 0", text,
-                               most_frames);
+            return fmt::format("'{}' is no number of frames from 1 to {}, nor a range A..B of them, counted from 0",
+                               text, most_frames);
         target = {*first, end, is_part};
         return std::string();
     };

@@ -37,8 +37,8 @@ Option integer_option(std::string name, std::string value, IntegerRange range, s
 /// Frames of a run: "60", the first 60, or "20..59", both counted from 0 and among them.
 struct FrameRange {
     int first = 0;
-    int end = 60; ///< the one after the last
-    bool is_part = false; ///< written as A..B
+    int end = 60;                           ///< the one after the last
+    bool is_part = false;                   ///< written as A..B
     [[nodiscard]] std::string text() const; ///< as it is typed
 };
 Option frames_option(std::string name, FrameRange& target, std::string description);

@@ -33,8 +33,9 @@ std::optional<Shard> told_by(const char* index_name, const char* count_name) {
         const auto told = [](const char* name, const char* value) {
             return value == nullptr ? fmt::format("{} is not set", name) : fmt::format("{} is '{}'", name, value);
         };
-        throw Error(fmt::format("the environment: {} and {}; right are both, a part counted from 0 and the number of parts",
-                                told(index_name, index), told(count_name, count)));
+        throw Error(
+            fmt::format("the environment: {} and {}; right are both, a part counted from 0 and the number of parts",
+                        told(index_name, index), told(count_name, count)));
     }
     return Shard{*part + 1, *of, fmt::format("{}={} of {}={}", index_name, *part, count_name, *of)};
 }
@@ -51,10 +52,11 @@ Option shard_option(Shard& target) {
         target = {*part, *of, fmt::format("--shard {}", text)};
         return std::string();
     };
-    return {"--shard", "K/N",
-            "only the Kth of N parts, from 1/N to N/N; else what TEST_SHARD_INDEX, from 0, and TEST_TOTAL_SHARDS say, or "
-            "mpirun",
-            keep};
+    return {
+        "--shard", "K/N",
+        "only the Kth of N parts, from 1/N to N/N; else what TEST_SHARD_INDEX, from 0, and TEST_TOTAL_SHARDS say, or "
+        "mpirun",
+        keep};
 }
 
 Shard shard_of_environment() {

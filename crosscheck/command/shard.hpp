@@ -15,7 +15,9 @@ struct Shard {
     /// Every N-th item, so that what is slow side by side is spread over all parts.
     [[nodiscard]] bool has(std::size_t index) const { return index % of == part - 1; }
     /// Of items that belong one after the other: the first of the part, and the one after its last.
-    [[nodiscard]] std::size_t first(std::size_t count) const { return count / of * (part - 1) + count % of * (part - 1) / of; }
+    [[nodiscard]] std::size_t first(std::size_t count) const {
+        return count / of * (part - 1) + count % of * (part - 1) / of;
+    }
     [[nodiscard]] std::size_t end(std::size_t count) const { return count / of * part + count % of * part / of; }
 };
 

@@ -21,8 +21,7 @@ void refute_causes(CheckReport& report) {
         return;
     std::set<std::string> refuted;
     for (const PowerSummary::Mistake& mistake : report.power.mistakes)
-        if (mistake.refutes && mistake.first_frame &&
-            *mistake.first_frame < report.verdicts->first->place.frame)
+        if (mistake.refutes && mistake.first_frame && *mistake.first_frame < report.verdicts->first->place.frame)
             refuted.insert(mistake.name);
     for (CauseFindings& found : report.verdicts->causes)
         std::erase_if(found.best, [&](const Cause& cause) {

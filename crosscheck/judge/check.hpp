@@ -113,10 +113,10 @@ void add_rendered(CheckReport& report, RenderVerdict rendered);
 
 struct CheckOptions {
     CheckMode mode = CheckMode::resync;
-    int first = 0; ///< in resync mode later ones, too: those before are run, and not compared
-    int frames = 60; ///< the frame after the last
+    int first = 0;              ///< in resync mode later ones, too: those before are run, and not compared
+    int frames = 60;            ///< the frame after the last
     std::vector<int> only = {}; ///< of these frames some alone, ascending; empty: all
-    int repeated_frames = 2; ///< the first frames run twice on the GPU and must repeat themselves bit by bit
+    int repeated_frames = 2;    ///< the first frames run twice on the GPU and must repeat themselves bit by bit
     std::function<void(int frames_done)> on_frame;
     /// What legal outcomes are taken from; not set: what the profile's driver was measured to do.
     std::optional<KnownOperations> known;

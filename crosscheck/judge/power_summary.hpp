@@ -15,7 +15,8 @@ struct PowerSummary {
         std::string name, meaning;
         std::optional<int> first_frame = {}; ///< in which it would have shown
         bool changes = false;                ///< something, in what was tried
-        std::vector<std::string> reasons = {}; ///< why it could not show, as far as these frames tell; the first is told
+        std::vector<std::string> reasons =
+            {};                   ///< why it could not show, as far as these frames tell; the first is told
         bool refutes = false;     ///< where it would have shown and nothing diverges, it was not made
         std::string why_not = {}; ///< it did not show, once that is known: "no hit had two in range"
     };

@@ -34,7 +34,8 @@ void VerdictSummary::add(int frame, std::uint8_t resource, std::span<const ItemV
         }
         if (verdict.kind == DifferenceClass::undefined)
             ++undefined[verdict.undefined];
-        if (verdict.kind == DifferenceClass::divergent && (divergent_frames.empty() || divergent_frames.back() != frame))
+        if (verdict.kind == DifferenceClass::divergent &&
+            (divergent_frames.empty() || divergent_frames.back() != frame))
             divergent_frames.push_back(frame);
     }
 }

@@ -81,7 +81,9 @@ json total_json(const Comparison& total) {
     return rows(total.resources, [](const ResourceCount& r) {
         return json{{"extent", {r.extent.width, r.extent.height, r.extent.depth}},
                     {"differing", r.differing},
-                    {"fields", rows(r.fields, [](const FieldCount& f) { return json{f.compared, f.differing, f.nan}; })}};
+                    {"fields", rows(r.fields, [](const FieldCount& f) {
+                         return json{f.compared, f.differing, f.nan};
+                     })}};
     });
 }
 
@@ -155,7 +157,10 @@ std::vector<CauseFindings> read_causes(const JsonValue& value, const Schema& sch
         found.divergent = count(one.at("divergent"));
         for (const JsonValue& best : one.at("best").items()) {
             best.check_keys({"mistakes", "meaning", "explained", "contradicted", "has_name"});
-            Cause cause{{}, best.at("meaning").text(), count(best.at("explained")), count(best.at("contradicted")),
+            Cause cause{{},
+                        best.at("meaning").text(),
+                        count(best.at("explained")),
+                        count(best.at("contradicted")),
                         truth(best.at("has_name"))};
             for (const JsonValue& mistake : best.at("mistakes").items())
                 cause.mistakes.push_back(mistake.text());
@@ -176,25 +181,27 @@ Lean read_lean(const JsonValue& value) {
     const auto flags = static_cast<int>(at[1].integer(0, 127));
     if ((flags & 3) == 3 || (flags >> 2 & 3) == 3)
         at[1].fail("points nowhere");
-    return {{(flags & 3) - 1, (flags >> 2 & 3) - 1}, (flags & 16) != 0, (flags & 32) != 0, (flags & 64) != 0,
-            word(at[0])};
+    return {
+        {(flags & 3) - 1, (flags >> 2 & 3) - 1}, (flags & 16) != 0, (flags & 32) != 0, (flags & 64) != 0, word(at[0])};
 }
 
 json verdicts_json(const VerdictSummary& s) {
     return {{"classes", s.classes},
-            {"set_sizes", rows(s.set_sizes, [](const auto& e) { return json{e.first, e.second}; })},
+            {"set_sizes", rows(s.set_sizes,
+                               [](const auto& e) {
+                                   return json{e.first, e.second};
+                               })},
             {"ties", rows(s.ties,
                           [](const auto& e) {
                               const TieCount& tie = e.second;
-                              return json{{"name", e.first.name},
-                                          {"unit", e.first.unit},
-                                          {"count", tie.count},
-                                          {"smallest", bits(tie.smallest)},
-                                          {"largest", bits(tie.largest)},
-                                          {"closest", place_row(tie.closest)}};
+                              return json{{"name", e.first.name},         {"unit", e.first.unit},
+                                          {"count", tie.count},           {"smallest", bits(tie.smallest)},
+                                          {"largest", bits(tie.largest)}, {"closest", place_row(tie.closest)}};
                           })},
-            {"undefined",
-             rows(s.undefined, [](const auto& e) { return json{static_cast<int>(e.first), e.second}; })},
+            {"undefined", rows(s.undefined,
+                               [](const auto& e) {
+                                   return json{static_cast<int>(e.first), e.second};
+                               })},
             {"leans", rows(s.leans.counted(), lean_row)},
             {"judges_leans", s.judges_leans ? 1 : 0},
             {"ties_beyond_rounding", s.ties_beyond_rounding},
@@ -206,7 +213,7 @@ json verdicts_json(const VerdictSummary& s) {
 
 VerdictSummary read_verdicts(const JsonValue& value, const Schema& schema) {
     value.check_keys({"classes", "set_sizes", "ties", "undefined", "leans", "judges_leans", "ties_beyond_rounding",
-                     "first_beyond_rounding", "first", "divergent_frames", "causes"});
+                      "first_beyond_rounding", "first", "divergent_frames", "causes"});
     VerdictSummary s(schema);
     const auto classes = row(value.at("classes"), schema.resources.size());
     for (std::size_t r = 0; r < classes.size(); ++r) {
@@ -286,8 +293,14 @@ json part_json(const CheckReport& r) {
             {"particles", r.particles},
             {"total", total_json(r.total)},
             {"first_frame", r.first_frame ? json(*r.first_frame) : json()},
-            {"worst", rows(r.worst, [](const FrameDifference& d) { return json{d.frame, difference_row(d.difference)}; })},
-            {"counts", rows(r.counts, [](const FrameCount& c) { return json{c.frame, c.items, c.worst_ulp}; })},
+            {"worst", rows(r.worst,
+                           [](const FrameDifference& d) {
+                               return json{d.frame, difference_row(d.difference)};
+                           })},
+            {"counts", rows(r.counts,
+                            [](const FrameCount& c) {
+                                return json{c.frame, c.items, c.worst_ulp};
+                            })},
             {"power", power_part_json(r.power)},
             {"wider_rule", r.wider_rule ? json(static_cast<int>(*r.wider_rule)) : json()},
             {"verdicts", verdicts_json(*r.verdicts)},
@@ -298,8 +311,8 @@ json part_json(const CheckReport& r) {
 }
 
 CheckReport read_part(const JsonValue& value, const Schema& schema) {
-    value.check_keys({"first", "frames", "frames_asked", "particles", "total", "first_frame", "worst", "counts", "power",
-                     "wider_rule", "verdicts", "expects_texels", "hits", "drawn_texels", "hashes"});
+    value.check_keys({"first", "frames", "frames_asked", "particles", "total", "first_frame", "worst", "counts",
+                      "power", "wider_rule", "verdicts", "expects_texels", "hits", "drawn_texels", "hashes"});
     CheckReport r;
     r.schema = schema;
     r.counts_hits = true;

@@ -63,8 +63,10 @@ struct Setting {
         return files;
     }
     /// Holds the merged parts against one check of all frames; gives the report.
-    std::string expect_whole(const std::vector<std::string>& parts, const std::vector<std::string>& options = {}) const {
-        const test::Outcome whole = check(joined({"--json", path("whole.json"), "--junit", path("whole.xml")}, options));
+    std::string expect_whole(const std::vector<std::string>& parts,
+                             const std::vector<std::string>& options = {}) const {
+        const test::Outcome whole =
+            check(joined({"--json", path("whole.json"), "--junit", path("whole.xml")}, options));
         const test::Outcome merged = run_lockstep(
             joined(joined({"merge"}, parts), {"--json", path("merged.json"), "--junit", path("merged.xml")}));
         CHECK(merged.status == whole.status);
@@ -162,7 +164,8 @@ TEST_CASE("merge: parts that are missing, there twice, or of another run are ref
     refused(joined({parts[0], parts[1]}, {setting.part("--frames", "8..11", {"--legal", "glsl"})}),
             "judged with --legal glsl, there without options of its own");
     refused(joined({parts[0], parts[1]}, {setting.part("--frames", "8..11", {"--require-hits"})}), "--require-hits");
-    refused({parts[0], parts[1], setting.part("--shard", "2/2", {"--frames", "11"})}, "11 frames are shared out, there 12");
+    refused({parts[0], parts[1], setting.part("--shard", "2/2", {"--frames", "11"})},
+            "11 frames are shared out, there 12");
     refused({setting.path("none.json")}, "cannot be read");
     refused({setting.scene.scene}, "holds no part of a run");
     REQUIRE(setting.check({"--json", setting.path("whole.json")}).status == 0);
@@ -244,7 +247,8 @@ TEST_CASE("check: a shard is one of N that there are, and none is empty") {
         CHECK_THAT(refusal(setting.check({"--shard", shard})), Contains("is no part; right is K/N with K from 1 to N"));
     CHECK_THAT(refusal(setting.check({"--shard", "3/13"})),
                Contains("--shard 3/13: 12 frames make 12 parts at most, and none may be empty"));
-    CHECK_THAT(refusal(setting.check({"--shard", "1/2", "--frames", "0..3"})), Contains("does not go with --frames 0..3"));
+    CHECK_THAT(refusal(setting.check({"--shard", "1/2", "--frames", "0..3"})),
+               Contains("does not go with --frames 0..3"));
     for (const std::vector<std::string>& part : {std::vector<std::string>{"--shard", "1/2"}, {"--frames", "3..4"}})
         CHECK_THAT(refusal(setting.check(joined({"--mode", "free"}, part))),
                    Contains("with --mode free a frame follows from all before it"));
@@ -252,7 +256,8 @@ TEST_CASE("check: a shard is one of N that there are, and none is empty") {
                Contains("--report shows a whole run"));
     CHECK(!std::filesystem::exists(setting.path("page")));
     test::SceneSetting live("check");
-    CHECK_THAT(refusal(run_lockstep(live.command({"--shard", "1/2"}))), Contains("shares out the frames of a recording"));
+    CHECK_THAT(refusal(run_lockstep(live.command({"--shard", "1/2"}))),
+               Contains("shares out the frames of a recording"));
 }
 
 TEST_CASE("check: a shard may be asked for by the environment, of which half is refused") {
@@ -271,10 +276,14 @@ TEST_CASE("check: a shard may be asked for by the environment, of which half is 
     CHECK_THAT(part({test[0], test[1], mpi[0], mpi[1]}).out, Contains("frames 4 to 7 of 12"));
     CHECK_THAT(part(test, {"--shard", "1/12"}).out, Contains("frames 0 to 0 of 12, by --shard 1/12"));
     CHECK_THAT(part(test, {"--frames", "2..3"}).out, Contains("frames 2 to 3 of 12; lockstep"));
-    for (const Variables& wrong :
-         {Variables{test[0]}, {test[1]}, {mpi[0]}, {{"TEST_SHARD_INDEX", "3"}, {"TEST_TOTAL_SHARDS", "3"}},
-          {{"TEST_SHARD_INDEX", "0"}, {"TEST_TOTAL_SHARDS", "0"}}, {{"TEST_SHARD_INDEX", "one"}, {"TEST_TOTAL_SHARDS", "3"}},
-          {{"TEST_SHARD_INDEX", ""}, {"TEST_TOTAL_SHARDS", "3"}}, {{"TEST_SHARD_INDEX", "-1"}, {"TEST_TOTAL_SHARDS", "3"}}})
+    for (const Variables& wrong : {Variables{test[0]},
+                                   {test[1]},
+                                   {mpi[0]},
+                                   {{"TEST_SHARD_INDEX", "3"}, {"TEST_TOTAL_SHARDS", "3"}},
+                                   {{"TEST_SHARD_INDEX", "0"}, {"TEST_TOTAL_SHARDS", "0"}},
+                                   {{"TEST_SHARD_INDEX", "one"}, {"TEST_TOTAL_SHARDS", "3"}},
+                                   {{"TEST_SHARD_INDEX", ""}, {"TEST_TOTAL_SHARDS", "3"}},
+                                   {{"TEST_SHARD_INDEX", "-1"}, {"TEST_TOTAL_SHARDS", "3"}}})
         CHECK_THAT(refusal(part(wrong)), Contains("the environment: "));
     CHECK_THAT(refusal(part(test, {"--mode", "free"})), Contains("TEST_SHARD_INDEX=1"));
     CHECK_THAT(refusal(part({{"TEST_SHARD_INDEX", "12"}, {"TEST_TOTAL_SHARDS", "13"}})), Contains("none may be empty"));

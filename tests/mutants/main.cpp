@@ -58,7 +58,8 @@ std::vector<Mutant> selected(std::vector<Mutant> catalogue, const Selection& of)
             some.push_back(std::move(mutant));
     }
     if (of.shard.is_asked() && of.shard.part > index)
-        throw Error(fmt::format("{}: {} mutants make {} parts at most, and none may be empty", of.shard.asked, index, index));
+        throw Error(
+            fmt::format("{}: {} mutants make {} parts at most, and none may be empty", of.shard.asked, index, index));
     return some;
 }
 

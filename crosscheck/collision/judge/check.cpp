@@ -248,8 +248,8 @@ CheckReport judge_frames(const Scene& scene, const Profile& profile, GpuSide& gp
     const bool has_cdt = gpu.has_cdt();
     const bool judged = options.mode == CheckMode::resync;
     if (!judged && options.first > 0)
-        throw Error(fmt::format("{}: --mode free runs from the start: a later frame follows from all before it",
-                                scene.name));
+        throw Error(
+            fmt::format("{}: --mode free runs from the start: a later frame follows from all before it", scene.name));
     RunJudge judge(scene, profile, options.known.value_or(measured_operations(profile)), has_cdt, options.causes);
     gpu.upload(before.particles, before.cdt);
 

@@ -24,11 +24,9 @@ constexpr std::size_t looked_at = 8192;      ///< particles of a frame, of those
 constexpr std::size_t drawn_at_most = 16384; ///< particles, where it does not matter which of two is nearer
 constexpr std::size_t texels_judged = 16;
 
-/// On so many particles of a frame a mistake is tried that has not shown yet. This follows from the frame alone, so that
-/// parts of a run come together to what the whole run shows. Most show in the first frames; the rest takes more.
-std::size_t particles_tried(int frame) {
-    return std::min<std::size_t>(48 + 16 * static_cast<std::size_t>(frame), 256);
-}
+/// On so many particles of a frame a mistake is tried that has not shown yet. This follows from the frame alone, so
+/// that parts of a run come together to what the whole run shows. Most show in the first frames; the rest takes more.
+std::size_t particles_tried(int frame) { return std::min<std::size_t>(48 + 16 * static_cast<std::size_t>(frame), 256); }
 
 bool among(Deviation deviation, std::initializer_list<Deviation> all) {
     return std::find(all.begin(), all.end(), deviation) != all.end();

@@ -326,7 +326,7 @@ FrameRange frames_of(const CheckRequest& options, const TraceInfo& info) {
 
 int run_trace(CheckRequest options) {
     start_threads(options.run.threads);
-    if (!options.frames.is_part && !options.shard.is_asked())
+    if (options.heeds_environment && !options.frames.is_part && !options.shard.is_asked())
         options.shard = shard_of_environment();
     if (options.frames.is_part || options.shard.is_asked())
         expect_part(options);
@@ -459,6 +459,7 @@ Verb check_command() {
         }
         check_scene_or_trace(call, options->run, options->trace);
         options->frames_given = call.has("--frames");
+        options->heeds_environment = true;
         if (const RegisteredSystem* system =
                 options->trace.empty() ? system_of(options->run) : system_of_recording(options->trace)) {
             check_options(call, fmt::format("a scene of system {}", name_of(*system)), system_check_options());

@@ -19,6 +19,7 @@ struct CheckRequest {
     FrameRange frames;           ///< to compare
     bool frames_given = false;
     Shard shard;
+    bool heeds_environment = false; ///< where no shard is asked for
     CheckMode mode = CheckMode::resync;
     std::filesystem::path json, junit, images, hashes, report;
     Legal legal = Legal::measured;

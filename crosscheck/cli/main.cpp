@@ -6,6 +6,7 @@
 
 #include "crosscheck/cli/commands.hpp"
 #include "crosscheck/command/command_line.hpp"
+#include "crosscheck/files/heap.hpp"
 #include "crosscheck/files/plain_text.hpp"
 #include "crosscheck/files/signals.hpp"
 #include "crosscheck/files/standard_output.hpp"
@@ -58,6 +59,7 @@ int main(int argc, char** argv) {
         return status_could_not_run;
     }
     let_waiting_threads_sleep(argv);
+    give_back_large_arrays();
     own_signals(status_could_not_run);
     own_standard_output();
     const int status = run(argc, argv);

@@ -167,22 +167,30 @@ void find_causes(CheckReport& report, const RunPart& of, const std::filesystem::
     report.wider_rule = again.wider_rule;
 }
 
+std::vector<PartFile> read_parts(const std::vector<std::string>& files) {
+    std::vector<PartFile> parts;
+    for (const std::string& file : files) {
+        parts.push_back(read_part_file(file));
+        if (parts.back().stress.has_value() != parts.front().stress.has_value())
+            throw Error(fmt::format("{}: no part of the run that {} is of: one is of a recording, the other of check "
+                                    "--stress",
+                                    file, parts.front().file));
+    }
+    return parts;
+}
+
 int merge(const MergeRequest& asked) {
+    const std::vector<PartFile> read = read_parts(asked.parts);
     OutputFiles files;
-    for (const std::string& part : asked.parts)
-        files.protect(part);
+    for (const PartFile& part : read) {
+        files.protect(part.file);
+        if (part.run)
+            files.protect(part.run->request.trace);
+    }
     files.protect(asked.trace);
     for (const std::filesystem::path& file : {asked.json, asked.junit})
         if (!file.empty())
             files.expect(file);
-    std::vector<PartFile> read;
-    for (const std::string& part : asked.parts) {
-        read.push_back(read_part_file(part));
-        if (read.back().stress.has_value() != read.front().stress.has_value())
-            throw Error(fmt::format("{}: no part of the run that {} is of: one is of a recording, the other of check "
-                                    "--stress",
-                                    part, read.front().file));
-    }
     if (read.front().stress)
         return merge_stress(asked, files, read);
     const std::vector<RunPart> parts = parts_of_run(read);

@@ -119,8 +119,9 @@ Option frames_option(std::string name, FrameRange& target, std::string descripti
                                  last = number<int>(is_part ? text.substr(dots + 2) : text);
         const int end = last.value_or(0) + (is_part ? 1 : 0);
         if (!first || !last || *first < 0 || *last < 0 || *last > most_frames || *first >= end)
-            return fmt::format("'{}' is no number of frames from 1 to {}, nor a range A..B of them, counted from 0",
-                               text, most_frames);
+            return is_part ? fmt::format("'{}' is no range of frames; right is A..B, both from 0 to {}, A at most B",
+                                         text, most_frames)
+                           : fmt::format("'{}' is not an integer from 1 to {}", text, most_frames);
         target = {*first, end, is_part};
         return std::string();
     };

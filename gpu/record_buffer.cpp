@@ -47,7 +47,8 @@ template <class Work> void with_all_mapped(std::span<const RecordBuffer* const> 
 constexpr GLbitfield overwrite = GL_MAP_WRITE_BIT | GL_MAP_INVALIDATE_BUFFER_BIT;
 
 constexpr std::size_t word = sizeof(std::uint32_t);
-constexpr std::size_t most_bytes = 256 * 4 * word; ///< of a record: what a schema can have
+constexpr std::size_t slice_bytes = std::size_t{16} << 20U; ///< of an upload at once
+constexpr std::size_t most_bytes = 256 * 4 * word;          ///< of a record: what a schema can have
 
 /// Copies `count` values of `Words` words, which lie `from_stride` and are to lie `to_stride` bytes apart.
 template <std::size_t Words> void copy_values(const std::byte* from, std::size_t from_stride, std::byte* to,
@@ -179,13 +180,18 @@ void RecordBuffer::upload(const View& state) {
     if (count_ == 0)
         return;
     // Not mapped: a driver keeps in the host's memory what was, and kernels then work across the bus.
-    std::vector<std::byte> records(count_ * layout_->bytes());
-    in_blocks(*layout_, count_, [&](Block& block, std::size_t first, std::size_t count) {
-        block.gather(state, first, count);
-        std::memcpy(records.data() + first * layout_->bytes(), block.records(), count * layout_->bytes());
-    });
+    const std::size_t slice = std::clamp<std::size_t>(slice_bytes / layout_->bytes(), 1, count_);
+    std::vector<std::byte> records(slice * layout_->bytes());
     gl::BindBuffer(GL_COPY_READ_BUFFER, buffer_.id());
-    gl::BufferSubData(GL_COPY_READ_BUFFER, 0, static_cast<GLsizeiptr>(records.size()), records.data());
+    for (std::size_t from = 0; from < count_; from += slice) {
+        const std::size_t some = std::min(slice, count_ - from);
+        in_blocks(*layout_, some, [&](Block& block, std::size_t first, std::size_t count) {
+            block.gather(state, from + first, count);
+            std::memcpy(records.data() + first * layout_->bytes(), block.records(), count * layout_->bytes());
+        });
+        gl::BufferSubData(GL_COPY_READ_BUFFER, static_cast<GLintptr>(from * layout_->bytes()),
+                          static_cast<GLsizeiptr>(some * layout_->bytes()), records.data());
+    }
     check_gl(fmt::format("upload of {}s", layout_->about().item));
 }
 

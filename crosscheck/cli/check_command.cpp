@@ -9,7 +9,9 @@
 
 #include <fmt/format.h>
 
+#include "crosscheck/cli/check_request.hpp"
 #include "crosscheck/cli/commands.hpp"
+#include "crosscheck/cli/part_file.hpp"
 #include "crosscheck/cli/run_options.hpp"
 #include "crosscheck/cli/stress_check.hpp"
 #include "crosscheck/cli/system_verbs.hpp"
@@ -29,7 +31,7 @@
 #include "crosscheck/files/shell_words.hpp"
 #include "crosscheck/files/signals.hpp"
 #include "crosscheck/files/threads.hpp"
-#include "crosscheck/report/colour.hpp"
+#include "crosscheck/report/junit.hpp"
 #include "crosscheck/report/page/study_results.hpp"
 #include "crosscheck/report/page/template.hpp"
 #include "crosscheck/report/places.hpp"
@@ -47,40 +49,6 @@
 namespace lockstep {
 namespace {
 
-struct CheckRequest {
-    RunOptions run;
-    std::filesystem::path trace; ///< instead of a scene and GL
-    bool frames_given = false;
-    CheckMode mode = CheckMode::resync;
-    std::filesystem::path json, images, hashes, report;
-    Legal legal = Legal::measured;
-    PassRules rules;
-    bool no_render = false;
-    bool render = false; ///< asked for by name: then one without particles proves too little
-    bool stress = false; ///< the stress scenes instead of one
-    bool power = false;  ///< list the mistakes that would have shown
-    bool quiet = false;
-    bool hexadecimal = false;
-};
-
-std::string repeat_line(const CheckRequest& options, int frames) {
-    std::string line = options.trace.empty()
-                           ? command_line("check", options.run, frames)
-                           : fmt::format("lockstep check --trace {} --frames {}", shell_path(options.trace), frames);
-    if (options.mode == CheckMode::free)
-        line += " --mode free";
-    line += legal_option_text(options.legal);
-    return line + pass_options_text(options.rules) + (options.no_render ? " --no-render" : "") +
-           (options.render ? " --render" : "");
-}
-
-/// `at`: "--frame 3 --particle 17".
-std::string explain_line(const CheckRequest& options, const std::string& at) {
-    return (options.trace.empty() ? command_line("explain", options.run, at)
-                                  : fmt::format("lockstep explain --trace {} {}", shell_path(options.trace), at)) +
-           legal_option_text(options.legal);
-}
-
 constexpr std::array<std::string_view, 2> report_files{"report.html", "capsule.json"};
 
 void expect_files(const CheckRequest& options, OutputFiles& files) {
@@ -92,15 +60,16 @@ void expect_files(const CheckRequest& options, OutputFiles& files) {
         files.protect(options.report / study_results_name);
         files.expect_folder(options.report, report_files);
     }
-    if (!options.json.empty())
-        files.expect(options.json);
+    for (const std::filesystem::path& file : {options.json, options.junit})
+        if (!file.empty())
+            files.expect(file);
     if (!options.hashes.empty())
         files.expect(options.hashes);
 }
 
 std::vector<PageCommand> page_commands(const CheckRequest& options, const RunDescription& run,
                                        const CheckReport& report) {
-    std::vector<PageCommand> commands{{"This run", repeat_line(options, report.frames)}};
+    std::vector<PageCommand> commands{{"This run", repeat_line(options, {0, report.frames})}};
     if (frames_to_repeat(report) < report.frames)
         commands.push_back({"Up to the first frame that differs", run.repeat});
     if (!run.explain.empty()) {
@@ -117,12 +86,8 @@ struct Checked {
     const Profile& profile;
     GpuSide& gpu;
     KnownOperations known;
-    std::string file;     ///< the scene's, or the trace's
-    std::string context;  ///< renderer, version
-    std::string settings; ///< preset and changed switches
-    std::vector<std::string> notes;
-    std::optional<ShaderUse> shaders; ///< not set: recorded elsewhere
-    std::string recorded_shaders;     ///< as told there; empty: not told
+    CheckedRun run;
+    RunPart* part = nullptr; ///< to be filled in; null: the whole run is checked
 };
 
 /// The first divergent particle's step, for a file.
@@ -139,12 +104,44 @@ FirstCapsule first_capsule(const Checked& checked, FrameRun& frames, const std::
         return {};
     frames.go_to(first->frame);
     try {
-        return {capsule_file(cut_capsule(frames.judged(), {checked.scene, checked.context, checked.settings,
+        return {capsule_file(cut_capsule(frames.judged(), {checked.scene, checked.run.context, checked.run.settings,
                                                            first->frame, first->index, frames.capture(first->index)})),
                 ""};
     } catch (const Error& error) {
         return {"", fmt::format("no capsule of the first divergent particle: {}", error.what())};
     }
+}
+
+/// Of part of the frames all that is told is told of these alone. Throws Error where that cannot be.
+void expect_part(const CheckRequest& options) {
+    const std::string by =
+        options.frames.is_part ? fmt::format("--frames {}", options.frames.text()) : options.shard.asked;
+    if (options.mode == CheckMode::free)
+        throw Error(fmt::format("{}: with --mode free a frame follows from all before it, so that none can be judged "
+                                "without these; right is --mode resync",
+                                by));
+    if (options.frames.is_part && options.shard.is_asked())
+        throw Error(fmt::format("{}: does not go with {}, which says which frames already", options.shard.asked, by));
+    if (!options.report.empty() || !options.images.empty())
+        throw Error(fmt::format("{}: {} shows a whole run, not part of its frames", by,
+                                options.report.empty() ? "--images" : "--report"));
+}
+
+/// What is asked of a run as a whole, none of its parts has to have.
+PassRules rules_of_part(PassRules rules) {
+    rules.require_hits = false;
+    rules.power_at_least = 0.0;
+    return rules;
+}
+
+std::vector<std::string> part_notes(const CheckRequest& options, int whole) {
+    std::vector<std::string> notes{fmt::format(
+        "part of a run: frames {} to {} of {}{}{}; lockstep merge joins the parts' JSON", options.frames.first,
+        options.frames.end - 1, whole, options.shard.is_asked() ? ", by " : "", options.shard.asked)};
+    if (const PassRules& rules = options.rules; rules.require_hits || rules.power_at_least > 0.0)
+        notes.push_back(fmt::format("lockstep merge judges{}, which the run as a whole has to pass",
+                                    pass_options_text({false, rules.require_hits, rules.power_at_least})));
+    return notes;
 }
 
 /// What a second run of the GPU, or of what was recorded of it, tells of the items that the page lists.
@@ -182,24 +179,6 @@ SecondLook look_again(const CheckRequest& options, const Checked& checked, const
     return look;
 }
 
-RunDescription description(const CheckRequest& options, const Checked& checked, const CheckReport& report) {
-    const bool free = options.mode == CheckMode::free;
-    const std::string first = first_arguments(report, checked.scene.width);
-    return {fmt::format("{} ({})", checked.scene.name, plain_line(checked.file)),
-            checked.context,
-            describe(checked.profile),
-            checked.settings,
-            free ? "free" : "resync",
-            repeat_line(options, frames_to_repeat(report)),
-            first.empty() ? first : explain_line(options, first),
-            checked.notes,
-            checked.shaders,
-            checked.recorded_shaders.empty() ? "not in the recording" : "recorded: " + checked.recorded_shaders,
-            checked.shaders ? " (--no-render)" : ": no picture is in a recording",
-            true,
-            number_format(options.hexadecimal)};
-}
-
 bool is_rendered(const CheckRequest& options) { return !options.no_render; }
 
 /// Judges the last frame's picture. `earlier`: the particles of the frame before; none where they were not kept.
@@ -207,7 +186,7 @@ void judge_last(const CheckRequest& options, const Checked& checked, const Parti
     Particles last;
     read_side(checked.gpu, checked.scene, last);
     const bool has_earlier = earlier.size() == last.size() && !report.partial();
-    add_rendered(report, judge_rendered(last, has_earlier ? &earlier : nullptr, checked.scene, report.frames - 1,
+    add_rendered(report, judge_rendered(last, has_earlier ? &earlier : nullptr, checked.scene, options.frames.end - 1,
                                         checked.profile, checked.known, options.run.shaders));
     if (options.render && report.rendered->of_particles == 0)
         report.untried.emplace_back("the rendered frame shows no particle");
@@ -220,21 +199,22 @@ int check_and_tell(const CheckRequest& options, OutputFiles& files, const Checke
     FrameImages images;
     FrameCheckOptions check_options;
     check_options.mode = options.mode;
-    check_options.frames = options.run.frames;
+    check_options.first = options.frames.first;
+    check_options.frames = options.frames.end;
     check_options.stop = &interrupted;
     check_options.known = checked.known;
     std::optional<PageCollector> collector;
     if (!options.report.empty())
-        collector.emplace(checked.scene, checked.profile, options.mode, options.run.frames);
+        collector.emplace(checked.scene, checked.profile, options.mode, options.frames.end);
     Particles earlier;
-    const bool render = checked.shaders && is_rendered(options);
-    if (!options.hashes.empty() || render || collector)
+    const bool render = checked.run.shaders && is_rendered(options);
+    if (render && options.frames.end > 1)
+        check_options.last_start = &earlier;
+    if (!options.hashes.empty() || !options.images.empty() || collector)
         check_options.on_state = [&](const ComparedFrame& frame) {
-            if (render && frame.frame + 2 == options.run.frames)
-                earlier = frame.gpu;
             if (!options.hashes.empty())
                 hashes.add(frame);
-            if (!options.images.empty() || (collector && checked.shaders))
+            if (!options.images.empty() || (collector && checked.run.shaders))
                 images.keep(frame);
             if (collector)
                 collector->add(frame);
@@ -242,9 +222,9 @@ int check_and_tell(const CheckRequest& options, OutputFiles& files, const Checke
     int frames_done = 0;
     const auto run_both = [&] {
         const InterruptHandler handler;
-        Progress progress("check", options.run.frames, !options.quiet);
+        Progress progress("check", options.frames.end - options.frames.first, !options.quiet);
         check_options.on_frame = [&](int done) { progress.show(frames_done = done); };
-        return check(checked.scene, checked.profile, checked.gpu, check_options);
+        return judge_frames(checked.scene, checked.profile, checked.gpu, check_options);
     };
     std::optional<CheckReport> compared;
     try {
@@ -256,18 +236,18 @@ int check_and_tell(const CheckRequest& options, OutputFiles& files, const Checke
         return status_interrupted;
     }
     CheckReport& report = *compared;
-    ask_power(report, options.rules.power_at_least);
+    if (checked.part != nullptr)
+        checked.part->report = report;
+    conclude(report);
+    const PassRules rules = checked.part == nullptr ? options.rules : rules_of_part(options.rules);
+    ask_power(report, rules.power_at_least);
 
     if (render)
         judge_last(options, checked, earlier, report);
-    RunDescription run = description(options, checked, report);
-    if (!options.quiet) {
-        if (report.partial())
-            fmt::print("interrupted after {} of {} frames\n", report.frames, options.run.frames);
-        fmt::print("{}{}", colored(plain_text(report_text(report, run))),
-                   options.power ? power_text(report.power) : std::string());
-        std::fflush(stdout);
-    }
+    RunDescription run = description(options, checked.run, report);
+    if (checked.part != nullptr)
+        run.notes.insert(run.notes.end(), checked.part->own_notes.begin(), checked.part->own_notes.end());
+    tell(options, report, run);
     if (collector) {
         const SecondLook look = look_again(options, checked, collector->frames().items());
         std::vector<PageCommand> commands = page_commands(options, run, report);
@@ -281,7 +261,7 @@ int check_and_tell(const CheckRequest& options, OutputFiles& files, const Checke
                                 fmt::format("lockstep capsule show {}", shell_path(options.report / report_files[1]))});
         }
         RenderedPictures rendered{images.frame(), {}};
-        if (checked.shaders && images.frame() >= 0) {
+        if (checked.run.shaders && images.frame() >= 0) {
             auto [reference, gpu, difference] = images.rendered(checked.scene, checked.profile, options.run.shaders);
             rendered.pictures = {
                 {"Reference", std::move(reference)}, {"GPU", std::move(gpu)}, {"Difference", std::move(difference)}};
@@ -289,8 +269,15 @@ int check_and_tell(const CheckRequest& options, OutputFiles& files, const Checke
         files.write(options.report / report_files[0],
                     report_page(page, *collector, report, run, commands, look.items, study, rendered));
     }
-    if (!options.json.empty())
-        files.write(options.json, json_text(report_json(report, run)));
+    const bool pass = passes(report, rules);
+    if (!options.json.empty()) {
+        nlohmann::json json = report_json(report, run);
+        if (checked.part != nullptr)
+            json["part"] = part_file_json(*checked.part);
+        files.write(options.json, json_text(json));
+    }
+    if (!options.junit.empty())
+        files.write(options.junit, junit_text(report, run, pass));
     if (!options.hashes.empty())
         files.write(options.hashes, hashes.text());
     if (!options.images.empty())
@@ -300,10 +287,12 @@ int check_and_tell(const CheckRequest& options, OutputFiles& files, const Checke
         fmt::print("{}", files.written_text());
     if (report.partial())
         return status_interrupted;
-    return passes(report, options.rules) ? status_agree : status_differ;
+    return pass ? status_agree : status_differ;
 }
 
 int run_scene(const CheckRequest& options) {
+    if (options.frames.is_part)
+        expect_part(options);
     const Scene scene = load(options.run);
     OutputFiles files;
     expect_files(options, files);
@@ -316,42 +305,67 @@ int run_scene(const CheckRequest& options) {
                            profile,
                            gpu,
                            known_operations(options.legal, profile),
-                           options.run.scene.string(),
-                           summary(context.describe()),
-                           settings_text(options.run, scene),
-                           conversion_notes(profile, scene.switches),
-                           std::move(shaders),
-                           {}});
+                           {scene.name,
+                            options.run.scene.string(),
+                            summary(context.describe()),
+                            describe(profile),
+                            settings_text(options.run, scene),
+                            conversion_notes(profile, scene.switches),
+                            std::move(shaders),
+                            {},
+                            scene.width}});
+}
+
+/// The frames that this run is to compare, of all of them.
+FrameRange frames_of(const CheckRequest& options, const TraceInfo& info) {
+    const std::string held = fmt::format("{} holds {} frames", info.file, info.frames);
+    FrameRange frames = options.frames_given ? options.frames : FrameRange{0, info.frames};
+    if (frames.end > info.frames)
+        throw Error(frames.is_part ? fmt::format("--frames {}: {}, 0 to {}", frames.text(), held, info.frames - 1)
+                                   : fmt::format("--frames {}: {}", frames.text(), held));
+    if (!options.shard.is_asked())
+        return frames;
+    const auto count = static_cast<std::size_t>(frames.end);
+    if (options.shard.of > count)
+        throw Error(fmt::format("{}: {} frames make {} parts at most, and none may be empty", options.shard.asked,
+                                count, count));
+    return {static_cast<int>(options.shard.first(count)), static_cast<int>(options.shard.end(count)), true};
 }
 
 int run_trace(CheckRequest options) {
     start_threads(options.run.threads);
+    if (options.heeds_environment && !options.frames.is_part && !options.shard.is_asked())
+        options.shard = shard_of_environment();
+    if (options.frames.is_part || options.shard.is_asked())
+        expect_part(options);
     OutputFiles files;
     expect_files(options, files);
     TraceReader trace(options.trace);
     const TraceInfo& info = trace.info();
-    if (!options.frames_given)
-        options.run.frames = info.frames;
-    if (options.run.frames > info.frames)
-        throw Error(fmt::format("--frames {}: {} holds {} frames", options.run.frames, info.file, info.frames));
+    const int whole = options.frames_given && !options.frames.is_part ? options.frames.end : info.frames;
+    options.frames = frames_of(options, info);
     const Profile profile = followed_profile(info);
     std::vector<std::string> notes = notes_on(info);
     for (std::string& note : conversion_notes(profile, info.scene.switches))
         notes.push_back(std::move(note));
-    if (options.run.frames < info.frames)
-        notes.push_back(fmt::format("{} of the {} frames recorded were compared", options.run.frames, info.frames));
+    if (whole < info.frames)
+        notes.push_back(fmt::format("{} of the {} frames recorded were compared", whole, info.frames));
+    CheckedRun run{info.scene.name,
+                   info.file,
+                   fmt::format("recorded: {}", info.renderer.empty() ? "untold" : info.renderer),
+                   describe(profile),
+                   info.settings.empty() ? "untold" : info.settings,
+                   std::move(notes),
+                   {},
+                   info.shaders,
+                   info.scene.width};
     TraceSide recorded(trace);
+    RunPart part;
+    if (options.frames.is_part)
+        part = {options.trace.string(), trace.seal(), info.frames, whole, options, run, {}, part_notes(options, whole)};
     return check_and_tell(options, files,
-                          {info.scene,
-                           profile,
-                           recorded,
-                           known_operations(info, options.legal),
-                           info.file,
-                           fmt::format("recorded: {}", info.renderer.empty() ? "untold" : info.renderer),
-                           info.settings.empty() ? "untold" : info.settings,
-                           std::move(notes),
-                           {},
-                           info.shaders});
+                          {info.scene, profile, recorded, known_operations(info, options.legal), std::move(run),
+                           options.frames.is_part ? &part : nullptr});
 }
 
 SystemCheck system_check(const CheckRequest& options) {
@@ -371,10 +385,14 @@ SystemCheck system_check(const CheckRequest& options) {
 }
 
 void check_stress_options(const Call& call, const CheckRequest& options) {
-    static constexpr std::array<std::string_view, 16> allowed{
-        "--stress",       "--frames", "--preset",          "--set",          "--threads",        "--gl",    "--shaders",
-        "--allow-unused", "--legal",  "--allow-undefined", "--require-hits", "--power-at-least", "--power", "--json",
-        "--quiet",        "--help"};
+    if (options.frames.is_part)
+        throw Error(fmt::format("check: --frames {}: --stress checks its scenes from their start; right is a number of "
+                                "frames, or --shard for some of the scenes",
+                                options.frames.text()));
+    static constexpr std::array<std::string_view, 17> allowed{
+        "--shard",   "--stress",       "--frames", "--preset",          "--set",          "--threads",        "--gl",
+        "--shaders", "--allow-unused", "--legal",  "--allow-undefined", "--require-hits", "--power-at-least", "--power",
+        "--json",    "--quiet",        "--help"};
     if (!options.run.scene.empty())
         throw Error("check: a scene does not go with --stress, which brings its own");
     check_options(call, "--stress", allowed);
@@ -390,7 +408,7 @@ Verb report_command() {
                                   "what `lockstep record` wrote, or an engine of your own (docs/traces.md)")));
     verb.add(path_option("-o,--output", "DIR", options->report, "where report.html goes"));
     verb.add(
-        otherwise(integer_option("--frames", "N", {1, most_frames}, options->run.frames, "frames to compare"), "all"));
+        otherwise(integer_option("--frames", "N", {1, most_frames}, options->frames.end, "frames to compare"), "all"));
     add_threads_option(verb, options->run);
     add_legal_option(verb, options->legal);
     add_pass_options(verb, options->rules);
@@ -399,6 +417,7 @@ Verb report_command() {
                   "Example: lockstep report run.h5 -o pages";
     verb.run = [options](const Call& call) {
         options->frames_given = call.has("--frames");
+        options->run.frames = options->frames.end;
         if (const RegisteredSystem* system = system_of_recording(options->trace))
             return check_system(*system, options->run, system_check(*options));
         return run_trace(*options);
@@ -412,14 +431,16 @@ Verb check_command() {
     add_scene_options(verb, options->run, SceneArgument::optional);
     add_gl_options(verb, options->run);
     add_trace_option(verb, options->trace);
-    verb.add(
-        integer_option("--frames", "N", {1, most_frames}, options->run.frames, "frames to compare; of a trace: all"));
+    verb.add(frames_option("--frames", options->frames,
+                           "frames to compare, of a trace all; A..B: these alone, counted from 0"));
+    verb.add(shard_option(options->shard));
     verb.add(choice_option<CheckMode>("--mode", options->mode,
                                       {{"resync", CheckMode::resync}, {"free", CheckMode::free}},
                                       "resync: each frame's step alone; free: both run on by themselves"));
     add_legal_option(verb, options->legal);
     add_pass_options(verb, options->rules);
     verb.add(path_option("--json", "FILE", options->json, "write the report as JSON"));
+    verb.add(path_option("--junit", "FILE", options->junit, "write the verdict as JUnit"));
     verb.add(path_option("--hashes", "FILE", options->hashes, "write both sides' state hash of every frame"));
     verb.add(path_option("--images", "DIR", options->images,
                          "write CDT and rendered frame of both sides, and their difference, as PNG"));
@@ -439,18 +460,32 @@ Verb check_command() {
         "130 ended by Ctrl-C, with a verdict on the frames before.\n"
         "Example: lockstep check data/scenes/lattice.json --frames 100 --preset paper";
     verb.run = [options](const Call& call) {
+        options->run.frames = options->frames.end;
         if (options->stress) {
             check_stress_options(call, *options);
-            return check_stress(
-                {options->run, options->legal, options->rules, options->json, options->power, options->quiet});
+            if (!options->shard.is_asked())
+                options->shard = shard_of_environment();
+            return check_stress({options->run, options->legal, options->rules, options->shard, options->json,
+                                 options->power, options->quiet});
         }
         check_scene_or_trace(call, options->run, options->trace);
         options->frames_given = call.has("--frames");
+        options->heeds_environment = true;
         if (const RegisteredSystem* system =
                 options->trace.empty() ? system_of(options->run) : system_of_recording(options->trace)) {
             check_options(call, fmt::format("a scene of system {}", name_of(*system)), system_check_options());
+            if (options->frames.is_part)
+                throw Error(
+                    fmt::format("check: --frames {}: a scene of system {} is checked from its start; right is a "
+                                "number of frames",
+                                options->frames.text(), name_of(*system)));
             return check_system(*system, options->run, system_check(*options));
         }
+        if (options->trace.empty() && options->shard.is_asked())
+            throw Error(
+                fmt::format("{}: shares out the frames of a recording (lockstep record, check --trace FILE), or the "
+                            "scenes of --stress; a scene that is run here has to run from its start",
+                            options->shard.asked));
         return options->trace.empty() ? run_scene(*options) : run_trace(*options);
     };
     return verb;

@@ -5,6 +5,7 @@
 namespace lockstep {
 
 Verb check_command();
+Verb merge_command();
 Verb report_command();
 Verb explain_command();
 Verb debug_command();

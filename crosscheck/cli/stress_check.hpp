@@ -1,6 +1,7 @@
 #pragma once
 #include "crosscheck/cli/run_options.hpp"
 #include "crosscheck/collision/judge/check.hpp"
+#include "crosscheck/command/shard.hpp"
 #include "crosscheck/judge/legal.hpp"
 
 namespace lockstep {
@@ -9,6 +10,7 @@ struct StressOptions {
     RunOptions run; ///< its scene is not looked at
     Legal legal = Legal::measured;
     PassRules rules; ///< the power asked for is that of all scenes together
+    Shard shard;     ///< of the scenes
     std::filesystem::path json;
     bool power = false; ///< list the mistakes
     bool quiet = false;

@@ -119,6 +119,26 @@ Option integer_option(std::string name, std::string value, IntegerRange range, s
     return one_integer<std::size_t>(std::move(name), std::move(value), range, target, std::move(description));
 }
 
+std::string FrameRange::text() const { return is_part ? fmt::format("{}..{}", first, end - 1) : std::to_string(end); }
+
+Option frames_option(std::string name, FrameRange& target, std::string description) {
+    const auto keep = [&target](Texts texts) {
+        const std::string& text = texts.front();
+        const std::size_t dots = text.find("..");
+        const bool is_part = dots != std::string::npos;
+        const std::optional<int> first = is_part ? number<int>(text.substr(0, dots)) : std::optional(0),
+                                 last = number<int>(is_part ? text.substr(dots + 2) : text);
+        const int end = last.value_or(0) + (is_part ? 1 : 0);
+        if (!first || !last || *first < 0 || *last < 0 || *last > most_frames || *first >= end)
+            return is_part ? fmt::format("'{}' is no range of frames; right is A..B, both from 0 to {}, A at most B",
+                                         text, most_frames)
+                           : fmt::format("'{}' is not an integer from 1 to {}", text, most_frames);
+        target = {*first, end, is_part};
+        return std::string();
+    };
+    return {std::move(name), "N", std::move(description), keep};
+}
+
 Option integers_option(std::string name, std::string value, IntegerRange range, std::vector<int>& target,
                        std::string description) {
     return some_integers(std::move(name), std::move(value), range, target, std::move(description));

@@ -35,6 +35,15 @@ Option integer_option(std::string name, std::string value, IntegerRange range, s
 Option integer_option(std::string name, std::string value, IntegerRange range, std::optional<std::size_t>& target,
                       std::string description);
 
+/// Frames of a run: "60", the first 60, or "20..59", both counted from 0 and among them.
+struct FrameRange {
+    int first = 0;
+    int end = 60;                           ///< the one after the last
+    bool is_part = false;                   ///< written as A..B
+    [[nodiscard]] std::string text() const; ///< as it is typed
+};
+Option frames_option(std::string name, FrameRange& target, std::string description);
+
 /// "1,4"; replaces what the target held.
 Option integers_option(std::string name, std::string value, IntegerRange range, std::vector<int>& target,
                        std::string description);

@@ -56,6 +56,7 @@ struct FrameTimes {
 struct CheckReport {
     Schema schema; ///< what was compared
     Verdict verdict = Verdict::agree;
+    int first = 0;        ///< the first frame that was to be compared; those before only led there
     int frames = 0;       ///< frames compared
     int frames_asked = 0; ///< more than `frames`: the run was stopped
     std::size_t particles = 0;
@@ -68,6 +69,7 @@ struct CheckReport {
     std::optional<Legal> wider_rule = {};
     std::optional<VerdictSummary> verdicts; ///< resync mode, search = cdt, no remedies
     bool counts_hits = false;               ///< whether the next two are known
+    bool expects_texels = false;            ///< a run in which none is drawn tried little
     std::uint64_t hits = 0;                 ///< particle-frames in which the reference found a collision
     std::uint64_t drawn_texels = 0;         ///< texels written by the reference, summed over frames
     std::uint64_t reference_hash = 0;
@@ -111,12 +113,15 @@ void add_rendered(CheckReport& report, RenderVerdict rendered);
 
 struct CheckOptions {
     CheckMode mode = CheckMode::resync;
-    int frames = 60;
-    int repeated_frames = 2; ///< the first frames run twice on the GPU and must repeat themselves bit by bit
+    int first = 0;              ///< in resync mode later ones, too: those before are run, and not compared
+    int frames = 60;            ///< the frame after the last
+    std::vector<int> only = {}; ///< of these frames some alone, ascending; empty: all
+    int repeated_frames = 2;    ///< the first frames run twice on the GPU and must repeat themselves bit by bit
     std::function<void(int frames_done)> on_frame;
     /// What legal outcomes are taken from; not set: what the profile's driver was measured to do.
     std::optional<KnownOperations> known;
     bool causes = true;                      ///< look for the mistake behind what diverges
+    bool power = true;                       ///< try which mistakes would have shown
     const std::atomic<bool>* stop = nullptr; ///< set: end after the frame at hand, with the verdict so far
 };
 

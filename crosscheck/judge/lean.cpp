@@ -23,6 +23,7 @@ void Leans::add(const Lean& lean) {
     constexpr std::size_t enough = 1U << 20U; // to say what the others would say too
     if (seen_.size() >= enough || !seen_.insert(lean.place).second)
         return;
+    counted_.push_back(lean);
     const auto note = [&](int sign, Direction less, Direction more, bool half) {
         if (sign == 0)
             return;

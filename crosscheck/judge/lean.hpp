@@ -4,6 +4,7 @@
 #include <string>
 #include <string_view>
 #include <unordered_set>
+#include <vector>
 
 #include <glm/vec2.hpp>
 
@@ -25,8 +26,10 @@ class Leans {
     static constexpr std::array<std::string_view, 4> names{"left", "right", "down", "up"};
 
     void add(const Lean& lean);
+    /// Those that were counted, in the order in which they came.
+    [[nodiscard]] const std::vector<Lean>& counted() const { return counted_; }
 
-    [[nodiscard]] bool any() const { return !seen_.empty(); }
+    [[nodiscard]] bool any() const { return !counted_.empty(); }
     [[nodiscard]] std::uint64_t count(Direction d) const { return count_[d][0] + count_[d][1]; }
     [[nodiscard]] std::uint64_t beyond_rounding(Direction d) const { return beyond_[d][0] + beyond_[d][1]; }
     /// Whether, in both halves of the image across that axis, what lies beyond rounding goes this way so often that a
@@ -46,7 +49,8 @@ class Leans {
   private:
     using Halves = std::array<std::uint64_t, 2>;
     std::array<Halves, 4> count_{}, beyond_{};
-    std::unordered_set<std::uint64_t> seen_;
+    std::unordered_set<std::uint64_t> seen_; ///< places
+    std::vector<Lean> counted_;
 };
 
 } // namespace lockstep

@@ -44,7 +44,7 @@ bool may_change(const std::vector<SeenSite>& sites, const Mistake& made) {
 
 } // namespace
 
-void PowerMeter::add(const JudgedPass& p, const std::vector<std::size_t>& telling) {
+void PowerMeter::add(const JudgedPass& p, const std::vector<std::size_t>& telling, std::size_t asked) {
     std::vector<std::size_t> unseen;
     std::size_t of_pass = 0;
     for (std::size_t m = 0; m < named_.size(); ++m)
@@ -56,7 +56,7 @@ void PowerMeter::add(const JudgedPass& p, const std::vector<std::size_t>& tellin
         }
     if (unseen.empty() || p.reference.count() == 0)
         return;
-    const std::size_t most = std::min(tried_a_frame * of_pass / unseen.size(), tried_at_most);
+    const std::size_t most = asked > 0 ? asked : std::min(tried_a_frame * of_pass / unseen.size(), tried_at_most);
     const std::vector<std::size_t> items = items_to_try(p, telling, most);
     std::vector<std::vector<SeenSite>> sites(items.size());
     parallel_blocks(static_cast<std::ptrdiff_t>(items.size()), [&](std::ptrdiff_t i) {
@@ -101,10 +101,9 @@ PowerSummary PowerMeter::summary() const {
         mistake.meaning = named_[m].meaning;
         if (tried.first_frame >= 0)
             mistake.first_frame = tried.first_frame;
-        else
-            mistake.why_not = tried.changes   ? "what it changes is legal, too"
-                              : tried.reached ? "it changes nothing in these states"
-                                              : "nothing that was tried came to where it is made";
+        mistake.changes = tried.changes;
+        if (!tried.reached)
+            mistake.reasons.emplace_back("nothing that was tried came to where it is made");
     }
     return summary;
 }

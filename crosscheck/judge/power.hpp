@@ -20,13 +20,15 @@ class PowerMeter {
 
     explicit PowerMeter(const std::vector<NamedMistake>& named) : named_(named), tried_(named.size()) {}
 
-    /// A frame's pass, as the reference made it. `telling`: items that are worth a try more than others.
-    void add(const JudgedPass& pass, const std::vector<std::size_t>& telling);
+    /// A frame's pass, as the reference made it. `telling`: items that are worth a try more than others. `most`: so
+    /// many items are tried; 0: as the class says. What parts of a run show comes to what the whole shows where it is
+    /// given.
+    void add(const JudgedPass& pass, const std::vector<std::size_t>& telling, std::size_t most = 0);
 
     /// Whether all mistakes of the passes that were seen have shown: more frames tell nothing more of these.
     [[nodiscard]] bool has_seen_all() const;
 
-    /// Of the mistakes of passes that were seen.
+    /// Of the mistakes of passes that were seen, to be concluded.
     [[nodiscard]] PowerSummary summary() const;
 
   private:

@@ -14,7 +14,11 @@ struct PowerSummary {
     struct Mistake {
         std::string name, meaning;
         std::optional<int> first_frame = {}; ///< in which it would have shown
-        std::string why_not = {};            ///< else; "no hit had two in range"
+        bool changes = false;                ///< something, in what was tried
+        std::vector<std::string> reasons =
+            {};                   ///< why it could not show, as far as these frames tell; the first is told
+        bool refutes = false;     ///< where it would have shown and nothing diverges, it was not made
+        std::string why_not = {}; ///< it did not show, once that is known: "no hit had two in range"
     };
     /// Something in which mistakes show, and how often the run had it.
     struct Situation {
@@ -31,6 +35,14 @@ struct PowerSummary {
     /// 0 to 1; 0 where nothing was tried.
     [[nodiscard]] double share() const {
         return mistakes.empty() ? 0.0 : static_cast<double>(seen()) / static_cast<double>(mistakes.size());
+    }
+    /// Of the mistakes that have not shown in the whole run, why.
+    void conclude() {
+        for (Mistake& mistake : mistakes)
+            if (!mistake.first_frame)
+                mistake.why_not = mistake.changes           ? "what it changes is legal, too"
+                                  : mistake.reasons.empty() ? "it changes nothing in these states"
+                                                            : mistake.reasons.front();
     }
 };
 

@@ -401,7 +401,9 @@ CheckReport check(const System& system, SystemSide& gpu, const CheckOptions& opt
         }
         report.verdicts = summary;
         report.power = power.summary();
-        refute_causes(report, system.mistakes);
+        report.power.conclude();
+        note_refuting(report.power, system.mistakes);
+        refute_causes(report);
     }
     part();
     report.verdict = verdict_on(report);

@@ -34,7 +34,44 @@ void VerdictSummary::add(int frame, std::uint8_t resource, std::span<const ItemV
         }
         if (verdict.kind == DifferenceClass::undefined)
             ++undefined[verdict.undefined];
+        if (verdict.kind == DifferenceClass::divergent &&
+            (divergent_frames.empty() || divergent_frames.back() != frame))
+            divergent_frames.push_back(frame);
     }
+}
+
+void VerdictSummary::join(const VerdictSummary& next) {
+    for (std::size_t r = 0; r < classes.size(); ++r)
+        for (std::size_t kind = 0; kind < class_names.size(); ++kind)
+            classes[r][kind] += next.classes[r][kind];
+    for (const auto& [size, count] : next.set_sizes)
+        set_sizes[size] += count;
+    for (const auto& [kind, tie] : next.ties) {
+        const auto [entry, is_new] = ties.try_emplace(kind, tie);
+        if (is_new)
+            continue;
+        TieCount& known = entry->second;
+        if (tie.smallest < known.smallest) {
+            known.smallest = tie.smallest;
+            known.closest = tie.closest;
+        }
+        known.largest = std::max(known.largest, tie.largest);
+        known.count += tie.count;
+    }
+    for (const auto& [reason, count] : next.undefined)
+        undefined[reason] += count;
+    for (const Lean& lean : next.leans.counted())
+        leans.add(lean);
+    ties_beyond_rounding += next.ties_beyond_rounding;
+    if (!first_beyond_rounding)
+        first_beyond_rounding = next.first_beyond_rounding;
+    if (!first || (divergent_frames.empty() && !next.divergent_frames.empty()))
+        first = next.first;
+    if (divergent_frames.empty())
+        causes = next.causes;
+    else if (!next.divergent_frames.empty())
+        causes.assign(causes.size(), {});
+    divergent_frames.insert(divergent_frames.end(), next.divergent_frames.begin(), next.divergent_frames.end());
 }
 
 std::uint64_t VerdictSummary::total(DifferenceClass kind) const {
@@ -49,7 +86,7 @@ std::string VerdictSummary::convicted_shift() const {
 }
 
 void VerdictSummary::convict_shift() {
-    if (convicted_shift().empty())
+    if (!first_beyond_rounding || convicted_shift().empty())
         return;
     Counts& drawn = classes[first_beyond_rounding->place.resource];
     drawn[static_cast<std::size_t>(DifferenceClass::tie)] -= ties_beyond_rounding;

@@ -70,6 +70,7 @@ struct VerdictSummary {
     std::uint64_t ties_beyond_rounding = 0;
     std::optional<FirstDivergence> first_beyond_rounding;
     std::optional<FirstDivergence> first; ///< the first divergent item, else the first undefined one
+    std::vector<int> divergent_frames;    ///< those with a divergent item
     std::vector<CauseFindings> causes;    ///< likewise
 
     VerdictSummary() = default;
@@ -82,6 +83,10 @@ struct VerdictSummary {
 
     /// The verdicts on a frame's items of one buffer or image.
     void add(int frame, std::uint8_t resource, std::span<const ItemVerdict> verdicts);
+
+    /// Takes up the verdicts on the frames that follow these; no shift is convicted yet. Of causes those of the one
+    /// side that has divergent frames; where both have, none.
+    void join(const VerdictSummary& next);
 
     [[nodiscard]] std::uint64_t total(DifferenceClass kind) const;
     [[nodiscard]] std::size_t median_set_size() const;

@@ -115,7 +115,7 @@ Seal told_by(const OpenedFile& file) {
 
 std::string sealed_system(const OpenedFile& file) { return told_by(file).system; }
 
-void check_seal(const OpenedFile& file, const std::string& system) {
+Seal check_seal(const OpenedFile& file, const std::string& system) {
     const std::string path = file.path().string();
     const Seal told = told_by(file);
     if (told.system != system)
@@ -131,6 +131,7 @@ void check_seal(const OpenedFile& file, const std::string& system) {
     if (found.bytes != told.bytes || found.sha256 != told.sha256)
         throw Error(fmt::format("{}: damaged: its SHA-256 is {}..., sealed was {}...", path, found.sha256.substr(0, 12),
                                 told.sha256.substr(0, 12)));
+    return told;
 }
 
 } // namespace lockstep

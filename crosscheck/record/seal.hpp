@@ -44,7 +44,7 @@ void seal_file(const std::filesystem::path& file, const std::string& system = {}
 std::string sealed_system(const OpenedFile& file);
 
 /// Throws Error naming the path if the file is cut off, longer than it was, damaged, or not sealed, or is of another
-/// system.
-void check_seal(const OpenedFile& file, const std::string& system = {});
+/// system. Gives the seal.
+Seal check_seal(const OpenedFile& file, const std::string& system = {});
 
 } // namespace lockstep

@@ -25,7 +25,7 @@ std::string first_arguments(const CheckReport& report, int width) {
 int frames_to_repeat(const CheckReport& report) {
     if (report.verdicts && report.verdicts->first)
         return report.verdicts->first->place.frame + 1;
-    return report.first_frame && !report.state_verdict ? *report.first_frame + 1 : report.frames;
+    return report.first_frame && !report.state_verdict ? *report.first_frame + 1 : report.first + report.frames;
 }
 
 } // namespace lockstep

@@ -290,10 +290,11 @@ std::string report_text(const CheckReport& r, const RunDescription& run) {
     line("compared",
          fmt::format("{}; {}{} NaN", compared_text(r), r.counts_hits ? hits : "", grouped(nan_count(r.total))));
     const FrameTimes seconds = total_times(r);
-    line("time",
-         fmt::format("GL frames {:.2f} s, readback {:.2f} s, reference {:.2f} s, comparison {:.2f} s, "
-                     "verdicts {:.2f} s, power {:.2f} s",
-                     seconds.gpu, seconds.readback, seconds.reference, seconds.compare, seconds.judge, seconds.power));
+    if (run.timed)
+        line("time", fmt::format("GL frames {:.2f} s, readback {:.2f} s, reference {:.2f} s, comparison {:.2f} s, "
+                                 "verdicts {:.2f} s, power {:.2f} s",
+                                 seconds.gpu, seconds.readback, seconds.reference, seconds.compare, seconds.judge,
+                                 seconds.power));
     if (r.verdict != Verdict::nondeterministic)
         line("hash", r.reference_hash == r.gpu_hash
                          ? fmt::format("{} on both sides after the last frame", hash_text(r.gpu_hash))
@@ -438,17 +439,14 @@ nlohmann::json report_json(const CheckReport& r, const RunDescription& run) {
                 {"worst", worst},
                 {"counts", counts_json(r)},
                 {"hash", {{"reference", hash_text(r.reference_hash)}, {"gpu", hash_text(r.gpu_hash)}}},
-                {"seconds",
-                 {{"gpu", seconds.gpu},
-                  {"readback", seconds.readback},
-                  {"reference", seconds.reference},
-                  {"compare", seconds.compare},
-                  {"judge", seconds.judge},
-                  {"power", seconds.power}}},
                 {"verdicts", r.verdicts ? verdict_json(*r.verdicts, r.schema, extents(r)) : json()},
                 {"repeat", run.repeat},
                 {"notes", run.notes},
                 {"explain", run.explain.empty() ? json() : json(run.explain)}};
+    if (run.timed)
+        report["seconds"] = {
+            {"gpu", seconds.gpu},         {"readback", seconds.readback}, {"reference", seconds.reference},
+            {"compare", seconds.compare}, {"judge", seconds.judge},       {"power", seconds.power}};
     for (std::uint8_t k = 0; k < r.schema.resources.size(); ++k)
         report[fmt::format("differing_{}s", item_key(r.schema, k))] = r.total.differing(k);
     return report;

@@ -25,6 +25,7 @@ struct RunDescription {
     std::string shaders_untold = "an engine's own, of which nothing is known";
     std::string render_hint = {}; ///< how the rendered frame would be compared, where it was not
     bool draws = true;            ///< a picture for people, which can be compared
+    bool timed = true;            ///< else without times: of a recording the same check gives the same report
     NumberFormat numbers = NumberFormat::decimal;
 };
 
@@ -37,6 +38,9 @@ std::string pass_options_text(const PassRules& rules);
 /// The verdict with what stands against taking it for more: "AGREE (partial: stopped after 3 of 60 frames), but nothing
 /// collided".
 std::string verdict_words(const CheckReport& report);
+
+/// Whose shaders ran, or why that is not known.
+std::string shaders_line(const RunDescription& run);
 
 /// The report as a person reads it, verdict last but one, at most 60 lines. See docs/report_lines.md.
 std::string report_text(const CheckReport& report, const RunDescription& run);

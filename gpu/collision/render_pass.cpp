@@ -1,5 +1,6 @@
 #include "gpu/collision/render_pass.hpp"
 
+#include <algorithm>
 #include <array>
 #include <cassert>
 #include <span>
@@ -19,6 +20,17 @@ namespace {
 Program link(const std::string& name, std::span<const Stage> stages, const Switches& switches,
              const std::filesystem::path& shaders) {
     return {name, load_stages(collision_shaders(shaders), name, stages, switch_defines(switches))};
+}
+
+/// In order, a slice after the other: a software driver holds the triangles of a draw until they are drawn.
+/// gl_PrimitiveID counts anew in each.
+void draw_points(std::size_t count) {
+    constexpr std::size_t slice = std::size_t{1} << 20U;
+    for (std::size_t first = 0; first < count; first += slice) {
+        gl::DrawArrays(GL_POINTS, static_cast<GLint>(first), static_cast<GLsizei>(std::min(slice, count - first)));
+        if (first + slice < count)
+            gl::Finish();
+    }
 }
 
 constexpr std::array two_stages{Stage::vertex, Stage::fragment};
@@ -69,7 +81,7 @@ void RenderPass::run(const ParticleBuffer& particles, const MeshBuffer& obstacle
     const GlVertexArray points = vertex_array(particles, particles_);
     gl::BindVertexArray(points.id());
     set_uniforms(particles_, params);
-    gl::DrawArrays(GL_POINTS, 0, static_cast<GLsizei>(particles.size()));
+    draw_points(particles.size());
     gl::BindVertexArray(0);
     check_gl("render_pass");
 }

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <chrono>
 #include <cstdio>
-#include <cstdlib>
 #include <filesystem>
 #include <fstream>
 #include <iterator>
@@ -19,6 +18,7 @@
 
 #include "crosscheck/command/command_line.hpp"
 #include "crosscheck/command/option_values.hpp"
+#include "crosscheck/command/shard.hpp"
 #include "crosscheck/files/atomic_file.hpp"
 #include "crosscheck/scene/profiles.hpp"
 #include "gpu/context.hpp"
@@ -31,39 +31,6 @@ using namespace lockstep;
 using namespace lockstep::test;
 
 namespace {
-
-/// "2/8": the second of eight parts. Every eighth mutant is in it, so that slow ones are spread over all.
-struct Shard {
-    std::size_t part = 1, of = 1;
-    [[nodiscard]] bool has(std::size_t index) const { return index % of == part - 1; }
-};
-
-/// What --shard says, or, where it says nothing, the environment's TEST_SHARD_INDEX, which counts from 0, and
-/// TEST_TOTAL_SHARDS: what test runners set.
-Shard parse_shard(std::string text) {
-    if (text.empty()) {
-        const char* const index = std::getenv("TEST_SHARD_INDEX");
-        const char* const total = std::getenv("TEST_TOTAL_SHARDS");
-        if (index == nullptr && total == nullptr)
-            return {};
-        Shard shard;
-        char rest = 0;
-        if (index == nullptr || total == nullptr || std::sscanf(index, "%zu%c", &shard.part, &rest) != 1 ||
-            std::sscanf(total, "%zu%c", &shard.of, &rest) != 1 || shard.part >= shard.of)
-            throw Error(
-                fmt::format("TEST_SHARD_INDEX {} and TEST_TOTAL_SHARDS {}: an index from 0 and a number above it "
-                            "go together",
-                            index == nullptr ? "not set" : index, total == nullptr ? "not set" : total));
-        ++shard.part;
-        return shard;
-    }
-    Shard shard;
-    char rest = 0;
-    if (std::sscanf(text.c_str(), "%zu/%zu%c", &shard.part, &shard.of, &rest) != 2 || shard.part < 1 ||
-        shard.part > shard.of)
-        throw Error(fmt::format("--shard {}: K/N with K from 1 to N, 2/8 say", text));
-    return shard;
-}
 
 /// Which mutants are run.
 struct Selection {
@@ -90,6 +57,9 @@ std::vector<Mutant> selected(std::vector<Mutant> catalogue, const Selection& of)
         if (of.shard.has(at) && of.job.has(at / of.shard.of))
             some.push_back(std::move(mutant));
     }
+    if (of.shard.is_asked() && of.shard.part > index)
+        throw Error(
+            fmt::format("{}: {} mutants make {} parts at most, and none may be empty", of.shard.asked, index, index));
     return some;
 }
 
@@ -138,7 +108,7 @@ Score run_jobs(const std::string& gl, const Selection& of, std::size_t jobs) {
     std::vector<pid_t> children;
     for (std::size_t job = 1; job <= jobs; ++job) {
         Selection part = of;
-        part.job = {job, jobs};
+        part.job = {job, jobs, {}};
         children.push_back(start_job(gl, part, file(job)));
     }
     bool well = true;
@@ -185,20 +155,20 @@ int main(int argc, char** argv) {
     Selection of;
     std::string gl = "osmesa";
     std::filesystem::path json, markdown;
-    std::string commit, shard;
+    std::string commit;
     std::size_t jobs = 1;
     Verb program{"lockstep_mutants", "Runs the catalogue of mutants, from the root of the source tree"};
     program.add(texts_option("name", "MUTANT", of.only, "only these mutants"));
     program.add(text_option("--pass", "PASS", of.pass, "only those of octree_pass, say"));
-    program.add(text_option("--shard", "K/N", shard,
-                            "only the Kth of N parts; else as TEST_SHARD_INDEX and TEST_TOTAL_SHARDS say"));
+    program.add(shard_option(of.shard));
     program.add(integer_option("--jobs", "N", {1, 256}, jobs, "processes that share them"));
     program.add(text_option("--gl", "auto|osmesa|egl|egl-device:N", gl, "which GL to open"));
     program.add(path_option("--json", "FILE", json, "results as data"));
     program.add(path_option("--markdown", "FILE", markdown, "results as a table"));
     program.add(text_option("--commit", "COMMIT", commit, "kept in the results"));
     program.run = [&](const Call&) {
-        of.shard = parse_shard(shard);
+        if (!of.shard.is_asked())
+            of.shard = shard_of_environment();
         return run(gl, of, jobs, json, markdown, commit);
     };
     try {

@@ -114,6 +114,7 @@ class RunJudge {
             return listing_power_.add({f.number, inputs, f.reference.particles()});
         }
         constexpr int first_frames = 8;
+        constexpr std::size_t items_tried = 256; // of each mistake in each such frame, whatever showed in others
         if ((f.number >= first_frames && f.number % first_frames != 0) || power_.has_seen_all())
             return;
         std::vector<std::size_t> hits;
@@ -125,7 +126,7 @@ class RunJudge {
         const auto pass = step_pass(inputs);
         const SystemView before = step_state(inputs);
         const View reference = view(f.reference.particles());
-        power_.add({*pass, profile_, known_, f.number, before, reference, reference}, hits);
+        power_.add({*pass, profile_, known_, f.number, before, reference, reference}, hits, items_tried);
     }
     [[nodiscard]] PowerSummary power() const {
         return is_listing(scene_.switches) ? listing_power_.summary() : power_.summary();
@@ -136,12 +137,12 @@ class RunJudge {
     /// By which what diverges is legal, where that is judged by what was measured.
     [[nodiscard]] std::optional<Legal> wider_rule() const { return hint_.rule(); }
 
+    /// Before any shift is convicted.
     [[nodiscard]] VerdictSummary summary() const {
         VerdictSummary summary = summary_;
         summary.causes[collision::particles] = step_causes_.findings();
         summary.causes[collision::cdt] =
             has_remedies(scene_.switches) ? drawn_causes_.findings() : texel_causes_.findings();
-        summary.convict_shift();
         return summary;
     }
 
@@ -196,11 +197,11 @@ class RunJudge {
 };
 
 /// What agreed without having been put to the test.
-std::vector<std::string> untried(const CheckReport& report, const Scene& scene) {
+std::vector<std::string> untried(const CheckReport& report) {
     std::vector<std::string> all;
     if (report.hits == 0)
         all.emplace_back("nothing collided");
-    if (report.drawn_texels == 0 && scene.switches.search == Search::cdt)
+    if (report.drawn_texels == 0 && report.expects_texels)
         all.emplace_back("nothing was drawn into the CDT");
     const FieldCount position = report.total[collision::position];
     if (position.nan > 0 && 2 * position.nan >= position.compared)
@@ -209,27 +210,56 @@ std::vector<std::string> untried(const CheckReport& report, const Scene& scene) 
     return all;
 }
 
+/// Which frames of a run are compared, and what they need of those before.
+class WantedFrames {
+  public:
+    explicit WantedFrames(const CheckOptions& options) : first_(options.first), only_(options.only) {}
+
+    [[nodiscard]] bool has(int frame) const {
+        return frame >= first_ && (only_.empty() || std::binary_search(only_.begin(), only_.end(), frame));
+    }
+    /// A frame needs the states of the two before it, and a CDT that was not recorded the particles before these.
+    [[nodiscard]] bool needs(int frame) const {
+        return has(frame) || has(frame + 1) || has(frame + 2) || has(frame + 3);
+    }
+
+  private:
+    int first_;
+    const std::vector<int>& only_;
+};
+
 } // namespace
 
-CheckReport check(const Scene& scene, const Profile& profile, GpuSide& gpu, const FrameCheckOptions& options) {
+CheckReport judge_frames(const Scene& scene, const Profile& profile, GpuSide& gpu, const FrameCheckOptions& options) {
     if (const std::string problem = size_problem(scene.start, scene.start.size()); !problem.empty())
         throw Error(fmt::format("{}: its start has {}", scene.name, problem));
     CheckReport report;
     report.schema = collision_schema();
     report.counts_hits = true;
+    report.expects_texels = scene.switches.search == Search::cdt;
     report.particles = scene.start.size();
-    report.frames_asked = options.frames;
+    report.first = options.first;
+    report.frames_asked = options.frames - options.first;
+    const WantedFrames wanted(options);
     ReferenceSimulation reference(scene, profile);
     State before{scene.start, empty_cdt(scene)};
-    State now = before;
-    State earlier = before;
+    State now{{}, before.cdt};
+    State earlier = now;
     const bool has_cdt = gpu.has_cdt();
     const bool judged = options.mode == CheckMode::resync;
+    if (!judged && options.first > 0)
+        throw Error(
+            fmt::format("{}: --mode free runs from the start: a later frame follows from all before it", scene.name));
     RunJudge judge(scene, profile, options.known.value_or(measured_operations(profile)), has_cdt, options.causes);
     gpu.upload(before.particles, before.cdt);
 
     for (int frame = 0; frame < options.frames && !(options.stop != nullptr && *options.stop); ++frame) {
         const FrameParams params = frame_params(scene, frame);
+        const bool repeat = frame < options.repeated_frames && gpu.repeats();
+        if (!repeat && !wanted.needs(frame)) {
+            gpu.step(params);
+            continue;
+        }
         const std::size_t present = gpu.present(frame);
         if (!judged && present < scene.start.size())
             throw Error(fmt::format("{}: frame {} has {} of {} particles; --mode free needs all in every frame",
@@ -237,7 +267,6 @@ CheckReport check(const Scene& scene, const Profile& profile, GpuSide& gpu, cons
         AbsentParticles absent_before, absent_after;
         absent_before.hide(before.particles, present);
         FrameTimes times;
-        const bool repeat = frame < options.repeated_frames && gpu.repeats();
         if (repeat)
             gpu.lay_canary();
         {
@@ -257,13 +286,24 @@ CheckReport check(const Scene& scene, const Profile& profile, GpuSide& gpu, cons
                 note_difference(report, frame, repeated);
                 report.verdict = Verdict::nondeterministic;
                 report.total.add(repeated);
-                report.frames = frame + 1;
+                report.frames = std::max(frame + 1 - options.first, 1);
                 return report;
             }
         }
+        const auto go_on = [&] {
+            std::swap(earlier, before);
+            std::swap(before, now);
+            absent_after.put_back(before.particles);
+        };
+        if (!wanted.has(frame)) {
+            if (!has_cdt)
+                reference.draw(before.particles, now.particles, params, now.cdt);
+            go_on();
+            continue;
+        }
         {
             const Stopwatch watch(times.reference);
-            if (options.mode == CheckMode::resync)
+            if (judged)
                 reference.step_from(before.particles, before.cdt, params);
             else
                 reference.step(params);
@@ -272,7 +312,7 @@ CheckReport check(const Scene& scene, const Profile& profile, GpuSide& gpu, cons
         {
             const Stopwatch watch(times.compare);
             comparison = compare(reference.particles(), reference.cdt(), now, has_cdt);
-            if (!has_cdt && comparison.agree() && options.mode == CheckMode::resync)
+            if (!has_cdt && comparison.agree() && judged)
                 now.cdt = reference.cdt();
             else if (!has_cdt)
                 reference.draw(before.particles, now.particles, params, now.cdt);
@@ -284,7 +324,7 @@ CheckReport check(const Scene& scene, const Profile& profile, GpuSide& gpu, cons
             report.drawn_texels += count_drawn(reference.cdt());
         }
         std::optional<FrameVerdicts> verdicts;
-        if (judged) {
+        if (judged && options.power) {
             const Stopwatch watch(times.power);
             judge.measure_power({frame, params, before, frame > 0 ? &earlier : nullptr, reference, now});
         }
@@ -293,13 +333,11 @@ CheckReport check(const Scene& scene, const Profile& profile, GpuSide& gpu, cons
             verdicts = judge.judge({frame, params, before, frame > 0 ? &earlier : nullptr, reference, now});
         }
         report.times.push_back(times);
-        report.frames = frame + 1;
+        ++report.frames;
         if (options.on_state)
             options.on_state({frame, reference.particles(), reference.cdt(), now.particles, now.cdt, comparison,
                               verdicts ? &*verdicts : nullptr});
-        std::swap(earlier, before);
-        std::swap(before, now);
-        absent_after.put_back(before.particles);
+        go_on();
         if (options.on_frame)
             options.on_frame(report.frames);
     }
@@ -310,13 +348,31 @@ CheckReport check(const Scene& scene, const Profile& profile, GpuSide& gpu, cons
         report.verdicts = judge.summary();
         report.wider_rule = judge.wider_rule();
         report.power = judge.power();
-        refute_causes(report, judge.mistakes());
+        note_refuting(report.power, judge.mistakes());
+    }
+    report.reference_hash = state_hash(reference.particles(), reference.cdt());
+    report.gpu_hash = state_hash(before.particles, before.cdt);
+    if (options.last_start != nullptr)
+        *options.last_start = std::move(earlier.particles);
+    return report;
+}
+
+void conclude(CheckReport& report) {
+    if (report.verdict == Verdict::nondeterministic)
+        return;
+    if (report.verdicts) {
+        report.verdicts->convict_shift();
+        report.power.conclude();
+        refute_causes(report);
     }
     report.verdict = verdict_on(report);
     if (report.verdict != Verdict::divergent && report.verdict != Verdict::differ)
-        report.untried = untried(report, scene);
-    report.reference_hash = state_hash(reference.particles(), reference.cdt());
-    report.gpu_hash = state_hash(before.particles, before.cdt);
+        report.untried = untried(report);
+}
+
+CheckReport check(const Scene& scene, const Profile& profile, GpuSide& gpu, const FrameCheckOptions& options) {
+    CheckReport report = judge_frames(scene, profile, gpu, options);
+    conclude(report);
     return report;
 }
 

@@ -28,10 +28,16 @@ struct FrameCheckOptions : CheckOptions {
 
     /// Called after each comparison (hash files, images, traces).
     std::function<void(const ComparedFrame&)> on_state;
+
+    Particles* last_start = nullptr; ///< set: becomes the GPU's particles that the last frame started from
 };
 
 /// Runs both sides from the scene's start and compares every float of every frame. Throws Error when the run would
 /// prove nothing: a GL error, an incomplete framebuffer, output that was not written, no frame compared.
 CheckReport check(const Scene& scene, const Profile& profile, GpuSide& gpu, const FrameCheckOptions& options);
+
+/// The same in two steps, between which reports on parts of one run can be joined (crosscheck/judge/joined_parts.hpp).
+CheckReport judge_frames(const Scene& scene, const Profile& profile, GpuSide& gpu, const FrameCheckOptions& options);
+void conclude(CheckReport& report);
 
 } // namespace lockstep

@@ -4,6 +4,7 @@
 #include <bit>
 #include <initializer_list>
 #include <map>
+#include <optional>
 #include <string_view>
 
 #include "crosscheck/judge/item_sample.hpp"
@@ -22,7 +23,10 @@ namespace {
 constexpr std::size_t looked_at = 8192;      ///< particles of a frame, of those without a hit
 constexpr std::size_t drawn_at_most = 16384; ///< particles, where it does not matter which of two is nearer
 constexpr std::size_t texels_judged = 16;
-constexpr std::size_t steps_a_frame = 3000; ///< that are tried with a mistake
+
+/// On so many particles of a frame a mistake is tried that has not shown yet. This follows from the frame alone, so
+/// that parts of a run come together to what the whole run shows. Most show in the first frames; the rest takes more.
+std::size_t particles_tried(int frame) { return std::min<std::size_t>(48 + 16 * static_cast<std::size_t>(frame), 256); }
 
 bool among(Deviation deviation, std::initializer_list<Deviation> all) {
     return std::find(all.begin(), all.end(), deviation) != all.end();
@@ -44,13 +48,22 @@ bool has_no_place(Deviation deviation, const Situations& met) {
            met.of(Situation::left_of_image) == 0;
 }
 
-Particles every(const Particles& all, std::size_t stride) {
-    Particles some;
-    some.resize((all.size() + stride - 1) / stride);
-    for (std::size_t i = 0; i < some.size(); ++i)
-        some.set(i, all[i * stride]);
-    return some;
-}
+/// Every stride-th particle; where that is all of them, no copy is made.
+class Every {
+  public:
+    Every(const Particles& all, std::size_t stride) : all_(stride == 1 ? &all : nullptr) {
+        if (all_ != nullptr)
+            return;
+        some_.resize((all.size() + stride - 1) / stride);
+        for (std::size_t i = 0; i < some_.size(); ++i)
+            some_.set(i, all[i * stride]);
+    }
+    [[nodiscard]] const Particles& particles() const { return all_ != nullptr ? *all_ : some_; }
+
+  private:
+    const Particles* all_;
+    Particles some_;
+};
 
 /// In which frames something is drawn again: in the first few, then in ever fewer; of many particles in fewer still.
 bool draws_in(int frame, std::size_t particles) {
@@ -65,14 +78,12 @@ class Drawing {
     Drawing(const PowerFrame& frame, const Scene& scene, const Profile& profile, const KnownOperations& known,
             std::size_t stride)
         : scene_(scene), profile_(profile), known_(known), params_(*frame.inputs.params),
-          before_(every(*frame.inputs.before, stride)), after_(every(frame.after, stride)), inputs_(frame.inputs),
+          before_(*frame.inputs.before, stride), after_(frame.after, stride), inputs_(frame.inputs),
           obstacles_cdt_(params_.width, params_.height),
           obstacles_depth_(params_.width, params_.height, params_.clip_depth.cleared()) {
-        inputs_.before = &before_;
-        if (inputs_.earlier != nullptr) {
-            earlier_ = every(*inputs_.earlier, stride);
-            inputs_.earlier = &earlier_;
-        }
+        inputs_.before = &before_.particles();
+        if (inputs_.earlier != nullptr)
+            inputs_.earlier = &earlier_.emplace(*inputs_.earlier, stride).particles();
         obstacle_pass(scene.obstacles, params_, profile, obstacles_cdt_, obstacles_depth_);
         right_ = draw({});
     }
@@ -96,7 +107,7 @@ class Drawing {
             texels.push_back(index);
         }
         const std::vector<LegalTexel> legal =
-            legal_texels(scene_.obstacles, before_, after_, params_, profile_, known_, texels);
+            legal_texels(scene_.obstacles, before_.particles(), after_.particles(), params_, profile_, known_, texels);
         std::vector<MistakenItem> judged;
         for (const std::vector<Changed>& some : changed) {
             const bool divergent = std::any_of(some.begin(), some.end(), [&](const Changed& texel) {
@@ -127,7 +138,7 @@ class Drawing {
     }
     [[nodiscard]] CollisionImage draw(const Deviations& deviations) const {
         CollisionImage cdt;
-        deviating_draw(inputs_, after_, profile_, deviations, obstacles_cdt_, obstacles_depth_, cdt);
+        deviating_draw(inputs_, after_.particles(), profile_, deviations, obstacles_cdt_, obstacles_depth_, cdt);
         return cdt;
     }
 
@@ -135,7 +146,8 @@ class Drawing {
     const Profile& profile_;
     const KnownOperations& known_;
     const FrameParams& params_;
-    Particles before_, after_, earlier_;
+    Every before_, after_;
+    std::optional<Every> earlier_;
     FrameInputs inputs_;
     CollisionImage obstacles_cdt_;
     DepthImage obstacles_depth_;
@@ -234,7 +246,7 @@ void CollisionPower::try_steps(const PowerFrame& frame, const Situations& found)
     std::vector<Deviation> all = unseen(false);
     if (all.empty() || frame.after.size() == 0)
         return;
-    const std::size_t most = std::max<std::size_t>(steps_a_frame / all.size(), 2 * situation_count);
+    const std::size_t most = particles_tried(frame.number);
     std::erase_if(all, [&](Deviation deviation) { return has_no_place(deviation, found); });
     const FrameInputs& in = frame.inputs;
     const StepInputs step_inputs{*in.before, *in.cdt, scene_.obstacles, *in.params, &in};
@@ -293,7 +305,7 @@ void CollisionPower::try_drawing(const PowerFrame& frame) {
 }
 
 /// Why it could not show, as far as the states tell.
-std::string CollisionPower::why_not(Deviation deviation) const {
+std::vector<std::string> CollisionPower::reasons(Deviation deviation) const {
     struct Reason {
         bool holds;
         std::initializer_list<Deviation> of;
@@ -302,7 +314,7 @@ std::string CollisionPower::why_not(Deviation deviation) const {
     const auto none = [&](Situation situation) { return met_.of(situation) == 0; };
     const bool no_obstacles =
         scene_.obstacles.indices.empty() || scene_.switches.obstacles_in_cdt == ObstaclesInCdt::off;
-    const Reason reasons[] = {
+    const Reason known[] = {
         {no_obstacles,
          {Deviation::obstacles_not_drawn, Deviation::obstacles_never_hide},
          "there are no obstacles in the CDT"},
@@ -350,14 +362,13 @@ std::string CollisionPower::why_not(Deviation deviation) const {
           Deviation::outside_fetched_as_origin},
          "nobody in range would have been found outside the image"},
     };
-    if (tried_[static_cast<std::size_t>(deviation)].changes)
-        return "what it changes is legal, too";
-    for (const Reason& reason : reasons) {
+    std::vector<std::string> holding;
+    for (const Reason& reason : known) {
         const bool of_hit = reason.of.size() == 0 && changes_step(deviation) && deviation < Deviation::gravity_missing;
         if (reason.holds && (of_hit || among(deviation, reason.of)))
-            return std::string(reason.text);
+            holding.emplace_back(reason.text);
     }
-    return "it changes nothing in these states";
+    return holding;
 }
 
 PowerSummary CollisionPower::summary() const {
@@ -371,8 +382,8 @@ PowerSummary CollisionPower::summary() const {
         mistake.meaning = info.meaning;
         if (tried.first_frame >= 0)
             mistake.first_frame = tried.first_frame;
-        else
-            mistake.why_not = why_not(info.deviation);
+        mistake.changes = tried.changes;
+        mistake.reasons = reasons(info.deviation);
     }
     summary.situations = {{"hits", met_.of(Situation::hit)},
                           {"hits with two in range", met_.of(Situation::two_in_range)},

@@ -1,6 +1,7 @@
 #pragma once
 #include <array>
 #include <cstddef>
+#include <string>
 #include <vector>
 
 #include "crosscheck/judge/power.hpp"
@@ -28,6 +29,7 @@ class CollisionPower {
 
     void add(const PowerFrame& frame);
 
+    /// To be concluded.
     [[nodiscard]] PowerSummary summary() const;
 
   private:
@@ -39,7 +41,7 @@ class CollisionPower {
     [[nodiscard]] std::vector<Deviation> unseen(bool of_drawing) const;
     void try_steps(const PowerFrame& frame, const Situations& found);
     void try_drawing(const PowerFrame& frame);
-    [[nodiscard]] std::string why_not(Deviation deviation) const;
+    [[nodiscard]] std::vector<std::string> reasons(Deviation deviation) const;
 
     const Scene& scene_;
     const Profile& profile_;

@@ -2,14 +2,12 @@
 
 #include "crosscheck/collision/record/trace_messages.hpp"
 #include "crosscheck/collision/record/trace_process.hpp"
-#include "crosscheck/record/seal.hpp"
 #include "reference/model/collision/layered_cdt.hpp"
 #include "reference/model/error.hpp"
 
 namespace lockstep {
 
-TraceReader::TraceReader(const std::filesystem::path& file) : file_(file, "trace") {
-    check_seal(file_);
+TraceReader::TraceReader(const std::filesystem::path& file) : file_(file, "trace"), seal_(check_seal(file_)) {
     process_ = start_trace_process(file_);
     info_ = read_contents(*process_, process_->file(), file_.size());
     file_.expect_unchanged();

@@ -5,6 +5,7 @@
 #include "crosscheck/collision/record/trace_info.hpp"
 #include "crosscheck/files/opened_file.hpp"
 #include "crosscheck/record/reading_process.hpp"
+#include "crosscheck/record/seal.hpp"
 #include "reference/model/collision/particles.hpp"
 #include "reference/model/image.hpp"
 
@@ -21,6 +22,7 @@ class TraceReader {
     TraceReader& operator=(const TraceReader&) = delete;
 
     [[nodiscard]] const TraceInfo& info() const { return info_; }
+    [[nodiscard]] const Seal& seal() const { return seal_; }
 
     /// The state after `frame`, counted from 0; -1: the start. Frames in order are read ahead, others take longer.
     void read(int frame, Particles& particles);
@@ -28,6 +30,7 @@ class TraceReader {
 
   private:
     OpenedFile file_;
+    Seal seal_;
     std::unique_ptr<ReadingProcess> process_;
     TraceInfo info_;
 };

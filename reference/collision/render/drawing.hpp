@@ -53,18 +53,23 @@ template <class A, class Sites> class RenderDrawing {
         draw_triangles(fp_, clip, obstacles.indices, width_, height_, profile_, shader);
     }
 
+    /// One slice after the other, so that the sprites of a few alone are held.
     void draw_particles(const Particles& particles) {
-        std::vector<Sprite> sprites(particles.size());
-        for (std::size_t i = 0; i < sprites.size(); ++i)
-            sprites[i] = sprite(to_view(particles.position[i]));
-        const auto rows = [&](std::size_t i) { return std::pair{sprites[i].pixels.y0, sprites[i].pixels.y1 - 1}; };
-        const auto draw = [&](std::size_t i, const PixelRect& area) {
-            const PixelRect& pixels = sprites[i].pixels;
-            for (int y = std::max(pixels.y0, area.y0); y < std::min(pixels.y1, area.y1); ++y)
-                for (int x = pixels.x0; x < pixels.x1; ++x)
-                    draw_sphere_pixel(sprites[i], x, y, particles, i);
-        };
-        draw_in_bands(sprites.size(), width_, height_, profile_, rows, draw);
+        constexpr std::size_t slice = std::size_t{1} << 18U;
+        std::vector<Sprite> sprites;
+        for (std::size_t first = 0; first < particles.size(); first += slice) {
+            sprites.resize(std::min(slice, particles.size() - first));
+            for (std::size_t i = 0; i < sprites.size(); ++i)
+                sprites[i] = sprite(to_view(particles.position[first + i]));
+            const auto rows = [&](std::size_t i) { return std::pair{sprites[i].pixels.y0, sprites[i].pixels.y1 - 1}; };
+            const auto draw = [&](std::size_t i, const PixelRect& area) {
+                const PixelRect& pixels = sprites[i].pixels;
+                for (int y = std::max(pixels.y0, area.y0); y < std::min(pixels.y1, area.y1); ++y)
+                    for (int x = pixels.x0; x < pixels.x1; ++x)
+                        draw_sphere_pixel(sprites[i], x, y, particles, first + i);
+            };
+            draw_in_bands(sprites.size(), width_, height_, profile_, rows, draw);
+        }
     }
 
     RenderedFrame take() { return {std::move(color_), std::move(owner_)}; }

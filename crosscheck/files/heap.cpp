@@ -1,0 +1,18 @@
+#include "crosscheck/files/heap.hpp"
+
+#include <cstdlib> // says whose library it is
+#ifdef __GLIBC__
+#include <malloc.h>
+#endif
+
+namespace lockstep {
+
+void give_back_large_arrays() {
+#ifdef M_MMAP_THRESHOLD
+    constexpr int large = 2 << 20, kept = 16 << 20;
+    mallopt(M_MMAP_THRESHOLD, large); // which glibc else raises to 32 MiB, as it sees fit
+    mallopt(M_TRIM_THRESHOLD, kept);
+#endif
+}
+
+} // namespace lockstep

@@ -1,0 +1,57 @@
+#include "crosscheck/report/junit.hpp"
+
+#include <fmt/format.h>
+
+#include "crosscheck/files/plain_text.hpp"
+
+namespace lockstep {
+namespace {
+
+std::string escaped(const std::string& text) {
+    std::string xml;
+    for (const char c : plain_text(text))
+        switch (c) {
+        case '&':
+            xml += "&amp;";
+            break;
+        case '<':
+            xml += "&lt;";
+            break;
+        case '>':
+            xml += "&gt;";
+            break;
+        case '"':
+            xml += "&quot;";
+            break;
+        default:
+            xml += c;
+        }
+    return xml;
+}
+
+} // namespace
+
+std::string junit_text(const CheckReport& report, const RunDescription& run, bool passes) {
+    const int failures = passes ? 0 : 1;
+    std::string xml = fmt::format("<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n"
+                                  "<testsuites tests=\"1\" failures=\"{0}\">\n"
+                                  "  <testsuite name=\"lockstep check\" tests=\"1\" failures=\"{0}\" errors=\"0\" "
+                                  "skipped=\"0\">\n"
+                                  "    <properties>\n",
+                                  failures);
+    const std::pair<const char*, std::string> properties[] = {{"renderer", run.context},
+                                                              {"profile", run.profile},
+                                                              {"shaders", shaders_line(run)},
+                                                              {"verdict", verdict_words(report)}};
+    for (const auto& [name, value] : properties)
+        xml += fmt::format("      <property name=\"{}\" value=\"{}\"/>\n", name, escaped(value));
+    xml += fmt::format("    </properties>\n    <testcase classname=\"lockstep.check\" name=\"{}\"", escaped(run.scene));
+    if (passes)
+        xml += "/>\n";
+    else
+        xml += fmt::format(">\n      <failure message=\"{}\">{}</failure>\n    </testcase>\n",
+                           escaped(verdict_words(report)), escaped(report_text(report, run)));
+    return xml + "  </testsuite>\n</testsuites>\n";
+}
+
+} // namespace lockstep

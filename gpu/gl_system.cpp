@@ -791,6 +791,15 @@ void GlSystem::read(SystemState& state) const {
         parts_->from(s).read(state[parts_->storages[s].layout.resource]);
 }
 
+std::optional<bool> GlSystem::holds(const View& state) const {
+    if (parts_->is_image(state.resource))
+        return {};
+    for (std::size_t s = 0; s < parts_->storages.size(); ++s)
+        if (parts_->storages[s].layout.resource == state.resource && !parts_->from(s).holds_numbers(state))
+            return false;
+    return true;
+}
+
 std::vector<CapturedVertex> GlSystem::trace(std::size_t pass, int frame, std::size_t item) {
     if (parts_->running(pass, frame) == nullptr || parts_->passes[pass]->pass.stage != Stage::vertex ||
         parts_->passes[pass]->pass.instances_of || parts_->passes[pass]->pass.draw)

@@ -131,6 +131,7 @@ class GlSystem final : public SystemSide {
     void upload(const SystemView& state) override;
     void step(std::size_t pass, int frame) override;
     void read(SystemState& state) const override;
+    [[nodiscard]] std::optional<bool> holds(const View& state) const override; ///< of buffers
 
     [[nodiscard]] bool repeats() const override { return true; }
     void lay_canary(std::size_t pass) override;

@@ -56,6 +56,16 @@ void copy_values(std::size_t words, const std::byte* from, std::size_t from_stri
     }
 }
 
+bool has_nan(const std::byte* floats, std::size_t count) {
+    std::uint32_t found = 0;
+    for (std::size_t i = 0; i < count; ++i) {
+        std::uint32_t bits = 0;
+        std::memcpy(&bits, floats + i * word, word);
+        found |= static_cast<std::uint32_t>((bits & 0x7fffffffU) > 0x7f800000U);
+    }
+    return found != 0;
+}
+
 /// Some records, on their way: GL's memory is touched in order, and once.
 class Block {
   public:
@@ -169,19 +179,37 @@ void RecordBuffer::read(const WritableView& state) const {
     });
 }
 
-bool RecordBuffer::holds(const View& state) const {
+template <class Right> bool RecordBuffer::holds_blocks(const View& state, const Right& is_right) const {
     assert(state.count() == count_);
     std::atomic<bool> same = true;
     if (count_ == 0)
         return same;
     with_mapped<const std::byte>(*this, GL_MAP_READ_BIT, [&](const std::byte* records) {
         in_blocks(*layout_, count_, [&](Block& block, std::size_t first, std::size_t count) {
+            if (!same.load(std::memory_order_relaxed))
+                return;
             block.gather(state, first, count);
-            if (std::memcmp(records + first * layout_->bytes(), block.records(), count * layout_->bytes()) != 0)
+            if (std::memcmp(records + first * layout_->bytes(), block.records(), count * layout_->bytes()) != 0 ||
+                !is_right(first, count))
                 same = false;
         });
     });
     return same;
+}
+
+bool RecordBuffer::holds(const View& state) const {
+    return holds_blocks(state, [](std::size_t, std::size_t) { return true; });
+}
+
+bool RecordBuffer::holds_numbers(const View& state) const {
+    return holds_blocks(state, [&](std::size_t first, std::size_t count) {
+        return std::ranges::all_of(layout_->members, [&](const RecordLayout::Member& member) {
+            const Field& field = layout_->field(member);
+            const auto words = static_cast<std::size_t>(field.components);
+            return field.scalar != Scalar::float32 ||
+                   !has_nan(state.columns[member.field] + first * words * word, count * words);
+        });
+    });
 }
 
 void RecordBuffer::fill(std::uint32_t pattern) {

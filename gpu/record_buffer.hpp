@@ -51,6 +51,8 @@ class RecordBuffer {
 
     /// Whether it has exactly these bits, without a copy.
     [[nodiscard]] bool holds(const View& state) const;
+    /// The same, and none of its floats is NaN.
+    [[nodiscard]] bool holds_numbers(const View& state) const;
 
     /// Every 32-bit word becomes `word`: what a pass did not write then shows.
     void fill(std::uint32_t word);
@@ -69,6 +71,9 @@ class RecordBuffer {
     void bind_capture() const;
 
   private:
+    /// Whether it has the bits of `state`, of whose blocks, from an item on, `is_right` says the same.
+    template <class Right> [[nodiscard]] bool holds_blocks(const View& state, const Right& is_right) const;
+
     GlBuffer buffer_;
     const RecordLayout* layout_;
     std::size_t count_, spare_;

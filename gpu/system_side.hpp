@@ -1,5 +1,6 @@
 #pragma once
 #include <cstddef>
+#include <optional>
 #include <vector>
 
 #include "gpu/canary.hpp"
@@ -26,6 +27,10 @@ class SystemSide {
 
     /// The state after the last pass; `state` has the extents of what was uploaded.
     virtual void read(SystemState& state) const = 0;
+
+    /// Whether a buffer or image is after the last pass what `state` says, to the last bit, and has no NaN. Nothing:
+    /// that is known by reading it alone.
+    [[nodiscard]] virtual std::optional<bool> holds(const View& /*state*/) const { return {}; }
 
     [[nodiscard]] virtual SideDescription describe() const { return {}; }
 

@@ -78,12 +78,25 @@ bool has_same_values(const View& reference, const View& gpu, std::size_t item) {
 
 constexpr std::size_t block = 1024;
 
+Comparison nothing_of(const View& state) {
+    Comparison none;
+    none.resources.resize(state.resource + std::size_t{1});
+    none.resources.back().fields.resize(state.fields().size());
+    return none;
+}
+
+/// Notes that the first `items` were compared.
+void count_compared(const View& reference, std::size_t items, ResourceCount& counts) {
+    counts.extent = reference.extent;
+    for (std::size_t f = 0; f < reference.fields().size(); ++f)
+        counts.fields[f].compared =
+            static_cast<std::uint64_t>(items) * static_cast<std::uint64_t>(reference.fields()[f].components);
+}
+
 /// Calls `item(i, into)` for the first `count` items, block by block, but for blocks that are clean.
 template <class Item>
 Comparison compare_blocks(const View& reference, const View& gpu, std::size_t count, const Item& item) {
-    Comparison none;
-    none.resources.resize(reference.resource + std::size_t{1});
-    none.resources.back().fields.resize(reference.fields().size());
+    const Comparison none = nothing_of(reference);
     const auto blocks = static_cast<std::ptrdiff_t>((count + block - 1) / block);
     Comparison total = none;
 #pragma omp parallel
@@ -165,12 +178,14 @@ Comparison compare(const View& reference, const View& gpu) {
                 differs = compare_item(reference, gpu, f, i, into) || differs;
         into.resources.back().differing += differs ? 1U : 0U;
     });
-    ResourceCount& counts = result.resources.back();
-    counts.extent = reference.extent;
-    counts.differing += std::max(reference.count(), gpu.count()) - both;
-    for (std::uint8_t f = 0; f < fields; ++f)
-        counts.fields[f].compared =
-            static_cast<std::uint64_t>(both) * static_cast<std::uint64_t>(reference.fields()[f].components);
+    result.resources.back().differing += std::max(reference.count(), gpu.count()) - both;
+    count_compared(reference, both, result.resources.back());
+    return result;
+}
+
+Comparison agreement(const View& state) {
+    Comparison result = nothing_of(state);
+    count_compared(state, state.count(), result.resources.back());
     return result;
 }
 

@@ -52,6 +52,9 @@ struct Comparison {
 /// any thread count.
 Comparison compare(const View& reference, const View& gpu);
 
+/// What compare() finds of two that are this state to the last bit, without NaN.
+Comparison agreement(const View& state);
+
 /// The indices of items that are not bit-equal, in order; of buffers of different sizes those that both have.
 std::vector<std::size_t> differing_items(const View& reference, const View& gpu);
 

@@ -111,6 +111,16 @@ void put_right(SystemSide& gpu, SystemState& state, const SystemState& right, st
     gpu.upload(std::as_const(state).view());
 }
 
+/// Whether the GPU surely left alone all that the dispatch of pass `first` does not write; `before(r)` has it.
+template <class Before>
+bool holds_others(const SystemSide& gpu, const System& system, std::size_t first, const Before& before) {
+    const std::vector<std::uint8_t> written = written_by(system, first);
+    for (std::uint8_t r = 0; r < system.schema.resources.size(); ++r)
+        if (std::ranges::find(written, r) == written.end() && gpu.holds(before(r)) != true)
+            return false;
+    return true;
+}
+
 /// Goes on from what the GPU made of one buffer; `earlier` is what its pass started from.
 void go_on(SystemState& before, SystemState& now, SystemState& earlier, std::uint8_t made) {
     for (std::uint8_t r = 0; r < before.schema().resources.size(); ++r)
@@ -218,11 +228,31 @@ CheckReport check(const System& system, SystemSide& gpu, const CheckOptions& opt
     SystemState made = system.start; // the buffer of the pass that runs is the reference's
     std::uint64_t changed = 0;
     std::set<std::uint8_t> inherited; // buffers that are derived, and not the reference's
+    // Of these one state has what both are: judged, the GPU's; run free, the reference's.
+    std::set<std::uint8_t> shared;
+    const auto left = [&](std::uint8_t r) {
+        return std::as_const(!judged && shared.contains(r) ? reference : before)[r];
+    };
+    const auto part = [&] {
+        for (const std::uint8_t r : shared)
+            judged ? reference.take(r, before) : before.take(r, reference);
+        shared.clear();
+    };
     gpu.upload(before.view());
 
     bool stopped = false;
     for (int frame = 0; frame < options.frames && !stopped && !(options.stop != nullptr && *options.stop); ++frame) {
         FrameTimes times;
+        std::size_t dispatch = 0; // its first pass
+        bool is_read = false;     // `now` is what the GPU left
+        const auto read = [&] {
+            if (std::exchange(is_read, true))
+                return;
+            part();
+            const Stopwatch timing(times.readback);
+            gpu.read(now);
+            expect_untouched(system, dispatch, before, now, frame);
+        };
         for (std::size_t p = 0; p < system.passes.size(); ++p) {
             const ItemPass& pass = *system.passes[p];
             if (!pass.runs(frame))
@@ -234,13 +264,14 @@ CheckReport check(const System& system, SystemSide& gpu, const CheckOptions& opt
             if (repeat)
                 gpu.lay_canary(p);
             if (!pass.continues()) {
+                dispatch = p;
+                is_read = false;
                 {
                     const Stopwatch timing(times.gpu);
                     gpu.step(p, frame);
                 }
-                const Stopwatch timing(times.readback);
-                gpu.read(now);
-                expect_untouched(system, p, before, now, frame);
+                if (repeat || !holds_others(gpu, system, p, left))
+                    read();
             }
             if (repeat) {
                 find_canary(pass, now, frame);
@@ -272,10 +303,18 @@ CheckReport check(const System& system, SystemSide& gpu, const CheckOptions& opt
                 }
                 throw Error(fmt::format("frame {}: the twin of {}: {}", frame, pass.name(), error.what()));
             }
+            bool holds = false; // what the twin made
+            if (!is_read) {
+                const Stopwatch timing(times.compare);
+                holds = gpu.holds(std::as_const(made)[r]) == true;
+            }
+            if (!holds)
+                read();
             Comparison comparison;
             {
                 const Stopwatch timing(times.compare);
-                comparison = compare(std::as_const(made)[r], std::as_const(now)[r]);
+                comparison =
+                    holds ? agreement(std::as_const(made)[r]) : compare(std::as_const(made)[r], std::as_const(now)[r]);
                 if (!comparison.agree() || !judged)
                     note_difference(report, frame, comparison);
                 report.total.add(comparison);
@@ -290,7 +329,8 @@ CheckReport check(const System& system, SystemSide& gpu, const CheckOptions& opt
                 power.add(tried, {});
             }
             const SystemView earlier_view = earlier[p] ? earlier[p]->view() : SystemView();
-            const View reference_view = std::as_const(made)[r], gpu_view = std::as_const(now)[r];
+            const View reference_view = std::as_const(made)[r];
+            const View gpu_view = holds ? reference_view : std::as_const(now)[r];
             JudgedPass one{pass, profile,        known,    frame,
                            from, reference_view, gpu_view, earlier[p] ? &earlier_view : nullptr};
             std::vector<ItemVerdict> verdicts;
@@ -321,22 +361,32 @@ CheckReport check(const System& system, SystemSide& gpu, const CheckOptions& opt
             }
             if (watch.on_pass)
                 watch.on_pass({p, one, comparison, verdicts});
-            reference.swap(r, made);
             if (judged && pass.derived() && comparison.differing(r) > 0)
                 inherited.insert(r);
+            if (holds)
+                shared.insert(r);
+            else
+                shared.erase(r);
+            if (!holds || !judged)
+                reference.swap(r, made);
+            if (holds && !judged)
+                continue;
+            SystemState& made_by_gpu = holds ? made : now;
             // The state that what is derived follows from is the one it was judged in.
             if (!judged || pass.derived()) {
-                before.swap(r, now);
+                before.swap(r, made_by_gpu);
                 continue;
             }
             if (!earlier[p])
                 earlier[p] = system.start;
-            go_on(before, now, *earlier[p], r);
+            go_on(before, made_by_gpu, *earlier[p], r);
         }
         report.times.push_back(times);
         report.frames = frame + 1;
-        if (watch.on_frame)
+        if (watch.on_frame) {
+            part();
             watch.on_frame(frame, reference, before);
+        }
         if (options.on_frame)
             options.on_frame(report.frames);
     }
@@ -353,6 +403,7 @@ CheckReport check(const System& system, SystemSide& gpu, const CheckOptions& opt
         report.power = power.summary();
         refute_causes(report, system.mistakes);
     }
+    part();
     report.verdict = verdict_on(report);
     if (report.verdict != Verdict::divergent && report.verdict != Verdict::differ)
         report.untried = untried(report, changed);

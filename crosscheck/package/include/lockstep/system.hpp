@@ -29,6 +29,7 @@ class GlSystemSide final : public SystemSide {
     void upload(const SystemView& state) override { system_.upload(state); }
     void step(std::size_t pass, int frame) override { system_.step(pass, frame); }
     void read(SystemState& state) const override { system_.read(state); }
+    [[nodiscard]] std::optional<bool> holds(const View& state) const override { return system_.holds(state); }
     [[nodiscard]] bool repeats() const override { return true; }
     void lay_canary(std::size_t pass) override { system_.lay_canary(pass); }
     void repeat_step(std::size_t pass, int frame) override { system_.repeat_step(pass, frame); }

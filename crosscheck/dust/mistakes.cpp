@@ -47,6 +47,27 @@ void at_stride_16(std::span<float> value, const CameBy& run) {
     }
 }
 
+/// A cone that opens to the back as well, and pulls there as in front.
+void without_sign(std::span<float> value, const CameBy& /*run*/) { value[0] = std::abs(value[0]); }
+
+void by_cube(std::span<float> value, const CameBy& run) {
+    const float d2 = run.of(site::sqr_dist)[0];
+    value[0] = run.of(site::cleaner_sqr_force)[0] / (d2 * std::sqrt(d2));
+}
+
+void of_length_one(std::span<float> value, const CameBy& /*run*/) {
+    const float length = std::sqrt(value[0] * value[0] + value[1] * value[1] + value[2] * value[2]);
+    for (float& x : value)
+        x /= length;
+}
+
+void forecast_of_two_frames(std::span<float> value, const CameBy& run) {
+    for (std::size_t c = 0; c < value.size(); ++c)
+        value[c] = run.of(site::before)[c] + run.of(site::pulled)[c] * (2.0F * run.of(site::dt)[0]);
+}
+
+void y_alone(std::span<float> value, const CameBy& /*run*/) { value[0] = value[2] = 0.0F; }
+
 void by_distance(std::span<float> value, const CameBy& run) {
     value[0] = run.of(site::cleaner_sqr_force)[0] / std::sqrt(run.of(site::sqr_dist)[0]);
 }
@@ -196,6 +217,7 @@ const std::vector<NamedMistake>& mistakes() {
     static const Mistake same_velocity = spoiled_at(site::velocity, tail_left_out<site::speed>);
     static const std::vector<NamedMistake> all{
         {"gravity_missing", "gravity is not added", "update", mistake_at(site::gravity, Change::zero)},
+        {"gravity_down_alone", "gravity pulls along y alone", "update", spoiled_at(site::gravity, y_alone)},
         {"drag_missing", "the air does not resist", "update", mistake_at(site::drag, Change::zero)},
         {"drag_reversed", "the air pushes along", "update", mistake_at(site::drag, Change::negated)},
         {"elasticity_missing", "a bounce loses nothing", "update", mistake_at(site::elasticity, Change::one)},
@@ -339,6 +361,14 @@ const std::vector<NamedMistake>& mistakes() {
          {.site = site::in_cone.id, .change = Change::decided_by_formula, .formula = both_cones}},
         free_formula("forecast_of_a_second", "the forecast is of a second, not of a frame", "vacuum_up",
                      spoiled_at(site::forecast, forecast_of_a_second)),
+        free_formula("cosine_without_sign", "the vacuum pulls behind it as in front of it", "vacuum_up",
+                     spoiled_at(site::along, without_sign)),
+        free_formula("suction_by_cube", "the pull fades with the cube of the distance", "vacuum_up",
+                     spoiled_at(site::pull, by_cube)),
+        free_formula("forecast_of_two_frames", "the forecast is of two frames, not of one", "vacuum_up",
+                     spoiled_at(site::forecast, forecast_of_two_frames)),
+        free_formula("emitted_at_length_one", "the direction emitted is made as long as 1", "emit",
+                     spoiled_at(site::emitted, of_length_one)),
         free_formula("wind_to_the_rim", "the wind fades to the rim of its range as well", "blow_wind",
                      spoiled_at(site::force, wind_to_the_rim)),
         free_formula("wind_along_the_axis", "the wind blows along its axis, not away from the mouth", "blow_wind",

@@ -23,6 +23,17 @@ std::vector<float> floats_of(const std::vector<ColliderMatrices>& colliders) {
     return floats;
 }
 
+/// Centre and radius of each: 4 floats.
+std::vector<float> spheres_as_vec4(const std::vector<ColliderMatrices>& spheres) {
+    std::vector<float> floats;
+    for (const ColliderMatrices& one : spheres) {
+        for (int axis = 0; axis < 3; ++axis)
+            floats.push_back(one.local_to_world[3][axis]);
+        floats.push_back(one.scale.x * 0.5F);
+    }
+    return floats;
+}
+
 std::vector<float> floats_of(const std::vector<glm::vec2>& directions) {
     std::vector<float> floats;
     for (const glm::vec2& direction : directions)
@@ -33,7 +44,8 @@ std::vector<float> floats_of(const std::vector<glm::vec2>& directions) {
 /// All that any kernel is handed; each takes what it has.
 Uniforms uniforms(const Host& host, Kernel kernel, int frame) {
     const Settings& s = host.settings();
-    const FrameValues at = host.at(frame);
+    const bool moves = kernel.name == "update"; // and may ask once more who dies in the mouth
+    const FrameValues at = host.at(frame), pulling = moves ? host.at(host.pulled_in(frame)) : at;
     Uniforms all{{"dustCount", static_cast<unsigned>(s.count)},
                  {"seed", s.seed},
                  {"frame", static_cast<unsigned>(frame)},
@@ -50,15 +62,15 @@ Uniforms uniforms(const Host& host, Kernel kernel, int frame) {
                  {"elasticity", s.elasticity},
                  {"dustColorA", s.colour_a},
                  {"dustColorB", s.colour_b},
-                 {"controllerPos", at.controller_pos},
-                 {"controllerForward", at.controller_forward},
+                 {"controllerPos", pulling.controller_pos},
+                 {"controllerForward", pulling.controller_forward},
                  {"controllerMatrix", at.controller_matrix},
-                 {"cleanerSqrForce", at.sqr_force},
-                 {"cleanerSqrDist", at.sqr_range},
-                 {"cleanerDotThreshold", at.threshold},
-                 {"cleanerSqrDeathRange", at.sqr_death_range},
+                 {"cleanerSqrForce", pulling.sqr_force},
+                 {"cleanerSqrDist", pulling.sqr_range},
+                 {"cleanerDotThreshold", pulling.threshold},
+                 {"cleanerSqrDeathRange", pulling.sqr_death_range},
                  {"cleanerForce", at.tool != nullptr ? at.tool->force : 0.0F},
-                 {"isRunning", host.is_on(Tool::Kind::vacuum, frame) ? 1 : 0},
+                 {"isRunning", host.update_kills(frame) ? 1 : 0},
                  {"emitterForce", at.tool != nullptr ? at.tool->force : 0.0F},
                  {"emitterDist", at.tool != nullptr ? at.tool->distance : 0.0F},
                  {"emitterAngleRad", at.angle_rad},
@@ -89,7 +101,10 @@ std::vector<GlPass> passes(const HostPtr& host) {
         pass.defines = switch_defines(host->switches());
         pass.runs = [host, kernel](int frame) { return runs(*host, kernel, frame); };
         if (kernel.name == "update") {
-            pass.data["sphereColliderBuffer"] = [host](int) { return floats_of(host->spheres()); };
+            pass.data["sphereColliderBuffer"] = [host](int) {
+                return host->switches().sphere_data == SphereData::vec4 ? spheres_as_vec4(host->spheres())
+                                                                        : floats_of(host->spheres());
+            };
             pass.data["boxColliderBuffer"] = [host](int) { return floats_of(host->boxes()); };
         }
         if (kernel.name == "emit")

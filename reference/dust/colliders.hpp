@@ -58,16 +58,18 @@ template <class R> class ColliderTwin {
   private:
     bool sphere(const ColliderMatrices& collider, Movement<R>& m) const {
         const Vec3 centre = r.uniform(site::sphere_centre, glm::vec3(collider.local_to_world[3]));
-        const Real half = r.note(site::sphere_half, r.uniform(site::sphere_radius, collider.scale.x) * 0.5F);
+        const Real half = switches_.sphere_data == SphereData::vec4
+                              ? r.note(site::sphere_half, r.uniform(site::sphere_radius, collider.scale.x * 0.5F))
+                              : r.note(site::sphere_half, r.uniform(site::sphere_radius, collider.scale.x) * 0.5F);
         const Real reach = r.note(site::reach, radius_ + half);
         const Real sqr_reach = reach * reach;
         const Real d2 = r.note(site::sqr_dist, squared(r.note(site::from_centre, m.next - centre)));
         const bool touches = switches_.sphere_touch == SphereTouch::less
                                  ? r.decide(site::touches_sphere, d2 < sqr_reach)
                                  : r.decide(site::touches_sphere, d2 <= sqr_reach);
-        if (!touches)
+        if (!touches && switches_.sweep == OffOn::off)
             return false;
-        if (switches_.inside == Inside::push_out &&
+        if (touches && switches_.inside == Inside::push_out &&
             r.decide(site::starts_inside, squared(m.current - centre) < sqr_reach)) {
             push_out(centre, reach, m);
             return true;
@@ -78,9 +80,13 @@ template <class R> class ColliderTwin {
         const Real q = r.note(site::closest, r.dot(site::closest, a, n));
         const Real h = r.note(site::missed, r.note(site::sqr_way, squared(a)) - r.note(site::closest_squared, q * q));
         Real chord = sqr_reach - h;
-        if (switches_.root_clamp == OffOn::on && r.decide(site::grazes, chord < 0.0F))
+        if (!touches && !r.decide(site::crosses_sphere, chord > 0.0F))
+            return false;
+        if (switches_.root == Root::clamp && r.decide(site::grazes, chord < 0.0F))
             chord = 0.0F;
         const Real g = r.note(site::root, r.sqrt(site::root, chord));
+        if (!touches && !r.decide(site::comes_to_contact, q - g >= 0.0F && (q - g) * (q - g) <= squared(ray)))
+            return false;
         const Vec3 contact = r.note(site::contact, m.current + n * (q - g));
         const Vec3 normal = r.note(site::normal, divided(r, site::normal, contact - centre, reach));
         const Vec3 rest = r.note(site::rest, m.next - contact);
@@ -116,19 +122,17 @@ template <class R> class ColliderTwin {
         const Vec3 half = r.note(site::half_box, r.uniform(site::box_scale, collider.scale) * 0.5F);
         const Vec3 min = r.note(site::box_min, centre - half), max = r.note(site::box_max, centre + half);
         const Vec3 lo = less(min, radius_), hi = more(max, radius_);
+        bool touches = false;
         if (switches_.box_detect == BoxDetect::boxed) {
-            if (r.decide(site::misses_box, m.next.x < lo.x || m.next.x > hi.x || m.next.y < lo.y || m.next.y > hi.y ||
-                                               m.next.z < lo.z || m.next.z > hi.z))
-                return false;
+            touches = !r.decide(site::misses_box, m.next.x < lo.x || m.next.x > hi.x || m.next.y < lo.y ||
+                                                      m.next.y > hi.y || m.next.z < lo.z || m.next.z > hi.z);
         } else {
             const Vec3 nearest{clamped(m.next.x, min.x, max.x), clamped(m.next.y, min.y, max.y),
                                clamped(m.next.z, min.z, max.z)};
-            if (!r.decide(site::touches_box, r.note(site::sqr_gap, squared(r.note(site::gap, m.next - nearest))) <=
-                                                 r.note(site::sqr_radius, radius_ * radius_)))
-                return false;
+            touches = r.decide(site::touches_box, r.note(site::sqr_gap, squared(r.note(site::gap, m.next - nearest))) <=
+                                                      r.note(site::sqr_radius, radius_ * radius_));
         }
-        answer(m, lo, hi);
-        return true;
+        return answer(m, lo, hi, touches);
     }
 
     bool obb(const ColliderMatrices& collider, Movement<R>& m) const {
@@ -143,48 +147,73 @@ template <class R> class ColliderTwin {
         local.next = r.note(site::next_in_box, place(to_local, m.next));
         const Vec3 margin = r.note(site::touch_margin, rho);
         const Vec3 above = local.next + margin, below = local.next - margin;
-        if (r.decide(site::misses_box, above.x < -0.5F || below.x > 0.5F || above.y < -0.5F || below.y > 0.5F ||
-                                           above.z < -0.5F || below.z > 0.5F))
+        const bool touches = !r.decide(site::misses_box, above.x < -0.5F || below.x > 0.5F || above.y < -0.5F ||
+                                                             below.y > 0.5F || above.z < -0.5F || below.z > 0.5F);
+        if (!touches && switches_.sweep == OffOn::off)
             return false;
         local.velocity = r.note(site::speed_in_box, direction(to_local, m.velocity));
-        answer(local, {-0.5F - rho.x, -0.5F - rho.y, -0.5F - rho.z}, more(rho, 0.5F));
+        if (!answer(local, {-0.5F - rho.x, -0.5F - rho.y, -0.5F - rho.z}, more(rho, 0.5F), touches))
+            return false;
         m.next = r.note(site::landed, place(to_world, local.next));
         m.velocity = r.note(site::bounced, direction(to_world, local.velocity));
         return true;
     }
 
-    /// The first face, x before y before z, that the ray enters the grown box by.
-    void answer(Movement<R>& m, const Vec3& lo, const Vec3& hi) const {
+    /// A face of a grown box that a movement's line comes to.
+    struct Face {
+        Axis axis = nullptr; ///< none: no face is entered
+        bool heads_up = false;
+        Vec3 contact{};
+    };
+
+    /// The answer to a grown box, unless the movement misses it.
+    bool answer(Movement<R>& m, const Vec3& lo, const Vec3& hi, bool touches) const {
+        if (!touches && switches_.sweep == OffOn::off)
+            return false;
         const Vec3 ray = r.note(site::movement, m.next - m.current);
         r.note(site::speed_before_box, m.velocity);
-        Vec3 contact = on_face(&Vec3::x, m.current, ray, lo, hi);
-        Axis axis = nullptr;
-        if (r.decide(site::face_x, contact.y >= lo.y && contact.y <= hi.y && contact.z >= lo.z && contact.z <= hi.z)) {
-            axis = &Vec3::x;
-        } else {
-            contact = on_face(&Vec3::y, m.current, ray, lo, hi);
-            if (r.decide(site::face_y,
-                         contact.x >= lo.x && contact.x <= hi.x && contact.z >= lo.z && contact.z <= hi.z)) {
-                axis = &Vec3::y;
-            } else {
-                contact = on_face(&Vec3::z, m.current, ray, lo, hi);
-                if (r.decide(site::face_z,
-                             contact.x >= lo.x && contact.x <= hi.x && contact.y >= lo.y && contact.y <= hi.y))
-                    axis = &Vec3::z;
-            }
-        }
-        contact = r.note(site::contact, contact);
+        const Face face = face_of(m, ray, lo, hi);
+        if (!touches && !passes(face, m, lo, hi))
+            return false;
+        const Vec3 contact = r.note(site::contact, face.contact);
         const Real length = r.note(site::length_of_movement, r.length(site::length_of_movement, ray));
         const Real in = r.note(site::way_in, r.length(site::way_in, contact - m.current));
         const Real out = r.note(
             site::way_out, r.divide(site::way_out, (length - in) * r.note(site::box_path_kept, elasticity_), length));
-        m.next = r.note(site::answered, contact + mirrored(axis, ray) * out);
-        m.velocity = r.note(site::speed_answered, r.note(site::box_mirrored, mirrored(axis, m.velocity)) *
+        m.next = r.note(site::answered, contact + mirrored(face.axis, ray) * out);
+        m.velocity = r.note(site::speed_answered, r.note(site::box_mirrored, mirrored(face.axis, m.velocity)) *
                                                       r.note(site::box_speed_kept, elasticity_));
+        return true;
     }
 
-    Vec3 on_face(Axis axis, const Vec3& current, const Vec3& ray, const Vec3& lo, const Vec3& hi) const {
-        const Real plane = r.decide(site::heads_up, ray.*axis >= 0.0F) ? lo.*axis : hi.*axis;
+    /// The first, x before y before z, that the ray enters the grown box by; of none the contact is z's.
+    Face face_of(const Movement<R>& m, const Vec3& ray, const Vec3& lo, const Vec3& hi) const {
+        Face face = on_face(&Vec3::x, m.current, ray, lo, hi);
+        const Vec3& contact = face.contact;
+        if (r.decide(site::face_x, contact.y >= lo.y && contact.y <= hi.y && contact.z >= lo.z && contact.z <= hi.z))
+            return face;
+        face = on_face(&Vec3::y, m.current, ray, lo, hi);
+        if (r.decide(site::face_y, contact.x >= lo.x && contact.x <= hi.x && contact.z >= lo.z && contact.z <= hi.z))
+            return face;
+        face = on_face(&Vec3::z, m.current, ray, lo, hi);
+        if (!r.decide(site::face_z, contact.x >= lo.x && contact.x <= hi.x && contact.y >= lo.y && contact.y <= hi.y))
+            face.axis = nullptr;
+        return face;
+    }
+
+    /// Whether the movement comes from beyond the face to behind it.
+    bool passes(const Face& face, const Movement<R>& m, const Vec3& lo, const Vec3& hi) const {
+        if (face.axis == nullptr)
+            return false;
+        const Real &from = m.current.*face.axis, &to = m.next.*face.axis;
+        const Real& plane = face.heads_up ? lo.*face.axis : hi.*face.axis;
+        return r.decide(site::passes_face, face.heads_up ? from <= plane && plane <= to : from >= plane && plane >= to);
+    }
+
+    /// Where the ray comes to a box's face across an axis.
+    Face on_face(Axis axis, const Vec3& current, const Vec3& ray, const Vec3& lo, const Vec3& hi) const {
+        const bool heads_up = r.decide(site::heads_up, ray.*axis >= 0.0F);
+        const Real plane = heads_up ? lo.*axis : hi.*axis;
         Vec3 along = ray;
         if (switches_.plane_cast == PlaneCast::normalized)
             along = r.note(site::movement_unit, r.normalize(site::movement_unit, ray));
@@ -192,7 +221,7 @@ template <class R> class ColliderTwin {
         Vec3 contact = current + along * t;
         if (r.setting(site::on_face, true))
             contact.*axis = plane;
-        return contact;
+        return {axis, heads_up, contact};
     }
 
     void walls(Movement<R>& m) const {
@@ -219,7 +248,7 @@ template <class R> class ColliderTwin {
     void wall(Movement<R>& m, Axis axis, const Real& limit, const Condition& beyond, bool is_upper) const {
         if (r.decide(site::started_beyond, beyond)) {
             m.next.*axis = limit;
-            if (switches_.clamp_velocity == OffOn::on) {
+            if (switches_.clamp_velocity == ClampVelocity::zero) {
                 const Real speed = m.velocity.*axis;
                 m.velocity.*axis = is_upper ? r.min(speed, 0.0F) : r.max(speed, 0.0F);
             }

@@ -52,7 +52,7 @@ struct EmitTwin {
             tangent = r.note(site::tangent, r.divide(site::tangent, random.sine(angle), random.cosine(angle)));
         }
         const typename R::Vec2 circle = r.note(site::circle, typename R::Vec2{x, y});
-        if (host->switches().emit_even == OffOn::on)
+        if (host->switches().emit_disc == EmitDisc::even)
             rho = r.sqrt(site::share_of_radius, rho);
         rho = r.note(site::share_of_radius, rho);
         const Vec3 local = r.note(site::local, Vec3{circle.x * rho * tangent, circle.y * rho * tangent, 1.0F});

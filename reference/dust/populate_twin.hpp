@@ -1,5 +1,6 @@
 #pragma once
 #include "reference/dust/random.hpp"
+#include "reference/half.hpp"
 
 namespace lockstep::dust {
 
@@ -42,8 +43,12 @@ struct PopulateTwin {
         grain.position = r.note(site::position, grain.position);
         grain.alive = r.note(site::alive, typename R::Int(1));
         shade = r.note(site::shade, shade);
-        grain.colour = r.note(site::colour, lerp(r.uniform(site::colour_a, host->settings().colour_a),
-                                                 r.uniform(site::colour_b, host->settings().colour_b), shade));
+        grain.colour = lerp(r.uniform(site::colour_a, host->settings().colour_a),
+                            r.uniform(site::colour_b, host->settings().colour_b), shade);
+        if (host->switches().colour_format == ColourFormat::rgb16f && r.setting(site::in_halves, true))
+            grain.colour = {r.monotone(grain.colour.x, half_round), r.monotone(grain.colour.y, half_round),
+                            r.monotone(grain.colour.z, half_round)};
+        grain.colour = r.note(site::colour, grain.colour);
         return grain;
     }
 };

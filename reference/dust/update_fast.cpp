@@ -209,7 +209,7 @@ void store(const Block& block, std::size_t first, std::size_t last, const View& 
 
 bool has_update_fast(const Host& host) {
     const Switches& s = host.switches();
-    return s.drag == Drag::free && s.drag_implicit == OffOn::off;
+    return s.drag == Drag::free && s.drag_step == DragStep::off && s.sweep == OffOn::off;
 }
 
 void update_fast(const Host& host, const PassInput& in, const Profile& profile, std::size_t first, std::size_t last,
@@ -217,8 +217,8 @@ void update_fast(const Host& host, const PassInput& in, const Profile& profile, 
     const bool exact = host.settings().arithmetic == ArithmeticSwitch::exact;
     const FrameValues values = host.at(in.frame);
     const Flight flight = exact ? flight_of<FlushingNumber<Portable>>(host, values) : flight_of<float>(host, values);
-    const bool sucks = host.switches().suction == Suction::force_in_update && host.is_on(Tool::Kind::vacuum, in.frame);
-    const Reach cone = cone_of(values);
+    const bool sucks = host.update_kills(in.frame);
+    const Reach cone = cone_of(host.at(host.pulled_in(in.frame)));
     const std::optional<float> floor = stopping_floor(host);
     const PlainArithmetic plain(profile.dot, profile.length_order(), profile.normalize_order(), profile.roots.get());
     const View& before = in.before[grain_buffer];

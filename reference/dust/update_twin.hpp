@@ -8,13 +8,14 @@ namespace lockstep::dust {
 /// A frame of flight: gravity, drag, colliders. Twin of shaders/dust/update.comp.
 struct UpdateTwin {
     HostPtr host;
-    FrameValues values = {}; ///< of the frame
-
+    FrameValues values = {};                 ///< of the frame
+    FrameValues pulling = {};                ///< of the frame whose vacuum pulled
     std::optional<Colliders> colliders = {}; ///< instead of the host's
 
-    [[nodiscard]] UpdateTwin at(int frame) const { return {host, host->at(frame)}; }
+    [[nodiscard]] UpdateTwin at(int frame) const { return {host, host->at(frame), host->at(host->pulled_in(frame))}; }
     [[nodiscard]] UpdateTwin handed(std::span<const Mistake> made) const {
-        return {host, dust::handed(*host, values, made), handed_colliders(*host, made)};
+        return {host, dust::handed(*host, values, made), dust::handed(*host, pulling, made),
+                handed_colliders(*host, made)};
     }
 
     template <class R> Grain<R> operator()(R& r, const PassInput& in, std::size_t item) const {
@@ -24,9 +25,9 @@ struct UpdateTwin {
         Grain<R> grain = grain_before(r, in, item);
         if (!is_alive(r, grain))
             return grain;
-        const bool sucks = switches.suction == Suction::force_in_update && values.tool != nullptr &&
-                           values.tool->kind == Tool::Kind::vacuum;
-        const ConeTwin<R> cone(r, *host, values);
+        const bool kills = host->update_kills(values.frame);
+        const bool sucks = kills && switches.suction == Suction::force_in_update;
+        const ConeTwin<R> cone(r, *host, pulling);
         const auto dt = r.uniform(site::dt, values.dt);
 
         Vec3 a{};
@@ -39,7 +40,7 @@ struct UpdateTwin {
             }
         a = a + r.uniform(site::gravity, settings.gravity);
         const auto resistance = r.uniform(site::air_resistance, settings.air_resistance);
-        if (switches.drag_implicit == OffOn::on) {
+        if (switches.drag_step == DragStep::implicit) {
             grain.velocity = divided(r, site::drag, grain.velocity + a * dt, 1.0F + resistance * dt);
         } else {
             Vec3 drag = grain.velocity * resistance;
@@ -61,6 +62,9 @@ struct UpdateTwin {
             answer.list(m);
         if (has_world && switches.world_order == WorldOrder::last)
             answer.world(m);
+        // Nothing moved the grain since the vacuum's kernel: it pulled who is in the cone.
+        if (kills && !sucks && r.setting(site::asks_again, true))
+            sucked = cone.force(grain.position).has_value();
         if (sucked && cone.kills(grain.position, m.next))
             grain.alive = 0;
         grain.velocity = r.note(site::velocity, m.velocity);

@@ -22,20 +22,28 @@ vec3 mirrored(vec3 v, int axis) {
 vec3 reflected(vec3 i, vec3 n) { return sub(i, mul(n, mul(ls_dot(i, n), 2.0))); }
 
 bool sphere(int k, inout Movement m) {
+#if SPHERE_DATA == SPHERE_DATA_VEC4
+    int first = 4 * k;
+    vec3 centre = vec3(sphereColliders[first], sphereColliders[first + 1], sphereColliders[first + 2]);
+    float reach = add(radius, sphereColliders[first + 3]);
+#else
     int first = 35 * k;
     vec3 centre = vec3(sphereColliders[first + 12], sphereColliders[first + 13], sphereColliders[first + 14]);
     float reach = add(radius, mul(sphereColliders[first + 32], 0.5));
+#endif
     float sqr_reach = mul(reach, reach);
     float d2 = squared(sub(m.next, centre));
 #if SPHERE_TOUCH == SPHERE_TOUCH_LESS
-    if (!(d2 < sqr_reach))
-        return false;
+    bool touches = d2 < sqr_reach;
 #else
-    if (!(d2 <= sqr_reach))
+    bool touches = d2 <= sqr_reach;
+#endif
+#if SWEEP == SWEEP_OFF
+    if (!touches)
         return false;
 #endif
 #if INSIDE == INSIDE_PUSH_OUT
-    if (squared(sub(m.current, centre)) < sqr_reach) {
+    if (touches && squared(sub(m.current, centre)) < sqr_reach) {
         vec3 outward = ls_normalize(sub(m.next, centre));
         m.next = add(centre, mul(outward, reach));
         if (ls_dot(m.velocity, outward) < 0.0)
@@ -48,9 +56,18 @@ bool sphere(int k, inout Movement m) {
     float q = ls_dot(a, n);
     float h = sub(squared(a), mul(q, q));
     float chord = sub(sqr_reach, h);
-#if ROOT_CLAMP == ROOT_CLAMP_ON
+#if SWEEP == SWEEP_ON
+    if (!touches && !(chord > 0.0))
+        return false;
+#endif
+#if ROOT == ROOT_CLAMP
     if (chord < 0.0)
         chord = 0.0;
+#endif
+#if SWEEP == SWEEP_ON
+    float way = sub(q, ls_sqrt(chord));
+    if (!touches && !(way >= 0.0 && mul(way, way) <= squared(sub(m.next, m.current))))
+        return false;
 #endif
     vec3 contact = add(m.current, mul(n, sub(q, ls_sqrt(chord))));
     vec3 normal = divided(sub(contact, centre), reach);
@@ -71,8 +88,17 @@ vec3 on_face(int axis, vec3 current, vec3 ray, vec3 lo, vec3 hi) {
     return contact;
 }
 
-// The first face, x before y before z, that the movement enters the grown box by.
-void answer(vec3 lo, vec3 hi, inout Movement m) {
+// Whether the movement comes from beyond a face to behind it.
+bool passes(int axis, vec3 ray, Movement m, vec3 lo, vec3 hi) {
+    if (axis < 0)
+        return false;
+    float from = m.current[axis], to = m.next[axis];
+    return ray[axis] >= 0.0 ? from <= lo[axis] && lo[axis] <= to : from >= hi[axis] && hi[axis] >= to;
+}
+
+// The answer to a grown box, by the first face, x before y before z, that the movement enters it by; false where it
+// misses the box.
+bool answer(vec3 lo, vec3 hi, bool touches, inout Movement m) {
     vec3 ray = sub(m.next, m.current);
     int axis = -1;
     vec3 contact;
@@ -82,11 +108,16 @@ void answer(vec3 lo, vec3 hi, inout Movement m) {
         if (contact[b] >= lo[b] && contact[b] <= hi[b] && contact[c] >= lo[c] && contact[c] <= hi[c])
             axis = face;
     }
+#if SWEEP == SWEEP_ON
+    if (!touches && !passes(axis, ray, m, lo, hi))
+        return false;
+#endif
     float len = ls_length(ray);
     float way_in = ls_length(sub(contact, m.current));
     float way_out = ls_divide(mul(sub(len, way_in), elasticity), len);
     m.next = add(contact, mul(mirrored(ray, axis), way_out));
     m.velocity = mul(mirrored(m.velocity, axis), elasticity);
+    return true;
 }
 
 bool box(int k, inout Movement m) {
@@ -97,14 +128,16 @@ bool box(int k, inout Movement m) {
     vec3 box_min = sub(centre, mul(scale, 0.5)), box_max = add(centre, mul(scale, 0.5));
     vec3 lo = sub(box_min, vec3(radius)), hi = add(box_max, vec3(radius));
 #if BOX_DETECT == BOX_DETECT_BOXED
-    if (any(lessThan(m.next, lo)) || any(greaterThan(m.next, hi)))
-        return false;
+    bool misses = any(lessThan(m.next, lo)) || any(greaterThan(m.next, hi));
 #else
     vec3 nearest = min(max(m.next, box_min), box_max);
-    if (!(squared(sub(m.next, nearest)) <= mul(radius, radius)))
+    bool misses = !(squared(sub(m.next, nearest)) <= mul(radius, radius));
+#endif
+#if SWEEP == SWEEP_OFF
+    if (misses)
         return false;
 #endif
-    answer(lo, hi, m);
+    return answer(lo, hi, !misses, m);
 #else
     mat4 to_world, to_local;
     for (int c = 0; c < 4; ++c)
@@ -115,15 +148,19 @@ bool box(int k, inout Movement m) {
     vec3 rho = vec3(ls_divide(radius, scale.x), ls_divide(radius, scale.y), ls_divide(radius, scale.z));
     Movement local;
     local.next = place(to_local, m.next);
-    if (any(lessThan(add(local.next, rho), vec3(-0.5))) || any(greaterThan(sub(local.next, rho), vec3(0.5))))
+    bool misses = any(lessThan(add(local.next, rho), vec3(-0.5))) || any(greaterThan(sub(local.next, rho), vec3(0.5)));
+#if SWEEP == SWEEP_OFF
+    if (misses)
         return false;
+#endif
     local.current = place(to_local, m.current);
     local.velocity = direction(to_local, m.velocity);
-    answer(sub(vec3(-0.5), rho), add(rho, vec3(0.5)), local);
+    if (!answer(sub(vec3(-0.5), rho), add(rho, vec3(0.5)), !misses, local))
+        return false;
     m.next = place(to_world, local.next);
     m.velocity = direction(to_world, local.velocity);
-#endif
     return true;
+#endif
 }
 
 void list_of_colliders(inout Movement m) {
@@ -148,7 +185,7 @@ void list_of_colliders(inout Movement m) {
 void wall(inout Movement m, int axis, float limit, bool beyond, bool is_upper) {
     if (beyond) {
         m.next[axis] = limit;
-#if CLAMP_VELOCITY == CLAMP_VELOCITY_ON
+#if CLAMP_VELOCITY == CLAMP_VELOCITY_ZERO
         m.velocity[axis] = is_upper ? min(m.velocity[axis], 0.0) : max(m.velocity[axis], 0.0);
 #endif
         return;

@@ -42,7 +42,7 @@ void main() {
     float rho = second(s);
     float tangent = ls_divide(portable_sine(emitterAngleRad), portable_cosine(emitterAngleRad));
 #endif
-#if EMIT_EVEN == EMIT_EVEN_ON
+#if EMIT_DISC == EMIT_DISC_EVEN
     rho = ls_sqrt(rho);
 #endif
     vec3 local = vec3(mul(mul(circle.x, rho), tangent), mul(mul(circle.y, rho), tangent), 1.0);

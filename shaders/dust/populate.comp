@@ -3,6 +3,9 @@
 
 #include "dust.glsl"
 #include "random.glsl"
+#if COLOUR_FORMAT == COLOUR_FORMAT_RGB16F
+#include "half.glsl"
+#endif
 
 layout(std430) buffer dustColorBuffer { float dustColor[]; }; // three a grain
 
@@ -46,6 +49,9 @@ void main() {
     dust[i].position = position;
     dust[i].isAlive = 1;
     vec3 colour = lerp(dustColorA, dustColorB, shade);
+#if COLOUR_FORMAT == COLOUR_FORMAT_RGB16F
+    colour = vec3(half_round(colour.r), half_round(colour.g), half_round(colour.b));
+#endif
     dustColor[3u * i] = colour.r;
     dustColor[3u * i + 1u] = colour.g;
     dustColor[3u * i + 2u] = colour.b;

@@ -7,10 +7,10 @@
 
 uniform float deltaTime, airResistance, mass;
 uniform vec3 gravity;
-uniform int isRunning; // the vacuum, where it works in this kernel
+uniform int isRunning; // the vacuum that works in this kernel, or worked before it
 
 vec3 accelerated(vec3 v, vec3 a) {
-#if DRAG_IMPLICIT == DRAG_IMPLICIT_ON
+#if DRAG_STEP == DRAG_STEP_IMPLICIT
     return divided(add(v, mul(a, deltaTime)), add(1.0, mul(airResistance, deltaTime)));
 #else
     vec3 drag = mul(v, airResistance);
@@ -50,6 +50,11 @@ void main() {
     dust[i].position = m.next;
 #if SUCTION == SUCTION_FORCE_IN_UPDATE
     if (sucked && kills(m.current, m.next))
+        die(i);
+#elif SUCTION == SUCTION_FORCE_KERNEL && FORECAST == FORECAST_MOVED
+    // Nothing moved the grain since the vacuum's kernel: it pulled who is in the cone.
+    vec3 force;
+    if (isRunning == 1 && suction_force(m.current, force) && kills(m.current, m.next))
         die(i);
 #endif
 }

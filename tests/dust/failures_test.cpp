@@ -196,7 +196,7 @@ TEST_CASE("dust failure corner_escape: of two walls crossed at once only the fir
     const Grains two = after(s, {49.0F, 49.0F, 0.0F}, {120.0F, 120.0F, 0.0F}, {"update"}, 2);
     CHECK(two.position().y == 49.9F);
     CHECK(two.velocity().y == 120.0F);
-    s.switches.clamp_velocity = dust::OffOn::on;
+    s.switches.clamp_velocity = dust::ClampVelocity::zero;
     const Grains remedied = after(s, {49.0F, 49.0F, 0.0F}, {120.0F, 120.0F, 0.0F}, {"update"}, 2);
     CHECK(remedied.velocity().y == 0.0F);
 }
@@ -212,7 +212,7 @@ TEST_CASE("dust failure drag_blowup: drag of a hundred at thirty frames a second
     while (std::isfinite(grains.velocity().y) && frame < 300)
         grains.run("update", frame++);
     CHECK(frame < 140);
-    s.switches.drag_implicit = dust::OffOn::on;
+    s.switches.drag_step = dust::DragStep::implicit;
     CHECK(std::abs(after(s, {}, {0.0F, -9.8F, 0.0F}, {"update"}, 100).velocity().y) < 1e-6F);
 }
 

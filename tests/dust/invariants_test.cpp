@@ -112,3 +112,33 @@ TEST_CASE("dust invariant: a count that forgets, doubles or races is noticed wit
             .kernel == "blow_wind");
     CHECK(with("vacuum_up.comp", " || dust[i].isAlive != 1", "").kernel == "vacuum_up");
 }
+
+TEST_CASE("dust failure count_underflow: a count that is kept while the grains come anew wraps with the first death") {
+    if (!gl())
+        return skip(gl().missing());
+    dust::Settings s;
+    s.count = 500;
+    s.switches.random = dust::Random::integer;
+    s.tools = {{.kind = dust::Tool::Kind::vacuum,
+                .from = 0,
+                .to = 10,
+                .range = 1000.0F,
+                .angle = 90.0F,
+                .death_range = 1000.0F}};
+    const dust::HostPtr host = host_of(s);
+    const System system = dust::system(host);
+    for (const bool kept : {true, false}) {
+        GlSystemSide side(gl(), system, dust::passes(host), "shaders/dust");
+        SystemState state = system.start;
+        state.set(dust::field::alive_number, 0, kept ? 0U : 500U);
+        side.upload(std::as_const(state).view());
+        for (std::size_t p = 0; p < system.passes.size(); ++p)
+            side.step(p, 0);
+        side.read(state);
+        const std::uint32_t count = state.view().word(dust::field::alive_number, 0);
+        const std::uint32_t living = state.view().total(dust::field::alive);
+        CHECK(living < 500);
+        CHECK((count > 500) == kept);
+        CHECK((count == living) == !kept);
+    }
+}

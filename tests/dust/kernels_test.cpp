@@ -159,9 +159,11 @@ TEST_CASE("dust: remedies agree with their twins") {
         return skip(gl().missing());
     using Kind = dust::Tool::Kind;
     dust::Settings s = room();
-    s.switches.clamp_velocity = s.switches.root_clamp = dust::OffOn::on;
+    s.switches.clamp_velocity = dust::ClampVelocity::zero;
+    s.switches.root = dust::Root::clamp;
     s.switches.side_exit = dust::SideExit::keep;
-    s.switches.emit_even = s.switches.drag_implicit = dust::OffOn::on;
+    s.switches.emit_disc = dust::EmitDisc::even;
+    s.switches.drag_step = dust::DragStep::implicit;
     s.switches.drag = dust::Drag::by_mass;
     s.mass = 1.5F;
     s.tools = {{.kind = Kind::vacuum, .from = 0, .to = 30, .force = 30.0F, .range = 15.0F},

@@ -3,6 +3,8 @@
 #include <functional>
 #include <set>
 #include <string>
+#include <utility>
+#include <vector>
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -10,7 +12,7 @@
 
 #include "crosscheck/dust/picture.hpp"
 #include "reference/dust/sites.hpp"
-#include "tests/dust/dust_run.hpp"
+#include "tests/dust/rooms.hpp"
 #include "tests/text_mutants.hpp"
 
 using namespace lockstep;
@@ -18,37 +20,6 @@ using namespace lockstep::test;
 namespace dust = lockstep::dust;
 
 namespace {
-
-/// Two rooms in which every kernel has something to do: turned boxes in one, axis-aligned ones in the other.
-dust::Settings room(bool aabb) {
-    using Kind = dust::Tool::Kind;
-    dust::Settings s;
-    s.count = 4000;
-    s.mass = 1.25F;
-    s.scale = 0.6F;
-    s.switches.random = dust::Random::integer;
-    s.gravity = {0.5F, -9.8F, 0.25F};
-    s.colour_b = {0.5F, 0.75F, 1.0F};
-    s.spawn = {{-14.0F, 1.0F, -12.0F}, {13.0F, 14.0F, 12.0F}};
-    s.world = {{-15.0F, 0.0F, -15.0F}, {15.0F, 15.0F, 14.0F}};
-    s.controller = {{0, {0.0F, 6.0F, -5.0F}, {0.1F, 0.1F, 1.0F}}, {60, {3.0F, 6.0F, -2.0F}, {0.5F, -0.2F, 1.0F}}};
-    s.tools = {{.kind = Kind::vacuum, .from = 2, .to = 22, .force = 40.0F, .range = 16.0F, .death_range = 3.0F},
-               {.kind = Kind::emit, .from = 22, .to = 34, .force = 30.0F, .angle = 30.0F, .distance = 3.0F},
-               {.kind = Kind::wind, .from = 34, .to = 44, .force = 30.0F, .range = 12.0F, .angle = 40.0F}};
-    for (const int frame : {0, 12, 30})
-        s.cannon.push_back(
-            {.frame = frame, .position = {0.0F, 8.0F, -6.0F}, .speed = 120.0F, .range = 14.0F, .force = 4000.0F});
-    s.colliders = {{.position = {4.0F, 4.0F, 2.0F}, .radius = 3.0F},
-                   {.position = {6.0F, 3.0F, 3.0F}, .radius = 2.5F},
-                   {.sphere = false, .position = {-8.0F, 4.0F, -4.0F}, .scale = {6, 2, 4}, .rotate = {20, 10, 30}},
-                   {.sphere = false, .position = {-6.0F, 5.0F, -6.0F}, .scale = {3, 5, 7}, .rotate = {0, 40, 15}},
-                   {.sphere = false, .position = {7.0F, 5.0F, -3.0F}, .scale = {5, 5, 5}, .rotate = {5, 0, 0}}};
-    if (aabb) {
-        s.switches.box_kind = dust::BoxKind::aabb;
-        s.switches.box_detect = dust::BoxDetect::rounded;
-    }
-    return s;
-}
 
 /// All die at once, and come back in twos and threes of a group of lanes.
 dust::Settings nursery() {
@@ -62,12 +33,34 @@ dust::Settings nursery() {
     return s;
 }
 
-constexpr int frames = 50;
+/// Long movements among small colliders, and a vacuum whose victims Update asks for again.
+dust::Settings swept(bool aabb) {
+    dust::Settings s = room(aabb);
+    s.cannon.clear();
+    s.tools.resize(1);
+    s.tools[0].force = 5.0F;
+    s.gravity = {40.0F, -1500.0F, 600.0F};
+    s.switches.sweep = dust::OffOn::on;
+    s.switches.sphere_data = dust::SphereData::vec4;
+    s.switches.forecast = dust::Forecast::moved;
+    s.switches.colour_format = dust::ColourFormat::rgb16f;
+    for (dust::Collider& one : s.colliders) {
+        one.radius *= 0.4F;
+        one.scale *= 0.4F;
+    }
+    return s;
+}
+
+std::vector<dust::Settings> rooms(const std::string& run) {
+    if (run == "swept")
+        return {swept(false), swept(true)};
+    return {room(false), room(true), nursery()};
+}
 
 /// In the first room that shows a difference.
-Outcome run_of(const std::string& shaders, const std::string&) {
+Outcome run_of(const std::string& shaders, const std::string& run) {
     Outcome outcome;
-    for (const dust::Settings& settings : {room(false), room(true), nursery()})
+    for (const dust::Settings& settings : rooms(run))
         if (!outcome.found())
             outcome = outcome_of([&] { return run_dust(settings, frames, CheckMode::resync, shaders); });
     return outcome;
@@ -82,7 +75,8 @@ TEST_CASE("dust mutants: each text stands in the shipped kernel as often as the 
 TEST_CASE("dust mutants: some of each kernel are found and named, and the shipped kernels are not") {
     if (!gl())
         return skip(gl().missing());
-    CHECK(run_of("shaders/dust", "").verdict == "AGREE");
+    for (const char* run : {"", "swept"})
+        CHECK(run_of("shaders/dust", run).verdict == "AGREE");
     check_mutants("dust",
                   {"stride_16_read",
                    "death_not_counted",
@@ -110,7 +104,9 @@ TEST_CASE("dust mutants: some of each kernel are found and named, and the shippe
                    "bounce_slows_normal_alone",
                    "suction_along_the_axis",
                    "wind_fades_to_the_rim",
-                   "blast_fades_by_distance"},
+                   "blast_fades_by_distance",
+                   "swept_line_alone",
+                   "forecast_not_repeated"},
                   run_of);
 }
 

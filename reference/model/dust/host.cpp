@@ -134,6 +134,18 @@ bool Host::is_on(Tool::Kind kind, int frame) const {
     return tool != nullptr && tool->kind == kind;
 }
 
+int Host::pulled_in(int frame) const {
+    const bool before_tools =
+        switches().suction == Suction::force_kernel && switches().kernel_order == KernelOrder::update_first;
+    return before_tools ? frame - 1 : frame;
+}
+
+bool Host::update_kills(int frame) const {
+    const bool asks = switches().suction == Suction::force_in_update ||
+                      (switches().suction == Suction::force_kernel && switches().forecast == Forecast::moved);
+    return asks && pulled_in(frame) >= 0 && is_on(Tool::Kind::vacuum, pulled_in(frame));
+}
+
 bool Host::has(Tool::Kind kind) const {
     return std::any_of(settings_.tools.begin(), settings_.tools.end(), [&](const Tool& t) { return t.kind == kind; });
 }

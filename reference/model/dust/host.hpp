@@ -56,6 +56,10 @@ class Host {
     [[nodiscard]] FrameValues at(int frame) const;
 
     [[nodiscard]] bool is_on(Tool::Kind kind, int frame) const;
+    /// The frame whose vacuum pulls, or last pulled, what Update moves in `frame`; -1: none.
+    [[nodiscard]] int pulled_in(int frame) const;
+    /// Whether Update asks who dies in the mouth, be it alone or again.
+    [[nodiscard]] bool update_kills(int frame) const;
     /// Whether the tool's kernel has something to do in any frame.
     [[nodiscard]] bool has(Tool::Kind kind) const;
     [[nodiscard]] bool has_update() const { return switches().suction >= Suction::force_in_update; }

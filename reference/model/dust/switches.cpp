@@ -88,6 +88,7 @@ Switches stage(std::string_view name, Switches s) {
     if (before("s16"))
         s.one_hit = OffOn::off;
     if (before("s17")) {
+        s.sphere_data = SphereData::vec4;
         s.box_kind = BoxKind::aabb;
         s.box_detect = BoxDetect::rounded;
     }

@@ -31,6 +31,17 @@ enum class GravityDir { down, vector };
 enum class Walls { first, all };
 enum class Inside { answer, push_out };
 enum class EmitSeed { index, index_time };
+enum class Forecast { own, moved };
+enum class SphereData { vec4, matrix };
+enum class ColourFormat { rgb32f, rgb16f };
+enum class ClampVelocity { off, zero };
+enum class Root { off, clamp };
+enum class EmitDisc { off, even };
+enum class DragStep { off, implicit };
+// What GL forbids to read literally has one value.
+enum class TailGuard { first };
+enum class VelocityStart { zero };
+enum class EmitAxis { z };
 
 /// The preset `corrected`.
 struct Switches {
@@ -56,18 +67,26 @@ struct Switches {
     GravityDir gravity_dir = GravityDir::vector; ///< down: its y alone
     DrawBounds draw_bounds = DrawBounds::off;    ///< nothing is drawn where the camera misses a box around the origin
     Mesh mesh = Mesh::quad;
-    Unit unit = Unit::glsl; ///< of suction by steps: `engine` is 0 below a length of 1e-5, and divides
+    Unit unit = Unit::glsl;            ///< of suction by steps: `engine` is 0 below a length of 1e-5, and divides
+    Forecast forecast = Forecast::own; ///< moved: who was pulled is tested again where Update moved it
+    SphereData sphere_data = SphereData::matrix;        ///< vec4: centre and radius
+    ColourFormat colour_format = ColourFormat::rgb32f;  ///< rgb16f: rounded as half floats are stored
+    TailGuard tail_guard = TailGuard::first;            ///< an invocation without a grain returns at once
+    VelocityStart velocity_start = VelocityStart::zero; ///< of what nobody writes
+    EmitAxis emit_axis = EmitAxis::z;                   ///< the disc that is emitted through lies at z = 1
 
     // Remedies, off in every preset.
-    OffOn clamp_velocity = OffOn::off; ///< where a wall stops a grain, its velocity out of the world becomes 0
-    OffOn root_clamp = OffOn::off;     ///< no root of a negative number where a ray grazes a sphere
+    /// zero: where a wall stops a grain, its velocity out of the world becomes 0
+    ClampVelocity clamp_velocity = ClampVelocity::off;
+    OffOn sweep = OffOn::off; ///< a movement that passes through a collider hits it, not one alone that ends there
+    Root root = Root::off;    ///< clamp: no root of a negative number where a ray grazes a sphere
     SideExit side_exit = SideExit::kill;
     Walls walls = Walls::first;           ///< all: the six limits one after another
     Inside inside = Inside::answer;       ///< push_out: what starts a frame in a sphere goes to its nearest surface
     OffOn safe_direction = OffOn::off;    ///< the direction of nothing is 0, and pulls nothing
     EmitSeed emit_seed = EmitSeed::index; ///< index_time: a grain leaves in another direction each time
-    OffOn emit_even = OffOn::off;         ///< the emitter's disc is filled evenly
-    OffOn drag_implicit = OffOn::off;     ///< v / (1 + c dt)
+    EmitDisc emit_disc = EmitDisc::off;   ///< even: the emitter's disc is filled evenly
+    DragStep drag_step = DragStep::off;   ///< implicit: v / (1 + c dt)
 
     bool operator==(const Switches&) const = default;
 };
@@ -98,15 +117,22 @@ template <class S, class Visit> void for_each_switch(S& s, const Visit& visit) {
     visit("draw_bounds", s.draw_bounds, Names{"box", "off"});
     visit("mesh", s.mesh, Names{"cube", "quad"});
     visit("unit", s.unit, Names{"glsl", "engine"});
-    visit("clamp_velocity", s.clamp_velocity, off_on);
-    visit("root_clamp", s.root_clamp, off_on);
+    visit("forecast", s.forecast, Names{"own", "moved"});
+    visit("sphere_data", s.sphere_data, Names{"vec4", "matrix"});
+    visit("colour_format", s.colour_format, Names{"rgb32f", "rgb16f"});
+    visit("tail_guard", s.tail_guard, Names{"first"});
+    visit("velocity_start", s.velocity_start, Names{"zero"});
+    visit("emit_axis", s.emit_axis, Names{"z"});
+    visit("clamp_velocity", s.clamp_velocity, Names{"off", "zero"});
+    visit("sweep", s.sweep, off_on);
+    visit("root", s.root, Names{"off", "clamp"});
     visit("side_exit", s.side_exit, Names{"kill", "keep"});
     visit("walls", s.walls, Names{"first", "all"});
     visit("inside", s.inside, Names{"answer", "push_out"});
     visit("safe_direction", s.safe_direction, off_on);
     visit("emit_seed", s.emit_seed, Names{"index", "index_time"});
-    visit("emit_even", s.emit_even, off_on);
-    visit("drag_implicit", s.drag_implicit, off_on);
+    visit("emit_disc", s.emit_disc, Names{"off", "even"});
+    visit("drag_step", s.drag_step, Names{"off", "implicit"});
 }
 
 /// paper, corrected or exact. Throws Error naming them for any other name.

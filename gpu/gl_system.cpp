@@ -794,10 +794,11 @@ void GlSystem::read(SystemState& state) const {
 std::optional<bool> GlSystem::holds(const View& state) const {
     if (parts_->is_image(state.resource))
         return {};
+    std::vector<const RecordBuffer*> buffers;
     for (std::size_t s = 0; s < parts_->storages.size(); ++s)
-        if (parts_->storages[s].layout.resource == state.resource && !parts_->from(s).holds_numbers(state))
-            return false;
-    return true;
+        if (parts_->storages[s].layout.resource == state.resource)
+            buffers.push_back(&parts_->from(s));
+    return hold_numbers(buffers, state);
 }
 
 std::vector<CapturedVertex> GlSystem::trace(std::size_t pass, int frame, std::size_t item) {

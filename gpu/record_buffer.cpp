@@ -5,6 +5,7 @@
 #include <cassert>
 #include <cstring>
 #include <span>
+#include <utility>
 
 #include <fmt/format.h>
 
@@ -26,8 +27,21 @@ template <class Byte, class Work> void with_mapped(const RecordBuffer& buffer, G
         throw Error(fmt::format("{} buffer: GL cannot map it", item));
     }
     work(static_cast<Byte*>(memory));
+    gl::BindBuffer(GL_COPY_READ_BUFFER, buffer.id()); // `work` may have mapped another
     if (gl::UnmapBuffer(GL_COPY_READ_BUFFER) == GL_FALSE)
         throw Error(fmt::format("{} buffer: its contents were lost while mapped", item));
+}
+
+/// The same of several, read only: `work` gets the memory of each.
+template <class Work> void with_all_mapped(std::span<const RecordBuffer* const> buffers, const Work& work,
+                                           std::vector<const std::byte*> memory = {}) {
+    if (memory.size() == buffers.size())
+        return work(std::span<const std::byte* const>(memory));
+    with_mapped<const std::byte>(*buffers[memory.size()], GL_MAP_READ_BIT, [&](const std::byte* records) {
+        std::vector<const std::byte*> more = memory;
+        more.push_back(records);
+        with_all_mapped(buffers, work, std::move(more));
+    });
 }
 
 constexpr GLbitfield overwrite = GL_MAP_WRITE_BIT | GL_MAP_INVALIDATE_BUFFER_BIT;
@@ -56,12 +70,19 @@ void copy_values(std::size_t words, const std::byte* from, std::size_t from_stri
     }
 }
 
-bool has_nan(const std::byte* floats, std::size_t count) {
+/// Whether one of the items' floats is NaN, in the fields that a layout has.
+bool has_nan(const RecordLayout& layout, const View& state, std::size_t first, std::size_t items) {
     std::uint32_t found = 0;
-    for (std::size_t i = 0; i < count; ++i) {
-        std::uint32_t bits = 0;
-        std::memcpy(&bits, floats + i * word, word);
-        found |= static_cast<std::uint32_t>((bits & 0x7fffffffU) > 0x7f800000U);
+    for (const RecordLayout::Member& member : layout.members) {
+        if (layout.field(member).scalar != Scalar::float32)
+            continue;
+        const auto words = static_cast<std::size_t>(layout.field(member).components);
+        const std::byte* const floats = state.columns[member.field] + first * words * word;
+        for (std::size_t i = 0; i < items * words; ++i) {
+            std::uint32_t bits = 0;
+            std::memcpy(&bits, floats + i * word, word);
+            found |= static_cast<std::uint32_t>((bits & 0x7fffffffU) > 0x7f800000U);
+        }
     }
     return found != 0;
 }
@@ -73,6 +94,7 @@ class Block {
         : layout_(layout), bytes_(layout.bytes()), room_(std::max<std::size_t>(1, most_bytes * 2 / bytes_)),
           records_(room_ * bytes_) {}
 
+    [[nodiscard]] const RecordLayout& layout() const { return layout_; }
     [[nodiscard]] std::size_t room() const { return room_; } ///< records
     [[nodiscard]] std::byte* records() { return records_.data(); }
 
@@ -108,7 +130,7 @@ class Block {
 
 /// Calls `work(block, first record, records)` until all `count` are through.
 template <class Work> void in_blocks(const RecordLayout& layout, std::size_t count, const Work& work) {
-#pragma omp parallel
+#pragma omp parallel if (count > 1024)
     {
         Block block(layout);
         const auto blocks = static_cast<std::ptrdiff_t>((count + block.room() - 1) / block.room());
@@ -179,37 +201,62 @@ void RecordBuffer::read(const WritableView& state) const {
     });
 }
 
-template <class Right> bool RecordBuffer::holds_blocks(const View& state, const Right& is_right) const {
+bool RecordBuffer::holds(const View& state) const {
     assert(state.count() == count_);
     std::atomic<bool> same = true;
     if (count_ == 0)
         return same;
     with_mapped<const std::byte>(*this, GL_MAP_READ_BIT, [&](const std::byte* records) {
         in_blocks(*layout_, count_, [&](Block& block, std::size_t first, std::size_t count) {
-            if (!same.load(std::memory_order_relaxed))
-                return;
             block.gather(state, first, count);
-            if (std::memcmp(records + first * layout_->bytes(), block.records(), count * layout_->bytes()) != 0 ||
-                !is_right(first, count))
+            if (std::memcmp(records + first * layout_->bytes(), block.records(), count * layout_->bytes()) != 0)
                 same = false;
         });
     });
     return same;
 }
 
-bool RecordBuffer::holds(const View& state) const {
-    return holds_blocks(state, [](std::size_t, std::size_t) { return true; });
+namespace {
+
+/// Records `from` to `to`, the last excluded, of a buffer's memory.
+bool holds_numbers(Block& block, const std::byte* memory, const View& state, std::size_t from, std::size_t to) {
+    const RecordLayout& layout = block.layout();
+    for (std::size_t at = from; at < to; at += block.room()) {
+        const std::size_t count = std::min(block.room(), to - at);
+        block.gather(state, at, count);
+        if (std::memcmp(memory + at * layout.bytes(), block.records(), count * layout.bytes()) != 0 ||
+            has_nan(layout, state, at, count))
+            return false;
+    }
+    return true;
 }
 
-bool RecordBuffer::holds_numbers(const View& state) const {
-    return holds_blocks(state, [&](std::size_t first, std::size_t count) {
-        return std::ranges::all_of(layout_->members, [&](const RecordLayout::Member& member) {
-            const Field& field = layout_->field(member);
-            const auto words = static_cast<std::size_t>(field.components);
-            return field.scalar != Scalar::float32 ||
-                   !has_nan(state.columns[member.field] + first * words * word, count * words);
-        });
+} // namespace
+
+bool hold_numbers(std::span<const RecordBuffer* const> buffers, const View& state) {
+    if (state.count() == 0)
+        return true;
+    std::atomic<bool> same = true;
+    with_all_mapped(buffers, [&](std::span<const std::byte* const> memory) {
+        // One loop over all of them: at the end of each every thread waits.
+        constexpr std::size_t range = 1024;
+        const auto ranges = static_cast<std::ptrdiff_t>((state.count() + range - 1) / range);
+#pragma omp parallel if (ranges > 1)
+        {
+            std::vector<Block> blocks;
+            for (const RecordBuffer* buffer : buffers)
+                blocks.emplace_back(buffer->layout());
+#pragma omp for schedule(static)
+            for (std::ptrdiff_t r = 0; r < ranges; ++r) {
+                const std::size_t from = static_cast<std::size_t>(r) * range;
+                const std::size_t to = std::min(from + range, state.count());
+                for (std::size_t b = 0; b < blocks.size() && same.load(std::memory_order_relaxed); ++b)
+                    if (!holds_numbers(blocks[b], memory[b], state, from, to))
+                        same = false;
+            }
+        }
     });
+    return same;
 }
 
 void RecordBuffer::fill(std::uint32_t pattern) {

@@ -51,8 +51,6 @@ class RecordBuffer {
 
     /// Whether it has exactly these bits, without a copy.
     [[nodiscard]] bool holds(const View& state) const;
-    /// The same, and none of its floats is NaN.
-    [[nodiscard]] bool holds_numbers(const View& state) const;
 
     /// Every 32-bit word becomes `word`: what a pass did not write then shows.
     void fill(std::uint32_t word);
@@ -71,13 +69,13 @@ class RecordBuffer {
     void bind_capture() const;
 
   private:
-    /// Whether it has the bits of `state`, of whose blocks, from an item on, `is_right` says the same.
-    template <class Right> [[nodiscard]] bool holds_blocks(const View& state, const Right& is_right) const;
-
     GlBuffer buffer_;
     const RecordLayout* layout_;
     std::size_t count_, spare_;
 };
+
+/// Whether buffers that have the fields of `state` among them have exactly its bits, and none of its floats is NaN.
+bool hold_numbers(std::span<const RecordBuffer* const> buffers, const View& state);
 
 /// Feeds a_Position and so on of `program` from `buffer`. Throws Error if one has a wrong type.
 GlVertexArray vertex_array(const RecordBuffer& buffer, const Program& program);

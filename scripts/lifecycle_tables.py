@@ -8,9 +8,10 @@ source's (docs/lifecycle.md), and whether both sides, run free, come to one hash
   forces      curl noise, and exact beside plain arithmetic
   hashes      preset exact, free: layouts and scenes, as many particles alive as asked for
 Usage: scripts/lifecycle_tables.py LOCKSTEP OUT [--gl KIND] [--parts ladder,...] [--particles N,...] [--ribbons N,...]
-           [--frames N] [--alive N] [--hash-frames N] [--hash-layouts L,...] [--seconds N] [--jobs N] [--twins]
+           [--frames N] [--alive N] [--hash-frames N] [--layouts L,...] [--seconds N] [--jobs N] [--twins]
            [--render WxH] [--scenes DIR] [--commit NAME]
   --particles  of ladder; the other tables have the first of them
+  --layouts    of ladder and hashes
   --seconds    of the hashes: those that still run are ended then; their verdict is of the frames before
   --twins      times the reference as well
 Exit status: 0 every hash is equal, 1 one is not, 2 a part could not be run."""
@@ -48,7 +49,7 @@ def options():
     parser.add_argument("--frames", type=int, default=9)
     parser.add_argument("--alive", type=int, default=100_000)
     parser.add_argument("--hash-frames", type=int, default=600)
-    parser.add_argument("--hash-layouts", type=lambda text: text.split(","), default=list(LAYOUTS))
+    parser.add_argument("--layouts", type=lambda text: text.split(","), default=list(LAYOUTS))
     parser.add_argument("--seconds", type=float, default=240)
     parser.add_argument("--jobs", type=int, default=2)
     parser.add_argument("--twins", action="store_true")
@@ -144,19 +145,19 @@ def ladder(run):
                   "particle to 72 bytes, 24 from 64 down, read and written, at the speed of the copy."], {}
     for count in run.asked.particles:
         scene, rows, first = run.shower(count), [], None
-        for layout in LAYOUTS:
+        for layout in run.asked.layouts:
             split = run.bench(scene, count, [f"layout={layout}", "fuse=split"], floor=True)
             fused = run.bench(scene, count, [f"layout={layout}", "fuse=fused"])
             kept[f"{count}, {layout}"] = {"split": split, "fused": fused}
             first = first or split
-            copy = split["copy_of_particles"][1]
+            copy = split.get("copy_of_particles", [0.0] * 3)[1]  # small buffers have none
             step = copy * SIMULATED[layout] / int(layout)
             move, both = of(split, "move"), of(fused, "move")
-            rows.append([layout, ms(move), ratio(of(first, "move"), move), ms(copy), ratio(move, copy),
+            rows.append([layout, ms(move), ratio(of(first, "move"), move), ms(copy or None), ratio(move, copy),
                          ms(of(split, "simulation")), ratio(of(split, "simulation"), step), ms(both), ratio(both, copy),
                          ratio(move + of(split, "simulation"), both), ms(of(split, "drawing")), twin_of(run, fused)])
         text += ["", f"### {count:,} particles"]
-        text += table(["layout", "move", "112 / it", "a copy", "move / copy", "simulate", "/ its bytes", "both fused",
+        text += table(["layout", "move", f"{run.asked.layouts[0]} / it", "a copy", "move / copy", "simulate", "/ its bytes", "both fused",
                        "fused / copy", "split / fused", "drawing", "twin's frame (GL / twin)"], rows)
     return text, kept
 
@@ -241,14 +242,14 @@ def alive_scene(run, name, uv=None):
 def hash_jobs(run):
     """Name, scene and settings: of every layout one before any has two."""
     jobs = []
-    for layout in reversed(run.asked.hash_layouts):
+    for layout in reversed(run.asked.layouts):
         jobs += [(f"fountain {layout}", alive_scene(run, "fountain"), [f"layout={layout}"]),
                  (f"fire {layout}", alive_scene(run, "fire"), [f"layout={layout}"]),
                  (f"embers {layout}", alive_scene(run, "embers"), [f"layout={layout}", "fuse=split"]),
                  (f"index_lists {layout}", alive_scene(run, "index_lists"), [f"layout={layout}"])]
     for uv in ("distance", "stretched", "segment"):
         jobs += [(f"ribbon_loop {uv} {layout}", alive_scene(run, "ribbon_loop", uv), [f"layout={layout}"])
-                 for layout in reversed(run.asked.hash_layouts)]
+                 for layout in reversed(run.asked.layouts)]
     jobs += [("sorted_ribbon 112", alive_scene(run, "sorted_ribbon"), []),
              ("fountain atomic 40", alive_scene(run, "fountain"), ["compaction=atomic"]),
              ("graphs 40", alive_scene(run, "graphs"), [])]
@@ -292,7 +293,7 @@ def hashes(run):
         verdict = lines.get("verdict", report.strip().splitlines()[-1] if report.strip() else "was not begun")
         kept[name] = {"settings": settings, "verdict": verdict, "hash": lines.get("hash"),
                       "frames": int(ended.group(1)) if ended else asked_frames(run, verdict)}
-        rows.append([name, kept[name]["frames"], verdict, f"`{lines['hash'].split()[0]}`" if "hash" in lines else "-"])
+        rows.append([name, kept[name]["frames"], verdict.split(":")[0], f"`{lines['hash'].split()[0]}`" if "hash" in lines else "-"])
     text = ["", "## Both sides run free, preset exact", "",
             f"{run.asked.alive:,} alive in the mean once the oldest die; `lockstep check --preset exact --mode free --frames "
             f"{run.asked.hash_frames}`,", f"ended after {run.asked.seconds:g} s in all, {run.asked.jobs} at once."]

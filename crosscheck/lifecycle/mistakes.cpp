@@ -7,7 +7,7 @@
 
 #include "reference/lifecycle/packing.hpp"
 
-#include "reference/lifecycle/sites.hpp"
+#include "reference/lifecycle/draw_sites.hpp"
 
 namespace lockstep::lifecycle {
 namespace {
@@ -57,6 +57,11 @@ void read_exponent_one_less(std::span<float> value, const CameBy& /*run*/) {
 void of_23_bits(std::span<float> value, const CameBy& /*run*/) {
     for (float& x : value)
         x = std::floor(x * 0x1p23F) * 0x1p-24F;
+}
+
+void premultiplied(std::span<float> tint, const CameBy& /*run*/) {
+    for (std::size_t c = 0; c < 3; ++c)
+        tint[c] *= tint[3];
 }
 
 const Mistake first_opacity_again = mistake_at(site::end_opacity, Change::instead, -1, &site::initial_opacity);
@@ -222,6 +227,20 @@ std::vector<NamedMistake> made() {
     in({"ribbon"}, "width_doubled", "the ribbon is twice as wide", mistake_at(site::half_width, doubled));
     in({"ribbon"}, "side_flipped", "left is right", mistake_at(site::half_width, negated));
     in({"ribbon"}, "uv_scale_missing", "u is not scaled", mistake_at(site::uv_scale, one));
+    // Drawing.
+    in({"draw"}, "size_not_halved", "sprites are twice as large", mistake_at(site::half_width, doubled));
+    in({"draw"}, "size_missing", "sprites have no size", mistake_at(site::half_width, zero));
+    in({"draw"}, "age_reversed", "the last look is that of birth", mistake_at(site::age, opposite));
+    in({"draw"}, "never_changes", "sprites look as at birth", mistake_at(site::age, zero));
+    in({"draw"}, "expired_drawn", "who has no time left is drawn", mistake_at(site::is_visible, always));
+    in({"draw"}, "looks_as_at_death", "sprites look as at their end", mistake_at(site::age, one));
+    in({"draw"}, "sprite_upside_down", "a sprite's top is its bottom", mistake_at(site::way_to_corner, negated, 1));
+    in({"draw"}, "sprite_mirrored", "a sprite's left is its right", mistake_at(site::way_to_corner, negated, 0));
+    in({"draw"}, "u_for_v", "u and v are swapped at the corners", mistake_at(site::way_to_corner, swapped));
+    in({"draw"}, "tint_premultiplied", "the tint is multiplied by its opacity", spoiled_at(site::tint, premultiplied));
+    in({"draw"}, "picture_upside_down", "up is down", mistake_at(site::clip, negated, 1));
+    in({"draw"}, "picture_mirrored", "left is right", mistake_at(site::clip, negated, 0));
+    in({"draw"}, "colors_swapped", "red and blue are swapped", mistake_at(site::tint, xz_swapped));
     in({"post_destroy"}, "uv_jump", "the length of the dead is lost", mistake_at(site::way_of_dead, zero));
     return all;
 }

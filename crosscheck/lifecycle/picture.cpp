@@ -2,6 +2,7 @@
 
 #include <utility>
 
+#include "crosscheck/lifecycle/mistakes.hpp"
 #include "gpu/lifecycle/passes.hpp"
 #include "reference/lifecycle/draw_image.hpp"
 #include "reference/lifecycle/draw_pass.hpp"
@@ -41,6 +42,9 @@ SystemPicture picture(const HostPtr& host, const SystemState& state, int frame) 
                   .start = quads_of(*host, state),
                   .settings = {}};
     system.passes.push_back(draw_pass(host, made));
+    for (const NamedMistake& mistake : mistakes())
+        if (mistake.pass == system.passes.front()->name())
+            system.mistakes.push_back(mistake);
     const ColorImage background(how.width, how.height, how.background);
     const auto image = [host, background](const SystemView& corners) { return draw_image(*host, corners, background); };
     return {std::move(system), {draw_gl_pass(host, made)}, std::move(how), image, made.projection * made.view, {}};

@@ -106,7 +106,10 @@ void read_shape(const JsonValue& json, Emitter& e) {
 
 /// Found relative to the scene's file.
 std::filesystem::path beside(const JsonValue& named) {
-    return std::filesystem::path(named.file()).parent_path() / named.text();
+    const std::string name = named.text();
+    if (name.empty() || name.find('\0') != std::string::npos)
+        named.fail("names no file");
+    return std::filesystem::path(named.file()).parent_path() / name;
 }
 
 Sprite read_sprite(const JsonValue& json) {
@@ -124,8 +127,8 @@ Sprite read_sprite(const JsonValue& json) {
             sprite.polygon = static_cast<std::size_t>(bounding->at("k").integer(3, 8));
             if (sprite.texture.width == 0)
                 bounding->fail("a polygon is fitted to a texture, and there is none");
-        } else {
-            static_cast<void>(bounding->choice({"quad"}));
+        } else if (!bounding->is_text() || bounding->text() != "quad") {
+            bounding->fail("is neither \"quad\" nor {\"k\": 3 to 8}");
         }
     }
     read_field(json, "alpha_cut", sprite.alpha_cut,

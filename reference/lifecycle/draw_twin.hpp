@@ -5,6 +5,7 @@
 #include <tuple>
 #include <vector>
 
+#include "reference/lifecycle/draw_sites.hpp"
 #include "reference/lifecycle/graphs.hpp"
 #include "reference/model/lifecycle/drawing.hpp"
 
@@ -49,7 +50,8 @@ struct DrawTwin {
             const auto size = look ? look->real("size") : std::nullopt;
             const Real reach = r.note(site::half_width, (size ? *size : size_of(r, particle)) * 0.5F);
             const Real two(2.0F), one(1.0F);
-            seen = {centre.x + (two * u - one) * reach, centre.y + (two * v - one) * reach, centre.z};
+            const auto way = r.note(site::way_to_corner, typename R::Vec2{two * u - one, two * v - one});
+            seen = {centre.x + way.x * reach, centre.y + way.y * reach, centre.z};
             if (host->switches().expired == Expired::hidden && !r.decide(site::is_visible, particle.remaining() > 0.0F))
                 kind = 0;
         }

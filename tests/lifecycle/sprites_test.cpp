@@ -202,7 +202,8 @@ TEST_CASE("sprites: what is wrong with one is said in one line, with its place")
     CHECK(error_of(R"("texture": "white.png", "bounding": "quad", "alpha_cut": 254)", R"("blend": "additive")") == "");
     const std::pair<const char*, const char*> wrong[] = {
         {R"("texture": "none.png")", "none.png: cannot be opened"},
-        {R"("texture": "")", "PNG file"},
+        {R"("texture": "")", "/sprite/texture: names no file"},
+        {R"("texture": "white\u0000.png")", "/sprite/texture: names no file"},
         {R"("texture": 3)", "/sprite/texture"},
         {R"("texture": "text.png")", "text.png: "},
         {R"("texture": "empty.png")", "empty.png: "},
@@ -213,7 +214,7 @@ TEST_CASE("sprites: what is wrong with one is said in one line, with its place")
         {R"("texture": "white.png", "bounding": {"k": 2})", "/sprite/bounding/k"},
         {R"("texture": "white.png", "bounding": {"k": 9})", "/sprite/bounding/k"},
         {R"("texture": "white.png", "bounding": {"K": 4})", "K"},
-        {R"("texture": "white.png", "bounding": "octagon")", "/sprite/bounding"},
+        {R"("texture": "white.png", "bounding": "octagon")", "is neither \"quad\" nor {\"k\": 3 to 8}"},
         {R"("texture": "white.png", "bounding": 6)", "/sprite/bounding"},
         {R"("alpha_cut": 255)", "/sprite/alpha_cut"},
         {R"("alpha_cut": -1)", "/sprite/alpha_cut"},

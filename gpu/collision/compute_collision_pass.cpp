@@ -18,6 +18,8 @@
 namespace lockstep {
 namespace {
 
+constexpr GLuint nobody = 0xffffffffU;
+
 void check_room(const Scene& scene) {
     if (!gl::offers(4, 3))
         throw Error("collision_pass: step = compute needs compute shaders and storage buffers, GL 4.3; this context is "
@@ -38,12 +40,6 @@ Program link_compute(const Scene& scene, const std::filesystem::path& shaders, c
         defines.emplace_back("LOCKSTEP_INT64_ATOMICS", "1");
     const std::array stages{Stage::compute};
     return {name, load_stages(collision_shaders(shaders), name, stages, defines)};
-}
-
-/// What has nobody offered to any texel: a driver's own clear took as long as the rest of the pass on NVIDIA.
-Program link_clear() {
-    const std::array stages{Stage::compute};
-    return {"clear_nearest", load_stages(collision_shaders({}), "clear_nearest", stages)};
 }
 
 Program link_draw(const Scene& scene, const std::filesystem::path& shaders) {
@@ -75,9 +71,9 @@ BoundStorage bind_particles(const Program& program) {
 
 ComputeCollisionPass::ComputeCollisionPass(const Scene& scene, const std::filesystem::path& shaders)
     : step_(link_compute(scene, shaders, "collision_pass")), nearest_(link_compute(scene, shaders, "nearest_particle")),
-      clear_(link_clear()), draw_(link_draw(scene, shaders)), bound_(bind_particles(step_)),
-      nearest_bound_(bind_particles(nearest_)), step_group_(group_size(step_, scene.start.size())),
-      nearest_group_(group_size(nearest_, scene.start.size())), has_offers_(step_.uses_storage(offers_binding)) {
+      draw_(link_draw(scene, shaders)), bound_(bind_particles(step_)), nearest_bound_(bind_particles(nearest_)),
+      step_group_(group_size(step_, scene.start.size())), nearest_group_(group_size(nearest_, scene.start.size())),
+      has_offers_(step_.uses_storage(offers_binding)) {
     if (bound_.only_reads() && !step_.uses_storage(after_binding))
         throw Error(fmt::format("{}: /storage_blocks: no block has the state after the pass; right is After, or its "
                                 "fields by member, After.position, ...",
@@ -90,12 +86,12 @@ ComputeCollisionPass::ComputeCollisionPass(const Scene& scene, const std::filesy
 
 void ComputeCollisionPass::run(const FrameParams& params, const ParticleBuffer& from, ParticleBuffer& to,
                                const CollisionTexture& cdt, CollisionTexture& target, PassTimer& timer) {
+    gl::BindBuffer(GL_SHADER_STORAGE_BUFFER, nearest_particles_.id());
+    gl::ClearBufferData(GL_SHADER_STORAGE_BUFFER, GL_R32UI, GL_RED_INTEGER, GL_UNSIGNED_INT, &nobody);
     gl::BindBufferBase(GL_SHADER_STORAGE_BUFFER, before_binding, from.id());
     gl::BindBufferBase(GL_SHADER_STORAGE_BUFFER, after_binding, to.id());
     gl::BindBufferBase(GL_SHADER_STORAGE_BUFFER, nearest_binding, nearest_particles_.id());
     gl::BindBufferBase(GL_SHADER_STORAGE_BUFFER, offers_binding, has_offers_ ? offers_.id() : 0);
-    clear(params);
-    timer.mark("clear_nearest");
     step(params, from, to, cdt, timer);
     draw(params, from.size(), target);
     timer.mark("collision_texels");
@@ -103,14 +99,6 @@ void ComputeCollisionPass::run(const FrameParams& params, const ParticleBuffer& 
                       GL_VERTEX_ATTRIB_ARRAY_BARRIER_BIT | GL_SHADER_STORAGE_BARRIER_BIT);
     gl::UseProgram(0);
     check_gl("collision_pass");
-}
-
-void ComputeCollisionPass::clear(const FrameParams& params) {
-    constexpr std::size_t group = 256, most_groups = 1024; // an invocation clears as many texels as it takes
-    const std::size_t texels = static_cast<std::size_t>(params.width) * static_cast<std::size_t>(params.height);
-    clear_.set("u_TexelCount", static_cast<unsigned>(texels));
-    clear_.check_interface();
-    dispatch(clear_, std::min(texels, group * most_groups), group);
 }
 
 void ComputeCollisionPass::step(const FrameParams& params, const ParticleBuffer& from, const ParticleBuffer& to,

@@ -37,12 +37,11 @@ class ComputeCollisionPass {
              CollisionTexture& target, PassTimer& timer);
 
   private:
-    void clear(const FrameParams& params);
     void step(const FrameParams& params, const ParticleBuffer& from, const ParticleBuffer& to,
               const CollisionTexture& cdt, PassTimer& timer);
     void draw(const FrameParams& params, std::size_t particles, CollisionTexture& target);
 
-    Program step_, nearest_, clear_, draw_;
+    Program step_, nearest_, draw_;
     BoundStorage bound_, nearest_bound_;
     std::size_t step_group_, nearest_group_; ///< invocations
     bool has_offers_;                        ///< step_ leaves the lowest index to nearest_

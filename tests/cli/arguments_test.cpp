@@ -170,7 +170,8 @@ TEST_CASE("arguments: an unknown choice is told with the choices") {
     check_all({
         {{"check", scene, "--mode", "fre"},
          "--mode: 'fre' is not one of resync, free; did you mean free?" + help_of("check")},
-        {{"render", scene, "-o", "x.png", "--side", "tpu"}, "--side: 'tpu' is not one of cpu, gpu" + help_of("render")},
+        {{"render", scene, "-o", "x.png", "--side", "tpu"},
+         "--side: 'tpu' is not one of cpu, gpu; did you mean cpu?" + help_of("render")},
         {{"check", scene, "--preset", "correct"},
          "unknown preset 'correct'; the presets are listing, paper, corrected, exact; did you mean corrected?"},
         {{"hash", scene, "--profile", "amd"}, "unknown profile 'amd'; the profiles are strict, llvmpipe, nvidia"},

@@ -1,5 +1,6 @@
 #include <catch2/catch.hpp>
 
+#include <initializer_list>
 #include <string>
 
 #include "tests/cli/cli_checks.hpp"
@@ -23,19 +24,19 @@ struct Setting : test::SceneSetting {
     }
 };
 
-const Setting& reversed() {
-    static const Setting setting(R"({"depth": [1, 0]})", "0.0526315789", "0.394736842");
-    return setting;
-}
+struct Reversed : Setting {
+    Reversed() : Setting(R"({"depth": [1, 0]})", "0.0526315789", "0.394736842") {}
+};
 
 } // namespace
 
 TEST_CASE("clip space: a host whose depth begins at 0, reversed or not, is drawn on GL and agrees") {
     if (!test::have_software_gl())
         return;
+    const Reversed reversed;
     const Setting from_zero(R"({"depth": [0, 1]})", "-1.05263158", "2.10526316");
     const Setting downwards(R"({"first_row": 1, "depth": [1, 0]})", "0.0526315789", "0.394736842");
-    for (const Setting* setting : {&from_zero, &reversed(), &downwards}) {
+    for (const Setting* setting : std::initializer_list<const Setting*>{&from_zero, &reversed, &downwards}) {
         const test::Outcome outcome = run_lockstep(setting->command({"--frames", "8", "--require-hits"}));
         INFO(outcome.err);
         CHECK(outcome.status == 0);
@@ -46,7 +47,7 @@ TEST_CASE("clip space: a host whose depth begins at 0, reversed or not, is drawn
 TEST_CASE("clip space: reversed depth that a shader turns around once more is named") {
     if (!test::have_software_gl())
         return;
-    const Setting& setting = reversed();
+    const Reversed setting;
     test::plant(setting.shaders, "collision_pass.vert", "gl_Position = point_position(clip);",
                 "gl_Position = point_position(vec4(clip.xy, clip.w - clip.z, clip.w));");
     const test::Outcome outcome = run_lockstep(setting.command({"--frames", "8"}));
@@ -57,6 +58,6 @@ TEST_CASE("clip space: reversed depth that a shader turns around once more is na
 TEST_CASE("clip space: what draws with GL's own depth alone says so in one line") {
     if (!test::have_software_gl())
         return;
-    CHECK_THAT(test::refusal(run_lockstep(reversed().command({"--set", "step=compute"}))),
+    CHECK_THAT(test::refusal(run_lockstep(Reversed().command({"--set", "step=compute"}))),
                Catch::Contains("clip_space: depth [1, 0] is drawn on GL with search=cdt"));
 }

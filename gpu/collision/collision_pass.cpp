@@ -1,7 +1,6 @@
 #include "gpu/collision/collision_pass.hpp"
 
 #include <array>
-#include <utility>
 
 #include <fmt/format.h>
 
@@ -9,52 +8,19 @@
 #include "gpu/collision/collision_shaders.hpp"
 #include "gpu/collision/host_depth.hpp"
 #include "gpu/collision/step_uniforms.hpp"
-#include "gpu/probe/points_alike.hpp"
 #include "gpu/shader_source.hpp"
 #include "reference/model/error.hpp"
 
 namespace lockstep {
 namespace {
 
-/// Whether a user's folder has a stage of points.
-bool has_own_points(const std::filesystem::path& shaders) {
-    return !shaders.empty() && (std::filesystem::exists(shaders / "collision_pass.vert") ||
-                                std::filesystem::exists(shaders / "collision_pass.geom"));
-}
-
-/// The shipped vertex stage with what the geometry stage does at its end: transform feedback on NVIDIA takes a quarter
-/// longer behind a geometry stage (docs/speed.md).
-ShaderSource points_alone(const std::filesystem::path& shaders, ShaderDefines defines) {
-    defines.emplace_back("main", "collision_step");
-    const ShaderFolders folders = collision_shaders(shaders);
-    ShaderSource step = load_stage(folders, "collision_pass", Stage::vertex, defines);
-    const ShaderSource end = load_stage(folders, "without_geometry", Stage::vertex);
-    const std::size_t files = step.files.size(), version = end.text.find('\n') + 1;
-    step.text += end.text.substr(version);
-    step.files.insert(step.files.end(), end.files.begin(), end.files.end());
-    for (std::size_t line = 1; line < end.origins.size(); ++line)
-        step.origins.push_back({files + end.origins[line].file, end.origins[line].line});
-    return step;
-}
-
-/// In `exact` a point stands on a texel's centre, which no rounding moves. Elsewhere drivers may place points otherwise
-/// without a geometry stage.
-std::vector<ShaderSource> load(const Switches& switches, const std::filesystem::path& shaders, const ClipDepth& depth) {
-    constexpr std::array all{Stage::vertex, Stage::geometry, Stage::fragment};
+Program link(const Switches& switches, const std::filesystem::path& shaders, const ClipDepth& depth) {
     ShaderDefines defines = switch_defines(switches);
     for (const auto& define : clip_depth_defines(depth))
         defines.push_back(define);
-    std::vector<ShaderSource> sources = load_stages(collision_shaders(shaders), "collision_pass", all, defines);
-    const bool exact = switches.arithmetic == ArithmeticSwitch::exact;
-    if (has_own_points(shaders) || sources.front().bindings != nullptr || !(exact || points_alike_without_geometry()))
-        return sources;
-    sources.front() = points_alone(shaders, std::move(defines));
-    std::erase_if(sources, [](const ShaderSource& source) { return source.stage == Stage::geometry; });
-    return sources;
-}
-
-Program link(const Switches& switches, const std::filesystem::path& shaders, const ClipDepth& depth) {
-    const std::vector<ShaderSource> sources = load(switches, shaders, depth);
+    const std::array stages{Stage::vertex, Stage::geometry, Stage::fragment};
+    const std::vector<ShaderSource> sources =
+        load_stages(collision_shaders(shaders), "collision_pass", stages, defines);
     Program program("collision_pass", sources, particle_records().captures());
     check_nothing_lost(sources, particle_records().captures());
     return program;

@@ -136,6 +136,7 @@ int merge_stress(const MergeRequest& asked, OutputFiles& files, const std::vecto
     if (!asked.json.empty())
         files.write(asked.json, json_text(stress_json(report)));
     files.commit();
+    fmt::print("{}", files.written_text());
     return report.passes() ? status_agree : status_differ;
 }
 
@@ -222,6 +223,7 @@ int merge(const MergeRequest& asked) {
     if (!asked.junit.empty())
         files.write(asked.junit, junit_text(report, run, pass));
     files.commit();
+    fmt::print("{}", files.written_text());
     return pass ? status_agree : status_differ;
 }
 

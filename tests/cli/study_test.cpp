@@ -74,11 +74,11 @@ TEST_CASE("study: what cannot be studied is refused in one line") {
     CHECK(refusal(run_lockstep({"study"})) ==
           "study: a SCENE is needed, or one of recall, catalogue, remedies, thesis");
     CHECK(refusal(run_lockstep({"study", scene(), "--catalogue"})) ==
-          "study: --recall-table, --catalogue, --remedies and --thesis have scenes of their own; leave SCENE out");
+          "study: recall, catalogue, remedies and thesis have scenes of their own; leave SCENE out");
     CHECK(refusal(run_lockstep({"study", scene(), "--frames", "1"})) ==
           "study: --frames 1 is the frame with the empty CDT; 2 or more have something to study");
     CHECK(refusal(run_lockstep({"study", scene(), "--set", "search=octree"})) ==
-          "study: search = octree leaves no CDT of particles to study; --thesis has the octree's recall");
+          "study: search = octree leaves no CDT of particles to study; study thesis has the octree's recall");
     CHECK_THAT(refusal(run_lockstep({"study", scene(), "--csv", "/nowhere/a.csv"})), Catch::StartsWith("/nowhere"));
 }
 

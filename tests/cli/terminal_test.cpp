@@ -95,9 +95,10 @@ TEST_CASE("terminal: Ctrl-C ends with a verdict on the frames done so far, marke
     SECTION("agreed so far") {
         const test::Outcome outcome = run_lockstep_on_terminal(check, bar, ctrl_c);
         CHECK(outcome.status == 130);
-        CHECK_THAT(outcome.out,
-                   Catch::Matches("(.|\r|\n)*AGREE \\(partial: stopped after \\d+ of 100000000 frames\\)(, but "
-                                  "nothing collided)?: every bit of (.|\r|\n)*"));
+        CHECK_THAT(
+            outcome.out,
+            Catch::Matches("(.|\r|\n)*AGREE\033\\[0m \\(partial: stopped after \\d+ of 100000000 frames\\)(, but "
+                           "nothing collided)?: every bit of (.|\r|\n)*"));
         CHECK(report()["partial"] == true);
         CHECK(report()["frames_asked"] == 100000000);
     }
@@ -106,8 +107,8 @@ TEST_CASE("terminal: Ctrl-C ends with a verdict on the frames done so far, marke
         check.insert(check.end(), {"--shaders", shaders.path()});
         const test::Outcome outcome = run_lockstep_on_terminal(check, bar, ctrl_c);
         CHECK(outcome.status == 130);
-        CHECK_THAT(outcome.out,
-                   Catch::Contains("DIVERGENT (partial: stopped after ") && Catch::Contains("frames) from frame 0 on"));
+        CHECK_THAT(outcome.out, Catch::Contains("DIVERGENT\033[0m (partial: stopped after ") &&
+                                    Catch::Contains("frames) from frame 0 on"));
         CHECK(report()["partial"] == true);
     }
     SECTION("into a pipe or a file") {

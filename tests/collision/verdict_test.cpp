@@ -108,9 +108,9 @@ TEST_CASE("verdict: a decision that alone explains the state where it is made ot
         Deviation made;
         const char *step, *instead;
     };
-    for (const Case& one : {Case{Deviation::last_found_instead_of_nearest, "nearest", "texel ("},
-                            Case{Deviation::never_collides, "nearest", "none"},
-                            Case{Deviation::own_texel_not_skipped, "nearest", "as by "},
+    for (const Case& one : {Case{Deviation::last_found_instead_of_nearest, "nearest", "took ("},
+                            Case{Deviation::never_collides, "nearest", "took none"},
+                            Case{Deviation::own_texel_not_skipped, "nearest", "computed as with this mistake: "},
                             Case{Deviation::collide_time_not_counted, "collide time", ""}}) {
         Frame frame("corrected");
         const FrameInputs inputs{

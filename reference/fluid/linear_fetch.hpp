@@ -36,12 +36,17 @@ typename R::Real linear_fetch(R& r, At at, const typename R::Vec2& place, const 
         float f;          ///< of the reference's own
         int base;
     };
-    const auto along = [](const Interval& set) {
+    const auto along = [](const Interval& set, double size) {
         const float t = set.as_float() - 0.5F;
         const double free = 0x1p-8 + 1e-5 * (std::abs(set.low) + 0.5);
-        return Axis{set.low - 0.5 - free, set.high - 0.5 + free, t - std::floor(t), static_cast<int>(std::floor(t))};
+        // Beyond the image's edge all texels are alike; a coordinate that is no number may be anywhere.
+        const auto near = [size](double texel, double open) {
+            return std::isnan(texel) ? open : std::clamp(texel, -1.0, size);
+        };
+        return Axis{near(set.low - 0.5 - free, -1.0), near(set.high - 0.5 + free, size), t - std::floor(t),
+                    static_cast<int>(near(std::floor(t), -1.0))};
     };
-    const Axis x = along(item_twin::set_of(place.x)), y = along(item_twin::set_of(place.y));
+    const Axis x = along(item_twin::set_of(place.x), image.width), y = along(item_twin::set_of(place.y), image.height);
     double low = HUGE_VAL, high = -HUGE_VAL, largest = 0.0;
     const auto for_each = [](const Axis& axis, const auto& visit) {
         visit(axis.low);

@@ -25,12 +25,14 @@ fluid::Settings with(fluid::Settings s, const Strings& values) {
 
 TEST_CASE("fluid lanes: every pixel of every pass is that of the twin by itself") {
     const std::string preset = GENERATE("exact", "corrected", "paper");
-    const Strings values = GENERATE(
-        Strings{"filter=gaussian", "filter_shape=full2d"}, Strings{"filter=bilateral"},
-        Strings{"filter=bilateral", "transcendentals=builtin", "filter_constants=published"},
-        Strings{"filter=narrow_range", "depth_value=window"},
-        Strings{"filter=narrow_range", "narrow_cleanup=quadrants", "narrow_weights=texcoord", "depth_value=view"},
-        Strings{"filter=curvature_flow", "scene_fetch=nearest", "depth_value=view", "depth_fetch=texel"});
+    const Strings values =
+        GENERATE(Strings{"filter=gaussian", "filter_shape=full2d"}, Strings{"filter=bilateral"},
+                 Strings{"filter=bilateral", "transcendentals=builtin", "filter_constants=published"},
+                 Strings{"filter=narrow_range", "depth_value=window"},
+                 Strings{"filter=narrow_range", "narrow_cleanup=quadrants", "narrow_weights=texcoord",
+                         "depth_value=view", "depth_format=r32f", "unproject=stored"},
+                 Strings{"filter=curvature_flow", "scene_fetch=nearest", "depth_value=view", "depth_format=r32f",
+                         "unproject=stored", "depth_fetch=texel"});
     CAPTURE(preset, values);
     fluid::Settings s = with(in_preset(heap(4), preset), values);
     s.width = 21; // no multiple of the lanes

@@ -46,7 +46,7 @@ done
 lockstep check --trace run.h5 --json whole.json >whole.txt
 lockstep merge slurm_*.json --json merged.json >merged.txt
 same merged.json "a Slurm array"
-cmp merged.txt whole.txt
+cmp <(grep -v '^written ' merged.txt) <(grep -v '^written ' whole.txt)
 
 # Open MPI
 if command -v mpirun >/dev/null; then

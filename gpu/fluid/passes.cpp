@@ -56,14 +56,15 @@ std::function<Uniforms(int)> uniforms_with(const HostPtr& host, std::string name
     };
 }
 
-void choose(GlPass& pass, std::string_view name, const std::vector<std::string_view>& values, std::size_t chosen) {
+void define_choice(GlPass& pass, std::string_view name, const std::vector<std::string_view>& values,
+                   std::size_t chosen) {
     const ShaderDefines one = choice_defines(name, values, chosen);
     pass.defines.insert(pass.defines.end(), one.begin(), one.end());
 }
 
 /// Where a pass takes its depths from.
 void read_depth(const Switches& on, bool of_spheres, GlPass& pass) {
-    choose(pass, "source", {"depth", "smooth_depth"}, of_spheres ? 0 : 1);
+    define_choice(pass, "source", {"depth", "smooth_depth"}, of_spheres ? 0 : 1);
     if (on.depth_fetch == DepthFetch::linear)
         pass.filters[of_spheres ? depth_image : smooth_depth_image] = GlFilter::linear;
 }
@@ -100,7 +101,7 @@ void add_filter(const HostPtr& host, GlPassList& all) {
     for (const FilterStep& step : host->filter_steps()) {
         GlPass& pass = all.add("depth_filter_pass", Stage::compute, smooth_depth_image);
         pass.uniforms = uniforms_with(host, "blurDir", step.direction);
-        choose(pass, "filter_step", {"along", "plane"}, static_cast<std::size_t>(step.shape));
+        define_choice(pass, "filter_step", {"along", "plane"}, static_cast<std::size_t>(step.shape));
         read_depth(host->switches(), step.of_spheres, pass);
         pass.data["weightBuffer"] = [host](int) {
             return std::vector<float>(host->weights().begin(), host->weights().end());

@@ -3,6 +3,7 @@
 #include <memory>
 #include <string>
 #include <utility>
+#include <vector>
 
 #include <catch2/catch.hpp>
 
@@ -10,6 +11,7 @@
 #include <lockstep/system.hpp>
 
 #include "crosscheck/fluid/system.hpp"
+#include "crosscheck/scene/scene_fields.hpp"
 #include "crosscheck/scene/surface.hpp"
 #include "gpu/fluid/passes.hpp"
 #include "reference/model/fluid/schema.hpp"
@@ -27,6 +29,15 @@ inline fluid::Settings in_preset(fluid::Settings settings, const std::string& na
     settings.shading = fluid::shading_numbers(name);
     settings.arithmetic = name == "exact" ? ArithmeticSwitch::exact : ArithmeticSwitch::plain;
     return settings;
+}
+
+/// Settings with these switches, each as --set has it.
+inline fluid::Settings with(fluid::Settings s, const std::vector<std::string>& values) {
+    std::vector<SwitchValue> all = switch_values(s.switches);
+    for (const std::string& one : values)
+        set_value(one, "fluid", all);
+    take_values(s.switches, all);
+    return s;
 }
 
 /// A heap of drops on a floor, partly behind a ball, among them some that are not seen: beside the image, behind the

@@ -1,7 +1,6 @@
 #include <string>
 #include <vector>
 
-#include "crosscheck/scene/scene_fields.hpp"
 #include "tests/fluid/fluid_run.hpp"
 #include "tests/item_bits.hpp"
 
@@ -12,14 +11,6 @@ namespace fluid = lockstep::fluid;
 namespace {
 
 using Strings = std::vector<std::string>;
-
-fluid::Settings with(fluid::Settings s, const Strings& values) {
-    std::vector<SwitchValue> all = switch_values(s.switches);
-    for (const std::string& one : values)
-        set_value(one, "fluid", all);
-    take_values(s.switches, all);
-    return s;
-}
 
 } // namespace
 

@@ -5,7 +5,6 @@
 
 #include <fmt/ranges.h>
 
-#include "crosscheck/scene/scene_fields.hpp"
 #include "tests/fluid/fluid_run.hpp"
 
 using namespace lockstep;
@@ -15,14 +14,6 @@ namespace fluid = lockstep::fluid;
 namespace {
 
 using Strings = std::vector<std::string>;
-
-fluid::Settings with(fluid::Settings s, const Strings& values) {
-    std::vector<SwitchValue> all = switch_values(s.switches);
-    for (const std::string& one : values)
-        set_value(one, "fluid", all);
-    take_values(s.switches, all);
-    return s;
-}
 
 } // namespace
 

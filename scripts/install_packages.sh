@@ -10,7 +10,7 @@ set -euo pipefail
 fail() { echo "install_packages: $*" >&2; exit 2; }
 
 demo=(
-    g++ cmake ninja-build                         # build; g++ brings OpenMP
+    g++ cmake ninja-build make                    # build; make is what cmake takes for a system of your own; g++ brings OpenMP
     libglm-dev libfmt-dev libcli11-dev            # vectors, text, command line
     nlohmann-json3-dev libpng-dev                 # scenes and reports, pictures
     zlib1g-dev                                    # the report page's data, traces

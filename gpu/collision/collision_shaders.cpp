@@ -19,7 +19,8 @@ const std::vector<Stage> compute_alone{Stage::compute};
 
 void add_listing(const Switches& switches, std::vector<PassStages>& passes) {
     if (switches.step == Step::compute)
-        passes.insert(passes.end(), {{"collision_pass", compute_alone},
+        passes.insert(passes.end(), {{"clear_nearest", compute_alone},
+                                     {"collision_pass", compute_alone},
                                      {"nearest_particle", compute_alone},
                                      {"collision_texels", no_geometry}});
     else

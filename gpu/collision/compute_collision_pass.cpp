@@ -18,8 +18,6 @@
 namespace lockstep {
 namespace {
 
-constexpr GLuint nobody = 0xffffffffU;
-
 void check_room(const Scene& scene) {
     if (!gl::offers(4, 3))
         throw Error("collision_pass: step = compute needs compute shaders and storage buffers, GL 4.3; this context is "
@@ -57,8 +55,8 @@ void allocate(const GlBuffer& buffer, std::size_t words) {
                    nullptr, GL_DYNAMIC_COPY);
 }
 
-void dispatch(const Program& program, std::size_t particles, std::size_t group) {
-    dispatch_particles(program, particles, group);
+void dispatch(const Program& program, std::size_t invocations, std::size_t group) {
+    dispatch_particles(program, invocations, group);
     gl::MemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT);
 }
 
@@ -70,15 +68,18 @@ BoundStorage bind_particles(const Program& program) {
 }
 
 ComputeCollisionPass::ComputeCollisionPass(const Scene& scene, const std::filesystem::path& shaders)
-    : step_(link_compute(scene, shaders, "collision_pass")), nearest_(link_compute(scene, shaders, "nearest_particle")),
-      draw_(link_draw(scene, shaders)), bound_(bind_particles(step_)), nearest_bound_(bind_particles(nearest_)),
-      step_group_(group_size(step_, scene.start.size())), nearest_group_(group_size(nearest_, scene.start.size())),
+    : clear_(link_compute(scene, shaders, "clear_nearest")), step_(link_compute(scene, shaders, "collision_pass")),
+      nearest_(link_compute(scene, shaders, "nearest_particle")), draw_(link_draw(scene, shaders)),
+      bound_(bind_particles(step_)), nearest_bound_(bind_particles(nearest_)),
+      texels_(static_cast<std::size_t>(scene.width) * static_cast<std::size_t>(scene.height)),
+      clear_group_(group_size(clear_, texels_)), step_group_(group_size(step_, scene.start.size())),
+      nearest_group_(group_size(nearest_, scene.start.size())),
       has_offers_(step_.uses_storage(offers_binding)) {
     if (bound_.only_reads() && !step_.uses_storage(after_binding))
         throw Error(fmt::format("{}: /storage_blocks: no block has the state after the pass; right is After, or its "
                                 "fields by member, After.position, ...",
                                 step_.bindings()->file));
-    allocate(nearest_particles_, 2 * static_cast<std::size_t>(scene.width) * static_cast<std::size_t>(scene.height));
+    allocate(nearest_particles_, 2 * texels_);
     if (has_offers_)
         allocate(offers_, 2 * scene.start.size());
     check_gl("collision_pass");
@@ -86,12 +87,12 @@ ComputeCollisionPass::ComputeCollisionPass(const Scene& scene, const std::filesy
 
 void ComputeCollisionPass::run(const FrameParams& params, const ParticleBuffer& from, ParticleBuffer& to,
                                const CollisionTexture& cdt, CollisionTexture& target, PassTimer& timer) {
-    gl::BindBuffer(GL_SHADER_STORAGE_BUFFER, nearest_particles_.id());
-    gl::ClearBufferData(GL_SHADER_STORAGE_BUFFER, GL_R32UI, GL_RED_INTEGER, GL_UNSIGNED_INT, &nobody);
     gl::BindBufferBase(GL_SHADER_STORAGE_BUFFER, before_binding, from.id());
     gl::BindBufferBase(GL_SHADER_STORAGE_BUFFER, after_binding, to.id());
     gl::BindBufferBase(GL_SHADER_STORAGE_BUFFER, nearest_binding, nearest_particles_.id());
     gl::BindBufferBase(GL_SHADER_STORAGE_BUFFER, offers_binding, has_offers_ ? offers_.id() : 0);
+    dispatch(clear_, texels_, clear_group_);
+    timer.mark("clear_nearest");
     step(params, from, to, cdt, timer);
     draw(params, from.size(), target);
     timer.mark("collision_texels");

@@ -23,7 +23,8 @@ enum StorageBinding : GLuint {
 /// bind_storage of a linked compute stage, whose blocks are Before, After, Nearest and Offers.
 BoundStorage bind_particles(const Program& program);
 
-/// The collision pass in compute stages (switch step = compute): shaders/collision/collision_pass.comp steps the
+/// The collision pass in compute stages (switch step = compute): shaders/collision/clear_nearest.comp empties the
+/// texels (a driver's own clear of the buffer takes ten times as long; docs/speed.md), collision_pass.comp steps the
 /// particles and offers each to its texel, nearest_particle.comp finds the lowest index among the nearest where that
 /// takes a pass of its own, and collision_texels.* draws the texels. Twin of reference/collision/collision_pass.hpp.
 class ComputeCollisionPass {
@@ -41,9 +42,10 @@ class ComputeCollisionPass {
               const CollisionTexture& cdt, PassTimer& timer);
     void draw(const FrameParams& params, std::size_t particles, CollisionTexture& target);
 
-    Program step_, nearest_, draw_;
+    Program clear_, step_, nearest_, draw_;
     BoundStorage bound_, nearest_bound_;
-    std::size_t step_group_, nearest_group_; ///< invocations
+    std::size_t texels_;
+    std::size_t clear_group_, step_group_, nearest_group_; ///< invocations
     bool has_offers_;                        ///< step_ leaves the lowest index to nearest_
     GlBuffer nearest_particles_, offers_;
     GlVertexArray no_attributes_;

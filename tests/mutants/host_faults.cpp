@@ -59,6 +59,13 @@ bool in_collision_pass() {
     return program != 0 && state.real.GetUniformLocation(static_cast<GLuint>(program), "u_CDTexture") >= 0;
 }
 
+/// Whether the program in use makes one invocation a particle.
+bool counts_particles() {
+    GLint program = 0;
+    state.real.GetIntegerv(GL_CURRENT_PROGRAM, &program);
+    return program != 0 && state.real.GetUniformLocation(static_cast<GLuint>(program), "u_ParticleCount") >= 0;
+}
+
 /// Whether the program of a pass that steps particles is in use, whichever search it makes.
 bool in_step() {
     GLint program = 0;
@@ -585,7 +592,13 @@ const Fault faults[] = {
      [] { gl::DispatchCompute = [](GLuint x, GLuint y, GLuint z) { state.real.DispatchCompute(x - 1, y, z); }; }},
     {"one_group_more",
      [] { gl::DispatchCompute = [](GLuint x, GLuint y, GLuint z) { state.real.DispatchCompute(x + 1, y, z); }; }},
-    {"nearest_not_cleared", [] { gl::ClearBufferData = [](GLenum, GLenum, GLenum, GLenum, const void*) {}; }},
+    {"nearest_not_cleared",
+     [] {
+         gl::DispatchCompute = [](GLuint x, GLuint y, GLuint z) {
+             if (counts_particles())
+                 state.real.DispatchCompute(x, y, z);
+         };
+     }},
     {"nearest_before_step",
      [] {
          gl::DispatchCompute = hold_step_back;

@@ -32,6 +32,67 @@ template <class Byte, class Work> void with_mapped(const RecordBuffer& buffer, G
         throw Error(fmt::format("{} buffer: its contents were lost while mapped", item));
 }
 
+/// Memory of the host that the GPU copies a slice into, while another slice is worked on. Where it is mapped itself, a
+/// driver keeps a buffer in the host's memory from then on, and kernels work across the bus.
+class StagedSlice {
+  public:
+    explicit StagedSlice(std::size_t bytes) {
+        constexpr GLbitfield access = GL_MAP_READ_BIT | GL_MAP_PERSISTENT_BIT | GL_MAP_COHERENT_BIT;
+        gl::BindBuffer(GL_COPY_WRITE_BUFFER, buffer_.id());
+        gl::BufferStorage(GL_COPY_WRITE_BUFFER, static_cast<GLsizeiptr>(bytes), nullptr,
+                          access | GL_CLIENT_STORAGE_BIT);
+        memory_ = static_cast<const std::byte*>(
+            gl::MapBufferRange(GL_COPY_WRITE_BUFFER, 0, static_cast<GLsizeiptr>(bytes), access));
+    }
+    [[nodiscard]] bool is_mapped() const { return memory_ != nullptr; }
+
+    /// Begins to copy `bytes` of a buffer, from byte `from` on.
+    void begin(const RecordBuffer& buffer, std::size_t from, std::size_t bytes) {
+        gl::BindBuffer(GL_COPY_READ_BUFFER, buffer.id());
+        gl::BindBuffer(GL_COPY_WRITE_BUFFER, buffer_.id());
+        gl::CopyBufferSubData(GL_COPY_READ_BUFFER, GL_COPY_WRITE_BUFFER, static_cast<GLintptr>(from), 0,
+                              static_cast<GLsizeiptr>(bytes));
+        copied_ = gl::FenceSync(GL_SYNC_GPU_COMMANDS_COMPLETE, 0);
+        gl::Flush();
+    }
+    /// What was copied; waits for it.
+    const std::byte* end() {
+        while (gl::ClientWaitSync(copied_, GL_SYNC_FLUSH_COMMANDS_BIT, 1'000'000'000) == GL_TIMEOUT_EXPIRED) {}
+        gl::DeleteSync(copied_);
+        return memory_;
+    }
+
+  private:
+    GlBuffer buffer_;
+    const std::byte* memory_ = nullptr;
+    GLsync copied_ = nullptr;
+};
+
+constexpr std::size_t staged_bytes = std::size_t{8} << 20U; ///< of a slice that is read
+
+/// Calls `work(memory, first record, records)` with the buffer's memory, a slice after the other.
+template <class Work> void with_slices(const RecordBuffer& buffer, const Work& work) {
+    const std::size_t bytes = buffer.layout().bytes(), slice = std::max<std::size_t>(1, staged_bytes / bytes);
+    if (buffer.size() > 2 * slice && gl::BufferStorage != nullptr) {
+        std::array<StagedSlice, 2> staged{StagedSlice(slice * bytes), StagedSlice(slice * bytes)};
+        if (staged[0].is_mapped() && staged[1].is_mapped()) {
+            const auto count = [&](std::size_t first) { return std::min(slice, buffer.size() - first); };
+            const auto begin = [&](std::size_t first) {
+                if (first < buffer.size())
+                    staged[first / slice % 2].begin(buffer, first * bytes, count(first) * bytes);
+            };
+            begin(0);
+            for (std::size_t first = 0; first < buffer.size(); first += slice) {
+                begin(first + slice);
+                work(staged[first / slice % 2].end(), first, count(first));
+            }
+            return;
+        }
+    }
+    with_mapped<const std::byte>(buffer, GL_MAP_READ_BIT,
+                                 [&](const std::byte* records) { work(records, 0, buffer.size()); });
+}
+
 /// The same of several, read only: `work` gets the memory of each.
 template <class Work> void with_all_mapped(std::span<const RecordBuffer* const> buffers, const Work& work,
                                            std::vector<const std::byte*> memory = {}) {
@@ -43,8 +104,6 @@ template <class Work> void with_all_mapped(std::span<const RecordBuffer* const> 
         with_all_mapped(buffers, work, std::move(more));
     });
 }
-
-constexpr GLbitfield overwrite = GL_MAP_WRITE_BIT | GL_MAP_INVALIDATE_BUFFER_BIT;
 
 constexpr std::size_t word = sizeof(std::uint32_t);
 constexpr std::size_t slice_bytes = std::size_t{16} << 20U; ///< of an upload at once
@@ -179,7 +238,7 @@ void RecordBuffer::upload(const View& state) {
     assert(state.count() == count_);
     if (count_ == 0)
         return;
-    // Not mapped: a driver keeps in the host's memory what was, and kernels then work across the bus.
+    // Not mapped, like a slice that is read.
     const std::size_t slice = std::clamp<std::size_t>(slice_bytes / layout_->bytes(), 1, count_);
     std::vector<std::byte> records(slice * layout_->bytes());
     gl::BindBuffer(GL_COPY_READ_BUFFER, buffer_.id());
@@ -199,10 +258,10 @@ void RecordBuffer::read(const WritableView& state) const {
     assert(state.count() == count_);
     if (count_ == 0)
         return;
-    with_mapped<const std::byte>(*this, GL_MAP_READ_BIT, [&](const std::byte* records) {
-        in_blocks(*layout_, count_, [&](Block& block, std::size_t first, std::size_t count) {
+    with_slices(*this, [&](const std::byte* records, std::size_t from, std::size_t some) {
+        in_blocks(*layout_, some, [&](Block& block, std::size_t first, std::size_t count) {
             std::memcpy(block.records(), records + first * layout_->bytes(), count * layout_->bytes());
-            block.scatter(state, first, count);
+            block.scatter(state, from + first, count);
         });
     });
 }
@@ -212,9 +271,9 @@ bool RecordBuffer::holds(const View& state) const {
     std::atomic<bool> same = true;
     if (count_ == 0)
         return same;
-    with_mapped<const std::byte>(*this, GL_MAP_READ_BIT, [&](const std::byte* records) {
-        in_blocks(*layout_, count_, [&](Block& block, std::size_t first, std::size_t count) {
-            block.gather(state, first, count);
+    with_slices(*this, [&](const std::byte* records, std::size_t from, std::size_t some) {
+        in_blocks(*layout_, some, [&](Block& block, std::size_t first, std::size_t count) {
+            block.gather(state, from + first, count);
             if (std::memcmp(records + first * layout_->bytes(), block.records(), count * layout_->bytes()) != 0)
                 same = false;
         });
@@ -266,10 +325,12 @@ bool hold_numbers(std::span<const RecordBuffer* const> buffers, const View& stat
 }
 
 void RecordBuffer::fill(std::uint32_t pattern) {
-    if (count_ == 0)
-        return;
-    with_mapped<std::uint32_t>(
-        *this, overwrite, [&](std::uint32_t* words) { std::fill_n(words, count_ * layout_->bytes() / word, pattern); });
+    const std::size_t bytes = count_ * layout_->bytes();
+    const std::vector<std::uint32_t> words(std::min(bytes, slice_bytes) / word, pattern);
+    gl::BindBuffer(GL_COPY_READ_BUFFER, buffer_.id());
+    for (std::size_t from = 0; from < bytes; from += slice_bytes)
+        gl::BufferSubData(GL_COPY_READ_BUFFER, static_cast<GLintptr>(from),
+                          static_cast<GLsizeiptr>(std::min(slice_bytes, bytes - from)), words.data());
 }
 
 void RecordBuffer::copy(const RecordBuffer& other) {
@@ -291,26 +352,17 @@ bool RecordBuffer::spare_holds(std::uint32_t pattern) const {
     if (spare_ == 0)
         return true;
     gl::BindBuffer(GL_COPY_READ_BUFFER, id());
-    const auto* const words = static_cast<const std::uint32_t*>(
-        gl::MapBufferRange(GL_COPY_READ_BUFFER, static_cast<GLintptr>(count_ * layout_->bytes()),
-                           static_cast<GLsizeiptr>(spare_ * layout_->bytes()), GL_MAP_READ_BIT));
-    if (words == nullptr)
-        throw Error(fmt::format("{} buffer: GL cannot map it", layout_->about().item));
-    const std::size_t count = spare_ * layout_->bytes() / word;
-    const bool same = std::all_of(words, words + count, [&](std::uint32_t one) { return one == pattern; });
-    gl::UnmapBuffer(GL_COPY_READ_BUFFER);
-    return same;
+    std::vector<std::uint32_t> words(spare_ * layout_->bytes() / word);
+    gl::GetBufferSubData(GL_COPY_READ_BUFFER, static_cast<GLintptr>(count_ * layout_->bytes()),
+                         static_cast<GLsizeiptr>(words.size() * word), words.data());
+    return std::all_of(words.begin(), words.end(), [&](std::uint32_t one) { return one == pattern; });
 }
 
 std::array<std::uint32_t, 3> RecordBuffer::three_words(std::size_t place) const {
     std::array<std::uint32_t, 3> words{};
     gl::BindBuffer(GL_COPY_READ_BUFFER, buffer_.id());
-    const void* memory = gl::MapBufferRange(GL_COPY_READ_BUFFER, static_cast<GLintptr>(place),
-                                            static_cast<GLsizeiptr>(sizeof words), GL_MAP_READ_BIT);
-    if (memory == nullptr)
-        throw Error(fmt::format("{} buffer: GL cannot map it", layout_->about().item));
-    std::memcpy(words.data(), memory, sizeof words);
-    gl::UnmapBuffer(GL_COPY_READ_BUFFER);
+    gl::GetBufferSubData(GL_COPY_READ_BUFFER, static_cast<GLintptr>(place), static_cast<GLsizeiptr>(sizeof words),
+                         words.data());
     return words;
 }
 

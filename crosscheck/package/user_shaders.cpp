@@ -32,6 +32,7 @@ SideDescription UserShaders::describe() const {
 
 void UserShaders::upload(const Particles& particles, const CollisionImage& cdt) { simulation_->upload(particles, cdt); }
 void UserShaders::step(const FrameParams& params) { simulation_->step(params); }
+void UserShaders::begin_step(const FrameParams& params) { simulation_->begin_step(params); }
 void UserShaders::read(Particles& particles) const { simulation_->read(particles); }
 void UserShaders::read(CollisionImage& cdt) const { simulation_->read(cdt); }
 bool UserShaders::repeats() const { return simulation_->repeats(); }

@@ -24,6 +24,10 @@ class GpuSide {
     /// One frame. Returns when it is done.
     virtual void step(const FrameParams& params) = 0;
 
+    /// Announces the next step(), so that it can run while the caller works on what it has read. Here it does nothing.
+    /// Until that step() only read() is called, for the state after the last one, or upload(), which calls it off.
+    virtual void begin_step(const FrameParams& /*params*/) {}
+
     /// The state after the last frame; `cdt` as stored codes, row 0 at the bottom.
     virtual void read(Particles& particles) const = 0;
     virtual void read(CollisionImage& cdt) const = 0;

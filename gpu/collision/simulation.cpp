@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <bit>
+#include <utility>
 
 #include <fmt/format.h>
 
@@ -74,6 +75,7 @@ std::optional<GpuSimulation::Layered> GpuSimulation::layered(const Scene& scene,
 }
 
 void GpuSimulation::upload(const Particles& particles, const CollisionImage& cdt) {
+    begun_ = false;
     particles_[current_].upload(particles);
     if (layered_)
         layered_->cdts[current_].upload(cdt);
@@ -82,19 +84,31 @@ void GpuSimulation::upload(const Particles& particles, const CollisionImage& cdt
 }
 
 void GpuSimulation::step(const FrameParams& params) {
-    run_frame(params, current_, 1 - current_);
+    if (!std::exchange(begun_, false))
+        begin_frame(params, current_, 1 - current_);
+    end_frame();
     current_ = 1 - current_;
 }
 
-void GpuSimulation::repeat_step(const FrameParams& params) { run_frame(params, 1 - current_, current_); }
+void GpuSimulation::begin_step(const FrameParams& params) {
+    begin_frame(params, current_, 1 - current_);
+    begun_ = true;
+    gl::Flush();
+}
 
-void GpuSimulation::run_frame(const FrameParams& params, std::size_t from, std::size_t to) {
+void GpuSimulation::repeat_step(const FrameParams& params) {
+    begin_frame(params, 1 - current_, current_);
+    end_frame();
+}
+
+void GpuSimulation::begin_frame(const FrameParams& params, std::size_t from, std::size_t to) {
     if (octree_pass_)
         octree_pass_->refresh(particles_[from]);
-    {
-        const RunningTimer timing(timer_);
-        run_passes(params, from, to);
-    }
+    const RunningTimer timing(timer_);
+    run_passes(params, from, to);
+}
+
+void GpuSimulation::end_frame() {
     gl::Finish();
     frame_seconds_ = seconds_of(timer_);
     verify_written();

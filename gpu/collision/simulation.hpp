@@ -35,6 +35,7 @@ class GpuSimulation final : public GpuSide {
     /// two passes and a CDT that stays empty; with search = depth the depth pass and a CDT of obstacles' depth. Returns
     /// when the GPU is done.
     void step(const FrameParams& params) override;
+    void begin_step(const FrameParams& params) override;
 
     [[nodiscard]] bool repeats() const override { return true; }
     void repeat_step(const FrameParams& params) override;
@@ -71,7 +72,8 @@ class GpuSimulation final : public GpuSide {
     };
     static std::optional<Layered> layered(const Scene& scene, const std::filesystem::path& shaders);
 
-    void run_frame(const FrameParams& params, std::size_t from, std::size_t to);
+    void begin_frame(const FrameParams& params, std::size_t from, std::size_t to);
+    void end_frame();
     void run_passes(const FrameParams& params, std::size_t from, std::size_t to);
     void run_layered(const FrameParams& params, std::size_t from, std::size_t to);
     void verify_written() const;
@@ -92,6 +94,7 @@ class GpuSimulation final : public GpuSide {
     GlQuery timer_;
     PassTimer pass_timer_;
     double frame_seconds_ = 0.0;
+    bool begun_ = false; ///< the next step's commands were given
     std::size_t current_ = 0; ///< which of the two the next frame starts from
 };
 

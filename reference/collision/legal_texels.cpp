@@ -415,34 +415,49 @@ std::vector<Tie> LegalTexel::ties(const TexelOwner& owner) const {
     return ties;
 }
 
-std::vector<LegalTexel> legal_texels(const Mesh& obstacles, const Particles& before, const Particles& after,
-                                     const FrameParams& params, const Profile& profile, const KnownOperations& known,
+std::span<const glm::vec3> DrawnFrame::points() const {
+    return params.switches.raster_position == RasterPosition::updated ? after.position : before.position;
+}
+
+std::span<const std::int32_t> DrawnFrame::texels_of_points(bool flush) const {
+    if (found_flush != flush) {
+        const FlushSubnormals guard(flush);
+        point_texels_fast(points(), params, profile, found_texels);
+        found_flush = flush;
+    }
+    return found_texels;
+}
+
+std::vector<LegalTexel> legal_texels(const DrawnFrame& frame, const KnownOperations& known,
                                      std::span<const std::size_t> texels) {
-    const FlushSubnormals guard(known.subnormals && profile.flush_subnormals);
-    const auto& positions =
-        params.switches.raster_position == RasterPosition::updated ? after.position : before.position;
+    const FrameParams& params = frame.params;
+    const Profile& profile = frame.profile;
+    const bool flush = known.subnormals && profile.flush_subnormals;
+    const FlushSubnormals guard(flush);
+    const auto positions = frame.points();
     std::vector<std::vector<TexelOwner>> candidates =
         with_arithmetic(profile, params.switches.arithmetic, [&](auto fp) {
             Candidates all(fp, params, profile, known, texels);
+            const Mesh& obstacles = frame.obstacles;
             if (params.switches.obstacles_in_cdt == ObstaclesInCdt::triangles)
                 all.add_triangles(obstacles);
-            std::vector<std::int32_t> drawn;
             if (params.switches.obstacles_in_cdt == ObstaclesInCdt::vertices) {
+                std::vector<std::int32_t> drawn;
                 point_texels_fast(obstacles.positions, drawn_by_rasteriser(params), profile, drawn);
                 all.add_points(drawn, [&](std::size_t i, Found& found) {
                     all.add_point(TexelOwner::Kind::obstacle, i, obstacles.positions[i], obstacles.positions[i], found);
                 });
             }
-            point_texels_fast(positions, params, profile, drawn);
+            const auto drawn = frame.texels_of_points(flush);
             if (params.switches.step == Step::compute) {
                 const bool subnormals = known_in_step(params.switches, known, profile).subnormals;
                 const FlushSubnormals in_step = flush_in_step(params.switches, profile, subnormals);
                 all.add_points(drawn, [&](std::size_t i, Found& found) {
-                    all.add_placed_point(i, positions[i], after.position[i], found);
+                    all.add_placed_point(i, positions[i], frame.after.position[i], found);
                 });
             } else {
                 all.add_points(drawn, [&](std::size_t i, Found& found) {
-                    all.add_point(TexelOwner::Kind::particle, i, positions[i], after.position[i], found);
+                    all.add_point(TexelOwner::Kind::particle, i, positions[i], frame.after.position[i], found);
                 });
             }
             return all.take();
@@ -452,6 +467,12 @@ std::vector<LegalTexel> legal_texels(const Mesh& obstacles, const Particles& bef
     for (std::vector<TexelOwner>& of_texel : candidates)
         legal.push_back(settle(of_texel, known.points || known.raster.equal_depth));
     return legal;
+}
+
+std::vector<LegalTexel> legal_texels(const Mesh& obstacles, const Particles& before, const Particles& after,
+                                     const FrameParams& params, const Profile& profile, const KnownOperations& known,
+                                     std::span<const std::size_t> texels) {
+    return legal_texels(DrawnFrame{obstacles, before, after, params, profile}, known, texels);
 }
 
 } // namespace lockstep

@@ -55,12 +55,32 @@ struct LegalTexel {
     [[nodiscard]] std::vector<Tie> ties(const TexelOwner& owner) const;
 };
 
+/// A frame in which texels are asked for, more than once. Refers to the run's own data.
+struct DrawnFrame {
+    const Mesh& obstacles;
+    const Particles& before;
+    const Particles& after;
+    const FrameParams& params;
+    const Profile& profile;
+
+    /// Positions that are drawn: the switch raster_position.
+    [[nodiscard]] std::span<const glm::vec3> points() const;
+    /// Where the reference draws each of them, no_texel: nowhere; in the subnormal mode `flush`. Found when it is first
+    /// asked for.
+    [[nodiscard]] std::span<const std::int32_t> texels_of_points(bool flush) const;
+
+    mutable std::vector<std::int32_t> found_texels = {};
+    mutable std::optional<bool> found_flush = {}; ///< the mode that they were found in
+};
+
 /// For each of `texels` (indices into the CDT), who may own it after `after` was drawn over the obstacles: points whose
 /// window position may fall there, triangles whose sides pass the texel's centre, depths that rounding can swap.
 /// Each rule that is known (KnownRaster) is the reference's. Of the others: a window coordinate is what operations give
 /// that are accurate to 1 part in 10^5 (GL 4.5, 2.3.4.1), or as GLSL's are where that was measured; a grid that is not
 /// known moves it by up to one step, which is at most 1/16 pixel (SUBPIXEL_BITS, table 23.53); what lies on a pixel's
 /// edge may belong to either side.
+std::vector<LegalTexel> legal_texels(const DrawnFrame& frame, const KnownOperations& known,
+                                     std::span<const std::size_t> texels);
 std::vector<LegalTexel> legal_texels(const Mesh& obstacles, const Particles& before, const Particles& after,
                                      const FrameParams& params, const Profile& profile, const KnownOperations& known,
                                      std::span<const std::size_t> texels);

@@ -252,10 +252,12 @@ CheckReport judge_frames(const Scene& scene, const Profile& profile, GpuSide& gp
             fmt::format("{}: --mode free runs from the start: a later frame follows from all before it", scene.name));
     RunJudge judge(scene, profile, options.known.value_or(measured_operations(profile)), has_cdt, options.causes);
     gpu.upload(before.particles, before.cdt);
+    const auto repeats = [&](int frame) { return frame < options.repeated_frames && gpu.repeats(); };
+    double begun = 0.0; // seconds that beginning the next frame took
 
     for (int frame = 0; frame < options.frames && !(options.stop != nullptr && *options.stop); ++frame) {
         const FrameParams params = frame_params(scene, frame);
-        const bool repeat = frame < options.repeated_frames && gpu.repeats();
+        const bool repeat = repeats(frame);
         if (!repeat && !wanted.needs(frame)) {
             gpu.step(params);
             continue;
@@ -267,6 +269,7 @@ CheckReport judge_frames(const Scene& scene, const Profile& profile, GpuSide& gp
         AbsentParticles absent_before, absent_after;
         absent_before.hide(before.particles, present);
         FrameTimes times;
+        times.gpu = std::exchange(begun, 0.0);
         if (repeat)
             gpu.lay_canary();
         {
@@ -289,6 +292,10 @@ CheckReport judge_frames(const Scene& scene, const Profile& profile, GpuSide& gp
                 report.frames = std::max(frame + 1 - options.first, 1);
                 return report;
             }
+        }
+        if (frame + 1 < options.frames && !repeats(frame + 1)) {
+            const Stopwatch watch(begun);
+            gpu.begin_step(frame_params(scene, frame + 1));
         }
         const auto go_on = [&] {
             std::swap(earlier, before);

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <optional>
 #include <set>
 #include <unordered_map>
 
@@ -121,7 +122,7 @@ bool is_conserved(std::size_t particle, const Wanderer& wanderer, const std::map
 }
 
 /// Each texel by itself may be legal where a point was dropped at the edge of a pixel, or drawn on both sides.
-void convict_lost_points(const JudgedFrame& frame, const std::vector<LegalTexel>& legal,
+void convict_lost_points(const JudgedFrame& frame, const DrawnFrame& drawn, const std::vector<LegalTexel>& legal,
                          std::vector<ItemVerdict>& verdicts) {
     const std::map<std::size_t, Wanderer> points = wanderers(legal, frame.gpu_cdt);
     std::set<std::size_t> wanted;
@@ -130,8 +131,7 @@ void convict_lost_points(const JudgedFrame& frame, const std::vector<LegalTexel>
     if (wanted.empty())
         return;
     const std::vector<std::size_t> texels(wanted.begin(), wanted.end());
-    const auto around =
-        legal_texels(frame.obstacles, frame.before, frame.gpu, frame.params, frame.profile, frame.known, texels);
+    const auto around = legal_texels(drawn, frame.known, texels);
     std::map<std::size_t, LegalTexel> by_texel;
     for (std::size_t i = 0; i < texels.size(); ++i)
         by_texel.emplace(texels[i], around[i]);
@@ -173,7 +173,7 @@ std::optional<Lean> lean_of(const LegalTexel& widest, glm::vec4 gpu) {
 }
 
 /// Tells of ties and divergent texels which way things are shifted, if they are.
-void add_leans(const JudgedFrame& frame, std::vector<ItemVerdict>& verdicts) {
+void add_leans(const JudgedFrame& frame, const DrawnFrame& drawn, std::vector<ItemVerdict>& verdicts) {
     std::vector<std::size_t> texels;
     for (const ItemVerdict& verdict : verdicts)
         if (verdict.kind == DifferenceClass::divergent || verdict.kind == DifferenceClass::tie)
@@ -184,7 +184,7 @@ void add_leans(const JudgedFrame& frame, std::vector<ItemVerdict>& verdicts) {
         KnownOperations known = frame.known;
         known.points = false;
         known.raster = raster;
-        return legal_texels(frame.obstacles, frame.before, frame.gpu, frame.params, frame.profile, known, texels);
+        return legal_texels(drawn, known, texels);
     };
     const std::vector<LegalTexel> widest = legal_if({});
     KnownRaster accurate = KnownRaster::all();
@@ -211,12 +211,14 @@ std::vector<ItemVerdict> judge_texels(const JudgedFrame& frame, const std::vecto
     std::vector<ItemVerdict> verdicts;
     if (differing.empty())
         return verdicts;
-    const CollisionImage expected = redraw(frame);
+    std::optional<CollisionImage> expected; // where no particle differs there is nothing to inherit
     const ClassesByTexel classes(frame, particles);
     std::vector<std::size_t> unexplained;
     for (const std::size_t texel : differing) {
         const ItemVerdict* cause = classes.worst(texel);
-        if (cause == nullptr || !same_bits(expected.texels[texel], frame.gpu_cdt.texels[texel])) {
+        if (cause != nullptr && !expected)
+            expected = redraw(frame);
+        if (cause == nullptr || !same_bits(expected->texels[texel], frame.gpu_cdt.texels[texel])) {
             unexplained.push_back(texel);
             continue;
         }
@@ -226,13 +228,13 @@ std::vector<ItemVerdict> judge_texels(const JudgedFrame& frame, const std::vecto
         inherited.follows_particle = true;
         verdicts.push_back(inherited);
     }
-    const auto legal =
-        legal_texels(frame.obstacles, frame.before, frame.gpu, frame.params, frame.profile, frame.known, unexplained);
+    const DrawnFrame drawn{frame.obstacles, frame.before, frame.gpu, frame.params, frame.profile};
+    const auto legal = legal_texels(drawn, frame.known, unexplained);
     std::vector<ItemVerdict> judged;
     for (std::size_t i = 0; i < unexplained.size(); ++i)
         judged.push_back(judge_texel(unexplained[i], legal[i], frame.gpu_cdt.texels[unexplained[i]]));
-    convict_lost_points(frame, legal, judged);
-    add_leans(frame, judged);
+    convict_lost_points(frame, drawn, legal, judged);
+    add_leans(frame, drawn, judged);
     verdicts.insert(verdicts.end(), judged.begin(), judged.end());
     std::sort(verdicts.begin(), verdicts.end(),
               [](const ItemVerdict& a, const ItemVerdict& b) { return a.index < b.index; });

@@ -88,6 +88,7 @@ class UserShaders : public GpuSide {
     [[nodiscard]] SideDescription describe() const override;
     void upload(const Particles& particles, const CollisionImage& cdt) override;
     void step(const FrameParams& params) override;
+    void begin_step(const FrameParams& params) override;
     void read(Particles& particles) const override;
     void read(CollisionImage& cdt) const override;
     [[nodiscard]] bool repeats() const override;

@@ -44,7 +44,8 @@ template <class Work> void with_all_mapped(std::span<const RecordBuffer* const> 
     });
 }
 
-constexpr GLbitfield overwrite = GL_MAP_WRITE_BIT | GL_MAP_INVALIDATE_BUFFER_BIT;
+// Of the range alone: what is spare lies behind it, and a driver may give an invalidated buffer new memory.
+constexpr GLbitfield overwrite = GL_MAP_WRITE_BIT | GL_MAP_INVALIDATE_RANGE_BIT;
 
 constexpr std::size_t word = sizeof(std::uint32_t);
 constexpr std::size_t slice_bytes = std::size_t{16} << 20U; ///< of an upload at once

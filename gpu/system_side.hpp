@@ -33,7 +33,7 @@ class SystemSide {
     /// that is known by reading it alone.
     [[nodiscard]] virtual std::optional<bool> holds(const View& /*state*/) const { return {}; }
 
-    /// The buffers and images that a pass can write, whatever its shader does: those that are bound to it. Nothing: any.
+    /// The buffers and images that a pass can write, whatever its shader does: what is bound to it. Nothing: any.
     [[nodiscard]] virtual std::optional<std::vector<std::uint8_t>> reached_by(std::size_t /*pass*/) const { return {}; }
 
     [[nodiscard]] virtual SideDescription describe() const { return {}; }

@@ -801,6 +801,17 @@ std::optional<bool> GlSystem::holds(const View& state) const {
     return hold_numbers(buffers, state);
 }
 
+std::optional<std::vector<std::uint8_t>> GlSystem::reached_by(std::size_t pass) const {
+    const std::optional<Parts::Linked>& linked = parts_->passes.at(pass);
+    if (!linked || linked->program.bindings() != nullptr) // blocks of other names
+        return {};
+    std::vector<std::uint8_t> reached = linked->resources;
+    for (const Bound& bound : linked->bound)
+        if (bound.kind != Bound::Kind::data)
+            reached.push_back(parts_->storages[bound.storage].layout.resource);
+    return reached;
+}
+
 std::vector<CapturedVertex> GlSystem::trace(std::size_t pass, int frame, std::size_t item) {
     if (parts_->running(pass, frame) == nullptr || parts_->passes[pass]->pass.stage != Stage::vertex ||
         parts_->passes[pass]->pass.instances_of || parts_->passes[pass]->pass.draw)

@@ -1,5 +1,6 @@
 #pragma once
 #include <cstddef>
+#include <cstdint>
 #include <optional>
 #include <vector>
 
@@ -31,6 +32,9 @@ class SystemSide {
     /// Whether a buffer or image is after the last pass what `state` says, to the last bit, and has no NaN. Nothing:
     /// that is known by reading it alone.
     [[nodiscard]] virtual std::optional<bool> holds(const View& /*state*/) const { return {}; }
+
+    /// The buffers and images that a pass can write, whatever its shader does: what is bound to it. Nothing: any.
+    [[nodiscard]] virtual std::optional<std::vector<std::uint8_t>> reached_by(std::size_t /*pass*/) const { return {}; }
 
     [[nodiscard]] virtual SideDescription describe() const { return {}; }
 

@@ -8,11 +8,13 @@ source's (docs/lifecycle.md), and whether both sides, run free, come to one hash
   forces      curl noise, and exact beside plain arithmetic
   hashes      preset exact, free: layouts and scenes, as many particles alive as asked for
 Usage: scripts/lifecycle_tables.py LOCKSTEP OUT [--gl KIND] [--parts ladder,...] [--particles N,...] [--ribbons N,...]
-           [--frames N] [--alive N] [--hash-frames N] [--layouts L,...] [--seconds N] [--jobs N] [--twins]
-           [--render WxH] [--scenes DIR] [--commit NAME]
+           [--frames N] [--alive N] [--hash-frames N] [--layouts L,...] [--hashes NAME,...] [--seconds N] [--jobs N]
+           [--threads N] [--twins] [--render WxH] [--scenes DIR] [--commit NAME]
   --particles  of ladder; the other tables have the first of them
   --layouts    of ladder and hashes
+  --hashes     of these rows alone, named as in the table: "fire" are all of its layouts, "fire 40" is one
   --seconds    of the hashes: those that still run are ended then; their verdict is of the frames before
+  --threads    of each check among the hashes; its report is kept in OUT/hashes/ when it ends
   --twins      times the reference as well
 Exit status: 0 every hash is equal, 1 one is not, 2 a part could not be run."""
 import argparse
@@ -51,7 +53,9 @@ def options():
     parser.add_argument("--hash-frames", type=int, default=600)
     parser.add_argument("--layouts", type=lambda text: text.split(","), default=list(LAYOUTS))
     parser.add_argument("--seconds", type=float, default=240)
+    parser.add_argument("--hashes", type=lambda text: text.split(","))
     parser.add_argument("--jobs", type=int, default=2)
+    parser.add_argument("--threads", type=int, default=2)
     parser.add_argument("--twins", action="store_true")
     parser.add_argument("--render", default="1920x1080")
     parser.add_argument("--scenes", type=pathlib.Path, default=ROOT / "data/scenes/lifecycle")
@@ -239,6 +243,10 @@ def alive_scene(run, name, uv=None):
     return run.kept(f"{name}_{run.asked.alive}{'_' + uv if uv else ''}", scene)
 
 
+def is_named(row, name):
+    return row == name or row.startswith(name + " ")
+
+
 def hash_jobs(run):
     """Name, scene and settings: of every layout one before any has two."""
     jobs = []
@@ -253,6 +261,12 @@ def hash_jobs(run):
     jobs += [("sorted_ribbon 112", alive_scene(run, "sorted_ribbon"), []),
              ("fountain atomic 40", alive_scene(run, "fountain"), ["compaction=atomic"]),
              ("graphs 40", alive_scene(run, "graphs"), [])]
+    asked = run.asked.hashes
+    if asked is not None:
+        unknown = [name for name in asked if not any(is_named(job[0], name) for job in jobs)]
+        if unknown:
+            raise RuntimeError(f"--hashes: none is named {unknown[0]}; there are {', '.join(job[0] for job in jobs)}")
+        jobs = [job for job in jobs if any(is_named(job[0], name) for name in asked)]
     by_scene = {}
     for job in jobs:
         by_scene.setdefault(job[0].rsplit(" ", 1)[0], []).append(job)
@@ -264,19 +278,23 @@ def hashed(run, jobs):
     """Runs jobs side by side; ends what still runs when the time is up. Of each its report."""
     asked, waiting, running, reports = run.asked, list(jobs), {}, {}
     end = time.monotonic() + asked.seconds
+    kept = asked.out / "hashes"
+    kept.mkdir(exist_ok=True)
     while waiting or running:
         over = time.monotonic() > end
         while waiting and not over and len(running) < asked.jobs:
             name, scene, settings = waiting.pop(0)
             words = [asked.lockstep, "check", scene, "--preset", "exact", "--mode", "free", "--no-render", "--frames",
-                     asked.hash_frames, "--gl", asked.gl, "--threads", 2, *(w for s in settings for w in ("--set", s))]
+                     asked.hash_frames, "--gl", asked.gl, "--threads", asked.threads, *(w for s in settings for w in ("--set", s))]
             print("+", *words, file=sys.stderr, flush=True)
             running[name] = subprocess.Popen(list(map(str, words)), stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True)
-        for name, process in list(running.items()):
-            if over and process.poll() is None:
+        if over:
+            for process in running.values():
                 process.send_signal(signal.SIGINT)
+        for name, process in list(running.items()):
             if over or process.poll() is not None:
                 reports[name] = process.communicate()[0]
+                (kept / f"{name}.txt").write_text(reports[name])
                 del running[name]
         waiting = [] if over else waiting
         time.sleep(0.1)

@@ -115,8 +115,12 @@ void put_right(SystemSide& gpu, SystemState& state, const SystemState& right, st
 template <class Before>
 bool holds_others(const SystemSide& gpu, const System& system, std::size_t first, const Before& before) {
     const std::vector<std::uint8_t> written = written_by(system, first);
+    const std::optional<std::vector<std::uint8_t>> reached = gpu.reached_by(first);
+    const auto is_among = [](const std::vector<std::uint8_t>& all, std::uint8_t r) {
+        return std::ranges::find(all, r) != all.end();
+    };
     for (std::uint8_t r = 0; r < system.schema.resources.size(); ++r)
-        if (std::ranges::find(written, r) == written.end() && gpu.holds(before(r)) != true)
+        if (!is_among(written, r) && (!reached || is_among(*reached, r)) && gpu.holds(before(r)) != true)
             return false;
     return true;
 }

@@ -2,6 +2,7 @@
 #include <algorithm>
 
 #include "reference/lifecycle/counters.hpp"
+#include "reference/lifecycle/destroy_fast.hpp"
 
 /// The survivors among those that may die. Twins of shaders/lifecycle/destroy_reduce.comp, destroy_scan.comp and
 /// destroy.comp.
@@ -110,6 +111,11 @@ struct AppendTwin {
             listed.set(site::rank, 0, *slot);
         return listed.record();
     }
+    /// In one walk: no sums say where another could begin.
+    template <class R> bool all(R&, const PassInput& in, const WritableView& after) const {
+        destroy_fast(*host, *of, in, 0, after.count(), after);
+        return true;
+    }
 };
 
 /// The slots of those that died, behind those that are free already; with atomics in any order.
@@ -131,6 +137,10 @@ struct DeadTwin {
             if (!emitter.survives(place) && seen++ == rank)
                 dead.set(site::dead_slot, 0, emitter.slot_at(place));
         return dead.record();
+    }
+    template <class R> bool all(R&, const PassInput& in, const WritableView& after) const {
+        bury_fast(*host, *of, in, 0, after.count(), after);
+        return true;
     }
 };
 

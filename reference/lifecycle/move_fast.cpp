@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <cstring>
 
+#include "reference/lifecycle/kept_items.hpp"
 #include "reference/model/lifecycle/layout.hpp"
 #include "reference/model/lifecycle/schema.hpp"
 #include "reference/vector_loops.hpp"
@@ -138,17 +139,7 @@ LOCKSTEP_VECTOR_CLONES void step_toward_zero(Block& b, const Flight& f) {
     write<false>(b, f);
 }
 
-/// Items first to last become those from `from` on, field by field from `field` on.
-void copy(const View& before, std::size_t from, std::size_t first, std::size_t last, const WritableView& after,
-          std::size_t field = 0) {
-    for (std::size_t f = field; f < before.columns.size(); ++f) {
-        const std::size_t bytes = static_cast<std::size_t>(before.fields()[f].components) * sizeof(std::uint32_t);
-        if (first < last && after.columns[f] + first * bytes != before.columns[f] + from * bytes)
-            std::memcpy(after.columns[f] + first * bytes, before.columns[f] + from * bytes, (last - first) * bytes);
-    }
-}
-
-/// The same a tick later.
+/// Items first to last become those from `from` on, a tick later.
 void step(const Host& host, const View& before, std::size_t from, std::size_t first, std::size_t last,
           const WritableView& after) {
     const Settings& s = host.settings();
@@ -165,7 +156,7 @@ void step(const Host& host, const View& before, std::size_t from, std::size_t fi
         for (std::size_t w = 0; w < block.w.size(); ++w)
             std::memcpy(after.columns[w] + i * sizeof(std::uint32_t), block.w[w].data(), bytes);
     }
-    copy(before, from, first, last, after, block.w.size());
+    copy_items(before, from, first, last, after, block.w.size());
 }
 
 std::uint32_t count(const PassInput& in, const HostEmitter& of, std::uint8_t which) {
@@ -196,20 +187,20 @@ void move_fast(const Host& host, const HostEmitter& of, const PassInput& in, std
                           std::clamp(of.base + survivors, begin, std::min(std::max(of.base + of.slots, begin), last)),
                       end = std::clamp(of.base + survivors + present - may_die, rest,
                                        std::min(std::max(of.base + of.slots, rest), last));
-    copy(before, first, first, begin, after);
+    copy_items(before, first, first, begin, after);
     for (std::size_t item = begin; item < rest; ++item)
         left.push_back(item);
     const std::size_t from = rest - survivors + may_die;
     if (rest < end && (from > before.count() || end - rest > before.count() - from)) { // counters of a wrong shader
         for (std::size_t item = rest; item < end; ++item)
             left.push_back(item);
-        return copy(before, end, end, last, after);
+        return copy_items(before, end, end, last, after);
     }
     if (host.switches().fuse == Fuse::fused)
         step(host, before, from, rest, end, after);
     else
-        copy(before, from, rest, end, after);
-    copy(before, end, end, last, after);
+        copy_items(before, from, rest, end, after);
+    copy_items(before, end, end, last, after);
 }
 
 void simulate_fast(const Host& host, const HostEmitter& of, const PassInput& in, std::size_t first, std::size_t last,
@@ -218,25 +209,53 @@ void simulate_fast(const Host& host, const HostEmitter& of, const PassInput& in,
     const std::size_t begin = std::clamp(of.base, first, last),
                       most = std::min(std::max(of.base + of.slots, begin), last),
                       end = std::clamp(of.base + count(in, of, counter::alive), begin, most);
-    copy(before, first, first, begin, after);
+    copy_items(before, first, first, begin, after);
     step(host, before, begin, begin, end, after);
-    copy(before, end, end, last, after);
+    copy_items(before, end, end, last, after);
 }
+
+namespace {
+
+/// How many are born; those that an emitter of lists may have no slot for are of no matter.
+std::size_t emitted_in(const Host& host, const HostEmitter& of, const PassInput& in) {
+    const std::size_t room =
+        of.settings().capacity - std::min<std::size_t>(count(in, of, counter::alive), of.settings().capacity);
+    const std::size_t request = of.request(in.frame);
+    return host.switches().overflow == Overflow::replace_oldest ? request : std::min(request, room);
+}
+
+} // namespace
 
 void emit_fast(const Host& host, const HostEmitter& of, const PassInput& in, std::size_t first, std::size_t last,
                const WritableView& after, std::vector<std::size_t>& left) {
+    const std::size_t begin = of.base + count(in, of, counter::alive);
+    const std::size_t end = std::min(begin + emitted_in(host, of, in), of.base + of.slots);
+    keep_items_but(in.before[particle_buffer], begin, end, first, last, after, left);
+}
+
+void emit_listed_fast(const Host& host, const HostEmitter& of, const PassInput& in, std::size_t first, std::size_t last,
+                      const WritableView& after, std::vector<std::size_t>& left) {
     const View& before = in.before[particle_buffer];
     const std::size_t alive = count(in, of, counter::alive);
-    std::size_t emitted = of.request(in.frame);
-    if (host.switches().overflow != Overflow::replace_oldest)
-        emitted = std::min(emitted, of.settings().capacity - std::min(alive, of.settings().capacity));
-    const std::size_t begin = std::clamp(of.base + alive, first, last),
-                      most = std::min(std::max(of.base + of.slots, begin), last),
-                      end = std::clamp(of.base + alive + emitted, begin, most);
-    copy(before, first, first, begin, after);
-    for (std::size_t item = begin; item < end; ++item)
-        left.push_back(item);
-    copy(before, end, end, last, after);
+    if (alive > of.slots) // of a wrong shader
+        return keep_items_but(before, of.base, of.base + of.slots, first, last, after, left);
+    copy_items(before, first, first, last, after);
+    const std::size_t dead = of.slots - alive;
+    for (std::size_t k = 0; k < std::min(dead, emitted_in(host, of, in)); ++k) {
+        const std::size_t slot = in.before.word({dead_buffer, 0}, of.base + dead - 1 - k);
+        if (slot < of.slots && of.base + slot >= first && of.base + slot < last)
+            left.push_back(of.base + slot);
+    }
+}
+
+void emit_list_fast(const Host& host, const HostEmitter& of, const PassInput& in, std::size_t first, std::size_t last,
+                    const WritableView& after, std::vector<std::size_t>& left) {
+    const std::size_t list = 2 * of.base + (count(in, of, counter::list) & 1U) * of.slots;
+    const std::size_t alive = count(in, of, counter::alive);
+    const bool is_wrong = alive > of.slots;
+    keep_items_but(in.before[survivor_buffer], is_wrong ? list : list + alive,
+                   is_wrong ? list + of.slots : std::min(list + alive + emitted_in(host, of, in), list + of.slots),
+                   first, last, after, left);
 }
 
 } // namespace lockstep::lifecycle

@@ -23,4 +23,10 @@ void simulate_fast(const Host& host, const HostEmitter& of, const PassInput& in,
 void emit_fast(const Host& host, const HostEmitter& of, const PassInput& in, std::size_t first, std::size_t last,
                const WritableView& after, std::vector<std::size_t>& left);
 
+/// The same of index lists: the newborns' slots, and the list that they go behind.
+void emit_listed_fast(const Host& host, const HostEmitter& of, const PassInput& in, std::size_t first, std::size_t last,
+                      const WritableView& after, std::vector<std::size_t>& left);
+void emit_list_fast(const Host& host, const HostEmitter& of, const PassInput& in, std::size_t first, std::size_t last,
+                    const WritableView& after, std::vector<std::size_t>& left);
+
 } // namespace lockstep::lifecycle

@@ -1,5 +1,6 @@
 #include "reference/lifecycle/pass_options.hpp"
 #include "reference/lifecycle/passes.hpp"
+#include "reference/lifecycle/ribbon_fast.hpp"
 #include "reference/lifecycle/ribbon_points_twin.hpp"
 #include "reference/lifecycle/ribbon_twin.hpp"
 #include "reference/lifecycle/sort_twin.hpp"
@@ -11,11 +12,22 @@ void add_ribbon(Passes& all, const HostPtr& host, const HostEmitter& of) {
     if (host->lists()) {
         all.push_back(item_pass(options_of(host, "pre_sort", key_buffer), PreSortTwin{host, &of}));
         for_each_sort_step(of.keys, [&](std::uint32_t run, std::uint32_t apart) {
-            all.push_back(item_pass(options_of(host, "sort", key_buffer), SortTwin{host, &of, run, apart}));
+            ItemPassOptions sorting = options_of(host, "sort", key_buffer);
+            sorting.fast = [one = &of, run, apart](const PassInput& in, const Profile&, std::size_t first,
+                                                   std::size_t last, const WritableView& after,
+                                                   std::vector<std::size_t>&) {
+                sort_fast(*one, run, apart, in, first, last, after);
+            };
+            all.push_back(item_pass(std::move(sorting), SortTwin{host, &of, run, apart}));
         });
     }
     all.push_back(item_pass(options_of(host, "ribbon_distance", particle_buffer), RibbonDistanceTwin{host, &of}));
-    all.push_back(item_pass(options_of(host, "prefix_reduce", length_buffer), PrefixReduceTwin{host, &of}));
+    ItemPassOptions reducing = options_of(host, "prefix_reduce", length_buffer);
+    reducing.fast = [host, one = &of](const PassInput& in, const Profile&, std::size_t first, std::size_t last,
+                                      const WritableView& after, std::vector<std::size_t>&) {
+        prefix_reduce_fast(*host, *one, in, first, last, after);
+    };
+    all.push_back(item_pass(std::move(reducing), PrefixReduceTwin{host, &of}));
     all.push_back(
         item_pass(options_of(host, "prefix_reduce_sums", block_length_buffer, true), BlockLengthTwin{host, &of}));
     all.push_back(item_pass(options_of(host, "prefix_scan", block_length_buffer), PrefixScanTwin{host, &of}));

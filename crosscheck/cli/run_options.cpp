@@ -51,6 +51,10 @@ void add_scene_options(Verb& verb, RunOptions& options, SceneArgument scene) {
     verb.options.back().required = scene == SceneArgument::required;
     verb.add(integer_option("--particles", "N", {1, most_particles}, options.particles,
                             "number of particles instead of the scene's"));
+    add_settings_options(verb, options);
+}
+
+void add_settings_options(Verb& verb, RunOptions& options) {
     verb.add(text_option("--preset", "listing|paper|corrected|exact", options.preset, "instead of the scene's preset"));
     verb.add(texts_option("--set", "NAME=VALUE", options.set, "change one switch or constant; may be repeated"));
     add_threads_option(verb, options);

@@ -46,6 +46,8 @@ struct RunOptions {
 enum class SceneArgument { required, optional };
 
 void add_scene_options(Verb& verb, RunOptions& options, SceneArgument scene = SceneArgument::required);
+/// Of those the preset, switches and constants, and the threads.
+void add_settings_options(Verb& verb, RunOptions& options);
 void add_threads_option(Verb& verb, RunOptions& options);
 void add_gl_options(Verb& verb, RunOptions& options);
 

@@ -1,21 +1,9 @@
 #pragma once
-#include <filesystem>
-#include <vector>
-
-#include "crosscheck/cli/run_options.hpp"
+#include "crosscheck/command/verb.hpp"
 
 namespace lockstep {
 
-/// `lockstep study --thesis`: what is measured, and where it goes.
-struct ThesisStudy {
-    RunOptions run;
-    std::filesystem::path scenes;
-    std::filesystem::path csv, json, chart; ///< empty: not wanted
-    std::filesystem::path from;             ///< a file --json wrote: told and drawn again instead of measured
-    std::vector<std::size_t> counts{50'000, 100'000, 150'000, 200'000};
-    double seconds = 5.0;
-};
-
-void run_thesis_study(const ThesisStudy& study);
+/// `lockstep study thesis`.
+Verb thesis_verb();
 
 } // namespace lockstep

@@ -71,9 +71,12 @@ std::string verb_error(const Verb& program, const Verb& verb, const std::string&
     return fmt::format("unknown verb '{}'; {}{}", unknown, there, did_you_mean(unknown, names));
 }
 
-std::string option_error(const Verb& verb, const std::string& unknown) {
+std::string option_error(const Called& call, const std::string& unknown) {
+    for (const Verb& part : call.verb.verbs)
+        if (unknown.starts_with("--" + part.name))
+            return fmt::format("unknown option '{}'; {} is a verb: {} {}", unknown, part.name, call.words, part.name);
     std::vector<std::string> all;
-    for (const Option& option : all_options(verb))
+    for (const Option& option : all_options(call.verb))
         for (const std::string& name : names(option))
             all.push_back(name);
     return fmt::format("unknown option '{}'{}", unknown, did_you_mean(unknown.substr(0, unknown.find('=')), all));
@@ -95,7 +98,7 @@ std::string usage_error(const Verb& program, const Called& call, const CLI::App&
     std::vector<std::string> unknown = app.remaining(true);
     std::stable_partition(unknown.begin(), unknown.end(), [](const std::string& text) { return text[0] == '-'; });
     if (!unknown.empty() && unknown.front().starts_with('-'))
-        return option_error(verb, unknown.front());
+        return option_error(call, unknown.front());
     if (!verb.verbs.empty() && !verb.run)
         return verb_error(program, verb, unknown.empty() ? "" : unknown.front());
     if (!unknown.empty())

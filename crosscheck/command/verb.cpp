@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cctype>
-#include <iterator>
 #include <sstream>
 
 #include <fmt/format.h>
@@ -42,8 +41,7 @@ Option help_option() { return {"-h,--help", {}, "print these lines", {}}; }
 
 std::vector<Option> all_options(const Verb& verb) {
     std::vector<Option> options{help_option()};
-    std::copy_if(verb.options.begin(), verb.options.end(), std::back_inserter(options),
-                 [](const Option& option) { return !option.hidden; });
+    options.insert(options.end(), verb.options.begin(), verb.options.end());
     return options;
 }
 

@@ -22,7 +22,6 @@ struct Option {
     GivenValues values = GivenValues::one;
     bool required = false;
     std::string initial = {}; ///< the value without it, as help says it; empty: none, or the description says it
-    bool hidden = false;      ///< from help, the manual and completion: an earlier name
 };
 
 /// "-o", "--output", the last of which messages use; of an argument its one name.
@@ -60,10 +59,10 @@ struct Call {
 };
 
 /// For a verb of several modes: throws Error if an option was given that is not among `allowed`, which `mode` has.
-/// "study: --csv does not go with --catalogue".
+/// "check: --hashes does not go with --stress".
 void check_options(const Call& call, std::string_view mode, std::span<const std::string_view> allowed);
 
-/// The one that every verb has by itself, and with it the verb's own, as help lists them: without the hidden ones.
+/// The one that every verb has by itself, and with it the verb's own, as help lists them.
 Option help_option();
 std::vector<Option> all_options(const Verb& verb);
 

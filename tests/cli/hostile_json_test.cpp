@@ -25,7 +25,7 @@ TEST_CASE("hostile json: what is nested 60,000 deep is one line of error whereve
         const std::string deep = folder.write("deep.json", nested(depth)).string();
         CHECK(refusal(run_lockstep({"hash", deep})) == deep + ": " + too_deep);
         CHECK(refusal(run_lockstep({"capsule", "show", deep})) == deep + ": " + too_deep);
-        CHECK(refusal(run_lockstep({"study", "--thesis", "--from", deep, "--json", folder.path() / "out"})) ==
+        CHECK(refusal(run_lockstep({"study", "thesis", "--from", deep, "--json", folder.path() / "out"})) ==
               deep + ": " + too_deep);
         const std::string within =
             folder.write("within.json", R"({"emitters": [{"count": )" + nested(depth) + "}]}").string();

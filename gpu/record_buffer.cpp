@@ -4,6 +4,7 @@
 #include <atomic>
 #include <cassert>
 #include <cstring>
+#include <memory>
 #include <span>
 #include <utility>
 
@@ -13,24 +14,6 @@
 #include "reference/model/error.hpp"
 
 namespace lockstep {
-namespace {
-
-/// Calls `work` with the buffer's memory. A driver may lose a mapped buffer's contents (GL_FALSE at unmapping); there
-/// is no telling what it holds then, hence the Error.
-template <class Byte, class Work> void with_mapped(const RecordBuffer& buffer, GLbitfield access, const Work& work) {
-    const std::size_t bytes = buffer.size() * buffer.layout().bytes();
-    const std::string& item = buffer.layout().about().item;
-    gl::BindBuffer(GL_COPY_READ_BUFFER, buffer.id());
-    void* memory = gl::MapBufferRange(GL_COPY_READ_BUFFER, 0, static_cast<GLsizeiptr>(bytes), access);
-    if (memory == nullptr) {
-        check_gl(fmt::format("{} buffer", item));
-        throw Error(fmt::format("{} buffer: GL cannot map it", item));
-    }
-    work(static_cast<Byte*>(memory));
-    gl::BindBuffer(GL_COPY_READ_BUFFER, buffer.id()); // `work` may have mapped another
-    if (gl::UnmapBuffer(GL_COPY_READ_BUFFER) == GL_FALSE)
-        throw Error(fmt::format("{} buffer: its contents were lost while mapped", item));
-}
 
 /// Memory of the host that the GPU copies a slice into, while another slice is worked on. Where it is mapped itself, a
 /// driver keeps a buffer in the host's memory from then on, and kernels work across the bus.
@@ -68,23 +51,52 @@ class StagedSlice {
     GLsync copied_ = nullptr;
 };
 
+/// One is copied into while the other is worked on.
+struct StagedSlices {
+    explicit StagedSlices(std::size_t bytes) : slice{StagedSlice(bytes), StagedSlice(bytes)} {}
+    [[nodiscard]] bool are_mapped() const { return slice[0].is_mapped() && slice[1].is_mapped(); }
+
+    std::array<StagedSlice, 2> slice;
+};
+
+namespace {
+
+/// Calls `work` with the buffer's memory. A driver may lose a mapped buffer's contents (GL_FALSE at unmapping); there
+/// is no telling what it holds then, hence the Error.
+template <class Byte, class Work> void with_mapped(const RecordBuffer& buffer, GLbitfield access, const Work& work) {
+    const std::size_t bytes = buffer.size() * buffer.layout().bytes();
+    const std::string& item = buffer.layout().about().item;
+    gl::BindBuffer(GL_COPY_READ_BUFFER, buffer.id());
+    void* memory = gl::MapBufferRange(GL_COPY_READ_BUFFER, 0, static_cast<GLsizeiptr>(bytes), access);
+    if (memory == nullptr) {
+        check_gl(fmt::format("{} buffer", item));
+        throw Error(fmt::format("{} buffer: GL cannot map it", item));
+    }
+    work(static_cast<Byte*>(memory));
+    gl::BindBuffer(GL_COPY_READ_BUFFER, buffer.id()); // `work` may have mapped another
+    if (gl::UnmapBuffer(GL_COPY_READ_BUFFER) == GL_FALSE)
+        throw Error(fmt::format("{} buffer: its contents were lost while mapped", item));
+}
+
 constexpr std::size_t staged_bytes = std::size_t{8} << 20U; ///< of a slice that is read
 
 /// Calls `work(memory, first record, records)` with the buffer's memory, a slice after the other.
-template <class Work> void with_slices(const RecordBuffer& buffer, const Work& work) {
+template <class Work>
+void with_slices(const RecordBuffer& buffer, std::unique_ptr<StagedSlices>& staged, const Work& work) {
     const std::size_t bytes = buffer.layout().bytes(), slice = std::max<std::size_t>(1, staged_bytes / bytes);
     if (buffer.size() > 2 * slice && gl::BufferStorage != nullptr) {
-        std::array<StagedSlice, 2> staged{StagedSlice(slice * bytes), StagedSlice(slice * bytes)};
-        if (staged[0].is_mapped() && staged[1].is_mapped()) {
+        if (staged == nullptr)
+            staged = std::make_unique<StagedSlices>(slice * bytes);
+        if (staged->are_mapped()) {
             const auto count = [&](std::size_t first) { return std::min(slice, buffer.size() - first); };
             const auto begin = [&](std::size_t first) {
                 if (first < buffer.size())
-                    staged[first / slice % 2].begin(buffer, first * bytes, count(first) * bytes);
+                    staged->slice[first / slice % 2].begin(buffer, first * bytes, count(first) * bytes);
             };
             begin(0);
             for (std::size_t first = 0; first < buffer.size(); first += slice) {
                 begin(first + slice);
-                work(staged[first / slice % 2].end(), first, count(first));
+                work(staged->slice[first / slice % 2].end(), first, count(first));
             }
             return;
         }
@@ -226,6 +238,10 @@ GLenum gl_type(const Field& field) {
     return types[static_cast<std::size_t>(field.scalar)][field.components - 1];
 }
 
+RecordBuffer::RecordBuffer(RecordBuffer&&) noexcept = default;
+RecordBuffer& RecordBuffer::operator=(RecordBuffer&&) noexcept = default;
+RecordBuffer::~RecordBuffer() = default;
+
 RecordBuffer::RecordBuffer(const RecordLayout& layout, std::size_t count, std::size_t spare)
     : layout_(&layout), count_(count), spare_(spare) {
     gl::BindBuffer(GL_COPY_READ_BUFFER, buffer_.id());
@@ -258,7 +274,7 @@ void RecordBuffer::read(const WritableView& state) const {
     assert(state.count() == count_);
     if (count_ == 0)
         return;
-    with_slices(*this, [&](const std::byte* records, std::size_t from, std::size_t some) {
+    with_slices(*this, staged_, [&](const std::byte* records, std::size_t from, std::size_t some) {
         in_blocks(*layout_, some, [&](Block& block, std::size_t first, std::size_t count) {
             std::memcpy(block.records(), records + first * layout_->bytes(), count * layout_->bytes());
             block.scatter(state, from + first, count);
@@ -271,7 +287,7 @@ bool RecordBuffer::holds(const View& state) const {
     std::atomic<bool> same = true;
     if (count_ == 0)
         return same;
-    with_slices(*this, [&](const std::byte* records, std::size_t from, std::size_t some) {
+    with_slices(*this, staged_, [&](const std::byte* records, std::size_t from, std::size_t some) {
         in_blocks(*layout_, some, [&](Block& block, std::size_t first, std::size_t count) {
             block.gather(state, from + first, count);
             if (std::memcmp(records + first * layout_->bytes(), block.records(), count * layout_->bytes()) != 0)

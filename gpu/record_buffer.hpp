@@ -2,6 +2,7 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <memory>
 #include <span>
 #include <string>
 #include <vector>
@@ -34,12 +35,17 @@ struct RecordLayout {
 /// GL_FLOAT_VEC3 of three floats.
 GLenum gl_type(const Field& field);
 
+struct StagedSlices; ///< the host's memory that a large buffer is read through
+
 /// `count` records in GL memory; record i at byte i * layout.bytes(). Contents are undefined at first.
 class RecordBuffer {
   public:
     /// `layout` outlives this. `spare` records more lie behind, for what is written there in error. Throws Error if GL
     /// has not the memory.
     RecordBuffer(const RecordLayout& layout, std::size_t count, std::size_t spare = 0);
+    RecordBuffer(RecordBuffer&&) noexcept;
+    RecordBuffer& operator=(RecordBuffer&&) noexcept;
+    ~RecordBuffer();
 
     [[nodiscard]] std::size_t size() const { return count_; }
     [[nodiscard]] GLuint id() const { return buffer_.id(); }
@@ -72,6 +78,7 @@ class RecordBuffer {
     GlBuffer buffer_;
     const RecordLayout* layout_;
     std::size_t count_, spare_;
+    mutable std::unique_ptr<StagedSlices> staged_; ///< once a large one was read
 };
 
 /// Whether buffers that have the fields of `state` among them have exactly its bits, and none of its floats is NaN.

@@ -78,6 +78,12 @@ class LegalTriangles {
             const auto first = next;
             while (next != drawn.end() && next->primitive == primitive)
                 ++next;
+            if (first != next && std::none_of(first, next, [&](const RasterTriangle& triangle) {
+                    return may_reach(triangle, rules_, wanted);
+                })) {
+                judged[primitive] = true;
+                continue;
+            }
             const auto variants = possible_triangles(primitive);
             judged[primitive] = first != next || !variants.empty();
             if (!variants.empty())
@@ -143,6 +149,20 @@ class LegalTriangles {
                     visit(x, y);
     }
 
+    /// Whether a wanted pixel lies where a triangle, or what rounding can make of it, is looked for.
+    template <class Wanted>
+    [[nodiscard]] bool may_reach(const RasterTriangle& triangle, const RasterRules& rules, const Wanted& wanted) const {
+        bool reached = false;
+        for_each_wanted(triangle, rules.subpixel_bits, std::max(1, pixels_beside(rules)), wanted,
+                        [&](int, int) { reached = true; });
+        return reached;
+    }
+
+    /// Whole pixels that side_tolerance() comes to.
+    [[nodiscard]] int pixels_beside(const RasterRules& rules) const {
+        return static_cast<int>(std::ceil(std::ldexp(side_tolerance(rules), -rules.subpixel_bits)));
+    }
+
     static bool covers(const RasterTriangle& triangle, const RasterRules& rules, int x, int y) {
         bool covered = false;
         for_each_pixel(triangle, rules, {x, y, x + 1, y + 1}, [&](int, int) { covered = true; });
@@ -169,8 +189,7 @@ class LegalTriangles {
         const bool exact = all_known_ || known_.triangles();
         const double tolerance = side_tolerance(rules);
         const int bits = rules.subpixel_bits;
-        const int beside = static_cast<int>(std::ceil(std::ldexp(tolerance, -bits)));
-        for_each_wanted(triangle, bits, beside, wanted, [&](int x, int y) {
+        for_each_wanted(triangle, bits, pixels_beside(rules), wanted, [&](int x, int y) {
             const bool covered = covers(triangle, rules, x, y);
             const double margin = exact ? HUGE_VAL : nearest_side(triangle, x, y, rules).distance;
             if (covered || margin <= tolerance)

@@ -24,8 +24,8 @@ struct Particle {
     float collide_time;
 };
 
-layout(std430, binding = 0) readonly buffer Before { Particle before[]; };
-layout(std430, binding = 1) writeonly buffer After { Particle after[]; };
+layout(std430, binding = 0) readonly buffer Before { vec4 before[]; }; // two a particle
+layout(std430, binding = 1) writeonly buffer After { vec4 after[]; };
 
 uniform uint u_ParticleCount;
 uniform mat4 u_ProjView;
@@ -86,6 +86,16 @@ void start_trace() {
 #define END_TRACE()
 #endif
 
+Particle load(uint particle) {
+    vec4 first = before[2u * particle], second = before[2u * particle + 1u];
+    return Particle(first.xyz, first.w, second.xyz, second.w);
+}
+
+void store(uint particle, Particle a) {
+    after[2u * particle] = vec4(a.position, a.speed);
+    after[2u * particle + 1u] = vec4(a.direction, a.collide_time);
+}
+
 // Each operation a rounding of its own: the locals are `precise`, so no product melts into a sum.
 float product(float a, float b) {
     precise float result = ls_flush(a) * ls_flush(b);
@@ -114,6 +124,15 @@ bool on_image(ivec2 texel) {
     return texel.x >= 0 && texel.y >= 0 && texel.x < u_ClientWidth && texel.y < u_ClientHeight;
 }
 
+// A root is a long sequence in `exact`: who is beyond the range by the square needs none. The factor outweighs roundings.
+bool is_beyond_range(vec3 apart) {
+#if ARITHMETIC == ARITHMETIC_EXACT && !defined(LOCKSTEP_TRACE)
+    return ls_dot(apart, apart) > u_CollisionRange * u_CollisionRange * 1.00001;
+#else
+    return false;
+#endif
+}
+
 // Lines 5 to 19. True when a stored position lies within the collision range; `away` then is own minus nearest.
 bool nearest_collision(vec3 position, ivec2 texel_base, out vec3 away) {
     away = vec3(0.0);
@@ -140,6 +159,8 @@ bool nearest_collision(vec3 position, ivec2 texel_base, out vec3 away) {
             if (!holds_particle(stored))
                 continue;
             vec3 apart = sum(curr_pos, -decode_position(stored));
+            if (is_beyond_range(apart))
+                continue;
             float len = ls_length(apart);
             TRACE_NEIGHBOUR(traced.trace_neighbour_reached, 2);
             TRACE_NEIGHBOUR(traced.trace_neighbour_position, decode_position(stored));
@@ -215,7 +236,7 @@ void main() {
     if (self >= u_ParticleCount)
         return;
     START_TRACE();
-    Particle a = before[self];
+    Particle a = load(self);
     ivec2 texel_base;
     vec3 away;
     bool visible = base_texel(image_position(ls_transform(u_ProjView, a.position)), texel_base);
@@ -234,7 +255,7 @@ void main() {
         v = collide(a, away);
     else
         v = integrate(a);
-    after[self] = v;
+    store(self, v);
 #if RASTER_POSITION == RASTER_POSITION_UPDATED
     vec4 clip = ls_transform(u_ProjView, v.position);
 #else

@@ -108,8 +108,10 @@ void read_particles(const JsonValue& json, const SceneOptions& options, Settings
     const auto emitters_of = json.find("emitters");
     if (!emitters_of) {
         if (options.particles && *options.particles != settings.particles.size())
-            json.fail(fmt::format("--particles {}: the {} of this scene lie written in it", *options.particles,
-                                  settings.particles.size()));
+            json.find(given.front())
+                ->fail(fmt::format("--particles {}: this scene lists its particles, {} in all, and a list has no other "
+                                   "count; leave --particles out, or give emitters",
+                                   *options.particles, settings.particles.size()));
         return;
     }
     for (const JsonValue& one : emitters_of->items())

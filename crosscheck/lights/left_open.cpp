@@ -10,16 +10,21 @@ namespace lockstep::lights {
 
 std::vector<std::string> left_open(const Switches& on, const Profile& profile) {
     std::vector<std::string> lines;
+    const auto is_open = [&](const char* row) {
+        return std::ranges::find(profile.not_followed, row) != profile.not_followed.end();
+    };
     const auto rests = [&](bool used, const char* value, const char* row, const char* legal, const char* portable) {
-        if (used && std::ranges::find(profile.not_followed, row) != profile.not_followed.end())
+        if (used && is_open(row))
             lines.push_back(
                 fmt::format("{}: this driver is not followed in it (probe: {}), so legal is {}; {} promises "
                             "bits",
                             value, row, legal, portable));
     };
-    rests(on.interpolation == Interpolation::trilinear_hw, "interpolation=trilinear_hw",
-          on.outside == Outside::black ? black_filter_row : filter_row,
-          "what weights of 8 fraction bits give, and 1 part in 10^5", "interpolation=trilinear");
+    const bool black = on.outside == Outside::black;
+    rests(on.interpolation == Interpolation::trilinear_hw &&
+              is_open(black ? black_aligned_filter_row : aligned_filter_row),
+          "interpolation=trilinear_hw", black ? black_filter_row : filter_row,
+          "what places and weights of 8 fraction bits give", "interpolation=trilinear");
     const bool halves = on.volume_format == Format::rgba16f;
     rests(on.accumulate == Accumulate::blend && !halves, "accumulate=blend", float_blend_row,
           "what any order of the sums gives", "accumulate=gather");

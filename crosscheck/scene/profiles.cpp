@@ -258,8 +258,15 @@ void note_images(Translation& rows, const ProbeResult& result) {
     };
     follow("image: blend rgba32f", {"each sum rounded, in order"});
     follow("image: blend rgba16f", {"each sum truncated", "each sum nearest even"});
-    for (const char* const row : {"image: linear filter", "image: linear filter, border of 0"})
+    for (const auto& [row, other_way] :
+         {std::pair{"image: linear filter", "image: linear filter, aligned"},
+          std::pair{"image: linear filter, border of 0", "image: linear filter, aligned, border of 0"}}) {
         follow(row, {"fma(f, b - a, a), all bits", "a + f*(b - a), all bits", "a*(1 - f) + b*f, all bits"});
+        const bool is_aligned =
+            result.has(other_way) && result.row(other_way).finding == "cell's weights in 256ths, planes cut";
+        if (std::ranges::find(rows.not_followed, row) != rows.not_followed.end() && !is_aligned)
+            rows.note(other_way);
+    }
     follow("image: sRGB store", {"nearest code"});
     follow("image: gl_PointCoord", {"1/2 + (pixel - centre)/size"});
 }

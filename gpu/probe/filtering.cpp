@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstddef>
@@ -51,11 +52,11 @@ struct Volume {
 };
 
 /// What texture() makes of places, x, y, z and a spare a place, 0 to 1.
-Floats filtered(const Volume& volume, const Floats& where, GLenum wrap) {
+Floats filtered(const Volume& volume, const Floats& where, GLenum wrap, GLint stored = GL_RGBA32F) {
     const GlTexture texture;
     gl::ActiveTexture(GL_TEXTURE1);
     gl::BindTexture(GL_TEXTURE_3D, texture.id());
-    gl::TexImage3D(GL_TEXTURE_3D, 0, GL_RGBA32F, volume_side, volume_side, volume_side, 0, GL_RGBA, GL_FLOAT,
+    gl::TexImage3D(GL_TEXTURE_3D, 0, stored, volume_side, volume_side, volume_side, 0, GL_RGBA, GL_FLOAT,
                    volume.texels.data());
     for (const GLenum filter : {GL_TEXTURE_MIN_FILTER, GL_TEXTURE_MAG_FILTER})
         gl::TexParameteri(GL_TEXTURE_3D, filter, GL_LINEAR);
@@ -97,6 +98,44 @@ Floats joined(const Volume& volume, const Floats& where, bool black, const Named
     return values;
 }
 
+/// In fixed point, of texels that have few enough exponents for a double to hold every sum: `kept` bits of a plane's
+/// texels below the greatest, `rounded` of the result.
+Floats aligned(const Volume& volume, const Floats& where, bool black, int kept, int rounded) {
+    Floats values;
+    for (std::size_t i = 0; i < where.size(); i += 4) {
+        int at[3], base[3], f[3];
+        for (std::size_t axis = 0; axis < 3; ++axis) {
+            at[axis] = static_cast<int>(std::floor((double{where[i + axis]} * volume_side - 0.5) * 256.0 + 0.5));
+            if (!black)
+                at[axis] = std::clamp(at[axis], 0, 256 * (volume_side - 1));
+            base[axis] = at[axis] >> 8;
+            f[axis] = at[axis] & 255;
+        }
+        for (std::size_t c = 0; c < 4; ++c) {
+            double sum = 0.0;
+            for (int z = 0; z < 2; ++z) {
+                const int all = z == 1 ? f[2] : 256 - f[2], right = (2 * all * f[0] + 256) / 512;
+                const int left_top = ((all - right) * f[1] * 2 + 255) / 512, right_top = (right * f[1] * 2 + 256) / 512;
+                const int share[] = {all - right - left_top, right - right_top, left_top, right_top};
+                float texel[4];
+                int top = -1000;
+                for (int k = 0; k < 4; ++k) {
+                    texel[k] = volume.at(base[0] + k % 2, base[1] + k / 2, base[2] + z, c, black);
+                    if (share[k] != 0 && texel[k] != 0.0F)
+                        top = std::max(top, std::ilogb(texel[k]));
+                }
+                const double step = std::ldexp(1.0, top + 1 - kept);
+                for (int k = 0; k < 4; ++k)
+                    if (share[k] != 0)
+                        sum += std::trunc(texel[k] / step) * step * share[k] / 256.0;
+            }
+            const double step = sum == 0.0 ? 1.0 : std::ldexp(1.0, std::ilogb(sum) + 1 - rounded);
+            values.push_back(static_cast<float>(std::round(sum / step) * step)); // halves away from 0
+        }
+    }
+    return values;
+}
+
 /// Places, in texels, within `low` and `high`.
 Floats random_places(std::uint64_t seed, double low, double high) {
     Random random(seed, 0);
@@ -132,12 +171,36 @@ void measure_form(const char* name, std::uint64_t seed, bool black, Rows& rows) 
     rows.push_back(judge(name, values, predictions));
 }
 
+/// Of floats and of halves.
+void measure_aligned(const char* name, std::uint64_t seed, bool black, Rows& rows) {
+    Volume volume{random_floats(std::size_t{volume_side} * volume_side * volume_side * 4, seed, {-4, 4, true})};
+    for (float& texel : volume.texels) { // a half, too
+        const double step = std::ldexp(1.0, std::ilogb(texel) - 10);
+        texel = static_cast<float>(std::trunc(texel / step) * step);
+    }
+    const Floats where =
+        black ? random_places(seed + 1, -1.0, volume_side + 1.0) : random_places(seed + 1, 0.0, volume_side);
+    const GLenum wrap = black ? GL_CLAMP_TO_BORDER : GL_CLAMP_TO_EDGE;
+    const auto both = [](Floats floats, const Floats& halves) {
+        floats.insert(floats.end(), halves.begin(), halves.end());
+        return floats;
+    };
+    const Floats measured = both(filtered(volume, where, wrap, GL_RGBA32F), filtered(volume, where, wrap, GL_RGBA16F));
+    const Floats shares = joined(volume, where, black, weights[1], mixes[2]);
+    rows.push_back(judge(name, measured,
+                         {{"cell's weights in 256ths, planes cut",
+                           both(aligned(volume, where, black, 28, 24), aligned(volume, where, black, 15, 11))},
+                          {std::string(mixes[2].name) + ", " + weights[1].name, both(shares, shares)}}));
+}
+
 } // namespace
 
 void measure_filtering(Rows& rows) {
     measure_weights(rows);
     measure_form("image: linear filter", 72, false, rows);
     measure_form("image: linear filter, border of 0", 74, true, rows);
+    measure_aligned("image: linear filter, aligned", 76, false, rows);
+    measure_aligned("image: linear filter, aligned, border of 0", 78, true, rows);
 }
 
 } // namespace lockstep::probing

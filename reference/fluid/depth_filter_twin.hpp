@@ -4,6 +4,7 @@
 #include "reference/fluid/curvature_flow.hpp"
 #include "reference/fluid/narrow_range.hpp"
 #include "reference/fluid/weighted_mean.hpp"
+#include "reference/system/item_twin.hpp"
 #include "reference/system/item_words.hpp"
 #include "reference/system/pixel_boxes.hpp"
 
@@ -14,6 +15,8 @@ struct DepthFilterTwin {
     HostPtr host;
     FilterStep step;
     std::shared_ptr<const KnownNarrowWeights> weights = {}; ///< null: not of the narrow-range filter
+
+    bool fast(const FastRun& run) const; // image_lanes.cpp
 
     template <class R, class Item> ItemWords<R> operator()(R& r, const PassInput& in, const Item& item) const {
         using Real = typename R::Real;

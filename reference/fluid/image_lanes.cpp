@@ -1,80 +1,36 @@
-#include "reference/fluid/image_lanes.hpp"
-
-#include <memory>
-#include <utility>
-
+#include "reference/fluid/depth_filter_twin.hpp"
+#include "reference/fluid/normal_twin.hpp"
+#include "reference/fluid/scene_twin.hpp"
+#include "reference/fluid/shade_twin.hpp"
 #include "reference/system/lane_items.hpp"
 #include "reference/vector_loops.hpp"
 
 namespace lockstep::fluid {
 namespace {
 
-LOCKSTEP_VECTOR_CLONES void make(const DepthFilterTwin& twin, const PlainLanes& fp, const LaneRun& run) {
-    make_lanes(twin, fp, run);
-}
-LOCKSTEP_VECTOR_CLONES void make(const DepthFilterTwin& twin, const PortableLanes& fp, const LaneRun& run) {
-    make_lanes(twin, fp, run);
-}
-LOCKSTEP_VECTOR_CLONES void make(const NormalTwin& twin, const PlainLanes& fp, const LaneRun& run) {
-    make_lanes(twin, fp, run);
-}
-LOCKSTEP_VECTOR_CLONES void make(const NormalTwin& twin, const PortableLanes& fp, const LaneRun& run) {
-    make_lanes(twin, fp, run);
-}
-LOCKSTEP_VECTOR_CLONES void make(const ShadeTwin& twin, const PlainLanes& fp, const LaneRun& run) {
-    make_lanes(twin, fp, run);
-}
-LOCKSTEP_VECTOR_CLONES void make(const ShadeTwin& twin, const PortableLanes& fp, const LaneRun& run) {
-    make_lanes(twin, fp, run);
-}
+LOCKSTEP_MAKE_LANES(DepthFilterTwin)
+LOCKSTEP_MAKE_LANES(NormalTwin)
+LOCKSTEP_MAKE_LANES(ShadeTwin)
+LOCKSTEP_MAKE_LANES(SceneTwin)
 
-LOCKSTEP_VECTOR_CLONES void make(const SceneTwin& twin, const PlainLanes& fp, const LaneRun& run) {
-    make_lanes(twin, fp, run);
-}
-LOCKSTEP_VECTOR_CLONES void make(const SceneTwin& twin, const PortableLanes& fp, const LaneRun& run) {
-    make_lanes(twin, fp, run);
-}
+constexpr auto make_all = [](const auto& twin, const auto& fp, const FastRun& run) { make(twin, fp, run); };
 
-/// Whether lanes have what the switches ask.
-bool has_lanes(const Switches& s) { return s.depth_fetch == DepthFetch::texel && s.scene_fetch != SceneFetch::linear; }
-
-/// `at(in)`: the twin of an input.
-template <class Twin, class At> ItemPassOptions with(ItemPassOptions options, const Twin& twin, const At& at) {
-    const Settings& s = twin.host->settings();
-    if (has_lanes(s.switches))
-        options.fast = fast_by_lanes(s.arithmetic, s.width, at,
-                                     [](const auto& of, const auto& fp, const LaneRun& run) { make(of, fp, run); });
-    return options;
-}
-
-/// By the twin of one item.
-template <class A> KnownNarrowWeights weights_in(const Host& host, A arithmetic) {
-    Values<A> r(arithmetic);
-    const SystemView nothing;
-    const DepthMap<Values<A>> map(r, host, nothing, field::depth);
-    const NarrowRange<Values<A>> filter(r, host, map);
-    return KnownNarrowWeights([&](int dx, int dy, int n) { return static_cast<float>(filter.weight(dx, dy, n)); });
+/// Where lanes have what the switches ask.
+template <class Twin> bool by_lanes(const Twin& twin, const FastRun& run) {
+    const Switches& on = twin.host->switches();
+    return on.depth_fetch == DepthFetch::texel && on.scene_fetch != SceneFetch::linear &&
+           fast_by_lanes(twin, run, make_all);
 }
 
 } // namespace
 
-std::shared_ptr<const KnownNarrowWeights> narrow_weights(const Host& host) {
-    return std::make_shared<const KnownNarrowWeights>(host.settings().arithmetic == ArithmeticSwitch::exact
-                                                          ? weights_in(host, Portable{})
-                                                          : weights_in(host, Strict{}));
-}
-
-ItemPassOptions by_lanes(ItemPassOptions options, const DepthFilterTwin& twin) {
-    return with(std::move(options), twin, always(twin));
-}
-ItemPassOptions by_lanes(ItemPassOptions options, const NormalTwin& twin) {
-    return with(std::move(options), twin, always(twin));
-}
-ItemPassOptions by_lanes(ItemPassOptions options, const ShadeTwin& twin) {
-    return with(std::move(options), twin, always(twin));
-}
-ItemPassOptions by_lanes(ItemPassOptions options, const SceneTwin& twin) {
-    return with(std::move(options), twin, while_same(twin, field::corner_position.resource));
+bool DepthFilterTwin::fast(const FastRun& run) const { return by_lanes(*this, run); }
+bool NormalTwin::fast(const FastRun& run) const { return by_lanes(*this, run); }
+bool ShadeTwin::fast(const FastRun& run) const { return by_lanes(*this, run); }
+bool SceneTwin::fast(const FastRun& run) const {
+    SceneTwin seeing = *this;
+    seeing.seen = view->seen(run.in.before);
+    return fast_by_lanes(seeing, run, make_all);
 }
 
 } // namespace lockstep::fluid

@@ -30,8 +30,6 @@ class KnownNarrowWeights {
     static std::size_t place(int dx, int dy, int n) { return static_cast<std::size_t>((n * side + dx) * side + dy); }
     std::vector<float> all_;
 };
-/// Of the host's arithmetic; in the plain one for drivers without tables of roots.
-std::shared_ptr<const KnownNarrowWeights> narrow_weights(const Host& host);
 
 /// The narrow-range filter (Truong and Yuksel, "A Narrow-Range Filter for Screen-Space Fluid Rendering", 2018) at a
 /// pixel, of depths in view space. Twin of shaders/fluid/narrow_range.glsl.

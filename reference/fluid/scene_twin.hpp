@@ -1,9 +1,12 @@
 #pragma once
+#include <memory>
+
 #include "reference/fluid/sites.hpp"
 #include "reference/model/fluid/host.hpp"
 #include "reference/model/fluid/schema.hpp"
-#include "reference/system/drawn_triangles.hpp"
+#include "reference/system/item_twin.hpp"
 #include "reference/system/item_words.hpp"
+#include "reference/system/seen_triangles.hpp"
 
 namespace lockstep::fluid {
 
@@ -22,20 +25,20 @@ enum class Drawn { colour, depth };
 struct SceneTwin {
     HostPtr host;
     Drawn image;
-    BoxesByTile boxes = {};
+    std::shared_ptr<const LatestTriangles> triangles; ///< one for both images
+    std::shared_ptr<const TriangleView> view = {};
+    std::shared_ptr<const SeenTriangles> seen = {}; ///< for readings of many lanes
 
-    [[nodiscard]] SceneTwin at(const PassInput& in) const {
-        const Settings& s = host->settings();
-        const RoughWindow window{glm::dmat4(host->view_projection()), s.width, s.height};
-        return {host, image, {triangle_boxes(window, in.before, field::corner_position), s.width, s.height}};
-    }
+    [[nodiscard]] SceneTwin at(const PassInput& in) const { return {host, image, triangles, triangles->of(in.before)}; }
+    void look(const PassInput& in) const { static_cast<void>(view->seen(in.before)); }
+    bool fast(const FastRun& run) const; // image_lanes.cpp
 
     template <class R, class Item> ItemWords<R> operator()(R& r, const PassInput& in, const Item& item) const {
         using Real = typename R::Real;
         const Settings& s = host->settings();
-        const DrawnTriangles<R> triangles(
-            r, {in.before, field::corner_position, host->view_projection(), s.width, s.height, boxes});
-        const auto hit = triangles.nearest(pixel_at(s.width, item));
+        const DrawnTriangles<R> drawn(r, {in.before, field::corner_position, host->view_projection(), s.width, s.height,
+                                          view->boxes(), seen.get()});
+        const auto hit = drawn.nearest(pixel_at(s.width, item));
         if (image == Drawn::depth) {
             ItemWords<R> words;
             words.add(r.note(site::scene_depth, hit ? r.note(site::surface_depth, hit->depth) : Real(1.0F)));
@@ -43,7 +46,7 @@ struct SceneTwin {
         }
         typename R::Vec3 colour = r.uniform(site::sky_colour, glm::vec3(scene_sky[0], scene_sky[1], scene_sky[2]));
         if (hit)
-            colour = checked(r, triangles.position(*hit));
+            colour = checked(r, drawn.position(*hit));
         return words_of<R>(r.note(site::scene, typename R::Vec4{colour.x, colour.y, colour.z, Real(1.0F)}));
     }
 

@@ -1,11 +1,11 @@
-#include "reference/fluid/image_lanes.hpp"
 #include "reference/fluid/passes.hpp"
+#include "reference/fluid/shade_twin.hpp"
 #include "reference/system/encode_twin.hpp"
 
 namespace lockstep::fluid {
 
 void add_shade_passes(const HostPtr& host, Passes& all) {
-    all.push_back(lane_pass(options_of(*host, "fluid_shade_pass", lit_image, PassStage::compute), ShadeTwin{host}));
+    all.push_back(item_pass(options_of(*host, "fluid_shade_pass", lit_image, PassStage::compute), ShadeTwin{host}));
     const Encoding encoding = host->switches().encoding;
     const ItemPassOptions options = encoding == Encoding::srgb_hw
                                         ? options_of(*host, "encode_by_gl_pass", encoded_image, PassStage::fragment)

@@ -9,6 +9,8 @@ namespace lockstep::fluid {
 struct ShadeTwin {
     HostPtr host;
 
+    bool fast(const FastRun& run) const; // image_lanes.cpp
+
     template <class R, class Item> ItemWords<R> operator()(R& r, const PassInput& in, const Item& item) const {
         using Real = typename R::Real;
         using Vec3 = typename R::Vec3;

@@ -6,61 +6,11 @@
 
 #include "reference/fluid/sphere_depth_twin.hpp"
 #include "reference/fluid/thickness_twin.hpp"
-#include "reference/system/lane_items.hpp"
+#include "reference/system/tile_rows.hpp"
 #include "reference/vector_loops.hpp"
 
 namespace lockstep::fluid {
 namespace {
-
-/// Each operation as the plain arithmetic of a driver has it, with tables of roots or without, lane by lane.
-struct OwnOrderLanes {
-    using Three = Vec3<FloatLanes>;
-    OwnOrders fp;
-
-    LOCKSTEP_INLINE static FloatLanes flush(const FloatLanes& v) { return v; }
-    [[nodiscard]] LOCKSTEP_INLINE FloatLanes divide(const FloatLanes& a, const FloatLanes& b) const {
-        FloatLanes made = a;
-        for (int k = 0; k < lane_count; ++k)
-            made[k] = fp.divide(a[k], b[k]);
-        return made;
-    }
-    [[nodiscard]] LOCKSTEP_INLINE FloatLanes sqrt(const FloatLanes& a) const {
-        return lanes::each(a, [this](float x) { return fp.sqrt(x); });
-    }
-    [[nodiscard]] LOCKSTEP_INLINE FloatLanes dot(const Three& a, const Three& b) const {
-        FloatLanes made = a.x;
-        for (int k = 0; k < lane_count; ++k)
-            made[k] = fp.dot({a.x[k], a.y[k], a.z[k]}, {b.x[k], b.y[k], b.z[k]});
-        return made;
-    }
-};
-
-PortableLanes lanes_of(const Portable&) { return {}; }
-OwnOrderLanes lanes_of(const PlainArithmetic& fp) { return {fp}; }
-
-/// BoxesByTile::draw, a row of a tile at a time: `draw(row, drawn, place, first, last)` for pixels first to last of it,
-/// the last excluded, `place` being its first pixel; `done(row, place, count)` with as many as lie in the image.
-template <class Row, class Make, class Draw, class Done>
-void draw_rows(const BoxesByTile& boxes, int width, int height, std::size_t tiles, const Row& empty, const Make& make,
-               const Draw& draw, const Done& done) {
-    constexpr int side = BoxesByTile::side;
-    static_assert(side == lane_count);
-    const int y0 = static_cast<int>(tiles) * side, y1 = std::min(y0 + side, height);
-    for (int x0 = 0; x0 < width; x0 += side) {
-        const int x1 = std::min(x0 + side, width);
-        std::array<Row, side> rows;
-        rows.fill(empty);
-        for (const std::uint32_t i : boxes.near({x0, y0})) {
-            const PixelRect& box = boxes.box(i);
-            if (const auto drawn = make(i))
-                for (int y = std::max(y0, box.y0); y < std::min(y1, box.y1); ++y)
-                    draw(rows[static_cast<std::size_t>(y - y0)], *drawn, Pixel{x0, y}, std::max(0, box.x0 - x0),
-                         std::min(x1, box.x1) - x0);
-        }
-        for (int y = y0; y < y1; ++y)
-            done(rows[static_cast<std::size_t>(y - y0)], Pixel{x0, y}, x1 - x0);
-    }
-}
 
 /// Calls `draw(row, reading, sprite, ball, place, items, inside)` for each sphere at each row of a tile that its box
 /// touches, by number, and stores what `words_of(row, items)` makes of the row.
@@ -92,10 +42,8 @@ void draw_spheres(const Twin& twin, const A& fp, const PassInput& in, std::size_
                                number(ball->half)};
             return wide;
         },
-        [&](Row& row, const Ball<R>& ball, const Pixel& place, int first, int last) {
-            const IntLanes lane = from(0);
-            const LanePixel pixel{LaneInt(from(place.x)), place.x, place.y};
-            draw(row, reading, sprite, ball, pixel, items_at(place), LaneMask((lane >= first) & (lane < last)));
+        [&](Row& row, const Ball<R>& ball, const LanePixel& place, const LaneMask& inside) {
+            draw(row, reading, sprite, ball, place, items_at(first_of(place)), inside);
         },
         [&](const Row& row, const Pixel& place, int count) {
             const IntLanes words = words_of(row, items_at(place));

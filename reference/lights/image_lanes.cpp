@@ -1,7 +1,4 @@
-#include "reference/lights/image_lanes.hpp"
-
-#include <utility>
-
+#include "reference/lights/lighting_twin.hpp"
 #include "reference/lights/sampling_lanes.hpp"
 #include "reference/system/lane_items.hpp"
 #include "reference/vector_loops.hpp"
@@ -9,34 +6,18 @@
 namespace lockstep::lights {
 namespace {
 
-LOCKSTEP_VECTOR_CLONES void make(const DrawnTwin& twin, const PlainLanes& fp, const LaneRun& run) {
-    make_lanes(twin, fp, run);
-}
-LOCKSTEP_VECTOR_CLONES void make(const DrawnTwin& twin, const PortableLanes& fp, const LaneRun& run) {
-    make_lanes(twin, fp, run);
-}
-LOCKSTEP_VECTOR_CLONES void make(const DeferredTwin& twin, const PlainLanes& fp, const LaneRun& run) {
-    make_lanes(twin, fp, run);
-}
-LOCKSTEP_VECTOR_CLONES void make(const DeferredTwin& twin, const PortableLanes& fp, const LaneRun& run) {
-    make_lanes(twin, fp, run);
-}
+LOCKSTEP_MAKE_LANES(DrawnTwin)
+LOCKSTEP_MAKE_LANES(DeferredTwin)
 
-/// `at(in)`: the twin of an input.
-template <class Twin, class At> ItemPassOptions with(ItemPassOptions options, const Twin& twin, const At& at) {
-    const Settings& s = twin.host->settings();
-    options.fast = fast_by_lanes(s.arithmetic, s.width, at,
-                                 [](const auto& of, const auto& fp, const LaneRun& run) { make(of, fp, run); });
-    return options;
-}
+constexpr auto make_all = [](const auto& twin, const auto& fp, const FastRun& run) { make(twin, fp, run); };
 
 } // namespace
 
-ItemPassOptions by_lanes(ItemPassOptions options, const DrawnTwin& twin) {
-    return with(std::move(options), twin, while_same(twin, field::corner_position.resource));
+bool DrawnTwin::fast(const FastRun& run) const {
+    DrawnTwin seeing = *this;
+    seeing.seen = view->seen(run.in.before);
+    return fast_by_lanes(seeing, run, make_all);
 }
-ItemPassOptions by_lanes(ItemPassOptions options, const DeferredTwin& twin) {
-    return with(std::move(options), twin, always(twin));
-}
+bool DeferredTwin::fast(const FastRun& run) const { return fast_by_lanes(*this, run, make_all); }
 
 } // namespace lockstep::lights

@@ -64,13 +64,18 @@ enum class Drawn { lit, depth, position, normal, albedo };
 struct DrawnTwin {
     HostPtr host;
     Drawn image;
-    BoxesByTile boxes = {};
+    std::shared_ptr<const LatestTriangles> triangles; ///< one for all images
+    std::shared_ptr<const TriangleView> view = {};
+    std::shared_ptr<const SeenTriangles> seen = {}; ///< for readings of many lanes
 
-    [[nodiscard]] DrawnTwin at(const PassInput& in) const { return {host, image, triangle_boxes(*host, in.before)}; }
+    [[nodiscard]] DrawnTwin at(const PassInput& in) const { return {host, image, triangles, triangles->of(in.before)}; }
+    void look(const PassInput& in) const { static_cast<void>(view->seen(in.before)); }
+    bool fast(const FastRun& run) const; // image_lanes.cpp
 
     template <class R, class Item> ItemWords<R> operator()(R& r, const PassInput& in, const Item& item) const {
         using Real = typename R::Real;
-        const auto surface = SurfaceTwin<R>(r, *host, boxes, in.before).at(pixel_at(host->settings().width, item));
+        const auto surface =
+            SurfaceTwin<R>(r, *host, in.before, *view, seen.get()).at(pixel_at(host->settings().width, item));
         ItemWords<R> words;
         switch (image) {
         case Drawn::lit:
@@ -117,6 +122,8 @@ struct DrawnTwin {
 /// Twin of shaders/lights/deferred_light_pass.comp.
 struct DeferredTwin {
     HostPtr host;
+
+    bool fast(const FastRun& run) const; // image_lanes.cpp
 
     template <class R, class Item> ItemWords<R> operator()(R& r, const PassInput& in, const Item& item) const {
         using Real = typename R::Real;

@@ -3,8 +3,11 @@
 #include <array>
 #include <cmath>
 #include <cstddef>
+#include <limits>
 #include <utility>
+#include <vector>
 
+#include "reference/aligned_filter.hpp"
 #include "reference/lights/contribution.hpp"
 #include "reference/system/item_twin.hpp"
 
@@ -142,21 +145,24 @@ template <class R> class SamplingTwin {
         return sum;
     }
 
-    /// The texture unit's own: fma(f, b - a, a) along x, y, z, with f of full precision. Where the driver is followed,
-    /// legal is what lies between this and the other forms of such weights; else what weights of 8 fraction bits give,
-    /// cut or rounded, at a coordinate that is right to 1 part in 10^5, with results right to that (GL 4.5, 2.3.4.1).
+    /// The texture unit's own, as far as the driver is followed: fma(f, b - a, a) along x, y, z with f of full
+    /// precision, and what lies between this and the other forms of such weights; or aligned_filter.hpp. Else what GL
+    /// allows.
     [[nodiscard]] Sample<R> filtered(const Vec3& u) const {
         const std::array<Interval, 3> place{item_twin::set_of(u.x), item_twin::set_of(u.y), item_twin::set_of(u.z)};
         std::array<float, 3> t{};
         for (std::size_t axis = 0; axis < 3; ++axis)
             t[axis] = place[axis].as_float() - 0.5F;
-        const bool known = host_.follows_driver() && std::all_of(place.begin(), place.end(), [](const Interval& along) {
-                               return along.is_point();
-                           });
+        const bool is_point =
+            std::all_of(place.begin(), place.end(), [](const Interval& along) { return along.is_point(); });
+        const bool is_aligned = host_.driver() == Driver::aligned_filter;
+        const AlignedPlaces aligned = is_aligned ? aligned_places(place) : AlignedPlaces{};
         Sample<R> found{};
         for (std::size_t c = 0; c < found.size(); ++c) {
-            const float value = joined(t, c, fused);
-            const auto [low, high] = known ? forms(t, c) : eight_bits(place, c);
+            const float value = is_aligned ? aligned_sum_at(place, c) : joined(t, c, fused);
+            const auto [low, high] = !aligned.empty()                     ? aligned_sums(aligned, c)
+                                     : is_point && host_.follows_driver() ? forms(t, c)
+                                                                          : eight_bits(place, c);
             found[c] = r_.note(site::filtered, r_.unspecified(site::filtered, Real(value), low, high));
         }
         return found;
@@ -164,27 +170,106 @@ template <class R> class SamplingTwin {
     [[nodiscard]] std::pair<float, float> forms(const std::array<float, 3>& t, std::size_t c) const {
         return std::minmax({joined(t, c, fused), joined(t, c, lerped), joined(t, c, weighted)});
     }
+
+    /// A cell of texels, and what its texels weigh.
+    struct AlignedPlace {
+        std::array<int, 3> base;
+        std::array<int, 8> weights;
+    };
+    using AlignedPlaces = std::vector<AlignedPlace>;
+    /// In 256ths of a texel. Beyond the last texels nothing mixes, but with what is black.
+    [[nodiscard]] double aligned_at(double t, std::size_t axis) const {
+        const double place = filter_place(t), last = 256.0 * (host_.grid().size[static_cast<int>(axis)] - 1);
+        return host_.switches().outside == Outside::black ? place : std::clamp(place, 0.0, last);
+    }
+    [[nodiscard]] static AlignedPlace aligned_place(const std::array<double, 3>& at) {
+        AlignedPlace made{};
+        std::array<int, 3> behind{};
+        for (std::size_t axis = 0; axis < 3; ++axis) {
+            made.base[axis] = static_cast<int>(std::floor(at[axis] / 256.0));
+            behind[axis] = static_cast<int>(at[axis] - 256.0 * made.base[axis]);
+        }
+        made.weights = filter_weights(behind);
+        return made;
+    }
+    /// All that a place may be rounded to; none where these are many.
+    [[nodiscard]] AlignedPlaces aligned_places(const std::array<Interval, 3>& place) const {
+        constexpr double most = 216.0;
+        std::array<double, 3> low{}, high{};
+        double count = 1.0;
+        for (std::size_t axis = 0; axis < 3; ++axis) {
+            low[axis] = aligned_at(place[axis].low - 0.5, axis);
+            high[axis] = aligned_at(place[axis].high - 0.5, axis);
+            count *= high[axis] - low[axis] + 1.0;
+        }
+        AlignedPlaces all;
+        if (!(count <= most)) // or no number
+            return all;
+        for (double z = low[2]; z <= high[2]; z += 1.0)
+            for (double y = low[1]; y <= high[1]; y += 1.0)
+                for (double x = low[0]; x <= high[0]; x += 1.0)
+                    all.push_back(aligned_place({x, y, z}));
+        return all;
+    }
+    [[nodiscard]] std::pair<float, float> aligned_sums(const AlignedPlaces& places, std::size_t c) const {
+        const FilterBits bits =
+            host_.switches().volume_format == Format::rgba16f ? half_filter_bits : float_filter_bits;
+        float low = HUGE_VALF, high = -HUGE_VALF;
+        for (const AlignedPlace& at : places) {
+            FilterCell cell{};
+            for (std::size_t k = 0; k < cell.size(); ++k)
+                cell[k] = corner(at.base, k, c);
+            if (!std::all_of(cell.begin(), cell.end(), [](float texel) { return std::isfinite(texel); }))
+                return {-HUGE_VALF, HUGE_VALF}; // what weighs nothing may make it no number (D3D 11.3, 7.18.16.2)
+            const auto [least, most] = aligned_sum(cell, at.weights, bits);
+            low = std::min(low, least);
+            high = std::max(high, most);
+        }
+        return {low, high};
+    }
+    /// Of texels or at places that are no numbers, no number.
+    [[nodiscard]] float aligned_sum_at(const std::array<Interval, 3>& place, std::size_t c) const {
+        std::array<double, 3> at{};
+        for (std::size_t axis = 0; axis < 3; ++axis) {
+            at[axis] = aligned_at(double{place[axis].as_float()} - 0.5, axis);
+            if (!(std::abs(at[axis]) < 0x1p30))
+                return std::numeric_limits<float>::quiet_NaN();
+        }
+        const float low = aligned_sums({aligned_place(at)}, c).first;
+        return std::isfinite(low) ? low : std::numeric_limits<float>::quiet_NaN();
+    }
+
+    /// What any texture unit may give whose places and weights have 8 fraction bits: places right to 1 part in 10^5 (GL
+    /// 4.5, 2.3.4.1) and then to 0.6 of a 256th (D3D 11.3, 3.2.4.1); weights of texels in 256ths, each of the six
+    /// halvings of a cell rounded; nothing beyond the cell's least and greatest texel (7.18.16.3); results as right as
+    /// the format, and to 1 part in 10^5 of the greatest texel.
     [[nodiscard]] std::pair<float, float> eight_bits(const std::array<Interval, 3>& place, std::size_t c) const {
         std::array<std::array<double, 5>, 3> tried{};
         std::array<std::size_t, 3> tries{};
         for (std::size_t axis = 0; axis < 3; ++axis) {
-            const double free = 0x1p-8 + 1e-5 * (std::abs(place[axis].low) + 0.5);
+            const double free = 0.6 / 256.0 + 1e-5 * (std::abs(place[axis].low) + 0.5);
             const double low = place[axis].low - 0.5 - free, high = place[axis].high - 0.5 + free;
             tried[axis][tries[axis]++] = low;
             tried[axis][tries[axis]++] = high;
             for (double whole_at = std::ceil(low); whole_at <= high && tries[axis] < 5; whole_at += 1.0)
                 tried[axis][tries[axis]++] = whole_at;
         }
-        double low = HUGE_VAL, high = -HUGE_VAL, largest = 0.0;
+        double low = HUGE_VAL, high = -HUGE_VAL;
+        Texels seen;
         for (std::size_t i = 0; i < tries[0]; ++i)
             for (std::size_t j = 0; j < tries[1]; ++j)
                 for (std::size_t k = 0; k < tries[2]; ++k) {
-                    const double one = exact(tried[0][i], tried[1][j], tried[2][k], c, largest);
+                    const double one = exact({tried[0][i], tried[1][j], tried[2][k]}, c, seen);
                     low = std::min(low, one);
                     high = std::max(high, one);
                 }
-        const double error = 1e-5 * largest;
-        return {static_cast<float>(low - error), static_cast<float>(high + error)};
+        if (!seen.are_finite)
+            return {-HUGE_VALF, HUGE_VALF};
+        const double halvings = 6.0 / 512.0 * (seen.greatest - seen.least);
+        const double largest = std::max(std::abs(seen.least), std::abs(seen.greatest));
+        const double error = (host_.switches().volume_format == Format::rgba16f ? 0x1p-10 : 1e-5) * largest;
+        return {static_cast<float>(std::max(low - halvings, seen.least) - error),
+                static_cast<float>(std::min(high + halvings, seen.greatest) + error)};
     }
     static float fused(float a, float b, float f) { return std::fma(f, b - a, a); }
     static float lerped(float a, float b, float f) { return a + f * (b - a); }
@@ -209,20 +294,30 @@ template <class R> class SamplingTwin {
         const auto along_y = [&](int dz) { return mixed(along_x(0, dz), along_x(1, dz), f(1)); };
         return mixed(along_y(0), along_y(1), f(2));
     }
-    [[nodiscard]] double exact(double x, double y, double z, std::size_t c, double& largest) const {
-        const std::array<double, 3> t{x, y, z};
+    /// Of a cell.
+    [[nodiscard]] float corner(const std::array<int, 3>& base, std::size_t k, std::size_t c) const {
+        return raw(base[0] + static_cast<int>(k & 1U), base[1] + static_cast<int>(k >> 1U & 1U),
+                   base[2] + static_cast<int>(k >> 2U), c);
+    }
+    struct Texels {
+        double least = HUGE_VAL, greatest = -HUGE_VAL;
+        bool are_finite = true;
+    };
+    [[nodiscard]] double exact(const std::array<double, 3>& t, std::size_t c, Texels& seen) const {
         std::array<int, 3> b{};
         for (std::size_t axis = 0; axis < 3; ++axis)
             b[axis] = static_cast<int>(std::floor(t[axis]));
         double sum = 0.0;
-        for (int k = 0; k < 8; ++k) {
+        for (std::size_t k = 0; k < 8; ++k) {
             double weight = 1.0;
             for (std::size_t axis = 0; axis < 3; ++axis) {
                 const double f = t[axis] - b[axis];
-                weight *= (k >> axis & 1) != 0 ? f : 1.0 - f;
+                weight *= (k >> axis & 1U) != 0 ? f : 1.0 - f;
             }
-            const double value = double{raw(b[0] + (k & 1), b[1] + (k >> 1 & 1), b[2] + (k >> 2 & 1), c)};
-            largest = std::max(largest, std::abs(value));
+            const auto value = double{corner(b, k, c)};
+            seen.are_finite = seen.are_finite && std::isfinite(value);
+            seen.least = std::min(seen.least, value);
+            seen.greatest = std::max(seen.greatest, value);
             sum += weight * value;
         }
         return sum;

@@ -1,17 +1,19 @@
 #pragma once
+#include <memory>
 #include <optional>
 
 #include "reference/lights/sites.hpp"
 #include "reference/model/lights/host.hpp"
 #include "reference/model/lights/schema.hpp"
-#include "reference/system/drawn_triangles.hpp"
 #include "reference/system/item_pass.hpp"
 #include "reference/system/pixel_boxes.hpp"
+#include "reference/system/seen_triangles.hpp"
 
 namespace lockstep::lights {
 
-/// Of each triangle or glow of a state the pixels that it may cover: what lies outside is not tried.
-BoxesByTile triangle_boxes(const Host& host, const SystemView& state);
+/// The obstacles before the camera.
+std::shared_ptr<const LatestTriangles> obstacle_triangles(const Host& host);
+/// Of each glow of a state the pixels that it may cover: what lies outside is not tried.
 BoxesByTile glow_boxes(const Host& host, const SystemView& state);
 
 /// What a pixel shows.
@@ -26,9 +28,10 @@ template <class R> class SurfaceTwin {
     using Vec3 = typename R::Vec3;
 
   public:
-    SurfaceTwin(R& r, const Host& host, const BoxesByTile& boxes, const SystemView& state)
-        : r_(r), host_(host), state_(state), triangles_(r, {state, field::corner_position, host.view_projection(),
-                                                            host.settings().width, host.settings().height, boxes}) {}
+    SurfaceTwin(R& r, const Host& host, const SystemView& state, const TriangleView& view, const SeenTriangles* seen)
+        : r_(r), host_(host), state_(state),
+          triangles_(r, {state, field::corner_position, host.view_projection(), host.settings().width,
+                         host.settings().height, view.boxes(), seen}) {}
 
     template <class Place> [[nodiscard]] std::optional<Surface<R>> at(const Place& pixel) const {
         const std::optional<TriangleHit<R>> hit = triangles_.nearest(pixel);

@@ -1,24 +1,23 @@
 #include "reference/lights/by_driver.hpp"
-#include "reference/lights/image_lanes.hpp"
+#include "reference/lights/lighting_twin.hpp"
 #include "reference/lights/passes.hpp"
 
 namespace lockstep::lights {
 
 void add_surface_passes(const HostPtr& host, std::vector<std::unique_ptr<ItemPass>>& all) {
     const ArithmeticSwitch arithmetic = host->settings().arithmetic;
-    const char* const filter = host->switches().outside == Outside::black ? black_filter_row : filter_row;
     const auto lit = [&](const auto& made) {
-        return host->switches().interpolation == Interpolation::trilinear_hw ? by_driver(filter, host, made)
-                                                                             : made(host);
+        return host->switches().interpolation == Interpolation::trilinear_hw ? by_filter(host, made) : made(host);
     };
+    const std::shared_ptr<const LatestTriangles> triangles = obstacle_triangles(*host);
     const auto drawn = [&](const char* name, std::uint8_t resource, Drawn image, bool continues) {
         const auto made = [&](const HostPtr& on) {
-            return lane_pass({.name = name,
+            return item_pass({.name = name,
                               .resource = resource,
                               .stage = PassStage::fragment,
                               .arithmetic = arithmetic,
                               .continues = continues},
-                             DrawnTwin{on, image});
+                             DrawnTwin{on, image, triangles});
         };
         all.push_back(image == Drawn::lit ? lit(made) : made(host));
     };
@@ -32,7 +31,7 @@ void add_surface_passes(const HostPtr& host, std::vector<std::unique_ptr<ItemPas
     drawn("gbuffer_pass_albedo", albedo_image, Drawn::albedo, true);
     drawn("gbuffer_pass_depth", depth_image, Drawn::depth, true);
     all.push_back(lit([&](const HostPtr& on) {
-        return lane_pass({.name = "deferred_light_pass",
+        return item_pass({.name = "deferred_light_pass",
                           .resource = lit_image,
                           .stage = PassStage::compute,
                           .arithmetic = arithmetic},

@@ -4,6 +4,7 @@
 #include <concepts>
 #include <cstddef>
 #include <cstdint>
+#include <cstring>
 #include <limits>
 #include <optional>
 #if defined(__SSE2__)
@@ -39,6 +40,13 @@ LOCKSTEP_INLINE FloatLanes all(float x) { return FloatLanes{x, x, x, x, x, x, x,
 LOCKSTEP_INLINE IntLanes all(int i) { return IntLanes{i, i, i, i, i, i, i, i}; }
 LOCKSTEP_INLINE IntLanes bits(const FloatLanes& v) { return std::bit_cast<IntLanes>(v); }
 LOCKSTEP_INLINE FloatLanes floats(const IntLanes& v) { return std::bit_cast<FloatLanes>(v); }
+
+/// As many numbers as there are lanes.
+template <class Vector, class Number> LOCKSTEP_INLINE Vector loaded(const Number* from) {
+    Vector v{};
+    std::memcpy(&v, from, sizeof v);
+    return v;
+}
 
 /// One bit a lane of a mask, whose lanes are 0 or -1.
 LOCKSTEP_INLINE unsigned set_of(const IntLanes& mask) {

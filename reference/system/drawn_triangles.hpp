@@ -1,10 +1,13 @@
 #pragma once
 #include <array>
+#include <cstdint>
 #include <optional>
 #include <tuple>
+#include <vector>
 
 #include <glm/mat4x4.hpp>
 
+#include "reference/readings/lanes.hpp"
 #include "reference/readings/site.hpp"
 #include "reference/readings/values.hpp"
 #include "reference/system/item_reads.hpp"
@@ -29,6 +32,13 @@ template <class R> struct TriangleHit {
     auto fields() const { return std::tie(second, third, depth); }
 };
 
+/// Of each pixel of an image what DrawnTriangles::nearest finds there (seen_triangles.hpp). As many more at the end as
+/// a reading has lanes.
+struct SeenTriangles {
+    std::vector<std::int32_t> triangle; ///< -1: none
+    std::vector<float> second, third, depth;
+};
+
 /// What triangles are drawn from.
 struct TriangleScene {
     const SystemView& state;
@@ -36,6 +46,7 @@ struct TriangleScene {
     const glm::mat4& to_clip;
     int width, height;
     const BoxesByTile& boxes;
+    const SeenTriangles* seen = nullptr; ///< what readings of many lanes look up
 };
 
 /// Triangles at a pixel: coverage and shares as shaders/triangle_interpolation.glsl computes them, with
@@ -50,12 +61,18 @@ template <class R> class DrawnTriangles {
 
     template <class Place> [[nodiscard]] std::optional<TriangleHit<R>> nearest(const Place& pixel) const {
         namespace site = triangle_site;
-        auto nearest = least<TriangleHit<R>>(r_, site::nearest, 1.0F);
-        for (const std::uint32_t t : scene_.boxes.near(first_of(pixel)))
-            if (pixel.is_in(scene_.boxes.box(t)))
-                if (const auto hit = triangle_at(static_cast<int>(t), pixel))
-                    nearest.offer(site::in_depth, hit->depth < Real(1.0F), hit->depth, *hit);
-        return nearest.take();
+        if constexpr (HasLanes<R>) {
+            return seen_at(first_of(pixel));
+        } else {
+            auto nearest = least<TriangleHit<R>>(r_, site::nearest, 1.0F);
+            for (const std::uint32_t t : scene_.boxes.near(pixel))
+                if (pixel.is_in(scene_.boxes.box(t)))
+                    offer(projected(static_cast<int>(t)), pixel, [&](bool covered, const TriangleHit<R>& hit) {
+                        if (covered)
+                            nearest.offer(site::in_depth, hit.depth < Real(1.0F), hit.depth, hit);
+                    });
+            return nearest.take();
+        }
     }
     [[nodiscard]] std::array<Vec3, 3> corners(int triangle) const {
         namespace site = triangle_site;
@@ -66,6 +83,57 @@ template <class R> class DrawnTriangles {
         const auto [a, b, c] = corners(hit.triangle);
         return r_.note(triangle_site::surface_point,
                        Vec3{mixed(a.x, b.x, c.x, hit), mixed(a.y, b.y, c.y, hit), mixed(a.z, b.z, c.z, hit)});
+    }
+
+    /// A triangle in clip space, and x and y times the image's size.
+    struct Projected {
+        int triangle;
+        std::array<Vec4, 3> clip;
+        std::array<Real, 3> x, y;
+    };
+    [[nodiscard]] Projected projected(int triangle) const {
+        namespace site = triangle_site;
+        Projected made{triangle, {}, {}, {}};
+        const glm::mat4 m = r_.uniform(site::projection, scene_.to_clip);
+        const std::array<Vec3, 3> corner = corners(triangle);
+        for (std::size_t k = 0; k < 3; ++k) {
+            made.clip[k] = r_.note(site::clip, r_.transform(site::clip, m, corner[k]));
+            made.x[k] = made.clip[k].x * r_.real(scene_.width);
+            made.y[k] = made.clip[k].y * r_.real(scene_.height);
+        }
+        return made;
+    }
+    /// Calls `made(covered, hit)` where the triangle may cover the pixel, between the planes.
+    template <class Place, class Made> void offer(const Projected& of, const Place& pixel, const Made& made) const {
+        namespace site = triangle_site;
+        std::array<std::array<Real, 2>, 3> to_corner;
+        const Real centre_x = r_.real(2 * pixel.x + 1 - scene_.width),
+                   centre_y = r_.real(2 * pixel.y + 1 - scene_.height);
+        for (std::size_t k = 0; k < 3; ++k)
+            to_corner[k] = {of.x[k] - centre_x * of.clip[k].w, of.y[k] - centre_y * of.clip[k].w};
+        const Real first = edge(to_corner[1], to_corner[2]), second = edge(to_corner[2], to_corner[0]),
+                   third = edge(to_corner[0], to_corner[1]);
+        const Real zero(0.0F), sum = r_.note(site::edges, (first + second) + third);
+        const auto flat = decided(r_, site::is_flat, sum == zero);
+        if (everywhere(flat))
+            return;
+        auto covered = decided(r_, site::is_front, first >= zero && second >= zero && third >= zero);
+        if (!everywhere(covered))
+            covered = covered || decided(r_, site::is_back, first <= zero && second <= zero && third <= zero);
+        covered = covered && !flat;
+        if (nowhere(covered))
+            return;
+        TriangleHit<R> hit{of.triangle, {}, {}, {}};
+        hit.second = r_.note(site::second, r_.min(Real(1.0F), r_.max(zero, r_.divide(site::second, second, sum))));
+        hit.third =
+            r_.note(site::third, r_.min(Real(1.0F) - hit.second, r_.max(zero, r_.divide(site::third, third, sum))));
+        const Real z = mixed(of.clip[0].z, of.clip[1].z, of.clip[2].z, hit),
+                   w = r_.note(site::clip_w, mixed(of.clip[0].w, of.clip[1].w, of.clip[2].w, hit));
+        covered = covered && decided(r_, site::in_front, w > zero);
+        if (nowhere(covered))
+            return;
+        hit.depth = r_.note(site::depth_value, r_.divide(site::depth_value, z, w) * Real(0.5F) + Real(0.5F));
+        made(covered && decided(r_, site::in_planes, hit.depth >= zero && hit.depth <= Real(1.0F)), hit);
     }
 
   private:
@@ -81,40 +149,16 @@ template <class R> class DrawnTriangles {
         return (first + hit.second * (second - first)) + hit.third * (third - first);
     }
 
-    template <class Place>
-    [[nodiscard]] std::optional<TriangleHit<R>> triangle_at(int triangle, const Place& pixel) const {
-        namespace site = triangle_site;
-        std::array<Vec4, 3> clip;
-        std::array<std::array<Real, 2>, 3> to_corner;
-        const glm::mat4 m = r_.uniform(site::projection, scene_.to_clip);
-        const std::array<Vec3, 3> corner = corners(triangle);
-        const Real centre_x = r_.real(2 * pixel.x + 1 - scene_.width),
-                   centre_y = r_.real(2 * pixel.y + 1 - scene_.height);
-        for (std::size_t k = 0; k < 3; ++k) {
-            clip[k] = r_.note(site::clip, r_.transform(site::clip, m, corner[k]));
-            to_corner[k] = {clip[k].x * r_.real(scene_.width) - centre_x * clip[k].w,
-                            clip[k].y * r_.real(scene_.height) - centre_y * clip[k].w};
-        }
-        const Real first = edge(to_corner[1], to_corner[2]), second = edge(to_corner[2], to_corner[0]),
-                   third = edge(to_corner[0], to_corner[1]);
-        const Real zero(0.0F), sum = r_.note(site::edges, (first + second) + third);
-        if (r_.decide(site::is_flat, sum == zero))
+    /// What seen_triangles.hpp found from a pixel on, of the triangle that the first active lane sees: lanes that see
+    /// another drop out.
+    [[nodiscard]] std::optional<TriangleHit<R>> seen_at(const Pixel& first) const {
+        const SeenTriangles& seen = *scene_.seen;
+        const std::size_t at = item_of(first.x, first.y, scene_.width);
+        const auto triangle = static_cast<int>(typename R::Int(r_, lanes::loaded<IntLanes>(seen.triangle.data() + at)));
+        if (triangle < 0)
             return {};
-        if (!r_.decide(site::is_front, first >= zero && second >= zero && third >= zero))
-            if (!r_.decide(site::is_back, first <= zero && second <= zero && third <= zero))
-                return {};
-        TriangleHit<R> hit{triangle, {}, {}, {}};
-        hit.second = r_.note(site::second, r_.min(Real(1.0F), r_.max(zero, r_.divide(site::second, second, sum))));
-        hit.third =
-            r_.note(site::third, r_.min(Real(1.0F) - hit.second, r_.max(zero, r_.divide(site::third, third, sum))));
-        const Real z = mixed(clip[0].z, clip[1].z, clip[2].z, hit),
-                   w = r_.note(site::clip_w, mixed(clip[0].w, clip[1].w, clip[2].w, hit));
-        if (!r_.decide(site::in_front, w > zero))
-            return {};
-        hit.depth = r_.note(site::depth_value, r_.divide(site::depth_value, z, w) * Real(0.5F) + Real(0.5F));
-        if (!r_.decide(site::in_planes, hit.depth >= zero && hit.depth <= Real(1.0F)))
-            return {};
-        return hit;
+        const auto of = [&](const std::vector<float>& all) { return Real(lanes::loaded<FloatLanes>(all.data() + at)); };
+        return TriangleHit<R>{triangle, of(seen.second), of(seen.third), of(seen.depth)};
     }
 
     R& r_;

@@ -140,6 +140,17 @@ inline void check_size(std::string_view pass, const Resource& about, std::size_t
 
 } // namespace item_twin
 
+/// Items first to last of a pass, the last excluded, to be made a faster way than one by one. `left` gets those of
+/// which none can be made.
+struct FastRun {
+    const PassInput& in;
+    const Profile& profile;
+    ArithmeticSwitch arithmetic;
+    std::size_t first, last;
+    const WritableView& after;
+    std::vector<std::size_t>& left;
+};
+
 /// What item_pass is told of a pass besides its twin.
 struct ItemPassOptions {
     std::string name;          ///< that of its shader
@@ -166,7 +177,8 @@ struct ItemPassOptions {
 /// whose fields() are those of the buffer's items, in order, or ItemWords (item_words.hpp). `twin.at(frame)` or
 /// `twin.at(in)`, where there is one, is called in its place (in_frame). `twin.all(values, in, after)`, where there is
 /// one, makes all items at once with the same bits, or returns false; `twin.part(values, in, k, after)`, k from 0 to
-/// `twin.parts()` - 1, makes them in so many parts, on all threads. A test holds either to the items' bits.
+/// `twin.parts()` - 1, makes them in so many parts, on all threads; `twin.fast(FastRun)` makes some of them, or returns
+/// false. A test holds each to the items' bits. `twin.look(in)` is called before all items are made, on one thread.
 template <class Twin> class ItemTwin final : public ItemPass {
   public:
     ItemTwin(ItemPassOptions options, Twin twin) : options_(std::move(options)), twin_(std::move(twin)) {
@@ -211,6 +223,10 @@ template <class Twin> class ItemTwin final : public ItemPass {
                 const FlushSubnormals guard = flush(profile);
                 return twin.all(values, in, after);
             } else if constexpr (item_twin::has_at<Twin>) {
+                if constexpr (requires { twin.look(in); }) {
+                    const FlushSubnormals guard = flush(profile);
+                    twin.look(in);
+                }
                 parallel_ranges(after.count(), [&](std::size_t first, std::size_t last) {
                     run_made(twin, in, profile, first, last, after);
                 });
@@ -365,16 +381,25 @@ template <class Twin> class ItemTwin final : public ItemPass {
                     ++column;
                 });
             };
-            if (options_.fast) {
-                std::vector<std::size_t> left;
-                options_.fast(in, profile, first, last, after, left);
+            std::vector<std::size_t> left;
+            if (made_fast(twin, {in, profile, options_.arithmetic, first, last, after, left}))
                 for (const std::size_t item : left)
                     make(item);
-                return;
-            }
-            for (std::size_t item = first; item < last; ++item)
-                make(item);
+            else
+                for (std::size_t item = first; item < last; ++item)
+                    make(item);
         });
+    }
+
+    template <class Made> bool made_fast(const Made& twin, const FastRun& run) const {
+        if constexpr (requires { twin.fast(run); }) {
+            return twin.fast(run);
+        } else {
+            if (!options_.fast)
+                return false;
+            options_.fast(run.in, run.profile, run.first, run.last, run.after, run.left);
+            return true;
+        }
     }
 
     template <class Reading> void tell_of_driver(Reading& reading, const Profile& profile) const {

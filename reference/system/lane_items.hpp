@@ -4,8 +4,6 @@
 #include <cstddef>
 #include <cstdint>
 #include <cstring>
-#include <memory>
-#include <mutex>
 #include <utility>
 #include <vector>
 
@@ -122,23 +120,13 @@ template <class F> LaneReal<F> built_in_power(Lanes<F>& /*r*/, At at, const Lane
     return lanes::each(x.v, [&](float v) { return built_in_power<Values<Strict>, float>(one, at, v, n); });
 }
 
-/// What is made by lanes: items first to last of an image `width` wide, the last excluded; `left` gets those of which
-/// no lane can be made.
-struct LaneRun {
-    const PassInput& in;
-    int width;
-    std::size_t first, last;
-    const WritableView& after;
-    std::vector<std::size_t>& left;
-};
-
-/// Makes them, those of a tile's row side by side. To be compiled into a function that is compiled for vectors
-/// (vector_loops.hpp).
-template <class F, class Twin> void make_lanes(const Twin& twin, F arithmetic, const LaneRun& run) {
-    const auto& [in, width, begin, last, after, left] = run;
-    std::size_t first = begin;
-    const std::vector<item_twin::WordColumn> columns = item_twin::word_columns(after);
-    const auto row = static_cast<std::size_t>(width);
+/// Makes items of an image by lanes, those of a tile's row side by side. To be compiled into a function that is
+/// compiled for vectors (vector_loops.hpp).
+template <class F, class Twin> void make_lanes(const Twin& twin, F arithmetic, const FastRun& run) {
+    const std::vector<item_twin::WordColumn> columns = item_twin::word_columns(run.after);
+    const auto row = static_cast<std::size_t>(twin.host->settings().width);
+    const std::size_t last = run.last;
+    std::size_t first = run.first;
     while (first < last) {
         const std::size_t x = first % row, tile = x % lane_count;
         const std::size_t count = std::min({lane_count - tile, row - x, last - first});
@@ -149,7 +137,7 @@ template <class F, class Twin> void make_lanes(const Twin& twin, F arithmetic, c
             const IntLanes behind = from(items);
             const auto most = static_cast<std::int32_t>(first + count - 1);
             const ItemWords<Lanes<F>> words =
-                twin(reading, in, LaneItems{behind > most ? lanes::all(most) : behind, count});
+                twin(reading, run.in, LaneItems{behind > most ? lanes::all(most) : behind, count});
             if (reading.active() == 0)
                 break;
             for (std::size_t w = 0; w < words.size(); ++w)
@@ -163,63 +151,30 @@ template <class F, class Twin> void make_lanes(const Twin& twin, F arithmetic, c
         }
         for (std::size_t lane = 0; lane < count; ++lane)
             if ((waiting >> lane & 1U) != 0)
-                left.push_back(first + lane);
+                run.left.push_back(first + lane);
         first += count;
     }
 }
 
-/// A twin for every input.
-template <class Twin> auto always(const Twin& twin) {
-    return [one = std::make_shared<const Twin>(twin)](const PassInput&) { return one; };
-}
-/// A twin's at(in), made again only where a resource, on which alone it depends, is another.
-template <class Twin> auto while_same(const Twin& twin, std::uint8_t resource) {
-    struct Made {
-        std::mutex mutex;
-        std::vector<std::byte> of;
-        std::shared_ptr<const Twin> twin;
-    };
-    return [twin, resource, latest = std::make_shared<Made>()](const PassInput& in) {
-        const std::lock_guard lock(latest->mutex);
-        const View& view = in.before[resource];
-        std::size_t at = 0;
-        bool is_same = latest->twin != nullptr;
-        const auto for_each_column = [&](const auto& visit) {
-            for (std::size_t f = 0; f < view.columns.size(); ++f)
-                visit(view.columns[f],
-                      view.count() * static_cast<std::size_t>(view.fields()[f].components) * sizeof(float));
-        };
-        for_each_column([&](const std::byte* column, std::size_t bytes) {
-            is_same =
-                is_same && at + bytes <= latest->of.size() && std::memcmp(latest->of.data() + at, column, bytes) == 0;
-            at += bytes;
-        });
-        if (!is_same || at != latest->of.size()) {
-            latest->twin = std::make_shared<const Twin>(twin.at(in));
-            latest->of.clear();
-            for_each_column([&](const std::byte* column, std::size_t bytes) {
-                latest->of.insert(latest->of.end(), column, column + bytes);
-            });
-        }
-        return latest->twin;
-    };
+/// Makes a twin's items by lanes with `make(twin, arithmetic, run)`, but for a driver whose roots come of tables:
+/// false.
+template <class Twin, class Make> bool fast_by_lanes(const Twin& twin, const FastRun& run, const Make& make) {
+    if (run.arithmetic == ArithmeticSwitch::exact)
+        make(twin, PortableLanes{}, run);
+    else if (run.profile.roots == nullptr)
+        make(twin, PlainLanes{run.profile.dot, run.profile.length_order(), run.profile.normalize_order()}, run);
+    else
+        return false;
+    return true;
 }
 
-/// ItemPassOptions::fast: `make(twin, arithmetic, run)` of the twin that `at(in)` gives. A driver whose roots come of
-/// tables has no lanes.
-template <class At, class Make> auto fast_by_lanes(ArithmeticSwitch arithmetic, int width, At at, Make make) {
-    return [=](const PassInput& in, const Profile& profile, std::size_t first, std::size_t last,
-               const WritableView& after, std::vector<std::size_t>& left) {
-        const LaneRun run{in, width, first, last, after, left};
-        const auto twin = at(in);
-        if (arithmetic == ArithmeticSwitch::exact)
-            make(*twin, PortableLanes{}, run);
-        else if (profile.roots == nullptr)
-            make(*twin, PlainLanes{profile.dot, profile.length_order(), profile.normalize_order()}, run);
-        else
-            for (std::size_t item = first; item < last; ++item)
-                left.push_back(item);
-    };
-}
+/// `make(twin, arithmetic, run)` of a twin, compiled for vectors.
+#define LOCKSTEP_MAKE_LANES(Twin)                                                                                      \
+    LOCKSTEP_VECTOR_CLONES void make(const Twin& twin, const PlainLanes& fp, const FastRun& run) {                     \
+        make_lanes(twin, fp, run);                                                                                     \
+    }                                                                                                                  \
+    LOCKSTEP_VECTOR_CLONES void make(const Twin& twin, const PortableLanes& fp, const FastRun& run) {                  \
+        make_lanes(twin, fp, run);                                                                                     \
+    }
 
 } // namespace lockstep

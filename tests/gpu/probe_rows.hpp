@@ -90,6 +90,8 @@ inline constexpr ExpectedRow llvmpipe_rows[] = {
     {"image: blend rgba32f", "each sum rounded, in order"},
     {"image: blend rgba16f", "each sum truncated"},
     {"image: linear filter, weights", "all bits"},
+    {"image: linear filter, aligned", "none known"},
+    {"image: linear filter, aligned, border of 0", "none known"},
     {"image: sRGB store", "none known"},
     {"image: sRGB store, accuracy", "one of the two next codes"},
     {"image: gl_PointCoord", "none known"},

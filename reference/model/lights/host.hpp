@@ -8,8 +8,9 @@
 
 namespace lockstep::lights {
 
-/// Whether twins follow the driver in what GL leaves open, or take for legal all that it allows.
-enum class Driver { followed, open };
+/// Whether twins follow the driver in what GL leaves open, in all of it or in how it filters textures in fixed point,
+/// or take for legal all that it allows.
+enum class Driver { followed, aligned_filter, open };
 
 /// What the host hands the passes: made in double, rounded once. Immutable.
 class Host {
@@ -19,6 +20,7 @@ class Host {
 
     [[nodiscard]] const Settings& settings() const { return settings_; }
     [[nodiscard]] const Switches& switches() const { return settings_.switches; }
+    [[nodiscard]] Driver driver() const { return driver_; }
     [[nodiscard]] bool follows_driver() const { return driver_ == Driver::followed; }
     [[nodiscard]] const Grid& grid() const { return settings_.grid; }
     [[nodiscard]] float inv_voxel() const { return 1.0F / settings_.grid.voxel; }

@@ -1,0 +1,64 @@
+#pragma once
+#include <algorithm>
+#include <array>
+#include <cstdint>
+
+#include "reference/plain_arithmetic.hpp"
+#include "reference/readings/lanes.hpp"
+#include "reference/system/lane_items.hpp"
+#include "reference/system/pixel_boxes.hpp"
+
+namespace lockstep {
+
+/// Each operation as the plain arithmetic of a driver has it, with tables of roots or without, lane by lane.
+struct OwnOrderLanes {
+    using Three = Vec3<FloatLanes>;
+    OwnOrders fp;
+
+    LOCKSTEP_INLINE static FloatLanes flush(const FloatLanes& v) { return v; }
+    [[nodiscard]] LOCKSTEP_INLINE FloatLanes divide(const FloatLanes& a, const FloatLanes& b) const {
+        FloatLanes made = a;
+        for (int k = 0; k < lane_count; ++k)
+            made[k] = fp.divide(a[k], b[k]);
+        return made;
+    }
+    [[nodiscard]] LOCKSTEP_INLINE FloatLanes sqrt(const FloatLanes& a) const {
+        return lanes::each(a, [this](float x) { return fp.sqrt(x); });
+    }
+    [[nodiscard]] LOCKSTEP_INLINE FloatLanes dot(const Three& a, const Three& b) const {
+        FloatLanes made = a.x;
+        for (int k = 0; k < lane_count; ++k)
+            made[k] = fp.dot({a.x[k], a.y[k], a.z[k]}, {b.x[k], b.y[k], b.z[k]});
+        return made;
+    }
+};
+
+inline PortableLanes lanes_of(const Portable&) { return {}; }
+inline OwnOrderLanes lanes_of(const PlainArithmetic& fp) { return {fp}; }
+
+/// BoxesByTile::draw, a row of a tile at a time: `draw(row, drawn, place, inside)` for the pixels from `place` on that
+/// are `inside`; `done(row, place, count)` with as many as lie in the image.
+template <class Row, class Make, class Draw, class Done>
+void draw_rows(const BoxesByTile& boxes, int width, int height, std::size_t tiles, const Row& empty, const Make& make,
+               const Draw& draw, const Done& done) {
+    constexpr int side = BoxesByTile::side;
+    static_assert(side == lane_count);
+    const int y0 = static_cast<int>(tiles) * side, y1 = std::min(y0 + side, height);
+    for (int x0 = 0; x0 < width; x0 += side) {
+        const int x1 = std::min(x0 + side, width);
+        std::array<Row, side> rows;
+        rows.fill(empty);
+        for (const std::uint32_t i : boxes.near({x0, y0})) {
+            const PixelRect& box = boxes.box(i);
+            const IntLanes at = from(x0);
+            const LaneMask inside((at >= box.x0) & (at < std::min(x1, box.x1)));
+            if (const auto drawn = make(i))
+                for (int y = std::max(y0, box.y0); y < std::min(y1, box.y1); ++y)
+                    draw(rows[static_cast<std::size_t>(y - y0)], *drawn, LanePixel{LaneInt(at), x0, y}, inside);
+        }
+        for (int y = y0; y < y1; ++y)
+            done(rows[static_cast<std::size_t>(y - y0)], Pixel{x0, y}, x1 - x0);
+    }
+}
+
+} // namespace lockstep

@@ -36,7 +36,7 @@ NamedFiles::File NamedFiles::read(const JsonValue& named, std::string_view kind)
                         plain_line(name)));
     if (known == contents_.end()) {
         known = contents_.emplace(name, bytes_of(beside, kind)).first;
-        places_.push_back(beside);
+        places_.push_back(beside.lexically_normal());
     }
     return {is_carried_ ? fmt::format("{}: {}", named.file(), name) : beside.string(), known->second};
 }

@@ -97,7 +97,7 @@ TEST_CASE(
 
 TEST_CASE("named files: none is overwritten by a run that reads it") {
     const NamingScenes scenes;
-    const std::string reads = "cannot be written: the run reads it\n";
+    const std::string reads = "cannot be written: the run reads it";
     CHECK_THAT(refusal(run_lockstep(small({"record", scenes.graphs, "-o", scenes.graph}))), Catch::EndsWith(reads));
     CHECK_THAT(refusal(run_lockstep(small({"check", scenes.graphs, "--json", scenes.graph}))), Catch::EndsWith(reads));
     CHECK_THAT(refusal(run_lockstep(small({"check", scenes.texture, "--hashes", scenes.picture}))),

@@ -47,8 +47,7 @@ int render_system(const RegisteredSystem& system, const RunOptions& run, const S
     if (!read.scene.has_pictures())
         throw Error(fmt::format("render: scenes of system {} have no pictures", system.name));
     OutputFiles files;
-    files.protect(run.scene);
-    files.protect(run.shaders);
+    read.protect(run, files);
     files.expect(asked.output);
     files.write(asked.output, png(asked.gpu ? render_gpu(read.scene, run, asked) : render_cpu(read.scene, asked)));
     files.commit();

@@ -7,6 +7,7 @@
 #include <fmt/format.h>
 
 #include "crosscheck/files/json_reader.hpp"
+#include "crosscheck/files/named_files.hpp"
 #include "crosscheck/files/plain_text.hpp"
 #include "crosscheck/files/shell_words.hpp"
 #include "crosscheck/files/threads.hpp"
@@ -20,13 +21,23 @@ ReadScene read_scene(const RegisteredSystem& system, const RunOptions& run) {
     start_threads(run.threads);
     const nlohmann::json& document = run.document.of(run.scene);
     const std::string file = run.scene.string(), name = plain_line(run.scene.stem().string());
-    SystemScene scene = system.load(JsonValue(document, file), name, {run.particles, run.preset, run.set});
+    const auto files = std::make_shared<NamedFiles>();
+    SystemScene scene = system.load(JsonValue(document, file), name, {run.particles, run.preset, run.set, files});
     nlohmann::json options{{"set", run.set}};
     if (run.particles)
         options["particles"] = *run.particles;
     if (run.preset)
         options["preset"] = *run.preset;
-    return {file, document, std::move(options), std::move(scene)};
+    if (!files->contents().empty())
+        options["files"] = carried_json(files->contents());
+    return {file, document, std::move(options), std::move(scene), files->places()};
+}
+
+void ReadScene::protect(const RunOptions& run, OutputFiles& files) const {
+    files.protect(run.scene);
+    files.protect(run.shaders);
+    for (const std::filesystem::path& place : places)
+        files.protect(place);
 }
 
 ReadScene recorded_scene(const RegisteredSystem& system, const nlohmann::json& scene, const nlohmann::json& options,
@@ -35,7 +46,7 @@ ReadScene recorded_scene(const RegisteredSystem& system, const nlohmann::json& s
     const JsonValue given(options, file);
     if (system_of_scene(document) != &system)
         document.fail(fmt::format("is no scene of system {}", system.name));
-    given.check_keys({"set", "particles", "preset"});
+    given.check_keys({"set", "particles", "preset", "files"});
     SceneOptions changes;
     for (const JsonValue& change : given.at("set").items())
         changes.set.push_back(change.text());
@@ -43,7 +54,9 @@ ReadScene recorded_scene(const RegisteredSystem& system, const nlohmann::json& s
         changes.particles = static_cast<std::size_t>(count->integer(1, most_particles));
     if (const auto preset = given.find("preset"))
         changes.preset = preset->text();
-    return {file, scene, options, system.load(document, name, changes)};
+    const auto files = given.find("files");
+    changes.files = std::make_shared<NamedFiles>(files ? read_carried(*files) : NamedFiles::Contents());
+    return {file, scene, options, system.load(document, name, changes), {}};
 }
 
 namespace {
@@ -69,8 +82,7 @@ SystemInput::SystemInput(const RegisteredSystem& system, const RunOptions& run, 
 void SystemInput::protect(OutputFiles& files) const {
     files.protect(trace_);
     if (!is_recorded())
-        files.protect(run_.scene);
-    files.protect(run_.shaders);
+        read_.protect(run_, files);
 }
 
 SystemSide& SystemInput::open() {

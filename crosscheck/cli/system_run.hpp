@@ -21,8 +21,12 @@ namespace lockstep {
 struct ReadScene {
     std::string file;
     nlohmann::json document;
-    nlohmann::json options; ///< what is changed in it
+    nlohmann::json options; ///< what is changed in it, and the files that it names
     SystemScene scene;
+    std::vector<std::filesystem::path> places; ///< of those files
+
+    /// What it and a run of it are read from is no output.
+    void protect(const RunOptions& run, OutputFiles& files) const;
 };
 
 /// Reads the scene and sets the thread count.

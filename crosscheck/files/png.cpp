@@ -1,13 +1,11 @@
 #include "crosscheck/files/png.hpp"
 
-#include <cstdint>
 #include <utility>
 
 #include <png.h>
 
 #include <fmt/format.h>
 
-#include "crosscheck/files/opened_file.hpp"
 #include "reference/model/error.hpp"
 
 namespace lockstep {
@@ -27,27 +25,20 @@ std::string png(const ColorImage& image) {
     return file;
 }
 
-ColorImage read_png(const std::filesystem::path& file, int largest) {
-    const OpenedFile opened(file, "PNG file");
-    constexpr std::uint64_t most_bytes = std::uint64_t{64} << 20U;
-    if (opened.size() > most_bytes)
-        throw Error(
-            fmt::format("{}: {} bytes; right is a PNG file of at most {}", file.string(), opened.size(), most_bytes));
-    const std::string bytes = opened.text();
+ColorImage read_png(std::string_view bytes, const std::string& name, int largest) {
     png_image header{};
     header.version = PNG_IMAGE_VERSION;
     if (png_image_begin_read_from_memory(&header, bytes.data(), bytes.size()) == 0)
-        throw Error(fmt::format("{}: {}; right is a PNG file", file.string(), header.message));
+        throw Error(fmt::format("{}: {}; right is a PNG file", name, header.message));
     if (header.width > static_cast<png_uint_32>(largest) || header.height > static_cast<png_uint_32>(largest)) {
         const auto [width, height] = std::pair(header.width, header.height);
         png_image_free(&header);
-        throw Error(
-            fmt::format("{}: {} x {} pixels; right is at most {} along a side", file.string(), width, height, largest));
+        throw Error(fmt::format("{}: {} x {} pixels; right is at most {} along a side", name, width, height, largest));
     }
     header.format = PNG_FORMAT_RGBA;
     ColorImage image(static_cast<int>(header.width), static_cast<int>(header.height));
     if (png_image_finish_read(&header, nullptr, image.texels.data(), -4 * image.width, nullptr) == 0)
-        throw Error(fmt::format("{}: {}; right is a whole PNG file", file.string(), header.message));
+        throw Error(fmt::format("{}: {}; right is a whole PNG file", name, header.message));
     return image;
 }
 

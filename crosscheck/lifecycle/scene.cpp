@@ -9,6 +9,7 @@
 #include <fmt/ranges.h>
 #include <glm/geometric.hpp>
 
+#include "crosscheck/files/named_files.hpp"
 #include "crosscheck/files/png.hpp"
 #include "crosscheck/scene/graph_file.hpp"
 #include "crosscheck/scene/scene_fields.hpp"
@@ -104,19 +105,12 @@ void read_shape(const JsonValue& json, Emitter& e) {
     refuse(e.shape == Emitter::Shape::point ? "radius" : "position");
 }
 
-/// Found relative to the scene's file.
-std::filesystem::path beside(const JsonValue& named) {
-    const std::string name = named.text();
-    if (name.empty() || name.find('\0') != std::string::npos)
-        named.fail("names no file");
-    return std::filesystem::path(named.file()).parent_path() / name;
-}
-
-Sprite read_sprite(const JsonValue& json) {
+Sprite read_sprite(const JsonValue& json, NamedFiles& files) {
     json.check_keys({"texture", "bounding", "alpha_cut", "filter"});
     Sprite sprite;
     if (const auto texture = json.find("texture")) {
-        sprite.texture = read_png(beside(*texture), largest_texture);
+        const NamedFiles::File file = files.read(*texture, "PNG file");
+        sprite.texture = read_png(file.bytes, file.name, largest_texture);
         if (sprite.texture.width != sprite.texture.height)
             texture->fail(
                 fmt::format("is {} x {} texels; right is a square", sprite.texture.width, sprite.texture.height));
@@ -139,19 +133,19 @@ Sprite read_sprite(const JsonValue& json) {
     return sprite;
 }
 
-/// A graph as it stands, or in a file, found relative to the scene's.
-GraphPtr read_stage(const JsonValue& graphs, std::string_view stage) {
+/// A graph as it stands, or in a file.
+GraphPtr read_stage(const JsonValue& graphs, std::string_view stage, NamedFiles& files) {
     const auto given = graphs.find(stage);
     if (!given)
         return {};
     if (!given->is_text())
         return std::make_shared<const Graph>(read_graph(*given, stage));
-    const std::filesystem::path file = beside(*given);
-    const nlohmann::json document = read_json(file);
-    return std::make_shared<const Graph>(read_graph(JsonValue(document, file.string()), stage));
+    const NamedFiles::File file = files.read(*given, "graph");
+    const nlohmann::json document = parse_json(file.bytes, file.name);
+    return std::make_shared<const Graph>(read_graph(JsonValue(document, file.name), stage));
 }
 
-Emitter read_emitter(const JsonValue& json) {
+Emitter read_emitter(const JsonValue& json, NamedFiles& files) {
     json.check_keys(
         {"capacity", "rate", "bursts",    "lifetime",         "shape", "position",     "centre", "min",          "max",
          "radius",   "path", "direction", "direction_jitter", "speed", "speed_jitter", "cone",   "acceleration", "size",
@@ -197,9 +191,9 @@ Emitter read_emitter(const JsonValue& json) {
             e.forces.push_back(read_force(force));
     if (const auto graphs = json.find("graphs")) {
         graphs->check_keys({"emission", "simulation", "rendering"});
-        e.emission = read_stage(*graphs, "emission");
-        e.simulation = read_stage(*graphs, "simulation");
-        e.rendering = read_stage(*graphs, "rendering");
+        e.emission = read_stage(*graphs, "emission", files);
+        e.simulation = read_stage(*graphs, "simulation", files);
+        e.rendering = read_stage(*graphs, "rendering", files);
     }
     return e;
 }
@@ -231,11 +225,13 @@ Settings read_scene(const JsonValue& json, const SceneOptions& options) {
         settings.width = static_cast<int>(two[0].integer(1, 8192));
         settings.height = static_cast<int>(two[1].integer(1, 8192));
     }
+    NamedFiles beside;
+    NamedFiles& files = options.files ? *options.files : beside;
     if (const auto sprite = json.find("sprite"))
-        settings.sprite = read_sprite(*sprite);
+        settings.sprite = read_sprite(*sprite, files);
     settings.emitters.clear();
     for (const JsonValue& emitter : json.at("emitters").items()) {
-        settings.emitters.push_back(read_emitter(emitter));
+        settings.emitters.push_back(read_emitter(emitter, files));
         settings.emitters.back().capacity = options.particles.value_or(settings.emitters.back().capacity);
     }
     check_settings(json, settings);

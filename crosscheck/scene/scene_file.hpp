@@ -1,6 +1,7 @@
 #pragma once
 #include <cstddef>
 #include <filesystem>
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
@@ -11,12 +12,15 @@
 
 namespace lockstep {
 
+class NamedFiles;
+
 /// What the command line changes in a scene.
 struct SceneOptions {
     std::optional<std::size_t> particles = {}; ///< in all; emitters keep their proportions
     std::optional<std::string> preset = {};    ///< instead of the scene's; the scene's switches still apply on top
     std::vector<std::string> set = {};         ///< "name=value": a switch or a constant ("gravity=0,-1,0"), last of all
-    float emitter_length = 1.0F;               ///< factor on the emitters' boxes, see scale_lengths
+    std::shared_ptr<NamedFiles> files = {}; ///< where a registered system's scene has its files from; null: beside it
+    float emitter_length = 1.0F;            ///< factor on the emitters' boxes, see scale_lengths
 };
 
 /// Particles a scene may have.

@@ -12,6 +12,7 @@
 
 #include "crosscheck/collision/judge/check.hpp"
 #include "crosscheck/collision/page/report_page.hpp"
+#include "crosscheck/files/base64.hpp"
 #include "crosscheck/report/page/blob.hpp"
 #include "gpu/collision/gpu_side.hpp"
 #include "reference/collision/simulation.hpp"

@@ -4,6 +4,7 @@
 #include <bit>
 
 #include "crosscheck/collision/report/pictures.hpp"
+#include "crosscheck/files/base64.hpp"
 #include "reference/model/collision/collision_state.hpp"
 
 namespace lockstep {

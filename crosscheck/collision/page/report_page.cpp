@@ -6,6 +6,7 @@
 #include <nlohmann/json.hpp>
 
 #include "crosscheck/collision/page/live_scene.hpp"
+#include "crosscheck/files/base64.hpp"
 #include "crosscheck/report/page/blob.hpp"
 #include "reference/model/collision/layered_cdt.hpp"
 

@@ -36,21 +36,4 @@ std::string deflated(std::string_view bytes) {
     return out;
 }
 
-std::string base64(std::string_view bytes) {
-    constexpr std::string_view digits = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
-    std::string out;
-    out.reserve((bytes.size() + 2) / 3 * 4);
-    for (std::size_t i = 0; i < bytes.size(); i += 3) {
-        std::array<unsigned, 3> three{};
-        for (std::size_t k = 0; k < 3 && i + k < bytes.size(); ++k)
-            three[k] = static_cast<unsigned char>(bytes[i + k]);
-        const unsigned word = three[0] << 16U | three[1] << 8U | three[2];
-        out += digits[word >> 18U];
-        out += digits[word >> 12U & 63U];
-        out += i + 1 < bytes.size() ? digits[word >> 6U & 63U] : '=';
-        out += i + 2 < bytes.size() ? digits[word & 63U] : '=';
-    }
-    return out;
-}
-
 } // namespace lockstep

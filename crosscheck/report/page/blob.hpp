@@ -38,7 +38,4 @@ class Blob {
 /// As a zlib stream, RFC 1950: the browser's DecompressionStream("deflate") takes it. Throws Error without memory.
 std::string deflated(std::string_view bytes);
 
-/// RFC 4648, with padding.
-std::string base64(std::string_view bytes);
-
 } // namespace lockstep

@@ -7,6 +7,7 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
+#include "crosscheck/files/base64.hpp"
 #include "crosscheck/judge/item_place.hpp"
 #include "crosscheck/report/page/blob.hpp"
 #include "crosscheck/report/page/template.hpp"

@@ -40,7 +40,8 @@ class StagedSlice {
     }
     /// What was copied; waits for it.
     const std::byte* end() {
-        while (gl::ClientWaitSync(copied_, GL_SYNC_FLUSH_COMMANDS_BIT, 1'000'000'000) == GL_TIMEOUT_EXPIRED) {}
+        while (gl::ClientWaitSync(copied_, GL_SYNC_FLUSH_COMMANDS_BIT, 1'000'000'000) == GL_TIMEOUT_EXPIRED) {
+        }
         gl::DeleteSync(copied_);
         return memory_;
     }

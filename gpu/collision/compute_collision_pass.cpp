@@ -73,8 +73,7 @@ ComputeCollisionPass::ComputeCollisionPass(const Scene& scene, const std::filesy
       bound_(bind_particles(step_)), nearest_bound_(bind_particles(nearest_)),
       texels_(static_cast<std::size_t>(scene.width) * static_cast<std::size_t>(scene.height)),
       clear_group_(group_size(clear_, texels_)), step_group_(group_size(step_, scene.start.size())),
-      nearest_group_(group_size(nearest_, scene.start.size())),
-      has_offers_(step_.uses_storage(offers_binding)) {
+      nearest_group_(group_size(nearest_, scene.start.size())), has_offers_(step_.uses_storage(offers_binding)) {
     if (bound_.only_reads() && !step_.uses_storage(after_binding))
         throw Error(fmt::format("{}: /storage_blocks: no block has the state after the pass; right is After, or its "
                                 "fields by member, After.position, ...",

@@ -46,7 +46,7 @@ class ComputeCollisionPass {
     BoundStorage bound_, nearest_bound_;
     std::size_t texels_;
     std::size_t clear_group_, step_group_, nearest_group_; ///< invocations
-    bool has_offers_;                        ///< step_ leaves the lowest index to nearest_
+    bool has_offers_;                                      ///< step_ leaves the lowest index to nearest_
     GlBuffer nearest_particles_, offers_;
     GlVertexArray no_attributes_;
 };

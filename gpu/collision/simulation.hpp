@@ -94,7 +94,7 @@ class GpuSimulation final : public GpuSide {
     GlQuery timer_;
     PassTimer pass_timer_;
     double frame_seconds_ = 0.0;
-    bool begun_ = false; ///< the next step's commands were given
+    bool begun_ = false;      ///< the next step's commands were given
     std::size_t current_ = 0; ///< which of the two the next frame starts from
 };
 

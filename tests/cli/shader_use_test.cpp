@@ -99,10 +99,11 @@ TEST_CASE("shader use: with step = compute the compute stage runs, and the verte
     const test::Outcome outcome = run_lockstep(setting.command({"--frames", "2", "--set", "step=compute"}));
     INFO(outcome.err);
     CHECK(outcome.status == 0);
-    CHECK_THAT(outcome.out, Contains("\nshaders   foreign: " + own +
-                                     "/collision_pass.comp; shipped: "
-                                     "clear_nearest.comp, nearest_particle.comp, collision_texels.vert, collision_texels.frag, ") &&
-                                Contains(", compute)"));
+    CHECK_THAT(outcome.out,
+               Contains("\nshaders   foreign: " + own +
+                        "/collision_pass.comp; shipped: "
+                        "clear_nearest.comp, nearest_particle.comp, collision_texels.vert, collision_texels.frag, ") &&
+                   Contains(", compute)"));
     write_own(setting.shaders, "collision_pass.vert");
     CHECK_THAT(refusal(run_lockstep(setting.command({"--frames", "2", "--set", "step=compute"}))),
                Contains("collision_pass.vert would not run") &&

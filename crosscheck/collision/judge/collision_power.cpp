@@ -4,12 +4,15 @@
 #include <bit>
 #include <initializer_list>
 #include <map>
+#include <numeric>
 #include <optional>
 #include <string_view>
+#include <utility>
 
 #include "crosscheck/judge/item_sample.hpp"
 #include "reference/collision/collision_mistakes.hpp"
 #include "reference/collision/collision_pass.hpp"
+#include "reference/collision/collision_pass_fast.hpp"
 #include "reference/collision/legal_texels.hpp"
 #include "reference/collision/obstacle_pass.hpp"
 #include "reference/collision/step_pass.hpp"
@@ -22,6 +25,7 @@ namespace {
 
 constexpr std::size_t looked_at = 8192;      ///< particles of a frame, of those without a hit
 constexpr std::size_t drawn_at_most = 16384; ///< particles, where it does not matter which of two is nearer
+constexpr std::size_t drawn_whole = 131072;  ///< particles at most, where it does: of more, those of some tiles
 constexpr std::size_t texels_judged = 16;
 
 /// On so many particles of a frame a mistake is tried that has not shown yet. This follows from the frame alone, so
@@ -48,15 +52,78 @@ bool has_no_place(Deviation deviation, const Situations& met) {
            met.of(Situation::left_of_image) == 0;
 }
 
-/// Every stride-th particle; where that is all of them, no copy is made.
-class Every {
+/// Which particles are drawn again, and which texels are looked at then.
+struct DrawnAgain {
+    bool all = true;                    ///< every particle and texel
+    std::vector<std::size_t> particles; ///< otherwise: these
+    std::vector<char> texels;           ///< 1: looked at; empty: every texel is
+
+    [[nodiscard]] bool has(std::size_t texel) const { return texels.empty() || texels[texel] != 0; }
+};
+
+DrawnAgain every(std::size_t stride, std::size_t particles) {
+    DrawnAgain some;
+    some.all = stride == 1;
+    for (std::size_t i = 0; !some.all && i < particles; i += stride)
+        some.particles.push_back(i);
+    return some;
+}
+
+/// Whoever the reference draws in some tiles of the image or next to them, so that in these tiles nobody is missing;
+/// tiles from all over the image, until about `most` particles are in them.
+DrawnAgain in_some_tiles(const PowerFrame& frame, const Profile& profile, std::size_t most) {
+    constexpr int side = 16;
+    const FrameParams& params = *frame.inputs.params;
+    const bool updated = params.switches.raster_position == RasterPosition::updated;
+    std::vector<std::int32_t> drawn;
+    point_texels_fast(updated ? frame.after.position : frame.inputs.before->position, params, profile, drawn);
+    const int across = (params.width + side - 1) / side, tiles = across * ((params.height + side - 1) / side);
+    const auto tile_of = [&](std::int32_t texel) {
+        return static_cast<std::size_t>(texel / params.width / side * across + texel % params.width / side);
+    };
+    std::vector<std::size_t> in_tile(static_cast<std::size_t>(tiles), 0);
+    for (const std::int32_t texel : drawn)
+        if (texel != no_texel)
+            ++in_tile[tile_of(texel)];
+    int step = tiles / 2 + 1; // prime to their number: every tile has its turn
+    while (std::gcd(step, tiles) != 1)
+        ++step;
+    std::vector<char> taken(in_tile.size(), 0);
+    std::size_t count = 0;
+    for (int i = 0, tile = 0; i < tiles && count < most; ++i, tile = (tile + step) % tiles) {
+        taken[static_cast<std::size_t>(tile)] = 1;
+        count += in_tile[static_cast<std::size_t>(tile)];
+    }
+    DrawnAgain some;
+    some.all = false;
+    const auto width = static_cast<std::size_t>(params.width), height = static_cast<std::size_t>(params.height);
+    some.texels.resize(width * height);
+    std::vector<char> near(some.texels.size(), 0);
+    for (int y = 0; y < params.height; ++y)
+        for (int x = 0; x < params.width; ++x) {
+            const int texel = y * params.width + x;
+            if (taken[tile_of(texel)] == 0)
+                continue;
+            some.texels[static_cast<std::size_t>(texel)] = 1;
+            for (int ny = std::max(y - 1, 0); ny <= std::min(y + 1, params.height - 1); ++ny)
+                for (int nx = std::max(x - 1, 0); nx <= std::min(x + 1, params.width - 1); ++nx)
+                    near[static_cast<std::size_t>(ny * params.width + nx)] = 1;
+        }
+    for (std::size_t i = 0; i < drawn.size(); ++i)
+        if (drawn[i] != no_texel && near[static_cast<std::size_t>(drawn[i])] != 0)
+            some.particles.push_back(i);
+    return some;
+}
+
+/// Those of a state; where that is all of them, no copy is made.
+class Chosen {
   public:
-    Every(const Particles& all, std::size_t stride) : all_(stride == 1 ? &all : nullptr) {
+    Chosen(const Particles& all, const DrawnAgain& chosen) : all_(chosen.all ? &all : nullptr) {
         if (all_ != nullptr)
             return;
-        some_.resize((all.size() + stride - 1) / stride);
+        some_.resize(chosen.particles.size());
         for (std::size_t i = 0; i < some_.size(); ++i)
-            some_.set(i, all[i * stride]);
+            some_.set(i, all[chosen.particles[i]]);
     }
     [[nodiscard]] const Particles& particles() const { return all_ != nullptr ? *all_ : some_; }
 
@@ -76,14 +143,14 @@ bool draws_in(int frame, std::size_t particles) {
 class Drawing {
   public:
     Drawing(const PowerFrame& frame, const Scene& scene, const Profile& profile, const KnownOperations& known,
-            std::size_t stride)
-        : scene_(scene), profile_(profile), known_(known), params_(*frame.inputs.params),
-          before_(*frame.inputs.before, stride), after_(frame.after, stride), inputs_(frame.inputs),
+            DrawnAgain chosen)
+        : scene_(scene), profile_(profile), known_(known), params_(*frame.inputs.params), chosen_(std::move(chosen)),
+          before_(*frame.inputs.before, chosen_), after_(frame.after, chosen_), inputs_(frame.inputs),
           obstacles_cdt_(params_.width, params_.height),
           obstacles_depth_(params_.width, params_.height, params_.clip_depth.cleared()) {
         inputs_.before = &before_.particles();
         if (inputs_.earlier != nullptr)
-            inputs_.earlier = &earlier_.emplace(*inputs_.earlier, stride).particles();
+            inputs_.earlier = &earlier_.emplace(*inputs_.earlier, chosen_).particles();
         obstacle_pass(scene.obstacles, params_, profile, obstacles_cdt_, obstacles_depth_);
         right_ = draw({});
     }
@@ -129,7 +196,7 @@ class Drawing {
         const CollisionImage drawn = draw(deviation);
         std::vector<std::size_t> differing;
         for (std::size_t t = 0; t < drawn.texels.size(); ++t)
-            if (!same_bits(drawn.texels[t], right_.texels[t]))
+            if (chosen_.has(t) && !same_bits(drawn.texels[t], right_.texels[t]))
                 differing.push_back(t);
         std::vector<Changed> some;
         for (const std::size_t t : sample(differing, texels_judged))
@@ -146,8 +213,9 @@ class Drawing {
     const Profile& profile_;
     const KnownOperations& known_;
     const FrameParams& params_;
-    Every before_, after_;
-    std::optional<Every> earlier_;
+    DrawnAgain chosen_;
+    Chosen before_, after_;
+    std::optional<Chosen> earlier_;
     FrameInputs inputs_;
     CollisionImage obstacles_cdt_;
     DepthImage obstacles_depth_;
@@ -285,10 +353,10 @@ void CollisionPower::try_drawing(const PowerFrame& frame) {
     if (all.empty())
         return;
     const std::size_t n = frame.after.size(), stride = std::max<std::size_t>(1, n / drawn_at_most);
-    const auto try_all = [&](const std::vector<Deviation>& some, std::size_t of) {
+    const auto try_all = [&](const std::vector<Deviation>& some, const auto& chosen) {
         if (some.empty())
             return;
-        const Drawing drawing(frame, scene_, profile_, known_, of);
+        const Drawing drawing(frame, scene_, profile_, known_, chosen());
         const std::vector<MistakenItem> judged = drawing.judge(some);
         for (std::size_t d = 0; d < some.size(); ++d) {
             Tried& tried = tried_[static_cast<std::size_t>(some[d])];
@@ -300,8 +368,8 @@ void CollisionPower::try_drawing(const PowerFrame& frame) {
     std::vector<Deviation> of_few, of_all;
     for (const Deviation deviation : all)
         (stride == 1 || is_about_depth(deviation) ? of_all : of_few).push_back(deviation);
-    try_all(of_all, 1);
-    try_all(of_few, stride);
+    try_all(of_all, [&] { return n > drawn_whole ? in_some_tiles(frame, profile_, drawn_whole) : DrawnAgain{}; });
+    try_all(of_few, [&] { return every(stride, n); });
 }
 
 /// Why it could not show, as far as the states tell.

@@ -16,19 +16,24 @@ template <class Texel> struct Texels {
     [[nodiscard]] float clamped(int x, int y) const {
         return texel(std::clamp(x, 0, width - 1), std::clamp(y, 0, height - 1));
     }
-    [[nodiscard]] double mean(double x, double y) const {
+    /// What weights of all bits give; `seen` is told of the four texels.
+    template <class Seen> [[nodiscard]] double mean(double x, double y, const Seen& seen) const {
         const auto bx = static_cast<int>(std::floor(x)), by = static_cast<int>(std::floor(y));
         const double fx = x - bx, fy = y - by;
         const auto row = [&](int dy) {
-            return clamped(bx, by + dy) * (1.0 - fx) + double{clamped(bx + 1, by + dy)} * fx;
+            const double left = clamped(bx, by + dy), right = clamped(bx + 1, by + dy);
+            seen(left);
+            seen(right);
+            return left * (1.0 - fx) + right * fx;
         };
         return row(0) * (1.0 - fy) + row(1) * fy;
     }
 };
 
 /// What the texture unit makes of the texels around a place, given in texels, GL_LINEAR: fma(f, b - a, a) along x, then
-/// y. Legal is what weights of 8 fraction bits give, cut or rounded, at a coordinate that is right to 1 part in 10^5,
-/// with results right to that (GL 4.5, 2.3.4.1).
+/// y. Legal is what any unit may give whose places and weights have 8 fraction bits: places right to 1 part in 10^5 (GL
+/// 4.5, 2.3.4.1) and then to 0.6 of a 256th (D3D 11.3, 3.2.4.1); each of the three halvings of the four texels rounded
+/// to a 256th; nothing beyond the least and the greatest of them (7.18.16.3); results right to 1 part in 10^5.
 template <class R, class Texel>
 typename R::Real linear_fetch(R& r, At at, const typename R::Vec2& place, const Texels<Texel>& image) {
     struct Axis {
@@ -38,7 +43,7 @@ typename R::Real linear_fetch(R& r, At at, const typename R::Vec2& place, const 
     };
     const auto along = [](const Interval& set, double size) {
         const float t = set.as_float() - 0.5F;
-        const double free = 0x1p-8 + 1e-5 * (std::abs(set.low) + 0.5);
+        const double free = 0.6 / 256.0 + 1e-5 * (std::abs(set.low) + 0.5);
         // Beyond the image's edge all texels are alike; a coordinate that is no number may be anywhere.
         const auto near = [size](double texel, double open) {
             return std::isnan(texel) ? open : std::clamp(texel, -1.0, size);
@@ -47,7 +52,8 @@ typename R::Real linear_fetch(R& r, At at, const typename R::Vec2& place, const 
                     static_cast<int>(near(std::floor(t), -1.0))};
     };
     const Axis x = along(item_twin::set_of(place.x), image.width), y = along(item_twin::set_of(place.y), image.height);
-    double low = HUGE_VAL, high = -HUGE_VAL, largest = 0.0;
+    double low = HUGE_VAL, high = -HUGE_VAL, least = HUGE_VAL, greatest = -HUGE_VAL;
+    bool are_finite = true;
     const auto for_each = [](const Axis& axis, const auto& visit) {
         visit(axis.low);
         for (double whole = std::ceil(axis.low); whole < axis.high; whole += 1.0)
@@ -56,19 +62,30 @@ typename R::Real linear_fetch(R& r, At at, const typename R::Vec2& place, const 
     };
     for_each(y, [&](double v) {
         for_each(x, [&](double u) {
-            const double one = image.mean(u, v);
+            const double one = image.mean(u, v, [&](double texel) {
+                are_finite = are_finite && std::isfinite(texel);
+                least = std::min(least, texel);
+                greatest = std::max(greatest, texel);
+            });
             low = std::min(low, one);
             high = std::max(high, one);
-            largest = std::max(largest, std::abs(one));
         });
     });
     const auto mixed = [](float from, float to, float share) { return std::fma(share, to - from, from); };
     const auto row = [&](int dy) {
         return mixed(image.clamped(x.base, y.base + dy), image.clamped(x.base + 1, y.base + dy), x.f);
     };
-    const double error = 1e-5 * largest;
-    return r.note(at, r.unspecified(at, typename R::Real(mixed(row(0), row(1), y.f)), static_cast<float>(low - error),
-                                    static_cast<float>(high + error)));
+    if (are_finite) {
+        const double halvings = 3.0 / 512.0 * (greatest - least);
+        const double error = 1e-5 * std::max(std::abs(least), std::abs(greatest));
+        low = std::max(low - halvings, least) - error;
+        high = std::min(high + halvings, greatest) + error;
+    } else {
+        low = -HUGE_VAL;
+        high = HUGE_VAL;
+    }
+    return r.note(at, r.unspecified(at, typename R::Real(mixed(row(0), row(1), y.f)), static_cast<float>(low),
+                                    static_cast<float>(high)));
 }
 
 } // namespace lockstep::fluid

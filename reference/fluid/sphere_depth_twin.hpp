@@ -1,5 +1,6 @@
 #pragma once
 #include <cstdint>
+#include <memory>
 #include <optional>
 #include <tuple>
 
@@ -26,9 +27,10 @@ void draw_row(const SphereDepthTwin& twin, const PlainArithmetic& arithmetic, co
 struct SphereDepthTwin {
     HostPtr host;
     BoxesByTile boxes = {};
+    std::shared_ptr<DrawnBalls> balls = {};
 
     [[nodiscard]] SphereDepthTwin at(const PassInput& in) const {
-        return {host, sprite_boxes(*host, in.before, spheres())};
+        return {host, sprite_boxes(*host, in.before, spheres()), std::make_shared<DrawnBalls>()};
     }
 
     [[nodiscard]] HandedSpheres<SphereDepthTwin> handed(std::span<const Mistake> made) const { return {*this, made}; }

@@ -19,9 +19,8 @@ void draw_spheres(const Twin& twin, const A& fp, const PassInput& in, std::size_
                   const Draw& draw, const Words& words_of, const WritableView& after) {
     const auto lane_fp = lanes_of(fp);
     using R = Lanes<std::remove_cvref_t<decltype(lane_fp)>>;
-    Values<A> one(fp);
     R reading(lane_fp, (1U << lane_count) - 1);
-    const SpriteTwin<Values<A>> scalar(one, *twin.host, in.before, twin.spheres());
+    const auto& balls = twin.balls->of(fp, *twin.host, in.before, twin.spheres());
     const SpriteTwin<R> sprite(reading, *twin.host, in.before, twin.spheres());
     const int width = twin.host->settings().width;
     const auto items_at = [&](const Pixel& place) {
@@ -32,14 +31,11 @@ void draw_spheres(const Twin& twin, const A& fp, const PassInput& in, std::size_
     draw_rows(
         twin.boxes, width, twin.host->settings().height, tiles, empty,
         [&](std::uint32_t i) {
-            const auto number = [](const auto& x) { return typename R::Real(static_cast<float>(x)); };
             std::optional<Ball<R>> wide;
-            if (const auto ball = scalar.ball(i))
-                wide = Ball<R>{{number(ball->centre.x), number(ball->centre.y), number(ball->centre.z)},
-                               number(ball->w),
-                               number(ball->x),
-                               number(ball->y),
-                               number(ball->half)};
+            if (const auto& ball = balls[i]) {
+                const auto& [x, y, z, w, middle_x, middle_y, half] = *ball;
+                wide = Ball<R>{{x, y, z}, w, middle_x, middle_y, half};
+            }
             return wide;
         },
         [&](Row& row, const Ball<R>& ball, const LanePixel& place, const LaneMask& inside) {

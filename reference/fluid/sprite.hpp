@@ -1,10 +1,13 @@
 #pragma once
+#include <array>
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
+#include <mutex>
 #include <optional>
 #include <span>
 #include <tuple>
+#include <vector>
 
 #include "reference/fluid/depth_code.hpp"
 #include "reference/model/fluid/schema.hpp"
@@ -12,6 +15,7 @@
 #include "reference/system/item_reads.hpp"
 #include "reference/system/item_twin.hpp"
 #include "reference/system/pixel_boxes.hpp"
+#include "reference/system/tile_rows.hpp"
 
 namespace lockstep::fluid {
 
@@ -52,15 +56,6 @@ template <class Visit> void for_each_tried(const BoxesByTile& boxes, const Syste
     for (const std::uint32_t i : boxes.near(pixel))
         if (pixel.is_in(boxes.box(i)))
             visit(i);
-}
-
-/// What a pass's reading computes with.
-template <class A> A arithmetic_of(const Values<A>& r) {
-    struct Opened : Values<A> {
-        explicit Opened(const Values<A>& of) : Values<A>(of) {}
-        [[nodiscard]] A arithmetic() const { return this->fp_; }
-    };
-    return Opened(r).arithmetic();
 }
 
 /// A particle before the camera.
@@ -109,6 +104,11 @@ template <class R> class SpriteTwin {
             const Real from = r_.divide(at, centre - middle, ball.half);
             return r_.note(at, is_point ? point_coordinate(at, from, ball) : from);
         };
+        if constexpr (HasLanes<R>) { // of a row beside the sprite: rounding keeps the order of sums
+            const Real ny = along(site::ny, r_.real(pixel.y) + Real(0.5F), ball.y), along_y = ny * ny;
+            if (everywhere(along_y > Real(1.0F)))
+                return along_y;
+        }
         const Real nx = along(site::nx, r_.note(site::pixel_x, r_.real(pixel.x) + Real(0.5F)), ball.x),
                    ny = along(site::ny, r_.note(site::pixel_y, r_.real(pixel.y) + Real(0.5F)), ball.y);
         return r_.note(site::magnitude, nx * nx + ny * ny);
@@ -165,6 +165,30 @@ template <class R> class SpriteTwin {
     const Host& host_;
     const SystemView& state_;
     Spheres spheres_;
+};
+
+/// The balls of one state in one arithmetic, made when they are first asked for. Any number of threads may ask.
+class DrawnBalls {
+  public:
+    using Numbers = std::array<float, 7>; ///< of a ball, in its order
+    template <class A> const std::vector<std::optional<Numbers>>& of(const A& arithmetic, const Host& host,
+                                                                     const SystemView& state, const Spheres& spheres) {
+        std::call_once(once_, [&] {
+            Values<A> r(arithmetic);
+            const SpriteTwin<Values<A>> sprite(r, host, state, spheres);
+            all_.resize(state[particle_buffer].count());
+            const auto number = [](const auto& x) { return static_cast<float>(x); };
+            for (std::uint32_t i = 0; i < all_.size(); ++i)
+                if (const auto ball = sprite.ball(i))
+                    all_[i] = {number(ball->centre.x), number(ball->centre.y), number(ball->centre.z), number(ball->w),
+                               number(ball->x),        number(ball->y),        number(ball->half)};
+        });
+        return all_;
+    }
+
+  private:
+    std::once_flag once_;
+    std::vector<std::optional<Numbers>> all_;
 };
 
 /// The condition under which `scene_depth` lets what lies at a window depth be seen.

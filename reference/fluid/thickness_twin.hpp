@@ -2,6 +2,7 @@
 #include <bit>
 #include <cmath>
 #include <cstdint>
+#include <memory>
 #include <vector>
 
 #include "reference/fluid/sprite.hpp"
@@ -29,9 +30,10 @@ void draw_row(const ThicknessTwin& twin, const PlainArithmetic& arithmetic, cons
 struct ThicknessTwin {
     HostPtr host;
     BoxesByTile boxes = {};
+    std::shared_ptr<DrawnBalls> balls = {};
 
     [[nodiscard]] ThicknessTwin at(const PassInput& in) const {
-        return {host, sprite_boxes(*host, in.before, spheres())};
+        return {host, sprite_boxes(*host, in.before, spheres()), std::make_shared<DrawnBalls>()};
     }
 
     [[nodiscard]] HandedSpheres<ThicknessTwin> handed(std::span<const Mistake> made) const { return {*this, made}; }

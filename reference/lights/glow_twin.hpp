@@ -1,9 +1,18 @@
 #pragma once
-#include <cstring>
+#include <optional>
+#include <vector>
 
 #include "reference/lights/lighting_twin.hpp"
+#include "reference/plain_arithmetic.hpp"
+#include "reference/system/tile_rows.hpp"
 
 namespace lockstep::lights {
+
+struct GlowTwin;
+void draw_row(const GlowTwin& twin, const Portable& arithmetic, const PassInput& in, std::size_t row,
+              const WritableView& after);
+void draw_row(const GlowTwin& twin, const PlainArithmetic& arithmetic, const PassInput& in, std::size_t row,
+              const WritableView& after);
 
 /// Discs around the lights, added to the lit image by blending where nothing nearer is: in the order of drawing where
 /// the driver is followed, else in any. Twin of shaders/lights/glow_pass.*.
@@ -24,84 +33,33 @@ struct GlowTwin {
             terms.push_back(sum);
         for (const std::uint32_t i : boxes.near(pixel))
             if (pixel.is_in(boxes.box(i)))
-                if (const auto share = share_of(r, in, i, pixel, item)) {
-                    const Vec3 c = colour(r, in, i, *share);
-                    sum = sum + c;
-                    if (!host->follows_driver())
-                        terms.push_back(c);
-                }
+                if (const auto disc = disc_of(r, in, i))
+                    offer(r, in, *disc, pixel, item, [&](bool covered, const Vec3& c) {
+                        if (!covered)
+                            return;
+                        sum = sum + c;
+                        if (!host->follows_driver())
+                            terms.push_back(c);
+                    });
         if (terms.size() > 1)
             sum = in_any_order(r, terms);
         const Real alpha = r.read(site::lit_before, before.w);
         return words_of<R>(r.note(site::lit, typename R::Vec4{sum.x, sum.y, sum.z, alpha}));
     }
 
-    // Light by light, a row of tiles at a time.
+    // Light by light, a row of tiles at a time (glow_lanes.cpp).
     [[nodiscard]] std::size_t parts() const { return boxes.rows(); }
-    template <class R> void part(R& r, const PassInput& in, std::size_t row, const WritableView& after) const {
-        using Real = typename R::Real;
-        using Vec3 = typename R::Vec3;
-        struct Texel {
-            bool is_lit;
-            Vec3 sum;
-        };
-        const auto before = [&](std::size_t item) {
-            return r.read(site::lit_before, glm::vec3(in.before.vec4(field::pixel, item)));
-        };
-        boxes.template draw<Texel>(
-            row, Texel{false, {}},
-            [&](std::uint32_t i) {
-                auto disc = disc_of(r, in, i);
-                if (disc)
-                    place(r, *disc);
-                return disc;
-            },
-            [&](Texel& texel, const Disc<R>& disc, const Pixel& pixel, std::size_t item) {
-                if (!is_nearer(r, in, disc, item))
-                    return;
-                const auto share = share_on(r, disc, pixel);
-                if (!share)
-                    return;
-                if (!texel.is_lit) {
-                    const Vec3 first = before(item), zero{};
-                    texel = {true, host->follows_driver() ? first : zero + first};
-                }
-                texel.sum = texel.sum + colour(r, in, disc.light, *share);
-            },
-            [&](const Texel& texel, std::size_t item) {
-                const Vec3 sum = texel.is_lit ? texel.sum : before(item);
-                const Real alpha = r.read(site::lit_before, in.before.real(field::pixel, item, 3));
-                std::byte* to = after.columns[0] + item * 4 * sizeof(float);
-                for (const Real& x : {sum.x, sum.y, sum.z, alpha}) {
-                    const std::uint32_t word = item_twin::word_of(x);
-                    std::memcpy(to, &word, sizeof word);
-                    to += sizeof word;
-                }
-            });
+    template <class A>
+    void part(const Values<A>& r, const PassInput& in, std::size_t row, const WritableView& after) const {
+        draw_row(*this, arithmetic_of(r), in, row, after);
     }
 
-  private:
     /// A light before the camera.
     template <class R> struct Disc {
         std::uint32_t light;
         typename R::Vec4 clip;
         typename R::Real depth, x, y, radius;
     };
-    template <class R>
-    typename R::Vec3 colour(R& r, const PassInput& in, std::uint32_t light, const typename R::Real& share) const {
-        return r.note(site::glow_colour, r.read(site::colour_before, in.before.vec3(field::light_colour, light)) *
-                                             share * r.uniform(site::glow_gain, host->settings().glow_gain));
-    }
-    template <class R> static typename R::Vec3 in_any_order(R& r, const std::vector<typename R::Vec3>& terms) {
-        const auto along = [&](const auto& part) {
-            std::vector<typename R::Real> all;
-            for (const typename R::Vec3& term : terms)
-                all.push_back(part(term));
-            return r.any_order_sum(site::lit, all);
-        };
-        return {along([](const auto& v) { return v.x; }), along([](const auto& v) { return v.y; }),
-                along([](const auto& v) { return v.z; })};
-    }
     template <class R> std::optional<Disc<R>> disc_of(R& r, const PassInput& in, std::uint32_t light) const {
         using Real = typename R::Real;
         const Real zero(0.0F), one(1.0F), half(0.5F);
@@ -113,7 +71,43 @@ struct GlowTwin {
         disc.depth = r.note(site::glow_depth, r.divide(site::glow_depth, disc.clip.z, disc.clip.w) * half + half);
         if (!r.decide(site::glow_in_planes, disc.depth >= zero && disc.depth <= one))
             return {};
+        place(r, disc);
         return disc;
+    }
+    /// Calls `made(covered, colour)` where the disc may cover the pixel.
+    template <class R, class Place, class Item, class Made> void offer(R& r, const PassInput& in, const Disc<R>& disc,
+                                                                       const Place& pixel, const Item& item,
+                                                                       const Made& made) const {
+        using Real = typename R::Real;
+        const Real one(1.0F), half(0.5F);
+        const auto nearer = decided(r, site::glow_nearer,
+                                    disc.depth < item_real(r, site::stored_depth, in.before, field::texel_depth, item));
+        if (nowhere(nearer))
+            return;
+        const Real dx = r.note(
+            site::disc_x, r.divide(site::disc_x, r.note(site::centre_x, r.real(pixel.x) + half) - disc.x, disc.radius));
+        const Real dy = r.note(
+            site::disc_y, r.divide(site::disc_y, r.note(site::centre_y, r.real(pixel.y) + half) - disc.y, disc.radius));
+        const Real d2 = r.note(site::disc, dx * dx + dy * dy);
+        const auto on_disc = decided(r, site::on_disc, d2 < one);
+        if (nowhere(on_disc))
+            return;
+        const Real share = r.note(site::glow_share, one - d2);
+        made(nearer && on_disc,
+             r.note(site::glow_colour, r.read(site::colour_before, in.before.vec3(field::light_colour, disc.light)) *
+                                           share * r.uniform(site::glow_gain, host->settings().glow_gain)));
+    }
+
+  private:
+    template <class R> static typename R::Vec3 in_any_order(R& r, const std::vector<typename R::Vec3>& terms) {
+        const auto along = [&](const auto& part) {
+            std::vector<typename R::Real> all;
+            for (const typename R::Vec3& term : terms)
+                all.push_back(part(term));
+            return r.any_order_sum(site::lit, all);
+        };
+        return {along([](const auto& v) { return v.x; }), along([](const auto& v) { return v.y; }),
+                along([](const auto& v) { return v.z; })};
     }
     template <class R> void place(R& r, Disc<R>& disc) const {
         using Real = typename R::Real;
@@ -124,30 +118,6 @@ struct GlowTwin {
         disc.y = r.note(site::glow_y, (r.divide(site::glow_y, clip.y, clip.w) + one) * half * r.real(s.height));
         disc.radius = r.note(site::glow_radius,
                              r.divide(site::glow_radius, r.uniform(site::disc_scale, host->disc_scale()), clip.w));
-    }
-    template <class R> bool is_nearer(R& r, const PassInput& in, const Disc<R>& disc, std::size_t item) const {
-        return r.decide(site::glow_nearer,
-                        disc.depth < r.read(site::stored_depth, in.before.real(field::texel_depth, item)));
-    }
-    template <class R> std::optional<typename R::Real> share_on(R& r, const Disc<R>& disc, const Pixel& pixel) const {
-        using Real = typename R::Real;
-        const Real one(1.0F), half(0.5F);
-        const Real dx = r.note(
-            site::disc_x, r.divide(site::disc_x, r.note(site::centre_x, r.real(pixel.x) + half) - disc.x, disc.radius));
-        const Real dy = r.note(
-            site::disc_y, r.divide(site::disc_y, r.note(site::centre_y, r.real(pixel.y) + half) - disc.y, disc.radius));
-        const Real d2 = r.note(site::disc, dx * dx + dy * dy);
-        if (!r.decide(site::on_disc, d2 < one))
-            return {};
-        return r.note(site::glow_share, one - d2);
-    }
-    template <class R> std::optional<typename R::Real> share_of(R& r, const PassInput& in, std::uint32_t light,
-                                                                const Pixel& pixel, std::size_t item) const {
-        auto disc = disc_of(r, in, light);
-        if (!disc || !is_nearer(r, in, *disc, item))
-            return {};
-        place(r, *disc);
-        return share_on(r, *disc, pixel);
     }
 };
 

@@ -10,6 +10,15 @@
 
 namespace lockstep {
 
+/// What a pass's reading computes with.
+template <class A> A arithmetic_of(const Values<A>& r) {
+    struct Opened : Values<A> {
+        explicit Opened(const Values<A>& of) : Values<A>(of) {}
+        [[nodiscard]] A arithmetic() const { return this->fp_; }
+    };
+    return Opened(r).arithmetic();
+}
+
 /// Each operation as the plain arithmetic of a driver has it, with tables of roots or without, lane by lane.
 struct OwnOrderLanes {
     using Three = Vec3<FloatLanes>;

@@ -320,7 +320,8 @@ class Reader {
             std::vector<std::string> ids;
             for (const auto& [id, place] : places_)
                 ids.push_back(id);
-            fail_unknown(json, text.substr(0, dot), "node", ids);
+            const bool is_of_split = dot + 2 == text.size() && parts.find(text.back()) != std::string_view::npos;
+            fail_unknown(json, is_of_split ? text.substr(0, dot) : text, "node", ids); // else perhaps a number
         }
         resolve(found->second, depth + 1);
         const GraphNode& from = graph_.nodes[found->second];

@@ -1,4 +1,5 @@
 #include "tests/lifecycle/lifecycle_run.hpp"
+#include "tests/planted_shader.hpp"
 
 using namespace lockstep;
 using namespace lockstep::test;
@@ -68,4 +69,15 @@ TEST_CASE("lifecycle: every force, split and fused, with the source's order of a
                             {.kind = Kind::attraction, .strength = 0.5F, .inverse_square = true},
                             {.kind = Kind::curl_noise, .strength = 1.5F, .frequency = 1.7F, .pan = {0, -0.5F, 0}}};
     expect_agreement(s, 20);
+}
+
+TEST_CASE("lifecycle: a kernel that writes a buffer which it may only read is told, and which") {
+    if (!gl())
+        return skip(gl().missing());
+    const TemporaryFolder folder;
+    std::filesystem::create_directories(folder.path() / "lifecycle");
+    plant(folder, "lifecycle/move.comp", "    store(j);\n", "    store(j);\n    counters[u_Emitter].killed = 7u;\n");
+    const CheckMode mode = GENERATE(CheckMode::free, CheckMode::resync);
+    CHECK_THROWS_WITH(run_lifecycle(shower(), 6, mode, (folder.path() / "lifecycle").string()),
+                      Catch::Contains("move changed emitter 0; it is to write the particles alone"));
 }

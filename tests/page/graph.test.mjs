@@ -49,7 +49,7 @@ function* changed(graph) {
     }
     for (const key of ["seed", "value", "falloff", "colour", "inputs"]) yield set((g) => (g.nodes[n][key] ??= 1));
     for (const port of Object.keys(node.inputs ?? {}))
-      for (const value of ["nobody", `${node.id}`, graph.nodes.at(-1).id, graph.nodes[0].id, `${graph.nodes[0].id}.x`, true, [1, 2], [1, 2, 3], 5, null, {}, [[1]]])
+      for (const value of ["nobody", "-0.8", "nobody.x", `${node.id}`, graph.nodes.at(-1).id, graph.nodes[0].id, `${graph.nodes[0].id}.x`, true, [1, 2], [1, 2, 3], 5, null, {}, [[1]]])
         yield set((g) => (g.nodes[n].inputs[port] = value));
     for (const port of Object.keys(node.inputs ?? {})) {
       yield set((g) => delete g.nodes[n].inputs[port]);

@@ -240,7 +240,8 @@ class Checker {
     if (typeof value !== "string") return { type: literal(value, path) };
     const dot = value.indexOf(".");
     const name = dot < 0 ? value : value.slice(0, dot);
-    if (!this.places.has(name)) unknown(path, name, "node", [...this.places.keys()].sort());
+    const isOfSplit = dot >= 0 && value.length === dot + 2 && "xyzw".includes(value[dot + 1]);
+    if (!this.places.has(name)) unknown(path, isOfSplit ? name : value, "node", [...this.places.keys()].sort()); // else perhaps a number
     const n = this.places.get(name);
     this.resolve(n, depth + 1);
     const from = this.nodes[n], splits = from.type.type === "split";

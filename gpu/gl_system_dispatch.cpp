@@ -1,0 +1,98 @@
+#include <algorithm>
+#include <array>
+#include <optional>
+#include <vector>
+
+#include "gpu/gl_system_parts.hpp"
+
+namespace lockstep {
+
+/// Binds the buffer with the counts and returns their place in it; nothing where they are beyond what GL can dispatch:
+/// then as many groups run as the items take.
+std::optional<GLintptr> GlSystem::Parts::group_counts(const GroupCounts& of) {
+    constexpr std::uint32_t most_groups = 65535; // that every GL has
+    for (std::size_t s = 0; s < storages.size(); ++s) {
+        if (storages[s].layout.resource != of.field.resource)
+            continue;
+        std::size_t words = 0;
+        for (const RecordLayout::Member& member : storages[s].layout.members) {
+            const Field& field = storages[s].layout.field(member);
+            if (member.field == of.field.field) {
+                const std::size_t place = of.item * storages[s].layout.bytes() + words * sizeof(std::uint32_t);
+                const std::array<std::uint32_t, 3> counts = from(s).three_words(place);
+                gl::BindBuffer(GL_DISPATCH_INDIRECT_BUFFER, from(s).id());
+                const bool fits = std::all_of(counts.begin(), counts.end(), [](auto n) { return n <= most_groups; });
+                return fits ? std::optional(static_cast<GLintptr>(place)) : std::nullopt;
+            }
+            words += static_cast<std::size_t>(field.components);
+        }
+    }
+    return {};
+}
+
+void GlSystem::Parts::dispatch(const Linked& linked, int frame) {
+    using Kind = BoundBlock::Kind;
+    linked.program.check_interface();
+    const auto is_copied = [&](std::uint8_t resource) { return kept || !in_place(resource); };
+    for (std::size_t s = 0; s < storages.size(); ++s)
+        if ((!storages[s].block.empty() || linked.pass.keeps()) && is_copied(storages[s].layout.resource) &&
+            std::count(linked.resources.begin(), linked.resources.end(), storages[s].layout.resource) > 0)
+            to(s).copy(from(s));
+    std::vector<GlBuffer> given; // lives until the dispatch is done
+    for (std::size_t b = 0; b < linked.bound.size(); ++b) {
+        const BoundBlock& bound = linked.bound[b];
+        GLuint buffer = 0;
+        if (bound.kind == Kind::data) {
+            std::vector<float> floats = linked.pass.data.at(bound.name)(frame);
+            floats.resize(std::max<std::size_t>(floats.size(), 1));
+            buffer = given.emplace_back().id();
+            gl::BindBuffer(GL_COPY_READ_BUFFER, buffer);
+            gl::BufferData(GL_COPY_READ_BUFFER, static_cast<GLsizeiptr>(floats.size() * sizeof(float)), floats.data(),
+                           GL_STREAM_DRAW);
+        } else {
+            const std::uint8_t resource = storages[bound.storage].layout.resource;
+            const bool written = std::count(linked.resources.begin(), linked.resources.end(), resource) > 0;
+            const bool after =
+                bound.kind == Kind::after || (bound.kind == Kind::in_place && written && is_copied(resource));
+            buffer = (after ? to(bound.storage) : from(bound.storage)).id();
+        }
+        gl::BindBufferBase(GL_SHADER_STORAGE_BUFFER, static_cast<GLuint>(b), buffer);
+    }
+    std::vector<const RecordBuffer*> read, written;
+    for (std::size_t s = 0; s < storages.size(); ++s)
+        if (storages[s].block.empty()) {
+            read.push_back(&from(s));
+            written.push_back(&to(s));
+        }
+    linked.by_member.fill(read, written);
+    const std::size_t items =
+        linked.pass.invocations ? linked.pass.invocations(frame) : this->items(linked.pass.resource);
+    // Negative: as many groups as the items take.
+    const GLintptr place = linked.pass.indirect ? group_counts(*linked.pass.indirect).value_or(-1) : -1;
+    linked.program.use();
+    timed([&] {
+        if (place >= 0)
+            gl::DispatchComputeIndirect(place);
+        else if (is_image(linked.pass.resource) && !linked.pass.invocations)
+            dispatch_image(linked);
+        else
+            gl::DispatchCompute(static_cast<GLuint>((items + linked.invocations - 1) / linked.invocations), 1, 1);
+    });
+    linked.by_member.collect(written);
+    gl::BindBuffer(GL_DISPATCH_INDIRECT_BUFFER, 0);
+    gl::MemoryBarrier(GL_COMMAND_BARRIER_BIT | GL_BUFFER_UPDATE_BARRIER_BIT | GL_CLIENT_MAPPED_BUFFER_BARRIER_BIT |
+                      GL_VERTEX_ATTRIB_ARRAY_BARRIER_BIT | GL_SHADER_STORAGE_BARRIER_BIT |
+                      GL_TEXTURE_FETCH_BARRIER_BIT | GL_SHADER_IMAGE_ACCESS_BARRIER_BIT |
+                      GL_TEXTURE_UPDATE_BARRIER_BIT | GL_FRAMEBUFFER_BARRIER_BIT);
+}
+
+void GlSystem::Parts::dispatch_image(const Linked& linked) {
+    const Extent& extent = image_to(linked.pass.resource).extent();
+    const auto groups = [&](std::size_t texels, int axis) {
+        const std::size_t of = linked.group[static_cast<std::size_t>(axis)];
+        return static_cast<GLuint>((texels + of - 1) / of);
+    };
+    gl::DispatchCompute(groups(extent.width, 0), groups(extent.height, 1), groups(extent.depth, 2));
+}
+
+} // namespace lockstep

@@ -291,8 +291,8 @@ std::optional<std::vector<std::uint8_t>> GlSystem::reached_by(std::size_t pass) 
     if (!linked || linked->program.bindings() != nullptr) // blocks of other names
         return {};
     std::vector<std::uint8_t> reached = linked->resources;
-    for (const Bound& bound : linked->bound)
-        if (bound.kind != Bound::Kind::data)
+    for (const BoundBlock& bound : linked->bound)
+        if (bound.kind != BoundBlock::Kind::data)
             reached.push_back(parts_->storages[bound.storage].layout.resource);
     return reached;
 }

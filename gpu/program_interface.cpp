@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <bit>
+#include <set>
+#include <string>
 #include <utility>
 
 #include <fmt/format.h>
@@ -66,9 +68,12 @@ std::string ProgramInterface::meant_by(std::string_view name, GLenum type) const
 
 std::vector<std::string> ProgramInterface::unknown() const {
     std::vector<std::string> found;
+    std::set<std::string> arrays; // of which an element was found
     for (const auto& [name, given] : given_) {
         const ProgramVariable& variable = variables_[given.variable];
         if (asked_for_.contains(name) || variable.declared.is_initialised || variable.name.starts_with("gl_"))
+            continue;
+        if (variable.name.ends_with(']') && !arrays.insert(variable.name.substr(0, variable.name.rfind('['))).second)
             continue;
         const std::string bound = name == variable.name ? "" : fmt::format(" (bound to {})", name);
         found.push_back(fmt::format("{}: nothing is given for {} {}{}{}", variable.declared.place, kind_, variable.name,

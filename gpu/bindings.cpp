@@ -96,7 +96,7 @@ class Reader {
         std::set<std::string> given;
         for (const auto& [theirs, ours] : value.items()) {
             const std::string at = path + "/" + theirs;
-            check_word(at, theirs);
+            check_word(at, theirs.substr(theirs.rfind('.') + 1)); // of an output in a block "Block.name"
             if (!ours.is_string())
                 fail(at, "is no name");
             names[theirs] = ours.get<std::string>();
@@ -140,7 +140,8 @@ class Reader {
     void read_uniforms(const std::string& path, const std::string& block, const json& value) {
         for (const auto& [theirs, given] : value.items()) {
             UniformBinding binding{path + "/" + theirs, {}};
-            check_word(binding.path, theirs);
+            const std::string last = theirs.substr(theirs.rfind('.') + 1);
+            check_word(binding.path, last.substr(0, last.find('[')));
             binding.by_component = given.is_array();
             for (const json& one : given.is_array() ? given : json::array({given})) {
                 if (one.is_string())
@@ -149,6 +150,13 @@ class Reader {
                     binding.numbers.push_back(one.get<double>());
                 else
                     fail(binding.path, "is neither a name nor a number, nor a list of one of these");
+            }
+            constexpr std::string_view function = "transpose(";
+            if (binding.names.size() == 1 && binding.names.front().starts_with(function) &&
+                binding.names.front().ends_with(")")) {
+                std::string& name = binding.names.front();
+                name = name.substr(function.size(), name.size() - function.size() - 1);
+                binding.transposed = true;
             }
             if (binding.names.empty() == binding.numbers.empty())
                 fail(binding.path, "is to be names or numbers, one at least");

@@ -15,6 +15,7 @@ struct UniformBinding {
     std::vector<std::string> names;   ///< ours; empty: numbers
     std::vector<double> numbers = {}; ///< one a component
     bool by_component = false;        ///< a list of names: one a component, whatever its type
+    bool transposed = false;          ///< "transpose(u_ProjView)": the name's matrix with rows for columns
 };
 
 /// What a member of a storage block holds of each item: one value, or a list of them, one after the other.

@@ -20,24 +20,6 @@ namespace {
 
 constexpr std::size_t word_bytes = sizeof(std::uint32_t);
 
-std::string resource_name(GLuint program, GLenum interface, GLuint index) {
-    std::array<char, 512> name{};
-    gl::GetProgramResourceName(program, interface, index, static_cast<GLsizei>(name.size()), nullptr, name.data());
-    return name.data();
-}
-
-template <std::size_t count> std::array<GLint, count> resource(GLuint program, GLenum interface, GLuint index,
-                                                               const std::array<GLenum, count>& properties) {
-    std::array<GLint, count> values{};
-    gl::GetProgramResourceiv(program, interface, index, static_cast<GLsizei>(count), properties.data(),
-                             static_cast<GLsizei>(count), nullptr, values.data());
-    return values;
-}
-
-GLint binding_point(GLuint program, GLuint block) {
-    return resource(program, GL_SHADER_STORAGE_BLOCK, block, std::array<GLenum, 1>{GL_BUFFER_BINDING})[0];
-}
-
 /// Whether a variable is an element of an array at the top of a block, behind its first, which some drivers list too.
 bool is_later_element(std::string_view name, const std::string& block) {
     if (name.starts_with(block + "."))
@@ -109,19 +91,16 @@ std::vector<std::uint32_t> buffer_words(const RecordBuffer& buffer) {
 
 } // namespace
 
-BoundStorage::BoundStorage(GLuint program, std::shared_ptr<const Bindings> bindings, std::vector<RecordBlocks> ours)
-    : bindings_(std::move(bindings)), ours_(std::move(ours)) {
+BoundStorage::BoundStorage(const Program& program, std::vector<RecordBlocks> ours)
+    : bindings_(program.bindings()), ours_(std::move(ours)) {
     if (bindings_ == nullptr)
         return;
     for (std::size_t o = 0; o < ours_.size(); ++o)
         add_names(o);
-    GLint count = 0;
-    gl::GetProgramInterfaceiv(program, GL_SHADER_STORAGE_BLOCK, GL_ACTIVE_RESOURCES, &count);
-    for (GLuint b = 0; b < static_cast<GLuint>(count); ++b) {
-        const std::string name = resource_name(program, GL_SHADER_STORAGE_BLOCK, b);
-        const auto bound = bindings_->storage_blocks.find(name);
+    for (const InterfaceBlock& block : program.storage_blocks()) {
+        const auto bound = bindings_->storage_blocks.find(block.name);
         if (bound != bindings_->storage_blocks.end() && bound->second.ours.empty())
-            add_block(program, b, name, bound->second);
+            add_block(block, bound->second);
     }
     check_written();
 }
@@ -148,39 +127,28 @@ void BoundStorage::add_names(std::size_t ours) {
     }
 }
 
-void BoundStorage::add_block(GLuint program, GLuint block, const std::string& name,
-                             const StorageBlockBinding& binding) {
+void BoundStorage::add_block(const InterfaceBlock& block, const StorageBlockBinding& binding) {
     const auto fail = [&](const std::string& path, const std::string& what) {
         throw Error(fmt::format("{}: {}: {}", bindings_->file, path, what));
     };
-    const auto about = resource(program, GL_SHADER_STORAGE_BLOCK, block,
-                                std::array<GLenum, 3>{GL_BUFFER_BINDING, GL_BUFFER_DATA_SIZE, GL_NUM_ACTIVE_VARIABLES});
-    std::vector<GLint> indices(static_cast<std::size_t>(about[2]));
-    const GLenum all = GL_ACTIVE_VARIABLES;
-    gl::GetProgramResourceiv(program, GL_SHADER_STORAGE_BLOCK, block, 1, &all, about[2], nullptr, indices.data());
-
-    Block made{name, static_cast<GLuint>(about[0]), static_cast<std::size_t>(about[1]) / word_bytes};
+    const std::string& name = block.name;
+    Block made{name, static_cast<GLuint>(block.binding), static_cast<std::size_t>(block.bytes) / word_bytes};
     std::vector<std::string> names;
     std::map<std::string, std::string> taken; // the member by the file's name
-    for (const GLint index : indices) {
-        const auto variable = static_cast<GLuint>(index);
-        const std::string full_name = resource_name(program, GL_BUFFER_VARIABLE, variable);
-        if (is_later_element(full_name, name))
+    for (const BlockMember& variable : block.members) {
+        if (is_later_element(variable.name, name))
             continue;
-        const auto [type, offset, size, step, items, stride] =
-            resource(program, GL_BUFFER_VARIABLE, variable,
-                     std::array<GLenum, 6>{GL_TYPE, GL_OFFSET, GL_ARRAY_SIZE, GL_ARRAY_STRIDE, GL_TOP_LEVEL_ARRAY_SIZE,
-                                           GL_TOP_LEVEL_ARRAY_STRIDE});
-        const bool in_records = stride > 0;
+        const GLint step = variable.array_stride;
+        const bool in_records = variable.top_level_stride > 0;
         Member member;
-        member.name = member_name(full_name, name);
-        member.type = static_cast<GLenum>(type);
-        member.offset = static_cast<std::size_t>(offset) / word_bytes;
-        member.stride = static_cast<std::size_t>(in_records ? stride : step) / word_bytes;
-        member.elements = static_cast<std::size_t>(in_records ? items : size);
+        member.name = member_name(variable.name, name);
+        member.type = variable.type;
+        member.offset = static_cast<std::size_t>(variable.offset) / word_bytes;
+        member.stride = static_cast<std::size_t>(in_records ? variable.top_level_stride : step) / word_bytes;
+        member.elements = static_cast<std::size_t>(in_records ? variable.top_level_size : variable.size);
         member.plain = !in_records && step > 0;
         if (in_records && step > 0) {
-            member.parts = static_cast<std::size_t>(size);
+            member.parts = static_cast<std::size_t>(variable.size);
             member.part_words = static_cast<std::size_t>(step) / word_bytes;
         }
         names.push_back(member.name);
@@ -417,12 +385,10 @@ void BoundStorage::collect(std::span<const RecordBuffer* const> after) const {
 }
 
 std::vector<StorageBlock> storage_blocks(const Program& program, std::span<const std::string> ours) {
-    GLint count = 0;
-    gl::GetProgramInterfaceiv(program.id(), GL_SHADER_STORAGE_BLOCK, GL_ACTIVE_RESOURCES, &count);
     const Bindings* const bindings = program.bindings().get();
     std::vector<StorageBlock> all;
-    for (GLuint block = 0; block < static_cast<GLuint>(count); ++block) {
-        const std::string name = resource_name(program.id(), GL_SHADER_STORAGE_BLOCK, block);
+    for (const InterfaceBlock& block : program.storage_blocks()) {
+        const std::string& name = block.name;
         const StorageBlockBinding* binding = nullptr;
         if (bindings != nullptr)
             if (const auto found = bindings->storage_blocks.find(name); found != bindings->storage_blocks.end())
@@ -456,7 +422,7 @@ BoundStorage bind_storage(const Program& program, std::span<const std::string> o
                                           one.ours.empty() ? next_point++ : static_cast<GLuint>(whole - ours.begin()));
             continue;
         }
-        const GLint point = binding_point(program.id(), block);
+        const GLint point = storage_binding(program.id(), block);
         if (static_cast<std::size_t>(point) >= reserved)
             fail(one.name, fmt::format(" at binding {}", point));
         if (point == 0 && any_bound && one.name != ours.front())
@@ -464,7 +430,7 @@ BoundStorage bind_storage(const Program& program, std::span<const std::string> o
         if (const auto [other, first] = at.emplace(point, one.name); !first)
             fail(one.name, fmt::format(" at binding {}, where {} is", point, other->second));
     }
-    return {program.id(), program.bindings(), {records}};
+    return {program, {records}};
 }
 
 } // namespace lockstep

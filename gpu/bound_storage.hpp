@@ -10,6 +10,7 @@
 
 #include "gpu/bindings.hpp"
 #include "gpu/gl.hpp"
+#include "gpu/interface_block.hpp"
 #include "gpu/object.hpp"
 #include "gpu/program.hpp"
 #include "gpu/record_buffer.hpp"
@@ -28,13 +29,13 @@ struct RecordBlocks {
 class BoundStorage {
   public:
     BoundStorage() = default; ///< of nothing
-    /// The active blocks of `program` that `bindings` bind by member. A member is an array, or in an array of
+    /// The active blocks of `program` that its bindings bind by member. A member is an array, or in an array of
     /// structures: element i is of item i. It holds "Before.speed", "After.speed", or "speed" of a block that is
     /// changed in place ("Both.speed" where there are several buffers); numbers; or "count", how many items there are.
     /// `layouts` of `ours` outlive this. Throws Error with the file and the path in it for a member that the block does
     /// not have, or that has no value, for a name that is none of ours, for types that do not fit, and for a field of
     /// ours that is written in part, or twice.
-    BoundStorage(GLuint program, std::shared_ptr<const Bindings> bindings, std::vector<RecordBlocks> ours);
+    BoundStorage(const Program& program, std::vector<RecordBlocks> ours);
 
     /// Whether it has blocks that take a state, but none that gives one back.
     [[nodiscard]] bool only_reads() const { return !reads_.empty() && writes_.empty(); }
@@ -82,7 +83,7 @@ class BoundStorage {
     };
 
     void add_names(std::size_t ours);
-    void add_block(GLuint program, GLuint block, const std::string& name, const StorageBlockBinding& binding);
+    void add_block(const InterfaceBlock& block, const StorageBlockBinding& binding);
     void add_words(Member& member, const MemberBinding& binding);
     void add_name(Member& member, const std::string& path, const std::string& name);
     void settle_counts(Block& block, const std::string& path) const;

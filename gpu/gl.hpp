@@ -159,6 +159,7 @@
     X(GenTransformFeedbacks, 4, 0, "GL_ARB_transform_feedback2")                                                       \
     X(BindImageTexture, 4, 2, "GL_ARB_shader_image_load_store")                                                        \
     X(MemoryBarrier, 4, 2, "GL_ARB_shader_image_load_store")                                                           \
+    X(ShaderBinary, 4, 1, "GL_ARB_ES2_compatibility")                                                                  \
     X(TexStorage2D, 4, 2, "GL_ARB_texture_storage")                                                                    \
     X(DrawElementsIndirect, 4, 0, "GL_ARB_draw_indirect")                                                              \
     X(DispatchCompute, 4, 3, "GL_ARB_compute_shader")                                                                  \
@@ -176,7 +177,8 @@
     X(BufferStorage, 4, 4, "GL_ARB_buffer_storage")                                                                    \
     X(ClearTexImage, 4, 4, "GL_ARB_clear_texture")                                                                     \
     X(ClipControl, 4, 5, "GL_ARB_clip_control")                                                                        \
-    X(TextureBarrier, 4, 5, "GL_ARB_texture_barrier")
+    X(TextureBarrier, 4, 5, "GL_ARB_texture_barrier")                                                                  \
+    X(SpecializeShader, 4, 6, "GL_ARB_gl_spirv")
 
 namespace lockstep::gl {
 

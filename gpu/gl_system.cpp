@@ -100,7 +100,7 @@ GlSystem::GlSystem(const Schema& schema, std::vector<GlPass> passes, std::filesy
         if (pass.draw)
             used.push_back(Stage::fragment);
         const std::vector<ShaderSource> stages = parts_->sources(pass, used, false);
-        parts_->says_precise = parts_->says_precise && says(stages.front().text, "precise");
+        parts_->says_precise = parts_->says_precise && lockstep::says_precise(stages.front());
         const std::vector<Capture> captures =
             captured ? parts_->storages[parts_->first_storage(pass.resource)].layout.captures()
                      : std::vector<Capture>{};
@@ -112,7 +112,7 @@ GlSystem::GlSystem(const Schema& schema, std::vector<GlPass> passes, std::filesy
         std::array<GLint, 3> group{1, 1, 1};
         if (compute) {
             bound = bind_blocks(program, schema, parts_->storages, pass);
-            by_member = BoundStorage(program.id(), program.bindings(), blocks_of_records(schema, parts_->storages));
+            by_member = BoundStorage(program, blocks_of_records(schema, parts_->storages));
             gl::GetProgramiv(program.id(), GL_COMPUTE_WORK_GROUP_SIZE, group.data());
         }
         const std::uint8_t resource = pass.resource;

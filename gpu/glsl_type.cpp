@@ -102,6 +102,12 @@ std::string type_name(GLenum type) {
     return known != nullptr ? known->name : fmt::format("GL type {:#06x}", type);
 }
 
+GLenum type_named(std::string_view name) {
+    const auto* const found =
+        std::find_if(std::begin(types), std::end(types), [&](const GlslType& t) { return t.name == name; });
+    return found == std::end(types) ? 0 : found->type;
+}
+
 std::string declared_type(GLenum type, GLint size) {
     return size == 1 ? type_name(type) : fmt::format("{}[{}]", type_name(type), size);
 }

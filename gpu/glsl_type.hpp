@@ -1,5 +1,6 @@
 #pragma once
 #include <string>
+#include <string_view>
 
 #include "gpu/gl.hpp"
 
@@ -7,6 +8,9 @@ namespace lockstep {
 
 /// "vec3" for GL_FLOAT_VEC3; types that shaders here have no use for as "GL type 0x...".
 std::string type_name(GLenum type);
+
+/// The type of a name in GLSL; 0 where type_name knows none.
+GLenum type_named(std::string_view name);
 
 /// An array of `size`, or for 1 the type alone: "vec3[4]", "vec3".
 std::string declared_type(GLenum type, GLint size);

@@ -16,6 +16,7 @@
 #include "gpu/glsl_type.hpp"
 #include "gpu/shader_log.hpp"
 #include "gpu/shader_words.hpp"
+#include "gpu/spirv_module.hpp"
 #include "reference/model/error.hpp"
 
 namespace lockstep {
@@ -38,14 +39,22 @@ GLenum gl_stage(Stage stage) {
 /// A shader object, for as long as it takes to link it.
 class Shader {
   public:
-    explicit Shader(const ShaderSource& source) {
+    /// `captured`: of a module.
+    explicit Shader(const ShaderSource& source, std::span<const SpirvModule::Variable> captured = {}) {
         if (source.stage == Stage::compute && gl::DispatchCompute == nullptr)
             throw Error(
                 fmt::format("shader {}: this GL has no compute shaders; they need GL 4.3", source.files.front()));
         id_ = gl::CreateShader(gl_stage(source.stage));
-        const char* text = source.text.c_str();
-        gl::ShaderSource(id_, 1, &text, nullptr);
-        gl::CompileShader(id_);
+        if (source.module != nullptr) {
+            const std::vector<std::uint32_t> words = capturing(*source.module, captured);
+            gl::ShaderBinary(1, &id_, GL_SHADER_BINARY_FORMAT_SPIR_V, words.data(),
+                             static_cast<GLsizei>(words.size() * sizeof words.front()));
+            gl::SpecializeShader(id_, source.module->entry_point.c_str(), 0, nullptr, nullptr);
+        } else {
+            const char* text = source.text.c_str();
+            gl::ShaderSource(id_, 1, &text, nullptr);
+            gl::CompileShader(id_);
+        }
         GLint compiled = GL_FALSE;
         gl::GetShaderiv(id_, GL_COMPILE_STATUS, &compiled);
         if (compiled == GL_TRUE)
@@ -55,6 +64,9 @@ class Shader {
         std::string log(static_cast<std::size_t>(length), '\0');
         gl::GetShaderInfoLog(id_, length, nullptr, log.data());
         gl::DeleteShader(id_);
+        if (source.module != nullptr)
+            throw Error(fmt::format("shader {}: the driver refuses the module: {}", source.files.front(),
+                                    first_link_error(log)));
         throw Error(fmt::format("shader {}", first_compile_error(log, source)));
     }
     Shader(Shader&& other) noexcept : id_(std::exchange(other.id_, 0)) {}
@@ -130,7 +142,7 @@ std::string their_name(const ShaderSource& stage, const std::string& ours) {
 /// A stage's input or output, as declared.
 struct Varying {
     std::string type, place;
-    bool is_flat = false;
+    bool is_flat = false, located = false;
 };
 
 std::map<std::string, Varying> varyings(const ShaderSource& stage, std::string_view qualifier) {
@@ -147,11 +159,48 @@ std::map<std::string, Varying> varyings(const ShaderSource& stage, std::string_v
         if (words.token() == ";" && statement.size() > 2 && has(qualifier) && !has("(")) {
             const ShaderSource::Origin& origin = stage.origins[words.line() - 1];
             found[statement.back()] = {statement[statement.size() - 2],
-                                       fmt::format("{}:{}", stage.files[origin.file], origin.line), has("flat")};
+                                       fmt::format("{}:{}", stage.files[origin.file], origin.line), has("flat"),
+                                       has("location")};
         }
         statement.clear();
     }
     return found;
+}
+
+/// Whether what goes between a GLSL stage and its neighbours does by location.
+bool goes_by_location(const ShaderSource& stage) {
+    for (const std::string_view direction : {"in", "out"}) {
+        const bool outside = stage.stage == (direction == "in" ? Stage::vertex : Stage::fragment);
+        const std::map<std::string, Varying> all = varyings(stage, direction);
+        if (!outside && std::any_of(all.begin(), all.end(), [](const auto& one) { return one.second.located; }))
+            return true;
+    }
+    return false;
+}
+
+/// The stages as GL takes them: SPIR-V alone, or GLSL alone, into which modules beside GLSL are translated.
+std::vector<ShaderSource> as_gl_takes(std::span<const ShaderSource> given) {
+    std::vector<ShaderSource> stages(given.begin(), given.end());
+    const auto in_spirv = [](const ShaderSource& stage) { return stage.module != nullptr; };
+    const bool all = std::all_of(stages.begin(), stages.end(), in_spirv);
+    if (all && (gl::ShaderBinary == nullptr || gl::SpecializeShader == nullptr))
+        throw Error(fmt::format("shader {0}: this GL takes no SPIR-V (GL_ARB_gl_spirv); `spirv-cross {0} --version 450 "
+                                "--no-420pack-extension --output {1}` translates it to GLSL (docs/translators.md)",
+                                stages.front().files.front(),
+                                std::filesystem::path(stages.front().files.front()).replace_extension().string()));
+    if (all)
+        return stages;
+    const bool located = std::any_of(stages.begin(), stages.end(), [&](const ShaderSource& stage) {
+        return !in_spirv(stage) && goes_by_location(stage);
+    });
+    for (ShaderSource& stage : stages)
+        if (const std::shared_ptr<const SpirvModule> module = std::exchange(stage.module, nullptr)) {
+            stage.text = glsl_of(*module, located);
+            const auto lines = std::count(stage.text.begin(), stage.text.end(), '\n');
+            for (int line = 1; line <= lines; ++line)
+                stage.origins.push_back({0, line});
+        }
+    return stages;
 }
 
 /// Before GLSL 4.40 both sides of the border say `flat`, or neither.
@@ -191,6 +240,13 @@ std::string link_failure(GLuint program, std::span<const ShaderSource> stages, s
     return fmt::format("does not link ({}): {}", fmt::join(files, ", "), reason);
 }
 
+void add_attribute(ProgramVariable variable, const Bindings* bindings, ProgramInterface& attributes) {
+    if (bindings != nullptr)
+        if (const auto bound = bindings->attributes.find(variable.name); bound != bindings->attributes.end())
+            return attributes.add(std::move(variable), bound->second);
+    attributes.add(std::move(variable));
+}
+
 void add_attributes(GLuint program, std::span<const ShaderSource> stages, const Bindings* bindings,
                     ProgramInterface& attributes) {
     GLint count = 0;
@@ -203,13 +259,14 @@ void add_attributes(GLuint program, std::span<const ShaderSource> stages, const 
         variable.name = name;
         variable.location = gl::GetAttribLocation(program, name);
         variable.declared = find_declaration(stages, "in", std::string_view(name).substr(0, variable.name.find('[')));
-        if (bindings != nullptr)
-            if (const auto bound = bindings->attributes.find(variable.name); bound != bindings->attributes.end()) {
-                attributes.add(std::move(variable), bound->second);
-                continue;
-            }
-        attributes.add(std::move(variable));
+        add_attribute(std::move(variable), bindings, attributes);
     }
+}
+
+/// Those of a vertex stage in SPIR-V.
+void add_attributes(const SpirvModule& module, const Bindings* bindings, ProgramInterface& attributes) {
+    for (const SpirvModule::Variable& input : module.inputs)
+        add_attribute({input.name, input.location, input.type, {module.file}}, bindings, attributes);
 }
 
 Capture linked_capture(GLuint program, GLuint index) {
@@ -369,13 +426,88 @@ void check_fragment_output(GLuint program, std::span<const ShaderSource> stages)
     }
 }
 
+/// The outputs of the last vertex-processing stage, in SPIR-V, that are to be captured.
+std::vector<SpirvModule::Variable> captured_outputs(std::span<const ShaderSource> stages,
+                                                    std::span<const Capture> captured) {
+    std::vector<SpirvModule::Variable> found;
+    for (const Capture& capture : captured) {
+        const SpirvModule& last = *last_vertex_stage(stages)->module;
+        const SpirvModule::Variable* const output = last.output(capture.name);
+        if (output == nullptr)
+            throw Error(fmt::format("shader {}: output {} is not written; it is to write {}", last.file, capture.name,
+                                    joined_names(captured)));
+        if (output->type != capture.type || output->size != capture.size)
+            throw Error(fmt::format("shader {}: output {} is {}, but is to be {}", last.file, capture.name,
+                                    declared_type(output->type, output->size),
+                                    declared_type(capture.type, capture.size)));
+        found.push_back(*output);
+    }
+    return found;
+}
+
+/// What GL says nothing of: inputs that no stage before writes, storage blocks outside compute stages that are not
+/// `given`, and a fragment stage without an output 0.
+void check_modules(std::span<const ShaderSource> stages, std::span<const std::string_view> given) {
+    const SpirvModule* before = nullptr;
+    for (const ShaderSource& stage : stages) {
+        const SpirvModule& module = *stage.module;
+        const auto has = [](const std::vector<SpirvModule::Variable>& all, GLint location) {
+            return std::any_of(all.begin(), all.end(), [&](const auto& one) { return one.location == location; });
+        };
+        if (before != nullptr)
+            for (const SpirvModule::Variable& input : module.inputs)
+                if (!has(before->outputs, input.location))
+                    throw Error(fmt::format("shader {}: input {} at location {} is written by no stage before it ({})",
+                                            module.file, input.name, input.location, before->file));
+        if (stage.stage == Stage::fragment && !has(module.outputs, 0))
+            throw Error(
+                fmt::format("shader {}: no output at location 0 is written; that is what is drawn", module.file));
+        for (const InterfaceBlock& block : module.storage_blocks)
+            if (stage.stage != Stage::compute && std::find(given.begin(), given.end(), block.name) == given.end())
+                throw Error(fmt::format("shader {}: nothing is given for storage buffer {}", module.file, block.name));
+        before = &module;
+    }
+}
+
+/// GL tells a module's storage blocks apart by their binding points alone, which are the module's until others are set.
+std::vector<InterfaceBlock> in_gl_order(GLuint program, std::span<const ShaderSource> stages) {
+    std::vector<InterfaceBlock> blocks;
+    if (gl::GetProgramInterfaceiv == nullptr)
+        return blocks;
+    for (GLuint b = 0; b < storage_block_count(program); ++b)
+        for (const ShaderSource& stage : stages)
+            for (const InterfaceBlock& block : stage.module->storage_blocks)
+                if (block.binding == storage_binding(program, b) && blocks.size() == b)
+                    blocks.push_back(block);
+    return blocks;
+}
+
+/// Outputs named like captured ones that are neither, nor read by the fragment stage.
+void check_nothing_lost(const SpirvModule& last, const SpirvModule* fragment, std::span<const Capture> captured) {
+    for (const SpirvModule::Variable& output : last.outputs) {
+        const bool is_captured = std::any_of(captured.begin(), captured.end(),
+                                             [&](const Capture& capture) { return capture.name == output.name; });
+        const bool is_read =
+            fragment != nullptr && std::any_of(fragment->inputs.begin(), fragment->inputs.end(),
+                                               [&](const auto& input) { return input.location == output.location; });
+        if (output.name.starts_with("out_") && !is_captured && !is_read)
+            throw Error(fmt::format("shader {}: output {} is captured by nobody and compared with nothing; what is "
+                                    "compared is {}",
+                                    last.file, output.name, joined_names(captured)));
+    }
+}
+
 } // namespace
 
-void check_nothing_lost(std::span<const ShaderSource> stages, std::span<const Capture> by_our_names) {
+void check_nothing_lost(std::span<const ShaderSource> given, std::span<const Capture> by_our_names) {
+    const std::vector<ShaderSource> stages = as_gl_takes(given);
     const std::vector<Capture> captured = by_their_names(by_our_names, bindings_of(stages).get());
     const ShaderSource* last = last_vertex_stage(stages);
     if (last == nullptr)
         return;
+    if (last->module != nullptr)
+        return check_nothing_lost(
+            *last->module, stages.back().stage == Stage::fragment ? stages.back().module.get() : nullptr, captured);
     std::set<std::string> lost = words_with("out_", last->text);
     for (const Capture& capture : captured)
         lost.erase(capture.name);
@@ -393,10 +525,18 @@ void check_nothing_lost(std::span<const ShaderSource> stages, std::span<const Ca
                                     joined_names(captured)));
 }
 
-std::vector<Capture> outputs_with(std::string_view prefix, std::span<const ShaderSource> stages) {
+std::vector<Capture> outputs_with(std::string_view prefix, std::span<const ShaderSource> given) {
+    const std::vector<ShaderSource> stages = as_gl_takes(given);
     const ShaderSource* last = last_vertex_stage(stages);
     if (last == nullptr)
         return {};
+    if (last->module != nullptr) {
+        std::vector<Capture> found;
+        for (const SpirvModule::Variable& output : last->module->outputs)
+            if (output.name.starts_with(prefix))
+                found.push_back({output.name, output.type, output.size});
+        return found;
+    }
     std::vector<Shader> shaders;
     for (const ShaderSource& stage : stages)
         shaders.emplace_back(stage);
@@ -412,34 +552,19 @@ std::vector<Capture> outputs_with(std::string_view prefix, std::span<const Shade
     return outputs;
 }
 
-Program::Program(std::string name, std::span<const ShaderSource> stages, std::span<const Capture> captured,
+Program::Program(std::string name, std::span<const ShaderSource> given, std::span<const Capture> captured,
                  std::span<const std::string_view> storage_buffers)
-    : name_(std::move(name)), bindings_(bindings_of(stages)) {
-    std::vector<Shader> shaders;
-    for (const ShaderSource& stage : stages)
-        shaders.emplace_back(stage);
+    : name_(std::move(name)), bindings_(bindings_of(given)) {
+    const std::vector<ShaderSource> stages = as_gl_takes(given);
     const Bindings* const bindings = bindings_.get();
     const std::vector<Capture> outputs = by_their_names(captured, bindings);
     id_ = gl::CreateProgram();
     try {
-        for (const Shader& shader : shaders)
-            gl::AttachShader(id_, shader.id());
-        if (!link(id_, outputs)) {
-            check_geometry_inputs(stages);
-            throw Error(fmt::format("{}: {}", name_, link_failure(id_, stages, outputs)));
-        }
-        if (!outputs.empty())
-            check_geometry_stage(id_, stages);
-        for (std::size_t i = 0; i < outputs.size(); ++i)
-            check_capture_type(id_, static_cast<GLuint>(i), outputs[i], stages);
-        check_storage(id_, stages, storage_buffers);
-        check_geometry_inputs(stages);
-        check_fragment_inputs(stages);
-        check_fragment_output(id_, stages);
-        for (const Shader& shader : shaders)
-            gl::DetachShader(id_, shader.id());
+        if (stages.front().module != nullptr)
+            link_modules(stages, outputs, storage_buffers);
+        else
+            link_texts(stages, outputs, storage_buffers);
         uniforms_.emplace(id_, stages, bindings);
-        add_attributes(id_, stages, bindings, attributes_);
         check_gl(name_);
     } catch (...) {
         gl::DeleteProgram(id_);
@@ -447,14 +572,60 @@ Program::Program(std::string name, std::span<const ShaderSource> stages, std::sp
     }
 }
 
+void Program::link_texts(std::span<const ShaderSource> stages, std::span<const Capture> outputs,
+                         std::span<const std::string_view> storage_buffers) {
+    std::vector<Shader> shaders;
+    for (const ShaderSource& stage : stages)
+        gl::AttachShader(id_, shaders.emplace_back(stage).id());
+    if (!link(id_, outputs)) {
+        check_geometry_inputs(stages);
+        throw Error(fmt::format("{}: {}", name_, link_failure(id_, stages, outputs)));
+    }
+    if (!outputs.empty())
+        check_geometry_stage(id_, stages);
+    for (std::size_t i = 0; i < outputs.size(); ++i)
+        check_capture_type(id_, static_cast<GLuint>(i), outputs[i], stages);
+    check_storage(id_, stages, storage_buffers);
+    check_geometry_inputs(stages);
+    check_fragment_inputs(stages);
+    check_fragment_output(id_, stages);
+    for (const Shader& shader : shaders)
+        gl::DetachShader(id_, shader.id());
+    add_attributes(id_, stages, bindings_.get(), attributes_);
+}
+
+void Program::link_modules(std::span<const ShaderSource> stages, std::span<const Capture> outputs,
+                           std::span<const std::string_view> storage_buffers) {
+    const std::vector<SpirvModule::Variable> captured = captured_outputs(stages, outputs);
+    check_modules(stages, storage_buffers);
+    std::vector<Shader> shaders;
+    for (const ShaderSource& stage : stages)
+        gl::AttachShader(id_, shaders
+                                  .emplace_back(stage, &stage == last_vertex_stage(stages)
+                                                           ? std::span(captured)
+                                                           : std::span<const SpirvModule::Variable>())
+                                  .id());
+    if (!link(id_, {}))
+        throw Error(fmt::format("{}: {}", name_, link_failure(id_, stages, {})));
+    if (!outputs.empty())
+        check_geometry_stage(id_, stages);
+    for (const Shader& shader : shaders)
+        gl::DetachShader(id_, shader.id());
+    if (stages.front().stage == Stage::vertex)
+        add_attributes(*stages.front().module, bindings_.get(), attributes_);
+    module_blocks_ = in_gl_order(id_, stages);
+}
+
 Program::Program(Program&& other) noexcept
     : name_(std::move(other.name_)), id_(std::exchange(other.id_, 0)), bindings_(std::move(other.bindings_)),
-      uniforms_(std::move(other.uniforms_)), attributes_(std::move(other.attributes_)) {}
+      module_blocks_(std::move(other.module_blocks_)), uniforms_(std::move(other.uniforms_)),
+      attributes_(std::move(other.attributes_)) {}
 
 Program& Program::operator=(Program&& other) noexcept {
     std::swap(name_, other.name_);
     std::swap(id_, other.id_);
     std::swap(bindings_, other.bindings_);
+    std::swap(module_blocks_, other.module_blocks_);
     std::swap(uniforms_, other.uniforms_);
     std::swap(attributes_, other.attributes_);
     return *this;
@@ -529,16 +700,19 @@ void Program::set_unit(std::string_view uniform, int unit, GLenum type) const {
 }
 
 bool Program::uses_storage(GLuint binding) const {
-    GLint count = 0;
-    gl::GetProgramInterfaceiv(id_, GL_SHADER_STORAGE_BLOCK, GL_ACTIVE_RESOURCES, &count);
-    for (GLuint block = 0; block < static_cast<GLuint>(count); ++block) {
-        const GLenum property = GL_BUFFER_BINDING;
-        GLint bound = 0;
-        gl::GetProgramResourceiv(id_, GL_SHADER_STORAGE_BLOCK, block, 1, &property, 1, nullptr, &bound);
-        if (static_cast<GLuint>(bound) == binding)
+    for (GLuint block = 0; block < storage_block_count(id_); ++block)
+        if (static_cast<GLuint>(storage_binding(id_, block)) == binding)
             return true;
-    }
     return false;
+}
+
+std::vector<InterfaceBlock> Program::storage_blocks() const {
+    if (module_blocks_.empty())
+        return linked_storage_blocks(id_);
+    std::vector<InterfaceBlock> blocks = module_blocks_;
+    for (GLuint b = 0; b < static_cast<GLuint>(blocks.size()); ++b)
+        blocks[b].binding = storage_binding(id_, b);
+    return blocks;
 }
 
 GLint Program::attribute(std::string_view attribute, GLenum type) const {

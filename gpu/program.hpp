@@ -13,6 +13,7 @@
 #include <glm/vec4.hpp>
 
 #include "gpu/gl.hpp"
+#include "gpu/interface_block.hpp"
 #include "gpu/program_interface.hpp"
 #include "gpu/shader_source.hpp"
 
@@ -35,7 +36,8 @@ void check_nothing_lost(std::span<const ShaderSource> stages, std::span<const Ca
 
 /// A linked program. Whatever is wrong with a shader is an Error of one line: `shader FILE:LINE: ...` where a stage
 /// does not compile or declares something as another type, `NAME: ...` for the rest. Where bindings lie beside the
-/// stages, uniforms, attributes and captured outputs go by the names that are given there.
+/// stages, uniforms, attributes and captured outputs go by the names that are given there. SPIR-V modules are handed to
+/// GL where all stages are such (GL_ARB_gl_spirv), and are translated to GLSL beside stages that are GLSL.
 class Program {
   public:
     /// Links `stages`; `captured` outputs of the last vertex-processing stage go interleaved, in this order, into the
@@ -73,6 +75,8 @@ class Program {
 
     /// Whether a storage buffer with this binding takes part. Needs GL 4.3.
     [[nodiscard]] bool uses_storage(GLuint binding) const;
+    /// Its active storage blocks, in GL's order. Needs GL 4.3.
+    [[nodiscard]] std::vector<InterfaceBlock> storage_blocks() const;
 
     /// What lies beside its stages; null: nothing.
     [[nodiscard]] const std::shared_ptr<const Bindings>& bindings() const { return bindings_; }
@@ -81,11 +85,16 @@ class Program {
     [[nodiscard]] GLuint id() const { return id_; }
 
   private:
+    void link_texts(std::span<const ShaderSource> stages, std::span<const Capture> outputs,
+                    std::span<const std::string_view> storage_buffers);
+    void link_modules(std::span<const ShaderSource> stages, std::span<const Capture> outputs,
+                      std::span<const std::string_view> storage_buffers);
     void set_words(std::string_view uniform, GLenum type, std::span<const std::uint32_t> words) const;
 
     std::string name_;
     GLuint id_ = 0;
     std::shared_ptr<const Bindings> bindings_;
+    std::vector<InterfaceBlock> module_blocks_; ///< of SPIR-V, in GL's order
     std::optional<UniformValues> uniforms_;
     ProgramInterface attributes_{"attribute"};
 };

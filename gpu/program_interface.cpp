@@ -2,12 +2,15 @@
 
 #include <algorithm>
 #include <bit>
+#include <set>
+#include <string>
 #include <utility>
 
 #include <fmt/format.h>
 
 #include "gpu/glsl_type.hpp"
 #include "gpu/shader_words.hpp"
+#include "gpu/spirv_module.hpp"
 #include "reference/model/error.hpp"
 #include "reference/model/near_name.hpp"
 
@@ -26,7 +29,7 @@ void ProgramInterface::add(ProgramVariable variable, const std::string& name) {
 void ProgramInterface::add(ProgramVariable variable, const UniformBinding& binding, const std::string& file) {
     const std::size_t given = std::max(binding.names.size(), binding.numbers.size());
     const auto wanted = static_cast<std::size_t>(output_components(variable.type));
-    if (given != wanted)
+    if (given != wanted || wanted > 4)
         throw Error(fmt::format("{}: {}: {} value{} for a {}", file, binding.path, given, given == 1 ? "" : "s",
                                 type_name(variable.type)));
     for (std::size_t c = 0; c < binding.names.size(); ++c)
@@ -65,9 +68,12 @@ std::string ProgramInterface::meant_by(std::string_view name, GLenum type) const
 
 std::vector<std::string> ProgramInterface::unknown() const {
     std::vector<std::string> found;
+    std::set<std::string> arrays; // of which an element was found
     for (const auto& [name, given] : given_) {
         const ProgramVariable& variable = variables_[given.variable];
         if (asked_for_.contains(name) || variable.declared.is_initialised || variable.name.starts_with("gl_"))
+            continue;
+        if (variable.name.ends_with(']') && !arrays.insert(variable.name.substr(0, variable.name.rfind('['))).second)
             continue;
         const std::string bound = name == variable.name ? "" : fmt::format(" (bound to {})", name);
         found.push_back(fmt::format("{}: nothing is given for {} {}{}{}", variable.declared.place, kind_, variable.name,
@@ -90,8 +96,34 @@ GLint about(GLuint program, GLuint uniform, GLenum property) {
     return value;
 }
 
-/// What a uniform block's member is called in it: "tick" of "Frame.tick".
-std::string member_name(const std::string& name) { return name.substr(name.find_last_of('.') + 1); }
+/// What a uniform block's member is called in it: "sun.colour" of "Frame.sun.colour", of an instance.
+std::string name_in_block(const std::string& name, const std::string& block) {
+    return name.starts_with(block + ".") ? name.substr(block.size() + 1) : name;
+}
+
+/// "tick" of "Frame.now.tick".
+std::string last_name(const std::string& name) { return name.substr(name.find_last_of('.') + 1); }
+
+/// Each element of an array by itself, "weights[0]" and so on; else the variable alone.
+std::vector<ProgramVariable> elements(const ProgramVariable& variable, GLint size, GLint stride) {
+    if (!variable.name.ends_with("[0]"))
+        return {variable};
+    std::vector<ProgramVariable> all;
+    const std::string name = variable.name.substr(0, variable.name.size() - 3);
+    for (GLint i = 0; i < size; ++i) {
+        all.push_back(variable);
+        all.back().name = fmt::format("{}[{}]", name, i);
+        all.back().offset += i * stride;
+        all.back().location += variable.location < 0 ? 0 : i;
+    }
+    return all;
+}
+
+/// Types that values here have, and numbers of a shader's own can.
+bool has_value(GLenum type) {
+    const int components = output_components(type);
+    return (components > 0 && components <= 4 && type != GL_FLOAT_MAT2) || type == GL_FLOAT_MAT4;
+}
 
 /// Where the first uniform block that nothing is given for begins.
 std::string block_place(std::span<const ShaderSource> stages, const std::string& block) {
@@ -111,21 +143,76 @@ std::string block_place(std::span<const ShaderSource> stages, const std::string&
 } // namespace
 
 UniformValues::UniformValues(GLuint program, std::span<const ShaderSource> stages, const Bindings* bindings) {
-    GLint count = 0, blocks = 0;
+    if (stages.front().module != nullptr) {
+        add_modules(stages, bindings);
+    } else {
+        add_blocks(program, stages, bindings);
+        add_uniforms(program, stages, bindings);
+    }
+    gl::UseProgram(program);
+    for (const auto& [variable, numbers] : constants_)
+        for (std::size_t c = 0; c < numbers.size(); ++c)
+            set_component({variable, static_cast<int>(c)}, GL_FLOAT,
+                          std::bit_cast<std::uint32_t>(static_cast<float>(numbers[c])));
+    gl::UseProgram(0);
+}
+
+void UniformValues::add_block(const std::string& name, const std::string& place, GLint bytes, GLuint point,
+                              const Bindings* bindings) {
+    if (bindings == nullptr || !bindings->binds_block(name))
+        throw Error(fmt::format("shader {}: nothing is given for uniform block {}; {} beside the shader binds its "
+                                "members (docs/own_shader.md)",
+                                place, name, bindings_file));
+    gl::BindBuffer(GL_UNIFORM_BUFFER, blocks_.emplace_back().id());
+    gl::BufferData(GL_UNIFORM_BUFFER, bytes, std::vector<std::byte>(static_cast<std::size_t>(bytes)).data(),
+                   GL_DYNAMIC_DRAW);
+    points_.push_back(point);
+}
+
+void UniformValues::add_blocks(GLuint program, std::span<const ShaderSource> stages, const Bindings* bindings) {
+    GLint blocks = 0;
     gl::GetProgramiv(program, GL_ACTIVE_UNIFORM_BLOCKS, &blocks);
     for (GLuint b = 0; b < static_cast<GLuint>(blocks); ++b) {
         const std::string name = block_name(program, b);
-        if (bindings == nullptr || !bindings->binds_block(name))
-            throw Error(fmt::format("shader {}: nothing is given for uniform block {}; {} beside the shader binds its "
-                                    "members (docs/own_shader.md)",
-                                    block_place(stages, name), name, bindings_file));
         GLint bytes = 0;
         gl::GetActiveUniformBlockiv(program, b, GL_UNIFORM_BLOCK_DATA_SIZE, &bytes);
         gl::UniformBlockBinding(program, b, b);
-        gl::BindBuffer(GL_UNIFORM_BUFFER, blocks_.emplace_back().id());
-        gl::BufferData(GL_UNIFORM_BUFFER, bytes, std::vector<std::byte>(static_cast<std::size_t>(bytes)).data(),
-                       GL_DYNAMIC_DRAW);
+        add_block(name, block_place(stages, name), bytes, b, bindings);
     }
+}
+
+/// By the modules alone: their blocks keep the binding points that they say.
+void UniformValues::add_modules(std::span<const ShaderSource> stages, const Bindings* bindings) {
+    for (const ShaderSource& stage : stages) {
+        for (const InterfaceBlock& block : stage.module->uniform_blocks) {
+            const auto point = static_cast<GLuint>(block.binding);
+            if (std::find(points_.begin(), points_.end(), point) != points_.end())
+                continue; // of a stage before
+            add_block(block.name, stage.files.front(), block.bytes, point, bindings);
+            for (const BlockMember& member : block.members)
+                for (ProgramVariable& one : elements({fmt::format("{}.{}", block.name, member.name),
+                                                      -1,
+                                                      member.type,
+                                                      {stage.files.front()},
+                                                      static_cast<GLint>(blocks_.size()) - 1,
+                                                      member.offset,
+                                                      member.matrix_stride,
+                                                      member.row_major},
+                                                     member.size, member.array_stride))
+                    add(std::move(one), bindings);
+        }
+        for (const SpirvModule::Variable& uniform : stage.module->uniforms)
+            for (ProgramVariable& one : elements({uniform.size == 1 ? uniform.name : uniform.name + "[0]",
+                                                  uniform.location,
+                                                  uniform.type,
+                                                  {stage.files.front(), uniform.is_initialised}},
+                                                 uniform.size, 0))
+                add(std::move(one), bindings);
+    }
+}
+
+void UniformValues::add_uniforms(GLuint program, std::span<const ShaderSource> stages, const Bindings* bindings) {
+    GLint count = 0;
     gl::GetProgramiv(program, GL_ACTIVE_UNIFORMS, &count);
     for (GLuint u = 0; u < static_cast<GLuint>(count); ++u) {
         char name[256] = {};
@@ -141,27 +228,41 @@ UniformValues::UniformValues(GLuint program, std::span<const ShaderSource> stage
             variable.row_major = about(program, u, GL_UNIFORM_IS_ROW_MAJOR) != 0;
             const std::string block = block_name(program, static_cast<GLuint>(variable.block));
             variable.declared.place = block_place(stages, block);
-            variable.name = fmt::format("{}.{}", block, member_name(name));
+            variable.name = fmt::format("{}.{}", block, name_in_block(name, block));
         } else {
             variable.declared = find_declaration(stages, "uniform",
                                                  std::string_view(name).substr(0, variable.name.find_first_of("[.")));
         }
-        add(std::move(variable), bindings);
+        GLint stride = 0;
+        if (variable.block >= 0)
+            stride = about(program, u, GL_UNIFORM_ARRAY_STRIDE);
+        for (ProgramVariable& one : elements(variable, size, stride))
+            add(std::move(one), bindings);
     }
-    gl::UseProgram(program);
-    for (const auto& [variable, numbers] : constants_)
-        for (std::size_t c = 0; c < numbers.size(); ++c)
-            set_component({variable, static_cast<int>(c)}, GL_FLOAT,
-                          std::bit_cast<std::uint32_t>(static_cast<float>(numbers[c])));
-    gl::UseProgram(0);
 }
 
 void UniformValues::add(ProgramVariable variable, const Bindings* bindings) {
-    const auto none = std::map<std::string, UniformBinding, std::less<>>::const_iterator{};
-    const auto found = bindings == nullptr ? none : bindings->uniforms.find(variable.name);
-    if (bindings == nullptr || found == bindings->uniforms.end())
+    if (bindings == nullptr)
+        return interface_.add(std::move(variable));
+    auto found = bindings->uniforms.find(variable.name);
+    if (found == bindings->uniforms.end() && variable.block >= 0) // a member of a structure by its own name
+        found = bindings->uniforms.find(
+            fmt::format("{}.{}", variable.name.substr(0, variable.name.find('.')), last_name(variable.name)));
+    if (found == bindings->uniforms.end())
         return interface_.add(std::move(variable));
     const UniformBinding& binding = found->second;
+    for (std::size_t before = 0; variable.block >= 0 && before < interface_.size(); ++before)
+        if (interface_[before].block == variable.block && variable.name != found->first &&
+            last_name(interface_[before].name) == last_name(variable.name))
+            throw Error(fmt::format("{}: {}: {} and {} both have this name; right is the whole of it for each",
+                                    bindings->file, binding.path, interface_[before].name, variable.name));
+    if (!has_value(variable.type) && (!binding.numbers.empty() || binding.by_component))
+        throw Error(fmt::format("{}: {}: {} is {}; right here are numbers and vectors of float, int and uint, and mat4",
+                                bindings->file, binding.path, variable.name, type_name(variable.type)));
+    if (binding.transposed && variable.type != GL_FLOAT_MAT4)
+        throw Error(fmt::format("{}: {}: {} is {}; transpose() is of a mat4", bindings->file, binding.path,
+                                variable.name, type_name(variable.type)));
+    variable.transposed = binding.transposed;
     if (binding.numbers.empty() && !binding.by_component)
         return interface_.add(std::move(variable), binding.names.front());
     if (!binding.numbers.empty())
@@ -208,7 +309,7 @@ void UniformValues::write(std::size_t variable, std::span<const std::uint32_t> w
         for (std::size_t line = 0; line < 4; ++line) {
             std::array<std::uint32_t, 4> values{};
             for (std::size_t i = 0; i < 4; ++i)
-                values[i] = to.row_major ? words[4 * i + line] : words[4 * line + i];
+                values[i] = to.row_major != to.transposed ? words[4 * i + line] : words[4 * line + i];
             gl::BufferSubData(GL_UNIFORM_BUFFER, to.offset + static_cast<GLintptr>(line) * to.matrix_stride,
                               sizeof values, values.data());
         }
@@ -235,7 +336,7 @@ void UniformValues::write(std::size_t variable, std::span<const std::uint32_t> w
     case GL_UNSIGNED_INT:
         return gl::Uniform1ui(to.location, words.front());
     case GL_FLOAT_MAT4:
-        return gl::UniformMatrix4fv(to.location, 1, GL_FALSE, floats);
+        return gl::UniformMatrix4fv(to.location, 1, to.transposed ? GL_TRUE : GL_FALSE, floats);
     default: // int, bool, samplers and images
         return gl::Uniform1i(to.location, *integers);
     }
@@ -243,7 +344,7 @@ void UniformValues::write(std::size_t variable, std::span<const std::uint32_t> w
 
 void UniformValues::bind() const {
     for (std::size_t b = 0; b < blocks_.size(); ++b)
-        gl::BindBufferBase(GL_UNIFORM_BUFFER, static_cast<GLuint>(b), blocks_[b].id());
+        gl::BindBufferBase(GL_UNIFORM_BUFFER, points_[b], blocks_[b].id());
 }
 
 } // namespace lockstep

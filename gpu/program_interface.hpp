@@ -23,6 +23,7 @@ struct ProgramVariable {
     GLint block = -1; ///< of a member of a uniform block
     GLint offset = 0, matrix_stride = 0;
     bool row_major = false;
+    bool transposed = false; ///< gets a matrix with rows for columns
 };
 
 /// The uniforms, or attributes, of a program by the names that passes give values under, and which of those were given.
@@ -65,7 +66,7 @@ class UniformValues {
 
     /// The program is in use. `words`: the bits of a value of that type; matrices by columns.
     void set(std::string_view name, GLenum type, std::span<const std::uint32_t> words) const;
-    /// Binds the buffers of blocks, each to the number of its block.
+    /// Binds the buffers of blocks.
     void bind() const;
     [[nodiscard]] std::vector<std::string> unknown() const { return interface_.unknown(); }
 
@@ -75,7 +76,14 @@ class UniformValues {
     void set_component(const ProgramInterface::Given& given, GLenum type, std::uint32_t word) const;
 
     ProgramInterface interface_{"uniform"};
+    void add_blocks(GLuint program, std::span<const ShaderSource> stages, const Bindings* bindings);
+    void add_uniforms(GLuint program, std::span<const ShaderSource> stages, const Bindings* bindings);
+    void add_modules(std::span<const ShaderSource> stages, const Bindings* bindings);
+    void add_block(const std::string& name, const std::string& place, GLint bytes, GLuint point,
+                   const Bindings* bindings);
+
     std::vector<GlBuffer> blocks_;
+    std::vector<GLuint> points_; ///< where each is bound
     mutable std::map<std::size_t, std::array<std::uint32_t, 4>> by_component_;
     std::map<std::size_t, std::vector<double>> constants_;
 };

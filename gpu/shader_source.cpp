@@ -16,6 +16,7 @@
 #include "gpu/data_folder.hpp"
 #include "gpu/shader_words.hpp"
 #include "gpu/shaders_read_once.hpp"
+#include "gpu/spirv_module.hpp"
 #include "reference/model/error.hpp"
 
 namespace lockstep {
@@ -44,8 +45,9 @@ std::optional<std::string_view> directive(std::string_view line, std::string_vie
 }
 
 constexpr std::size_t longest_text = std::size_t{4} << 20U; // bytes, with everything that is included
-constexpr std::size_t most_files = 1000;                    // included ones, each as often as it is
-constexpr int oldest_version = 140;                         // that compiles in a core profile
+constexpr std::string_view module_extension = ".spv";
+constexpr std::size_t most_files = 1000; // included ones, each as often as it is
+constexpr int oldest_version = 140;      // that compiles in a core profile
 
 std::string too_long() { return fmt::format("more than {} MiB of shader text", longest_text >> 20U); }
 
@@ -68,6 +70,10 @@ std::string read_file(const fs::path& path) {
     text.resize(static_cast<std::size_t>(stream.gcount()));
     if (text.size() > longest_text)
         fail(too_long());
+    if (path.extension() == module_extension)
+        return text;
+    if (is_spirv(text))
+        fail(fmt::format("holds a SPIR-V module; right is the name {}{}", path.filename().string(), module_extension));
     if (text.starts_with("\xff\xfe") || text.starts_with("\xfe\xff"))
         fail("is UTF-16; a shader is UTF-8");
     if (const std::size_t zero = text.find('\0'); zero != std::string::npos)
@@ -135,22 +141,45 @@ struct File {
     std::string text;
 };
 
+/// `file` may be a SPIR-V module, with an ending more.
 File find(const ShaderFolders& folders, const ShaderTexts& texts, const std::string& file, const std::string& where) {
     if (const auto made = texts.find(file); made != texts.end())
         return {file, made->second};
     std::string tried;
     for (const fs::path& folder : folders) {
-        if (auto text = text_of(folder / file))
+        const fs::path module = folder / fmt::format("{}{}", file, module_extension);
+        auto text = text_of(folder / file), words = text_of(module);
+        if (text && words)
+            throw Error(fmt::format("shader {}: {} lies beside it; right is one of them", shown(module), file));
+        if (words)
+            return {module, std::move(*words)};
+        if (text)
             return {folder / file, std::move(*text)};
         tried += fmt::format("{}{}", tried.empty() ? "" : " or ", shown(folder));
     }
     throw Error(fmt::format("{}no shader file {} in {}", where, file, tried));
 }
 
+/// Of "NAME.vert.spv"; nothing for another file.
+std::optional<Stage> module_stage(const fs::path& file) {
+    if (file.extension() == module_extension)
+        for (const Stage stage : {Stage::vertex, Stage::geometry, Stage::fragment, Stage::compute})
+            if (file.stem().extension() == extension(stage))
+                return stage;
+    return std::nullopt;
+}
+
 FolderNames names_in(const fs::path& folder) {
     static constexpr std::array<std::string_view, 5> endings{".vert", ".geom", ".frag", ".comp", ".glsl"};
     std::set<std::string, std::less<>> found, blocks;
     for (const fs::directory_entry& entry : fs::directory_iterator(folder)) {
+        if (const std::optional<Stage> stage = module_stage(entry.path())) {
+            const SpirvModule module = read_spirv(shown(entry.path()), text_of(entry.path()).value_or(""), *stage);
+            std::ranges::move(module.names(), std::inserter(found, found.end()));
+            for (const InterfaceBlock& block : module.storage_blocks)
+                blocks.insert(block.name);
+            continue;
+        }
         if (std::find(endings.begin(), endings.end(), entry.path().extension().string()) == endings.end())
             continue;
         const std::optional<std::string> text = text_of(entry.path());
@@ -191,6 +220,11 @@ class Assembly {
     ShaderSource assemble(const fs::path& path, const std::string& text, Stage stage) {
         source_.stage = stage;
         source_.bindings = bindings_beside(path);
+        if (path.extension() == module_extension) {
+            source_.files.push_back(shown(path));
+            source_.module = std::make_shared<const SpirvModule>(read_spirv(shown(path), text, stage));
+            return std::move(source_);
+        }
         append(path, text);
         if (!has_version_)
             throw Error(fmt::format("shader {}:1: no #version line; GLSL 330 or later is needed", shown(path)));
@@ -279,6 +313,10 @@ std::string_view extension(Stage stage) {
         break;
     }
     return ".comp";
+}
+
+bool says_precise(const ShaderSource& stage) {
+    return stage.module != nullptr ? stage.module->says_precise : says(stage.text, "precise");
 }
 
 ShadersReadOnce::ShadersReadOnce() { seen = std::make_unique<Seen>(); }

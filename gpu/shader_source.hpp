@@ -14,7 +14,10 @@
 
 namespace lockstep {
 
-/// Shaders are files NAME.vert, NAME.geom, NAME.frag, NAME.comp and the .glsl files they include.
+struct SpirvModule;
+
+/// Shaders are files NAME.vert, NAME.geom, NAME.frag, NAME.comp and the .glsl files they include, or SPIR-V modules
+/// NAME.vert.spv, ...
 enum class Stage { vertex, geometry, fragment, compute };
 
 /// File name extension, with its dot.
@@ -63,8 +66,12 @@ struct ShaderSource {
     std::string text;
     std::vector<Origin> origins;    ///< one a line of text
     std::vector<std::string> files; ///< the stage's own file first; shipped ones as "shaders/NAME", wherever they lie
-    std::shared_ptr<const Bindings> bindings = {}; ///< that lie beside the stage's own file; null: none
+    std::shared_ptr<const Bindings> bindings = {};  ///< that lie beside the stage's own file; null: none
+    std::shared_ptr<const SpirvModule> module = {}; ///< a stage in SPIR-V, which has no text; null: GLSL
 };
+
+/// Whether a stage says `precise` of something.
+bool says_precise(const ShaderSource& stage);
 
 /// The text of bindings.json for the shaders of a folder, until take_bindings: it counts in the place of the file
 /// there. Throws Error where a text was given already.
@@ -72,7 +79,8 @@ void give_bindings(const std::filesystem::path& folder, std::string text);
 void take_bindings(const std::filesystem::path& folder) noexcept;
 
 /// Throws Error naming the folders if a file is in none of them; FILE:LINE if an include is malformed, missing or
-/// circular, or the stage has no #version.
+/// circular, or the stage has no #version. Of a SPIR-V module there are no definitions.
+/// Throws Error where both kinds of a stage lie in one folder.
 ShaderSource load_stage(const ShaderFolders& folders, std::string_view name, Stage stage,
                         const ShaderDefines& defines = {});
 

@@ -77,15 +77,19 @@ bool is_used(const ShaderUse& use, const fs::path& file) {
     });
 }
 
+bool is_module(const std::vector<ShaderSource>& stage) { return !stage.empty() && stage.front().module != nullptr; }
+
 void note_stage(ShaderUse& use, const PassStages& pass, Stage stage, const ShaderFolders& folders,
                 const fs::path& user) {
     const std::string name = fmt::format("{}{}", pass.name, extension(stage));
-    const fs::path own = user.empty() ? fs::path() : user / name;
+    fs::path own = user.empty() ? fs::path() : user / name;
+    if (!own.empty() && !fs::exists(own) && fs::is_regular_file(user / (name + ".spv")))
+        own += ".spv"; // a module
     const bool foreign = !own.empty() && fs::is_regular_file(own);
     const ShaderFolders shipped(folders.begin() + (user.empty() ? 0 : 1), folders.end());
     const std::vector<ShaderSource> loaded = load_stages(folders, pass.name, std::span(&stage, 1));
     use.files.push_back({name, foreign ? own : fs::path(), shipped_file(shipped, name),
-                         foreign && is_copy(shipped, own, name), loaded.empty()});
+                         foreign && is_copy(shipped, own, name), loaded.empty(), is_module(loaded)});
     if (loaded.empty() || user.empty())
         return;
     const std::string inside = (user / "").string();
@@ -110,9 +114,17 @@ std::vector<std::string> stage_names(const ShaderUse& use) {
 ShaderUse shader_use(std::string_view system, std::span<const PassStages> passes, const fs::path& user) {
     const ShaderFolders folders = shader_folders(user, system);
     ShaderUse use;
-    for (const PassStages& pass : passes)
+    for (const PassStages& pass : passes) {
+        const std::size_t first = use.files.size();
         for (const Stage stage : pass.stages)
             note_stage(use, pass, stage, folders, user);
+        const std::span<UsedShader> of_pass(use.files.begin() + static_cast<std::ptrdiff_t>(first), use.files.end());
+        const bool has_text = std::any_of(of_pass.begin(), of_pass.end(), [](const UsedShader& used) {
+            return !used.is_module && !used.leaves_out && !used.file.ends_with(".glsl");
+        });
+        for (UsedShader& used : of_pass)
+            used.is_translated = used.is_module && has_text;
+    }
     if (user.empty())
         return use;
     const ShaderFolders shipped = shader_folders({}, system);
@@ -134,13 +146,10 @@ void check_shader_use(const ShaderUse& use, const fs::path& user, bool allow_unu
     check_bindings_name(user);
     const bool none =
         std::all_of(use.files.begin(), use.files.end(), [](const UsedShader& used) { return used.foreign.empty(); });
-    for (const std::string& file : use.unused)
-        if (!allow_unused && file.ends_with(".spv"))
-            throw Error(
-                fmt::format("shader folder {0}: {1} is SPIR-V, and GLSL runs; `spirv-cross {0}/{1} --version 450 "
-                            "--output {0}/{2}` translates it (docs/translators.md)",
-                            user.string(), file, fs::path(file).stem().string()));
     std::string right;
+    if (std::any_of(use.unused.begin(), use.unused.end(),
+                    [](const std::string& file) { return file.ends_with(".spv"); }))
+        right = "; a module is named as its stage, and .spv: collision_pass.vert.spv";
     for (const auto& [file, setting] : use.runs_with)
         right += fmt::format("; {} runs with --set {}", file, setting);
     if (!use.unused.empty() && (none || !allow_unused))
@@ -157,7 +166,11 @@ void check_shader_use(const ShaderUse& use, const fs::path& user, bool allow_unu
 std::string shaders_text(const ShaderUse& use) {
     std::vector<std::string> foreign, shipped;
     for (const UsedShader& used : use.files) {
-        const std::string kind = used.leaves_out ? " (left out)" : used.same_as_shipped ? " (as shipped)" : "";
+        const std::string kind = used.leaves_out        ? " (left out)"
+                                 : used.is_translated   ? " (translated to GLSL, which another stage is)"
+                                 : used.is_module       ? " (SPIR-V)"
+                                 : used.same_as_shipped ? " (as shipped)"
+                                                        : "";
         (used.foreign.empty() ? shipped : foreign)
             .push_back((used.foreign.empty() ? used.file : used.foreign.string()) + kind);
     }

@@ -17,6 +17,8 @@ struct UsedShader {
     std::filesystem::path shipped; ///< where the one of that name lies that comes with lockstep; empty: none does
     bool same_as_shipped = false;  ///< a copy, byte by byte
     bool leaves_out = false;       ///< an empty file, with which its stage is left out
+    bool is_module = false;        ///< in SPIR-V
+    bool is_translated = false;    ///< from it to GLSL, since another stage of its pass is that
 };
 
 /// Whose shaders run.

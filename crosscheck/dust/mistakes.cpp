@@ -214,6 +214,8 @@ const std::vector<NamedMistake>& mistakes() {
     static const Mistake sphere_keeps_speed = mistake_at(site::sphere_speed_kept, Change::one);
     static const Mistake speed_halved = mistake_at(site::speed_into, Change::halved);
     static const Mistake speed_negated = mistake_at(site::speed_into, Change::negated);
+    static const Mistake passes_down = mistake_at(site::passes_down, Change::always);
+    static const Mistake contact_behind{.site = site::comes_to_contact.id, .change = Change::dropped, .part = 0};
     static const Mistake same_velocity = spoiled_at(site::velocity, tail_left_out<site::speed>);
     static const std::vector<NamedMistake> all{
         {"gravity_missing", "gravity is not added", "update", mistake_at(site::gravity, Change::zero)},
@@ -278,6 +280,21 @@ const std::vector<NamedMistake>& mistakes() {
          with(mistake_at(site::into, Change::negated), speed_negated)},
         {"contact_off_the_face", "a contact is not put on its face", "update",
          mistake_at(site::on_face, Change::inverted)},
+        {"forecast_not_repeated", "Update asks no more who dies in the mouth", "update",
+         mistake_at(site::asks_again, Change::inverted)},
+        {"forecast_of_all", "Update has those die who were not pulled as well", "update",
+         mistake_at(site::pulled_alone, Change::inverted)},
+        {"forecast_from_the_end", "Update asks who dies where a movement ends, not where it began", "update",
+         mistake_at(site::asks_where_it_was, Change::inverted)},
+        {"swept_contact_behind", "contacts behind a movement are hit as well", "update", contact_behind},
+        {"swept_line_alone", "a movement hits what its line comes to beyond it", "update",
+         with(mistake_at(site::passes_up, Change::always), passes_down)},
+        {"swept_up_alone", "of faces that a movement passes those are hit alone that it comes to upwards", "update",
+         mistake_at(site::passes_down, Change::never)},
+        {"swept_down_alone", "of faces that a movement passes those are hit alone that it comes to downwards", "update",
+         mistake_at(site::passes_up, Change::never)},
+        {"never_started_beyond", "who started beyond a wall bounces off it as others do", "update",
+         mistake_at(site::started_beyond, Change::never)},
         {"upper_wall_not_alone", "after an upper wall others answer as well", "update",
          mistake_at(site::upper_alone, Change::inverted)},
         {"lower_wall_not_alone", "after a lower wall others answer as well", "update",
@@ -294,6 +311,8 @@ const std::vector<NamedMistake>& mistakes() {
          handed_over(Deviation::spheres_at_144_bytes)},
         {"boxes_at_144_bytes", "boxes' records are read 144 bytes apart", "update",
          handed_over(Deviation::boxes_at_144_bytes)},
+        {"spheres_at_140_bytes", "spheres of 16 bytes are read 140 bytes apart", "update",
+         handed_over(Deviation::spheres_at_140_bytes)},
         {"boxes_unturned", "boxes are in their places, but not turned", "update",
          handed_over(Deviation::boxes_unturned)},
         {"cone_of_the_angle", "the host hands over a cone's angle, not its cosine", "vacuum_up",
@@ -304,6 +323,8 @@ const std::vector<NamedMistake>& mistakes() {
          handed_over(Deviation::angle_for_tangent)},
         {"first_frame_again", "the chance is drawn for the first frame in every frame", "emit",
          handed_over(Deviation::first_frame)},
+        {"blast_at_the_tool", "a blast is where the tool is, not where its ball hit", "explode",
+         handed_over(Deviation::blast_at_the_tool)},
         {"blast_by_frames", "a blast lasts a frame", "explode", handed_over(Deviation::impulses_of_frame)},
         {"emitted_by_frames", "an emission lasts a frame", "emit", handed_over(Deviation::impulses_of_frame)},
         {"tool_a_frame_late", "the tool is where it was in the frame before", "vacuum_up",

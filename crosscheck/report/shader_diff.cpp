@@ -37,7 +37,8 @@ std::size_t changed_lines(const std::vector<ShaderChange>& changes) {
 } // namespace
 
 std::vector<ShaderChange> shader_changes(const UsedShader& used) {
-    if (used.foreign.empty() || used.shipped.empty() || used.same_as_shipped || used.leaves_out)
+    if (used.foreign.empty() || used.shipped.empty() || used.same_as_shipped || used.leaves_out ||
+        used.foreign.extension() == ".spv")
         return {};
     const Lines before = text_lines(used.shipped), now = text_lines(used.foreign);
     dtl::Diff<std::string, Lines> diff(before, now);

@@ -217,15 +217,25 @@ bool encodes(const std::filesystem::path& shaders, std::string_view pass) {
     return false;
 }
 
-/// Whether a stage that computes particles says `precise` of nothing; a copy of a shipped one says it.
+/// The stages that compute particles.
+constexpr std::pair<std::string_view, Stage> computing[] = {{"collision_pass", Stage::vertex},
+                                                            {"collision_pass", Stage::compute},
+                                                            {"layered_collision_pass", Stage::vertex},
+                                                            {"octree_pass", Stage::compute},
+                                                            {"depth_pass", Stage::compute}};
+
+/// Whether one of them says `precise` of nothing; a copy of a shipped one says it.
 bool lacks_precise(const std::filesystem::path& shaders) {
-    constexpr std::pair<std::string_view, Stage> computing[] = {{"collision_pass", Stage::vertex},
-                                                                {"collision_pass", Stage::compute},
-                                                                {"layered_collision_pass", Stage::vertex},
-                                                                {"octree_pass", Stage::compute},
-                                                                {"depth_pass", Stage::compute}};
     return !shaders.empty() && std::any_of(std::begin(computing), std::end(computing), [&](const auto& of) {
-        return !says(load_stage(collision_shaders(shaders), of.first, of.second).text, "precise");
+        return !says_precise(load_stage(collision_shaders(shaders), of.first, of.second));
+    });
+}
+
+/// Whether a stage that computes particles is a SPIR-V module, which goes another way through a driver than the GLSL of
+/// the probe: Mesa makes normalize a quotient by the length there, and a product with inversesqrt of GLSL's.
+bool computes_in_spirv(const std::filesystem::path& shaders) {
+    return !shaders.empty() && std::any_of(std::begin(computing), std::end(computing), [&](const auto& of) {
+        return load_stage(collision_shaders(shaders), of.first, of.second).module != nullptr;
     });
 }
 
@@ -393,6 +403,8 @@ Profile with_shaders(Profile profile, const ProbeResult& result, const std::file
                         !encodes(shaders, "obstacle_vertices")};
     profile.any_order = fuses_without_precise(result) && lacks_precise(shaders);
     profile.open_corners = fuses_without_precise(result) && leaves_corners_open(shaders);
+    if (computes_in_spirv(shaders))
+        profile.not_followed.insert(profile.not_followed.end(), {"normalize", "compute: normalize"});
     if (has_geometry_stage(shaders))
         return profile;
     // The rows of points behind a geometry stage say nothing of these points.

@@ -82,24 +82,14 @@ ComputeTrace::ComputeTrace(const std::string& pass, SetUniforms set_uniforms, co
 }
 
 void ComputeTrace::find_members() {
-    GLint count = 0, longest = 0;
-    gl::GetProgramInterfaceiv(program_.id(), GL_BUFFER_VARIABLE, GL_ACTIVE_RESOURCES, &count);
-    gl::GetProgramInterfaceiv(program_.id(), GL_BUFFER_VARIABLE, GL_MAX_NAME_LENGTH, &longest);
-    for (GLuint variable = 0; variable < static_cast<GLuint>(count); ++variable) {
-        std::string name(static_cast<std::size_t>(longest), '\0');
-        GLsizei length = 0;
-        gl::GetProgramResourceName(program_.id(), GL_BUFFER_VARIABLE, variable, longest, &length, name.data());
-        name.resize(static_cast<std::size_t>(length));
-        name.erase(0, name.rfind('.') + 1);
-        constexpr std::array<GLenum, 3> properties{GL_TYPE, GL_OFFSET, GL_TOP_LEVEL_ARRAY_STRIDE};
-        std::array<GLint, 3> values{};
-        gl::GetProgramResourceiv(program_.id(), GL_BUFFER_VARIABLE, variable, 3, properties.data(), 3, nullptr,
-                                 values.data());
-        if (!name.starts_with(trace_prefix) || values[2] <= 0)
-            continue;
-        stride_ = static_cast<std::size_t>(values[2]);
-        members_.push_back({name, static_cast<GLenum>(values[0]), static_cast<std::size_t>(values[1])});
-    }
+    for (const InterfaceBlock& block : program_.storage_blocks())
+        for (const BlockMember& member : block.members) {
+            const std::string name = member.name.substr(member.name.rfind('.') + 1);
+            if (!name.starts_with(trace_prefix) || member.top_level_stride <= 0)
+                continue;
+            stride_ = static_cast<std::size_t>(member.top_level_stride);
+            members_.push_back({name, member.type, static_cast<std::size_t>(member.offset)});
+        }
 }
 
 void ComputeTrace::dispatch(const FrameParams& params, const ParticleBuffer& from, std::size_t particle,

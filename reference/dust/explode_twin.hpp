@@ -10,18 +10,19 @@ struct ExplodeTwin {
     HostPtr host;
     std::size_t ball = 0; ///< which of the frame's
     FrameValues values = {};
-    const Explosion* explosion = nullptr; ///< of the frame
+    std::optional<Explosion> explosion = {}; ///< of the frame
 
     [[nodiscard]] ExplodeTwin at(int frame) const {
-        return {host, ball, host->at(frame), host->explosion(frame, ball)};
+        return {host, ball, host->at(frame), handed_explosion(host->explosion(frame, ball), {}, {})};
     }
     [[nodiscard]] ExplodeTwin handed(std::span<const Mistake> made) const {
-        return {host, ball, dust::handed(*host, values, made), explosion};
+        return {host, ball, dust::handed(*host, values, made),
+                handed_explosion(explosion ? &*explosion : nullptr, values, made)};
     }
 
     template <class R> Grain<R> operator()(R& r, const PassInput& in, std::size_t item) const {
         Grain<R> grain = grain_before(r, in, item);
-        if (explosion == nullptr || !is_alive(r, grain))
+        if (!explosion || !is_alive(r, grain))
             return grain;
         const auto way =
             r.note(site::from_mouth, grain.position - r.uniform(site::explosion_position, explosion->position));

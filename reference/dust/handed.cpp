@@ -33,6 +33,23 @@ std::vector<ColliderMatrices> misread(const std::vector<ColliderMatrices>& list,
     return found;
 }
 
+/// Four floats a sphere, of which each is taken to begin 35 behind the last; behind all of them there is 0.
+std::vector<ColliderMatrices> far_apart(const std::vector<ColliderMatrices>& list) {
+    std::vector<float> all;
+    for (const ColliderMatrices& one : list) {
+        const glm::vec4& centre = one.local_to_world[3];
+        all.insert(all.end(), {centre.x, centre.y, centre.z, one.scale.x * 0.5F});
+    }
+    all.resize(list.size() * words);
+    std::vector<ColliderMatrices> found = list;
+    for (std::size_t k = 0; k < list.size(); ++k) {
+        const float* sphere = &all[k * words];
+        found[k].local_to_world[3] = {sphere[0], sphere[1], sphere[2], 1.0F};
+        found[k].scale = glm::vec3(sphere[3] * 2.0F);
+    }
+    return found;
+}
+
 } // namespace
 
 FrameValues handed(const Host& host, FrameValues values, std::span<const Mistake> made) {
@@ -66,6 +83,16 @@ FrameValues handed(const Host& host, FrameValues values, std::span<const Mistake
     return values;
 }
 
+std::optional<Explosion> handed_explosion(const Explosion* explosion, const FrameValues& values,
+                                          std::span<const Mistake> made) {
+    std::optional<Explosion> one = explosion == nullptr ? std::nullopt : std::optional(*explosion);
+    for (const Mistake& mistake : made)
+        if (one && mistake.change == Change::handed_over &&
+            static_cast<Deviation>(mistake.part) == Deviation::blast_at_the_tool)
+            one->position = values.controller_pos;
+    return one;
+}
+
 std::optional<Colliders> handed_colliders(const Host& host, std::span<const Mistake> made) {
     for (const Mistake& mistake : made) {
         if (mistake.change != Change::handed_over)
@@ -83,6 +110,11 @@ std::optional<Colliders> handed_colliders(const Host& host, std::span<const Mist
             return all;
         case Deviation::boxes_at_144_bytes:
             all.boxes = misread(all.boxes, words, padded);
+            return all;
+        case Deviation::spheres_at_140_bytes: // of two it would be the last one's loss
+            if (host.switches().sphere_data != SphereData::vec4 || all.spheres.size() < 3)
+                break;
+            all.spheres = far_apart(all.spheres);
             return all;
         case Deviation::boxes_unturned: {
             Settings settings = host.settings();

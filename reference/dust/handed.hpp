@@ -18,7 +18,9 @@ enum class Deviation {
     boxes_padded,         ///< likewise
     spheres_at_144_bytes, ///< the kernel takes records of 140 bytes to be of 144
     boxes_at_144_bytes,   ///< likewise
-    boxes_unturned        ///< in their places, but axis-aligned
+    spheres_at_140_bytes, ///< the kernel takes a sphere's four floats to be of 140 bytes
+    boxes_unturned,       ///< in their places, but axis-aligned
+    blast_at_the_tool     ///< not where the ball hit
 };
 
 inline Mistake handed_over(Deviation deviation) {
@@ -27,6 +29,10 @@ inline Mistake handed_over(Deviation deviation) {
 
 /// A frame's values as a host hands them that makes these mistakes.
 FrameValues handed(const Host& host, FrameValues values, std::span<const Mistake> made);
+
+/// An explosion as it hands it over, of a frame's values; where it is null there is none.
+std::optional<Explosion> handed_explosion(const Explosion* explosion, const FrameValues& values,
+                                          std::span<const Mistake> made);
 
 /// Its colliders; nothing where they are right.
 std::optional<Colliders> handed_colliders(const Host& host, std::span<const Mistake> made);

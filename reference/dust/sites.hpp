@@ -69,7 +69,8 @@ inline constexpr Site is_lucky{"comes back"}, local{"direction in the emitter"},
 inline constexpr Site blast{"blast"}, blast_direction{"direction of the blast"};
 
 // Update.
-inline constexpr Site asks_again{"who dies is asked again"}, in_halves{"colours are halves"};
+inline constexpr Site asks_again{"who dies is asked again"}, pulled_alone{"who was pulled alone dies"};
+inline constexpr Site asks_where_it_was{"who dies is asked where it was"}, in_halves{"colours are halves"};
 inline constexpr Site sucked{"sucked velocity"}, fall{"velocity of the fall"}, next{"next position"};
 inline constexpr Site drag{"drag"}, mover{"velocity that moves"}, way_of_frame{"way of the frame"};
 inline constexpr Site movement{"movement"}, movement_unit{"direction of the movement"};
@@ -81,7 +82,8 @@ inline constexpr Site sphere_centre{"sphere's centre"}, sphere_radius{"sphere's 
 inline constexpr Site touches_sphere{"touches the sphere", {}, "m2"}, closest{"nearest of the ray"};
 inline constexpr Site missed{"squared distance of the ray"}, root{"half chord"}, grazes{"ray misses the sphere"};
 inline constexpr Site crosses_sphere{"ray crosses the sphere"}, comes_to_contact{"movement comes to the contact"};
-inline constexpr Site passes_face{"movement passes the face"};
+inline constexpr Site passes_up{"movement passes the face upwards"};
+inline constexpr Site passes_down{"movement passes the face downwards"};
 inline constexpr Site rest{"rest of the movement"}, to_centre{"way to the sphere's centre"};
 inline constexpr Site sqr_way{"squared way to the sphere's centre"}, from_centre{"way from the sphere's centre"};
 inline constexpr Site normal{"normal"}, into{"movement into the sphere"}, speed_into{"speed into the sphere"};

@@ -63,9 +63,13 @@ struct UpdateTwin {
         if (has_world && switches.world_order == WorldOrder::last)
             answer.world(m);
         // Nothing moved the grain since the vacuum's kernel: it pulled who is in the cone.
-        if (kills && !sucks && r.setting(site::asks_again, true))
-            sucked = cone.force(grain.position).has_value();
-        if (sucked && cone.kills(grain.position, m.next))
+        Vec3 asked_at = grain.position;
+        if (kills && !sucks && r.setting(site::asks_again, true)) {
+            if (!r.setting(site::asks_where_it_was, true))
+                asked_at = m.next;
+            sucked = !r.setting(site::pulled_alone, true) || cone.force(asked_at).has_value();
+        }
+        if (sucked && cone.kills(asked_at, m.next))
             grain.alive = 0;
         grain.velocity = r.note(site::velocity, m.velocity);
         grain.position = r.note(site::position, m.next);

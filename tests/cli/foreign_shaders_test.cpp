@@ -1,5 +1,6 @@
 #include <catch2/catch.hpp>
 
+#include <cstdlib>
 #include <filesystem>
 #include <fstream>
 #include <iterator>
@@ -16,7 +17,7 @@ namespace fs = std::filesystem;
 using test::run_lockstep;
 
 /// Shaders from elsewhere, each in a folder of tests/foreign with bindings.json for names of its own, and planted.json:
-/// a mistake to plant, and what the report says of it.
+/// a mistake to plant, what the report says of it, and which files run as SPIR-V.
 namespace {
 
 std::string content(const fs::path& file) {
@@ -29,6 +30,20 @@ struct Foreign {
         for (const fs::directory_entry& entry : fs::directory_iterator(folder))
             if (entry.path().filename() != "planted.json" && entry.path().extension() != ".hlsl")
                 fs::copy_file(entry.path(), shaders.path() / entry.path().filename());
+        if (planted.contains("spirv"))
+            for (const std::string file : planted["spirv"])
+                fs::rename(shaders.path() / file, texts.path() / file);
+        compile();
+    }
+
+    /// What runs as SPIR-V, for OpenGL.
+    void compile() const {
+        for (const fs::directory_entry& text : fs::directory_iterator(texts.path())) {
+            const std::string module = shaders.path() / (text.path().filename().string() + ".spv");
+            const std::string command =
+                "glslangValidator -G -o '" + module + "' '" + text.path().string() + "' >/dev/null";
+            REQUIRE(std::system(command.c_str()) == 0);
+        }
     }
 
     [[nodiscard]] test::Outcome check() const {
@@ -46,15 +61,17 @@ struct Foreign {
     }
 
     void plant() const {
-        const fs::path file = shaders.path() / planted["file"];
+        const std::string name = planted["file"];
+        const fs::path file = (fs::exists(texts.path() / name) ? texts : shaders).path() / name;
         std::string text = content(file);
         const std::string find = planted["find"], put = planted["put"];
         const std::size_t place = text.find(find);
         REQUIRE(place != std::string::npos);
         std::ofstream(file, std::ios::binary) << text.replace(place, find.size(), put);
+        compile();
     }
 
-    test::TemporaryFolder shaders;
+    test::TemporaryFolder shaders, texts;
     nlohmann::json planted;
 };
 
@@ -79,5 +96,5 @@ TEST_CASE(
         CHECK_THAT(wrong.out, Catch::Contains(std::string(foreign.planted["says"])));
         ++count;
     }
-    CHECK(count == 10);
+    CHECK(count == 15);
 }

@@ -1,5 +1,6 @@
 #include <catch2/catch.hpp>
 
+#include <cstdio>
 #include <fstream>
 #include <iterator>
 #include <sstream>
@@ -44,6 +45,26 @@ TEST_CASE("own shader page: the example that starts from the thesis's listing ag
     const test::Outcome outcome = run_lockstep(commands[0]);
     CHECK(outcome.status == 0);
     CHECK_THAT(outcome.out, Catch::Contains("verdict   AGREE: every bit of "));
+}
+
+TEST_CASE("pages: how many mistakes would have shown, as the line power says") {
+    if (!test::have_software_gl())
+        return;
+    const auto page = [](const char* file) {
+        std::ifstream stream(file);
+        return std::string{std::istreambuf_iterator<char>(stream), {}};
+    };
+    const test::Outcome outcome = run_lockstep(
+        {"check", "data/scenes/stress/borders.json", "--frames", "60", "--gl", test::software_gl(), "--no-render"});
+    unsigned shown = 0, all = 0;
+    const std::size_t power = outcome.out.find("\npower ");
+    REQUIRE(power != std::string::npos);
+    REQUIRE(std::sscanf(outcome.out.c_str() + power, " power %u of %u", &shown, &all) == 2);
+    CHECK_THAT(page("docs/unit_tests.md"),
+               Catch::Contains(std::to_string(shown) + " of the " + std::to_string(all) + " mistakes"));
+    CHECK_THAT(page("README.md"),
+               Catch::Contains(" of " + std::to_string(all) + " mistakes with names would have shown"));
+    CHECK_THAT(page("README.md"), Catch::Contains(" of the " + std::to_string(all) + " mistakes:"));
 }
 
 TEST_CASE("own shader page: explain shows the example's own output") {

@@ -44,6 +44,7 @@ dust::Settings swept(bool aabb) {
     s.switches.sphere_data = dust::SphereData::vec4;
     s.switches.forecast = dust::Forecast::moved;
     s.switches.colour_format = dust::ColourFormat::rgb16f;
+    s.colliders.push_back({.position = {0.0F, 9.0F, 5.0F}, .radius = 3.0F});
     for (dust::Collider& one : s.colliders) {
         one.radius *= 0.4F;
         one.scale *= 0.4F;
@@ -395,6 +396,10 @@ std::vector<HostMutant> host_catalogue() {
          {},
          uniform("explode", "explosionSqrRange", sqrt_of("explosionSqrRange")),
          "blast_range_not_squared"},
+        {"blast_from_controller",
+         {},
+         uniform("explode", "explosionPosition", [](const Uniforms& all) { return all.at("controllerPos"); }),
+         "blast_at_the_tool"},
         {"blast_of_the_frame",
          {},
          uniform("explode", "impulseDeltaTime", [](const Uniforms& all) { return all.at("deltaTime"); }),

@@ -100,6 +100,42 @@ TEST_CASE("lights left open: a filter that is followed leaves its forms, another
           width(legal_of(s, "deferred_light_pass", pixel, not_following({}))));
 }
 
+TEST_CASE("lights left open: what a filter in fixed point gives is legal of it, and of any with 8 fraction bits") {
+    lights::Settings s = room();
+    s.switches = lights::preset("paper");
+    s.switches.accumulate = lights::Accumulate::gather;
+    s.switches.pipeline = lights::Pipeline::deferred;
+    s.switches.volume_format = GENERATE(lights::Format::rgba32f, lights::Format::rgba16f);
+    s.switches.outside = GENERATE(lights::Outside::clamp, lights::Outside::black);
+    s.arithmetic = ArithmeticSwitch::exact;
+    const bool black = s.switches.outside == lights::Outside::black;
+    const std::string float_row = black ? lights::black_filter_row : lights::filter_row,
+                      aligned_row = black ? lights::black_aligned_filter_row : lights::aligned_filter_row;
+    const System system = lights::system(host_of(s));
+    const Profile aligned = not_following({float_row}), open = not_following({float_row, aligned_row});
+    ReferenceRun run(system, aligned);
+    std::size_t pass = 0;
+    while (system.passes[pass]->name() != "deferred_light_pass")
+        run.step_pass(pass++, 0);
+    const SystemState state = run.state();
+    run.step_pass(pass, 0);
+    const View made = std::as_const(run.state())[lights::lit_image];
+    const SystemView before = state.view();
+    std::size_t wrong = 0, differs = 0;
+    for (std::size_t item = 0; item < made.count(); item += 7) {
+        const auto of_floats = system.passes[pass]->mistaken({before, 0}, item, not_following({}), {});
+        differs += of_floats != item_words(made, item) ? 1U : 0U;
+        for (const Profile& profile : {aligned, open}) {
+            const auto legal =
+                system.passes[pass]->outcomes({before, 0}, item, profile, measured_operations(profile), nullptr);
+            wrong +=
+                std::ranges::any_of(legal, [&](const ItemOutcome& one) { return one.contains(made, item); }) ? 0U : 1U;
+        }
+    }
+    CHECK(wrong == 0);
+    CHECK(differs > 20);
+}
+
 TEST_CASE(
     "lights left open: codes of sRGB are the nearest where the driver is followed, else either beside the curve") {
     lights::Settings s = room();

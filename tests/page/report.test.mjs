@@ -241,8 +241,10 @@ test("both themes: the system's, and the other at a press of the button", async 
       "divergent",
       async (page) => {
         seen[colorScheme] = await ground(page);
-        if (process.env.LOCKSTEP_SCREENSHOTS)
-          await page.screenshot({ path: join(process.env.LOCKSTEP_SCREENSHOTS, `report_${colorScheme}.png`), fullPage: true });
+        for (const width of process.env.LOCKSTEP_SCREENSHOTS ? [1280, 420] : []) {
+          await page.setViewportSize({ width, height: 900 });
+          await page.screenshot({ path: join(process.env.LOCKSTEP_SCREENSHOTS, `report_${colorScheme}_${width}.png`), fullPage: true });
+        }
         await page.locator("#theme").click();
         seen[`${colorScheme} changed`] = await ground(page);
       },
@@ -271,8 +273,8 @@ test("on paper: light, whole tables, nothing to press", () =>
   ));
 
 for (const name of ["agreeing", "divergent"])
-  for (const colorScheme of ["light", "dark"])
-    test(`axe finds nothing: ${name}, ${colorScheme}`, () =>
+  for (const [colorScheme, width] of [["light", 1280], ["dark", 1280], ["light", 420], ["dark", 420]])
+    test(`axe finds nothing: ${name}, ${colorScheme}, ${width} pixels wide`, () =>
       on(
         name,
         async (page) => {
@@ -283,7 +285,7 @@ for (const name of ["agreeing", "divergent"])
           const { violations } = await page.evaluate(() => window.axe.run());
           assert.deepEqual(violations.map(({ id, nodes }) => `${id}: ${nodes.map((node) => node.html.slice(0, 120)).join(" | ")}`), []);
         },
-        { colorScheme },
+        { colorScheme, viewport: { width, height: 900 } },
       ));
 
 test("the page has one heading of the first level, which names the scene", () =>

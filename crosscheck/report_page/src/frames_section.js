@@ -1,7 +1,7 @@
 // The frame slider, and the CDT of both sides with their difference in the frame it stands on.
 import { h, section } from "./dom.js";
 import { frameSlider } from "./frame_slider.js";
-import { counted, grouped } from "./numbers.js";
+import { counted, grouped, worstUlp } from "./numbers.js";
 import { CLASS_NAMES, readPicture, SAME } from "./picture.js";
 
 const SIDES = [
@@ -123,10 +123,9 @@ export class Frames {
     if (i < 0) i = series.frame.length - 1;
     const say = (side) => {
       const of = series[side];
-      const ulp = of.ulp[i] === null ? "NaN on one side" : `at most ${grouped(of.ulp[i])} ULP`;
       return of.particles[i] + of.texels[i] === 0
         ? `${side}: every bit agrees`
-        : `${side}: ${counted(of.particles[i], "particle")} and ${counted(of.texels[i], "texel")} differ, ${ulp}`;
+        : `${side}: ${counted(of.particles[i], "particle")} and ${counted(of.texels[i], "texel")} differ, ${worstUlp(of.ulp[i])}`;
     };
     return `Frame ${grouped(selection.frame)}: ${say("resync")}; ${say("free")}.`;
   }

@@ -1,6 +1,6 @@
 // What both sides have in the texel under the pointer, and in the particle that owns it.
 import { NOBODY, OBSTACLE, particleFields, readDetail } from "./detail.js";
-import { commandLine, h } from "./dom.js";
+import { commandLine, h, scrolling } from "./dom.js";
 import { paint } from "./frames_section.js";
 import { itemAt } from "./items.js";
 import { decimal, grouped, hexFloat, sameBits, ulpText } from "./numbers.js";
@@ -23,18 +23,22 @@ function valueRow(label, { reference, gpu }) {
   return h("tr", { class: same ? "" : "differs" }, h("th", { scope: "row" }, label), cell(reference), cell(gpu), h("td", { class: "number" }, ulpText(reference, gpu)));
 }
 
-function valueTable(caption, rows) {
-  return h(
-    "table",
-    { class: "values" },
-    h("caption", {}, caption),
-    h("thead", {}, h("tr", {}, ["", "reference", "GPU", "ULP"].map((text) => (text ? h("th", { scope: "col" }, text) : h("td", {}))))),
-    h("tbody", {}, rows),
+function valueTable(label, caption, rows) {
+  return scrolling(
+    label,
+    h(
+      "table",
+      { class: "values" },
+      h("caption", {}, caption),
+      h("thead", {}, h("tr", {}, ["", "reference", "GPU", "ULP"].map((text) => (text ? h("th", { scope: "col" }, text) : h("td", {}))))),
+      h("tbody", {}, rows),
+    ),
   );
 }
 
 function particleTable(index, particle) {
   return valueTable(
+    `values of particle ${grouped(index)}`,
     [`Particle ${grouped(index)} after the frame `, classChip(particle.kind)],
     particleFields().map((field, c) => valueRow(field, particle.values[c])),
   );
@@ -57,7 +61,7 @@ export class Inspector {
   }
 
   lens(side, title) {
-    const canvas = h("canvas", { width: String(LENS), height: String(LENS), role: "img", "aria-label": `${title}, ${LENS} by ${LENS} texels round the pointer` });
+    const canvas = h("canvas", { width: String(LENS), height: String(LENS), role: "img", "aria-label": `${title}, ${LENS} by ${LENS} texels around the pointer` });
     this.lenses[side] = canvas;
     return h("figure", {}, h("figcaption", {}, title), canvas);
   }
@@ -108,7 +112,7 @@ export class Inspector {
       if (kind === SAME && !drawn) return [title, h("p", {}, "Empty on both sides.")];
       return [
         title,
-        h("p", {}, kind === SAME ? "Every bit agrees here. " : `${CLASS_WORDS[CLASS_NAMES[kind]]}. `, "The exact values found no room on this page; the command tells them."),
+        h("p", {}, kind === SAME ? "Every bit agrees here. " : `${CLASS_WORDS[CLASS_NAMES[kind]]}. `, "The exact values found no room on this page; the command shows them."),
         more,
       ];
     }
@@ -121,7 +125,7 @@ export class Inspector {
     const parts = [
       title,
       h("p", {}, owners.reference === owners.gpu ? `Owner on both sides: ${ownerText(owners.gpu)}.` : `Owner: ${ownerText(owners.reference)} by the reference, ${ownerText(owners.gpu)} on the GPU.`),
-      valueTable("Stored in the texel", ["x", "y", "z", "w"].map((name, c) => valueRow(name, values[c]))),
+      valueTable("values of the texel", "Stored in the texel", ["x", "y", "z", "w"].map((name, c) => valueRow(name, values[c]))),
     ];
     for (const owner of new Set([owners.reference, owners.gpu])) {
       const particle = owner >= 0 ? detail.particle(owner) : null;

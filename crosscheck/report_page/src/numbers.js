@@ -17,7 +17,19 @@ export function ulpText(a, b) {
   if (sameBits(a, b)) return "0";
   if (isNan(a) || isNan(b)) return "NaN";
   const distance = Math.abs(ordered(a) - ordered(b));
-  return distance === 0 ? "sign of 0" : grouped(distance);
+  if (distance === 0) return "sign of 0";
+  return (a ^ b) < 0 && asFloat(a) !== 0 && asFloat(b) !== 0 ? "other sign" : grouped(distance);
+}
+
+// The worst distance that a run counted; more than floats of one sign can have is of two signs.
+export const worstUlp = (ulp) => (ulp === null ? "NaN on one side" : ulp > 0x7f800000 ? "other signs among them" : `at most ${grouped(ulp)} ULP`);
+
+// A float as C's %a wrote it, in decimals; another text as it is.
+export function decimalOfHex(text) {
+  const [, sign, whole, fraction = "", power] = /^(-?)0x([01])\.?([0-9a-f]*)p([+-]\d+)$/.exec(text) ?? [];
+  if (power === undefined) return text;
+  view.setFloat32(0, (sign ? -1 : 1) * parseInt(`${whole}${fraction}`, 16) * 16 ** -fraction.length * 2 ** Number(power));
+  return decimal(view.getUint32(0));
 }
 
 // The shortest of up to 9 digits that gives the float back.

@@ -1,4 +1,4 @@
-// What head.schema tells of the state: buffers and images, their fields (crosscheck/scene/schema_json.cpp).
+// What head.schema says of the state: buffers and images, their fields (crosscheck/scene/schema_json.cpp).
 
 export const fieldName = (name) => name.replaceAll("_", " ");
 

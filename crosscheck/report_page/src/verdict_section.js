@@ -1,6 +1,6 @@
 // The top of the page: the verdict, what ran where, and where a difference first shows.
 import { commandLine, h, scrolling, section } from "./dom.js";
-import { counted, grouped } from "./numbers.js";
+import { counted, decimalOfHex, grouped } from "./numbers.js";
 import { counts, everyItem, placeName } from "./schema.js";
 import { themeButton } from "./theme.js";
 import { VERDICTS } from "./words.js";
@@ -112,7 +112,7 @@ function firstPlace(head) {
     ["Where", `frame ${at.frame}, ${where}, step “${first.step}”`],
     ["Reference", first.operation],
     ["GPU", first.gpu_did],
-    ["Shows in", `${first.field}: reference ${first.reference}, GPU ${first.gpu}${first.margin ? `; ${first.margin}` : ""}`],
+    ["Shows in", `${first.field}: reference ${decimalOfHex(first.reference)}, GPU ${decimalOfHex(first.gpu)}${first.margin ? `; ${first.margin}` : ""}`],
   ];
   return h(
     "div",

@@ -20,7 +20,7 @@ export const VERDICTS = {
   DIFFER: {
     tone: "bad",
     mark: "≠",
-    says: "The two sides are not the same bit for bit. Such a run is not judged: resync tells which differences are legal.",
+    says: "The two sides are not the same bit for bit. Such a run is not judged: resync says which differences are legal.",
   },
   NONDETERMINISTIC: {
     tone: "bad",

@@ -62,18 +62,18 @@ struct StagedSlices {
 
 namespace {
 
-/// Calls `work` with the buffer's memory. A driver may lose a mapped buffer's contents (GL_FALSE at unmapping); there
-/// is no telling what it holds then, hence the Error.
-template <class Byte, class Work> void with_mapped(const RecordBuffer& buffer, GLbitfield access, const Work& work) {
+/// Calls `work` with the buffer's memory, to read. A driver may lose a mapped buffer's contents (GL_FALSE at
+/// unmapping); there is no telling what it holds then, hence the Error.
+template <class Work> void with_mapped(const RecordBuffer& buffer, const Work& work) {
     const std::size_t bytes = buffer.size() * buffer.layout().bytes();
     const std::string& item = buffer.layout().about().item;
     gl::BindBuffer(GL_COPY_READ_BUFFER, buffer.id());
-    void* memory = gl::MapBufferRange(GL_COPY_READ_BUFFER, 0, static_cast<GLsizeiptr>(bytes), access);
+    const void* memory = gl::MapBufferRange(GL_COPY_READ_BUFFER, 0, static_cast<GLsizeiptr>(bytes), GL_MAP_READ_BIT);
     if (memory == nullptr) {
         check_gl(fmt::format("{} buffer", item));
         throw Error(fmt::format("{} buffer: GL cannot map it", item));
     }
-    work(static_cast<Byte*>(memory));
+    work(static_cast<const std::byte*>(memory));
     gl::BindBuffer(GL_COPY_READ_BUFFER, buffer.id()); // `work` may have mapped another
     if (gl::UnmapBuffer(GL_COPY_READ_BUFFER) == GL_FALSE)
         throw Error(fmt::format("{} buffer: its contents were lost while mapped", item));
@@ -102,16 +102,15 @@ void with_slices(const RecordBuffer& buffer, std::unique_ptr<StagedSlices>& stag
             return;
         }
     }
-    with_mapped<const std::byte>(buffer, GL_MAP_READ_BIT,
-                                 [&](const std::byte* records) { work(records, 0, buffer.size()); });
+    with_mapped(buffer, [&](const std::byte* records) { work(records, 0, buffer.size()); });
 }
 
-/// The same of several, read only: `work` gets the memory of each.
+/// The same of several: `work` gets the memory of each.
 template <class Work> void with_all_mapped(std::span<const RecordBuffer* const> buffers, const Work& work,
                                            std::vector<const std::byte*> memory = {}) {
     if (memory.size() == buffers.size())
         return work(std::span<const std::byte* const>(memory));
-    with_mapped<const std::byte>(*buffers[memory.size()], GL_MAP_READ_BIT, [&](const std::byte* records) {
+    with_mapped(*buffers[memory.size()], [&](const std::byte* records) {
         std::vector<const std::byte*> more = memory;
         more.push_back(records);
         with_all_mapped(buffers, work, std::move(more));

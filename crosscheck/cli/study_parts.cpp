@@ -131,30 +131,30 @@ void print_rest(const StudiedScene& studied) {
                rest_speed);
 }
 
-Verb rest_verb() {
+/// Of one scene, run for some frames.
+Verb scene_verb(const char* name, const char* about, const char* footer, void (*print)(const StudiedScene&)) {
     auto options = std::make_shared<StudiedScene>();
-    Verb verb{"rest", "how many particles of SCENE have come to rest over the frames, and how high they lie"};
+    Verb verb{name, about};
     add_studied_scene(verb, *options);
-    verb.footer = "Example: lockstep study rest data/scenes/thesis/plane_pile.json --frames 600 --every 60";
-    verb.run = [options](const Call&) {
+    verb.footer = footer;
+    verb.run = [options, print](const Call&) {
         check_frames(*options);
-        print_rest(*options);
+        print(*options);
         return status_agree;
     };
     return verb;
 }
 
+Verb rest_verb() {
+    return scene_verb("rest", "how many particles of SCENE have come to rest over the frames, and how high they lie",
+                      "Example: lockstep study rest data/scenes/thesis/plane_pile.json --frames 600 --every 60",
+                      print_rest);
+}
+
 Verb cameras_verb() {
-    auto options = std::make_shared<StudiedScene>();
-    Verb verb{"cameras", "SCENE with the thesis's collision cameras (chapter 3.4): z offsets, fixed, side, rear"};
-    add_studied_scene(verb, *options);
-    verb.footer = "Example: lockstep study cameras data/scenes/bunny_a.json --frames 60 --every 20";
-    verb.run = [options](const Call&) {
-        check_frames(*options);
-        print_cameras(*options);
-        return status_agree;
-    };
-    return verb;
+    return scene_verb("cameras",
+                      "SCENE with the thesis's collision cameras (chapter 3.4): z offsets, fixed, side, rear",
+                      "Example: lockstep study cameras data/scenes/bunny_a.json --frames 60 --every 20", print_cameras);
 }
 
 Verb recall_verb() {

@@ -96,21 +96,18 @@ DrawnAgain in_some_tiles(const PowerFrame& frame, const Profile& profile, std::s
     }
     DrawnAgain some;
     some.all = false;
-    const auto width = static_cast<std::size_t>(params.width), height = static_cast<std::size_t>(params.height);
-    some.texels.resize(width * height);
-    std::vector<char> near(some.texels.size(), 0);
-    for (int y = 0; y < params.height; ++y)
-        for (int x = 0; x < params.width; ++x) {
-            const int texel = y * params.width + x;
-            if (taken[tile_of(texel)] == 0)
-                continue;
-            some.texels[static_cast<std::size_t>(texel)] = 1;
-            for (int ny = std::max(y - 1, 0); ny <= std::min(y + 1, params.height - 1); ++ny)
-                for (int nx = std::max(x - 1, 0); nx <= std::min(x + 1, params.width - 1); ++nx)
-                    near[static_cast<std::size_t>(ny * params.width + nx)] = 1;
-        }
+    for (std::int32_t texel = 0; texel < params.width * params.height; ++texel)
+        some.texels.push_back(taken[tile_of(texel)]);
+    const auto is_beside_taken = [&](std::int32_t texel) { // the texels around it lie in the tiles of these four
+        const int x = texel % params.width, y = texel / params.width;
+        for (const int ny : {std::max(y - 1, 0), std::min(y + 1, params.height - 1)})
+            for (const int nx : {std::max(x - 1, 0), std::min(x + 1, params.width - 1)})
+                if (some.has(static_cast<std::size_t>(ny * params.width + nx)))
+                    return true;
+        return false;
+    };
     for (std::size_t i = 0; i < drawn.size(); ++i)
-        if (drawn[i] != no_texel && near[static_cast<std::size_t>(drawn[i])] != 0)
+        if (drawn[i] != no_texel && is_beside_taken(drawn[i]))
             some.particles.push_back(i);
     return some;
 }

@@ -12,13 +12,13 @@
 namespace lockstep {
 namespace {
 
-constexpr std::uint64_t largest_file = std::uint64_t{64} << 20U;
+constexpr std::uint64_t largest_named_file = std::uint64_t{64} << 20U;
 
 std::string bytes_of(const std::filesystem::path& file, std::string_view kind) {
     const OpenedFile opened(file, kind);
-    if (opened.size() > largest_file)
-        throw Error(
-            fmt::format("{}: {} bytes; right is a {} of at most {}", file.string(), opened.size(), kind, largest_file));
+    if (opened.size() > largest_named_file)
+        throw Error(fmt::format("{}: {} bytes; right is a {} of at most {}", file.string(), opened.size(), kind,
+                                largest_named_file));
     return opened.text();
 }
 

@@ -285,7 +285,7 @@ void check_capture_type(GLuint program, GLuint index, const Capture& capture, st
     const ShaderSource* last = last_vertex_stage(stages);
     const std::span from(last, last == nullptr ? 0 : 1);
     if (type != capture.type || size != capture.size)
-        throw Error(fmt::format("shader {}: output {} is {}, but is to be {}",
+        throw Error(fmt::format("shader {}: output {} is {}, but must be {}",
                                 find_declaration(from, "out", capture.name).place, capture.name,
                                 declared_type(type, size), declared_type(capture.type, capture.size)));
 }
@@ -316,7 +316,7 @@ void check_geometry_stage(GLuint program, std::span<const ShaderSource> stages) 
         GLint primitive = GL_POINTS;
         gl::GetProgramiv(program, what, &primitive);
         if (primitive != GL_POINTS)
-            throw Error(fmt::format("shader {}: layout({}) {}; is to be layout(points) {}, a point a particle",
+            throw Error(fmt::format("shader {}: layout({}) {}; right is layout(points) {}, a point a particle",
                                     stage->files.front(), name(primitive), direction, direction));
     }
 }
@@ -354,8 +354,8 @@ void check_storage(GLuint program, std::span<const ShaderSource> stages, std::sp
         if (std::find(given.begin(), given.end(), name) != given.end())
             continue;
         else if (gl::GetProgramInterfaceiv == nullptr)
-            throw Error(fmt::format("shader {}: nothing is given for storage buffer {}, and this GL is too old to tell "
-                                    "whether it is used (4.3 or GL_ARB_program_interface_query does)",
+            throw Error(fmt::format("shader {}: nothing is given for storage buffer {}, and this GL is too old to say "
+                                    "whether it is used (4.3 or GL_ARB_program_interface_query says)",
                                     place, name));
         else if (gl::GetProgramResourceIndex(program, GL_SHADER_STORAGE_BLOCK, name.c_str()) != GL_INVALID_INDEX)
             throw Error(fmt::format("shader {}: nothing is given for storage buffer {}", place, name));
@@ -437,7 +437,7 @@ std::vector<SpirvModule::Variable> captured_outputs(std::span<const ShaderSource
             throw Error(fmt::format("shader {}: output {} is not written; it is to write {}", last.file, capture.name,
                                     joined_names(captured)));
         if (output->type != capture.type || output->size != capture.size)
-            throw Error(fmt::format("shader {}: output {} is {}, but is to be {}", last.file, capture.name,
+            throw Error(fmt::format("shader {}: output {} is {}, but must be {}", last.file, capture.name,
                                     declared_type(output->type, output->size),
                                     declared_type(capture.type, capture.size)));
         found.push_back(*output);

@@ -199,9 +199,9 @@ void run_gpu(const System& system, SystemSide& gpu, int frames,
                     const View one = std::as_const(now)[r], other = std::as_const(again)[r];
                     if (!compare(one, other).agree() && !pass.unordered() &&
                         !(r == pass.resource() && same_but_for_order(pass, {before.view(), frame}, one, other)))
-                        throw Error(fmt::format("the GPU gave two answers to frame {}, pass {}; check tells where they "
-                                                "differ",
-                                                frame, pass.name()));
+                        throw Error(fmt::format(
+                            "the GPU gave two answers to frame {}, pass {}; check reports where they differ", frame,
+                            pass.name()));
                 }
                 now = std::move(again);
             }

@@ -116,14 +116,14 @@ TEST_CASE("shader_errors: a misspelt uniform or attribute is told where it is de
         test::plant(shaders, "collision_pass.vert", "v_Speed), u_Tick)", "v_Speed), u_Tick.x)");
         test::plant(shaders, "collision_pass.vert", "product(step, u_Tick)", "product(step, u_Tick.x)");
         CHECK_THAT(refusal_of(shaders),
-                   Catch::StartsWith(file + ":") && Catch::EndsWith(": uniform u_Tick is vec2, but is to be float"));
+                   Catch::StartsWith(file + ":") && Catch::EndsWith(": uniform u_Tick is vec2, but must be float"));
     }
     SECTION("an output of another type") {
         test::plant(shaders, "collision_pass.geom", "out float out_Speed;", "out vec2 out_Speed;");
         test::plant(shaders, "collision_pass.geom", "out_Speed = v_Speed[0];", "out_Speed = vec2(v_Speed[0]);");
         CHECK_THAT(refusal_of(shaders),
                    Catch::StartsWith("shader " + (shaders.path() / "collision_pass.geom").string() + ":") &&
-                       Catch::EndsWith(": output out_Speed is vec2, but is to be float"));
+                       Catch::EndsWith(": output out_Speed is vec2, but must be float"));
     }
 }
 

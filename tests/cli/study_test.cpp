@@ -195,7 +195,7 @@ TEST_CASE("study: who has come to rest, over the frames") {
     const std::string nothing = folder.write("nothing.json", R"({"emitters": [{"count": 10, "min": [0, 0, 0],
         "max": [1, 1, 1]}]})");
     CHECK(refusal(run_lockstep({"study", "rest", nothing, "--frames", "4"})) ==
-          "study rest counts who lies on an obstacle; this scene has none");
+          "study rest counts the particles that lie on an obstacle; this scene has none");
 }
 
 TEST_CASE("study: what the thesis's tables cannot be made of is refused in one line") {

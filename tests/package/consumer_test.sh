@@ -126,7 +126,7 @@ says 'signal: a system with one pass'
 ends_with 2 prefix/bin/lockstep new system signal
 says 'signal is there and not empty'
 ends_with 2 prefix/bin/lockstep new system 'Two words'
-says "'Two words' is no name for one"
+says "'Two words' cannot be its name"
 succeeds cmake -S signal -B signal/build "-DCMAKE_PREFIX_PATH=$work/prefix" "$@"
 succeeds cmake --build signal/build
 ends_with 1 signal/build/signal check --frames 5

@@ -15,7 +15,7 @@ folders = ["crosscheck", "gpu", "reference"]
 instead = {
     r"\b(tells?|told|telling)\b": "reports, says",
     r"\bround (it|them|the|its|this|that|texel)\b|\bwraps? round\b": "around",
-    r"\b(is|are) to be\b": "must be",
+    r"\b(is|are) to (be|write)\b": "must",
     r"^(only )?(who|nobody|everyone)\b": "the particle, grain or light that is meant",
     r"\butili[sz]e": "use",
     r"\bplease\b": "no please: say what would be right",

@@ -88,7 +88,7 @@ void expect_untouched(const System& system, std::size_t first, const SystemState
             continue;
         const auto changed = differing_items(before[r], now[r]);
         if (!changed.empty())
-            throw Error(fmt::format("frame {}: {} changed {}; it is to write {} alone", frame, pass.name(),
+            throw Error(fmt::format("frame {}: {} changed {}; it must write {} alone", frame, pass.name(),
                                     item_name(system.schema.resources[r], now.extent(r), changed.front()),
                                     system.schema.resources[pass.resource()].title));
     }

@@ -82,7 +82,7 @@ TEST_CASE("shader_errors: a missing captured output is named") {
         refusal_of(shaders),
         Catch::Equals("collision_pass: output out_CollideTime is not written by the last vertex-processing stage (" +
                       (shaders.path() / "collision_pass.geom").string() +
-                      "); it is to write out_Position, out_Speed, out_Dir, out_CollideTime"));
+                      "); it must write out_Position, out_Speed, out_Dir, out_CollideTime"));
 }
 
 TEST_CASE("shader_errors: a misspelt uniform or attribute is told where it is declared, with what may be meant") {

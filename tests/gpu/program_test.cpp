@@ -283,12 +283,12 @@ TEST_CASE("program: a missing captured output is named with the stage that lacks
     folder.write("step.frag", fragment);
     CHECK(message(folder, {Stage::vertex, Stage::fragment}, captures) ==
           "step: output out_Speed is not written by the last vertex-processing stage (" +
-              (folder.path() / "step.vert").string() + "); it is to write out_Position, out_Speed");
+              (folder.path() / "step.vert").string() + "); it must write out_Position, out_Speed");
     folder.write("step.geom", "#version 330 core\nlayout(points) in;\nlayout(points, max_vertices = 1) out;\n"
                               "out float out_Speed;\nvoid main() { out_Speed = 1.0; EmitVertex(); }\n");
     CHECK(message(folder, {Stage::vertex, Stage::geometry, Stage::fragment}, captures) ==
           "step: output out_Position is not written by the last vertex-processing stage (" +
-              (folder.path() / "step.geom").string() + "); it is to write out_Position, out_Speed");
+              (folder.path() / "step.geom").string() + "); it must write out_Position, out_Speed");
 }
 
 TEST_CASE("program: a captured output of another type is told") {

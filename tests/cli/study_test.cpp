@@ -162,7 +162,7 @@ TEST_CASE("study: the thesis's tables, measured, and told again from what was wr
                                       {{{"GALLIUM_DRIVER", "softpipe"}}});
     CHECK(without.status == 0);
     CHECK_THAT(without.out,
-               Catch::StartsWith("no octree and no depth: they need compute shaders, GL 4.3; this context is 3.3"));
+               Catch::StartsWith("no octree and no depth: both need compute shaders, GL 4.3; this context is 3.3"));
 }
 
 TEST_CASE("study: the GL side, and the collision cameras") {

@@ -213,7 +213,7 @@ TEST_CASE("bindings: what does not fit is told with the file, the place in it an
                Contains("y of uniform size must be one number, but u_Gravity is vec3"));
     CHECK_THAT(with(plain, "\"dt\": \"u_Tick\"", "\"dt\": true"),
                Contains("/uniforms/dt: is neither a name nor a number"));
-    CHECK_THAT(with(plain, "\"dt\": \"u_Tick\"", "\"dt\": []"), Contains("/uniforms/dt: is to be names or numbers"));
+    CHECK_THAT(with(plain, "\"dt\": \"u_Tick\"", "\"dt\": []"), Contains("/uniforms/dt: must be names or numbers"));
     CHECK_THAT(with(plain, "\"speed\": \"out_Speed\"", "\"speed\": \"out_Sped\""),
                Contains("output out_Speed is not written by the last vertex-processing stage"));
     CHECK_THAT(with(plain, "\"inRest\": \"a_CollideTime\"", "\"inRest\": \"a_Speed\""),

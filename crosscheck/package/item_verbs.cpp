@@ -142,6 +142,22 @@ void print_hashes(const System& system, const std::string& profile, int frames, 
     }
 }
 
+void print_gpu_hashes(const System& system, SystemSide& side, int frames, bool every) {
+    SystemState state = system.start;
+    side.upload(std::as_const(state).view());
+    Progress progress("hash", frames, true);
+    for (int frame = 0; frame < frames; ++frame) {
+        for (std::size_t p = 0; p < system.passes.size(); ++p)
+            if (system.passes[p]->runs(frame) && !system.passes[p]->continues())
+                side.step(p, frame);
+        progress.show(frame + 1);
+        if (!every && frame + 1 < frames)
+            continue;
+        side.read(state);
+        fmt::print("{} {}\n", frame, hash_text(state_hash(state)));
+    }
+}
+
 CheckReport check_shown(const System& system, SystemSide& side, CheckOptions options, bool quiet,
                         const CheckWatch& watch) {
     const InterruptHandler handler;

@@ -50,6 +50,20 @@ TEST_CASE("systems: a scene names its system, and one that there is not is told 
     CHECK_THAT(told(R"({"system": "collision"})"), Contains("emitters"));
 }
 
+TEST_CASE("systems: each side alone comes to the same hashes in exact arithmetic, and a wrong shader to others") {
+    const test::TemporaryFolder folder;
+    plant(folder);
+    for (const std::string& one : {scene, std::string("data/scenes/lattice.json")}) {
+        const std::vector<std::string> run{"hash",     one, "--preset",    "exact", "--every",
+                                           "--frames", "3", "--particles", "500",   "--side"};
+        const std::string cpu = run_lockstep(test::joined(run, {"cpu"})).out;
+        CHECK(std::count(cpu.begin(), cpu.end(), '\n') == 3);
+        CHECK(run_lockstep(on_gl(test::joined(run, {"gpu"}))).out == cpu);
+        if (one == scene)
+            CHECK(run_lockstep(on_gl(test::joined(run, {"gpu", "--shaders", folder.path().string()}))).out != cpu);
+    }
+}
+
 TEST_CASE("systems: verbs of the collision system refuse another's scene and name those that run it") {
     for (const char* verb : {"study"}) {
         INFO(verb);

@@ -1,5 +1,6 @@
 #include "gpu/collision/collision_pass.hpp"
 
+#include <algorithm>
 #include <array>
 
 #include <fmt/format.h>
@@ -15,10 +16,12 @@
 namespace lockstep {
 namespace {
 
-/// Whether a user's folder has a stage of points.
+/// Whether a user's folder has a stage of points, in GLSL or SPIR-V.
 bool has_own_points(const std::filesystem::path& shaders) {
-    return !shaders.empty() && (std::filesystem::exists(shaders / "collision_pass.vert") ||
-                                std::filesystem::exists(shaders / "collision_pass.geom"));
+    constexpr std::array names{"collision_pass.vert", "collision_pass.geom", "collision_pass.vert.spv",
+                               "collision_pass.geom.spv"};
+    return !shaders.empty() && std::any_of(names.begin(), names.end(),
+                                           [&](const char* name) { return std::filesystem::exists(shaders / name); });
 }
 
 /// In `exact` a point stands on a texel's centre, where no rounding moves it to another.

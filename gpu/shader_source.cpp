@@ -357,6 +357,15 @@ ShaderSource load_stage(const ShaderFolders& folders, std::string_view name, Sta
     return Assembly(folders, defines, none).assemble(path, text, stage);
 }
 
+ShaderSource continued(ShaderSource stage, const ShaderSource& end) {
+    const std::size_t files = stage.files.size();
+    stage.text += end.text.substr(end.text.find('\n') + 1);
+    stage.files.insert(stage.files.end(), end.files.begin(), end.files.end());
+    for (std::size_t line = 1; line < end.origins.size(); ++line)
+        stage.origins.push_back({files + end.origins[line].file, end.origins[line].line});
+    return stage;
+}
+
 std::vector<ShaderSource> load_stages(const ShaderFolders& folders, std::string_view name,
                                       std::span<const Stage> stages, const ShaderDefines& defines,
                                       const ShaderTexts& texts) {

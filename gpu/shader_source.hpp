@@ -84,6 +84,9 @@ void take_bindings(const std::filesystem::path& folder) noexcept;
 ShaderSource load_stage(const ShaderFolders& folders, std::string_view name, Stage stage,
                         const ShaderDefines& defines = {});
 
+/// `stage` with the text of `end`, which has no definitions, behind its own, whose #version holds for both.
+ShaderSource continued(ShaderSource stage, const ShaderSource& end);
+
 /// The stages of one program. A geometry stage's file that holds nothing but white space leaves the stage out, so a
 /// user's folder can do without a built-in one. Throws Error where another stage's file does. `texts` are looked for
 /// first.

@@ -6,11 +6,11 @@
 uniform int u_ClientWidth;
 uniform int u_ClientHeight;
 
-// Lines 2 and 3, before the cast to integers: where clip space lies on the image, in texels.
-vec2 image_position(vec4 clip) {
+// Lines 2 and 3, before the cast to integers: where clip space lies on the image, in texels; `divided` is clip.xy / clip.w.
+vec2 image_position(vec4 clip, vec2 divided) {
     precise vec2 ndc = clip.xy;
 #if PERSPECTIVE_DIVIDE == PERSPECTIVE_DIVIDE_ON
-    ndc = vec2(ls_divide(clip.x, clip.w), ls_divide(clip.y, clip.w));
+    ndc = divided;
 #endif
     precise vec2 tex_coord = (ndc + vec2(1.0)) * 0.5;
     precise vec2 scaled = vec2(tex_coord.x * float(u_ClientWidth), tex_coord.y * float(u_ClientHeight));
@@ -19,6 +19,22 @@ vec2 image_position(vec4 clip) {
     TRACE(last_texture_coordinate, tex_coord);
     TRACE(last_image_position, scaled);
     return scaled;
+}
+
+vec2 image_position(vec4 clip) {
+    return image_position(clip, vec2(ls_divide(clip.x, clip.w), ls_divide(clip.y, clip.w)));
+}
+
+// The same texel, where only that is asked. A division of `exact` is a long sequence; the driver's own, 2.5 units off in the
+// last place at most, does where no border between texels is near: 2^-20 of image and position outweighs all roundings.
+vec2 position_in_texel(vec4 clip) {
+#if ARITHMETIC == ARITHMETIC_EXACT && !defined(LOCKSTEP_TRACE)
+    vec2 rough = image_position(clip, clip.xy / clip.w);
+    vec2 margin = (abs(rough) + vec2(u_ClientWidth, u_ClientHeight)) * (1.0 / 1048576.0);
+    if (all(greaterThan(abs(rough - floor(rough + 0.5)), margin)) && abs(clip.w) < 1e30)
+        return rough;
+#endif
+    return image_position(clip);
 }
 
 // Line 4. False where the texel lies outside the image, or nowhere: the cast is only made where it is defined.

@@ -124,10 +124,11 @@ bool on_image(ivec2 texel) {
     return texel.x >= 0 && texel.y >= 0 && texel.x < u_ClientWidth && texel.y < u_ClientHeight;
 }
 
-// A root is a long sequence in `exact`: who is beyond the range by the square needs none. The factor outweighs roundings.
+// Operations of `exact` are long sequences: who is beyond the range by plain ones needs none. The factor outweighs roundings,
+// the least range what is flushed.
 bool is_beyond_range(vec3 apart) {
 #if ARITHMETIC == ARITHMETIC_EXACT && !defined(LOCKSTEP_TRACE)
-    return ls_dot(apart, apart) > u_CollisionRange * u_CollisionRange * 1.00001;
+    return dot(apart, apart) > max(u_CollisionRange * u_CollisionRange, 1e-24) * 1.00001;
 #else
     return false;
 #endif
@@ -158,9 +159,9 @@ bool nearest_collision(vec3 position, ivec2 texel_base, out vec3 away) {
             TRACE_NEIGHBOUR(traced.trace_neighbour_reached, 1);
             if (!holds_particle(stored))
                 continue;
-            vec3 apart = sum(curr_pos, -decode_position(stored));
-            if (is_beyond_range(apart))
+            if (is_beyond_range(curr_pos - decode_position(stored)))
                 continue;
+            vec3 apart = sum(curr_pos, -decode_position(stored));
             float len = ls_length(apart);
             TRACE_NEIGHBOUR(traced.trace_neighbour_reached, 2);
             TRACE_NEIGHBOUR(traced.trace_neighbour_position, decode_position(stored));
@@ -239,7 +240,7 @@ void main() {
     Particle a = load(self);
     ivec2 texel_base;
     vec3 away;
-    bool visible = base_texel(image_position(ls_transform(u_ProjView, a.position)), texel_base);
+    bool visible = base_texel(position_in_texel(ls_transform(u_ProjView, a.position)), texel_base);
     TRACE(traced.trace_clip, last_clip);
     TRACE(traced.trace_ndc, last_ndc);
     TRACE(traced.trace_texture_coordinate, last_texture_coordinate);

@@ -17,7 +17,7 @@ const uint nowhere = 0xffffffffu;
 
 // The texel that the next frame will compute for a particle, and its window depth. False where it is not drawn.
 bool placed_point(vec4 clip, out ivec2 texel, out float depth) {
-    bool visible = base_texel(image_position(clip), texel);
+    bool visible = base_texel(position_in_texel(clip), texel);
     precise float window = (ls_divide(clip.z, clip.w) + 1.0) * 0.5;
 #if ARITHMETIC == ARITHMETIC_EXACT
     precise float on_grid = floor(window * 16777216.0) * (1.0 / 16777216.0);

@@ -13,6 +13,7 @@
 #include "gpu/check.hpp"
 #include "gpu/probe.hpp"
 #include "gpu/probe/judge.hpp"
+#include "gpu/probe/points_alike.hpp"
 #include "gpu/probe/snap.hpp"
 #include "tests/gpu/any_context.hpp"
 #include "tests/gpu/probe_rows.hpp"
@@ -279,4 +280,14 @@ TEST_CASE("probe: the pixel of a point on its sub-pixel grid") {
     CHECK(probing::point_pixel(5.0 + 1.0 / 1024, snap, true) == 4);
     CHECK(probing::point_pixel(5.0 + 3.0 / 1024, snap, true) == 5);
     CHECK(probing::point_pixel(0.0, snap, true) == -1);
+}
+
+TEST_CASE("points go to the same pixels without a geometry stage where the rows say so") {
+    const auto context = open_context();
+    const ProbeResult result = probe(*context, {std::size_t{1} << 8U});
+    const auto alike = [&](const std::string& row) {
+        const ProbeRow &with = result.row(row), &without = result.row(row + ", no geometry stage");
+        return with.finding == without.finding && with.matched == without.matched;
+    };
+    CHECK(points_alike_without_geometry() == (alike("points: viewport") && alike("points: depth")));
 }

@@ -67,6 +67,19 @@ template <class Number> Interval set_of(const Number& x) {
         return Interval(static_cast<float>(x));
 }
 
+/// The same of a number of a field of this type. Bits that a twin copies are the field's, whatever it holds.
+template <class Number> Interval set_of(const Number& x, Scalar scalar) {
+    if constexpr (std::is_same_v<Number, std::uint32_t>) {
+        const Value value{scalar, x};
+        if (scalar == Scalar::float32)
+            return Interval(value.real());
+        const auto integer = static_cast<double>(value.integer());
+        return {integer, integer};
+    } else {
+        return set_of(x);
+    }
+}
+
 /// A word of which no item of all such words is right: the greatest float, less its last bit.
 inline constexpr std::uint32_t nothing_reads_so = 0x7f7ffffe;
 
@@ -251,6 +264,8 @@ template <class Twin> class ItemTwin final : public ItemPass {
                                                     const KnownOperations& known, const View* observed) const override {
         const FlushSubnormals guard = flush(profile, known.subnormals);
         std::vector<ItemOutcome> found;
+        const std::vector<Component> parts = components(about(in));
+        const auto& fields = about(in).fields;
         const item_twin::Framed<Twin> framed(twin_, in, is_prepared_);
         const Twin& twin = *framed;
         with_arithmetic_of(profile, [&]<class A>(A fp) {
@@ -263,10 +278,12 @@ template <class Twin> class ItemTwin final : public ItemPass {
                        [&](const auto* state, std::span<const Fork> forks, Undefined undefined) {
                            ItemOutcome outcome{.values = {}, .open = open_sites(forks), .undefined = undefined};
                            if (state != nullptr)
-                               item_twin::for_each_number(
-                                   *state, [&](const auto& x) { outcome.values.push_back(item_twin::set_of(x)); });
+                               item_twin::for_each_number(*state, [&](const auto& x) {
+                                   const Component& part = parts[outcome.values.size()];
+                                   outcome.values.push_back(item_twin::set_of(x, fields[part.field].scalar));
+                               });
                            else
-                               outcome.values.assign(components(about(in)).size(), Interval::anything());
+                               outcome.values.assign(parts.size(), Interval::anything());
                            add(found, std::move(outcome));
                        });
         });

@@ -75,6 +75,28 @@ std::size_t fullest_voxel(const lights::Settings& s) { return greatest(s, lights
 
 } // namespace
 
+TEST_CASE("what a pass gives is legal of it, the bits that it copies too", "[lights]") {
+    const System system = lights::system(host_of(room()));
+    const Profile profile = named_profile("strict");
+    ReferenceRun run(system, profile);
+    for (std::size_t p = 0; p < system.passes.size(); ++p) {
+        const ItemPass& pass = *system.passes[p];
+        const SystemView before = run.state().view();
+        const std::size_t count = before[pass.resource()].count(), apart = std::max<std::size_t>(count / 16, 1);
+        std::vector<std::vector<ItemOutcome>> legal;
+        for (std::size_t item = 0; item < count; item += apart)
+            legal.push_back(pass.outcomes({before, 0}, item, profile, measured_operations(profile), nullptr));
+        run.step_pass(p, 0);
+        const SystemView after = run.state().view();
+        for (std::size_t i = 0; i < legal.size(); ++i) {
+            INFO(pass.name() << " " << i * apart);
+            CHECK(std::any_of(legal[i].begin(), legal[i].end(), [&](const ItemOutcome& one) {
+                return one.contains(after[pass.resource()], i * apart);
+            }));
+        }
+    }
+}
+
 TEST_CASE("lights left open: a filter that is followed leaves its forms, another what 8 bits give") {
     lights::Settings s = room();
     s.switches.interpolation = lights::Interpolation::trilinear_hw;

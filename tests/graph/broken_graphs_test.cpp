@@ -174,6 +174,9 @@ std::vector<std::pair<std::string, std::string>> broken_graphs() {
         add(graph, words);
     };
     with({{"id", "k"}, {"type", "parameter"}, {"value", 5}, {"range", {0, 4}}}, "5 is not within 0 to 4");
+    with(node("k", "divide", {{"a", "v"}, {"b", 0}}), "'k' divides by 0");
+    with(node("k", "divide", {{"a", "v"}, {"b", {1, 0, 2}}}), "'k' divides by 0");
+    with(node("k", "smoothstep", {{"low", 1}, {"high", 1}, {"a", "v"}}), "'k' rises from 1 to 1");
     with({{"id", "k"}, {"type", "parameter"}, {"value", 5}, {"range", {9, 4}}}, "right is the least first");
     with({{"id", "k"}, {"type", "parameter"}, {"value", 5}, {"range", {9}}}, "right is the least and the greatest");
     with({{"id", "k"}, {"type", "parameter"}, {"value", {1, 2}}}, "a parameter is a float");

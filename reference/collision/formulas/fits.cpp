@@ -36,7 +36,10 @@ std::array<float, 3> gravity_of(Words before, Words after, const Constants& c) {
             x = 0.0F;
     return g;
 }
-std::array<float, 3> counted_of(Words before, Words after, const Constants&) { return {as_time(before[7] - after[7])}; }
+std::array<float, 3> counted_of(Words before, Words after, const Constants&) {
+    const float counted = before[7] - after[7];
+    return {before[7] == 0.0F ? counted : as_time(counted)}; // from 0 nothing is rounded
+}
 std::array<float, 3> moved_for(Words before, Words after, const Constants&) {
     std::size_t along = 0;
     for (std::size_t i = 1; i < 3; ++i)

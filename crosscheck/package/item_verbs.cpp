@@ -63,7 +63,8 @@ Option frame_option(int& frame) {
 }
 
 Option pass_option(std::string& pass) {
-    return text_option("--pass", "NAME", pass, "of which pass; else the first that runs in the frame");
+    return text_option("--pass", "NAME", pass,
+                       "the pass that makes the item; without it the first that runs in the frame");
 }
 
 Option hex_option(bool& hexadecimal) {

@@ -142,7 +142,7 @@ TEST_CASE("arguments: an option that the side or the verb would ignore is refuse
         {{"render", scene, "-o", "x.png", "--side", "gpu", "--profile", "bogus"},
          "render: --profile goes with --side cpu"},
         {{"bench", scene, "--particles", "3", "--counts", "5"},
-         "bench: --particles N is --counts N; one of both is enough"},
+         "bench: --particles N and --counts N mean the same; right is one of them"},
     });
 }
 

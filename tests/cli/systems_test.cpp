@@ -75,7 +75,7 @@ TEST_CASE("systems: verbs of the collision system refuse another's scene and nam
     CHECK(refusal(run_lockstep({"check", scene, "--require-hits"})) ==
           "check: --require-hits does not go with a scene of system dust");
     CHECK(refusal(run_lockstep({"explain", scene, "--frame", "1", "--particle", "2"})) ==
-          "explain: of a scene of system dust, --item I is needed");
+          "explain: a scene of system dust needs --item I");
 }
 
 TEST_CASE("systems: hash is of the reference alone, the same for any number of threads") {
@@ -312,7 +312,7 @@ TEST_CASE("systems: a recording that is damaged, cut off, of another system or o
     CHECK(refusal(run_lockstep({"explain", "--trace", file, "--frame", "3", "--item", "0"})) ==
           file + " holds frames 0 to 2, not 3");
     CHECK(refusal(run_lockstep({"explain", "--trace", file, "--frame", "0", "--particle", "0"})) ==
-          "explain: of a scene of system dust, --item I is needed");
+          "explain: a scene of system dust needs --item I");
     CHECK_THAT(refusal(run_lockstep({"explain", "--trace", file, "--frame", "0", "--item", "50"})),
                Contains("there is no grain '50'; physics has 0 to 49"));
     CHECK(refusal(run_lockstep({"check", "--trace", file, "--images", out.path().string()})) ==

@@ -9,12 +9,14 @@ source's (docs/lifecycle.md), and whether both sides, run free, come to one hash
   hashes      preset exact, free: layouts and scenes, as many particles alive as asked for
 Usage: scripts/lifecycle_tables.py LOCKSTEP OUT [--gl KIND] [--parts ladder,...] [--particles N,...] [--ribbons N,...]
            [--frames N] [--alive N] [--hash-frames N] [--layouts L,...] [--hashes NAME,...] [--seconds N] [--jobs N]
-           [--threads N] [--twins] [--render WxH] [--scenes DIR] [--commit NAME]
+           [--threads N] [--known FILE] [--twins] [--render WxH] [--scenes DIR] [--commit NAME]
   --particles  of ladder; the other tables have the first of them
   --layouts    of ladder and hashes
   --hashes     of these rows alone, named as in the table: "fire" are all of its layouts, "fire 40" is one
   --seconds    of the hashes: those that still run are ended then; their verdict is of the frames before
   --threads    of each check among the hashes; its report is kept in OUT/hashes/ when it ends
+  --known      of the hashes: a page with a table of them (data/results/lifecycle/h200.md). GL alone runs the rows that
+               have one there, a tenth to a half of the time, and its hash after the last frame is held against that
   --twins      times the reference as well
 Exit status: 0 every hash is equal, 1 one is not, 2 a part could not be run."""
 import argparse
@@ -56,6 +58,7 @@ def options():
     parser.add_argument("--hashes", type=lambda text: text.split(","))
     parser.add_argument("--jobs", type=int, default=2)
     parser.add_argument("--threads", type=int, default=2)
+    parser.add_argument("--known", type=pathlib.Path)
     parser.add_argument("--twins", action="store_true")
     parser.add_argument("--render", default="1920x1080")
     parser.add_argument("--scenes", type=pathlib.Path, default=ROOT / "data/scenes/lifecycle")
@@ -247,6 +250,12 @@ def is_named(row, name):
     return row == name or row.startswith(name + " ")
 
 
+def known_hashes(run):
+    """Of each row that ran to its end on both sides."""
+    rows = re.findall(r"^\| (.+?) \| (\d+) \| AGREE \| `(\w+)` \|$", run.asked.known.read_text(), re.M)
+    return {name: kept for name, frames, kept in rows if int(frames) == run.asked.hash_frames}
+
+
 def hash_jobs(run):
     """Name, scene and settings: of every layout one before any has two."""
     jobs = []
@@ -267,6 +276,11 @@ def hash_jobs(run):
         if unknown:
             raise RuntimeError(f"--hashes: none is named {unknown[0]}; there are {', '.join(job[0] for job in jobs)}")
         jobs = [job for job in jobs if any(is_named(job[0], name) for name in asked)]
+    if run.asked.known:
+        known = known_hashes(run)
+        jobs = [job for job in jobs if job[0] in known]
+        if not jobs:
+            raise RuntimeError(f"--known {run.asked.known}: has no hash of these rows after {run.asked.hash_frames} frames")
     by_scene = {}
     for job in jobs:
         by_scene.setdefault(job[0].rsplit(" ", 1)[0], []).append(job)
@@ -284,8 +298,9 @@ def hashed(run, jobs):
         over = time.monotonic() > end
         while waiting and not over and len(running) < asked.jobs:
             name, scene, settings = waiting.pop(0)
-            words = [asked.lockstep, "check", scene, "--preset", "exact", "--mode", "free", "--no-render", "--frames",
-                     asked.hash_frames, "--gl", asked.gl, "--threads", asked.threads, *(w for s in settings for w in ("--set", s))]
+            how = ["hash", scene, "--side", "gpu"] if asked.known else ["check", scene, "--mode", "free", "--no-render"]
+            words = [asked.lockstep, *how, "--preset", "exact", "--frames", asked.hash_frames, "--gl", asked.gl, "--threads",
+                     asked.threads, *(w for s in settings for w in ("--set", s))]
             print("+", *words, file=sys.stderr, flush=True)
             running[name] = subprocess.Popen(list(map(str, words)), stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True)
         if over:
@@ -301,25 +316,36 @@ def hashed(run, jobs):
     return reports
 
 
+def held_against(run, report, right):
+    """As a check would tell it."""
+    found = re.fullmatch(rf"{run.asked.hash_frames - 1} (\w+)", report.strip().splitlines()[-1] if report.strip() else "")
+    if not found:
+        return report or "verdict ended before its last frame"
+    return f"verdict {'AGREE' if found[1] == right else 'DIFFERS'}: the hash that is known\nhash {found[1]}"
+
+
 def hashes(run):
     jobs = hash_jobs(run)
     reports, rows, kept = hashed(run, jobs), [], {}
     for name, _, settings in jobs:
         report = reports.get(name, "")
+        if run.asked.known and name in reports:
+            report = held_against(run, report, known_hashes(run)[name])
         lines = dict(line.split(None, 1) for line in report.splitlines() if len(line.split(None, 1)) == 2)
         ended = re.search(r"interrupted after (\d+) of", report)
         verdict = lines.get("verdict", report.strip().splitlines()[-1] if report.strip() else "was not begun")
         kept[name] = {"settings": settings, "verdict": verdict, "hash": lines.get("hash"),
                       "frames": int(ended.group(1)) if ended else asked_frames(run, verdict)}
         rows.append([name, kept[name]["frames"], verdict.split(":")[0], f"`{lines['hash'].split()[0]}`" if "hash" in lines else "-"])
-    text = ["", "## Both sides run free, preset exact", "",
-            f"{run.asked.alive:,} alive in the mean once the oldest die; `lockstep check --preset exact --mode free --frames "
+    how = "hash --side gpu" if run.asked.known else "check --mode free"
+    text = ["", f"## {'GL alone' if run.asked.known else 'Both sides run free'}, preset exact", "",
+            f"{run.asked.alive:,} alive in the mean once the oldest die; `lockstep {how} --preset exact --frames "
             f"{run.asked.hash_frames}`,", f"ended after {run.asked.seconds:g} s in all, {run.asked.jobs} at once."]
     return text + table(["scene, layout", "frames", "verdict", "hash after the last"], rows), kept
 
 
 def asked_frames(run, verdict):
-    return run.asked.hash_frames if verdict.startswith(("AGREE", "LEGAL")) else 0
+    return run.asked.hash_frames if verdict.startswith(("AGREE", "LEGAL", "DIFFERS")) else 0
 
 
 def commit_of(asked):

@@ -48,8 +48,8 @@ template <class Values> std::size_t named(const JsonValue& at, const Values& val
 
 bool is_number(GraphType type) { return type <= GraphType::vec4; }
 
-/// A number, several, or a truth.
-GraphSource literal(const JsonValue& json) {
+/// A number, several, or a truth. `or_else`: what else may stand there.
+GraphSource literal(const JsonValue& json, std::string_view or_else = " or a truth") {
     GraphSource source;
     if (json.is_truth()) {
         source.type = GraphType::boolean;
@@ -57,7 +57,8 @@ GraphSource literal(const JsonValue& json) {
         return source;
     }
     if (!json.is_array()) {
-        source.numbers.fill(json.number());
+        const std::string right = fmt::format("a finite number, an array of two to four{}", or_else);
+        source.numbers.fill(json.number({number::finite.min, number::finite.max, right}));
         return source;
     }
     const std::vector<JsonValue> all = json.items();
@@ -101,8 +102,6 @@ class Reader {
         if (all.size() > most_graph_nodes)
             json_.at("nodes").fail(fmt::format("{} nodes; right is at most {}", all.size(), most_graph_nodes));
         for (const JsonValue& node : all) {
-            node.check_keys({"id", "type", "inputs", "place", "value", "range", "keys", "channel", "values", "seed",
-                             "potential", "falloff", "law", "direction", "angle"});
             const JsonValue id = node.at("id");
             const std::string name = id.text();
             const auto fits = [](char c) {
@@ -115,6 +114,8 @@ class Reader {
                 id.fail(fmt::format("there is a node '{}' already", name));
             const GraphNodeType& type =
                 graph_node_types()[named(node.at("type"), graph_node_types(), "type of a node")];
+            node.check_keys({"id", "type", "inputs", "place", "value", "range", "keys", "channel", "values", "seed",
+                             "potential", "falloff", "law", "direction", "angle"});
             read_.push_back({node, &type});
             graph_.nodes.push_back({.id = name, .kind = type.kind, .inputs = {}, .value = {}, .keys = {}});
         }
@@ -312,7 +313,7 @@ class Reader {
 
     GraphSource link(const JsonValue& json, std::size_t depth) {
         if (!json.is_text())
-            return literal(json);
+            return literal(json, ", a truth or a node's id");
         const std::string text = json.text();
         const std::size_t dot = text.find('.');
         const auto found = places_.find(text.substr(0, dot));

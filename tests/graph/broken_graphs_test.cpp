@@ -185,7 +185,11 @@ std::vector<std::pair<std::string, std::string>> broken_graphs() {
     with({{"id", "k"}, {"type", "constant"}, {"value", {1, 2, 3, 4, 5}}}, "right is two to four");
     with({{"id", "k"}, {"type", "constant"}, {"value", 1e39}}, "is not a finite number");
     with({{"id", "k"}, {"type", "constant"}, {"value", "v"}}, "is not a finite number");
-    with({{"id", "k"}, {"type", "constant"}, {"value", nullptr}}, "is not a finite number");
+    with({{"id", "k"}, {"type", "constant"}, {"value", nullptr}},
+         "null is not a finite number, an array of two to four or a truth");
+    with({{"id", "k"}, {"type", "negate"}, {"inputs", {{"a", nullptr}}}},
+         "null is not a finite number, an array of two to four, a truth or a node's id");
+    with({{"id", "k"}, {"type", "texture"}, {"file", "a.png"}}, "'texture' is no type of a node");
     with({{"id", "k"}, {"type", "constant"}, {"value", 1}, {"inputs", json::object()}}, "is no property of a node");
     with({{"id", "k"}, {"type", "add"}, {"value", 1}}, "is no property of a node");
     with({{"id", "k k"}, {"type", "add"}}, "is no name of a node");

@@ -24,7 +24,8 @@ template <class R> class WeightedMean {
         if constexpr (requires { centre.legal(); }) {
             std::vector<Sample> samples;
             for_each_sample(x, y, step, [&](const Real& stored, const Real& w) { samples.push_back({stored, w}); });
-            if (std::ranges::count_if(samples, [&](const Sample& one) { return may_be_either(one.stored); }) > most_open)
+            if (std::ranges::count_if(samples, [&](const Sample& one) { return may_be_either(one.stored); }) >
+                most_open)
                 return bounded(samples, centre);
             for (const Sample& one : samples)
                 add(sums, one.stored, one.weight, centre);

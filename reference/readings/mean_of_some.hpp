@@ -46,10 +46,10 @@ inline double greatest(std::span<const WeightedTerm> terms, double sign) {
 } // namespace mean_of_some_rules
 
 /// What sum(value weight) / sum(weight) may give, added up one after another in floats, whichever of the open terms are
-/// left out. Each product and weight is of at most three roundings, and n - 1 additions come to (n - 1) u / (1 - (n - 1)
-/// u) of the sum of magnitudes (Higham, Accuracy and Stability of Numerical Algorithms, section 4.2), u being 2^-23 where
-/// additions may be cut; the quotient is right to 2.5 ULP (GLSL 4.50, 4.7.1). Anything where a term is no finite number
-/// or no term must be there.
+/// left out. Each product and weight is of at most three roundings, and n - 1 additions come to (n - 1) u / (1 - (n -
+/// 1) u) of the sum of magnitudes (Higham, Accuracy and Stability of Numerical Algorithms, section 4.2), u being 2^-23
+/// where additions may be cut; the quotient is right to 2.5 ULP (GLSL 4.50, 4.7.1). Anything where a term is no finite
+/// number or no term must be there.
 inline Interval mean_of_some(std::span<const WeightedTerm> terms) {
     using namespace mean_of_some_rules;
     double largest = 0.0, surely = 0.0;

@@ -278,7 +278,10 @@ void note_images(Translation& rows, const ProbeResult& result) {
             rows.note(other_way);
     }
     follow("image: sRGB store", {"nearest code"});
-    follow("image: gl_PointCoord", {"1/2 + (pixel - centre)/size"});
+    follow("image: gl_PointCoord, accuracy", {"to 1/256 pixel, from above"});
+    const char* const cut = "image: gl_PointCoord, cut size";
+    if (std::ranges::find(rows.not_followed, "image: gl_PointCoord, accuracy") != rows.not_followed.end())
+        follow(cut, {"to 2^-20, of a middle on 256ths and a size cut to 32nds"});
 }
 
 std::string errors_text(const OperationErrors& e) {

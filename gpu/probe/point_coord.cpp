@@ -11,7 +11,7 @@ namespace lockstep::probing {
 namespace {
 
 constexpr int coord_side = 256, cell = 16; ///< each point has a cell of its own
-constexpr std::array sizes{3.0F, 4.5F, 7.25F, 11.0F};
+constexpr std::array sizes{3.0F, 4.5F, 5.03F, 7.25F, 9.8765F, 11.0F};
 
 /// Where the centre lies, and the size.
 struct Disc {
@@ -20,6 +20,11 @@ struct Disc {
 
 using Coord = float (*)(float pixel, float centre, float size);
 
+/// With the middle on 256ths, halves to even, and the size cut to 32nds, from the lower side.
+double cut(float pixel, float centre, float size) {
+    return 0.5 + (pixel - std::nearbyint(double{centre} * 256.0) / 256.0) / (std::floor(double{size} * 32.0) / 32.0);
+}
+
 float snapped(float x) { return std::floor(x * 256.0F + 0.5F) / 256.0F; }
 
 } // namespace
@@ -27,7 +32,7 @@ float snapped(float x) { return std::floor(x * 256.0F + 0.5F) / 256.0F; }
 void measure_point_coord(Rows& rows) {
     const RasterStage stage(Primitive::points, false, true);
     const GlTexture target = make_texture(rgba32f, coord_side, coord_side, nullptr);
-    Floats found, off;
+    Floats found, off, off_cut;
     std::array<Floats, 4> predicted;
     constexpr std::array<Coord, 4> coords{
         [](float p, float c, float s) { return 0.5F + (p - c) / s; },
@@ -53,9 +58,10 @@ void measure_point_coord(Rows& rows) {
         const float nothing[4] = {};
         gl::ClearBufferfv(GL_COLOR, 0, nothing);
         gl::Disable(GL_DEPTH_TEST);
-        gl::PointSize(size);
+        gl::Enable(GL_PROGRAM_POINT_SIZE);
+        stage.set_point_size(size);
         stage.draw(vertices);
-        gl::PointSize(1.0F);
+        gl::Disable(GL_PROGRAM_POINT_SIZE);
         gl::BindFramebuffer(GL_FRAMEBUFFER, 0);
         const Floats texels = read_texture<float>(target, rgba32f, std::size_t{coord_side} * coord_side * 4);
         for (std::size_t i = 0; i < texels.size(); i += 4) {
@@ -73,6 +79,8 @@ void measure_point_coord(Rows& rows) {
             for (const float error :
                  {texels[i] - predicted[0][found.size() - 2], texels[i + 1] - predicted[0][found.size() - 1]})
                 off.push_back(std::abs(error) * size <= 1.0F / 256.0F ? 1.0F : 0.0F);
+            for (const double error : {texels[i] - cut(x, disc.x, size), texels[i + 1] - (1.0 - cut(y, disc.y, size))})
+                off_cut.push_back(std::abs(error) <= 0x1p-20 ? 1.0F : 0.0F);
         }
     }
     rows.push_back(judge("image: gl_PointCoord", found,
@@ -82,6 +90,8 @@ void measure_point_coord(Rows& rows) {
                           {"a plane through the centre", predicted[3]}}));
     rows.push_back(
         judge("image: gl_PointCoord, accuracy", off, {{"to 1/256 pixel, from above", Floats(off.size(), 1.0F)}}));
+    rows.push_back(judge("image: gl_PointCoord, cut size", off_cut,
+                         {{"to 2^-20, of a middle on 256ths and a size cut to 32nds", Floats(off.size(), 1.0F)}}));
 }
 
 } // namespace lockstep::probing

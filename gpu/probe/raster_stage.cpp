@@ -11,7 +11,9 @@ namespace {
 Program link_raster_stage(Primitive primitive, bool geometry, bool point_coord) {
     const ShaderFolders folders = shader_folders();
     std::vector<ShaderSource> stages{load_stage(folders, "probe/raster", Stage::vertex,
-                                                geometry ? ShaderDefines{{"WITH_GEOMETRY", "1"}} : ShaderDefines{})};
+                                                geometry      ? ShaderDefines{{"WITH_GEOMETRY", "1"}}
+                                                : point_coord ? ShaderDefines{{"WITH_POINT_SIZE", "1"}}
+                                                              : ShaderDefines{})};
     if (geometry)
         stages.push_back(
             load_stage(folders, primitive == Primitive::points ? "probe/points" : "probe/triangles", Stage::geometry));

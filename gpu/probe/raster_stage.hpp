@@ -45,6 +45,9 @@ class RasterStage {
     /// put out gl_PointCoord, the number and 1 instead of the number alone.
     RasterStage(Primitive primitive, bool geometry, bool point_coord = false);
 
+    /// gl_PointSize, where point_coord was asked for.
+    void set_point_size(float size) const { program_.set("u_PointSize", size); }
+
     /// Draws without clearing; depth test as it is set.
     void draw(std::span<const RasterVertex> vertices) const;
 

@@ -30,38 +30,40 @@ template <class Texel> struct Texels {
     }
 };
 
-/// What the texture unit makes of the texels around a place, given in texels, GL_LINEAR: fma(f, b - a, a) along x, then
-/// y. Legal is what any unit may give whose places and weights have 8 fraction bits: places right to 1 part in 10^5 (GL
-/// 4.5, 2.3.4.1) and then to 0.6 of a 256th (D3D 11.3, 3.2.4.1); each of the three halvings of the four texels rounded
-/// to a 256th; nothing beyond the least and the greatest of them (7.18.16.3); results right to 1 part in 10^5.
-template <class R, class Texel>
-typename R::Real linear_fetch(R& r, At at, const typename R::Vec2& place, const Texels<Texel>& image) {
-    struct Axis {
-        double low, high; ///< where the coordinate may lie
-        float f;          ///< of the reference's own
-        int base;
-    };
-    const auto along = [](const Interval& set, double size) {
+/// Where a coordinate may lie, in texels from the first one's middle.
+struct FetchedAxis {
+    double low, high;
+    float f; ///< of the reference's own place
+    int base;
+
+    FetchedAxis(const Interval& set, double size) {
         const float t = set.as_float() - 0.5F;
         const double free = 0.6 / 256.0 + 1e-5 * (std::abs(set.low) + 0.5);
         // Beyond the image's edge all texels are alike; a coordinate that is no number may be anywhere.
         const auto near = [size](double texel, double open) {
             return std::isnan(texel) ? open : std::clamp(texel, -1.0, size);
         };
-        return Axis{near(set.low - 0.5 - free, -1.0), near(set.high - 0.5 + free, size), t - std::floor(t),
-                    static_cast<int>(near(std::floor(t), -1.0))};
-    };
-    const Axis x = along(item_twin::set_of(place.x), image.width), y = along(item_twin::set_of(place.y), image.height);
+        low = near(set.low - 0.5 - free, -1.0);
+        high = near(set.high - 0.5 + free, size);
+        f = t - std::floor(t);
+        base = static_cast<int>(near(std::floor(t), -1.0));
+    }
+    template <class Visit> void for_each_end(const Visit& visit) const {
+        visit(low);
+        for (double whole = std::ceil(low); whole < high; whole += 1.0)
+            visit(whole);
+        visit(high);
+    }
+};
+
+/// What any unit may give whose places and weights have 8 fraction bits: places right to 1 part in 10^5
+/// (GL 4.5, 2.3.4.1) and then to 0.6 of a 256th (D3D 11.3, 3.2.4.1); each of the three halvings of the four texels
+/// rounded to a 256th; nothing beyond the least and the greatest of them (7.18.16.3); results right to 1 part in 10^5.
+template <class Texel> Interval legal_fetch(const FetchedAxis& x, const FetchedAxis& y, const Texels<Texel>& image) {
     double low = HUGE_VAL, high = -HUGE_VAL, least = HUGE_VAL, greatest = -HUGE_VAL;
     bool are_finite = true;
-    const auto for_each = [](const Axis& axis, const auto& visit) {
-        visit(axis.low);
-        for (double whole = std::ceil(axis.low); whole < axis.high; whole += 1.0)
-            visit(whole);
-        visit(axis.high);
-    };
-    for_each(y, [&](double v) {
-        for_each(x, [&](double u) {
+    y.for_each_end([&](double v) {
+        x.for_each_end([&](double u) {
             const double one = image.mean(u, v, [&](double texel) {
                 are_finite = are_finite && std::isfinite(texel);
                 least = std::min(least, texel);
@@ -71,21 +73,28 @@ typename R::Real linear_fetch(R& r, At at, const typename R::Vec2& place, const 
             high = std::max(high, one);
         });
     });
+    if (!are_finite)
+        return {-HUGE_VAL, HUGE_VAL};
+    const double halvings = 3.0 / 512.0 * (greatest - least);
+    const double error = 1e-5 * std::max(std::abs(least), std::abs(greatest));
+    return {std::max(low - halvings, least) - error, std::min(high + halvings, greatest) + error};
+}
+
+/// What the texture unit makes of the texels around a place, given in texels, GL_LINEAR: fma(f, b - a, a) along x, then
+/// y.
+template <class R, class Texel>
+typename R::Real linear_fetch(R& r, At at, const typename R::Vec2& place, const Texels<Texel>& image) {
+    using Real = typename R::Real;
+    const FetchedAxis x(item_twin::set_of(place.x), image.width), y(item_twin::set_of(place.y), image.height);
     const auto mixed = [](float from, float to, float share) { return std::fma(share, to - from, from); };
     const auto row = [&](int dy) {
         return mixed(image.clamped(x.base, y.base + dy), image.clamped(x.base + 1, y.base + dy), x.f);
     };
-    if (are_finite) {
-        const double halvings = 3.0 / 512.0 * (greatest - least);
-        const double error = 1e-5 * std::max(std::abs(least), std::abs(greatest));
-        low = std::max(low - halvings, least) - error;
-        high = std::min(high + halvings, greatest) + error;
-    } else {
-        low = -HUGE_VAL;
-        high = HUGE_VAL;
-    }
-    return r.note(at, r.unspecified(at, typename R::Real(mixed(row(0), row(1), y.f)), static_cast<float>(low),
-                                    static_cast<float>(high)));
+    const Real value(mixed(row(0), row(1), y.f));
+    Interval legal{0.0F};
+    if constexpr (requires { value.legal(); })
+        legal = legal_fetch(x, y, image);
+    return r.note(at, r.unspecified(at, value, static_cast<float>(legal.low), static_cast<float>(legal.high)));
 }
 
 } // namespace lockstep::fluid

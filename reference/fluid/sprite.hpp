@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "reference/fluid/depth_code.hpp"
+#include "reference/fluid/point_coord.hpp"
 #include "reference/model/fluid/schema.hpp"
 #include "reference/readings/mistake.hpp"
 #include "reference/system/item_reads.hpp"
@@ -102,7 +103,7 @@ template <class R> class SpriteTwin {
         const bool is_point = host_.switches().sprite == Sprite::points;
         const auto along = [&](At at, const Real& centre, const Real& middle) {
             const Real from = r_.divide(at, centre - middle, ball.half);
-            return r_.note(at, is_point ? point_coordinate(at, from, ball) : from);
+            return r_.note(at, is_point ? point_coordinate(at, from, {centre, middle, ball.half}) : from);
         };
         if constexpr (HasLanes<R>) { // of a row beside the sprite: rounding keeps the order of sums
             const Real ny = along(site::ny, r_.real(pixel.y) + Real(0.5F), ball.y), along_y = ny * ny;
@@ -148,16 +149,19 @@ template <class R> class SpriteTwin {
         ball.y = window(site::window_y, site::place_y, site::p11, site::height, ball.centre.y, host_.projection()[1][1],
                         s.height);
     }
-    /// GL takes gl_PointCoord from the exact place, but fixes no arithmetic (4.5, 14.4.1): up to 2/256 of a pixel off.
-    [[nodiscard]] Real point_coordinate(At at, const Real& from, const Ball<R>& ball) const {
-        if constexpr (HasLanes<R>) {
-            return from;
-        } else {
-            const Interval set = item_twin::set_of(from), half = item_twin::set_of(ball.half);
-            if (set.any || half.any || !(half.low > 0.0))
+    struct Along {
+        Real pixel, middle, half;
+    };
+    /// What a driver may make of it (point_coord.hpp).
+    [[nodiscard]] Real point_coordinate(At at, const Real& from, const Along& of) const {
+        if constexpr (requires { from.legal(); }) {
+            const PointSpan span{item_twin::set_of(of.pixel), item_twin::set_of(of.middle), item_twin::set_of(of.half)};
+            if (span.middle.any || span.half.any || !(span.half.low > 0.0))
                 return from;
-            const double free = 2.0 / 256.0 / half.low + 0x1p-22;
-            return r_.unspecified(at, from, static_cast<float>(set.low - free), static_cast<float>(set.high + free));
+            const Interval set = point_place(host_.point_coord(), span);
+            return r_.unspecified(at, from, static_cast<float>(set.low), static_cast<float>(set.high));
+        } else {
+            return from;
         }
     }
 

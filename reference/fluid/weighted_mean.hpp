@@ -1,8 +1,12 @@
 #pragma once
+#include <algorithm>
+#include <cmath>
 #include <cstddef>
 #include <cstdlib>
+#include <vector>
 
 #include "reference/fluid/depth_map.hpp"
+#include "reference/readings/mean_of_some.hpp"
 
 namespace lockstep::fluid {
 
@@ -17,20 +21,16 @@ template <class R> class WeightedMean {
     /// Of a number that the pixel itself has.
     [[nodiscard]] Real at(const Index& x, int y, const FilterStep& step, const Real& centre) const {
         Sums sums{Real(0.0F), Real(0.0F)};
-        const int reach = host_.settings().filter_radius;
-        if (step.shape == FilterStep::Shape::along) {
-            const auto direction = r_.uniform(site::blur_direction, step.direction);
-            for (const auto j : r_.range(site::samples, -reach, reach)) {
-                const int at = static_cast<int>(j), dx = static_cast<int>(direction.x) * at,
-                          dy = static_cast<int>(direction.y) * at;
-                add(sums, sample(x + dx, y + dy), weight(at), centre);
-            }
+        if constexpr (requires { centre.legal(); }) {
+            std::vector<Sample> samples;
+            for_each_sample(x, y, step, [&](const Real& stored, const Real& w) { samples.push_back({stored, w}); });
+            if (std::ranges::count_if(samples, [&](const Sample& one) { return may_be_either(one.stored); }) >
+                most_open)
+                return bounded(samples, centre);
+            for (const Sample& one : samples)
+                add(sums, one.stored, one.weight, centre);
         } else {
-            for (const auto row : r_.range(site::rows, -reach, reach))
-                for (const auto column : r_.range(site::samples, -reach, reach)) {
-                    const int dx = static_cast<int>(column), dy = static_cast<int>(row);
-                    add(sums, sample(x + dx, y + dy), weight(dx) * r_.note(site::row_weight, weight(dy)), centre);
-                }
+            for_each_sample(x, y, step, [&](const Real& stored, const Real& w) { add(sums, stored, w, centre); });
         }
         return r_.note(site::mean, r_.divide(site::mean, sums.weighted, sums.weights));
     }
@@ -41,6 +41,48 @@ template <class R> class WeightedMean {
     struct Sums {
         Real weighted, weights;
     };
+    struct Sample {
+        Real stored, weight;
+    };
+    static constexpr std::ptrdiff_t most_open = 3; ///< samples of which each may or may not be empty, tried every way
+
+    template <class Visit>
+    void for_each_sample(const Index& x, int y, const FilterStep& step, const Visit& visit) const {
+        const int reach = host_.settings().filter_radius;
+        if (step.shape == FilterStep::Shape::along) {
+            const auto direction = r_.uniform(site::blur_direction, step.direction);
+            for (const auto j : r_.range(site::samples, -reach, reach)) {
+                const int at = static_cast<int>(j), dx = static_cast<int>(direction.x) * at,
+                          dy = static_cast<int>(direction.y) * at;
+                visit(sample(x + dx, y + dy), weight(at));
+            }
+        } else {
+            for (const auto row : r_.range(site::rows, -reach, reach))
+                for (const auto column : r_.range(site::samples, -reach, reach)) {
+                    const int dx = static_cast<int>(column), dy = static_cast<int>(row);
+                    visit(sample(x + dx, y + dy), weight(dx) * r_.note(site::row_weight, weight(dy)));
+                }
+        }
+    }
+    [[nodiscard]] bool may_be_either(const Real& stored) const {
+        const Interval set = item_twin::set_of(stored);
+        return set.any || (!set.is_point() && set.contains(map_.code().empty()));
+    }
+    /// Of samples of which many may or may not be empty: what no choice among them leaves.
+    [[nodiscard]] Real bounded(const std::vector<Sample>& samples, const Real& centre) const {
+        std::vector<WeightedTerm> terms;
+        for (const Sample& one : samples) {
+            const bool open = may_be_either(one.stored);
+            if (!open && map_.is_empty(site::empty, one.stored))
+                continue;
+            const Term term = term_of(one.stored, one.weight, centre);
+            terms.push_back({item_twin::set_of(term.s), item_twin::set_of(term.share), open});
+        }
+        const Interval set = mean_of_some(terms);
+        return r_.note(site::mean,
+                       r_.unspecified(site::mean, centre, set.any ? -HUGE_VALF : static_cast<float>(set.low),
+                                      set.any ? HUGE_VALF : static_cast<float>(set.high)));
+    }
 
     [[nodiscard]] Real sample(const Index& x, int y) const { return map_.at(site::sample, x, y); }
     [[nodiscard]] Real weight(int j) const {
@@ -54,17 +96,23 @@ template <class R> class WeightedMean {
         const auto empty = map_.has_nothing(site::empty, stored);
         if (skips && everywhere(empty))
             return;
-        const Real s = is_metric() ? map_.code().decoded(stored) : stored;
-        Real part = s * w, share = w;
-        if (host_.switches().filter == Filter::bilateral) {
-            const Real q = r_.note(site::range_step, (s - centre) * r_.uniform(site::range_scale, host_.range_scale()));
-            const Real v = r_.note(site::range_weight, exponential_of(r_, host_, r_.note(site::exponent, -(q * q))));
-            part = part * v;
-            share = w * v;
-        }
+        const Term term = term_of(stored, w, centre);
         const auto left_out = skips && empty;
-        sums.weighted = r_.note(site::weighted_sum, choose(left_out, sums.weighted, sums.weighted + part));
-        sums.weights = r_.note(site::sum_of_weights, choose(left_out, sums.weights, sums.weights + share));
+        sums.weighted = r_.note(site::weighted_sum, choose(left_out, sums.weighted, sums.weighted + term.part));
+        sums.weights = r_.note(site::sum_of_weights, choose(left_out, sums.weights, sums.weights + term.share));
+    }
+
+    struct Term {
+        Real s, part, share;
+    };
+    [[nodiscard]] Term term_of(const Real& stored, const Real& w, const Real& centre) const {
+        const Real s = is_metric() ? map_.code().decoded(stored) : stored;
+        if (host_.switches().filter != Filter::bilateral)
+            return {s, s * w, w};
+        const Real part = s * w,
+                   q = r_.note(site::range_step, (s - centre) * r_.uniform(site::range_scale, host_.range_scale()));
+        const Real v = r_.note(site::range_weight, exponential_of(r_, host_, r_.note(site::exponent, -(q * q))));
+        return {s, part * v, w * v};
     }
 
     R& r_;

@@ -145,6 +145,48 @@ template <class R> class SamplingTwin {
         return sum;
     }
 
+    static constexpr auto fused = [](float a, float b, float f) { return std::fma(f, b - a, a); };
+    static constexpr auto lerped = [](float a, float b, float f) { return a + f * (b - a); };
+    static constexpr auto weighted = [](float a, float b, float f) { return a * (1.0F - f) + b * f; };
+
+    /// Texels x, y, z of a cell at x + 2 y + 4 z.
+    struct Cell {
+        std::array<std::size_t, 8> index;
+        std::array<bool, 8> is_black;
+    };
+    [[nodiscard]] static std::array<int, 3> base_of(const std::array<float, 3>& t) {
+        const auto at = [](float along) {
+            return std::isnan(along) ? 0 : static_cast<int>(std::floor(std::clamp(along, -0x1p30F, 0x1p30F)));
+        };
+        return {at(t[0]), at(t[1]), at(t[2])};
+    }
+    [[nodiscard]] Cell cell_at(const std::array<int, 3>& base) const {
+        const glm::ivec3 size = host_.grid().size;
+        Cell cell{};
+        for (std::size_t k = 0; k < cell.index.size(); ++k) {
+            const glm::ivec3 at(base[0] + static_cast<int>(k & 1U), base[1] + static_cast<int>(k >> 1U & 1U),
+                                base[2] + static_cast<int>(k >> 2U));
+            const bool inside = at.x >= 0 && at.y >= 0 && at.z >= 0 && at.x < size.x && at.y < size.y && at.z < size.z;
+            cell.is_black[k] = !inside && host_.switches().outside == Outside::black;
+            cell.index[k] = clamped_cell(host_.grid(), at).index(host_.grid());
+        }
+        return cell;
+    }
+    [[nodiscard]] float raw(const Cell& cell, std::size_t k, std::size_t c) const {
+        if (cell.is_black[k])
+            return 0.0F;
+        return c < 4 ? state_.real(field::voxel_colour, cell.index[k], static_cast<int>(c))
+                     : state_.real(field::voxel_direction, cell.index[k], static_cast<int>(c) - 4);
+    }
+    template <class Mix>
+    [[nodiscard]] float joined(const Cell& cell, const std::array<float, 3>& f, std::size_t c, const Mix& mixed) const {
+        const auto along_x = [&](std::size_t first) {
+            return mixed(raw(cell, first, c), raw(cell, first + 1, c), f[0]);
+        };
+        const auto along_y = [&](std::size_t first) { return mixed(along_x(first), along_x(first + 2), f[1]); };
+        return mixed(along_y(0), along_y(4), f[2]);
+    }
+
     /// The texture unit's own, as far as the driver is followed: fma(f, b - a, a) along x, y, z with f of full
     /// precision, and what lies between this and the other forms of such weights; or aligned_filter.hpp. Else what GL
     /// allows.
@@ -157,18 +199,23 @@ template <class R> class SamplingTwin {
             std::all_of(place.begin(), place.end(), [](const Interval& along) { return along.is_point(); });
         const bool is_aligned = host_.driver() == Driver::aligned_filter;
         const AlignedPlaces aligned = is_aligned ? aligned_places(place) : AlignedPlaces{};
+        const Cell cell = is_aligned ? Cell{} : cell_at(base_of(t));
+        const auto fraction = [&](std::size_t axis) { return t[axis] - std::floor(t[axis]); };
+        const std::array<float, 3> f{fraction(0), fraction(1), fraction(2)};
         Sample<R> found{};
         for (std::size_t c = 0; c < found.size(); ++c) {
-            const float value = is_aligned ? aligned_sum_at(place, c) : joined(t, c, fused);
-            const auto [low, high] = !aligned.empty()                     ? aligned_sums(aligned, c)
-                                     : is_point && host_.follows_driver() ? forms(t, c)
-                                                                          : eight_bits(place, c);
-            found[c] = r_.note(site::filtered, r_.unspecified(site::filtered, Real(value), low, high));
+            const float value = is_aligned ? aligned_sum_at(place, c) : joined(cell, f, c, fused);
+            std::pair<float, float> legal{value, value};
+            if constexpr (requires { found[c].legal(); })
+                legal = !aligned.empty()                     ? aligned_sums(aligned, c)
+                        : is_point && host_.follows_driver() ? forms(cell, f, c)
+                                                             : eight_bits(place, c);
+            found[c] = r_.note(site::filtered, r_.unspecified(site::filtered, Real(value), legal.first, legal.second));
         }
         return found;
     }
-    [[nodiscard]] std::pair<float, float> forms(const std::array<float, 3>& t, std::size_t c) const {
-        return std::minmax({joined(t, c, fused), joined(t, c, lerped), joined(t, c, weighted)});
+    [[nodiscard]] std::pair<float, float> forms(const Cell& cell, const std::array<float, 3>& f, std::size_t c) const {
+        return std::minmax({joined(cell, f, c, fused), joined(cell, f, c, lerped), joined(cell, f, c, weighted)});
     }
 
     /// A cell of texels, and what its texels weigh.
@@ -216,9 +263,10 @@ template <class R> class SamplingTwin {
             host_.switches().volume_format == Format::rgba16f ? half_filter_bits : float_filter_bits;
         float low = HUGE_VALF, high = -HUGE_VALF;
         for (const AlignedPlace& at : places) {
+            const Cell texels = cell_at(at.base);
             FilterCell cell{};
             for (std::size_t k = 0; k < cell.size(); ++k)
-                cell[k] = corner(at.base, k, c);
+                cell[k] = raw(texels, k, c);
             if (!std::all_of(cell.begin(), cell.end(), [](float texel) { return std::isfinite(texel); }))
                 return {-HUGE_VALF, HUGE_VALF}; // what weighs nothing may make it no number (D3D 11.3, 7.18.16.2)
             const auto [least, most] = aligned_sum(cell, at.weights, bits);
@@ -271,34 +319,6 @@ template <class R> class SamplingTwin {
         return {static_cast<float>(std::max(low - halvings, seen.least) - error),
                 static_cast<float>(std::min(high + halvings, seen.greatest) + error)};
     }
-    static float fused(float a, float b, float f) { return std::fma(f, b - a, a); }
-    static float lerped(float a, float b, float f) { return a + f * (b - a); }
-    static float weighted(float a, float b, float f) { return a * (1.0F - f) + b * f; }
-    [[nodiscard]] float raw(int x, int y, int z, std::size_t c) const {
-        const glm::ivec3 size = host_.grid().size;
-        const bool inside = x >= 0 && y >= 0 && z >= 0 && x < size.x && y < size.y && z < size.z;
-        if (!inside && host_.switches().outside == Outside::black)
-            return 0.0F;
-        const std::size_t i = clamped_cell(host_.grid(), {x, y, z}).index(host_.grid());
-        return c < 4 ? state_.real(field::voxel_colour, i, static_cast<int>(c))
-                     : state_.real(field::voxel_direction, i, static_cast<int>(c) - 4);
-    }
-    template <class Mix>
-    [[nodiscard]] float joined(const std::array<float, 3>& t, std::size_t c, const Mix& mixed) const {
-        const std::array<int, 3> b{static_cast<int>(std::floor(t[0])), static_cast<int>(std::floor(t[1])),
-                                   static_cast<int>(std::floor(t[2]))};
-        const auto f = [&](std::size_t axis) { return t[axis] - static_cast<float>(b[axis]); };
-        const auto along_x = [&](int dy, int dz) {
-            return mixed(raw(b[0], b[1] + dy, b[2] + dz, c), raw(b[0] + 1, b[1] + dy, b[2] + dz, c), f(0));
-        };
-        const auto along_y = [&](int dz) { return mixed(along_x(0, dz), along_x(1, dz), f(1)); };
-        return mixed(along_y(0), along_y(1), f(2));
-    }
-    /// Of a cell.
-    [[nodiscard]] float corner(const std::array<int, 3>& base, std::size_t k, std::size_t c) const {
-        return raw(base[0] + static_cast<int>(k & 1U), base[1] + static_cast<int>(k >> 1U & 1U),
-                   base[2] + static_cast<int>(k >> 2U), c);
-    }
     struct Texels {
         double least = HUGE_VAL, greatest = -HUGE_VAL;
         bool are_finite = true;
@@ -307,6 +327,7 @@ template <class R> class SamplingTwin {
         std::array<int, 3> b{};
         for (std::size_t axis = 0; axis < 3; ++axis)
             b[axis] = static_cast<int>(std::floor(t[axis]));
+        const Cell cell = cell_at(b);
         double sum = 0.0;
         for (std::size_t k = 0; k < 8; ++k) {
             double weight = 1.0;
@@ -314,7 +335,7 @@ template <class R> class SamplingTwin {
                 const double f = t[axis] - b[axis];
                 weight *= (k >> axis & 1U) != 0 ? f : 1.0 - f;
             }
-            const auto value = double{corner(b, k, c)};
+            const auto value = double{raw(cell, k, c)};
             seen.are_finite = seen.are_finite && std::isfinite(value);
             seen.least = std::min(seen.least, value);
             seen.greatest = std::max(seen.greatest, value);

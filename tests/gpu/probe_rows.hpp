@@ -96,6 +96,7 @@ inline constexpr ExpectedRow llvmpipe_rows[] = {
     {"image: sRGB store, accuracy", "one of the two next codes"},
     {"image: gl_PointCoord", "none known"},
     {"image: gl_PointCoord, accuracy", "to 1/256 pixel, from above"},
+    {"image: gl_PointCoord, cut size", "none known"},
     {"image: float atomics", "offered"},
     {"transform feedback order", "as drawn"},
     {"points: edge in x", "lower pixel"},

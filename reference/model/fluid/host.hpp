@@ -20,14 +20,19 @@ struct FilterStep {
     bool of_spheres = false;    ///< reads the depth of the spheres; else what the step before left
 };
 
+/// How twins take gl_PointCoord to be made (point_coord.hpp).
+enum class PointCoord : std::uint8_t { accurate, cut, open };
+
 /// What the host hands the passes: made in double, rounded once. Immutable.
 class Host {
   public:
     /// Throws Error as check() does.
-    explicit Host(Settings settings);
+    explicit Host(Settings settings, PointCoord point_coord = PointCoord::accurate);
 
     [[nodiscard]] const Settings& settings() const { return settings_; }
     [[nodiscard]] const Switches& switches() const { return settings_.switches; }
+
+    [[nodiscard]] PointCoord point_coord() const { return point_coord_; }
 
     [[nodiscard]] const glm::mat4& view() const { return view_; }
     [[nodiscard]] const glm::mat4& projection() const { return projection_; }
@@ -64,6 +69,7 @@ class Host {
 
   private:
     Settings settings_;
+    PointCoord point_coord_;
     glm::mat4 view_{1.0F}, projection_{1.0F}, view_projection_{1.0F}, inverse_view_{1.0F};
     glm::vec2 slope_{1.0F}, flow_scale_{1.0F};
     float depth_scale_ = 1.0F, point_scale_ = 1.0F, thickness_radius_ = 0.0F, thickness_gain_ = 0.0F,

@@ -121,9 +121,9 @@ class Reader {
         made_.storage_blocks.emplace(block, std::move(binding));
     }
 
-    MemberBinding read_member(const std::string& path, const std::string& name, const json& value) const {
-        check_word(path, name.substr(name.rfind('.') + 1));
-        MemberBinding binding{path};
+    /// A MemberBinding or a UniformBinding.
+    template <class Binding> Binding read_values(const std::string& path, const json& value) const {
+        Binding binding{path};
         binding.is_list = value.is_array();
         for (const json& one : value.is_array() ? value : json::array({value}))
             if (one.is_string())
@@ -137,29 +137,22 @@ class Reader {
         return binding;
     }
 
+    MemberBinding read_member(const std::string& path, const std::string& name, const json& value) const {
+        check_word(path, name.substr(name.rfind('.') + 1));
+        return read_values<MemberBinding>(path, value);
+    }
+
     void read_uniforms(const std::string& path, const std::string& block, const json& value) {
         for (const auto& [theirs, given] : value.items()) {
-            UniformBinding binding{path + "/" + theirs, {}};
             const std::string last = theirs.substr(theirs.rfind('.') + 1);
-            check_word(binding.path, last.substr(0, last.find('[')));
-            binding.by_component = given.is_array();
-            for (const json& one : given.is_array() ? given : json::array({given})) {
-                if (one.is_string())
-                    binding.names.push_back(one.get<std::string>());
-                else if (one.is_number() && std::isfinite(one.get<double>()))
-                    binding.numbers.push_back(one.get<double>());
-                else
-                    fail(binding.path, "is neither a name nor a number, nor a list of one of these");
-            }
+            check_word(path + "/" + theirs, last.substr(0, last.find('[')));
+            auto binding = read_values<UniformBinding>(path + "/" + theirs, given);
             constexpr std::string_view function = "transpose(";
-            if (binding.names.size() == 1 && binding.names.front().starts_with(function) &&
-                binding.names.front().ends_with(")")) {
-                std::string& name = binding.names.front();
-                name = name.substr(function.size(), name.size() - function.size() - 1);
+            if (auto* name = std::get_if<std::string>(&binding.values.front());
+                name != nullptr && name->starts_with(function) && name->ends_with(")")) {
+                *name = name->substr(function.size(), name->size() - function.size() - 1);
                 binding.transposed = true;
             }
-            if (binding.names.empty() == binding.numbers.empty())
-                fail(binding.path, "must be names or numbers, one at least");
             made_.uniforms.emplace(block + theirs, std::move(binding));
         }
     }

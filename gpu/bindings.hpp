@@ -9,13 +9,12 @@
 
 namespace lockstep {
 
-/// What a uniform of a shader from elsewhere gets: one of ours, several as its components, or numbers of its own.
+/// What a uniform of a shader from elsewhere gets: one of ours, a number of its own, or one of these a component.
 struct UniformBinding {
-    std::string path;                 ///< in the file: "/uniforms/resolution"
-    std::vector<std::string> names;   ///< ours; empty: numbers
-    std::vector<double> numbers = {}; ///< one a component
-    bool by_component = false;        ///< a list of names: one a component, whatever its type
-    bool transposed = false;          ///< "transpose(u_ProjView)": the name's matrix with rows for columns
+    std::string path;                                           ///< in the file: "/uniforms/resolution"
+    std::vector<std::variant<std::string, double>> values = {}; ///< names of ours, numbers
+    bool is_list = false;
+    bool transposed = false; ///< "transpose(u_ProjView)": the name's matrix with rows for columns
 };
 
 /// What a member of a storage block holds of each item: one value, or a list of them, one after the other.

@@ -27,14 +27,18 @@ void ProgramInterface::add(ProgramVariable variable, const std::string& name) {
 }
 
 void ProgramInterface::add(ProgramVariable variable, const UniformBinding& binding, const std::string& file) {
-    const std::size_t given = std::max(binding.names.size(), binding.numbers.size());
+    const std::size_t given = binding.values.size();
     const auto wanted = static_cast<std::size_t>(output_components(variable.type));
     if (given != wanted || wanted > 4)
         throw Error(fmt::format("{}: {}: {} value{} for a {}", file, binding.path, given, given == 1 ? "" : "s",
                                 type_name(variable.type)));
-    for (std::size_t c = 0; c < binding.names.size(); ++c)
-        given_.emplace(binding.names[c], Given{variables_.size(), static_cast<int>(c)});
-    variable.declared.is_initialised = variable.declared.is_initialised || !binding.numbers.empty();
+    bool names_any = false;
+    for (std::size_t c = 0; c < given; ++c)
+        if (const auto* name = std::get_if<std::string>(&binding.values[c])) {
+            given_.emplace(*name, Given{variables_.size(), static_cast<int>(c)});
+            names_any = true;
+        }
+    variable.declared.is_initialised = variable.declared.is_initialised || !names_any;
     variables_.push_back(std::move(variable));
 }
 
@@ -119,6 +123,17 @@ std::vector<ProgramVariable> elements(const ProgramVariable& variable, GLint siz
     return all;
 }
 
+/// What is given for the array or structure that a variable is of: for "lights" of "Frame.lights[0].colour[1]", which
+/// is "Frame.lights" in a block. Null: nothing.
+const UniformBinding* binding_of_whole(const ProgramVariable& variable, const Bindings& bindings) {
+    const std::size_t first = variable.block >= 0 ? variable.name.find('.') + 1 : 0;
+    for (std::size_t end = variable.name.find_first_of("[.", first); end != std::string::npos;
+         end = variable.name.find_first_of("[.", end + 1))
+        if (const auto found = bindings.uniforms.find(variable.name.substr(0, end)); found != bindings.uniforms.end())
+            return &found->second;
+    return nullptr;
+}
+
 /// Types that values here have, and numbers of a shader's own can.
 bool has_value(GLenum type) {
     const int components = output_components(type);
@@ -150,10 +165,8 @@ UniformValues::UniformValues(GLuint program, std::span<const ShaderSource> stage
         add_uniforms(program, stages, bindings);
     }
     gl::UseProgram(program);
-    for (const auto& [variable, numbers] : constants_)
-        for (std::size_t c = 0; c < numbers.size(); ++c)
-            set_component({variable, static_cast<int>(c)}, GL_FLOAT,
-                          std::bit_cast<std::uint32_t>(static_cast<float>(numbers[c])));
+    for (const auto& [component, number] : constants_)
+        set_component(component, GL_FLOAT, std::bit_cast<std::uint32_t>(static_cast<float>(number)));
     gl::UseProgram(0);
 }
 
@@ -248,26 +261,46 @@ void UniformValues::add(ProgramVariable variable, const Bindings* bindings) {
     if (found == bindings->uniforms.end() && variable.block >= 0) // a member of a structure by its own name
         found = bindings->uniforms.find(
             fmt::format("{}.{}", variable.name.substr(0, variable.name.find('.')), last_name(variable.name)));
-    if (found == bindings->uniforms.end())
+    if (found == bindings->uniforms.end()) {
+        if (const UniformBinding* const whole = binding_of_whole(variable, *bindings))
+            fill(variable, *whole, bindings->file);
         return interface_.add(std::move(variable));
+    }
     const UniformBinding& binding = found->second;
     for (std::size_t before = 0; variable.block >= 0 && before < interface_.size(); ++before)
         if (interface_[before].block == variable.block && variable.name != found->first &&
             last_name(interface_[before].name) == last_name(variable.name))
             throw Error(fmt::format("{}: {}: {} and {} both have this name; right is the whole of it for each",
                                     bindings->file, binding.path, interface_[before].name, variable.name));
-    if (!has_value(variable.type) && (!binding.numbers.empty() || binding.by_component))
+    const auto* const name = std::get_if<std::string>(&binding.values.front());
+    const bool by_component = binding.is_list || name == nullptr;
+    if (!has_value(variable.type) && by_component)
         throw Error(fmt::format("{}: {}: {} is {}; right here are numbers and vectors of float, int and uint, and mat4",
                                 bindings->file, binding.path, variable.name, type_name(variable.type)));
     if (binding.transposed && variable.type != GL_FLOAT_MAT4)
         throw Error(fmt::format("{}: {}: {} is {}; transpose() is of a mat4", bindings->file, binding.path,
                                 variable.name, type_name(variable.type)));
     variable.transposed = binding.transposed;
-    if (binding.numbers.empty() && !binding.by_component)
-        return interface_.add(std::move(variable), binding.names.front());
-    if (!binding.numbers.empty())
-        constants_[interface_.size()] = binding.numbers;
+    if (!by_component)
+        return interface_.add(std::move(variable), *name);
+    for (std::size_t c = 0; c < binding.values.size(); ++c)
+        if (const auto* number = std::get_if<double>(&binding.values[c]))
+            constants_.push_back({{interface_.size(), static_cast<int>(c)}, *number});
     interface_.add(std::move(variable), binding, bindings->file);
+}
+
+void UniformValues::fill(ProgramVariable& variable, const UniformBinding& binding, const std::string& file) {
+    const auto* const number = std::get_if<double>(&binding.values.front());
+    if (number == nullptr || binding.is_list)
+        throw Error(fmt::format("{}: {}: {} is an element or a member of it; right for all of them is one number", file,
+                                binding.path, variable.name));
+    const int components = output_components(variable.type);
+    if (*number != 0.0 && (!has_value(variable.type) || components > 4))
+        throw Error(fmt::format("{}: {}: {} is {}; the number for it is 0", file, binding.path, variable.name,
+                                type_name(variable.type)));
+    for (int c = 0; *number != 0.0 && c < components; ++c)
+        constants_.push_back({{interface_.size(), c}, *number});
+    variable.declared.is_initialised = true;
 }
 
 void UniformValues::set(std::string_view name, GLenum type, std::span<const std::uint32_t> words) const {

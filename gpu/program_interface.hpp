@@ -5,6 +5,7 @@
 #include <span>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include "gpu/bindings.hpp"
@@ -31,7 +32,7 @@ class ProgramInterface {
   public:
     explicit ProgramInterface(std::string_view kind) : kind_(kind) {}
 
-    /// A variable that goes by its own name; by another name; or whose components have a name each.
+    /// A variable that goes by its own name; by another name; or whose components have a name or a number each.
     void add(ProgramVariable variable);
     void add(ProgramVariable variable, const std::string& name);
     void add(ProgramVariable variable, const UniformBinding& binding, const std::string& file);
@@ -72,6 +73,8 @@ class UniformValues {
 
   private:
     void add(ProgramVariable variable, const Bindings* bindings);
+    /// One number for each component of each element and member of an array or a structure.
+    void fill(ProgramVariable& variable, const UniformBinding& binding, const std::string& file);
     void write(std::size_t variable, std::span<const std::uint32_t> words) const;
     void set_component(const ProgramInterface::Given& given, GLenum type, std::uint32_t word) const;
 
@@ -85,7 +88,7 @@ class UniformValues {
     std::vector<GlBuffer> blocks_;
     std::vector<GLuint> points_; ///< where each is bound
     mutable std::map<std::size_t, std::array<std::uint32_t, 4>> by_component_;
-    std::map<std::size_t, std::vector<double>> constants_;
+    std::vector<std::pair<ProgramInterface::Given, double>> constants_;
 };
 
 } // namespace lockstep

@@ -100,7 +100,7 @@ def main():
             f"Least squares in proportion. {asked.scene}, ms a step by the GL timer, median of {asked.frames} frames twice, the "
             f"least of {asked.repeats} runs:", "", *cells_table(cells), "", *fits_table(here),
             "", "## NVIDIA H200", "", f"The whole step in `{KEPT.relative_to(ROOT)}`, radii 1 and 4 alone:", "", *fits_table(kept),
-            "", "## The thesis's table 4-1", "", "One radius, which it does not tell, so that b and c are one number:", "",
+            "", "## The thesis's table 4-1", "", "One radius, which it does not say, so that b and c are one number:", "",
             *thesis_table()]
     (asked.out / "cost_law.md").write_text("\n".join(page) + "\n")
     rows = [{"radius": r, "particles": n, "what": what, "ms": ms} for (r, n, what), ms in cells.items() if what in here]

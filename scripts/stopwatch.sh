@@ -52,5 +52,5 @@ echo "|---|---|"
 row "the first verdict" $((${first% *} * 60 + ${first#* }))
 row "the whole of scripts/demo.sh" "$whole"
 echo "| from there to | |"
-row "a bug in a shader of one's own, told by name" "$own_shader"
-row "a system of one's own, and a bug in it told by name" "$own_system"
+row "a bug in a shader of one's own, by name" "$own_shader"
+row "a system of one's own, and a bug in it by name" "$own_system"

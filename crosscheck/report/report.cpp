@@ -45,8 +45,8 @@ std::string items_text(const CheckReport& r, const std::vector<std::uint64_t>& c
         if (has_many(r) && counts[k] == 0)
             continue;
         const bool is_image = resource.dimensions > 1;
-        text += fmt::format("{}{} {}{}s{}{}", text.empty() ? "" : " and ", grouped(counts[k]), resource.item,
-                            is_image ? "" : state, has_many(r) && is_image ? " of " : "",
+        text += fmt::format("{}{} {}{}{}{}{}", text.empty() ? "" : " and ", grouped(counts[k]), resource.item,
+                            is_image ? "" : state, counts[k] == 1 ? "" : "s", has_many(r) && is_image ? " of " : "",
                             has_many(r) && is_image ? resource.title : "");
     }
     return text;

@@ -57,15 +57,20 @@ bool is_told(const CauseFindings& found) {
            (found.best.front().has_name || (found.divergent >= enough_items && found.best.size() <= few_changes));
 }
 
+/// "all 12 particles are explained by".
+std::string all_explained_text(const CauseFindings& found, std::string_view what) {
+    return found.divergent == 1 ? fmt::format("the one that diverges of the {} is explained by", what)
+                                : fmt::format("all {} {} are explained by", grouped(found.divergent), what);
+}
+
 std::string cause_text(const CauseFindings& found, std::string_view what) {
     if (!is_told(found))
         return fmt::format("no mistake with a name explains what diverges in the {}", what);
     const Cause& best = found.best.front();
     if (!best.has_name)
-        return fmt::format("no mistake with a name; all {} {} are explained by a change at one site of the twin, {}{}",
-                           grouped(found.divergent), what, best.name(), equals_text(found));
-    std::string text =
-        fmt::format("all {} {} are explained by {}: {}", grouped(found.divergent), what, best.name(), best.meaning);
+        return fmt::format("no mistake with a name; {} a change at one site of the twin, {}{}",
+                           all_explained_text(found, what), best.name(), equals_text(found));
+    std::string text = fmt::format("{} {}: {}", all_explained_text(found, what), best.name(), best.meaning);
     if (best.name() != "never_collides")
         return text + equals_text(found);
     return found.best.size() == 1

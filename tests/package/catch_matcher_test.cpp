@@ -66,7 +66,7 @@ TEST_CASE(
     INFO(failed.out);
     CHECK(failed.status == 1);
     CHECK_THAT(failed.out, Contains("  an engine of its own is to match the reference\n"
-                                    "  verdict   DIVERGENT from frame 3 on: 1 particle states") &&
+                                    "  verdict   DIVERGENT from frame 3 on: 1 particle state") &&
                                Contains("  first     frame 3 particle 7, divergent"));
     CHECK(failed.out.find("  first  ") < failed.out.find("  repeat  "));
     CHECK(failed.out.find("  repeat  ") < failed.out.find("  scene     x_streams ("));

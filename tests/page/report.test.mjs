@@ -243,6 +243,8 @@ test("both themes: the system's, and the other at a press of the button", async 
         seen[colorScheme] = await ground(page);
         for (const width of process.env.LOCKSTEP_SCREENSHOTS ? [1280, 420] : []) {
           await page.setViewportSize({ width, height: 900 });
+          await page.waitForFunction(() => document.documentElement.scrollWidth <= innerWidth);
+          await page.evaluate(() => new Promise((drawn) => requestAnimationFrame(() => requestAnimationFrame(drawn))));
           await page.screenshot({ path: join(process.env.LOCKSTEP_SCREENSHOTS, `report_${colorScheme}_${width}.png`), fullPage: true });
         }
         await page.locator("#theme").click();

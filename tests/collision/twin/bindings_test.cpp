@@ -188,6 +188,42 @@ TEST_CASE("bindings: a number of its own is what a uniform holds") {
     CHECK(test::check_twins(test::crowded_scene(), 4, shaders.path()).verdict == Verdict::divergent);
 }
 
+TEST_CASE("bindings: a list has names and numbers; one number fills an array or a structure") {
+    const auto context = test::open_llvmpipe();
+    if (!context)
+        return;
+    std::string text = test::content(base);
+    text = replaced(text, "#version 400 core\n",
+                    "#version 400 core\nstruct Light { vec4 colour[2]; mat3 turn; float share; };\n"
+                    "layout(std140) uniform Frame { Light lights[3]; mat4 bones[4]; float halves[2]; };\n"
+                    "uniform vec3 step_of[2], resolution;\nuniform Light sun;\n");
+    text = replaced(text, "* u_SpeedFactor",
+                    "* u_SpeedFactor * (resolution.z + lights[1].share + bones[3][2].y + "
+                    "sun.colour[1].w) * halves[1] * 2.0 * step_of[1].y");
+    const test::TemporaryFolder shaders;
+    shaders.write("collision_pass.vert", text);
+    shaders.write("collision_pass.geom", "");
+    const auto verdict = [&](const std::string& uniforms, const std::string& members) {
+        shaders.write("bindings.json",
+                      "{ \"uniforms\": { " + uniforms + " }, \"uniform_blocks\": { \"Frame\": { " + members + " } } }");
+        return test::check_twins(test::crowded_scene(), 4, shaders.path()).verdict;
+    };
+    const std::string uniforms = R"("resolution": ["u_ClientWidth", "u_ClientHeight", 1], "step_of": 1, "sun": 0)";
+    const std::string members = R"("lights": 0, "bones": 0, "halves": 0.5)";
+    CHECK(verdict(uniforms, members) == Verdict::agree);
+    CHECK(verdict(replaced(uniforms, ", 1]", ", 0.5]"), members) == Verdict::divergent);
+    CHECK(verdict(uniforms, replaced(members, "0.5", "0.25")) == Verdict::divergent);
+    CHECK(verdict(uniforms, R"("lights[1].share": 1, )" + members) == Verdict::divergent);
+    CHECK_THROWS_WITH(verdict(uniforms, replaced(members, "\"bones\": 0", "\"bones\": 1")),
+                      Contains("/uniform_blocks/Frame/bones: Frame.bones[") &&
+                          Contains("is mat4; the number for it is 0"));
+    CHECK_THROWS_WITH(verdict(uniforms, replaced(members, "\"lights\": 0", "\"lights\": \"u_Tick\"")),
+                      Contains("/uniform_blocks/Frame/lights: Frame.lights[") &&
+                          Contains("right for all of them is one number"));
+    CHECK_THROWS_WITH(verdict(replaced(uniforms, "u_ClientHeight", "u_ClientHeigth"), members),
+                      Contains("nothing is given for uniform resolution (bound to u_ClientHeigth)"));
+}
+
 TEST_CASE("bindings: what does not fit is told with the file, the place in it and what would be right") {
     const auto context = test::open_llvmpipe();
     if (!context)
@@ -213,7 +249,8 @@ TEST_CASE("bindings: what does not fit is told with the file, the place in it an
                Contains("y of uniform size must be one number, but u_Gravity is vec3"));
     CHECK_THAT(with(plain, "\"dt\": \"u_Tick\"", "\"dt\": true"),
                Contains("/uniforms/dt: is neither a name nor a number"));
-    CHECK_THAT(with(plain, "\"dt\": \"u_Tick\"", "\"dt\": []"), Contains("/uniforms/dt: must be names or numbers"));
+    CHECK_THAT(with(plain, "\"dt\": \"u_Tick\"", "\"dt\": []"),
+               Contains("/uniforms/dt: is an empty list; right are names and numbers"));
     CHECK_THAT(with(plain, "\"speed\": \"out_Speed\"", "\"speed\": \"out_Sped\""),
                Contains("output out_Speed is not written by the last vertex-processing stage"));
     CHECK_THAT(with(plain, "\"inRest\": \"a_CollideTime\"", "\"inRest\": \"a_Speed\""),

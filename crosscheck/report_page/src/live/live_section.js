@@ -32,7 +32,7 @@ function verdict(check) {
     : [
         "warn",
         `Other bits: ${where} Plain arithmetic and rasterisation are the driver's own, so this alone is no mistake. ` +
-          "Preset exact tells whether it keeps to GL, and saved states can be judged like any run.",
+          "Preset exact says whether it keeps to GL, and saved states can be judged like any run.",
       ];
 }
 
@@ -173,7 +173,7 @@ class LiveView {
       const url = URL.createObjectURL(file);
       h("a", { href: url, download: `${this.scene.scene}_${this.runs.value}.states.gz` }).click();
       setTimeout(() => URL.revokeObjectURL(url), 60000);
-      this.reset(["", "The states are saved; docs/live_view.md tells how to judge them."]);
+      this.reset(["", "The states are saved; docs/live_view.md says how to judge them."]);
     } catch (error) {
       this.fail(error);
     }

@@ -1,6 +1,5 @@
 #include "reference/dust/blow_wind_twin.hpp"
 #include "reference/dust/passes.hpp"
-#include "reference/dust/tools_fast.hpp"
 #include "reference/model/dust/frame_order.hpp"
 #include "reference/system/item_twin.hpp"
 
@@ -12,12 +11,7 @@ std::unique_ptr<ItemPass> blow_wind_pass(const HostPtr& host) {
                       .stage = PassStage::compute,
                       .arithmetic = host->settings().arithmetic,
                       .runs = [host](int frame) { return runs(*host, {"blow_wind"}, frame); },
-                      .in_place = true,
-                      .fast =
-                          [host](const PassInput& in, const Profile&, std::size_t first, std::size_t last,
-                                 const WritableView& after, std::vector<std::size_t>& left) {
-                              reach_fast(*host, cone_of(host->at(in.frame)), in, first, last, after, left);
-                          }},
+                      .in_place = true},
                      BlowWindTwin{host});
 }
 

@@ -3,6 +3,10 @@
 #include "reference/dust/handed.hpp"
 #include "reference/model/dust/host.hpp"
 
+namespace lockstep {
+struct FastRun;
+}
+
 namespace lockstep::dust {
 
 /// A cone of wind. Twin of shaders/dust/blow_wind.comp.
@@ -15,7 +19,9 @@ struct BlowWindTwin {
         return {host, dust::handed(*host, values, made)};
     }
 
-    template <class R> Grain<R> operator()(R& r, const PassInput& in, std::size_t item) const {
+    [[nodiscard]] bool fast(const FastRun& run) const;
+
+    template <class R, class Item> Grain<R> operator()(R& r, const PassInput& in, const Item& item) const {
         Grain<R> grain = grain_before(r, in, item);
         if (!is_alive(r, grain))
             return grain;

@@ -1,6 +1,5 @@
 #include "reference/dust/explode_twin.hpp"
 #include "reference/dust/passes.hpp"
-#include "reference/dust/tools_fast.hpp"
 #include "reference/model/dust/frame_order.hpp"
 #include "reference/system/item_twin.hpp"
 
@@ -15,12 +14,7 @@ std::unique_ptr<ItemPass> explode_pass(const HostPtr& host, std::size_t ball) {
                           [host, ball](int frame) {
                               return runs(*host, {"explode", ball}, frame);
                           },
-                      .in_place = true,
-                      .fast =
-                          [host, ball](const PassInput& in, const Profile&, std::size_t first, std::size_t last,
-                                       const WritableView& after, std::vector<std::size_t>& left) {
-                              reach_fast(*host, blast_reach(*host, in.frame, ball), in, first, last, after, left);
-                          }},
+                      .in_place = true},
                      ExplodeTwin{host, ball});
 }
 

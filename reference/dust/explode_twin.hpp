@@ -3,6 +3,10 @@
 #include "reference/dust/handed.hpp"
 #include "reference/model/dust/host.hpp"
 
+namespace lockstep {
+struct FastRun;
+}
+
 namespace lockstep::dust {
 
 /// A ball of the cannon blows grains away from where it hit. Twin of shaders/dust/explode.comp.
@@ -20,7 +24,9 @@ struct ExplodeTwin {
                 handed_explosion(explosion ? &*explosion : nullptr, values, made)};
     }
 
-    template <class R> Grain<R> operator()(R& r, const PassInput& in, std::size_t item) const {
+    [[nodiscard]] bool fast(const FastRun& run) const;
+
+    template <class R, class Item> Grain<R> operator()(R& r, const PassInput& in, const Item& item) const {
         Grain<R> grain = grain_before(r, in, item);
         if (!explosion || !is_alive(r, grain))
             return grain;

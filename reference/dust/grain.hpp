@@ -11,22 +11,35 @@
 
 namespace lockstep::dust {
 
+template <class R> struct AliveOf { using Type = typename R::Int; };
+template <class R>
+requires requires { typename R::Index; }
+struct AliveOf<R> {
+    using Type = typename R::Index;
+};
+
 template <class R> struct Grain {
     typename R::Vec3 position;
-    typename R::Int alive{};
+    typename AliveOf<R>::Type alive{};
     typename R::Vec3 velocity, colour;
     auto fields() const { return std::tie(position, alive, velocity, colour); }
 };
 
-/// A grain as a kernel finds it.
-template <class R> Grain<R> grain_before(R& r, const PassInput& in, std::size_t item) {
-    if constexpr (requires { r.foretell(&in); })
-        r.foretell(&in);
-    r.uniform(site::index, static_cast<int>(item));
-    return {r.read(site::before, in.before.vec3(field::position, item)),
-            r.uniform(site::alive_before, in.before.integer(field::alive, item)),
-            r.read(site::speed, in.before.vec3(field::velocity, item)),
-            r.read(site::colour_before, in.before.vec3(field::colour, item))};
+/// A grain as a kernel finds it, or one of each lane.
+template <class R, class Item> Grain<R> grain_before(R& r, const PassInput& in, const Item& item) {
+    if constexpr (requires { typename R::Index; }) {
+        return {item_vec3(r, site::before, in.before, field::position, item), item_int(in.before, field::alive, item),
+                item_vec3(r, site::speed, in.before, field::velocity, item),
+                item_vec3(r, site::colour_before, in.before, field::colour, item)};
+    } else {
+        if constexpr (requires { r.foretell(&in); })
+            r.foretell(&in);
+        r.uniform(site::index, static_cast<int>(item));
+        return {r.read(site::before, in.before.vec3(field::position, item)),
+                r.uniform(site::alive_before, in.before.integer(field::alive, item)),
+                r.read(site::speed, in.before.vec3(field::velocity, item)),
+                r.read(site::colour_before, in.before.vec3(field::colour, item))};
+    }
 }
 
 template <class R> bool is_alive(R& r, const Grain<R>& grain) { return r.decide(site::is_alive, grain.alive == 1); }

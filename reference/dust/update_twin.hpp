@@ -3,6 +3,10 @@
 #include "reference/dust/cone.hpp"
 #include "reference/dust/handed.hpp"
 
+namespace lockstep {
+struct FastRun;
+}
+
 namespace lockstep::dust {
 
 /// A frame of flight: gravity, drag, colliders. Twin of shaders/dust/update.comp.
@@ -18,7 +22,9 @@ struct UpdateTwin {
                 handed_colliders(*host, made)};
     }
 
-    template <class R> Grain<R> operator()(R& r, const PassInput& in, std::size_t item) const {
+    [[nodiscard]] bool fast(const FastRun& run) const;
+
+    template <class R, class Item> Grain<R> operator()(R& r, const PassInput& in, const Item& item) const {
         using Vec3 = typename R::Vec3;
         const Settings& settings = host->settings();
         const Switches& switches = host->switches();

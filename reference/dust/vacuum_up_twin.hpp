@@ -2,6 +2,10 @@
 #include "reference/dust/cone.hpp"
 #include "reference/dust/handed.hpp"
 
+namespace lockstep {
+struct FastRun;
+}
+
 namespace lockstep::dust {
 
 /// Pulls what is in the cone to the mouth, where it dies. Twin of shaders/dust/vacuum_up.comp.
@@ -14,7 +18,9 @@ struct VacuumUpTwin {
         return {host, dust::handed(*host, values, made)};
     }
 
-    template <class R> Grain<R> operator()(R& r, const PassInput& in, std::size_t item) const {
+    [[nodiscard]] bool fast(const FastRun& run) const;
+
+    template <class R, class Item> Grain<R> operator()(R& r, const PassInput& in, const Item& item) const {
         Grain<R> grain = grain_before(r, in, item);
         if (!is_alive(r, grain))
             return grain;

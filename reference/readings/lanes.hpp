@@ -206,6 +206,7 @@ struct LaneInt : HeldLanes<IntLanes> {
     friend LaneInt operator+(const LaneInt& a, const LaneInt& b) { return {a.v + b.v}; }
     friend LaneInt operator-(const LaneInt& a, const LaneInt& b) { return {a.v - b.v}; }
     friend LaneInt operator*(const LaneInt& a, const LaneInt& b) { return {a.v * b.v}; }
+    friend LaneMask operator==(const LaneInt& a, const LaneInt& b) { return {a.v == b.v}; }
     [[nodiscard]] LaneInt clamped(int low, int high) const {
         const IntLanes least = v < low ? lanes::all(low) : v;
         return {least > high ? lanes::all(high) : least};

@@ -4,6 +4,8 @@
 #include <cstddef>
 #include <cstdint>
 #include <cstring>
+#include <span>
+#include <type_traits>
 #include <utility>
 #include <vector>
 
@@ -68,10 +70,13 @@ Vec3<LaneReal<F>> item_vec3(Lanes<F>& r, At at, const SystemView& state, FieldId
     return {item_real(r, at, state, field, items, 0), item_real(r, at, state, field, items, 1),
             item_real(r, at, state, field, items, 2)};
 }
+inline LaneInt item_int(const SystemView& state, FieldId field, const LaneItems& items, int component = 0) {
+    return lanes::bits(lane_floats(state, field, items, component));
+}
 /// Of words below 2^31.
 template <class F>
 LaneReal<F> whole_real(Lanes<F>& r, const SystemView& state, FieldId field, const LaneItems& items, int component = 0) {
-    return r.real(LaneInt(lanes::bits(lane_floats(state, field, items, component))));
+    return r.real(item_int(state, field, items, component));
 }
 
 inline LaneInt clamped(const LaneInt& i, int low, int high) { return i.clamped(low, high); }
@@ -82,7 +87,7 @@ inline LaneItems item_of(const LaneInt& x, const LaneInt& y, int width) { return
 /// The words of an item of each lane.
 template <class F> class ItemWords<Lanes<F>> {
   public:
-    static constexpr std::size_t most = 8;
+    static constexpr std::size_t most = 12;
 
     void add(const LaneReal<F>& number) { words_[size_++] = lanes::bits(number.v); }
     void add(const LaneInt& number) { words_[size_++] = number.v; }
@@ -120,6 +125,37 @@ template <class F> LaneReal<F> built_in_power(Lanes<F>& /*r*/, At at, const Lane
     return lanes::each(x.v, [&](float v) { return built_in_power<Values<Strict>, float>(one, at, v, n); });
 }
 
+/// What a twin gave, as words.
+template <class F> const ItemWords<Lanes<F>>& lane_words(const ItemWords<Lanes<F>>& words) { return words; }
+template <class F, class State> ItemWords<Lanes<F>> lane_words(const State& state) {
+    ItemWords<Lanes<F>> words;
+    item_twin::for_each_number(state, [&](const auto& x) { words.add(x); });
+    return words;
+}
+
+/// Makes as many items as there are lanes, or less: in turns, of those that go one way at every decision.
+template <class F, class Twin> void make_batch(const Twin& twin, F arithmetic, const FastRun& run,
+                                               std::span<const item_twin::WordColumn> columns, const LaneItems& items) {
+    unsigned waiting = (1U << items.count) - 1;
+    while (waiting != 0) {
+        Lanes<F> reading(arithmetic, waiting);
+        const ItemWords<Lanes<F>> words = lane_words<F>(twin(reading, run.in, items));
+        if (reading.active() == 0)
+            break;
+        for (std::size_t w = 0; w < words.size(); ++w)
+            for (int lane = 0; lane < static_cast<int>(items.count); ++lane)
+                if ((reading.active() >> lane & 1U) != 0) {
+                    const std::uint32_t word = words.word(w, lane);
+                    std::memcpy(columns[w].first + static_cast<std::size_t>(items.v[lane]) * columns[w].stride, &word,
+                                sizeof word);
+                }
+        waiting &= ~reading.active();
+    }
+    for (int lane = 0; lane < static_cast<int>(items.count); ++lane)
+        if ((waiting >> lane & 1U) != 0)
+            run.left.push_back(static_cast<std::size_t>(items.v[lane]));
+}
+
 /// Makes items of an image by lanes, those of a tile's row side by side. To be compiled into a function that is
 /// compiled for vectors (vector_loops.hpp).
 template <class F, class Twin> void make_lanes(const Twin& twin, F arithmetic, const FastRun& run) {
@@ -130,29 +166,23 @@ template <class F, class Twin> void make_lanes(const Twin& twin, F arithmetic, c
     while (first < last) {
         const std::size_t x = first % row, tile = x % lane_count;
         const std::size_t count = std::min({lane_count - tile, row - x, last - first});
-        const auto items = static_cast<std::int32_t>(first);
-        unsigned waiting = (1U << count) - 1;
-        while (waiting != 0) {
-            Lanes<F> reading(arithmetic, waiting);
-            const IntLanes behind = from(items);
-            const auto most = static_cast<std::int32_t>(first + count - 1);
-            const ItemWords<Lanes<F>> words =
-                twin(reading, run.in, LaneItems{behind > most ? lanes::all(most) : behind, count});
-            if (reading.active() == 0)
-                break;
-            for (std::size_t w = 0; w < words.size(); ++w)
-                for (int lane = 0; lane < static_cast<int>(count); ++lane)
-                    if ((reading.active() >> lane & 1U) != 0) {
-                        const std::uint32_t word = words.word(w, lane);
-                        std::memcpy(columns[w].first + (first + static_cast<std::size_t>(lane)) * columns[w].stride,
-                                    &word, sizeof word);
-                    }
-            waiting &= ~reading.active();
-        }
-        for (std::size_t lane = 0; lane < count; ++lane)
-            if ((waiting >> lane & 1U) != 0)
-                run.left.push_back(first + lane);
+        const IntLanes behind = from(static_cast<std::int32_t>(first));
+        const auto most = static_cast<std::int32_t>(first + count - 1);
+        make_batch(twin, arithmetic, run, columns, LaneItems{behind > most ? lanes::all(most) : behind, count});
         first += count;
+    }
+}
+
+/// The same of items wherever they are.
+template <class F, class Twin>
+void make_items(const Twin& twin, F arithmetic, const FastRun& run, std::span<const std::size_t> items) {
+    const std::vector<item_twin::WordColumn> columns = item_twin::word_columns(run.after);
+    for (std::size_t first = 0; first < items.size(); first += lane_count) {
+        LaneItems batch;
+        batch.count = std::min<std::size_t>(lane_count, items.size() - first);
+        for (std::size_t lane = 0; lane < lane_count; ++lane)
+            batch.v[static_cast<int>(lane)] = static_cast<std::int32_t>(items[first + std::min(lane, batch.count - 1)]);
+        make_batch(twin, arithmetic, run, columns, batch);
     }
 }
 
@@ -167,6 +197,17 @@ template <class Twin, class Make> bool fast_by_lanes(const Twin& twin, const Fas
         return false;
     return true;
 }
+
+/// `make(twin, arithmetic, run, items)` of a twin, compiled for vectors.
+#define LOCKSTEP_MAKE_ITEMS(Twin)                                                                                      \
+    LOCKSTEP_VECTOR_CLONES void make(const Twin& twin, const PlainLanes& fp, const FastRun& run,                       \
+                                     std::span<const std::size_t> items) {                                             \
+        make_items(twin, fp, run, items);                                                                              \
+    }                                                                                                                  \
+    LOCKSTEP_VECTOR_CLONES void make(const Twin& twin, const PortableLanes& fp, const FastRun& run,                    \
+                                     std::span<const std::size_t> items) {                                             \
+        make_items(twin, fp, run, items);                                                                              \
+    }
 
 /// `make(twin, arithmetic, run)` of a twin, compiled for vectors.
 #define LOCKSTEP_MAKE_LANES(Twin)                                                                                      \

@@ -387,6 +387,24 @@ TEST_CASE(
     CHECK(shades[0] != shades[1]);
 }
 
+TEST_CASE(
+    "dust box_detect: rounded, a box answers who is a radius from its nearest point; boxed, corners answer, too") {
+    // At an edge of the box at +-1 with r 0.1: 0.09 beyond both faces is 0.127 from the edge, 0.07 beyond 0.099.
+    for (const float beyond : {1.07F, 1.09F})
+        for (const dust::BoxDetect detect : {dust::BoxDetect::rounded, dust::BoxDetect::boxed}) {
+            dust::Settings s = alone();
+            s.elasticity = 0.5F;
+            s.switches.radius_of_scale = 1.0F;
+            s.switches.box_kind = dust::BoxKind::aabb;
+            s.switches.box_detect = detect;
+            s.colliders = {{.sphere = false, .scale = glm::vec3(2.0F)}};
+            const glm::vec3 speed(0.0F, -6.0F, 0.0F);
+            const Grains grains = after(s, {beyond, beyond + 6.0F * s.tick, 0.0F}, speed, {"update"}, 1);
+            const bool answers = detect == dust::BoxDetect::boxed || beyond < 1.08F;
+            CHECK((grains.velocity() != speed) == answers);
+        }
+}
+
 TEST_CASE("dust remedies and readings: the shaders agree with the twins in each") {
     if (!gl())
         return skip(gl().missing());

@@ -131,6 +131,25 @@ TEST_CASE("dust scenes: what is wrong with a file is said in one line, with its 
         {R"("controller": [{"frame": 5}, {"frame": 5}])", "keyframe 1 is of frame 5; right is after 5"},
         {R"("controller": [{"forward": [0, 0, 1]}, {"frame": 9, "forward": [0, 0, -2]}])",
          "keyframes 0 and 1 face opposite ways; right is one between them"},
+        {R"("count": 2.5)", "/dust/count: 2.5 is not an integer from 1 to 4194240"},
+        {R"("tools": [{"from": 0, "to": 5}])", R"(/dust/tools/0: the key "tool" is missing)"},
+        {R"("tools": [{"tool": "wind", "from": -5}])", "/dust/tools/0/from: -5 is not an integer from 0"},
+        {R"("tools": [{"tool": "emit", "distance": -2}])", "distance -2; right is 0 to 1.8e19"},
+        {R"("controller": [{"forward": [0, 1]}])", "/dust/controller/0/forward: [0,1] is not a vector of three"},
+        {R"("controller": [{"frame": -3}])", "/dust/controller/0/frame: -3 is not an integer from 0"},
+        {R"("controller": [{"frame": 5}, {"frame": 2}])", "keyframe 1 is of frame 2; right is after 5"},
+        {R"("controller": [{"up": [0, 1, 0]}])", R"(/dust/controller/0: unknown key "up"; the keys here are frame)"},
+        {R"("colliders": [{"shape": "capsule"}])", R"(/dust/colliders/0/shape: "capsule" is not one of sphere, box)"},
+        {R"("colliders": [{"radius": 3}])", R"(/dust/colliders/0: the key "shape" is missing)"},
+        {R"("colliders": [{"shape": "sphere", "scale": [1, 1, 1]}])",
+         R"(unknown key "scale"; the keys here are shape)"},
+        {R"("colliders": [{"shape": "box", "removed": 2}])", "/dust/colliders/0/removed: 2 is not an integer"},
+        {R"("colliders": {})", "/dust/colliders: {} is not an array"},
+        {R"("cannon": [{"frame": -2}])", "/dust/cannon/0/frame: -2 is not an integer from 0"},
+        {R"("cannon": [{"mass": 3}])", R"(/dust/cannon/0: unknown key "mass"; the keys here are frame, position)"},
+        {R"("colours": [[0, 0, 0]])", "/dust/colours: 1 element; right is two colours"},
+        {R"("spawn": {"min": [0, 0, 0]})", R"(/dust/spawn: the key "max" is missing)"},
+        {R"("world": {"min": [0, 0, 0], "max": [1, 1e39, 1]})", "/dust/world/max/1: 1e+39 is not a finite number"},
     };
     for (const auto& [inside, words] : wrong) {
         const std::string error = error_of(of_dust(inside));
@@ -149,6 +168,8 @@ TEST_CASE("dust scenes: what is wrong with a file is said in one line, with its 
     CHECK_THAT(error_of(R"({"system": "dust", "switches": {"suction": "hard"}, "dust": {}})"),
                Catch::Contains("/switches/suction"));
     CHECK_THAT(error_of(R"({"system": "dusk", "dust": {}})"), Catch::Contains("/system"));
+    CHECK_THAT(error_of(R"({"system": "dust", "switches": {"box_detect": "rounded"}, "dust": {}})"),
+               Catch::Contains("box_detect rounded goes with box_kind aabb; right for obb is boxed"));
     CHECK_THROWS_WITH(dust::load_scene(folder + "obb.json", {.set = {"one_hit=maybe"}}),
                       "one_hit: 'maybe' is not one of off, on");
     CHECK_THROWS_WITH(dust::load_scene(folder + "obb.json", {.set = {"two_hits=on"}}),

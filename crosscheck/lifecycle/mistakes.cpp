@@ -64,6 +64,14 @@ void premultiplied(std::span<float> tint, const CameBy& /*run*/) {
         tint[c] *= tint[3];
 }
 
+/// Of whole ticks.
+void last_tick_lost(std::span<float> left, const CameBy& /*run*/) {
+    if (left[0] == 1.0F)
+        left[0] = 0.0F;
+}
+
+const Mistake end_red_for_blue = mistake_at(site::end_color, Change::xz_swapped);
+const Mistake end_green_for_blue = mistake_at(site::end_color, Change::yz_swapped);
 const Mistake first_opacity_again = mistake_at(site::end_opacity, Change::instead, -1, &site::initial_opacity);
 
 std::vector<NamedMistake> made() {
@@ -88,6 +96,8 @@ std::vector<NamedMistake> made() {
     in(simulating, "never_ages", "no particle ages", mistake_at(site::aged, zero));
     in(simulating, "ages_twice", "a tick counts twice", mistake_at(site::aged, doubled));
     in(simulating, "grows_younger", "time is added", mistake_at(site::aged, negated));
+    in(simulating, "last_tick_lost", "a particle with one tick left has none",
+       spoiled_at(site::remaining, last_tick_lost));
     in(simulating, "drag_missing", "nothing brakes", mistake_at(site::drag_factor, zero));
     in(simulating, "drag_factor_missing", "nothing brakes", mistake_at(site::braked, instead, -1, &site::faster));
     in(simulating, "drag_reversed", "drag pushes particles on", mistake_at(site::drag, negated));
@@ -168,6 +178,12 @@ std::vector<NamedMistake> made() {
     in({"emit"}, "colors_swapped", "red and blue are swapped", mistake_at(site::initial_color, xz_swapped));
     in({"emit"}, "end_colors_swapped", "red and blue of the last colour are swapped",
        mistake_at(site::end_color, xz_swapped));
+    Mistake channels = mistake_at(site::initial_color, xz_swapped);
+    channels.also = &end_red_for_blue;
+    in({"emit"}, "red_for_blue", "red and blue of both colours are swapped", channels);
+    channels = mistake_at(site::initial_color, yz_swapped);
+    channels.also = &end_green_for_blue;
+    in({"emit"}, "green_for_blue", "green and blue of both colours are swapped", channels);
     in({"emit"}, "jitter_missing", "all start in one direction", mistake_at(site::jitter, zero));
     in({"emit"}, "speed_not_varied", "all start at one speed", mistake_at(site::speed_jitter, zero));
     in({"emit"}, "serial_one_more", "newborns have the random numbers of the next", mistake_at(site::serial, one_more));

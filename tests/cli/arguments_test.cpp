@@ -192,10 +192,13 @@ TEST_CASE("arguments: a setting that cannot be is told with what can") {
         {{"check", scene, "--set", "texel_collide_range=-1"},
          "--set: texel_collide_range: -1 is not an integer from 0 to 64"},
         {{"check", scene, "--set", "tick"}, "--set tick: a setting is name=value"},
+        {{"check", scene, "--set", "=floor"}, "--set =floor: a setting is name=value"},
     });
     CHECK_THAT(refusal(run_lockstep({"check", scene, "--set", "base_texle=floor"})),
-               Catch::StartsWith("--set base_texle=floor: nothing is named base_texle; the switches are ") &&
+               Catch::StartsWith("--set base_texle=floor: nothing is named 'base_texle'; the switches are ") &&
                    Catch::Contains(", base_texel, ") && Catch::Contains("; the constants are tick, "));
+    CHECK_THAT(refusal(run_lockstep({"check", scene, "--set", "base_texel =floor"})),
+               Catch::Contains("nothing is named 'base_texel '; ") && Catch::EndsWith("; did you mean base_texel?"));
 }
 
 TEST_CASE("arguments: the command that repeats a run names a file that begins with a dash so that it is none") {

@@ -309,7 +309,7 @@ TEST_CASE("scene_file: an option that is wrong is told with what is allowed") {
     CHECK(error_of_option(options) == expected);
     options.set = {"warp=9"};
     CHECK_THAT(error_of_option(options),
-               Catch::StartsWith("--set warp=9: nothing is named warp; the switches are perspective_divide, ") &&
+               Catch::StartsWith("--set warp=9: nothing is named 'warp'; the switches are perspective_divide, ") &&
                    Catch::EndsWith("; the constants are tick, gravity, collision_range, collision_time, "
                                    "texel_collide_range, billboard_radius, octree_size, surface_thickness"));
 }

@@ -123,6 +123,8 @@ json parse_json(std::string_view text, const std::string& name) {
     Syntax syntax(text);
     if (!json::sax_parse(text, &syntax))
         throw Error(fmt::format("{}:{}", name, syntax.problem));
+    if (const std::size_t null = text.find('\0'); null != std::string_view::npos) // where the parser stops without a word
+        throw Error(fmt::format("{}: a NUL byte behind its end, byte {}; right is the value alone", name, null + 1));
     return json::parse(text);
 }
 

@@ -81,6 +81,8 @@ TEST_CASE("arguments: an unknown option, or a missing one, is named") {
          "FILE is missing: what `lockstep record` wrote, or an engine of your own (docs/traces.md)" +
              help_of("report")},
         {{"explain", "--frame", "3"}, "explain: one of --particle I, --texel X,Y and --pixel X,Y is needed"},
+        {{"explain", scene, "--frame", "3", "--particle", "1", "--texel", "2,2"},
+         "explain: --particle, --texel and --pixel do not go together; right is one of them"},
         {{"explain", "--frame", "3", "--particle", "1"}, "explain: a scene or --trace FILE is needed"},
         {{"render", scene}, "--output FILE is missing: PNG file to write" + help_of("render")},
         {{"check", scene, "--frames"}, "--frames needs a value" + help_of("check")},

@@ -75,6 +75,8 @@ TEST_CASE("arguments: an unknown option, or a missing one, is named") {
     check_all({
         {{"check", scene, "--particle", "3"},
          "unknown option '--particle'; did you mean --particles?" + help_of("check")},
+        {{"--frames", "3", "check", scene},
+         "option '--frames' stands before the verb; right is lockstep check --frames ..." + help_of("check")},
         {{"check"}, "check: a scene or --trace FILE is needed"},
         {{"debug"}, "debug: a scene or --trace FILE is needed"},
         {{"report"},

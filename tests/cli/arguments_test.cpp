@@ -87,6 +87,8 @@ TEST_CASE("arguments: an unknown option, or a missing one, is named") {
          "explain: --particle, --texel and --pixel do not go together; right is one of them"},
         {{"explain", "--frame", "3", "--particle", "1"}, "explain: a scene or --trace FILE is needed"},
         {{"render", scene}, "--output FILE is missing: PNG file to write" + help_of("render")},
+        {{"render", scene, "-o", "x.JPG"},
+         "--output x.JPG: a picture is written as PNG; right is a name that ends in .png"},
         {{"check", scene, "--frames"}, "--frames needs a value" + help_of("check")},
         {{"check", scene, "--frames", "2", "--frames", "3"}, "--frames is given more than once" + help_of("check")},
         {{"check", scene, scene}, "'" + scene + "' is one argument too many" + help_of("check")},

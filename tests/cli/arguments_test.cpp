@@ -147,6 +147,8 @@ TEST_CASE("arguments: an option that the side or the verb would ignore is refuse
         {{"render", scene, "-o", "x.png", "--shaders", "."}, "render: --shaders goes with --side gpu"},
         {{"render", scene, "-o", "x.png", "--side", "gpu", "--profile", "bogus"},
          "render: --profile goes with --side cpu"},
+        {{"check", scene, "--render", "--no-render"},
+         "check: --render does not go with --no-render; right is one of them"},
         {{"bench", scene, "--particles", "3", "--counts", "5"},
          "bench: --particles N and --counts N mean the same; right is one of them"},
     });

@@ -13,6 +13,7 @@
 
 #include "crosscheck/files/plain_text.hpp"
 #include "reference/model/error.hpp"
+#include "reference/model/near_name.hpp"
 
 namespace lockstep {
 namespace {
@@ -142,7 +143,8 @@ void JsonValue::fail_not(std::string_view allowed) const { fail(fmt::format("{} 
 void JsonValue::check_keys(std::span<const std::string_view> allowed) const {
     for (const std::string& key : keys())
         if (std::find(allowed.begin(), allowed.end(), key) == allowed.end())
-            fail(fmt::format("unknown key {}; the keys here are {}", shown(key), fmt::join(allowed, ", ")));
+            fail(fmt::format("unknown key {}; the keys here are {}{}", shown(key), fmt::join(allowed, ", "),
+                             did_you_mean(key, {allowed.begin(), allowed.end()})));
 }
 
 std::vector<std::string> JsonValue::keys() const {

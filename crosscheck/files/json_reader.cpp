@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cerrno>
+#include <cmath>
 #include <cstring>
 #include <fstream>
 #include <set>
@@ -187,6 +188,8 @@ float JsonValue::number(const NumberRule& rule) const {
     const double number = value_->get<double>();
     if (number > 0.0 && number < rule.min && rule.min == number::positive.min)
         fail_not("a normal float, which is 1.2e-38 or more");
+    if (std::abs(number) > number::finite.max && rule.max == number::finite.max && (number > 0 || rule.min < 0))
+        fail(fmt::format("{} is larger than a float holds, 3.4e38", shown(*value_)));
     if (!(number >= rule.min && number <= rule.max))
         fail_not(rule.text);
     return static_cast<float>(number);

@@ -70,6 +70,8 @@ class Reader {
                 fail("", fmt::format("the name {} stands twice in one object", value.get<std::string>()));
             return true;
         };
+        if (text.find('\0') != std::string::npos) // where the parser stops without a word
+            fail("", "has a NUL byte, which no JSON has");
         try {
             return json::parse(text, check_twice);
         } catch (const json::parse_error& error) {

@@ -221,6 +221,9 @@ void Program::use() const { gl::UseProgram(id_); }
 
 void Program::check_interface() const {
     std::vector<std::string> unknown = uniforms_->unknown();
+    if (!unknown.empty())
+        unknown.back() += fmt::format("; {} beside the shader binds a uniform to a name or a number (docs/own_shader.md)",
+                                      bindings_file);
     std::ranges::move(attributes_.unknown(), std::back_inserter(unknown));
     if (!unknown.empty())
         throw Error(fmt::format("shader {}", fmt::join(unknown, "; ")));

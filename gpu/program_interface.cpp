@@ -73,12 +73,20 @@ std::string ProgramInterface::meant_by(std::string_view name, GLenum type) const
 std::vector<std::string> ProgramInterface::unknown() const {
     std::vector<std::string> found;
     std::set<std::string> arrays; // of which an element was found
+    std::set<std::size_t> whole;  // variables bound by component to a vector's components
     for (const auto& [name, given] : given_) {
         const ProgramVariable& variable = variables_[given.variable];
         if (asked_for_.contains(name) || variable.declared.is_initialised || variable.name.starts_with("gl_"))
             continue;
         if (variable.name.ends_with(']') && !arrays.insert(variable.name.substr(0, variable.name.rfind('['))).second)
             continue;
+        const std::size_t dot = name.rfind('.');
+        if (given.component >= 0 && dot != std::string::npos && asked_for_.contains(name.substr(0, dot))) {
+            if (whole.insert(given.variable).second)
+                found.push_back(fmt::format("{}: {} {} is bound to {}, a component; right is {} as a whole",
+                                            variable.declared.place, kind_, variable.name, name, name.substr(0, dot)));
+            continue;
+        }
         const std::string bound = name == variable.name ? "" : fmt::format(" (bound to {})", name);
         found.push_back(fmt::format("{}: nothing is given for {} {}{}{}", variable.declared.place, kind_, variable.name,
                                     bound, meant_by(name, variable.type)));

@@ -125,7 +125,9 @@ void check_storage(GLuint program, std::span<const ShaderSource> stages, std::sp
                                     "whether it is used (4.3 or GL_ARB_program_interface_query says)",
                                     place, name));
         else if (gl::GetProgramResourceIndex(program, GL_SHADER_STORAGE_BLOCK, name.c_str()) != GL_INVALID_INDEX)
-            throw Error(fmt::format("shader {}: nothing is given for storage buffer {}", place, name));
+            throw Error(fmt::format("shader {}: nothing is given for storage buffer {}; storage buffers are bound in "
+ "compute shaders alone (docs/own_shader.md)",
+ place, name));
 }
 
 void check_geometry_inputs(std::span<const ShaderSource> stages) {

@@ -458,6 +458,8 @@ Verb check_command() {
         "130 ended by Ctrl-C, with a verdict on the frames before.\n"
         "Example: lockstep check data/scenes/lattice.json --frames 100 --preset paper";
     verb.run = [options](const Call& call) {
+        if (options->render && options->no_render)
+            throw Error("check: --render does not go with --no-render; right is one of them");
         options->run.frames = options->frames.end;
         if (options->stress) {
             check_stress_options(call, *options);

@@ -107,7 +107,11 @@ int run(const ExplainRequest& options, const Call& call) {
         throw Error(fmt::format("explain: --item and --pass do not go with a scene of system {}; --particle, --texel "
                                 "and --pixel do",
                                 default_system));
-    if (int{options.particle.has_value()} + int{options.texel.has_value()} + int{options.pixel.has_value()} != 1)
+    const int given =
+        int{options.particle.has_value()} + int{options.texel.has_value()} + int{options.pixel.has_value()};
+    if (given > 1)
+        throw Error("explain: --particle, --texel and --pixel do not go together; right is one of them");
+    if (given == 0)
         throw Error("explain: one of --particle I, --texel X,Y and --pixel X,Y is needed");
     check_scene_or_trace(call, options.run, options.trace);
     if (options.trace.empty())

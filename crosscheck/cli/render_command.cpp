@@ -1,4 +1,8 @@
+#include <algorithm>
+#include <array>
+#include <cctype>
 #include <memory>
+#include <string>
 #include <string_view>
 
 #include <fmt/format.h>
@@ -66,7 +70,19 @@ Rendered render_gpu(const Scene& scene, const RenderRequest& options) {
     return {render_on_gpu(particles, scene, frame_params(scene, options.frame), options.run.shaders), particles};
 }
 
+/// Of names without a suffix nothing is expected.
+void check_suffix(const std::filesystem::path& output) {
+    std::string suffix = output.extension().string();
+    std::ranges::transform(suffix, suffix.begin(), [](unsigned char c) { return std::tolower(c); });
+    constexpr std::array<std::string_view, 13> others{".jpg", ".jpeg", ".bmp", ".gif",  ".tga", ".tif", ".tiff",
+                                                      ".ppm", ".webp", ".exr", ".avif", ".svg", ".hdr"};
+    if (std::ranges::find(others, suffix) != others.end())
+        throw Error(fmt::format("--output {}: a picture is written as PNG; right is a name that ends in .png",
+                                output.string()));
+}
+
 int run(const RenderRequest& options) {
+    check_suffix(options.output);
     check_scene_exists(options.run.scene);
     const RegisteredSystem* system = system_of(options.run);
     if (system != nullptr && options.octree)

@@ -79,6 +79,8 @@ std::string option_error(const Called& call, const std::string& unknown) {
     for (const Option& option : all_options(call.verb))
         for (const std::string& name : names(option))
             all.push_back(name);
+    if (std::find(all.begin(), all.end(), unknown.substr(0, unknown.find('='))) != all.end())
+        return fmt::format("option '{}' stands before the verb; right is {} {} ...", unknown, call.words, unknown);
     return fmt::format("unknown option '{}'{}", unknown, did_you_mean(unknown.substr(0, unknown.find('=')), all));
 }
 

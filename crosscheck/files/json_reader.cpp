@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cerrno>
+#include <cmath>
 #include <cstring>
 #include <fstream>
 #include <set>
@@ -13,6 +14,7 @@
 
 #include "crosscheck/files/plain_text.hpp"
 #include "reference/model/error.hpp"
+#include "reference/model/near_name.hpp"
 
 namespace lockstep {
 namespace {
@@ -123,6 +125,8 @@ json parse_json(std::string_view text, const std::string& name) {
     Syntax syntax(text);
     if (!json::sax_parse(text, &syntax))
         throw Error(fmt::format("{}:{}", name, syntax.problem));
+    if (const std::size_t null = text.find('\0'); null != std::string_view::npos) // where the parser stops without a word
+        throw Error(fmt::format("{}: a NUL byte behind its end, byte {}; right is the value alone", name, null + 1));
     return json::parse(text);
 }
 
@@ -140,7 +144,8 @@ void JsonValue::fail_not(std::string_view allowed) const { fail(fmt::format("{} 
 void JsonValue::check_keys(std::span<const std::string_view> allowed) const {
     for (const std::string& key : keys())
         if (std::find(allowed.begin(), allowed.end(), key) == allowed.end())
-            fail(fmt::format("unknown key {}; the keys here are {}", shown(key), fmt::join(allowed, ", ")));
+            fail(fmt::format("unknown key {}; the keys here are {}{}", shown(key), fmt::join(allowed, ", "),
+                             did_you_mean(key, {allowed.begin(), allowed.end()})));
 }
 
 std::vector<std::string> JsonValue::keys() const {
@@ -183,6 +188,8 @@ float JsonValue::number(const NumberRule& rule) const {
     const double number = value_->get<double>();
     if (number > 0.0 && number < rule.min && rule.min == number::positive.min)
         fail_not("a normal float, which is 1.2e-38 or more");
+    if (std::abs(number) > number::finite.max && rule.max == number::finite.max && (number > 0 || rule.min < 0))
+        fail(fmt::format("{} is larger than a float holds, 3.4e38", shown(*value_)));
     if (!(number >= rule.min && number <= rule.max))
         fail_not(rule.text);
     return static_cast<float>(number);

@@ -73,7 +73,7 @@ void apply_setting(const std::string& setting, Scene& scene) {
         throw Error(fmt::format("--set {}...: {} characters; a setting has at most {}", setting.substr(0, 20),
                                 setting.size(), longest));
     const std::size_t equals = setting.find('=');
-    if (equals == std::string::npos)
+    if (equals == std::string::npos || equals == 0)
         throw Error(fmt::format("--set {}: a setting is name=value", setting));
     const std::string name = setting.substr(0, equals);
     const std::string text = setting.substr(equals + 1);
@@ -91,7 +91,7 @@ void apply_setting(const std::string& setting, Scene& scene) {
     for (const SwitchInfo& info : switch_table())
         switches.push_back(info.name);
     if (std::find(switches.begin(), switches.end(), name) == switches.end())
-        throw Error(fmt::format("--set {}: nothing is named {}; the switches are {}; the constants are {}{}", setting,
+        throw Error(fmt::format("--set {}: nothing is named '{}'; the switches are {}; the constants are {}{}", setting,
                                 name, fmt::join(switches, ", "), fmt::join(constants, ", "), nearest_setting(name)));
     set_switch(scene.switches, name, text);
 }

@@ -1,4 +1,5 @@
 #pragma once
+#include "reference/numbers.hpp"
 #include "reference/readings/site.hpp"
 
 namespace lockstep {
@@ -34,8 +35,5 @@ template <class R, class Condition> bool agreed(R& r, At place, const Condition&
 
 inline bool everywhere(bool decision) { return decision; }
 inline bool nowhere(bool decision) { return !decision; }
-template <class Number> Number choose(bool decision, const Number& yes, const Number& no) {
-    return decision ? yes : no;
-}
 
 } // namespace lockstep

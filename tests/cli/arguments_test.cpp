@@ -75,14 +75,20 @@ TEST_CASE("arguments: an unknown option, or a missing one, is named") {
     check_all({
         {{"check", scene, "--particle", "3"},
          "unknown option '--particle'; did you mean --particles?" + help_of("check")},
+        {{"--frames", "3", "check", scene},
+         "option '--frames' stands before the verb; right is lockstep check --frames ..." + help_of("check")},
         {{"check"}, "check: a scene or --trace FILE is needed"},
         {{"debug"}, "debug: a scene or --trace FILE is needed"},
         {{"report"},
          "FILE is missing: what `lockstep record` wrote, or an engine of your own (docs/traces.md)" +
              help_of("report")},
         {{"explain", "--frame", "3"}, "explain: one of --particle I, --texel X,Y and --pixel X,Y is needed"},
+        {{"explain", scene, "--frame", "3", "--particle", "1", "--texel", "2,2"},
+         "explain: --particle, --texel and --pixel do not go together; right is one of them"},
         {{"explain", "--frame", "3", "--particle", "1"}, "explain: a scene or --trace FILE is needed"},
         {{"render", scene}, "--output FILE is missing: PNG file to write" + help_of("render")},
+        {{"render", scene, "-o", "x.JPG"},
+         "--output x.JPG: a picture is written as PNG; right is a name that ends in .png"},
         {{"check", scene, "--frames"}, "--frames needs a value" + help_of("check")},
         {{"check", scene, "--frames", "2", "--frames", "3"}, "--frames is given more than once" + help_of("check")},
         {{"check", scene, scene}, "'" + scene + "' is one argument too many" + help_of("check")},
@@ -141,6 +147,8 @@ TEST_CASE("arguments: an option that the side or the verb would ignore is refuse
         {{"render", scene, "-o", "x.png", "--shaders", "."}, "render: --shaders goes with --side gpu"},
         {{"render", scene, "-o", "x.png", "--side", "gpu", "--profile", "bogus"},
          "render: --profile goes with --side cpu"},
+        {{"check", scene, "--render", "--no-render"},
+         "check: --render does not go with --no-render; right is one of them"},
         {{"bench", scene, "--particles", "3", "--counts", "5"},
          "bench: --particles N and --counts N mean the same; right is one of them"},
     });
@@ -192,10 +200,13 @@ TEST_CASE("arguments: a setting that cannot be is told with what can") {
         {{"check", scene, "--set", "texel_collide_range=-1"},
          "--set: texel_collide_range: -1 is not an integer from 0 to 64"},
         {{"check", scene, "--set", "tick"}, "--set tick: a setting is name=value"},
+        {{"check", scene, "--set", "=floor"}, "--set =floor: a setting is name=value"},
     });
     CHECK_THAT(refusal(run_lockstep({"check", scene, "--set", "base_texle=floor"})),
-               Catch::StartsWith("--set base_texle=floor: nothing is named base_texle; the switches are ") &&
+               Catch::StartsWith("--set base_texle=floor: nothing is named 'base_texle'; the switches are ") &&
                    Catch::Contains(", base_texel, ") && Catch::Contains("; the constants are tick, "));
+    CHECK_THAT(refusal(run_lockstep({"check", scene, "--set", "base_texel =floor"})),
+               Catch::Contains("nothing is named 'base_texel '; ") && Catch::EndsWith("; did you mean base_texel?"));
 }
 
 TEST_CASE("arguments: the command that repeats a run names a file that begins with a dash so that it is none") {

@@ -183,7 +183,7 @@ std::vector<std::pair<std::string, std::string>> broken_graphs() {
     with({{"id", "k"}, {"type", "constant"}}, "\"value\" is missing");
     with({{"id", "k"}, {"type", "constant"}, {"value", {1}}}, "right is two to four");
     with({{"id", "k"}, {"type", "constant"}, {"value", {1, 2, 3, 4, 5}}}, "right is two to four");
-    with({{"id", "k"}, {"type", "constant"}, {"value", 1e39}}, "is not a finite number");
+    with({{"id", "k"}, {"type", "constant"}, {"value", 1e39}}, "is larger than a float holds, 3.4e38");
     with({{"id", "k"}, {"type", "constant"}, {"value", "v"}}, "is not a finite number");
     with({{"id", "k"}, {"type", "constant"}, {"value", nullptr}},
          "null is not a finite number, an array of two to four or a truth");

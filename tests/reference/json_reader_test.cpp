@@ -39,6 +39,11 @@ TEST_CASE("json reader: a key that stands twice is told, a byte order mark is sk
     CHECK(parse_json("\xef\xbb\xbf[1]", "a") == nlohmann::json{1});
 }
 
+TEST_CASE("json reader: what stands behind the value is told, NUL bytes too") {
+    CHECK_THROWS_WITH(parse_json(std::string_view("{}\n\0\0", 5), "a"),
+                      "a: a NUL byte behind its end, byte 4; right is the value alone");
+}
+
 TEST_CASE("json reader: a choice among numbers may be written as one") {
     const nlohmann::json two = 2, nine = 9;
     CHECK(JsonValue(two, "a").choice({"1", "2"}) == 1);

@@ -43,6 +43,8 @@ TEST_CASE("switches: a wrong name or value is told with what is allowed") {
                       Catch::Contains("unknown switch 'base_texle'") && Catch::Contains("base_texel"));
     CHECK_THROWS_WITH(set_switch(switches, "base_texel", "round"),
                       "switch base_texel: 'round' is not one of truncate, floor");
+    CHECK_THROWS_WITH(set_switch(switches, "speed_factor", "1e50"),
+                      "switch speed_factor: '1e50' is beyond what a float holds, 1.2e-38 to 3.4e38");
     CHECK_THROWS_WITH(set_switch(switches, "speed_factor", "nan"), "switch speed_factor: 'nan' is not a finite number");
     CHECK_THROWS_WITH(set_switch(switches, "speed_factor", "0.5x"),
                       "switch speed_factor: '0.5x' is not a finite number");

@@ -39,6 +39,9 @@ TEST_CASE("seal: what was cut off, made longer or changed by a bit is refused") 
     const std::string bytes = test::bytes_of(sealed.file);
     CHECK_THAT(sealed.refusal_of(bytes.substr(0, 520)), Contains("cut off: 520 of its 531 bytes are here"));
     CHECK_THAT(sealed.refusal_of(bytes + "x"), Contains("damaged: 532 bytes, but 531 were sealed"));
+    std::string digit = bytes;
+    digit[digit.find("3266\n") + 3] = '7'; // the seal's last
+    CHECK_THAT(sealed.refusal_of(digit), Contains("2b889f3266, sealed was 7956") && Contains("2b889f3267"));
     for (const std::size_t place : {std::size_t{512}, std::size_t{520}, bytes.size() - 1}) {
         std::string changed = bytes;
         changed[place] = static_cast<char>(changed[place] ^ 1);

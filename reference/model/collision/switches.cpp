@@ -155,6 +155,8 @@ void set_switch(Switches& switches, std::string_view name, std::string_view valu
     if (info.number != nullptr) {
         float parsed = 0.0F;
         const auto [end, status] = std::from_chars(value.data(), value.data() + value.size(), parsed);
+        if (status == std::errc::result_out_of_range)
+            throw Error(fmt::format("switch {}: '{}' is beyond what a float holds, 1.2e-38 to 3.4e38", name, value));
         if (status != std::errc{} || end != value.data() + value.size() || !std::isfinite(parsed))
             throw Error(fmt::format("switch {}: '{}' is not a finite number", name, value));
         switches.*info.number = parsed;

@@ -247,6 +247,8 @@ TEST_CASE("bindings: what does not fit is told with the file, the place in it an
     CHECK_THAT(with(plain, "\"u_ClientWidth\", ", ""), Contains("/uniforms/size: 1 value for a vec2"));
     CHECK_THAT(with(plain, "\"u_ClientWidth\", \"u_ClientHeight\"", "\"u_ClientWidth\", \"u_Gravity\""),
                Contains("y of uniform size must be one number, but u_Gravity is vec3"));
+    CHECK_THAT(with(plain, "\"u_ClientWidth\", \"u_ClientHeight\"", "\"u_Gravity.x\", \"u_Gravity.y\""),
+               Contains("uniform size is bound to u_Gravity.x, a component; right is u_Gravity as a whole; bindings"));
     CHECK_THAT(with(plain, "\"dt\": \"u_Tick\"", "\"dt\": true"),
                Contains("/uniforms/dt: is neither a name nor a number"));
     CHECK_THAT(with(plain, "\"dt\": \"u_Tick\"", "\"dt\": []"),

@@ -15,6 +15,7 @@
 #include "reference/known_operations.hpp"
 #include "reference/model/profile.hpp"
 #include "reference/model/window_accuracy.hpp"
+#include "reference/pixel_set.hpp"
 #include "reference/triangle_interpolation.hpp"
 #include "reference/triangle_raster.hpp"
 #include "reference/window.hpp"
@@ -68,8 +69,8 @@ class LegalTriangles {
         : clip_(clip), indices_(indices), width_(width), height_(height), rules_(rules), known_(known),
           all_known_(all_known), depth_(depth) {}
 
-    /// Calls visit(cover) in drawing order for the pixels for which wanted(x, y) holds.
-    template <class Wanted, class Visit> void for_each(const Wanted& wanted, const Visit& visit) const {
+    /// Calls visit(cover) in drawing order for the wanted pixels.
+    template <class Visit> void for_each(const PixelSet& wanted, const Visit& visit) const {
         const auto drawn = assemble_triangles(clip_, indices_, width_, height_, rules_, depth_);
         const auto primitives = static_cast<std::uint32_t>(indices_.size() / 3);
         std::vector<bool> judged(primitives, false);
@@ -136,22 +137,19 @@ class LegalTriangles {
     }
 
     /// Calls visit(x, y) for the wanted pixels that a triangle may reach.
-    template <class Wanted, class Visit> void for_each_wanted(const RasterTriangle& triangle, int bits, int beside,
-                                                              const Wanted& wanted, const Visit& visit) const {
+    template <class Visit> void for_each_wanted(const RasterTriangle& triangle, int bits, int beside,
+                                                const PixelSet& wanted, const Visit& visit) const {
         const auto& c = triangle.corners;
         const int x0 = (std::min({c[0].x, c[1].x, c[2].x}) >> bits) - beside;
         const int y0 = (std::min({c[0].y, c[1].y, c[2].y}) >> bits) - beside;
         const int x1 = (std::max({c[0].x, c[1].x, c[2].x}) >> bits) + 1 + beside;
         const int y1 = (std::max({c[0].y, c[1].y, c[2].y}) >> bits) + 1 + beside;
-        for (int y = std::max(y0, 0); y <= std::min(y1, height_ - 1); ++y)
-            for (int x = std::max(x0, 0); x <= std::min(x1, width_ - 1); ++x)
-                if (wanted(x, y))
-                    visit(x, y);
+        wanted.for_each({x0, y0, x1 + 1, y1 + 1}, visit);
     }
 
     /// Whether a wanted pixel lies where a triangle, or what rounding can make of it, is looked for.
-    template <class Wanted>
-    [[nodiscard]] bool may_reach(const RasterTriangle& triangle, const RasterRules& rules, const Wanted& wanted) const {
+    [[nodiscard]] bool may_reach(const RasterTriangle& triangle, const RasterRules& rules,
+                                 const PixelSet& wanted) const {
         bool reached = false;
         for_each_wanted(triangle, rules.subpixel_bits, std::max(1, pixels_beside(rules)), wanted,
                         [&](int, int) { reached = true; });
@@ -170,9 +168,8 @@ class LegalTriangles {
     }
 
     /// `drawn`: the reference's of these; null: it makes a line of them.
-    template <class Wanted, class Visit> void visit_variants(const RasterTriangle* drawn,
-                                                             const std::vector<RasterTriangle>& variants,
-                                                             const Wanted& wanted, const Visit& visit) const {
+    template <class Visit> void visit_variants(const RasterTriangle* drawn, const std::vector<RasterTriangle>& variants,
+                                               const PixelSet& wanted, const Visit& visit) const {
         const RasterTriangle& shape = drawn != nullptr ? *drawn : variants.front();
         for_each_wanted(shape, rules_.subpixel_bits, 1, wanted, [&](int x, int y) {
             const auto covering = std::count_if(variants.begin(), variants.end(),
@@ -184,8 +181,8 @@ class LegalTriangles {
         });
     }
 
-    template <class Wanted, class Visit> void visit_triangle(const RasterTriangle& triangle, const RasterRules& rules,
-                                                             const Wanted& wanted, const Visit& visit) const {
+    template <class Visit> void visit_triangle(const RasterTriangle& triangle, const RasterRules& rules,
+                                               const PixelSet& wanted, const Visit& visit) const {
         const bool exact = all_known_ || known_.triangles();
         const double tolerance = side_tolerance(rules);
         const int bits = rules.subpixel_bits;

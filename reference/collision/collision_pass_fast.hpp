@@ -12,8 +12,8 @@ void update_particles_fast(const Particles& before, const CollisionImage& cdt, c
 void rasterise_particles_fast(const Particles& before, const Particles& after, const FrameParams& params,
                               const Profile& profile, CollisionImage& cdt, DepthImage& depth);
 
-/// The texels that point_fragment() gives, in parallel; no_texel where it draws none.
+/// The texels that point_fragment() gives, one a position, in parallel; no_texel where it draws none.
 void point_texels_fast(std::span<const glm::vec3> positions, const FrameParams& params, const Profile& profile,
-                       std::vector<std::int32_t>& texels);
+                       std::span<std::int32_t> texels);
 
 } // namespace lockstep

@@ -238,8 +238,7 @@ void rasterise_particles_fast(const Particles& before, const Particles& after, c
 }
 
 void point_texels_fast(std::span<const glm::vec3> positions, const FrameParams& params, const Profile& profile,
-                       std::vector<std::int32_t>& texels) {
-    texels.resize(positions.size());
+                       std::span<std::int32_t> texels) {
     const auto count = static_cast<std::ptrdiff_t>(positions.size());
     const auto find = [&]<class B>(const B& fp) {
         const Place<B> place_block = place_for<B>(profile.raster);

@@ -14,6 +14,7 @@
 #include "reference/legal_triangles.hpp"
 #include "reference/model/same_bits.hpp"
 #include "reference/parallel_blocks.hpp"
+#include "reference/pixel_set.hpp"
 #include "reference/subnormal_mode.hpp"
 #include "reference/subnormals.hpp"
 #include "reference/triangle_interpolation.hpp"
@@ -28,21 +29,21 @@ namespace {
 class WantedTexels {
   public:
     WantedTexels(int width, int height, std::span<const std::size_t> texels)
-        : slots_(width, height, -1), near_(width, height, 0) {
-        for (std::size_t i = 0; i < texels.size(); ++i) {
-            slots_.texels[texels[i]] = static_cast<std::int32_t>(i);
-            const int x = static_cast<int>(texels[i]) % width, y = static_cast<int>(texels[i]) / width;
+        : texels_(width, height, texels), near_(width, height, 0) {
+        for (const std::size_t texel : texels) {
+            const int x = static_cast<int>(texel) % width, y = static_cast<int>(texel) / width;
             for (int ny = std::max(y - 1, 0); ny <= std::min(y + 1, height - 1); ++ny)
                 for (int nx = std::max(x - 1, 0); nx <= std::min(x + 1, width - 1); ++nx)
                     near_.at(nx, ny) = 1;
         }
     }
-    [[nodiscard]] int slot(int x, int y) const { return slots_.contains(x, y) ? slots_.at(x, y) : -1; }
+    [[nodiscard]] const PixelSet& texels() const { return texels_; }
+    [[nodiscard]] int slot(int x, int y) const { return texels_.place(x, y); }
     /// Whether this texel or one of the eight around it is asked for.
     [[nodiscard]] bool near(std::int32_t texel) const { return near_.texels[static_cast<std::size_t>(texel)] != 0; }
 
   private:
-    Image<std::int32_t> slots_;
+    PixelSet texels_;
     Image<std::uint8_t> near_;
 };
 
@@ -220,11 +221,10 @@ template <class A> class Candidates {
         const LegalTriangles triangles(clip, obstacles.indices, params_.width, params_.height, profile_.raster, raster,
                                        known().points && !corners_open(), params_.clip_depth);
         Found found;
-        triangles.for_each([&](int x, int y) { return wanted_.slot(x, y) >= 0; },
-                           [&](const LegalCover& cover) {
-                               add_fragment(obstacles, clip, cover.triangle, cover.rules, cover.x, cover.y,
-                                            cover.covered, cover.sure, found);
-                           });
+        triangles.for_each(wanted_.texels(), [&](const LegalCover& cover) {
+            add_fragment(obstacles, clip, cover.triangle, cover.rules, cover.x, cover.y, cover.covered, cover.sure,
+                         found);
+        });
         take_in(found);
     }
 
@@ -422,10 +422,12 @@ std::span<const glm::vec3> DrawnFrame::points() const {
 std::span<const std::int32_t> DrawnFrame::texels_of_points(bool flush) const {
     if (found_flush != flush) {
         const FlushSubnormals guard(flush);
-        point_texels_fast(points(), params, profile, found_texels);
+        if (found_texels == nullptr)
+            found_texels = std::make_unique_for_overwrite<std::int32_t[]>(points().size());
+        point_texels_fast(points(), params, profile, {found_texels.get(), points().size()});
         found_flush = flush;
     }
-    return found_texels;
+    return {found_texels.get(), points().size()};
 }
 
 std::vector<LegalTexel> legal_texels(const DrawnFrame& frame, const KnownOperations& known,
@@ -442,7 +444,7 @@ std::vector<LegalTexel> legal_texels(const DrawnFrame& frame, const KnownOperati
             if (params.switches.obstacles_in_cdt == ObstaclesInCdt::triangles)
                 all.add_triangles(obstacles);
             if (params.switches.obstacles_in_cdt == ObstaclesInCdt::vertices) {
-                std::vector<std::int32_t> drawn;
+                std::vector<std::int32_t> drawn(obstacles.positions.size());
                 point_texels_fast(obstacles.positions, drawn_by_rasteriser(params), profile, drawn);
                 all.add_points(drawn, [&](std::size_t i, Found& found) {
                     all.add_point(TexelOwner::Kind::obstacle, i, obstacles.positions[i], obstacles.positions[i], found);

@@ -1,6 +1,7 @@
 #pragma once
 #include <cstddef>
 #include <cstdint>
+#include <memory>
 #include <optional>
 #include <span>
 #include <utility>
@@ -69,8 +70,8 @@ struct DrawnFrame {
     /// asked for.
     [[nodiscard]] std::span<const std::int32_t> texels_of_points(bool flush) const;
 
-    mutable std::vector<std::int32_t> found_texels = {};
-    mutable std::optional<bool> found_flush = {}; ///< the mode that they were found in
+    mutable std::unique_ptr<std::int32_t[]> found_texels = {}; ///< never written before many threads do
+    mutable std::optional<bool> found_flush = {};              ///< the mode that they were found in
 };
 
 /// For each of `texels` (indices into the CDT), who may own it after `after` was drawn over the obstacles: points whose

@@ -362,7 +362,7 @@ TEST_CASE("fast collision: the texels points are drawn to are those of the obvio
             for (const Profile& profile : profiles()) {
                 scene.params.switches = preset(name);
                 scene.params.switches.step = step;
-                std::vector<std::int32_t> texels;
+                std::vector<std::int32_t> texels(scene.particles.size());
                 point_texels_fast(scene.particles.position, scene.params, profile, texels);
                 std::size_t wrong = 0, drawn = 0;
                 for (std::size_t i = 0; i < texels.size(); ++i) {

@@ -75,6 +75,7 @@ struct RunFrame {
     const State* earlier;
     ReferenceSimulation& reference;
     const State& gpu;
+    bool particles_differ;
 };
 
 /// Judges the frames of a resync run that are not bit-equal.
@@ -90,8 +91,8 @@ class RunJudge {
 
     FrameVerdicts judge(const RunFrame& f) {
         const JudgedFrame judged{
-            scene_.obstacles,        f.params,          profile_,        known_,   f.before.particles, f.before.cdt,
-            f.reference.particles(), f.reference.cdt(), f.gpu.particles, f.gpu.cdt};
+            scene_.obstacles,        f.params,          profile_,        known_,    f.before.particles, f.before.cdt,
+            f.reference.particles(), f.reference.cdt(), f.gpu.particles, f.gpu.cdt, f.particles_differ};
         FrameVerdicts verdicts = lockstep::judge(judged);
         if (!has_cdt_)
             verdicts.texels.clear();
@@ -331,13 +332,20 @@ CheckReport judge_frames(const Scene& scene, const Profile& profile, GpuSide& gp
             report.drawn_texels += count_drawn(reference.cdt());
         }
         std::optional<FrameVerdicts> verdicts;
+        const RunFrame run{frame,
+                           params,
+                           before,
+                           frame > 0 ? &earlier : nullptr,
+                           reference,
+                           now,
+                           comparison.differing(collision::particles) > 0};
         if (judged && options.power) {
             const Stopwatch watch(times.power);
-            judge.measure_power({frame, params, before, frame > 0 ? &earlier : nullptr, reference, now});
+            judge.measure_power(run);
         }
         if (judged && !comparison.agree()) {
             const Stopwatch watch(times.judge);
-            verdicts = judge.judge({frame, params, before, frame > 0 ? &earlier : nullptr, reference, now});
+            verdicts = judge.judge(run);
         }
         report.times.push_back(times);
         ++report.frames;

@@ -75,8 +75,9 @@ DrawnAgain in_some_tiles(const PowerFrame& frame, const Profile& profile, std::s
     constexpr int side = 16;
     const FrameParams& params = *frame.inputs.params;
     const bool updated = params.switches.raster_position == RasterPosition::updated;
-    std::vector<std::int32_t> drawn;
-    point_texels_fast(updated ? frame.after.position : frame.inputs.before->position, params, profile, drawn);
+    const auto& points = updated ? frame.after.position : frame.inputs.before->position;
+    std::vector<std::int32_t> drawn(points.size());
+    point_texels_fast(points, params, profile, drawn);
     const int across = (params.width + side - 1) / side, tiles = across * ((params.height + side - 1) / side);
     const auto tile_of = [&](std::int32_t texel) {
         return static_cast<std::size_t>(texel / params.width / side * across + texel % params.width / side);

@@ -266,7 +266,9 @@ ItemVerdict judge_particle(const JudgedFrame& frame, std::size_t particle) {
 FrameVerdicts judge(const JudgedFrame& frame) {
     if (!is_listing(frame.params.switches))
         return judge_by_twin(frame);
-    FrameVerdicts verdicts{with_step_pass(frame, judge_items), {}};
+    FrameVerdicts verdicts;
+    if (frame.particles_differ)
+        verdicts.particles = with_step_pass(frame, judge_items);
     verdicts.texels = judge_texels(frame, verdicts.particles);
     return verdicts;
 }

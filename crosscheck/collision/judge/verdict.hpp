@@ -25,6 +25,7 @@ struct JudgedFrame {
     const CollisionImage& reference_cdt; ///< drawn by the step
     const Particles& gpu;
     const CollisionImage& gpu_cdt;
+    bool particles_differ = true; ///< false: they were compared, and every bit agrees
 };
 
 /// Verdicts on what differs in a frame, by index.

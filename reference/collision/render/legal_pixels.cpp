@@ -10,6 +10,7 @@
 #include "reference/collision/shading.hpp"
 #include "reference/legal_number.hpp"
 #include "reference/legal_triangles.hpp"
+#include "reference/pixel_set.hpp"
 #include "reference/plain_arithmetic.hpp"
 #include "reference/subnormals.hpp"
 #include "reference/triangle_interpolation.hpp"
@@ -109,11 +110,13 @@ template <class Sites> class LegalPixels {
     std::vector<WantedPixel> wanted_at(std::span<const std::size_t> pixels) const {
         std::vector<WantedPixel> wanted;
         Image<std::vector<std::int32_t>> slots(width_, height_);
+        std::vector<std::size_t> sources;
         for (std::size_t i = 0; i < pixels.size(); ++i) {
             const auto columns = static_cast<std::size_t>(width_);
             const glm::ivec2 from = sites_.source(static_cast<int>(pixels[i] % columns),
                                                   static_cast<int>(pixels[i] / columns), width_, height_);
             slots.at(from.x, from.y).push_back(static_cast<std::int32_t>(i));
+            sources.push_back(slots.index(from.x, from.y));
             wanted.push_back({from.x, from.y, {}, {}});
         }
         const auto each = [&](int x, int y, const auto& add) {
@@ -122,16 +125,12 @@ template <class Sites> class LegalPixels {
         };
         const LegalTriangles triangles(clip_, obstacles_.indices, width_, height_, profile_.raster, raster_,
                                        known_.points && known_.sums);
-        triangles.for_each([&](int x, int y) { return !slots.at(x, y).empty(); },
-                           [&](const LegalCover& c) {
-                               const double margin =
-                                   c.sure ? HUGE_VAL
-                                          : std::ldexp(nearest_side(c.triangle, c.x, c.y, c.rules).distance,
-                                                       8 - c.rules.subpixel_bits);
-                               each(c.x, c.y, [&](WantedPixel& pixel) {
-                                   pixel.covers.push_back({c.triangle.primitive, c.sure, margin});
-                               });
-                           });
+        triangles.for_each(PixelSet(width_, height_, sources), [&](const LegalCover& c) {
+            const double margin =
+                c.sure ? HUGE_VAL
+                       : std::ldexp(nearest_side(c.triangle, c.x, c.y, c.rules).distance, 8 - c.rules.subpixel_bits);
+            each(c.x, c.y, [&](WantedPixel& pixel) { pixel.covers.push_back({c.triangle.primitive, c.sure, margin}); });
+        });
         for (std::uint32_t i = 0; i < particles_.size(); ++i) {
             const LegalSprite seen = sprite(particles_.position[i]);
             for (int y = seen.rows.first_may; y < seen.rows.end_may; ++y)

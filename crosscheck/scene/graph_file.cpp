@@ -442,8 +442,8 @@ class Reader {
                 read_[n].json.fail(fmt::format("'{}' divides by 0: its port b", node.id));
             const auto low = constant(node.inputs[0], c);
             if (node.kind == GraphKind::smoothstep && low && low == constant(node.inputs[1], c))
-                read_[n].json.fail(
-                    fmt::format("'{}' rises from {} to {}: right are a low and a high that differ", node.id, *low, *low));
+                read_[n].json.fail(fmt::format("'{}' rises from {} to {}: right are a low and a high that differ",
+                                               node.id, *low, *low));
         }
     }
 

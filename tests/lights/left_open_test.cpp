@@ -90,9 +90,8 @@ TEST_CASE("what a pass gives is legal of it, the bits that it copies too", "[lig
         const SystemView after = run.state().view();
         for (std::size_t i = 0; i < legal.size(); ++i) {
             INFO(pass.name() << " " << i * apart);
-            CHECK(std::any_of(legal[i].begin(), legal[i].end(), [&](const ItemOutcome& one) {
-                return one.contains(after[pass.resource()], i * apart);
-            }));
+            CHECK(std::any_of(legal[i].begin(), legal[i].end(),
+                              [&](const ItemOutcome& one) { return one.contains(after[pass.resource()], i * apart); }));
         }
     }
 }

@@ -11,6 +11,7 @@
 #include <fmt/ranges.h>
 #include <glm/gtc/type_ptr.hpp>
 
+#include "gpu/bindings.hpp"
 #include "gpu/check.hpp"
 #include "gpu/glsl_type.hpp"
 #include "gpu/program_linking.hpp"
@@ -222,8 +223,8 @@ void Program::use() const { gl::UseProgram(id_); }
 void Program::check_interface() const {
     std::vector<std::string> unknown = uniforms_->unknown();
     if (!unknown.empty())
-        unknown.back() += fmt::format("; {} beside the shader binds a uniform to a name or a number (docs/own_shader.md)",
-                                      bindings_file);
+        unknown.back() += fmt::format(
+            "; {} beside the shader binds a uniform to a name or a number (docs/own_shader.md)", bindings_file);
     std::ranges::move(attributes_.unknown(), std::back_inserter(unknown));
     if (!unknown.empty())
         throw Error(fmt::format("shader {}", fmt::join(unknown, "; ")));

@@ -126,8 +126,8 @@ void check_storage(GLuint program, std::span<const ShaderSource> stages, std::sp
                                     place, name));
         else if (gl::GetProgramResourceIndex(program, GL_SHADER_STORAGE_BLOCK, name.c_str()) != GL_INVALID_INDEX)
             throw Error(fmt::format("shader {}: nothing is given for storage buffer {}; storage buffers are bound in "
- "compute shaders alone (docs/own_shader.md)",
- place, name));
+                                    "compute shaders alone (docs/own_shader.md)",
+                                    place, name));
 }
 
 void check_geometry_inputs(std::span<const ShaderSource> stages) {

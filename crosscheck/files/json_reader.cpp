@@ -125,7 +125,8 @@ json parse_json(std::string_view text, const std::string& name) {
     Syntax syntax(text);
     if (!json::sax_parse(text, &syntax))
         throw Error(fmt::format("{}:{}", name, syntax.problem));
-    if (const std::size_t null = text.find('\0'); null != std::string_view::npos) // where the parser stops without a word
+    if (const std::size_t null = text.find('\0');
+        null != std::string_view::npos) // where the parser stops without a word
         throw Error(fmt::format("{}: a NUL byte behind its end, byte {}; right is the value alone", name, null + 1));
     return json::parse(text);
 }
@@ -189,7 +190,7 @@ float JsonValue::number(const NumberRule& rule) const {
     if (number > 0.0 && number < rule.min && rule.min == number::positive.min)
         fail_not("a normal float, which is 1.2e-38 or more");
     if (std::abs(number) > number::finite.max && rule.max == number::finite.max && (number > 0 || rule.min < 0))
-        fail(fmt::format("{} is larger than a float holds, 3.4e38", shown(*value_)));
+        fail(fmt::format("{} is beyond what a float holds, 3.4e38", shown(*value_)));
     if (!(number >= rule.min && number <= rule.max))
         fail_not(rule.text);
     return static_cast<float>(number);

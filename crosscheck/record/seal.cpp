@@ -129,8 +129,7 @@ Seal check_seal(const OpenedFile& file, const std::string& system) {
         throw Error(fmt::format("{}: damaged: {} bytes, but {} were sealed", path, file.size(), told.bytes));
     const Seal found = seal_of(file);
     if (found.bytes != told.bytes || found.sha256 != told.sha256)
-        throw Error(fmt::format("{}: damaged: its SHA-256 is {}, sealed was {}", path, found.sha256,
-                                told.sha256));
+        throw Error(fmt::format("{}: damaged: its SHA-256 is {}, sealed was {}", path, found.sha256, told.sha256));
     return told;
 }
 

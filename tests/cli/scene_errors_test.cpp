@@ -40,7 +40,7 @@ TEST_CASE("scene_errors: malformed JSON is told with line and column") {
 TEST_CASE("scene_errors: an unknown key is told with the keys there are") {
     check_bad_scene(emitter(R"("cuont": 3, )" + box),
                     R"(: /emitters/0: unknown key "cuont"; the keys here are shape, count, min, max, direction, )"
-                    "direction_jitter, speed, speed_jitter, collide_time");
+                    "direction_jitter, speed, speed_jitter, collide_time; did you mean count?");
 }
 
 TEST_CASE("scene_errors: counts below 1 are told with what is allowed") {

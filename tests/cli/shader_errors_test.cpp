@@ -97,8 +97,9 @@ TEST_CASE("shader_errors: a misspelt uniform or attribute is told where it is de
                     "ls_flush(a_CollideTime) - u_Tik;");
         CHECK_THAT(refusal_of(shaders),
                    Catch::StartsWith(file + ":") &&
-                       Catch::EndsWith(": nothing is given for uniform u_Tik; did you mean float u_Tick?; bindings.json beside "
-"the shader binds a uniform to a name or a number (docs/own_shader.md)"));
+                       Catch::EndsWith(
+                           ": nothing is given for uniform u_Tik; did you mean float u_Tick?; bindings.json beside "
+                           "the shader binds a uniform to a name or a number (docs/own_shader.md)"));
     }
     SECTION("attribute") {
         test::plant(shaders, "collision_pass.vert", "in float a_Speed;", "in float a_Speed;\nin float a_CollideTme;");
@@ -228,8 +229,9 @@ TEST_CASE("shader_errors: a storage buffer that nobody binds is refused on a GL 
                              "--shaders", shaders.path()},
                             surroundings);
     };
-    CHECK_THAT(refusal(run({})), Catch::EndsWith("nothing is given for storage buffer Step; storage buffers are bound in "
-"compute shaders alone (docs/own_shader.md)"));
+    CHECK_THAT(refusal(run({})),
+               Catch::EndsWith("nothing is given for storage buffer Step; storage buffers are bound in "
+                               "compute shaders alone (docs/own_shader.md)"));
     const test::Outcome old = run({.environment = {{"MESA_GL_VERSION_OVERRIDE", "4.2"},
                                                    {"MESA_EXTENSION_OVERRIDE", "-GL_ARB_program_interface_query"}}});
     CHECK(old.status == 2);                                   // Mesa says on standard output what it leaves out

@@ -52,6 +52,9 @@ std::string message(const TemporaryFolder& folder, const std::vector<Stage>& sta
     return "built";
 }
 
+const std::string remedy =
+    "; bindings.json beside the shader binds a uniform to a name or a number (docs/own_shader.md)";
+
 } // namespace
 
 TEST_CASE("program: captures outputs, sets uniforms, finds attributes") {
@@ -124,8 +127,9 @@ TEST_CASE("program: what the shader uses and nobody gives is told with the name 
     };
     give("u_Tack", "a_Sped");
     CHECK_THROWS_WITH(program.check_interface(),
-                      "shader " + file + ":4: nothing is given for uniform u_Tick; did you mean float u_Tack?" + remedy + "; " +
-                          file + ":3: nothing is given for attribute a_Speed; did you mean float a_Sped?");
+                      "shader " + file + ":4: nothing is given for uniform u_Tick; did you mean float u_Tack?" +
+                          remedy + "; " + file +
+                          ":3: nothing is given for attribute a_Speed; did you mean float a_Sped?");
     give("u_Tick", "a_Sped");
     CHECK_THROWS_WITH(program.check_interface(),
                       "shader " + file + ":3: nothing is given for attribute a_Speed; did you mean float a_Sped?");

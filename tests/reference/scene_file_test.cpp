@@ -188,7 +188,7 @@ TEST_CASE("scene_file: an emitter that is wrong is told with path and what is al
         {R"("count": 1, "shape": "shell", "thickness": 2)", "/thickness: 2 is not a fraction from 0 to 1"},
         {R"("count": 1, "direction": [0, null, 0])", "/direction/1: null is not a finite number"},
         {R"("count": 1, "direction": [0, "nan", 0])", "/direction/1: \"nan\" is not a finite number"},
-        {R"("count": 1, "direction": [0, 1e39, 0])", "/direction/1: 1e+39 is larger than a float holds, 3.4e38"},
+        {R"("count": 1, "direction": [0, 1e39, 0])", "/direction/1: 1e+39 is beyond what a float holds, 3.4e38"},
         {R"("count": 1, "direction": [0, 1])", "/direction: [0,1] is not a vector of three finite numbers, [x, y, z]"},
         {R"("count": 1, "direction": 1)", "/direction: 1 is not a vector of three finite numbers, [x, y, z]"},
         {R"("count": 1, "direction": [0, 0, 0])", "/direction: a direction has a length above 0"},
@@ -217,7 +217,7 @@ TEST_CASE("scene_file: a member that is wrong is told with path and what is allo
         {R"("switches": {"speed_factor": "fast"})", "/switches/speed_factor: \"fast\" is not a finite number"},
         {R"("constants": {"ticks": 1})",
          "/constants: unknown key \"ticks\"; the keys here are tick, gravity, collision_range, collision_time, "
-         "texel_collide_range, billboard_radius, octree_size, surface_thickness"},
+         "texel_collide_range, billboard_radius, octree_size, surface_thickness; did you mean tick?"},
         {R"("constants": {"tick": 0})", "/constants/tick: 0 is not a number above 0"},
         {R"("constants": {"tick": 1e-39})", "/constants/tick: 1e-39 is not a normal float, which is 1.2e-38 or more"},
         {R"("constants": {"collision_range": -0.01})", "/constants/collision_range: -0.01 is not a number above 0"},

@@ -178,8 +178,10 @@ TEST_CASE("no false pass: a block that nobody binds is an error with its name") 
     SECTION("storage buffer") {
         test::plant(shaders, "collision_pass.vert", "#version 330 core", "#version 430 core");
         test::plant(shaders, "collision_pass.vert", "uniform float u_Tick;", "buffer Step { float u_Tick; };");
-        CHECK(refusal(shaders) == "shader " + file + ":23: nothing is given for storage buffer Step; storage buffers are bound in compute shaders alone "
-"(docs/own_shader.md)");
+        CHECK(refusal(shaders) ==
+              "shader " + file +
+                  ":23: nothing is given for storage buffer Step; storage buffers are bound in compute shaders alone "
+                  "(docs/own_shader.md)");
     }
 }
 

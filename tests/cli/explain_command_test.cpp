@@ -143,8 +143,9 @@ TEST_CASE("explain_command: what cannot be explained is told in one line") {
           "--frame: '-1' is not an integer from 0 to 100000000 (lockstep explain --help says more)");
     const std::string one = "explain: one of --particle I, --texel X,Y and --pixel X,Y is needed";
     CHECK(told({"--frame", "1"}) == one);
-    CHECK(told({"--frame", "1", "--particle", "1", "--texel", "1,1"}) == one);
-    CHECK(told({"--frame", "1", "--pixel", "1,1", "--texel", "1,1"}) == one);
+    const std::string two = "explain: --particle, --texel and --pixel do not go together; right is one of them";
+    CHECK(told({"--frame", "1", "--particle", "1", "--texel", "1,1"}) == two);
+    CHECK(told({"--frame", "1", "--pixel", "1,1", "--texel", "1,1"}) == two);
     CHECK(told({"--frame", "1", "--particle", "1", "--legal", "loose"}) ==
           "--legal: 'loose' is not one of measured, glsl, any_order (lockstep explain --help says more)");
     for (const char* wrong : {"300", "-1", "x", "1.5", ""})

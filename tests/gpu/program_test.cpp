@@ -345,6 +345,8 @@ TEST_CASE("program: every built-in shader links with every switch") {
         const std::string name = entry.path().stem().string();
         if (name == "collision_texels" && !context->describe().compute)
             continue;
+        if (name == "without_geometry") // the end of collision_pass.vert, no stage by itself
+            continue;
         std::vector<Stage> stages{Stage::vertex};
         for (const Stage stage : {Stage::geometry, Stage::fragment})
             if (std::filesystem::exists(folders.front() / (name + std::string(extension(stage)))))

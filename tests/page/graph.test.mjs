@@ -64,6 +64,8 @@ function* changed(graph) {
     { id: "k", type: "curve", inputs: { t: 0 }, keys: [[0, 1], [0, 2]] }, { id: "k", type: "curve", inputs: { t: 0 }, keys: [] },
     { id: "k", type: "parameter", value: 5, range: [0, 4] }, { id: "k", type: "parameter", value: [1, 2] }, { id: "k k", type: "add" },
     { id: "n", type: "noise", inputs: { at: 1 }, seed: 1e9 }, { id: "a", type: "point_attraction", inputs: { position: 1 }, law: "cubic" },
+    { id: "d", type: "divide", inputs: { a: 1, b: 0 } }, { id: "d", type: "divide", inputs: { a: 1, b: [1, 0, 2] } },
+    { id: "d", type: "smoothstep", inputs: { a: 2, low: 1 } }, { id: "d", type: "add", inputs: { a: 1e39, b: 0 } },
     { id: "a", type: "compose", inputs: { x: 1, y: 1, w: 1 } }, { id: "a", type: "split", inputs: { a: 1 } }, { id: "a", type: "equal", inputs: { a: true, b: 1 } },
   ])
     yield set((g) => g.nodes.push(node));

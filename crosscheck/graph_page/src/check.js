@@ -38,8 +38,12 @@ function at(value, key, path) {
 }
 const text = (value, path) => (typeof value === "string" ? value : failNot(value, path, "a text"));
 const items = (value, path) => (Array.isArray(value) ? value : failNot(value, path, "an array"));
-const number = (value, path, { least = floats.least, most = floats.most, words = "a finite number" } = {}) =>
-  typeof value === "number" && value >= least && value <= most ? Math.fround(value) : failNot(value, path, words);
+function number(value, path, { least = floats.least, most = floats.most, words = "a finite number" } = {}) {
+  if (typeof value !== "number") failNot(value, path, words);
+  if (Math.abs(value) > floats.most && most === floats.most && (value > 0 || least < 0))
+    fail(path, `${shown(value)} is beyond what a float holds, 3.4e38`);
+  return value >= least && value <= most ? Math.fround(value) : failNot(value, path, words);
+}
 const integer = (value, path, least, most) =>
   Number.isInteger(value) && value >= least && value <= most ? value : failNot(value, path, `an integer from ${least} to ${most}`);
 const float = (x) => Number(x.toPrecision(7));
@@ -52,10 +56,10 @@ function named(value, path, all, what, key = "name") {
   return all.find((one) => one[key] === name) ?? unknown(path, name, what, all.map((one) => one[key]));
 }
 
-// A number, several, or a truth: its type.
-function literal(value, path) {
+// A number, several, or a truth: its type. `orElse`: what else may stand there.
+function literal(value, path, orElse = " or a truth") {
   if (typeof value === "boolean") return "bool";
-  if (!Array.isArray(value)) return number(value, path), "float";
+  if (!Array.isArray(value)) return number(value, path, { words: `a finite number, an array of two to four${orElse}` }), "float";
   if (value.length < 2 || value.length > 4) fail(path, `${value.length} numbers; right is two to four`);
   value.forEach((one, i) => number(one, `${path}/${i}`));
   return vectorOf(value.length);
@@ -233,11 +237,11 @@ class Checker {
     if (given !== undefined) return this.link(given, `${path}/inputs/${port.name}`, depth);
     if (port.wants === "part") return { missing: true, type: "float" };
     if (port.standard === undefined) fail(path, `'${id}' has nothing at its port ${port.name}`);
-    return { type: "float" };
+    return { type: "float", numbers: [port.standard] };
   }
 
   link(value, path, depth) {
-    if (typeof value !== "string") return { type: literal(value, path) };
+    if (typeof value !== "string") return { type: literal(value, path, ", a truth or a node's id"), numbers: [value].flat() };
     const dot = value.indexOf(".");
     const name = dot < 0 ? value : value.slice(0, dot);
     const isOfSplit = dot >= 0 && value.length === dot + 2 && "xyzw".includes(value[dot + 1]);
@@ -253,7 +257,25 @@ class Checker {
     if (!splits) fail(path, `'${name}' has no port '${port.slice(0, 40)}'; right is '${name}', or a split of it`);
     const parts = "xyzw".slice(0, sizes[from.makes]);
     if (port.length !== 1 || !parts.includes(port)) fail(path, `'${name}' has no port '${port.slice(0, 40)}'; it is split into ${parts}`);
-    return { node: n, type: "float" };
+    return { node: n, part: parts.indexOf(port), type: "float" };
+  }
+
+  // A number that the shader's compiler knows as well.
+  constant({ node, part, numbers }, component) {
+    const from = node === undefined ? undefined : this.nodes[node];
+    if (from !== undefined && from.type.type !== "constant") return undefined;
+    const known = from === undefined ? numbers : [from.json.value].flat();
+    return known === undefined ? undefined : Math.fround(known.length === 1 ? known[0] : known[part ?? component]);
+  }
+
+  // Compilers fold a quotient by a constant 0 to what they like.
+  checkDivisor({ id, path, type, inputs }, components) {
+    for (let c = 0; c < components; ++c) {
+      if (type.type === "divide" && this.constant(inputs[1], c) === 0) fail(path, `'${id}' divides by 0: its port b`);
+      const low = this.constant(inputs[0], c);
+      if (type.type === "smoothstep" && low !== undefined && low === this.constant(inputs[1], c))
+        fail(path, `'${id}' rises from ${low} to ${low}: right are a low and a high that differ`);
+    }
   }
 
   failType({ json, path, id, inputs, type }, p, right) {
@@ -283,6 +305,7 @@ class Checker {
       if (wants === "vector" && (!isNumber(given) || given === "float")) this.failType(node, p, "a vector");
     });
     node.makes = ["float", "vec3", "bool"].includes(type.makes) ? type.makes : type.type === "split" ? inputs[0].type : shared;
+    if (["divide", "smoothstep"].includes(type.type)) this.checkDivisor(node, sizes[shared]);
     if (type.type === "compose") {
       const [z, w] = [!inputs[2].missing, !inputs[3].missing];
       if (w && !z) fail(node.path, `'${node.id}' has nothing at its port z, and something at w`);

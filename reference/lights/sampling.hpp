@@ -168,7 +168,7 @@ template <class R> class SamplingTwin {
                                 base[2] + static_cast<int>(k >> 2U));
             const bool inside = at.x >= 0 && at.y >= 0 && at.z >= 0 && at.x < size.x && at.y < size.y && at.z < size.z;
             cell.is_black[k] = !inside && host_.switches().outside == Outside::black;
-            cell.index[k] = clamped_cell(host_.grid(), at).index(host_.grid());
+            cell.index[k] = clamped_cell(host_.grid(), {at.x, at.y, at.z}).index(host_.grid());
         }
         return cell;
     }

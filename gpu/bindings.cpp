@@ -114,7 +114,7 @@ class Reader {
                                    did_you_mean(block, storage_blocks_)));
         StorageBlockBinding binding{path, value.is_string() ? value.get<std::string>() : std::string()};
         if (value.is_string() ? binding.ours.empty() : !value.is_object() || value.empty())
-            fail(path, "is to be the name of a block here, or { \"member in the shader\": \"Block.field here\" }");
+            fail(path, "must be the name of a block here, or { \"member in the shader\": \"Block.field here\" }");
         if (value.is_object())
             for (const auto& [member, given] : value.items())
                 binding.members.emplace(member, read_member(path + "/" + member, member, given));
@@ -159,7 +159,7 @@ class Reader {
                 binding.transposed = true;
             }
             if (binding.names.empty() == binding.numbers.empty())
-                fail(binding.path, "is to be names or numbers, one at least");
+                fail(binding.path, "must be names or numbers, one at least");
             made_.uniforms.emplace(block + theirs, std::move(binding));
         }
     }

@@ -250,7 +250,7 @@ void GlSystem::repeat_step(std::size_t pass, int frame) {
                                       [&](std::uint8_t r) { return parts_->in_place(r); });
     if (in_place && parts_->kept != pass)
         throw Error(
-            fmt::format("{}: changed its state in place; right is lay_canary before a step that is to be repeated",
+            fmt::format("{}: changed its state in place; right is lay_canary before a step that will be repeated",
                         linked->pass.name));
     for (const std::uint8_t r : linked->resources)
         parts_->current[r] = 1 - parts_->current[r];

@@ -46,7 +46,7 @@ std::vector<ProgramInterface::Given> ProgramInterface::asked(std::string_view na
     for (auto one = first; one != last; ++one) {
         const ProgramVariable& variable = variables_[one->second.variable];
         if (one->second.component < 0 && variable.type != type)
-            throw Error(fmt::format("shader {}: {} {} is {}, but is to be {}", variable.declared.place, kind_,
+            throw Error(fmt::format("shader {}: {} {} is {}, but must be {}", variable.declared.place, kind_,
                                     variable.name, type_name(variable.type), type_name(type)));
         found.push_back(one->second);
     }
@@ -277,7 +277,7 @@ void UniformValues::set(std::string_view name, GLenum type, std::span<const std:
         else if (words.size() == 1)
             set_component(given, type, words.front());
         else
-            throw Error(fmt::format("shader {}: {} of uniform {} is to be one number, but {} is {}",
+            throw Error(fmt::format("shader {}: {} of uniform {} must be one number, but {} is {}",
                                     interface_[given.variable].declared.place, "xyzw"[given.component],
                                     interface_[given.variable].name, name, type_name(type)));
     }

@@ -13,8 +13,10 @@ folders = ["crosscheck", "gpu", "reference"]
 
 # What is not said, and what is said instead.
 instead = {
-    r"\btells? more\b": "says more",
-    r"\bround (it|them|the|its|this|that|texel)\b": "around",
+    r"\b(tells?|told|telling)\b": "reports, says",
+    r"\bround (it|them|the|its|this|that|texel)\b|\bwraps? round\b": "around",
+    r"\b(is|are) to (be|write)\b": "must",
+    r"^(only )?(who|nobody|everyone)\b": "the particle, grain or light that is meant",
     r"\butili[sz]e": "use",
     r"\bplease\b": "no please: say what would be right",
     r"\binvalid\b": "what it is, and what would be right",

@@ -260,9 +260,8 @@ Verb bench_command() {
     verb.add(
         integers_option("--radius", "R,...", {0, widest_neighbourhood}, options->radii, "neighbourhood radii, texels"));
     verb.add(flag("--gl-only", options->gl_only, "time GL alone: neither reference nor check, and so no verdict"));
-    verb.add(
-        flag("--floor", options->floor,
-             "time also what passes rest on by itself: a copy of each buffer; of system lights, as many atomics too"));
+    verb.add(flag("--floor", options->floor,
+                  "also time what bounds the passes: a copy of each buffer, and for system lights as many atomics"));
     verb.add(flag("--no-render", options->no_render, "leave out the time of the picture"));
     add_legal_option(verb, options->legal);
     add_pass_options(verb, options->rules);
@@ -270,7 +269,7 @@ Verb bench_command() {
                   "Example: lockstep bench data/scenes/lattice.json --counts 50000,200000 --radius 1";
     verb.run = [options](const Call& call) {
         if (call.has("--particles") && call.has("--counts"))
-            throw Error("bench: --particles N is --counts N; one of both is enough");
+            throw Error("bench: --particles N and --counts N mean the same; right is one of them");
         if (options->run.particles)
             options->counts = {*options->run.particles};
         if (call.has("--radius") && system_of(options->run) != nullptr)

@@ -95,7 +95,7 @@ CutCapsule cut_live(const CapsuleRequest& options) {
 
 CutCapsule cut_recorded(const CapsuleRequest& options) {
     if (options.pixel)
-        throw Error("capsule cut: --pixel needs a scene: no picture is in a recording; --particle goes with one");
+        throw Error("capsule cut: --pixel needs a scene, since a recording holds no picture; --particle goes with one");
     start_threads(options.run.threads);
     TraceReader trace(options.trace);
     const TraceInfo& info = trace.info();
@@ -111,14 +111,14 @@ int cut(const CapsuleRequest& options, const Call& call) {
     if (const RegisteredSystem* system =
             options.trace.empty() ? system_of(options.run) : system_of_recording(options.trace)) {
         if (!options.item || options.particle || options.pixel)
-            throw Error(fmt::format("capsule cut: of a scene of system {}, --item I is needed", name_of(*system)));
+            throw Error(fmt::format("capsule cut: a scene of system {} needs --item I", name_of(*system)));
         return cut_system(*system, options.run, {options.frame, options.pass, *options.item, options.legal, false},
                           options.trace, options.output);
     }
     if (options.particle.has_value() == options.pixel.has_value() || options.item || !options.pass.empty())
-        throw Error(fmt::format("capsule cut: of a scene of system {}, one of --particle I and --pixel X,Y is needed, "
-                                "and no --item or --pass",
-                                default_system));
+        throw Error(fmt::format(
+            "capsule cut: a scene of system {} needs --particle I or --pixel X,Y, and takes no --item or --pass",
+            default_system));
     OutputFiles files;
     protect_inputs(options.run, files);
     files.protect(options.trace);
@@ -155,9 +155,9 @@ Verb capsule_command() {
     cut_verb.add(text_option("--particle", "I", options->particle, "the particle"));
     cut_verb.add(text_option("--pixel", "X,Y", options->pixel, "or the pixel of the rendered frame"));
     cut_verb.add(text_option("--item", "I|X,Y", options->item,
-                             "the item, of a scene of another system; of an image column and row"));
-    cut_verb.add(
-        text_option("--pass", "NAME", options->pass, "of which pass, there; else the first that runs in the frame"));
+                             "the item, in a scene of another system; in an image its column and row"));
+    cut_verb.add(text_option("--pass", "NAME", options->pass,
+                             "the pass that makes the item; without it the first that runs in the frame"));
     cut_verb.add(required(path_option("-o,--output", "FILE", options->output, "the capsule, JSON, at most 100 kB")));
     add_legal_option(cut_verb, options->legal);
     cut_verb.footer = "Exit status: 0 written, 2 could not run.\n"

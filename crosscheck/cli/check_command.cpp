@@ -117,11 +117,9 @@ void expect_part(const CheckRequest& options) {
     const std::string by =
         options.frames.is_part ? fmt::format("--frames {}", options.frames.text()) : options.shard.asked;
     if (options.mode == CheckMode::free)
-        throw Error(fmt::format("{}: with --mode free a frame follows from all before it, so that none can be judged "
-                                "without these; right is --mode resync",
-                                by));
+        throw Error(fmt::format("{}: with --mode free a frame follows from all before it; right is --mode resync", by));
     if (options.frames.is_part && options.shard.is_asked())
-        throw Error(fmt::format("{}: does not go with {}, which says which frames already", options.shard.asked, by));
+        throw Error(fmt::format("{}: does not go with {}, which chooses the frames already", options.shard.asked, by));
     if (!options.report.empty() || !options.images.empty())
         throw Error(fmt::format("{}: {} shows a whole run, not part of its frames", by,
                                 options.report.empty() ? "--images" : "--report"));
@@ -432,7 +430,7 @@ Verb check_command() {
     add_gl_options(verb, options->run);
     add_trace_option(verb, options->trace);
     verb.add(frames_option("--frames", options->frames,
-                           "frames to compare, of a trace all; A..B: these alone, counted from 0"));
+                           "frames to compare; without it all of a trace; A..B: only these, counted from 0"));
     verb.add(shard_option(options->shard));
     verb.add(choice_option<CheckMode>("--mode", options->mode,
                                       {{"resync", CheckMode::resync}, {"free", CheckMode::free}},
@@ -447,7 +445,7 @@ Verb check_command() {
     verb.add(path_option("--report", "DIR", options->report,
                          "write report.html, a page that opens in any browser; with what study.json there says"));
     verb.add(flag("--no-render", options->no_render, "do not judge the rendered frame, the last one's picture"));
-    verb.add(flag("--render", options->render, "judge it, and say so where no particle is in it"));
+    verb.add(flag("--render", options->render, "judge it, and say so if it shows no particle"));
     verb.add(flag("--power", options->power, "list which mistakes the run would have shown, and why not the others"));
     verb.add(flag("--stress", options->stress,
                   "instead of a scene: all of data/scenes/stress, small ones in which mistakes show"));

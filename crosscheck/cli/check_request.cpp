@@ -43,7 +43,7 @@ RunDescription description(const CheckRequest& request, const CheckedRun& run, c
             run.notes,
             run.shaders,
             run.recorded_shaders.empty() ? "not in the recording" : "recorded: " + run.recorded_shaders,
-            run.shaders ? " (--no-render)" : ": no picture is in a recording",
+            run.shaders ? " (--no-render)" : ": a recording holds no picture",
             true,
             request.trace.empty(),
             number_format(request.hexadecimal)};

@@ -92,11 +92,12 @@ void explain_trace(const ExplainRequest& options) {
 
 int run(const ExplainRequest& options, const Call& call) {
     if (options.pixel && !options.trace.empty())
-        throw Error("explain: --pixel needs a scene: no picture is in a recording; --particle and --texel go with one");
+        throw Error(
+            "explain: --pixel needs a scene, since a recording holds no picture; --particle and --texel go with one");
     if (const RegisteredSystem* system =
             options.trace.empty() ? system_of(options.run) : system_of_recording(options.trace)) {
         if (!options.item || options.particle || options.texel || options.pixel)
-            throw Error(fmt::format("explain: of a scene of system {}, --item I is needed", name_of(*system)));
+            throw Error(fmt::format("explain: a scene of system {} needs --item I", name_of(*system)));
         check_scene_or_trace(call, options.run, options.trace);
         return explain_system(*system, options.run,
                               {options.frame, options.pass, *options.item, options.legal, options.hexadecimal},
@@ -131,9 +132,9 @@ Verb explain_command() {
     verb.add(text_option("--pixel", "X,Y", options->pixel,
                          "the pixel of the rendered frame, column and row from the bottom left"));
     verb.add(text_option("--item", "I|X,Y", options->item,
-                         "the item, of a scene of another system; of an image column and row"));
-    verb.add(
-        text_option("--pass", "NAME", options->pass, "of which pass, there; else the first that runs in the frame"));
+                         "the item, in a scene of another system; in an image its column and row"));
+    verb.add(text_option("--pass", "NAME", options->pass,
+                         "the pass that makes the item; without it the first that runs in the frame"));
     add_legal_option(verb, options->legal);
     verb.add(hex_option(options->hexadecimal));
     verb.footer = "Exit status: 0 printed, 2 could not run.\n"

@@ -40,7 +40,7 @@ std::string judged_text(const CheckRequest& request) {
 /// Throws Error unless both are parts of one run.
 void expect_of_one_run(const RunPart& one, const RunPart& other) {
     const auto fail = [&](const std::string& what) {
-        throw Error(fmt::format("{}: no part of the run that {} is of: {}", other.file, one.file, what));
+        throw Error(fmt::format("{}: not of the same run as {}: {}", other.file, one.file, what));
     };
     if (one.recording.sha256 != other.recording.sha256 || one.recording.bytes != other.recording.bytes ||
         one.recorded != other.recorded)
@@ -54,7 +54,7 @@ void expect_of_one_run(const RunPart& one, const RunPart& other) {
         return std::tie(run.name, run.context, run.profile, run.settings, run.notes, run.recorded_shaders, run.width);
     };
     if (told(one.run) != told(other.run))
-        fail("it tells of another scene, driver, profile or shader");
+        fail("it is of another scene, driver, profile or shader");
 }
 
 std::string frames_text(int first, int end) {
@@ -100,7 +100,7 @@ StressReport join_stress(const std::vector<PartFile>& files) {
     std::vector<const PartFile*> from(all.of, nullptr);
     for (const PartFile& part : files) {
         if (part.stress->of != all.of || part.stress->asked != all.asked)
-            throw Error(fmt::format("{}: no part of the run that {} is of: {}, there {}", part.file, files.front().file,
+            throw Error(fmt::format("{}: not of the same run as {}: {}, there {}", part.file, files.front().file,
                                     plain_line(part.stress->asked), plain_line(all.asked)));
         for (const StressScene& scene : part.stress->scenes) {
             if (from[scene.index] != nullptr)
@@ -148,13 +148,12 @@ void find_causes(CheckReport& report, const RunPart& of, const std::filesystem::
     try {
         trace = std::make_unique<TraceReader>(file);
     } catch (const Error& error) {
-        throw Error(
-            fmt::format("{}; several parts diverge, and what explains all of it is looked for in the recording: "
-                        "right is --trace FILE",
-                        error.what()));
+        throw Error(fmt::format(
+            "{}; several parts diverge, and their common cause is looked for in the recording; right is --trace FILE",
+            error.what()));
     }
     if (trace->seal().sha256 != of.recording.sha256)
-        throw Error(fmt::format("{}: another recording than the parts are of: {}..., theirs is {}...", file.string(),
+        throw Error(fmt::format("{}: not the recording that the parts are of: {}..., theirs is {}...", file.string(),
                                 trace->seal().sha256.substr(0, 12), of.recording.sha256.substr(0, 12)));
     FrameCheckOptions options;
     options.only = report.verdicts->divergent_frames;
@@ -173,8 +172,7 @@ std::vector<PartFile> read_parts(const std::vector<std::string>& files) {
     for (const std::string& file : files) {
         parts.push_back(read_part_file(file));
         if (parts.back().stress.has_value() != parts.front().stress.has_value())
-            throw Error(fmt::format("{}: no part of the run that {} is of: one is of a recording, the other of check "
-                                    "--stress",
+            throw Error(fmt::format("{}: not of the same run as {}: one is of a recording, the other of check --stress",
                                     file, parts.front().file));
     }
     return parts;

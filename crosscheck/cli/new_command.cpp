@@ -59,8 +59,8 @@ void check_name(const std::string& name) {
     constexpr std::array<std::string_view, 8> taken{"lockstep", "all",     "clean",   "edit_cache",
                                                     "help",     "install", "package", "test"};
     if (!fits || std::find(taken.begin(), taken.end(), name) != taken.end())
-        throw Error(fmt::format("new system: '{}' is no name for one; right is a word of small letters, digits and _, "
-                                "at most 40, that is not lockstep nor a target of CMake's own: sparks, heat_map",
+        throw Error(fmt::format("new system: '{}' cannot be its name; right is a word of at most 40 small letters, "
+                                "digits and _, as sparks or heat_map; lockstep and CMake's own targets are taken",
                                 plain_line(name)));
 }
 
@@ -69,7 +69,7 @@ int make(const NewRequest& options) {
     const fs::path folder = options.folder.empty() ? fs::path(options.name) : options.folder;
     std::error_code ignored;
     if (fs::exists(folder, ignored) && !fs::is_empty(folder, ignored))
-        throw Error(fmt::format("new system: {} is there and not empty; right is a folder that is to be made",
+        throw Error(fmt::format("new system: {} exists and is not empty; right is a folder that does not exist yet",
                                 plain_line(folder.string())));
     OutputFiles files;
     files.expect_folder(folder);
@@ -82,7 +82,7 @@ int make(const NewRequest& options) {
     }
     files.commit();
     const std::string shown = shell_path(folder);
-    fmt::print("{0}: a system with one pass, whose twin is to be written in {1}.hpp. Build and run it:\n\n"
+    fmt::print("{0}: a system with one pass, whose twin you write in {1}.hpp. Build and run it:\n\n"
                "    cmake -S {0} -B {0}/build && cmake --build {0}/build && {0}/build/{1} check\n\n"
                "It says DIVERGENT until the twin does what {1}_step.vert does. docs/own_system.md goes on from here.\n",
                shown, options.name);
@@ -95,7 +95,7 @@ Verb new_command() {
     auto options = std::make_shared<NewRequest>();
     Verb system{"system", "write a system's schema, twin, shader, program and test"};
     system.add(required(text_option("name", "NAME", options->name, "what it is called: small letters, digits and _")));
-    system.add(path_option("-o,--output", "DIR", options->folder, "the folder that is made; else NAME"));
+    system.add(path_option("-o,--output", "DIR", options->folder, "the folder to make; without it NAME"));
     system.footer = "Exit status: 0 written, 2 could not be.\nExample: lockstep new system sparks";
     system.run = [options](const Call&) { return make(*options); };
     Verb verb{"new", "begin something of your own"};

@@ -70,7 +70,7 @@ int run(const RenderRequest& options) {
     check_scene_exists(options.run.scene);
     const RegisteredSystem* system = system_of(options.run);
     if (system != nullptr && options.octree)
-        throw Error("render: --octree goes with a scene of particles that collide; this one is of another system");
+        throw Error("render: --octree goes with scenes of system collision");
     if (system != nullptr)
         return render_system(*system, options.run,
                              {options.frame, options.side == Side::gpu, options.profile, options.output});

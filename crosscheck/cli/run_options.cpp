@@ -115,11 +115,10 @@ const RegisteredSystem* system_of(const RunOptions& options) {
 Scene load(const RunOptions& options) {
     check_scene_exists(options.scene);
     if (const RegisteredSystem* system = system_of(options))
-        throw Error(
-            fmt::format("{}: is a scene of system {}, which bench, capsule, check, debug, explain, hash, record and "
-                        "render run; this takes "
-                        "one of system {}",
-                        options.scene.string(), name_of(*system), default_system));
+        throw Error(fmt::format(
+            "{}: is a scene of system {}, which bench, capsule, check, debug, explain, hash, record and render "
+            "run; right here is one of system {}",
+            options.scene.string(), name_of(*system), default_system));
     start_threads(options.threads);
     return read_scene(options.document.of(options.scene), options.scene,
                       {options.particles, options.preset, options.set});

@@ -96,8 +96,8 @@ void study_scene(const StudyRequest& options) {
 
 Verb study_command() {
     auto options = std::make_shared<StudyRequest>();
-    Verb verb{"study", "compare what the CDT search finds with the exact neighbours, and say "
-                       "why it misses what it misses; needs no GL but for thesis and --side gpu"};
+    Verb verb{"study", "compare what the CDT search finds with the exact neighbours, and say why it misses some; only "
+                       "thesis and --side gpu need GL"};
     add_studied_scene(verb, options->studied, SceneArgument::optional);
     verb.add(path_option("--csv", "FILE", options->csv, "write every number of every studied frame"));
     verb.add(path_option("--json", "FILE", options->json, "the same as JSON"));

@@ -301,6 +301,12 @@ int hash_system(const RegisteredSystem& system, const RunOptions& run, const std
     return status_agree;
 }
 
+int hash_system_on_gpu(const RegisteredSystem& system, const RunOptions& run, bool every) {
+    SystemInput input(system, run, {});
+    print_gpu_hashes(input.system(), input.open(), run.frames, every);
+    return status_agree;
+}
+
 int cut_system(const RegisteredSystem& system, const RunOptions& run, const SystemItem& item,
                const std::filesystem::path& trace, const std::filesystem::path& output) {
     SystemInput input(system, run, trace);

@@ -61,6 +61,7 @@ int record_system(const RegisteredSystem& system, const RunOptions& run, const s
                   int deflate);
 int tell_recording(const RegisteredSystem& system, const std::filesystem::path& file);
 int hash_system(const RegisteredSystem& system, const RunOptions& run, const std::string& profile, bool every);
+int hash_system_on_gpu(const RegisteredSystem& system, const RunOptions& run, bool every);
 int bench_system(const RegisteredSystem& system, const RunOptions& run, const SystemBench& asked);
 int render_system(const RegisteredSystem& system, const RunOptions& run, const SystemRender& asked);
 int cut_system(const RegisteredSystem& system, const RunOptions& run, const SystemItem& item,

@@ -54,7 +54,7 @@ ThesisRun measure(const ThesisStudy& study) {
         std::fflush(stdout);
     };
     if (!options.compute)
-        fmt::print("no octree and no depth: they need compute shaders, GL 4.3; this context is {}\n",
+        fmt::print("no octree and no depth: both need compute shaders, GL 4.3; this context is {}\n",
                    context.describe().version);
     ThesisRun run{summary(context.describe()), thesis_study(options)};
     fmt::print("\n");
@@ -90,7 +90,8 @@ Verb thesis_verb() {
     add_settings_options(verb, options->run);
     verb.add(integer_option("--frames", "N", {1, most_frames}, options->run.frames, "frames to measure"));
     verb.add(integers_option("--counts", "N,...", {1, most_particles}, options->counts, "particle counts"));
-    verb.add(seconds_option("--seconds", options->seconds, "a measurement ends with the frame in which this is over"));
+    verb.add(
+        seconds_option("--seconds", options->seconds, "a measurement ends with the frame in which this time is over"));
     verb.add(path_option("--csv", "FILE", options->csv, "write every number of every cell"));
     verb.add(path_option("--json", "FILE", options->json, "the same as JSON"));
     verb.add(path_option("--chart", "FILE", options->chart, "draw the times over the counts as SVG, by gnuplot"));

@@ -8,11 +8,11 @@ void add_legal_option(Verb& verb, Legal& legal) {
     verb.add(choice_option<Legal>(
         "--legal", legal, {{"measured", Legal::measured}, {"glsl", Legal::glsl}, {"any_order", Legal::any_order}},
         "what differences are judged by: what the driver was measured to do; GLSL's precision rules; "
-        "these for shaders without `precise`"));
+        "any order of operations too, for shaders without `precise`"));
 }
 
 void add_pass_options(Verb& verb, PassRules& rules) {
-    verb.add(flag("--allow-undefined", rules.allow_undefined, "do not fail on what rests on what GL leaves open"));
+    verb.add(flag("--allow-undefined", rules.allow_undefined, "do not fail on what GL leaves open"));
     verb.add(flag("--require-hits", rules.require_hits, "fail where nothing collided, so that little was tried"));
     verb.add(share_option("--power-at-least", rules.power_at_least,
                           "fail where the run would have shown fewer of the mistakes with names: 95%, 0.95"));

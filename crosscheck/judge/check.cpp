@@ -40,7 +40,7 @@ void ask_power(CheckReport& report, double at_least) {
     if (at_least <= 0.0 || report.verdict == Verdict::nondeterministic)
         return;
     if (!report.verdicts)
-        throw Error("power: what is not judged step by step shows no mistakes; right is mode resync");
+        throw Error("power: only steps that are judged can show mistakes; right is mode resync");
     if (report.power.share() < at_least && report.verdict != Verdict::divergent)
         report.untried.emplace_back(fmt::format("{} of {} mistakes would have shown ({:.1f} %; asked for are {:.4g} %)",
                                                 report.power.seen(), report.power.mistakes.size(),

@@ -88,7 +88,7 @@ void expect_untouched(const System& system, std::size_t first, const SystemState
             continue;
         const auto changed = differing_items(before[r], now[r]);
         if (!changed.empty())
-            throw Error(fmt::format("frame {}: {} changed {}; it is to write {} alone", frame, pass.name(),
+            throw Error(fmt::format("frame {}: {} changed {}; it must write {} alone", frame, pass.name(),
                                     item_name(system.schema.resources[r], now.extent(r), changed.front()),
                                     system.schema.resources[pass.resource()].title));
     }
@@ -199,9 +199,9 @@ void run_gpu(const System& system, SystemSide& gpu, int frames,
                     const View one = std::as_const(now)[r], other = std::as_const(again)[r];
                     if (!compare(one, other).agree() && !pass.unordered() &&
                         !(r == pass.resource() && same_but_for_order(pass, {before.view(), frame}, one, other)))
-                        throw Error(fmt::format("the GPU gave two answers to frame {}, pass {}; check tells where they "
-                                                "differ",
-                                                frame, pass.name()));
+                        throw Error(fmt::format(
+                            "the GPU gave two answers to frame {}, pass {}; check reports where they differ", frame,
+                            pass.name()));
                 }
                 now = std::move(again);
             }

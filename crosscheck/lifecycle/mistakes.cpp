@@ -82,15 +82,15 @@ std::vector<NamedMistake> made() {
     in(simulating, "position_before_velocity", "the old velocity moves the particle",
        mistake_at(site::moving_velocity, instead, -1, &site::velocity_before));
     in(simulating, "not_moved", "the velocity moves nothing", mistake_at(site::way, zero));
-    in(simulating, "moved_twice", "the way counts twice", mistake_at(site::way, doubled));
+    in(simulating, "moved_twice", "the step counts twice", mistake_at(site::way, doubled));
     in(simulating, "velocity_kept", "the velocity is stored as it was",
        mistake_at(site::velocity, instead, -1, &site::velocity_before));
-    in(simulating, "never_ages", "nobody ages", mistake_at(site::aged, zero));
+    in(simulating, "never_ages", "no particle ages", mistake_at(site::aged, zero));
     in(simulating, "ages_twice", "a tick counts twice", mistake_at(site::aged, doubled));
     in(simulating, "grows_younger", "time is added", mistake_at(site::aged, negated));
     in(simulating, "drag_missing", "nothing brakes", mistake_at(site::drag_factor, zero));
     in(simulating, "drag_factor_missing", "nothing brakes", mistake_at(site::braked, instead, -1, &site::faster));
-    in(simulating, "drag_reversed", "drag pushes along", mistake_at(site::drag, negated));
+    in(simulating, "drag_reversed", "drag pushes particles on", mistake_at(site::drag, negated));
     // Forces.
     in(simulating, "vortex_reversed", "the vortex turns the other way", mistake_at(site::swirl, negated));
     in(simulating, "vortex_missing", "the vortex does not turn", mistake_at(site::swirl, zero));
@@ -99,40 +99,41 @@ std::vector<NamedMistake> made() {
     in(simulating, "repels", "the point pushes away", mistake_at(site::attraction, negated));
     in(simulating, "attraction_missing", "the point does not attract", mistake_at(site::attraction, zero));
     in(simulating, "falloff_missing", "a force is as strong at its rim", mistake_at(site::left_of_force, one));
-    in(simulating, "axis_part_kept", "the way from the axis is that from the centre",
+    in(simulating, "axis_part_kept", "the vector from the axis is that from the centre",
        mistake_at(site::across, instead, -1, &site::to_centre));
     in(simulating, "softening_missing", "the point is not softened", mistake_at(site::softening, zero));
     in(simulating, "kills_nobody", "the kill radius is not looked at", mistake_at(site::is_killed, never));
-    in(simulating, "kills_everybody", "everyone is killed", mistake_at(site::is_killed, always));
+    in(simulating, "kills_everybody", "every particle is killed", mistake_at(site::is_killed, always));
     in(simulating, "curl_reversed", "the noise blows the other way", mistake_at(site::curl, negated));
     in(simulating, "curl_missing", "the noise does not blow", mistake_at(site::curl, zero));
     in(simulating, "noise_not_panned", "the noise stands still", mistake_at(site::offset, zero));
     in(simulating, "frequency_missing", "the noise has the frequency 1", mistake_at(site::frequency, one));
     // The order.
-    in({"move", "move_particles"}, "rest_moved_by_one", "who cannot die comes from one slot on",
-       mistake_at(site::source, one_more));
-    in({"move", "move_particles"}, "rest_moved_from_one_before", "everyone comes from one slot before",
-       mistake_at(site::source, one_less));
+    in({"move", "move_particles"}, "rest_moved_by_one",
+       "particles that cannot die are copied from the slot after theirs", mistake_at(site::source, one_more));
+    in({"move", "move_particles"}, "rest_moved_from_one_before",
+       "every particle is copied from the slot before its own", mistake_at(site::source, one_less));
     in({"move", "move_particles"}, "source_doubled", "the slot of the source counts twice",
        mistake_at(site::source, doubled));
     in({"move", "move_particles"}, "survivors_forgotten", "the survivors are not moved",
        mistake_at(site::survivors_before, zero));
     in({"destroy"}, "rank_inclusive", "the list holds the next slot", mistake_at(site::rank, one_more));
-    in({"destroy_reduce", "destroy", "destroy_count"}, "all_survive", "nobody dies",
+    in({"destroy_reduce", "destroy", "destroy_count"}, "all_survive", "no particle dies",
        mistake_at(site::survives, always));
     in({"destroy_reduce", "destroy", "destroy_count"}, "none_survives", "all that may die do",
        mistake_at(site::survives, never));
-    in({"destroy_reduce", "destroy", "destroy_count"}, "dead_at_below_zero", "who has exactly 0 left survives",
+    in({"destroy_reduce", "destroy", "destroy_count"}, "dead_at_below_zero", "a particle with exactly 0 left survives",
        mistake_at(site::survives, or_equal, 0));
-    in({"move", "move_particles"}, "rest_by_one", "who cannot die comes from one slot on, the survivors from theirs",
+    in({"move", "move_particles"}, "rest_by_one",
+       "particles that cannot die are copied from the slot after theirs, the survivors from their own",
        mistake_at(site::rest, one_more));
-    in({"destroy"}, "listed_one_place_on", "the list begins one place on", mistake_at(site::list_place, one_less));
+    in({"destroy"}, "listed_one_place_on", "the list begins one place later", mistake_at(site::list_place, one_less));
     // Lists.
-    in({"emit_list"}, "newborns_not_listed", "the newborns stand in no list", mistake_at(site::is_new, never));
+    in({"emit_list"}, "newborns_not_listed", "the newborns are in no list", mistake_at(site::is_new, never));
     in({"post_destroy"}, "lists_not_swapped", "the list that was made is not the next frame's",
        mistake_at(site::current_list, opposite));
     in({"destroy_dead"}, "dead_not_listed", "the slots of the dead are lost", mistake_at(site::is_dead, never));
-    in({"destroy_dead"}, "dead_one_place_on", "the dead are listed one place on",
+    in({"destroy_dead"}, "dead_one_place_on", "the dead are listed one place later",
        mistake_at(site::dead_rank, one_less));
     in({"simulate", "simulate_particles"}, "newborns_not_simulated", "the newborns take no step",
        mistake_at(site::particles_present, instead, -1, &site::alive_before));
@@ -184,11 +185,11 @@ std::vector<NamedMistake> made() {
     in({"emit_arguments"}, "moved_without_newborns", "the newborns have no groups to be moved",
        mistake_at(site::present, instead, -1, &site::alive_before));
     in({"emit"}, "size_not_given", "newborns have no size", mistake_at(site::initial_size, zero));
-    in({"emit", "emit_counters"}, "emitted_none", "nobody is born", mistake_at(site::request, zero));
+    in({"emit", "emit_counters"}, "emitted_none", "no particle is born", mistake_at(site::request, zero));
     in({"emit", "emit_counters"}, "emitted_one_more", "one more is born", mistake_at(site::request, one_more));
     in({"emit", "emit_counters"}, "request_not_clamped", "more are born than fit", mistake_at(site::fits, always));
     // Counters and calls.
-    in({"post_destroy"}, "died_not_counted", "nobody is counted as dead", mistake_at(site::died, zero));
+    in({"post_destroy"}, "died_not_counted", "no particle is counted as dead", mistake_at(site::died, zero));
     in({"post_destroy"}, "alive_kept", "the number of the living stays",
        mistake_at(site::alive, instead, -1, &site::alive_before));
     in({"post_destroy"}, "alive_is_survivors", "the living are the survivors alone",
@@ -208,10 +209,11 @@ std::vector<NamedMistake> made() {
        mistake_at(site::ring, zero));
     in({"indirect"}, "may_die_one_more", "one too many may die", mistake_at(site::may_die, one_more));
     in({"indirect"}, "may_die_one_less", "one too few may die", mistake_at(site::may_die, one_less));
-    in({"indirect"}, "nobody_may_die", "nobody may die", mistake_at(site::may_die, zero));
-    in({"indirect"}, "everybody_may_die", "everyone may die", mistake_at(site::may_die, instead, -1, &site::alive));
+    in({"indirect"}, "nobody_may_die", "no particle may die", mistake_at(site::may_die, zero));
+    in({"indirect"}, "everybody_may_die", "every particle may die",
+       mistake_at(site::may_die, instead, -1, &site::alive));
     in({"indirect_arguments"}, "draws_one_more", "one too many is drawn", mistake_at(site::alive_before, one_more));
-    in({"indirect_arguments"}, "draws_nobody", "nobody is drawn", mistake_at(site::draw_sprite, zero));
+    in({"indirect_arguments"}, "draws_nobody", "no particle is drawn", mistake_at(site::draw_sprite, zero));
     in({"indirect_arguments"}, "groups_rounded_down", "the last group to destroy is missing",
        mistake_at(site::destroy_groups, one_less));
     in({"indirect_arguments"}, "move_groups_rounded_down", "the last group to move is missing",
@@ -232,7 +234,7 @@ std::vector<NamedMistake> made() {
     in({"draw"}, "size_missing", "sprites have no size", mistake_at(site::half_width, zero));
     in({"draw"}, "age_reversed", "the last look is that of birth", mistake_at(site::age, opposite));
     in({"draw"}, "never_changes", "sprites look as at birth", mistake_at(site::age, zero));
-    in({"draw"}, "expired_drawn", "who has no time left is drawn", mistake_at(site::is_visible, always));
+    in({"draw"}, "expired_drawn", "a particle with no time left is drawn", mistake_at(site::is_visible, always));
     in({"draw"}, "looks_as_at_death", "sprites look as at their end", mistake_at(site::age, one));
     in({"draw"}, "sprite_upside_down", "a sprite's top is its bottom", mistake_at(site::way_to_corner, negated, 1));
     in({"draw"}, "sprite_mirrored", "a sprite's left is its right", mistake_at(site::way_to_corner, negated, 0));

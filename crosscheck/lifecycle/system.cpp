@@ -34,7 +34,7 @@ std::string text_of(const Host& host) {
     std::string text = differing_text(switch_values(host.switches()), switch_values(Switches()));
     for (const HostEmitter& of : host.emitters())
         if (host.switches().may_die != MayDie::all && !host.lists() && of.dies == Dies::all)
-            text += fmt::format("; of emitter {} anyone may die", of.number);
+            text += fmt::format("; of emitter {} any particle may die", of.number);
     for (const HostEmitter& of : host.emitters()) {
         const Emitter& e = of.settings();
         for (const GraphPtr& graph : {e.emission, e.simulation, e.rendering})

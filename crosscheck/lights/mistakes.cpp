@@ -107,9 +107,9 @@ std::vector<NamedMistake> of_volumes() {
             mistake_at(site::attenuation, Change::not_done));
         add("colour_not_attenuated", "a light's colour is added whole",
             mistake_at(site::light_colour, Change::instead, -1, &site::colour_before));
-        add("direction_not_unit", "directions are as long as the way",
+        add("direction_not_unit", "directions are as long as the vector to the light",
             mistake_at(site::unit, Change::instead, -1, &site::to_light));
-        add("direction_by_square", "the way is divided by its squared length",
+        add("direction_by_square", "the vector to the light is divided by its squared length",
             mistake_at(site::distance, Change::not_done));
         add("direction_not_weighted", "directions are not weighted", mistake_at(site::weight, Change::one));
         add("direction_weighted_twice", "directions are weighted twice",
@@ -159,7 +159,7 @@ std::vector<NamedMistake> of_lighting() {
         add("supersample_sum", "samples are added up, not averaged", mistake_at(site::sample_mean, Change::one));
         add("supersample_of_area", "the sum of the samples is divided by their number in a plane",
             spoiled_at(site::sample_mean, of_area));
-        add("outside_clamped", "beside the grid its border goes on", mistake_at(site::in_grid, Change::always));
+        add("outside_clamped", "outside the grid its border's values go on", mistake_at(site::in_grid, Change::always));
         add("colour_of_direction", "the texture of directions is read for colours",
             mistake_at(site::sampled_colour, Change::instead, -1, &site::sampled_direction));
         add("length_not_rooted", "the direction is divided by its squared length",
@@ -194,7 +194,7 @@ const std::vector<NamedMistake>& mistakes() {
         Mistake beside = mistake_at(site::centre_x, Change::half_less);
         beside.also = &drawn;
         std::vector<NamedMistake> made{
-            {"step_without_tick", "lights go their way of a second in each frame", "light_step_pass",
+            {"step_without_tick", "in each frame lights move as far as in a second", "light_step_pass",
              mistake_at(site::tick, Change::one)},
             {"step_without_speed", "every light goes 1 m a second", "light_step_pass",
              mistake_at(site::speed_before, Change::one)},
@@ -233,7 +233,7 @@ const std::vector<NamedMistake>& mistakes() {
              mistake_at(site::depth, Change::opposite)},
             {"normal_of_position", "the position is stored as the normal", "gbuffer_pass_normal",
              mistake_at(site::surface_normal, Change::instead, -1, &site::surface_point)},
-            {"normal_never_turned", "normals face the way of their triangle, not the viewer", "gbuffer_pass_normal",
+            {"normal_never_turned", "normals face as their triangle does, not the viewer", "gbuffer_pass_normal",
              mistake_at(site::faces_away, Change::never)},
             {"normal_turned_away", "normals are turned from the viewer", "gbuffer_pass_normal",
              mistake_at(site::faces_away, Change::inverted)},

@@ -60,7 +60,7 @@ Called called(const GlslFunction& function, const std::vector<Column>& columns) 
     const Signature signature = signature_of(function, text);
     const std::optional<Column> result = column_of(signature.result);
     if (!result)
-        fail(function, signature, "its result is to be float, int, vec2, vec3 or vec4");
+        fail(function, signature, "its result must be float, int, vec2, vec3 or vec4");
     if (signature.parameters.size() != columns.size())
         fail(function, signature,
              fmt::format("the table has {} columns for {} arguments", columns.size(), signature.parameters.size()));

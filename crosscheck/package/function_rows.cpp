@@ -16,7 +16,7 @@ std::vector<TableColumn> columns_of(const GlslFunction& function, const function
         const std::size_t number = columns.size() + 1;
         const std::optional<function_twin::Column> column = function_twin::column_of(parameter.type);
         if (!column)
-            fail(function, signature, fmt::format("argument {} is to be float, int, vec2, vec3 or vec4", number));
+            fail(function, signature, fmt::format("argument {} must be float, int, vec2, vec3 or vec4", number));
         if (parameter.name == result_name)
             fail(function, signature, "an argument is called result, as the column of what it is to return");
         columns.push_back({parameter.name.empty() ? fmt::format("argument_{}", number) : parameter.name, column->scalar,
@@ -26,7 +26,7 @@ std::vector<TableColumn> columns_of(const GlslFunction& function, const function
         fail(function, signature, "it has no arguments, so there is nothing to make a table of");
     const std::optional<function_twin::Column> result = function_twin::column_of(signature.result);
     if (!result)
-        fail(function, signature, "its result is to be float, int, vec2, vec3 or vec4");
+        fail(function, signature, "its result must be float, int, vec2, vec3 or vec4");
     columns.push_back({std::string(result_name), result->scalar, result->components, true});
     return columns;
 }

@@ -63,7 +63,8 @@ Option frame_option(int& frame) {
 }
 
 Option pass_option(std::string& pass) {
-    return text_option("--pass", "NAME", pass, "of which pass; else the first that runs in the frame");
+    return text_option("--pass", "NAME", pass,
+                       "the pass that makes the item; without it the first that runs in the frame");
 }
 
 Option hex_option(bool& hexadecimal) {
@@ -138,6 +139,22 @@ void print_hashes(const System& system, const std::string& profile, int frames, 
         reference.step(frame);
         if (every || frame + 1 == frames)
             fmt::print("{} {}\n", frame, hash_text(reference.hash()));
+    }
+}
+
+void print_gpu_hashes(const System& system, SystemSide& side, int frames, bool every) {
+    SystemState state = system.start;
+    side.upload(std::as_const(state).view());
+    Progress progress("hash", frames, true);
+    for (int frame = 0; frame < frames; ++frame) {
+        for (std::size_t p = 0; p < system.passes.size(); ++p)
+            if (system.passes[p]->runs(frame) && !system.passes[p]->continues())
+                side.step(p, frame);
+        progress.show(frame + 1);
+        if (!every && frame + 1 < frames)
+            continue;
+        side.read(state);
+        fmt::print("{} {}\n", frame, hash_text(state_hash(state)));
     }
 }
 

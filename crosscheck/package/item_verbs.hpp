@@ -72,6 +72,8 @@ std::vector<std::string> first_item_words(const System& system, const CheckRepor
 
 /// Prints the reference's state hash after the last frame, or after `every` one.
 void print_hashes(const System& system, const std::string& profile, int frames, bool every);
+/// The same of a side that runs alone: nothing is judged, and only what is printed is read.
+void print_gpu_hashes(const System& system, SystemSide& side, int frames, bool every);
 
 /// Records info.frames frames of `side` and says so; its settings, renderer and profile become `info`'s. Gives the exit
 /// status.

@@ -54,7 +54,7 @@ void add_gl_options(Verb& verb, Options& options) {
 
 void add_item_options(Verb& verb, SystemItem& item) {
     verb.add(frame_option(item.frame));
-    verb.add(required(text_option("--item", "I|X,Y", item.item, "the item, of an image column and row")));
+    verb.add(required(text_option("--item", "I|X,Y", item.item, "the item; in an image its column and row")));
     verb.add(pass_option(item.pass));
     add_legal_option(verb, item.legal);
 }

@@ -74,7 +74,7 @@ class Messages {
 
     std::string text(std::uint64_t bytes) {
         if (bytes > longest_text)
-            fail("its reading process broke: it tells a text without end");
+            fail("its reading process broke: it sends a text without end");
         std::string text(bytes, '\0');
         source_.read(text.data(), bytes);
         return text;

@@ -33,7 +33,7 @@ std::vector<std::string> SystemDebugRun::groups() const {
 
 std::vector<DebugSelector> SystemDebugRun::selectors() const {
     return {{"pass", "NAME", "look at the items of this pass"},
-            {"item", "I|X,Y", "look at this item, of an image column and row"}};
+            {"item", "I|X,Y", "look at this item; in an image its column and row"}};
 }
 
 DebugItem SystemDebugRun::select(std::size_t selector, const std::string& argument, DebugItem now) {

@@ -13,8 +13,8 @@ std::size_t group_size(const Program& program, std::size_t particles) {
     std::array<GLint, 3> size{};
     gl::GetProgramiv(program.id(), GL_COMPUTE_WORK_GROUP_SIZE, size.data());
     if (size[1] != 1 || size[2] != 1)
-        throw Error(fmt::format("{}: local_size_y is {} and local_size_z {}; particles are counted along x, and both "
-                                "are to be 1",
+        throw Error(fmt::format("{}: local_size_y is {} and local_size_z {}; particles are counted along x, so both "
+                                "must be 1",
                                 program.name(), size[1], size[2]));
     const auto along = static_cast<std::size_t>(size[0]);
     GLint most = 0;

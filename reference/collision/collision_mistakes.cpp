@@ -152,7 +152,7 @@ const std::array searches{
                   mistake_at(site::in_range, Change::reversed, 0)},
     SearchMistake{by_depth, "normal_reversed", "the normal points into the surface",
                   mistake_at(site::normal, Change::negated)},
-    SearchMistake{by_depth, "thickness_not_tested", "a particle any way behind a surface hits it",
+    SearchMistake{by_depth, "thickness_not_tested", "a particle however far behind a surface hits it",
                   mistake_at(site::within_thickness, Change::always)},
     SearchMistake{by_depth, "front_is_behind", "a particle before a surface hits it",
                   mistake_at(site::behind_surface, Change::reversed, 0)},

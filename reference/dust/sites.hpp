@@ -69,8 +69,8 @@ inline constexpr Site is_lucky{"comes back"}, local{"direction in the emitter"},
 inline constexpr Site blast{"blast"}, blast_direction{"direction of the blast"};
 
 // Update.
-inline constexpr Site asks_again{"who dies is asked again"}, pulled_alone{"who was pulled alone dies"};
-inline constexpr Site asks_where_it_was{"who dies is asked where it was"}, in_halves{"colours are halves"};
+inline constexpr Site asks_again{"deaths are asked for again"}, pulled_alone{"only pulled grains die"};
+inline constexpr Site asks_where_it_was{"deaths are asked for where it was"}, in_halves{"colours are halves"};
 inline constexpr Site sucked{"sucked velocity"}, fall{"velocity of the fall"}, next{"next position"};
 inline constexpr Site drag{"drag"}, mover{"velocity that moves"}, way_of_frame{"way of the frame"};
 inline constexpr Site movement{"movement"}, movement_unit{"direction of the movement"};

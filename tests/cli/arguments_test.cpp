@@ -136,11 +136,13 @@ TEST_CASE("arguments: a file without a name is refused, wherever one can be give
 TEST_CASE("arguments: an option that the side or the verb would ignore is refused") {
     check_all({
         {{"render", scene, "-o", "x.png", "--gl", test::software_gl()}, "render: --gl goes with --side gpu"},
+        {{"hash", scene, "--gl", test::software_gl()}, "hash: --gl goes with --side gpu"},
+        {{"hash", scene, "--side", "gpu", "--profile", "strict"}, "hash: --profile goes with --side cpu"},
         {{"render", scene, "-o", "x.png", "--shaders", "."}, "render: --shaders goes with --side gpu"},
         {{"render", scene, "-o", "x.png", "--side", "gpu", "--profile", "bogus"},
          "render: --profile goes with --side cpu"},
         {{"bench", scene, "--particles", "3", "--counts", "5"},
-         "bench: --particles N is --counts N; one of both is enough"},
+         "bench: --particles N and --counts N mean the same; right is one of them"},
     });
 }
 

@@ -147,7 +147,7 @@ TEST_CASE("capsule: what cannot be cut or read is refused in a line, and no file
     const Setting setting;
     CHECK_THAT(refusal(setting.cut_live("3", "300")), Contains("300"));
     CHECK_THAT(refusal(setting.cut({setting.scene, "--pixel", "1,1"}, "3", "3")),
-               Contains("one of --particle I and --pixel X,Y is needed"));
+               Contains("needs --particle I or --pixel X,Y"));
     CHECK_THAT(refusal(setting.cut({}, "3", "3")), Contains("a scene or --trace FILE is needed"));
     CHECK_THAT(refusal(setting.show()), Contains("capsule.json: cannot be read"));
     CHECK_THAT(refusal(run_lockstep({"capsule", "show", setting.scene})),

@@ -103,7 +103,7 @@ TEST_CASE("explain_command: check's first divergence names the command that show
         CHECK_THAT(again, Catch::Contains(" --texel "));
         const test::Outcome outcome = run_lockstep(words(again));
         CHECK(outcome.status == 0);
-        CHECK_THAT(outcome.out, Catch::Contains("nobody known") && Catch::Contains("DIVERGENT"));
+        CHECK_THAT(outcome.out, Catch::Contains("none that is known") && Catch::Contains("DIVERGENT"));
     }
 }
 
@@ -157,7 +157,7 @@ TEST_CASE("explain_command: what cannot be explained is told in one line") {
         CHECK(told({"--frame", "1", "--pixel", wrong}) ==
               "there is no pixel '" + std::string(wrong) + "'; the rendered frame has 0,0 to 39,29");
     CHECK(refusal(run_lockstep({"explain", "--trace", "run.h5", "--frame", "1", "--pixel", "1,1"})) ==
-          "explain: --pixel needs a scene: no picture is in a recording; --particle and --texel go with one");
+          "explain: --pixel needs a scene, since a recording holds no picture; --particle and --texel go with one");
 }
 
 TEST_CASE("explain_command: a pixel of the rendered frame, with what is drawn there") {

@@ -149,7 +149,7 @@ TEST_CASE("merge: a recording that lies elsewhere now is named, and no other is 
     CHECK_THAT(refusal(run_lockstep(joined({"merge"}, parts))), Contains("right is --trace FILE"));
     CHECK(run_lockstep(joined({"merge", "--trace", moved}, parts)).out == whole);
     setting.record({"--set", "tick=0.02"});
-    CHECK_THAT(refusal(run_lockstep(joined({"merge"}, parts))), Contains("another recording than the parts are of"));
+    CHECK_THAT(refusal(run_lockstep(joined({"merge"}, parts))), Contains("not the recording that the parts are of"));
 }
 
 TEST_CASE("merge: parts that are missing, there twice, or of another run are refused, and nothing is written") {

@@ -82,7 +82,7 @@ TEST_CASE("shader_errors: a missing captured output is named") {
         refusal_of(shaders),
         Catch::Equals("collision_pass: output out_CollideTime is not written by the last vertex-processing stage (" +
                       (shaders.path() / "collision_pass.geom").string() +
-                      "); it is to write out_Position, out_Speed, out_Dir, out_CollideTime"));
+                      "); it must write out_Position, out_Speed, out_Dir, out_CollideTime"));
 }
 
 TEST_CASE("shader_errors: a misspelt uniform or attribute is told where it is declared, with what may be meant") {
@@ -116,14 +116,14 @@ TEST_CASE("shader_errors: a misspelt uniform or attribute is told where it is de
         test::plant(shaders, "collision_pass.vert", "v_Speed), u_Tick)", "v_Speed), u_Tick.x)");
         test::plant(shaders, "collision_pass.vert", "product(step, u_Tick)", "product(step, u_Tick.x)");
         CHECK_THAT(refusal_of(shaders),
-                   Catch::StartsWith(file + ":") && Catch::EndsWith(": uniform u_Tick is vec2, but is to be float"));
+                   Catch::StartsWith(file + ":") && Catch::EndsWith(": uniform u_Tick is vec2, but must be float"));
     }
     SECTION("an output of another type") {
         test::plant(shaders, "collision_pass.geom", "out float out_Speed;", "out vec2 out_Speed;");
         test::plant(shaders, "collision_pass.geom", "out_Speed = v_Speed[0];", "out_Speed = vec2(v_Speed[0]);");
         CHECK_THAT(refusal_of(shaders),
                    Catch::StartsWith("shader " + (shaders.path() / "collision_pass.geom").string() + ":") &&
-                       Catch::EndsWith(": output out_Speed is vec2, but is to be float"));
+                       Catch::EndsWith(": output out_Speed is vec2, but must be float"));
     }
 }
 
@@ -233,5 +233,5 @@ TEST_CASE("shader_errors: a storage buffer that nobody binds is refused on a GL 
     CHECK(old.status == 2);                                   // Mesa says on standard output what it leaves out
     if (old.err.find("GL_INVALID_ENUM") != std::string::npos) // of what has nothing to do with it
         return test::skip("this Mesa breaks when it is to leave out GL_ARB_program_interface_query", "");
-    CHECK_THAT(old.err, Catch::Contains("nothing is given for storage buffer Step, and this GL is too old to tell"));
+    CHECK_THAT(old.err, Catch::Contains("nothing is given for storage buffer Step, and this GL is too old to say"));
 }

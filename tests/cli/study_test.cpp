@@ -162,7 +162,7 @@ TEST_CASE("study: the thesis's tables, measured, and told again from what was wr
                                       {{{"GALLIUM_DRIVER", "softpipe"}}});
     CHECK(without.status == 0);
     CHECK_THAT(without.out,
-               Catch::StartsWith("no octree and no depth: they need compute shaders, GL 4.3; this context is 3.3"));
+               Catch::StartsWith("no octree and no depth: both need compute shaders, GL 4.3; this context is 3.3"));
 }
 
 TEST_CASE("study: the GL side, and the collision cameras") {
@@ -195,7 +195,7 @@ TEST_CASE("study: who has come to rest, over the frames") {
     const std::string nothing = folder.write("nothing.json", R"({"emitters": [{"count": 10, "min": [0, 0, 0],
         "max": [1, 1, 1]}]})");
     CHECK(refusal(run_lockstep({"study", "rest", nothing, "--frames", "4"})) ==
-          "study rest counts who lies on an obstacle; this scene has none");
+          "study rest counts the particles that lie on an obstacle; this scene has none");
 }
 
 TEST_CASE("study: what the thesis's tables cannot be made of is refused in one line") {

@@ -50,6 +50,20 @@ TEST_CASE("systems: a scene names its system, and one that there is not is told 
     CHECK_THAT(told(R"({"system": "collision"})"), Contains("emitters"));
 }
 
+TEST_CASE("systems: each side alone comes to the same hashes in exact arithmetic, and a wrong shader to others") {
+    const test::TemporaryFolder folder;
+    plant(folder);
+    for (const std::string& one : {scene, std::string("data/scenes/lattice.json")}) {
+        const std::vector<std::string> run{"hash",     one, "--preset",    "exact", "--every",
+                                           "--frames", "3", "--particles", "500",   "--side"};
+        const std::string cpu = run_lockstep(test::joined(run, {"cpu"})).out;
+        CHECK(std::count(cpu.begin(), cpu.end(), '\n') == 3);
+        CHECK(run_lockstep(on_gl(test::joined(run, {"gpu"}))).out == cpu);
+        if (one == scene)
+            CHECK(run_lockstep(on_gl(test::joined(run, {"gpu", "--shaders", folder.path().string()}))).out != cpu);
+    }
+}
+
 TEST_CASE("systems: verbs of the collision system refuse another's scene and name those that run it") {
     for (const char* verb : {"study"}) {
         INFO(verb);
@@ -61,7 +75,7 @@ TEST_CASE("systems: verbs of the collision system refuse another's scene and nam
     CHECK(refusal(run_lockstep({"check", scene, "--require-hits"})) ==
           "check: --require-hits does not go with a scene of system dust");
     CHECK(refusal(run_lockstep({"explain", scene, "--frame", "1", "--particle", "2"})) ==
-          "explain: of a scene of system dust, --item I is needed");
+          "explain: a scene of system dust needs --item I");
 }
 
 TEST_CASE("systems: hash is of the reference alone, the same for any number of threads") {
@@ -298,7 +312,7 @@ TEST_CASE("systems: a recording that is damaged, cut off, of another system or o
     CHECK(refusal(run_lockstep({"explain", "--trace", file, "--frame", "3", "--item", "0"})) ==
           file + " holds frames 0 to 2, not 3");
     CHECK(refusal(run_lockstep({"explain", "--trace", file, "--frame", "0", "--particle", "0"})) ==
-          "explain: of a scene of system dust, --item I is needed");
+          "explain: a scene of system dust needs --item I");
     CHECK_THAT(refusal(run_lockstep({"explain", "--trace", file, "--frame", "0", "--item", "50"})),
                Contains("there is no grain '50'; physics has 0 to 49"));
     CHECK(refusal(run_lockstep({"check", "--trace", file, "--images", out.path().string()})) ==

@@ -96,13 +96,13 @@ TEST_CASE("program: a wrong uniform or attribute type is told") {
     folder.write("step.frag", fragment);
     const Program program = build(folder, {Stage::vertex, Stage::fragment}, captures);
     const std::string file = (folder.path() / "step.vert").string();
-    CHECK_THROWS_WITH(program.set("u_Tick", 1), "shader " + file + ":4: uniform u_Tick is float, but is to be int");
+    CHECK_THROWS_WITH(program.set("u_Tick", 1), "shader " + file + ":4: uniform u_Tick is float, but must be int");
     CHECK_THROWS_WITH(program.set("u_Gravity", 1.0F),
-                      "shader " + file + ":5: uniform u_Gravity is vec3, but is to be float");
+                      "shader " + file + ":5: uniform u_Gravity is vec3, but must be float");
     CHECK_THROWS_WITH(program.set_unit("u_ClientWidth", 0),
-                      "shader " + file + ":8: uniform u_ClientWidth is int, but is to be sampler2D");
+                      "shader " + file + ":8: uniform u_ClientWidth is int, but must be sampler2D");
     CHECK_THROWS_WITH(program.attribute("a_Speed", GL_FLOAT_VEC3),
-                      "shader " + file + ":3: attribute a_Speed is float, but is to be vec3");
+                      "shader " + file + ":3: attribute a_Speed is float, but must be vec3");
 }
 
 TEST_CASE("program: what the shader uses and nobody gives is told with the name it may be meant as") {
@@ -156,7 +156,7 @@ TEST_CASE("program: all that nobody gives is told at once, and what is not near 
                           ":6: nothing is given for uniform u_Tik; did you mean float u_Tick?; " + file +
                           ":3: nothing is given for uniform u_Turn");
     CHECK_THROWS_WITH(program.set("u_Map", 1),
-                      "shader " + file + ":4: uniform u_Map is sampler2DRect, but is to be int");
+                      "shader " + file + ":4: uniform u_Map is sampler2DRect, but must be int");
 }
 
 TEST_CASE("program: a geometry stage that makes triangles is told as that") {
@@ -178,10 +178,10 @@ TEST_CASE("program: a geometry stage that makes triangles is told as that") {
     const std::vector<Stage> stages{Stage::vertex, Stage::geometry, Stage::fragment};
     std::string file = geometry("points", "triangle_strip");
     CHECK(message(folder, stages, captures) ==
-          "shader " + file + ": layout(triangle_strip) out; is to be layout(points) out, a point a particle");
+          "shader " + file + ": layout(triangle_strip) out; right is layout(points) out, a point a particle");
     file = geometry("triangles", "points");
     CHECK(message(folder, stages, captures) ==
-          "shader " + file + ": layout(triangles) in; is to be layout(points) in, a point a particle");
+          "shader " + file + ": layout(triangles) in; right is layout(points) in, a point a particle");
     geometry("points", "points");
     CHECK(message(folder, stages, captures) == "built");
 }
@@ -283,12 +283,12 @@ TEST_CASE("program: a missing captured output is named with the stage that lacks
     folder.write("step.frag", fragment);
     CHECK(message(folder, {Stage::vertex, Stage::fragment}, captures) ==
           "step: output out_Speed is not written by the last vertex-processing stage (" +
-              (folder.path() / "step.vert").string() + "); it is to write out_Position, out_Speed");
+              (folder.path() / "step.vert").string() + "); it must write out_Position, out_Speed");
     folder.write("step.geom", "#version 330 core\nlayout(points) in;\nlayout(points, max_vertices = 1) out;\n"
                               "out float out_Speed;\nvoid main() { out_Speed = 1.0; EmitVertex(); }\n");
     CHECK(message(folder, {Stage::vertex, Stage::geometry, Stage::fragment}, captures) ==
           "step: output out_Position is not written by the last vertex-processing stage (" +
-              (folder.path() / "step.geom").string() + "); it is to write out_Position, out_Speed");
+              (folder.path() / "step.geom").string() + "); it must write out_Position, out_Speed");
 }
 
 TEST_CASE("program: a captured output of another type is told") {
@@ -303,9 +303,9 @@ TEST_CASE("program: a captured output of another type is told") {
     folder.write("step.frag", fragment);
     const std::string file = (folder.path() / "step.vert").string();
     CHECK(message(folder, {Stage::vertex, Stage::fragment}, captures) ==
-          "shader " + file + ":3: output out_Position is vec4, but is to be vec3");
+          "shader " + file + ":3: output out_Position is vec4, but must be vec3");
     CHECK(message(folder, {Stage::vertex, Stage::fragment}, std::span(captures).subspan(1)) ==
-          "shader " + file + ":4: output out_Speed is float[2], but is to be float");
+          "shader " + file + ":4: output out_Speed is float[2], but must be float");
 }
 
 TEST_CASE("program: outputs are found by the start of their names, in the last vertex-processing stage") {

@@ -79,5 +79,5 @@ TEST_CASE("lifecycle: a kernel that writes a buffer which it may only read is to
     plant(folder, "lifecycle/move.comp", "    store(j);\n", "    store(j);\n    counters[u_Emitter].killed = 7u;\n");
     const CheckMode mode = GENERATE(CheckMode::free, CheckMode::resync);
     CHECK_THROWS_WITH(run_lifecycle(shower(), 6, mode, (folder.path() / "lifecycle").string()),
-                      Catch::Contains("move changed emitter 0; it is to write the particles alone"));
+                      Catch::Contains("move changed emitter 0; it must write the particles alone"));
 }

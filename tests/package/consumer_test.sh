@@ -18,6 +18,8 @@ ends_with() {
     "$@" >out.txt 2>&1 || status=$?
     [ "$status" = "$expected" ] || fail "status $status, not $expected: $*"
 }
+# Commands of docs/own_system.md, which are run as they stand there.
+page_lines() { grep "^    $1 " "$source/docs/own_system.md" | sed 's/^ *//'; }
 # Wherever its lines are broken.
 says() { tr -s '\\\n ' ' ' <out.txt | grep -qF -- "$1" || fail "this is not said: $1"; }
 
@@ -110,6 +112,14 @@ if [ -f prefix/share/lockstep/report.html ]; then
     grep -q '"verdict":"DIVERGENT"' pages/report.html || fail 'the page does not say DIVERGENT'
     ends_with 1 build/grains capsule show pages/capsule.json
 fi
+mkdir page
+cp capsule.json page
+while read -r verb; do
+    status=0
+    (cd page && PATH="$work/build:$PATH" bash -ec "$verb") >out.txt 2>&1 || status=$?
+    [ "$status" -lt 2 ] || [[ $verb = *report* && ! -f prefix/share/lockstep/report.html ]] || fail "status $status: $verb"
+done < <(page_lines grains)
+[ -f page/run.h5 ] && [ -f page/17.json ] || fail 'the page writes no recording or capsule'
 succeeds build/grains hash --frames 5
 says '4 '
 ends_with 2 build/grains check --frame 30
@@ -121,15 +131,17 @@ says "there is no grain '2000'; grains has 0 to 1999"
 
 # A system that lockstep began: DIVERGENT until its twin is written, then not, and a planted bug has its name.
 # A name that is a function of C's, too.
-succeeds prefix/bin/lockstep new system signal
+begin=$(page_lines 'lockstep new system' | sed 's/sparks/signal/g')
+build_and_check=$(page_lines 'cmake -S sparks' | sed 's/sparks/signal/g')
+[ -n "$begin" ] && [ -n "$build_and_check" ] || fail 'docs/own_system.md does not begin a system'
+export CMAKE_PREFIX_PATH=$work/prefix
+succeeds env PATH="$work/prefix/bin:$PATH" bash -ec "$begin"
 says 'signal: a system with one pass'
 ends_with 2 prefix/bin/lockstep new system signal
-says 'signal is there and not empty'
+says 'signal exists and is not empty'
 ends_with 2 prefix/bin/lockstep new system 'Two words'
-says "'Two words' is no name for one"
-succeeds cmake -S signal -B signal/build "-DCMAKE_PREFIX_PATH=$work/prefix" "$@"
-succeeds cmake --build signal/build
-ends_with 1 signal/build/signal check --frames 5
+says "'Two words' cannot be its name"
+ends_with 1 bash -ec "${build_and_check/signal\/build/signal/build $(printf ' %q' "$@")}"
 says 'verdict DIVERGENT from frame 0 on'
 ends_with 8 ctest --test-dir signal/build
 sed -i -e '/TO BE WRITTEN/d' -e 's|^        //     |        |' signal/signal.hpp

@@ -174,7 +174,7 @@ TEST_CASE("function: what cannot be run says where and what would be right") {
     CHECK_THAT(error_of(replaced(bounce_text, "const in vec3 n", "const in vec3 n, float t")),
                Contains("the table has 2 columns for 3 arguments"));
     CHECK_THAT(error_of(replaced(bounce_text, "vec3 bounce", "mat3 bounce")),
-               Contains("its result is to be float, int, vec2, vec3 or vec4"));
+               Contains("its result must be float, int, vec2, vec3 or vec4"));
     CHECK_THAT(error_of(replaced(bounce_text, "const in vec3 n", "out vec3 n")),
                Contains("column 2 of the table is vec3, argument 2 is out"));
     CHECK_THAT(error_of(replaced(bounce_text, "u_Kept)", "u_Keptt)")), Contains("wall.glsl:5"));

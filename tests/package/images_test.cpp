@@ -265,7 +265,7 @@ TEST_CASE("images: they go by a shader's own names") {
     }
     names.uniforms.insert_or_assign("fog", "u_LightBefore");
     const NamedShaders bound(theirs, names);
-    CHECK_THROWS_WITH(run(theirs), Catch::Contains("uniform fog is ") && Catch::Contains("but is to be sampler2D"));
+    CHECK_THROWS_WITH(run(theirs), Catch::Contains("uniform fog is ") && Catch::Contains("but must be sampler2D"));
 }
 
 TEST_CASE("images: what is told of a texel names its column, row and layer, in explain and in a capsule") {

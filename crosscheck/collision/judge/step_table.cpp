@@ -47,8 +47,8 @@ StepTable table_of(const JudgedFrame& frame, std::size_t particle, StepCapture c
         return item_rows(pass, particle, told_by_capture(pass.pass, table.gpu, frame.gpu[particle]));
     });
     if (!same_bits(table.gpu.state, frame.gpu[particle]))
-        table.warning = "the trace build's outputs are not the ones the frame had; what it tells of the steps "
-                        "between may not be what happened";
+        table.warning =
+            "the trace build's outputs are not those of the frame; the steps between may not be what happened";
     if (!draws) {
         table.reference.before = frame.before[particle];
         return table;

@@ -80,7 +80,7 @@ void add_winner(FrameRun& run, glm::ivec2 texel, const std::vector<Contender>& w
     const auto gpu_particle = particle_of(gpu, frame, wanted);
     std::string gpu_owner = owner_text(gpu, gpu_particle);
     if (gpu.a != 0.0F && !gpu_particle && !may)
-        gpu_owner = "nobody known";
+        gpu_owner = "none that is known";
     rows.decision(fmt::format("owner of texel {}", texel_text(texel)), {}, reference_owner, gpu_owner, reference_owner,
                   may);
     for (int c = 0; c < 4; ++c)

@@ -15,7 +15,7 @@ double share(std::size_t part, std::size_t all) { return static_cast<double>(par
 
 float lowest_point(const Scene& scene) {
     if (scene.obstacles.positions.empty())
-        throw Error("study rest counts who lies on an obstacle; this scene has none");
+        throw Error("study rest counts the particles that lie on an obstacle; this scene has none");
     float lowest = scene.obstacles.positions.front().y;
     for (const glm::vec3& position : scene.obstacles.positions)
         lowest = std::min(lowest, position.y);

@@ -443,9 +443,10 @@ std::string thesis_text(const ThesisRun& run) {
             out += line(title(scene), columns, 19);
         }
     };
-    out += "\nRecall %, CDT / octree / depth: who has a particle in range finds one\n";
+    out += "\nRecall %, CDT / octree / depth: of the particles with another in range, those that find one\n";
     shares(recall);
-    out += "\nAnswers %, CDT / octree / depth: who touches an obstacle finds it, or a particle\n";
+    out += "\nAnswers %, CDT / octree / depth: of the particles that touch an obstacle, those that find it, or a "
+           "particle\n";
     shares(answers);
     return out + "\n" + findings(run);
 }

@@ -12,7 +12,7 @@ const LENS = 15; // texels across
 function ownerText(owner) {
   if (owner === NOBODY) return "nobody";
   if (owner === OBSTACLE) return "an obstacle";
-  return owner >= 0 ? `particle ${owner}` : "nobody known";
+  return owner >= 0 ? `particle ${owner}` : "none that is known";
 }
 
 export const classChip = (kind) => h("span", { class: `class ${CLASS_NAMES[kind].replace(" ", "-")}` }, CLASS_NAMES[kind]);

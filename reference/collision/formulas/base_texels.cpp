@@ -30,7 +30,7 @@ void add_base_texels(std::vector<FormulaMistake>& all) {
         v[0] = std::clamp(std::floor(p[0]), 0.0F, static_cast<float>(params(run).width - 1));
         v[1] = std::clamp(std::floor(p[1]), 0.0F, static_cast<float>(params(run).height - 1));
     });
-    all.push_back({"base_texel_clamped", "who is outside the image searches from the nearest texel of its border",
+    all.push_back({"base_texel_clamped", "a particle outside the image searches from the nearest texel of its border",
                    at(
                        site::base_texel, Change::decided_by_formula, [](Floats v, Run) { v[0] = 1.0F; }, &clamped)});
     all.push_back(
@@ -85,7 +85,7 @@ void add_base_texels(std::vector<FormulaMistake>& all) {
            [](Floats v, Run run) { v[0] = within(run, params(run).height, params(run).height) ? 1.0F : 0.0F; });
     bounds("base_bounds_swapped", "whether it is on the image is held against the height for x, the width for y",
            [](Floats v, Run run) { v[0] = within(run, params(run).height, params(run).width) ? 1.0F : 0.0F; });
-    all.push_back({"guard_band_searches", "who is outside the image by less than a constant of NDC searches, too",
+    all.push_back({"guard_band_searches", "a particle outside the image by less than a constant of NDC searches, too",
                    at(
                        site::base_texel, Change::decided_by_formula,
                        [](Floats v, Run run) {
@@ -95,7 +95,7 @@ void add_base_texels(std::vector<FormulaMistake>& all) {
                        },
                        &from_outside),
                    bands});
-    all.push_back({"outside_half_depth_skipped", "who is beyond clip z from 0 to w, Direct3D's, does not search",
+    all.push_back({"outside_half_depth_skipped", "a particle beyond clip z from 0 to w, Direct3D's, does not search",
                    search([](Floats v, Run run) {
                        keep_where(
                            v, [&] { return run.of(site::clip)[2] >= 0.0F && run.of(site::clip)[2] <= clip_w(run); });
@@ -243,13 +243,13 @@ void add_base_texels(std::vector<FormulaMistake>& all) {
                    value(site::clip, projects_predicted)});
     all.push_back({"all_of_predicted_position", "searches as if it were where free fall would lead to",
                    value(site::clip, projects_predicted, &own_predicted)});
-    all.push_back({"behind_camera_skipped", "who is behind the camera, w <= 0, does not search",
+    all.push_back({"behind_camera_skipped", "a particle behind the camera, w <= 0, does not search",
                    search([](Floats v, Run run) { keep_where(v, [&] { return clip_w(run) > 0.0F; }); })});
-    all.push_back(
-        {"outside_depth_skipped", "who is beyond the near or far plane does not search", search([](Floats v, Run run) {
-             keep_where(v, [&] { return std::abs(run.of(site::clip)[2]) <= clip_w(run); });
-         })});
-    all.push_back({"whole_window_required", "who is nearer to the image's border than the range does not search",
+    all.push_back({"outside_depth_skipped", "a particle beyond the near or far plane does not search",
+                   search([](Floats v, Run run) {
+                       keep_where(v, [&] { return std::abs(run.of(site::clip)[2]) <= clip_w(run); });
+                   })});
+    all.push_back({"whole_window_required", "a particle nearer to the image's border than the range does not search",
                    search([](Floats v, Run run) {
                        const FrameParams& p = params(run);
                        const auto& at = run.of(site::image_position);
@@ -263,22 +263,22 @@ void add_base_texels(std::vector<FormulaMistake>& all) {
     const auto searches_where = [&](std::string_view name, std::string_view meaning, Formula formula) {
         all.push_back({name, meaning, search(formula)});
     };
-    searches_where("only_falling_search", "only who moves down searches",
+    searches_where("only_falling_search", "only a particle that moves down searches",
                    [](Floats v, Run run) { keep_where(v, [&] { return old_direction(run).y < 0.0F; }); });
-    searches_where("only_rising_search", "only who moves up searches",
+    searches_where("only_rising_search", "only a particle that moves up searches",
                    [](Floats v, Run run) { keep_where(v, [&] { return old_direction(run).y > 0.0F; }); });
-    searches_where("only_above_zero_search", "only who is above y = 0 searches",
+    searches_where("only_above_zero_search", "only a particle above y = 0 searches",
                    [](Floats v, Run run) { keep_where(v, [&] { return before(run).y > 0.0F; }); });
     all.push_back(
-        {"only_middle_searches", "who is farther from the image's middle than a constant of NDC does not search",
+        {"only_middle_searches", "a particle farther from the image's middle than a constant of NDC does not search",
          search([](Floats v, Run run) {
              const auto& ndc = run.of(site::ndc);
              keep_where(v,
                         [&] { return std::abs(ndc[0]) <= run.constants[0] && std::abs(ndc[1]) <= run.constants[0]; });
          }),
          middles});
-    all.push_back({"only_right_upper_quarter_searches", "who is left of the image's middle or below it does not search",
-                   search([](Floats v, Run run) {
+    all.push_back({"only_right_upper_quarter_searches",
+                   "a particle left of the image's middle or below it does not search", search([](Floats v, Run run) {
                        keep_where(v, [&] { return run.of(site::ndc)[0] >= 0.0F && run.of(site::ndc)[1] >= 0.0F; });
                    })});
     all.push_back({"only_some_search", "only every n-th particle searches", search([](Floats v, Run run) {
@@ -299,7 +299,7 @@ void add_base_texels(std::vector<FormulaMistake>& all) {
                        keep_where(v, [&] { return run.item < static_cast<std::size_t>(run.constants[0]); });
                    }),
                    first_indices});
-    all.push_back({"only_fast_search", "only who is faster than a constant searches", search([](Floats v, Run run) {
+    all.push_back({"only_fast_search", "only a particle faster than a constant searches", search([](Floats v, Run run) {
                        keep_where(v, [&] { return real(run, site::speed_before) > run.constants[0]; });
                    }),
                    least_speeds});

@@ -147,7 +147,7 @@ void add_choices(std::vector<FormulaMistake>& all) {
     all.push_back({"range_times_speed", "the range times the speed",
                    value(site::collision_range, [](Floats v, Run run) { v[0] *= real(run, site::speed_before); })});
     all.push_back(
-        {"range_plus_step", "the range plus the way of one tick",
+        {"range_plus_step", "the range plus the distance moved in one tick",
          value(site::collision_range, [](Floats v, Run run) { v[0] += real(run, site::speed_before) * tick(run); })});
     all.push_back(
         {"collision_time_for_range", "u_CollisionTime for u_CollisionRange",

@@ -188,24 +188,26 @@ void add_fall(std::vector<FormulaMistake>& all) {
                        if (real(run, site::collide_time_before) < 0.0F)
                            v[0] = 0.0F;
                    })});
-    rests(all, "no_fall_after_missed_search", "who searches without a hit neither moves nor counts",
-          "no_fall_after_missed_search_but_counts", "who searches without a hit does not move",
+    rests(all, "no_fall_after_missed_search", "a particle that searches without a hit neither moves nor counts",
+          "no_fall_after_missed_search_but_counts", "a particle that searches without a hit does not move",
           [](Run run) { return real(run, site::collide_time_before) < 0.0F; });
-    rests(all, "rests_while_collide_time_runs", "who does not search neither moves nor counts",
-          "moves_only_when_searching", "who does not search does not move",
+    rests(all, "rests_while_collide_time_runs", "a particle that does not search neither moves nor counts",
+          "moves_only_when_searching", "a particle that does not search does not move",
           [](Run run) { return !(real(run, site::collide_time_before) < 0.0F); });
-    rests(all, "rests_while_collide_time_is_above_zero", "who has a collide time above 0 neither moves nor counts",
-          "moves_only_from_collide_time_zero_on", "who has a collide time above 0 does not move, nor is it pulled",
+    rests(all, "rests_while_collide_time_is_above_zero",
+          "a particle with a collide time above 0 neither moves nor counts", "moves_only_from_collide_time_zero_on",
+          "a particle with a collide time above 0 neither moves nor is pulled",
           [](Run run) { return real(run, site::collide_time_before) > 0.0F; });
     const auto held = [&](std::string_view name, std::string_view meaning, Formula formula) {
         all.push_back({name, meaning, value(site::position, formula)});
     };
-    held("held_until_it_searches", "who does not search stays in place, and is pulled on", [](Floats v, Run run) {
-        if (!(real(run, site::collide_time_before) < 0.0F))
-            set(v, before(run));
-    });
-    held("held_while_collide_time_is_above_zero", "who has a collide time above 0 stays in place, and is pulled on",
+    held("held_until_it_searches", "a particle that does not search stays in place, and is still pulled",
          [](Floats v, Run run) {
+             if (!(real(run, site::collide_time_before) < 0.0F))
+                 set(v, before(run));
+         });
+    held("held_while_collide_time_is_above_zero",
+         "a particle with a collide time above 0 stays in place, and is still pulled", [](Floats v, Run run) {
              if (real(run, site::collide_time_before) > 0.0F)
                  set(v, before(run));
          });

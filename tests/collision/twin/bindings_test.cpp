@@ -207,13 +207,13 @@ TEST_CASE("bindings: what does not fit is told with the file, the place in it an
                Contains("/uniforms/viewProjj: no shader beside it has the name viewProjj; did you mean viewProj?"));
     CHECK_THAT(with(plain, "\"u_Tick\"", "\"u_Tik\""),
                Contains("nothing is given for uniform dt (bound to u_Tik); did you mean float u_Tick?"));
-    CHECK_THAT(with(plain, "\"u_Tick\"", "\"u_Gravity\""), Contains("uniform dt is float, but is to be vec3"));
+    CHECK_THAT(with(plain, "\"u_Tick\"", "\"u_Gravity\""), Contains("uniform dt is float, but must be vec3"));
     CHECK_THAT(with(plain, "\"u_ClientWidth\", ", ""), Contains("/uniforms/size: 1 value for a vec2"));
     CHECK_THAT(with(plain, "\"u_ClientWidth\", \"u_ClientHeight\"", "\"u_ClientWidth\", \"u_Gravity\""),
-               Contains("y of uniform size is to be one number, but u_Gravity is vec3"));
+               Contains("y of uniform size must be one number, but u_Gravity is vec3"));
     CHECK_THAT(with(plain, "\"dt\": \"u_Tick\"", "\"dt\": true"),
                Contains("/uniforms/dt: is neither a name nor a number"));
-    CHECK_THAT(with(plain, "\"dt\": \"u_Tick\"", "\"dt\": []"), Contains("/uniforms/dt: is to be names or numbers"));
+    CHECK_THAT(with(plain, "\"dt\": \"u_Tick\"", "\"dt\": []"), Contains("/uniforms/dt: must be names or numbers"));
     CHECK_THAT(with(plain, "\"speed\": \"out_Speed\"", "\"speed\": \"out_Sped\""),
                Contains("output out_Speed is not written by the last vertex-processing stage"));
     CHECK_THAT(with(plain, "\"inRest\": \"a_CollideTime\"", "\"inRest\": \"a_Speed\""),

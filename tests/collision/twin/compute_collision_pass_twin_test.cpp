@@ -332,7 +332,7 @@ TEST_CASE("compute collision pass twin: what does not fit is told") {
     test::plant(shaders, "collision_pass.comp", "layout(local_size_x = 64) in;",
                 "layout(local_size_x = 8, local_size_y = 8) in;");
     CHECK(error(compute_scene("corrected"), shaders.path()) ==
-          "collision_pass: local_size_y is 8 and local_size_z 1; particles are counted along x, and both are to be 1");
+          "collision_pass: local_size_y is 8 and local_size_z 1; particles are counted along x, so both must be 1");
     const test::TemporaryFolder misspelt;
     test::plant(misspelt, "collision_texels.frag", "buffer Nearest", "buffer Nearer");
     CHECK_THAT(error(compute_scene("corrected"), misspelt.path()),

@@ -268,8 +268,8 @@ TEST_CASE("storage bindings: what does not fit is told with the file, the place 
     check("\"Winners\": \"Nearest\"", "\"Winners\": \"Nearst\"",
           "/Winners: Nearst is no storage block here; right is one of Before, After, Nearest, Offers; did you mean "
           "Nearest?");
-    check("\"Winners\": \"Nearest\"", "\"Winners\": 7", "/Winners: is to be the name of a block here, or {");
-    check("\"Winners\": \"Nearest\"", "\"Winners\": {}", "/Winners: is to be the name of a block here, or {");
+    check("\"Winners\": \"Nearest\"", "\"Winners\": 7", "/Winners: must be the name of a block here, or {");
+    check("\"Winners\": \"Nearest\"", "\"Winners\": {}", "/Winners: must be the name of a block here, or {");
     check(
         "\"Winners\": \"Nearest\"", "\"Winners\": { \"winners\": \"count\" }",
         "/Winners/winners: 1 value for winners, which is uvec2; right are 2, or a list, as long as what each item has "

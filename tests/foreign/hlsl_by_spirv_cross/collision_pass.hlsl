@@ -1,4 +1,10 @@
-// The collision pass as a vertex shader in HLSL, with names of its own.
+// The collision pass as a vertex shader in HLSL, with names of its own: row vectors, mul(v, M), or with -DCOLUMNS column
+// vectors, mul(M, v), as ../hlsl_columns has it.
+#ifdef COLUMNS
+#define project(position) mul(viewProjection, float4(position, 1.0))
+#else
+#define project(position) mul(float4(position, 1.0), viewProjection)
+#endif
 cbuffer Frame : register(b0) {
     float4x4 viewProjection;
     float3 gravity;
@@ -26,7 +32,7 @@ struct Output {
 };
 
 Output main(Input p) {
-    precise float4 clip = mul(float4(p.position, 1.0), viewProjection);
+    precise float4 clip = project(p.position);
     precise float2 place = (clip.xy / clip.w + 1.0) * 0.5 * float2(extent);
     bool inside = all(place >= 0.0) && all(place < float2(extent));
     bool hit = false;
@@ -64,6 +70,6 @@ Output main(Input p) {
     }
     precise float3 path = o.direction * o.speed;
     o.position = p.position + path * dt;
-    o.clip = mul(float4(o.position, 1.0), viewProjection);
+    o.clip = project(o.position);
     return o;
 }

@@ -1,0 +1,62 @@
+#include "gpu/shader_object.hpp"
+
+#include <utility>
+
+#include <fmt/format.h>
+
+#include "gpu/shader_log.hpp"
+#include "reference/model/error.hpp"
+
+namespace lockstep {
+namespace {
+
+GLenum gl_stage(Stage stage) {
+    switch (stage) {
+    case Stage::vertex:
+        return GL_VERTEX_SHADER;
+    case Stage::geometry:
+        return GL_GEOMETRY_SHADER;
+    case Stage::fragment:
+        return GL_FRAGMENT_SHADER;
+    case Stage::compute:
+        break;
+    }
+    return GL_COMPUTE_SHADER;
+}
+
+} // namespace
+
+ShaderObject::ShaderObject(const ShaderSource& source, std::span<const SpirvModule::Variable> captured) {
+    if (source.stage == Stage::compute && gl::DispatchCompute == nullptr)
+        throw Error(fmt::format("shader {}: this GL has no compute shaders; they need GL 4.3", source.files.front()));
+    id_ = gl::CreateShader(gl_stage(source.stage));
+    if (source.module != nullptr) {
+        const std::vector<std::uint32_t> words = capturing(*source.module, captured);
+        gl::ShaderBinary(1, &id_, GL_SHADER_BINARY_FORMAT_SPIR_V, words.data(),
+                         static_cast<GLsizei>(words.size() * sizeof words.front()));
+        gl::SpecializeShader(id_, source.module->entry_point.c_str(), 0, nullptr, nullptr);
+    } else {
+        const char* text = source.text.c_str();
+        gl::ShaderSource(id_, 1, &text, nullptr);
+        gl::CompileShader(id_);
+    }
+    GLint compiled = GL_FALSE;
+    gl::GetShaderiv(id_, GL_COMPILE_STATUS, &compiled);
+    if (compiled == GL_TRUE)
+        return;
+    GLint length = 0;
+    gl::GetShaderiv(id_, GL_INFO_LOG_LENGTH, &length);
+    std::string log(static_cast<std::size_t>(length), '\0');
+    gl::GetShaderInfoLog(id_, length, nullptr, log.data());
+    gl::DeleteShader(id_);
+    if (source.module != nullptr)
+        throw Error(
+            fmt::format("shader {}: the driver refuses the module: {}", source.files.front(), first_link_error(log)));
+    throw Error(fmt::format("shader {}", first_compile_error(log, source)));
+}
+
+ShaderObject::ShaderObject(ShaderObject&& other) noexcept : id_(std::exchange(other.id_, 0)) {}
+
+ShaderObject::~ShaderObject() { gl::DeleteShader(id_); }
+
+} // namespace lockstep

@@ -1,0 +1,193 @@
+#include "gpu/stage_texts.hpp"
+
+#include <algorithm>
+#include <filesystem>
+#include <map>
+#include <utility>
+#include <vector>
+
+#include <fmt/format.h>
+
+#include "gpu/shader_words.hpp"
+#include "reference/model/error.hpp"
+
+namespace lockstep {
+namespace {
+
+/// A stage's own name of one of our outputs.
+std::string their_name(const ShaderSource& stage, const std::string& ours) {
+    return stage.bindings != nullptr ? stage.bindings->output(ours) : ours;
+}
+
+/// A stage's input or output, as declared.
+struct Varying {
+    std::string type, place;
+    bool is_flat = false, located = false;
+};
+
+std::map<std::string, Varying> varyings(const ShaderSource& stage, std::string_view qualifier) {
+    std::map<std::string, Varying> found;
+    std::vector<std::string> statement;
+    for (ShaderWords words(stage.text); words.next();) {
+        if (words.token() != ";" && words.token() != "}") {
+            statement.emplace_back(words.token());
+            continue;
+        }
+        const auto has = [&](std::string_view word) {
+            return std::find(statement.begin(), statement.end(), word) != statement.end();
+        };
+        if (words.token() == ";" && statement.size() > 2 && has(qualifier) && !has("(")) {
+            const ShaderSource::Origin& origin = stage.origins[words.line() - 1];
+            found[statement.back()] = {statement[statement.size() - 2],
+                                       fmt::format("{}:{}", stage.files[origin.file], origin.line), has("flat"),
+                                       has("location")};
+        }
+        statement.clear();
+    }
+    return found;
+}
+
+/// Every block of the kind ("uniform", "buffer") that a stage declares: its name, and where.
+std::vector<std::pair<std::string, std::string>> blocks(std::string_view kind, std::span<const ShaderSource> stages) {
+    std::vector<std::pair<std::string, std::string>> found;
+    for (const ShaderSource& stage : stages) {
+        std::string before, last;
+        for (ShaderWords words(stage.text); words.next();) {
+            if (words.token() == "{" && before == kind) {
+                const ShaderSource::Origin& origin = stage.origins[words.line() - 1];
+                found.emplace_back(last, fmt::format("{}:{}", stage.files[origin.file], origin.line));
+            }
+            before = std::exchange(last, std::string(words.token()));
+        }
+    }
+    return found;
+}
+
+} // namespace
+
+const ShaderSource* last_vertex_stage(std::span<const ShaderSource> stages) {
+    for (const Stage stage : {Stage::geometry, Stage::vertex})
+        for (const ShaderSource& source : stages)
+            if (source.stage == stage)
+                return &source;
+    return nullptr;
+}
+
+std::string last_vertex_stage_file(std::span<const ShaderSource> stages) {
+    const ShaderSource* last = last_vertex_stage(stages);
+    return last != nullptr ? last->files.front() : "no vertex shader";
+}
+
+std::set<std::string> words_with(std::string_view prefix, std::string_view text) {
+    std::set<std::string> found;
+    for (ShaderWords words(text); words.next();)
+        if (words.token().starts_with(prefix))
+            found.emplace(words.token());
+    return found;
+}
+
+bool goes_by_location(const ShaderSource& stage) {
+    for (const std::string_view direction : {"in", "out"}) {
+        const bool outside = stage.stage == (direction == "in" ? Stage::vertex : Stage::fragment);
+        const std::map<std::string, Varying> all = varyings(stage, direction);
+        if (!outside && std::any_of(all.begin(), all.end(), [](const auto& one) { return one.second.located; }))
+            return true;
+    }
+    return false;
+}
+
+std::string missing_flat(std::span<const ShaderSource> stages) {
+    const ShaderSource* last = last_vertex_stage(stages);
+    const auto fragment =
+        std::find_if(stages.begin(), stages.end(), [](const ShaderSource& s) { return s.stage == Stage::fragment; });
+    if (last == nullptr || fragment == stages.end())
+        return {};
+    const std::map<std::string, Varying> written = varyings(*last, "out");
+    for (const auto& [name, read] : varyings(*fragment, "in")) {
+        const std::string theirs = their_name(*last, name);
+        const auto out = written.find(theirs);
+        if (out != written.end() && read.is_flat && !out->second.is_flat)
+            return fmt::format(
+                "shader {}: output {} is interpolated, but {} reads it `flat`; right is `flat out {} {};`",
+                out->second.place, theirs, read.place, out->second.type, theirs);
+    }
+    return {};
+}
+
+void check_storage(GLuint program, std::span<const ShaderSource> stages, std::span<const std::string_view> given) {
+    if (stages.front().stage == Stage::compute)
+        return;
+    for (const auto& [name, place] : blocks("buffer", stages))
+        if (std::find(given.begin(), given.end(), name) != given.end())
+            continue;
+        else if (gl::GetProgramInterfaceiv == nullptr)
+            throw Error(fmt::format("shader {}: nothing is given for storage buffer {}, and this GL is too old to say "
+                                    "whether it is used (4.3 or GL_ARB_program_interface_query says)",
+                                    place, name));
+        else if (gl::GetProgramResourceIndex(program, GL_SHADER_STORAGE_BLOCK, name.c_str()) != GL_INVALID_INDEX)
+            throw Error(fmt::format("shader {}: nothing is given for storage buffer {}", place, name));
+}
+
+void check_geometry_inputs(std::span<const ShaderSource> stages) {
+    const auto of = [&](Stage stage) {
+        return std::find_if(stages.begin(), stages.end(), [&](const ShaderSource& s) { return s.stage == stage; });
+    };
+    const auto vertex = of(Stage::vertex), geometry = of(Stage::geometry);
+    if (vertex == stages.end() || geometry == stages.end())
+        return;
+    const std::set<std::string> written = words_with("", vertex->text);
+    std::string qualifier, type, name; // the words before
+    bool located = false;
+    for (ShaderWords words(geometry->text); words.next();) {
+        const std::string word(words.token());
+        if (word == "[" && qualifier == "in" && !located && !written.contains(name)) {
+            const ShaderSource::Origin& origin = geometry->origins[words.line() - 1];
+            throw Error(fmt::format("shader {}:{}: input {} is written by no stage before it ({}); an empty {} leaves "
+                                    "the geometry stage out",
+                                    geometry->files[origin.file], origin.line, name, vertex->files.front(),
+                                    std::filesystem::path(geometry->files.front()).filename().string()));
+        }
+        located = word != ";" && (located || word == "location");
+        qualifier = std::exchange(type, std::exchange(name, word));
+    }
+}
+
+void check_fragment_inputs(std::span<const ShaderSource> stages) {
+    const ShaderSource* last = last_vertex_stage(stages);
+    if (last == nullptr)
+        return;
+    const std::set<std::string> written = words_with("", last->text);
+    for (const ShaderSource& stage : stages) {
+        if (stage.stage != Stage::fragment)
+            continue;
+        std::map<std::string, int> uses;
+        for (ShaderWords words(stage.text); words.next();)
+            ++uses[std::string(words.token())];
+        std::string first, second, third; // the words before
+        bool located = false;
+        for (ShaderWords words(stage.text); words.next();) {
+            if (words.token() == ";" && first == "in" && !located && uses[third] > 1 &&
+                !written.contains(their_name(*last, third))) {
+                const ShaderSource::Origin& origin = stage.origins[words.line() - 1];
+                throw Error(fmt::format("shader {}:{}: input {} is written by no stage before it ({})",
+                                        stage.files[origin.file], origin.line, third, last->files.front()));
+            }
+            located = words.token() != ";" && (located || words.token() == "location");
+            first = std::exchange(second, std::exchange(third, std::string(words.token())));
+        }
+    }
+}
+
+void check_fragment_output(GLuint program, std::span<const ShaderSource> stages) {
+    for (const ShaderSource& stage : stages) {
+        if (stage.stage != Stage::fragment)
+            continue;
+        for (const std::string& word : words_with("", stage.text))
+            if (!word.starts_with("gl_") && gl::GetFragDataLocation(program, word.c_str()) == 0)
+                return;
+        throw Error(
+            fmt::format("shader {}: no output at location 0 is written; that is what is drawn", stage.files.front()));
+    }
+}
+
+} // namespace lockstep

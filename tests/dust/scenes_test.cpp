@@ -149,7 +149,8 @@ TEST_CASE("dust scenes: what is wrong with a file is said in one line, with its 
         {R"("cannon": [{"mass": 3}])", R"(/dust/cannon/0: unknown key "mass"; the keys here are frame, position)"},
         {R"("colours": [[0, 0, 0]])", "/dust/colours: 1 element; right is two colours"},
         {R"("spawn": {"min": [0, 0, 0]})", R"(/dust/spawn: the key "max" is missing)"},
-        {R"("world": {"min": [0, 0, 0], "max": [1, 1e39, 1]})", "/dust/world/max/1: 1e+39 is beyond what a float holds"},
+        {R"("world": {"min": [0, 0, 0], "max": [1, 1e39, 1]})",
+         "/dust/world/max/1: 1e+39 is beyond what a float holds"},
     };
     for (const auto& [inside, words] : wrong) {
         const std::string error = error_of(of_dust(inside));

@@ -23,7 +23,7 @@ float to_clip(double window, float w) { return static_cast<float>((window / (sid
 
 /// On a pixel's edge or half a step of a grid of 1/256 or 1/16 pixel beside it, as near as floats come: the last bits
 /// of what is computed decide on the pixel.
-std::vector<RasterVertex> points() {
+std::vector<RasterVertex> points_near_edges() {
     constexpr std::array<double, 5> beside{0.0, 1.0 / 512.0, -1.0 / 512.0, 1.0 / 32.0, -1.0 / 32.0};
     Random random(71, 0);
     std::vector<RasterVertex> vertices;
@@ -40,7 +40,7 @@ std::vector<RasterVertex> points() {
 }
 
 bool measured() {
-    const std::vector<RasterVertex> vertices = points();
+    const std::vector<RasterVertex> vertices = points_near_edges();
     const IdImage image(side, side);
     std::array<Floats, 2> ids, depths;
     gl::Enable(GL_DEPTH_TEST);

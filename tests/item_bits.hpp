@@ -38,7 +38,7 @@ inline std::size_t wrong_items(const ItemPass& pass, const SystemState& before, 
     const SystemView from = before.view();
     const PassInput in{from, frame};
     run_pass(pass, in, profile, made[pass.resource()]);
-    const std::unique_ptr<ItemPass> prepared = pass.prepared(in);
+    const std::unique_ptr<ItemPass> prepared = pass.prepared(in, profile);
     const ItemPass& one_by_one = prepared ? *prepared : pass;
     const View after = std::as_const(made)[pass.resource()];
     const std::vector<Component> of = components(after.about());

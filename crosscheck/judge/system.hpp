@@ -60,7 +60,7 @@ struct JudgedPass {
     [[nodiscard]] PassInput input() const { return {before, frame}; }
     /// The pass on its input, and on no other.
     [[nodiscard]] const ItemPass& on_input() const { return prepared ? *prepared : pass; }
-    void prepare() { prepared = pass.prepared(input()); }
+    void prepare() { prepared = pass.prepared(input(), profile); }
 };
 
 } // namespace lockstep

@@ -114,9 +114,12 @@ class ItemPass {
         return false;
     }
 
-    /// This pass for one input alone, with what depends on that made once; null where nothing does. The input's state
-    /// outlives it, and does not change.
-    [[nodiscard]] virtual std::unique_ptr<ItemPass> prepared(const PassInput& /*in*/) const { return nullptr; }
+    /// This pass for one input and profile alone, with what depends on the input made once; null where nothing does.
+    /// The input's state outlives it, and does not change.
+    [[nodiscard]] virtual std::unique_ptr<ItemPass> prepared(const PassInput& /*in*/,
+                                                             const Profile& /*profile*/) const {
+        return nullptr;
+    }
 
     /// Every legal outcome. `observed`: the state to be judged; values that it tells of, named like a site's output,
     /// are gone on from where they are legal. Null: nothing was told.

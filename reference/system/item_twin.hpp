@@ -250,7 +250,7 @@ template <class Twin> class ItemTwin final : public ItemPass {
         });
     }
 
-    [[nodiscard]] std::unique_ptr<ItemPass> prepared(const PassInput& in) const override {
+    [[nodiscard]] std::unique_ptr<ItemPass> prepared(const PassInput& in, const Profile& /*profile*/) const override {
         if constexpr (item_twin::has_at<Twin>) {
             auto one = std::make_unique<ItemTwin>(options_, item_twin::in_frame(twin_, in));
             one->is_prepared_ = true;

@@ -37,12 +37,8 @@ class PassByDriver final : public ItemPass {
     bool run_all(const PassInput& in, const Profile& profile, const WritableView& after) const override {
         return on(profile).run_all(in, profile, after);
     }
-    [[nodiscard]] std::unique_ptr<ItemPass> prepared(const PassInput& in) const override {
-        const auto ready = [&](const std::shared_ptr<const ItemPass>& pass) {
-            const std::shared_ptr<const ItemPass> one = pass->prepared(in);
-            return one ? one : pass;
-        };
-        return std::make_unique<PassByDriver>(row_, ready(followed_), ready(open_));
+    [[nodiscard]] std::unique_ptr<ItemPass> prepared(const PassInput& in, const Profile& profile) const override {
+        return on(profile).prepared(in, profile);
     }
     [[nodiscard]] std::vector<ItemOutcome> outcomes(const PassInput& in, std::size_t item, const Profile& profile,
                                                     const KnownOperations& known, const View* observed) const override {

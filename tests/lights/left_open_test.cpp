@@ -213,15 +213,16 @@ TEST_CASE("lights left open: a pass by driver that is prepared for its input is 
         run.step_pass(static_cast<std::size_t>(pass - system.passes.begin()), 0);
     const SystemView before = run.state().view();
     const PassInput in{before, 0};
-    const std::unique_ptr<ItemPass> prepared = (*glow)->prepared(in);
-    REQUIRE(prepared != nullptr);
-    CHECK(prepared->name() == "glow_pass");
-    for (const Profile& profile : {not_following({}), not_following({lights::float_blend_row})})
+    for (const Profile& profile : {not_following({}), not_following({lights::float_blend_row})}) {
+        const std::unique_ptr<ItemPass> prepared = (*glow)->prepared(in, profile);
+        REQUIRE(prepared != nullptr);
+        CHECK(prepared->name() == "glow_pass");
         for (std::size_t pixel = 0; pixel < 256; ++pixel) {
             CHECK(prepared->mistaken(in, pixel, profile, {}) == (*glow)->mistaken(in, pixel, profile, {}));
             CHECK(prepared->outcomes(in, pixel, profile, measured_operations(profile), nullptr).size() ==
                   (*glow)->outcomes(in, pixel, profile, measured_operations(profile), nullptr).size());
         }
+    }
 }
 
 TEST_CASE("lights left open: a report says on what a value rests, and which one promises bits") {

@@ -57,10 +57,7 @@ void check_modules(std::span<const ShaderSource> stages, std::span<const std::st
                 fmt::format("shader {}: no output at location 0 is written; that is what is drawn", module.file));
         for (const InterfaceBlock& block : module.storage_blocks)
             if (stage.stage != Stage::compute && std::find(given.begin(), given.end(), block.name) == given.end())
-                throw Error(
-                    fmt::format("shader {}: nothing is given for storage buffer {}; storage buffers are bound in "
-                                "compute shaders alone (docs/own_shader.md)",
-                                module.file, block.name));
+                fail_storage(module.file, block.name);
         before = &module;
     }
 }

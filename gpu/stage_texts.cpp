@@ -114,6 +114,12 @@ std::string missing_flat(std::span<const ShaderSource> stages) {
     return {};
 }
 
+void fail_storage(const std::string& place, const std::string& name) {
+    throw Error(fmt::format("shader {}: nothing is given for storage buffer {}; storage buffers are bound in compute "
+                            "shaders alone (docs/own_shader.md)",
+                            place, name));
+}
+
 void check_storage(GLuint program, std::span<const ShaderSource> stages, std::span<const std::string_view> given) {
     if (stages.front().stage == Stage::compute)
         return;
@@ -125,9 +131,7 @@ void check_storage(GLuint program, std::span<const ShaderSource> stages, std::sp
                                     "whether it is used (4.3 or GL_ARB_program_interface_query says)",
                                     place, name));
         else if (gl::GetProgramResourceIndex(program, GL_SHADER_STORAGE_BLOCK, name.c_str()) != GL_INVALID_INDEX)
-            throw Error(fmt::format("shader {}: nothing is given for storage buffer {}; storage buffers are bound in "
-                                    "compute shaders alone (docs/own_shader.md)",
-                                    place, name));
+            fail_storage(place, name);
 }
 
 void check_geometry_inputs(std::span<const ShaderSource> stages) {

@@ -26,6 +26,9 @@ bool goes_by_location(const ShaderSource& stage);
 /// of the border say `flat`, or neither.
 std::string missing_flat(std::span<const ShaderSource> stages);
 
+/// Throws the Error of a storage buffer that is not `given` outside a compute stage. `place`: its file, and line.
+[[noreturn]] void fail_storage(const std::string& place, const std::string& name);
+
 /// Only a compute stage has storage buffers that are not `given`.
 void check_storage(GLuint program, std::span<const ShaderSource> stages, std::span<const std::string_view> given);
 

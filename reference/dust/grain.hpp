@@ -7,16 +7,13 @@
 #include "reference/dust/sites.hpp"
 #include "reference/model/dust/schema.hpp"
 #include "reference/model/dust/switches.hpp"
+#include "reference/readings/decided.hpp"
 #include "reference/system/item_pass.hpp"
 
 namespace lockstep::dust {
 
 template <class R> struct AliveOf { using Type = typename R::Int; };
-template <class R>
-requires requires { typename R::Index; }
-struct AliveOf<R> {
-    using Type = typename R::Index;
-};
+template <HasLanes R> struct AliveOf<R> { using Type = typename R::Index; };
 
 template <class R> struct Grain {
     typename R::Vec3 position;
@@ -27,7 +24,7 @@ template <class R> struct Grain {
 
 /// A grain as a kernel finds it, or one of each lane.
 template <class R, class Item> Grain<R> grain_before(R& r, const PassInput& in, const Item& item) {
-    if constexpr (requires { typename R::Index; }) {
+    if constexpr (HasLanes<R>) {
         return {item_vec3(r, site::before, in.before, field::position, item), item_int(in.before, field::alive, item),
                 item_vec3(r, site::speed, in.before, field::velocity, item),
                 item_vec3(r, site::colour_before, in.before, field::colour, item)};

@@ -326,11 +326,12 @@ def held_against(run, report, right):
 
 def hashes(run):
     jobs = hash_jobs(run)
+    known = known_hashes(run) if run.asked.known else {}
     reports, rows, kept = hashed(run, jobs), [], {}
     for name, _, settings in jobs:
         report = reports.get(name, "")
-        if run.asked.known and name in reports:
-            report = held_against(run, report, known_hashes(run)[name])
+        if name in known and name in reports:
+            report = held_against(run, report, known[name])
         lines = dict(line.split(None, 1) for line in report.splitlines() if len(line.split(None, 1)) == 2)
         ended = re.search(r"interrupted after (\d+) of", report)
         verdict = lines.get("verdict", report.strip().splitlines()[-1] if report.strip() else "was not begun")

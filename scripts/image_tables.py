@@ -5,10 +5,13 @@
   fluid    the filters by radius
   hashes   preset exact, both sides run free: each frame's hash of all images, in OUT/hashes
 Usage: scripts/image_tables.py LOCKSTEP OUT [--gl KIND] [--parts lights,fluid,hashes] [--lights-up-to N] [--frames N]
-           [--seconds N] [--runs NAME,...] [--table-frames N] [--twins] [--scenes DIR] [--commit NAME] [--cores N]
+           [--seconds N] [--runs NAME,...] [--side cpu|gpu] [--known FILE] [--table-frames N] [--twins] [--scenes DIR]
+           [--commit NAME] [--cores N]
   --frames, --seconds  of the hashes: how many frames, and when those that still run are ended; their verdict is then of
                        the frames before
   --runs               of the hashes: these alone, in this order, as the table names them
+  --side               of the hashes: this side alone
+  --known              of the hashes: GL alone, beside the first hash in each line of a file as OUT/image_hashes.txt is
   --twins              times the reference as well
 Exit status: 0 every hash is equal, 1 one is not, 2 a part could not be run."""
 import argparse
@@ -49,6 +52,8 @@ def options():
     parser.add_argument("--frames", type=int, default=100)
     parser.add_argument("--seconds", type=float, default=240)
     parser.add_argument("--runs", type=lambda names: names.split(","))
+    parser.add_argument("--side", choices=("cpu", "gpu"))
+    parser.add_argument("--known", type=pathlib.Path)
     parser.add_argument("--table-frames", type=int, default=5)
     parser.add_argument("--twins", action="store_true")
     parser.add_argument("--scenes", type=pathlib.Path, default=ROOT / "data/scenes")
@@ -236,17 +241,22 @@ def hashed(run, jobs):
         while waiting and not over and (not running or sum(job[4] for job in running.values()) + waiting[0][4] <= asked.cores):
             job = waiting.pop(0)
             name, scene, items, settings, threads = job
-            words = [asked.lockstep, "check", scene, "--preset", "exact", "--mode", "free", "--no-render", "--particles", items,
-                     "--frames", asked.frames, "--gl", asked.gl, "--threads", threads, "--hashes",
-                     asked.out / "hashes" / f"{name}.txt", *(w for s in settings for w in ("--set", s))]
+            file = asked.out / "hashes" / f"{name}.txt"
+            how = (["hash", scene, "--side", asked.side, "--every"] if asked.side
+                   else ["check", scene, "--mode", "free", "--no-render", "--hashes", file])
+            gl = [] if asked.side == "cpu" else ["--gl", asked.gl]
+            words = [asked.lockstep, *how, "--preset", "exact", "--particles", items, "--frames", asked.frames, *gl,
+                     "--threads", threads, *(w for s in settings for w in ("--set", s))]
             print("+", *words, file=sys.stderr, flush=True)
-            process = subprocess.Popen(list(map(str, words)), stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True)
+            to = file.open("w") if asked.side else subprocess.PIPE
+            process = subprocess.Popen(list(map(str, words)), stdout=to, stderr=subprocess.PIPE if asked.side else subprocess.STDOUT,
+                                       text=True)
             running[process] = job
         for process, job in list(running.items()):
             if over and process.poll() is None:
                 process.send_signal(signal.SIGINT)
             if over or process.poll() is not None:
-                reports[job[0]] = process.communicate()[0]
+                reports[job[0]] = "".join(filter(None, process.communicate()))
                 del running[process]
         if over:
             waiting.clear()
@@ -254,22 +264,43 @@ def hashed(run, jobs):
     return reports
 
 
+def known_hashes(asked):
+    """Of each run the known hash by frame."""
+    known = {}
+    for line in asked.known.read_text().splitlines() if asked.known else ():
+        if not line.startswith("#"):
+            name, frame, cpu = line.split()[:3]
+            known.setdefault(name, {})[frame] = cpu
+    return known
+
+
 def hashes_table(run):
     jobs = hash_jobs(run)
+    known = known_hashes(run.asked)
+    if run.asked.known:
+        jobs = [job for job in jobs if job[0] in known]
     reports = hashed(run, jobs)
-    rows, kept = [], {}
+    rows, kept, lines = [], {}, []
     for name, _, items, _, _ in jobs:
         file = run.asked.out / "hashes" / f"{name}.txt"
         report = dict(line.split(None, 1) for line in reports.get(name, "").splitlines() if len(line.split(None, 1)) == 2)
-        both = [line.split() for line in file.read_text().splitlines()] if name in reports and file.exists() else []
-        equal = [a == b for _, a, b in both]
-        kept[name] = {"items": items, "frames": len(both), "equal": sum(equal), "last": both[-1][1] if both else None,
+        found = [line.split() for line in file.read_text().splitlines()] if name in reports and file.exists() else []
+        if run.asked.known:
+            found = [[frame, known[name][frame], gpu] for frame, gpu in found if frame in known[name]]
+        lines += [" ".join([name, *row]) for row in found]
+        both = [row[1:] for row in found if len(row) == 3]
+        equal = [a == b for a, b in both]
+        kept[name] = {"items": items, "frames": len(found), "compared": len(both), "equal": sum(equal),
+                      "last": found[-1][1] if found else None,
                       "verdict": report.get("verdict", reports.get(name, "was not begun").strip())}
-        last = f"`{both[-1][2]}`" if both else kept[name]["verdict"]
-        rows.append([name, f"{items:,}", str(len(both)), f"{sum(equal)} of {len(equal)}", last])
+        last = f"`{found[-1][-1]}`" if found else kept[name]["verdict"]
+        rows.append([name, f"{items:,}", str(len(found)), f"{sum(equal)} of {len(equal)}" if both else "-", last])
+    sides = "GL alone" if run.asked.known else f"the {run.asked.side.upper()} side alone" if run.asked.side else "both sides"
+    (run.asked.out / "image_hashes.txt").write_text("\n".join([f"# run, frame, hash of all images: {sides}", *lines]) + "\n")
+    how = f"hash --side {run.asked.side} --every" if run.asked.side else "check --mode free"
     text = ["", "## One hash for all images of a frame", "",
-            f"`lockstep check --preset exact --mode free --frames {run.asked.frames}`, ended after {run.asked.seconds:g} seconds in all; "
-            "lights at 640 x 360, fluid (scene wave)", "at 800 x 800. Every frame's hashes are in `hashes/`."]
+            f"`lockstep {how} --preset exact --frames {run.asked.frames}`, ended after {run.asked.seconds:g} seconds in all; "
+            "lights at 640 x 360, fluid (scene wave)", "at 800 x 800. Every frame's hashes are in `image_hashes.txt`."]
     return text + table(["run", "items", "frames", "equal on CPU and GL", "after the last"], rows), kept
 
 
@@ -284,6 +315,7 @@ def commit_of(asked):
 
 def main():
     asked = options()
+    asked.side = "gpu" if asked.known else asked.side
     asked.out.mkdir(parents=True, exist_ok=True)
     run = Run(asked)
     parts = {"lights": lights_tables, "fluid": fluid_tables, "hashes": hashes_table}
@@ -296,6 +328,8 @@ def main():
             failed, lines = True, ["", f"## {part}: not run to the end", "", f"    {str(error).strip()}"]
         seconds[part] = round(time.monotonic() - begun)
         text += lines
+    if asked.side == "cpu":
+        run.gl = "no GL"
     if not run.gl:
         run.bench(run.lights(GRIDS[0], IMAGES[0]), [1], [])
     took = ", ".join(f"{part} {n} s" for part, n in seconds.items())
@@ -306,7 +340,7 @@ def main():
     (asked.out / "image_tables.json").write_text(json.dumps({"gl": run.gl, "commit": commit_of(asked), "seconds": seconds, **kept},
                                                             indent=1) + "\n")
     print(page, end="")
-    wrong = [name for name, one in kept.get("hashes", {}).items() if one["equal"] != one["frames"]]
+    wrong = [name for name, one in kept.get("hashes", {}).items() if one["equal"] != one["compared"]]
     sys.exit(2 if failed else 1 if wrong else 0)
 
 

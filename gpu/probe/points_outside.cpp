@@ -8,8 +8,8 @@
 namespace lockstep::probing {
 namespace {
 
-constexpr int side = 32;                                 ///< of the image, pixels
-constexpr std::array sizes{2.0F, 8.0F, 62.0F, 250.0F};   ///< whole and even: no edge meets a pixel's centre
+constexpr int side = 32;                               ///< of the image, pixels
+constexpr std::array sizes{2.0F, 8.0F, 62.0F, 250.0F}; ///< whole and even: no edge meets a pixel's centre
 constexpr std::array aside{0.125F, 0.875F, 3.125F, 29.875F, 123.875F}; ///< of a middle from the image, pixels
 
 /// A point whose middle lies outside the view volume: beside the image, or nearer or farther than it reaches.
@@ -27,9 +27,9 @@ std::vector<Outside> points_outside(float largest) {
         const float within = 13.125F;
         for (const float away : aside)
             if (2.0F * away < size)
-                for (const glm::vec2 middle : {glm::vec2(-away, within), glm::vec2(side + away, within),
-                                               glm::vec2(within, -away), glm::vec2(within, side + away),
-                                               glm::vec2(-away, side + away), glm::vec2(side + away, -away)})
+                for (const glm::vec2 middle :
+                     {glm::vec2(-away, within), glm::vec2(side + away, within), glm::vec2(within, -away),
+                      glm::vec2(within, side + away), glm::vec2(-away, side + away), glm::vec2(side + away, -away)})
                     for (const float z : {0.25F, 1.5F, -1.5F})
                         all.push_back({middle, z, size});
         for (const float z : {1.0078125F, -1.0078125F, 40.0F, -40.0F})

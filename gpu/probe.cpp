@@ -54,6 +54,7 @@ ProbeResult probe(const Context& context, const ProbeOptions& options) {
     probing::measure_filtering(result.rows);
     probing::measure_srgb(result.rows);
     probing::measure_point_coord(result.rows);
+    probing::measure_points_outside(result.rows);
     if (result.context.compute)
         probing::measure_atomics(result.rows);
     probing::measure_order(result.rows);

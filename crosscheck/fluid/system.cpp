@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "crosscheck/fluid/left_open.hpp"
 #include "crosscheck/fluid/mistakes.hpp"
 #include "crosscheck/fluid/scene.hpp"
 #include "crosscheck/judge/coded_image.hpp"
@@ -28,9 +29,12 @@ System system(const HostPtr& host, const std::string& name) {
 
 SystemScene load(const JsonValue& scene, const std::string& name, const SceneOptions& options) {
     const auto host = std::make_shared<const Host>(read_scene(scene, options));
-    return {system(host, name), passes(host), host->settings().arithmetic, {}, [](const SystemState& state) {
-                return coded_image(state, field::code);
-            }};
+    return {system(host, name),
+            passes(host),
+            host->settings().arithmetic,
+            {},
+            [](const SystemState& state) { return coded_image(state, field::code); },
+            [host](const Profile& profile) { return left_open(host->switches(), profile); }};
 }
 
 } // namespace lockstep::fluid

@@ -282,6 +282,10 @@ void note_images(Translation& rows, const ProbeResult& result) {
     const char* const cut = "image: gl_PointCoord, cut size";
     if (std::ranges::find(rows.not_followed, "image: gl_PointCoord, accuracy") != rows.not_followed.end())
         follow(cut, {"to 2^-20, of a middle on 256ths and a size cut to 32nds"});
+    const char* const dropped = "image: points outside, dropped";
+    follow(dropped, {"all, as GL says"});
+    if (std::ranges::find(rows.not_followed, dropped) != rows.not_followed.end())
+        follow("image: points beside the image, drawn", {"all whose depth is within the volume"});
 }
 
 std::string errors_text(const OperationErrors& e) {

@@ -50,6 +50,9 @@ void measure_srgb(Rows& rows);
 /// gl_PointCoord of points of several sizes.
 void measure_point_coord(Rows& rows);
 
+/// Points whose middle lies outside the view volume, beside the image or in depth: which are drawn.
+void measure_points_outside(Rows& rows);
+
 /// Whether floats can be added by atomics. In which order they come is another thing in each run, and no row.
 void measure_atomics(Rows& rows);
 

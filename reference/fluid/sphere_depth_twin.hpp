@@ -83,7 +83,7 @@ struct SphereDepthTwin {
                 offer_at(-(ray.middle - half_chord(r, ray)), ray.chord >= zero);
             return;
         }
-        const Real squared = sprite.squared(ball, pixel);
+        const Real squared = sprite.squared_if_drawn(ball, sprite.squared(ball, pixel));
         // A point's edge is open: one fork among all spheres, not one for each.
         if (host->switches().sprite == Sprite::points || !everywhere(decided(r, site::off_disc, squared > one)))
             offer_at(ball.centre.z + r.note(site::rise, sprite.radius() * sprite.height(squared)), squared <= one);

@@ -5,7 +5,7 @@
 namespace lockstep::fluid {
 
 void add_sphere_pass(const HostPtr& host, Passes& all) {
-    all.push_back(by_point_coord(host, [](const HostPtr& by) {
+    all.push_back(by_points(host, [](const HostPtr& by) {
         return item_pass(options_of(*by, "sphere_depth_pass", depth_image, PassStage::fragment), SphereDepthTwin{by});
     }));
 }

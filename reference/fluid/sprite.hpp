@@ -66,6 +66,7 @@ template <class R> struct Ball {
     // Of a flat one, pixels:
     typename R::Real x{}, y{}; ///< its middle
     typename R::Real half{};   ///< of its side
+    bool in_doubt = false;     ///< the driver may draw it or not
 };
 
 /// A particle as a sprite, at pixels. Twin of shaders/fluid/sprite.glsl.
@@ -79,7 +80,7 @@ template <class R> class SpriteTwin {
 
     [[nodiscard]] Real radius() const { return r_.uniform(site::radius, spheres_.radius); }
 
-    /// Nothing of one that is not drawn: it is no number, or too near, or a point whose middle is not in sight.
+    /// Nothing of one that is not drawn: it is no number, or too near, or a point that the driver drops.
     [[nodiscard]] std::optional<Ball<R>> ball(std::uint32_t particle) const {
         const glm::vec3 p(state_.vec4(field::position, particle));
         if (!(std::isfinite(p.x) && std::isfinite(p.y) && std::isfinite(p.z)))
@@ -91,8 +92,11 @@ template <class R> class SpriteTwin {
         const Real near = r_.uniform(site::near, host_.near_plane());
         if (!r_.decide(site::beyond_near, ball.w > (is_ray ? radius() + near : near)))
             return {};
-        if (host_.switches().sprite == Sprite::points && !is_in_volume(ball))
-            return {};
+        if (host_.switches().sprite == Sprite::points && !is_in_volume(ball)) {
+            if (!has_sets || host_.points().outside != PointsOutside::open)
+                return {};
+            ball.in_doubt = true;
+        }
         if (!is_ray)
             place(ball);
         return ball;
@@ -114,13 +118,30 @@ template <class R> class SpriteTwin {
                    ny = along(site::ny, r_.note(site::pixel_y, r_.real(pixel.y) + Real(0.5F)), ball.y);
         return r_.note(site::magnitude, nx * nx + ny * ny);
     }
+    /// The same, or off the disc, of a sphere that may not be drawn.
+    [[nodiscard]] Real squared_if_drawn(const Ball<R>& ball, const Real& squared) const {
+        if constexpr (has_sets)
+            if (ball.in_doubt)
+                return r_.unspecified(site::magnitude, Real(HUGE_VALF),
+                                      static_cast<float>(item_twin::set_of(squared).low), HUGE_VALF);
+        return squared;
+    }
+    /// What a sphere adds, or nothing, of one that may not be drawn.
+    [[nodiscard]] Real addend_if_drawn(const Ball<R>& ball, const Real& addend) const {
+        if constexpr (has_sets)
+            if (const Interval set = item_twin::set_of(addend); ball.in_doubt && !set.any)
+                return r_.unspecified(site::addend, Real(0.0F), 0.0F, static_cast<float>(set.high));
+        return addend;
+    }
     /// How far the surface is before the middle, of the radius. Of pixels that are not covered 0.
     [[nodiscard]] Real height(const Real& squared) const {
         return r_.note(site::nz, r_.sqrt(site::nz, r_.max(Real(0.0F), Real(1.0F) - squared)));
     }
 
   private:
-    /// GL draws all of a point or nothing, by where its middle lies (4.5, 13.5).
+    static constexpr bool has_sets = requires(const Real& x) { x.legal(); };
+
+    /// A point is drawn whole or not at all, by where its middle lies (GL 4.5, 13.5).
     [[nodiscard]] bool is_in_volume(const Ball<R>& ball) const {
         const auto clip = [&](At scale_at, const Real& along, float unit) {
             return r_.abs(r_.uniform(scale_at, unit) * along);
@@ -129,6 +150,8 @@ template <class R> class SpriteTwin {
         const Real x = clip(site::p00, ball.centre.x, host_.projection()[0][0]),
                    y = clip(site::p11, ball.centre.y, host_.projection()[1][1]),
                    z = r_.abs(r_.note(site::clip_z, Real(depth.x) * ball.centre.z + Real(depth.y)));
+        if (host_.points().outside == PointsOutside::drawn_beside)
+            return r_.decide(site::middle_in_volume, z <= ball.w);
         return r_.decide(site::middle_in_volume, x <= ball.w && y <= ball.w && z <= ball.w);
     }
     void place(Ball<R>& ball) const {
@@ -154,11 +177,11 @@ template <class R> class SpriteTwin {
     };
     /// What a driver may make of it (point_coord.hpp).
     [[nodiscard]] Real point_coordinate(At at, const Real& from, const Along& of) const {
-        if constexpr (requires { from.legal(); }) {
+        if constexpr (has_sets) {
             const PointSpan span{item_twin::set_of(of.pixel), item_twin::set_of(of.middle), item_twin::set_of(of.half)};
             if (span.middle.any || span.half.any || !(span.half.low > 0.0))
                 return from;
-            const Interval set = point_place(host_.point_coord(), span);
+            const Interval set = point_place(host_.points().coord, span);
             return r_.unspecified(at, from, static_cast<float>(set.low), static_cast<float>(set.high));
         } else {
             return from;

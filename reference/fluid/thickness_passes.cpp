@@ -10,7 +10,7 @@ void add_thickness_passes(const HostPtr& host, Passes& all) {
         all.push_back(item_pass(options_of(*host, "thickness_clear_pass", thickness_image, PassStage::compute),
                                 ThicknessClearTwin{}));
     const PassStage stage = is_fixed ? PassStage::compute : PassStage::fragment;
-    all.push_back(by_point_coord(host, [stage](const HostPtr& by) {
+    all.push_back(by_points(host, [stage](const HostPtr& by) {
         return item_pass(options_of(*by, "thickness_pass", thickness_image, stage), ThicknessTwin{by});
     }));
 }

@@ -92,7 +92,8 @@ struct ThicknessTwin {
                 return;
             covered = covered && nearer;
         }
-        const Real t = r.note(site::addend, r.uniform(site::gain, host->thickness_gain()) * sprite.height(squared));
+        const Real drawn = r.uniform(site::gain, host->thickness_gain()) * sprite.height(squared);
+        const Real t = r.note(site::addend, sprite.addend_if_drawn(ball, drawn));
         if (host->switches().thickness_sum == ThicknessSum::blend) {
             made(covered, t);
             return;

@@ -97,6 +97,8 @@ inline constexpr ExpectedRow llvmpipe_rows[] = {
     {"image: gl_PointCoord", "none known"},
     {"image: gl_PointCoord, accuracy", "to 1/256 pixel, from above"},
     {"image: gl_PointCoord, cut size", "none known"},
+    {"image: points outside, dropped", "all, as GL says"},
+    {"image: points beside the image, drawn", "none known"},
     {"image: float atomics", "offered"},
     {"transform feedback order", "as drawn"},
     {"points: edge in x", "lower pixel"},

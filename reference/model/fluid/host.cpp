@@ -57,7 +57,7 @@ std::vector<FilterStep> steps(const Settings& s) {
 
 } // namespace
 
-Host::Host(Settings settings, PointCoord point_coord) : settings_(std::move(settings)), point_coord_(point_coord) {
+Host::Host(Settings settings, PointRules points) : settings_(std::move(settings)), points_(points) {
     check(settings_);
     const Switches& on = settings_.switches;
     const double width = settings_.width, height = settings_.height, r = settings_.radius;

@@ -23,16 +23,26 @@ struct FilterStep {
 /// How twins take gl_PointCoord to be made (point_coord.hpp).
 enum class PointCoord : std::uint8_t { accurate, cut, open };
 
+/// What twins take to become of a point whose middle lies outside the view volume. GL drops it (4.5, 13.5). Some
+/// drivers draw it if the middle lies beside the image alone. Open: each such point may be drawn or not.
+enum class PointsOutside : std::uint8_t { dropped, drawn_beside, open };
+
+/// What a driver makes of points.
+struct PointRules {
+    PointCoord coord = PointCoord::accurate;
+    PointsOutside outside = PointsOutside::dropped;
+};
+
 /// What the host hands the passes: made in double, rounded once. Immutable.
 class Host {
   public:
     /// Throws Error as check() does.
-    explicit Host(Settings settings, PointCoord point_coord = PointCoord::accurate);
+    explicit Host(Settings settings, PointRules points = {});
 
     [[nodiscard]] const Settings& settings() const { return settings_; }
     [[nodiscard]] const Switches& switches() const { return settings_.switches; }
 
-    [[nodiscard]] PointCoord point_coord() const { return point_coord_; }
+    [[nodiscard]] const PointRules& points() const { return points_; }
 
     [[nodiscard]] const glm::mat4& view() const { return view_; }
     [[nodiscard]] const glm::mat4& projection() const { return projection_; }
@@ -69,7 +79,7 @@ class Host {
 
   private:
     Settings settings_;
-    PointCoord point_coord_;
+    PointRules points_;
     glm::mat4 view_{1.0F}, projection_{1.0F}, view_projection_{1.0F}, inverse_view_{1.0F};
     glm::vec2 slope_{1.0F}, flow_scale_{1.0F};
     float depth_scale_ = 1.0F, point_scale_ = 1.0F, thickness_radius_ = 0.0F, thickness_gain_ = 0.0F,

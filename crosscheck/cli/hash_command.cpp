@@ -9,7 +9,7 @@
 #include "crosscheck/cli/run_options.hpp"
 #include "crosscheck/cli/system_verbs.hpp"
 #include "crosscheck/command/option_values.hpp"
-#include "crosscheck/report/progress.hpp"
+#include "crosscheck/report/hash_lines.hpp"
 #include "gpu/collision/simulation.hpp"
 #include "gpu/context.hpp"
 #include "reference/collision/simulation.hpp"
@@ -30,21 +30,9 @@ struct HashRequest {
     bool every = false;
 };
 
-/// `hash_of(frame)` runs the frame.
-template <class Hash> void print_frames(const HashRequest& options, const Hash& hash_of) {
-    Progress progress("hash", options.run.frames, true);
-    for (int frame = 0; frame < options.run.frames; ++frame) {
-        const bool shown = options.every || frame + 1 == options.run.frames;
-        const std::uint64_t hash = hash_of(frame, shown);
-        progress.show(frame + 1);
-        if (shown)
-            fmt::print("{} {}\n", frame, hash_text(hash));
-    }
-}
-
 void hash_reference(const Scene& scene, const HashRequest& options) {
     ReferenceSimulation reference(scene, named_profile(options.profile));
-    print_frames(options, [&](int frame, bool shown) {
+    print_hash_lines(options.run.frames, options.every, [&](int frame, bool shown) {
         reference.step(frame_params(scene, frame));
         return shown ? state_hash(reference.particles(), reference.cdt()) : 0;
     });
@@ -56,7 +44,7 @@ void hash_gpu(const Scene& scene, const HashRequest& options) {
     GpuSimulation gpu(scene, options.run.shaders);
     Particles particles;
     CollisionImage cdt;
-    print_frames(options, [&](int frame, bool shown) -> std::uint64_t {
+    print_hash_lines(options.run.frames, options.every, [&](int frame, bool shown) -> std::uint64_t {
         gpu.step(frame_params(scene, frame));
         if (!shown)
             return 0;

@@ -17,6 +17,7 @@
 #include "crosscheck/files/plain_text.hpp"
 #include "crosscheck/files/signals.hpp"
 #include "crosscheck/judge/item_place.hpp"
+#include "crosscheck/report/hash_lines.hpp"
 #include "crosscheck/report/item_text.hpp"
 #include "crosscheck/report/page/template.hpp"
 #include "crosscheck/report/progress.hpp"
@@ -135,27 +136,24 @@ std::vector<std::string> first_item_words(const System& system, const CheckRepor
 
 void print_hashes(const System& system, const std::string& profile, int frames, bool every) {
     ReferenceRun reference(system, named_profile(profile));
-    for (int frame = 0; frame < frames; ++frame) {
+    print_hash_lines(frames, every, [&](int frame, bool shown) {
         reference.step(frame);
-        if (every || frame + 1 == frames)
-            fmt::print("{} {}\n", frame, hash_text(reference.hash()));
-    }
+        return shown ? reference.hash() : 0;
+    });
 }
 
 void print_gpu_hashes(const System& system, SystemSide& side, int frames, bool every) {
     SystemState state = system.start;
     side.upload(std::as_const(state).view());
-    Progress progress("hash", frames, true);
-    for (int frame = 0; frame < frames; ++frame) {
+    print_hash_lines(frames, every, [&](int frame, bool shown) -> std::uint64_t {
         for (std::size_t p = 0; p < system.passes.size(); ++p)
             if (system.passes[p]->runs(frame) && !system.passes[p]->continues())
                 side.step(p, frame);
-        progress.show(frame + 1);
-        if (!every && frame + 1 < frames)
-            continue;
+        if (!shown)
+            return 0;
         side.read(state);
-        fmt::print("{} {}\n", frame, hash_text(state_hash(state)));
-    }
+        return state_hash(state);
+    });
 }
 
 CheckReport check_shown(const System& system, SystemSide& side, CheckOptions options, bool quiet,

@@ -49,8 +49,9 @@ void verdicts(benchmark::State& state, const std::string& step) {
             gpu.texels[t] = drawn_off.texels[t];
             ++differing;
         }
-    const JudgedFrame frame{scene.obstacles, params,          profile, known, scene.start, cdt, after,
-                            reference.cdt(), after, gpu, false};
+    const JudgedFrame frame{scene.obstacles, params, profile, known,
+                            scene.start,     cdt,    after,   reference.cdt(),
+                            after,           gpu,    false,   reference.texels_of_points()};
     FrameVerdicts found;
     for (auto _ : state)
         found = judge(frame);

@@ -50,6 +50,26 @@ inline double depth_bound(const std::array<glm::vec4, 3>& c, const ClipDepth& de
     return least_w > 0.0 ? std::abs(depth.scale()) * (z + w) / least_w + 3.0 * 0x1p-23 : 1.0;
 }
 
+/// The triangles of one image, assembled for whoever asks of its pixels, in whatever knowledge of the rasteriser.
+struct AssembledTriangles {
+    std::vector<glm::vec4> clip; ///< corners
+    std::span<const std::uint32_t> indices;
+    int width, height;
+    RasterRules rules;
+    ClipDepth depth;
+    RasterRules finer_rules; ///< what the grid of `rules` makes a line of may be a triangle on the driver's
+    std::vector<RasterTriangle> drawn, finer;
+
+    AssembledTriangles(std::vector<glm::vec4> corners, std::span<const std::uint32_t> of, int image_width,
+                       int image_height, const RasterRules& by, const ClipDepth& clip_depth = {})
+        : clip(std::move(corners)), indices(of), width(image_width), height(image_height), rules(by), depth(clip_depth),
+          finer_rules(by) {
+        finer_rules.subpixel_bits = 12;
+        drawn = assemble_triangles(clip, indices, width, height, rules, depth);
+        finer = assemble_triangles(clip, indices, width, height, finer_rules, depth);
+    }
+};
+
 /// A triangle at a pixel that it may cover.
 struct LegalCover {
     const RasterTriangle& triangle; ///< on the grid of `rules`
@@ -64,15 +84,14 @@ struct LegalCover {
 class LegalTriangles {
   public:
     /// `all_known`: nothing is open.
-    LegalTriangles(std::span<const glm::vec4> clip, std::span<const std::uint32_t> indices, int width, int height,
-                   const RasterRules& rules, const KnownRaster& known, bool all_known, const ClipDepth& depth = {})
-        : clip_(clip), indices_(indices), width_(width), height_(height), rules_(rules), known_(known),
-          all_known_(all_known), depth_(depth) {}
+    LegalTriangles(const AssembledTriangles& triangles, const KnownRaster& known, bool all_known)
+        : all_(triangles), known_(known), all_known_(all_known), coarse_(tolerance_on(triangles.rules)),
+          fine_(tolerance_on(triangles.finer_rules)) {}
 
     /// Calls visit(cover) in drawing order for the wanted pixels.
     template <class Visit> void for_each(const PixelSet& wanted, const Visit& visit) const {
-        const auto drawn = assemble_triangles(clip_, indices_, width_, height_, rules_, depth_);
-        const auto primitives = static_cast<std::uint32_t>(indices_.size() / 3);
+        const auto& drawn = all_.drawn;
+        const auto primitives = static_cast<std::uint32_t>(all_.indices.size() / 3);
         std::vector<bool> judged(primitives, false);
         auto next = drawn.begin();
         for (std::uint32_t primitive = 0; primitive < primitives; ++primitive) {
@@ -80,7 +99,7 @@ class LegalTriangles {
             while (next != drawn.end() && next->primitive == primitive)
                 ++next;
             if (first != next && std::none_of(first, next, [&](const RasterTriangle& triangle) {
-                    return may_reach(triangle, rules_, wanted);
+                    return may_reach(triangle, wanted);
                 })) {
                 judged[primitive] = true;
                 continue;
@@ -90,20 +109,24 @@ class LegalTriangles {
             if (!variants.empty())
                 visit_variants(first == next ? nullptr : &*first, variants, wanted, visit);
             else
-                std::for_each(first, next,
-                              [&](const RasterTriangle& triangle) { visit_triangle(triangle, rules_, wanted, visit); });
+                std::for_each(first, next, [&](const RasterTriangle& triangle) {
+                    visit_triangle(triangle, all_.rules, coarse_, wanted, visit);
+                });
         }
-        if (side_tolerance(rules_) == 0.0)
+        if (coarse_.side == 0.0)
             return;
-        // What the reference's grid makes a line of may be a triangle on the driver's.
-        RasterRules finer = rules_;
-        finer.subpixel_bits = 12;
-        for (const RasterTriangle& triangle : assemble_triangles(clip_, indices_, width_, height_, finer, depth_))
+        for (const RasterTriangle& triangle : all_.finer)
             if (!judged[triangle.primitive])
-                visit_triangle(triangle, finer, wanted, visit);
+                visit_triangle(triangle, all_.finer_rules, fine_, wanted, visit);
     }
 
   private:
+    /// How far a side may lie from where the reference puts it.
+    struct Tolerance {
+        double side; ///< steps of a grid
+        int pixels;  ///< whole ones that these come to
+    };
+
     /// What the grid makes of a triangle inside the clip volume, each corner's window coordinates being as accurate as
     /// was measured: along each axis one place, or two. None: a corner may lie anywhere that GL lets it.
     [[nodiscard]] std::vector<RasterTriangle> possible_triangles(std::uint32_t primitive) const {
@@ -112,17 +135,17 @@ class LegalTriangles {
             return {};
         std::array<std::vector<glm::ivec2>, 3> places;
         for (std::size_t k = 0; k < 3; ++k) {
-            const glm::vec4 corner = clip_[indices_[std::size_t{primitive} * 3 + k]];
-            if (!in_clip_volume(corner, depth_))
+            const glm::vec4 corner = all_.clip[all_.indices[std::size_t{primitive} * 3 + k]];
+            if (!in_clip_volume(corner, all_.depth))
                 return {};
             const auto along = [&](float coordinate, int size) {
                 const Interval window =
                     window_coordinate(coordinate, corner.w, size * 0.5, size * 0.5, glsl_window_accuracy);
-                const auto at = [&](double x) { return snap_vertex(static_cast<float>(x), rules_); };
+                const auto at = [&](double x) { return snap_vertex(static_cast<float>(x), all_.rules); };
                 return std::pair(at(window.low), at(window.high));
             };
-            const auto [x0, x1] = along(corner.x, width_);
-            const auto [y0, y1] = along(corner.y, height_);
+            const auto [x0, x1] = along(corner.x, all_.width);
+            const auto [y0, y1] = along(corner.y, all_.height);
             for (int y = y0; y <= y1; ++y)
                 for (int x = x0; x <= x1; ++x)
                     places[k].emplace_back(x, y);
@@ -148,17 +171,11 @@ class LegalTriangles {
     }
 
     /// Whether a wanted pixel lies where a triangle, or what rounding can make of it, is looked for.
-    [[nodiscard]] bool may_reach(const RasterTriangle& triangle, const RasterRules& rules,
-                                 const PixelSet& wanted) const {
+    [[nodiscard]] bool may_reach(const RasterTriangle& triangle, const PixelSet& wanted) const {
         bool reached = false;
-        for_each_wanted(triangle, rules.subpixel_bits, std::max(1, pixels_beside(rules)), wanted,
+        for_each_wanted(triangle, all_.rules.subpixel_bits, std::max(1, coarse_.pixels), wanted,
                         [&](int, int) { reached = true; });
         return reached;
-    }
-
-    /// Whole pixels that side_tolerance() comes to.
-    [[nodiscard]] int pixels_beside(const RasterRules& rules) const {
-        return static_cast<int>(std::ceil(std::ldexp(side_tolerance(rules), -rules.subpixel_bits)));
     }
 
     static bool covers(const RasterTriangle& triangle, const RasterRules& rules, int x, int y) {
@@ -171,22 +188,23 @@ class LegalTriangles {
     template <class Visit> void visit_variants(const RasterTriangle* drawn, const std::vector<RasterTriangle>& variants,
                                                const PixelSet& wanted, const Visit& visit) const {
         const RasterTriangle& shape = drawn != nullptr ? *drawn : variants.front();
-        for_each_wanted(shape, rules_.subpixel_bits, 1, wanted, [&](int x, int y) {
+        const RasterRules& rules = all_.rules;
+        for_each_wanted(shape, rules.subpixel_bits, 1, wanted, [&](int x, int y) {
             const auto covering = std::count_if(variants.begin(), variants.end(),
-                                                [&](const RasterTriangle& t) { return covers(t, rules_, x, y); });
-            const bool covered = drawn != nullptr && covers(*drawn, rules_, x, y);
+                                                [&](const RasterTriangle& t) { return covers(t, rules, x, y); });
+            const bool covered = drawn != nullptr && covers(*drawn, rules, x, y);
             if (covered || covering > 0)
-                visit(LegalCover{shape, rules_, x, y, covered,
+                visit(LegalCover{shape, rules, x, y, covered,
                                  covered && static_cast<std::size_t>(covering) == variants.size()});
         });
     }
 
     template <class Visit> void visit_triangle(const RasterTriangle& triangle, const RasterRules& rules,
-                                               const PixelSet& wanted, const Visit& visit) const {
+                                               const Tolerance& beside, const PixelSet& wanted,
+                                               const Visit& visit) const {
         const bool exact = all_known_ || known_.triangles();
-        const double tolerance = side_tolerance(rules);
-        const int bits = rules.subpixel_bits;
-        for_each_wanted(triangle, bits, pixels_beside(rules), wanted, [&](int x, int y) {
+        const double tolerance = beside.side;
+        for_each_wanted(triangle, rules.subpixel_bits, beside.pixels, wanted, [&](int x, int y) {
             const bool covered = covers(triangle, rules, x, y);
             const double margin = exact ? HUGE_VAL : nearest_side(triangle, x, y, rules).distance;
             if (covered || margin <= tolerance)
@@ -194,25 +212,22 @@ class LegalTriangles {
         });
     }
 
-    /// How far, in steps of the grid of `rules`, a side may lie from where the reference puts it: each corner by what
-    /// its window coordinate may err and by a step of the grid, along both axes.
-    [[nodiscard]] double side_tolerance(const RasterRules& rules) const {
+    /// Each corner by what its window coordinate may err and by a step of the grid, along both axes.
+    [[nodiscard]] Tolerance tolerance_on(const RasterRules& rules) const {
         if (all_known_ || known_.triangles() || (known_.triangle_window && known_.triangle_grid))
-            return 0.0;
-        const double size = std::max(width_, height_);
+            return {0.0, 0};
+        const double size = std::max(all_.width, all_.height);
         const double window =
             known_.triangle_window ? 0.0 : window_accuracy(known_.corner_window_accurate).error(size, size * 0.5);
-        const double step = known_.triangle_grid ? std::ldexp(1.0, -rules_.subpixel_bits) : grid_step(known_);
-        return std::ldexp((window + step) * std::sqrt(2.0), rules.subpixel_bits);
+        const double step = known_.triangle_grid ? std::ldexp(1.0, -all_.rules.subpixel_bits) : grid_step(known_);
+        const double pixels = (window + step) * std::sqrt(2.0);
+        return {std::ldexp(pixels, rules.subpixel_bits), static_cast<int>(std::ceil(pixels))};
     }
 
-    std::span<const glm::vec4> clip_;
-    std::span<const std::uint32_t> indices_;
-    int width_, height_;
-    const RasterRules& rules_;
+    const AssembledTriangles& all_;
     KnownRaster known_;
     bool all_known_;
-    ClipDepth depth_;
+    Tolerance coarse_, fine_;
 };
 
 } // namespace lockstep

@@ -26,12 +26,19 @@ class PixelSet {
             ++rows_[pixel / static_cast<std::size_t>(width) + 1];
         }
         std::partial_sum(rows_.begin(), rows_.end(), rows_.begin());
+        if (!places_.empty()) {
+            const auto row_of = [&](int place) {
+                return static_cast<int>(pixels[static_cast<std::size_t>(place)] / static_cast<std::size_t>(width));
+            };
+            first_row_ = row_of(places_.front());
+            end_row_ = row_of(places_.back()) + 1;
+        }
     }
 
     /// Calls visit(x, y) once for each of them in `rect`, rows upwards, each from its left.
     template <class Visit> void for_each(const PixelRect& rect, const Visit& visit) const {
-        const int y1 = std::min(rect.y1, static_cast<int>(rows_.size()) - 1);
-        for (int y = std::max(rect.y0, 0); y < y1; ++y) {
+        const int y1 = std::min(rect.y1, end_row_);
+        for (int y = std::max(rect.y0, first_row_); y < y1; ++y) {
             const auto [first, last] = row(y);
             int before = -1;
             for (auto x = std::lower_bound(first, last, rect.x0); x != last && *x < rect.x1; ++x)
@@ -57,6 +64,7 @@ class PixelSet {
 
     std::vector<std::ptrdiff_t> rows_; ///< where each row's columns begin, and the end
     std::vector<int> columns_, places_;
+    int first_row_ = 0, end_row_ = 0; ///< rows that have any
 };
 
 } // namespace lockstep

@@ -173,12 +173,16 @@ constexpr int most_slices = 8;
 
 template <class B> void rasterise(const B& fp, const std::vector<glm::vec3>& positions,
                                   const std::vector<glm::vec3>& stored, const FrameParams& params,
-                                  const Profile& profile, CollisionImage& cdt, DepthImage& depth) {
+                                  const Profile& profile, CollisionImage& cdt, DepthImage& depth,
+                                  DrawingScratch& scratch, std::span<std::int32_t> texels_of_points) {
     const Place<B> place_block = place_for<B>(profile.raster);
     const CollisionCode code(params);
     const std::size_t texels = cdt.texels.size();
     const int slices = std::min(omp_get_max_threads(), most_slices);
-    const auto keys = std::make_unique_for_overwrite<DrawingKey[]>(texels * static_cast<std::size_t>(slices));
+    const std::size_t needed = texels * static_cast<std::size_t>(slices);
+    if (scratch.size < needed)
+        scratch = {std::make_unique_for_overwrite<DrawingKey[]>(needed), needed};
+    DrawingKey* const keys = scratch.keys.get();
     const auto start = [&](int slice) { return positions.size() * slice / slices; };
 #pragma omp parallel
     {
@@ -192,6 +196,8 @@ template <class B> void rasterise(const B& fp, const std::vector<glm::vec3>& pos
             for (std::size_t first = start(slice); first < last; first += block_size) {
                 const std::size_t count = std::min(block_size, last - first);
                 place_block(fp, std::span(positions).subspan(first, count), params, profile.raster, points);
+                if (!texels_of_points.empty())
+                    std::copy_n(points.texel.data(), count, &texels_of_points[first]);
                 for (std::size_t i = 0; i < count; ++i)
                     if (points.texel[i] >= 0)
                         drawn[points.texel[i]] =
@@ -227,14 +233,24 @@ template <class Pass> bool with_point_arithmetic(const Profile& profile, const S
 
 } // namespace
 
-void rasterise_particles_fast(const Particles& before, const Particles& after, const FrameParams& params,
-                              const Profile& profile, CollisionImage& cdt, DepthImage& depth) {
+void draw_particles_fast(const Particles& before, const Particles& after, const FrameParams& params,
+                         const Profile& profile, CollisionImage& cdt, DepthImage& depth, DrawingScratch& scratch,
+                         std::span<std::int32_t> texels) {
     const auto& positions =
         params.switches.raster_position == RasterPosition::updated ? after.position : before.position;
-    if (!with_point_arithmetic(profile, params.switches, [&](const auto& fp) {
-            rasterise(fp, positions, after.position, params, profile, cdt, depth);
+    if (with_point_arithmetic(profile, params.switches, [&](const auto& fp) {
+            rasterise(fp, positions, after.position, params, profile, cdt, depth, scratch, texels);
         }))
-        rasterise_particles(before, after, params, profile, cdt, depth);
+        return;
+    rasterise_particles(before, after, params, profile, cdt, depth);
+    if (!texels.empty())
+        point_texels_fast(positions, params, profile, texels);
+}
+
+void rasterise_particles_fast(const Particles& before, const Particles& after, const FrameParams& params,
+                              const Profile& profile, CollisionImage& cdt, DepthImage& depth) {
+    DrawingScratch scratch;
+    draw_particles_fast(before, after, params, profile, cdt, depth, scratch, {});
 }
 
 void point_texels_fast(std::span<const glm::vec3> positions, const FrameParams& params, const Profile& profile,

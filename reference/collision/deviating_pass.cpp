@@ -237,8 +237,9 @@ void draw_earlier_depth(const FrameInputs& inputs, const Profile& profile, const
 void prepare(const FrameInputs& inputs, const Profile& profile, const Deviations& deviations,
              const CollisionImage& obstacles_cdt, const DepthImage& obstacles_depth, CollisionImage& cdt,
              DepthImage& depth) {
-    cdt = deviations.has(Deviation::obstacles_not_drawn) ? CollisionImage(obstacles_cdt.width, obstacles_cdt.height)
-                                                         : obstacles_cdt;
+    cdt = obstacles_cdt; // into the memory that it has
+    if (deviations.has(Deviation::obstacles_not_drawn))
+        std::fill(cdt.texels.begin(), cdt.texels.end(), glm::vec4(0.0F));
     depth = deviations.has(Deviation::obstacles_not_drawn) || deviations.has(Deviation::obstacles_never_hide)
                 ? DepthImage(obstacles_depth.width, obstacles_depth.height, inputs.params->clip_depth.cleared())
                 : obstacles_depth;

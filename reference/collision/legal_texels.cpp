@@ -5,6 +5,7 @@
 #include <bit>
 #include <cmath>
 #include <cstdint>
+#include <numeric>
 #include <utility>
 
 #include "reference/collision/collision_code.hpp"
@@ -25,17 +26,23 @@
 namespace lockstep {
 namespace {
 
+/// Calls visit(index) for the texels of an image that are at most `reach` away from one of `texels`, along both axes.
+template <class Visit>
+void for_each_near(int width, int height, std::span<const std::size_t> texels, int reach, const Visit& visit) {
+    for (const std::size_t texel : texels) {
+        const int x = static_cast<int>(texel) % width, y = static_cast<int>(texel) / width;
+        for (int ny = std::max(y - reach, 0); ny <= std::min(y + reach, height - 1); ++ny)
+            for (int nx = std::max(x - reach, 0); nx <= std::min(x + reach, width - 1); ++nx)
+                visit(static_cast<std::size_t>(ny) * static_cast<std::size_t>(width) + static_cast<std::size_t>(nx));
+    }
+}
+
 /// The texels asked for, by their place in the image.
 class WantedTexels {
   public:
     WantedTexels(int width, int height, std::span<const std::size_t> texels)
         : texels_(width, height, texels), near_(width, height, 0) {
-        for (const std::size_t texel : texels) {
-            const int x = static_cast<int>(texel) % width, y = static_cast<int>(texel) / width;
-            for (int ny = std::max(y - 1, 0); ny <= std::min(y + 1, height - 1); ++ny)
-                for (int nx = std::max(x - 1, 0); nx <= std::min(x + 1, width - 1); ++nx)
-                    near_.at(nx, ny) = 1;
-        }
+        for_each_near(width, height, texels, 1, [&](std::size_t near) { near_.texels[near] = 1; });
     }
     [[nodiscard]] const PixelSet& texels() const { return texels_; }
     [[nodiscard]] int slot(int x, int y) const { return texels_.place(x, y); }
@@ -116,16 +123,17 @@ template <class A> class Candidates {
           corners_(fp, of_corners(known, profile), profile.other_orders), wanted_(params.width, params.height, texels),
           candidates_(texels.size()) {}
 
-    /// Points in order, `texels`: where the reference draws them. `add(i, found)` adds what may come of point i; any
+    /// `points` in order; `texels`: where the reference draws each. `add(i, found)` adds what may come of point i; any
     /// thread calls it, in the subnormal mode of this one, for those near a wanted texel or drawn nowhere.
-    template <class Add> void add_points(std::span<const std::int32_t> texels, const Add& add) {
-        constexpr std::size_t block = 4096;
+    template <class Add>
+    void add_points(std::span<const std::uint32_t> points, std::span<const std::int32_t> texels, const Add& add) {
+        constexpr std::size_t block = 1024;
         const SubnormalMode mode = subnormal_mode();
-        std::vector<Found> parts((texels.size() + block - 1) / block);
+        std::vector<Found> parts((points.size() + block - 1) / block);
         parallel_blocks(static_cast<std::ptrdiff_t>(parts.size()), [&](std::ptrdiff_t b) {
             const FlushSubnormals guard(mode.flush_operands, mode.flush_results);
             const std::size_t first = static_cast<std::size_t>(b) * block;
-            for (std::size_t i = first; i < std::min(first + block, texels.size()); ++i)
+            for (const std::size_t i : points.subspan(first, std::min(block, points.size() - first)))
                 if (texels[i] == no_texel || wanted_.near(texels[i]))
                     add(i, parts[static_cast<std::size_t>(b)]);
         });
@@ -211,19 +219,22 @@ template <class A> class Candidates {
         add_range(owner, columns, rows, reference, found);
     }
 
-    void add_triangles(const Mesh& obstacles) {
-        std::vector<glm::vec4> clip(obstacles.positions.size());
-        std::transform(obstacles.positions.begin(), obstacles.positions.end(), clip.begin(),
-                       [&](glm::vec3 p) { return fp_.transform(params_.collision_proj_view, p); });
+    void add_triangles(const DrawnFrame& frame, bool flush) {
+        const Mesh& obstacles = frame.obstacles;
+        const AssembledTriangles& assembled = frame.triangles(flush, [&] {
+            std::vector<glm::vec4> clip(obstacles.positions.size());
+            std::transform(obstacles.positions.begin(), obstacles.positions.end(), clip.begin(),
+                           [&](glm::vec3 p) { return fp_.transform(params_.collision_proj_view, p); });
+            return clip;
+        });
         KnownRaster raster = known().raster;
         if (corners_open()) // a corner may be where no rounding of the reference's is
             raster.triangle_window = raster.corner_window_accurate = false;
-        const LegalTriangles triangles(clip, obstacles.indices, params_.width, params_.height, profile_.raster, raster,
-                                       known().points && !corners_open(), params_.clip_depth);
+        const LegalTriangles triangles(assembled, raster, known().points && !corners_open());
         Found found;
         triangles.for_each(wanted_.texels(), [&](const LegalCover& cover) {
-            add_fragment(obstacles, clip, cover.triangle, cover.rules, cover.x, cover.y, cover.covered, cover.sure,
-                         found);
+            add_fragment(obstacles, assembled.clip, cover.triangle, cover.rules, cover.x, cover.y, cover.covered,
+                         cover.sure, found);
         });
         take_in(found);
     }
@@ -419,15 +430,39 @@ std::span<const glm::vec3> DrawnFrame::points() const {
     return params.switches.raster_position == RasterPosition::updated ? after.position : before.position;
 }
 
-std::span<const std::int32_t> DrawnFrame::texels_of_points(bool flush) const {
-    if (found_flush != flush) {
-        const FlushSubnormals guard(flush);
-        if (found_texels == nullptr)
-            found_texels = std::make_unique_for_overwrite<std::int32_t[]>(points().size());
-        point_texels_fast(points(), params, profile, {found_texels.get(), points().size()});
-        found_flush = flush;
+std::span<const std::int32_t> DrawnFrame::texels_of_points() const {
+    if (texels_of_points_.size() != points().size()) {
+        found_texels_ = std::make_unique_for_overwrite<std::int32_t[]>(points().size());
+        const std::span found(found_texels_.get(), points().size());
+        point_texels_fast(points(), params, profile, found);
+        texels_of_points_ = found;
     }
-    return {found_texels.get(), points().size()};
+    return texels_of_points_;
+}
+
+std::span<const std::uint32_t> DrawnFrame::points_near(std::span<const std::size_t> texels) const {
+    bool found = near_.width != 0;
+    if (found)
+        for_each_near(params.width, params.height, texels, 1,
+                      [&](std::size_t near) { found = found && near_.texels[near] != 0; });
+    if (found)
+        return near_points_;
+    constexpr int reach = 3; // where a point of these texels may land as well is asked next
+    near_ = Image<std::uint8_t>(params.width, params.height, 0);
+    for_each_near(params.width, params.height, texels, reach, [&](std::size_t near) { near_.texels[near] = 1; });
+    const std::span<const std::int32_t> drawn = texels_of_points();
+    constexpr std::size_t block = 16384;
+    std::vector<std::vector<std::uint32_t>> parts((drawn.size() + block - 1) / block);
+    parallel_blocks(static_cast<std::ptrdiff_t>(parts.size()), [&](std::ptrdiff_t b) {
+        const std::size_t first = static_cast<std::size_t>(b) * block;
+        for (std::size_t i = first; i < std::min(first + block, drawn.size()); ++i)
+            if (drawn[i] == no_texel || near_.texels[static_cast<std::size_t>(drawn[i])] != 0)
+                parts[static_cast<std::size_t>(b)].push_back(static_cast<std::uint32_t>(i));
+    });
+    near_points_.clear();
+    for (const std::vector<std::uint32_t>& part : parts)
+        near_points_.insert(near_points_.end(), part.begin(), part.end());
+    return near_points_;
 }
 
 std::vector<LegalTexel> legal_texels(const DrawnFrame& frame, const KnownOperations& known,
@@ -442,23 +477,26 @@ std::vector<LegalTexel> legal_texels(const DrawnFrame& frame, const KnownOperati
             Candidates all(fp, params, profile, known, texels);
             const Mesh& obstacles = frame.obstacles;
             if (params.switches.obstacles_in_cdt == ObstaclesInCdt::triangles)
-                all.add_triangles(obstacles);
+                all.add_triangles(frame, flush);
             if (params.switches.obstacles_in_cdt == ObstaclesInCdt::vertices) {
                 std::vector<std::int32_t> drawn(obstacles.positions.size());
                 point_texels_fast(obstacles.positions, drawn_by_rasteriser(params), profile, drawn);
-                all.add_points(drawn, [&](std::size_t i, Found& found) {
+                std::vector<std::uint32_t> every(drawn.size());
+                std::iota(every.begin(), every.end(), 0U);
+                all.add_points(every, drawn, [&](std::size_t i, Found& found) {
                     all.add_point(TexelOwner::Kind::obstacle, i, obstacles.positions[i], obstacles.positions[i], found);
                 });
             }
-            const auto drawn = frame.texels_of_points(flush);
+            const auto drawn = frame.texels_of_points();
+            const auto near = frame.points_near(texels);
             if (params.switches.step == Step::compute) {
                 const bool subnormals = known_in_step(params.switches, known, profile).subnormals;
                 const FlushSubnormals in_step = flush_in_step(params.switches, profile, subnormals);
-                all.add_points(drawn, [&](std::size_t i, Found& found) {
+                all.add_points(near, drawn, [&](std::size_t i, Found& found) {
                     all.add_placed_point(i, positions[i], frame.after.position[i], found);
                 });
             } else {
-                all.add_points(drawn, [&](std::size_t i, Found& found) {
+                all.add_points(near, drawn, [&](std::size_t i, Found& found) {
                     all.add_point(TexelOwner::Kind::particle, i, positions[i], frame.after.position[i], found);
                 });
             }
@@ -474,7 +512,7 @@ std::vector<LegalTexel> legal_texels(const DrawnFrame& frame, const KnownOperati
 std::vector<LegalTexel> legal_texels(const Mesh& obstacles, const Particles& before, const Particles& after,
                                      const FrameParams& params, const Profile& profile, const KnownOperations& known,
                                      std::span<const std::size_t> texels) {
-    return legal_texels(DrawnFrame{obstacles, before, after, params, profile}, known, texels);
+    return legal_texels(DrawnFrame(obstacles, before, after, params, profile), known, texels);
 }
 
 } // namespace lockstep

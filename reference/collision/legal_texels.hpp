@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "reference/collision/legal_outcomes.hpp"
+#include "reference/legal_triangles.hpp"
 #include "reference/model/collision/particles.hpp"
 #include "reference/model/collision/scene.hpp"
 #include "reference/model/image.hpp"
@@ -56,22 +57,43 @@ struct LegalTexel {
     [[nodiscard]] std::vector<Tie> ties(const TexelOwner& owner) const;
 };
 
-/// A frame in which texels are asked for, more than once. Refers to the run's own data.
-struct DrawnFrame {
+/// A frame in which texels are asked for, more than once: what every question needs is found once. Refers to the run's
+/// own data.
+class DrawnFrame {
+  public:
     const Mesh& obstacles;
     const Particles& before;
     const Particles& after;
     const FrameParams& params;
     const Profile& profile;
 
+    /// `texels_of_points`: where the reference draws each of points(), no_texel: nowhere; empty: nobody has found it.
+    DrawnFrame(const Mesh& obstacles_drawn, const Particles& from, const Particles& to, const FrameParams& frame_params,
+               const Profile& followed, std::span<const std::int32_t> texels_of_points = {})
+        : obstacles(obstacles_drawn), before(from), after(to), params(frame_params), profile(followed),
+          texels_of_points_(texels_of_points) {}
+
     /// Positions that are drawn: the switch raster_position.
     [[nodiscard]] std::span<const glm::vec3> points() const;
-    /// Where the reference draws each of them, no_texel: nowhere; in the subnormal mode `flush`. Found when it is first
-    /// asked for.
-    [[nodiscard]] std::span<const std::int32_t> texels_of_points(bool flush) const;
+    /// In ascending order all points that the reference draws to one of `texels`, next to one, or nowhere; and others.
+    [[nodiscard]] std::span<const std::uint32_t> points_near(std::span<const std::size_t> texels) const;
+    [[nodiscard]] std::span<const std::int32_t> texels_of_points() const;
+    /// The obstacles' triangles in the subnormal mode `flush`; `project` gives their corners.
+    template <class Project> const AssembledTriangles& triangles(bool flush, const Project& project) const {
+        if (!triangles_ || flushed_ != flush)
+            triangles_.emplace(project(), obstacles.indices, params.width, params.height, profile.raster,
+                               params.clip_depth);
+        flushed_ = flush;
+        return *triangles_;
+    }
 
-    mutable std::unique_ptr<std::int32_t[]> found_texels = {}; ///< never written before many threads do
-    mutable std::optional<bool> found_flush = {};              ///< the mode that they were found in
+  private:
+    mutable std::span<const std::int32_t> texels_of_points_;
+    mutable std::unique_ptr<std::int32_t[]> found_texels_; ///< never written before many threads do
+    mutable Image<std::uint8_t> near_;                     ///< 1: points drawn there are among near_points_
+    mutable std::vector<std::uint32_t> near_points_;
+    mutable std::optional<AssembledTriangles> triangles_;
+    mutable bool flushed_ = false;
 };
 
 /// For each of `texels` (indices into the CDT), who may own it after `after` was drawn over the obstacles: points whose

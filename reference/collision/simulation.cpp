@@ -28,11 +28,18 @@ void ReferenceSimulation::step_from(const Particles& before, const CollisionImag
     } else {
         update_particles_fast(before, cdt, params, profile_, after_);
     }
-    draw(before, after_, params, cdt_after_);
+    const bool draws_points = !has_remedies(params.switches) && params.switches.search == Search::cdt;
+    texels_of_points_.resize(draws_points ? after_.size() : 0);
+    draw(before, after_, params, cdt_after_, texels_of_points_);
 }
 
 void ReferenceSimulation::draw(const Particles& before, const Particles& after, const FrameParams& params,
                                CollisionImage& cdt) {
+    draw(before, after, params, cdt, {});
+}
+
+void ReferenceSimulation::draw(const Particles& before, const Particles& after, const FrameParams& params,
+                               CollisionImage& cdt, std::span<std::int32_t> texels_of_points) {
     if (has_remedies(params.switches))
         return draw_layered_cdt(after, obstacles_, params, profile_, cdt);
     clear(cdt, params);
@@ -40,7 +47,7 @@ void ReferenceSimulation::draw(const Particles& before, const Particles& after, 
         return;
     obstacle_pass(obstacles_, params, profile_, cdt, depth_);
     if (params.switches.search == Search::cdt)
-        rasterise_particles_fast(before, after, params, profile_, cdt, depth_);
+        draw_particles_fast(before, after, params, profile_, cdt, depth_, scratch_, texels_of_points);
 }
 
 void ReferenceSimulation::step(const FrameParams& params) {

@@ -1,4 +1,9 @@
 #pragma once
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "reference/collision/collision_pass_fast.hpp"
 #include "reference/model/collision/particles.hpp"
 #include "reference/model/collision/scene.hpp"
 #include "reference/model/image.hpp"
@@ -25,7 +30,12 @@ class ReferenceSimulation {
     [[nodiscard]] const Particles& particles() const { return after_; }
     [[nodiscard]] const CollisionImage& cdt() const { return cdt_after_; }
 
+    /// Where the last step drew each particle in cdt(), as point_texels_fast has it; empty where it draws none so.
+    [[nodiscard]] std::span<const std::int32_t> texels_of_points() const { return texels_of_points_; }
+
   private:
+    void draw(const Particles& before, const Particles& after, const FrameParams& params, CollisionImage& cdt,
+              std::span<std::int32_t> texels_of_points);
     void clear(CollisionImage& cdt, const FrameParams& params);
 
     const Mesh& obstacles_;
@@ -33,6 +43,8 @@ class ReferenceSimulation {
     Particles before_, after_;
     CollisionImage cdt_before_, cdt_after_;
     DepthImage depth_;
+    DrawingScratch scratch_;
+    std::vector<std::int32_t> texels_of_points_;
 };
 
 } // namespace lockstep

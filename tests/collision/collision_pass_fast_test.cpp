@@ -372,5 +372,12 @@ TEST_CASE("fast collision: the texels points are drawn to are those of the obvio
                 }
                 CHECK(wrong == 0);
                 CHECK(drawn > 1000);
+                DrawingScratch scratch;
+                CollisionImage cdt = empty_cdt(scene.params);
+                DepthImage depth = drawn_before(scene.params);
+                std::vector<std::int32_t> while_drawing(texels.size());
+                draw_particles_fast(scene.particles, scene.particles, scene.params, profile, cdt, depth, scratch,
+                                    while_drawing);
+                CHECK(while_drawing == texels);
             }
 }

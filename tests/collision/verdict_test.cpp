@@ -1,10 +1,16 @@
 #include <catch2/catch.hpp>
 
+#include <algorithm>
 #include <bit>
 #include <cmath>
 #include <cstdint>
+#include <cstdlib>
 #include <map>
+#include <span>
 #include <string>
+#include <vector>
+
+#include <fmt/format.h>
 
 #include "crosscheck/collision/judge/diagnosis.hpp"
 #include "crosscheck/collision/judge/verdict.hpp"
@@ -14,6 +20,8 @@
 
 #include "reference/collision/collision_code.hpp"
 #include "reference/collision/collision_pass.hpp"
+#include "reference/collision/collision_pass_fast.hpp"
+#include "reference/collision/legal_texels.hpp"
 #include "reference/collision/obstacle_pass.hpp"
 #include "reference/model/collision/collision_state.hpp"
 #include "reference/model/same_bits.hpp"
@@ -130,6 +138,56 @@ TEST_CASE("verdict: a decision that alone explains the state where it is made ot
         }
         CHECK(differing > 3);
     }
+}
+
+TEST_CASE("verdict: what a frame found for one question of texels serves the next, and who finds it does not matter") {
+    const auto text = [](const std::vector<LegalTexel>& legal) {
+        std::string all;
+        for (const LegalTexel& texel : legal) {
+            for (const TexelOwner& o : texel.owners)
+                all += fmt::format("{} {} {} {} {} ", static_cast<int>(o.kind), o.index, o.is_reference, o.sure,
+                                   o.edge_margin);
+            all += "/";
+        }
+        return all;
+    };
+    int several = 0;
+    for (const Step step : {Step::transform_feedback, Step::compute}) {
+        Frame frame("corrected", "nvidia");
+        frame.known = {}; // what GL says alone, so that points may land on several texels
+        FrameParams& params = frame.scene.params;
+        params.switches.step = step;
+        std::vector<std::int32_t> drawn(frame.gpu.size());
+        point_texels_fast(frame.gpu.position, params, frame.profile, drawn);
+        const auto asked = [&](std::span<const std::int32_t> texels) {
+            return DrawnFrame(frame.obstacles, frame.scene.particles, frame.gpu, params, frame.profile, texels);
+        };
+        const DrawnFrame shared = asked(drawn), finding = asked({});
+        Random random(5);
+        for (int question = 0; question < 100; ++question) {
+            std::vector<std::size_t> texels{random.below(61 * 47)};
+            for (std::uint64_t i = random.below(4); i > 0; --i)
+                texels.push_back((texels.front() + random.below(4) + 61 * random.below(4)) % (61 * 47));
+            const auto near = shared.points_near(texels);
+            REQUIRE(std::is_sorted(near.begin(), near.end()));
+            for (std::size_t i = 0; i < drawn.size(); ++i) {
+                const bool beside = std::any_of(texels.begin(), texels.end(), [&](std::size_t texel) {
+                    const int t = static_cast<int>(texel);
+                    return std::abs(drawn[i] % 61 - t % 61) <= 1 && std::abs(drawn[i] / 61 - t / 61) <= 1;
+                });
+                if (drawn[i] == no_texel || beside)
+                    REQUIRE(std::binary_search(near.begin(), near.end(), i));
+            }
+            for (const bool known : {true, false}) {
+                frame.known.subnormals = known;
+                const std::vector<LegalTexel> fresh = legal_texels(asked({}), frame.known, texels);
+                REQUIRE(text(legal_texels(shared, frame.known, texels)) == text(fresh));
+                REQUIRE(text(legal_texels(finding, frame.known, texels)) == text(fresh));
+                several += fresh.front().owners.size() > 1;
+            }
+        }
+    }
+    CHECK(several > 20);
 }
 
 TEST_CASE("verdict: faults of one bit in a texel are located exactly") {

@@ -1,6 +1,8 @@
 #include "crosscheck/collision/judge/check.hpp"
 
 #include <algorithm>
+#include <cstdint>
+#include <span>
 #include <utility>
 
 #include <fmt/format.h>
@@ -90,9 +92,20 @@ class RunJudge {
     }
 
     FrameVerdicts judge(const RunFrame& f) {
-        const JudgedFrame judged{
-            scene_.obstacles,        f.params,          profile_,        known_,    f.before.particles, f.before.cdt,
-            f.reference.particles(), f.reference.cdt(), f.gpu.particles, f.gpu.cdt, f.particles_differ};
+        const std::span<const std::int32_t> texels_of_points =
+            f.particles_differ ? std::span<const std::int32_t>() : f.reference.texels_of_points();
+        const JudgedFrame judged{scene_.obstacles,
+                                 f.params,
+                                 profile_,
+                                 known_,
+                                 f.before.particles,
+                                 f.before.cdt,
+                                 f.reference.particles(),
+                                 f.reference.cdt(),
+                                 f.gpu.particles,
+                                 f.gpu.cdt,
+                                 f.particles_differ,
+                                 texels_of_points};
         FrameVerdicts verdicts = lockstep::judge(judged);
         if (!has_cdt_)
             verdicts.texels.clear();

@@ -1,6 +1,7 @@
 #include "crosscheck/collision/judge/collision_power.hpp"
 
 #include <algorithm>
+#include <atomic>
 #include <bit>
 #include <initializer_list>
 #include <map>
@@ -8,6 +9,8 @@
 #include <optional>
 #include <string_view>
 #include <utility>
+
+#include <omp.h>
 
 #include "crosscheck/judge/item_sample.hpp"
 #include "reference/collision/collision_mistakes.hpp"
@@ -150,7 +153,7 @@ class Drawing {
         if (inputs_.earlier != nullptr)
             inputs_.earlier = &earlier_.emplace(*inputs_.earlier, chosen_).particles();
         obstacle_pass(scene.obstacles, params_, profile, obstacles_cdt_, obstacles_depth_);
-        right_ = draw({});
+        draw({}, right_);
     }
     Drawing(const Drawing&) = delete;
     Drawing& operator=(const Drawing&) = delete;
@@ -158,9 +161,11 @@ class Drawing {
     /// What each of them makes of the image, judged by a few texels that it changes.
     [[nodiscard]] std::vector<MistakenItem> judge(const std::vector<Deviation>& deviations) const {
         std::vector<std::vector<Changed>> changed(deviations.size());
-        parallel_blocks(static_cast<std::ptrdiff_t>(deviations.size()), [&](std::ptrdiff_t d) {
-            const auto at = static_cast<std::size_t>(d);
-            changed[at] = changed_by(deviations[at]);
+        std::atomic<std::size_t> next = 0;
+        parallel_blocks(omp_get_max_threads(), [&](std::ptrdiff_t) {
+            CollisionImage drawn; // one a thread, since each is megabytes
+            for (std::size_t d = next++; d < deviations.size(); d = next++)
+                changed[d] = changed_by(deviations[d], drawn);
         });
         std::map<std::size_t, std::size_t> place; // of a texel among those judged
         for (const std::vector<Changed>& some : changed)
@@ -190,8 +195,8 @@ class Drawing {
         std::size_t index;
         glm::vec4 code;
     };
-    [[nodiscard]] std::vector<Changed> changed_by(Deviation deviation) const {
-        const CollisionImage drawn = draw(deviation);
+    [[nodiscard]] std::vector<Changed> changed_by(Deviation deviation, CollisionImage& drawn) const {
+        draw(deviation, drawn);
         std::vector<std::size_t> differing;
         for (std::size_t t = 0; t < drawn.texels.size(); ++t)
             if (chosen_.has(t) && !same_bits(drawn.texels[t], right_.texels[t]))
@@ -201,10 +206,8 @@ class Drawing {
             some.push_back({t, drawn.texels[t]});
         return some;
     }
-    [[nodiscard]] CollisionImage draw(const Deviations& deviations) const {
-        CollisionImage cdt;
+    void draw(const Deviations& deviations, CollisionImage& cdt) const {
         deviating_draw(inputs_, after_.particles(), profile_, deviations, obstacles_cdt_, obstacles_depth_, cdt);
-        return cdt;
     }
 
     const Scene& scene_;

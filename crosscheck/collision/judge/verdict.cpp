@@ -228,7 +228,8 @@ std::vector<ItemVerdict> judge_texels(const JudgedFrame& frame, const std::vecto
         inherited.follows_particle = true;
         verdicts.push_back(inherited);
     }
-    const DrawnFrame drawn{frame.obstacles, frame.before, frame.gpu, frame.params, frame.profile};
+    const DrawnFrame drawn(frame.obstacles, frame.before, frame.gpu, frame.params, frame.profile,
+                           frame.texels_of_points);
     const auto legal = legal_texels(drawn, frame.known, unexplained);
     std::vector<ItemVerdict> judged;
     for (std::size_t i = 0; i < unexplained.size(); ++i)

@@ -1,5 +1,7 @@
 #pragma once
 #include <cstddef>
+#include <cstdint>
+#include <span>
 #include <vector>
 
 #include "crosscheck/judge/item_verdict.hpp"
@@ -26,6 +28,8 @@ struct JudgedFrame {
     const Particles& gpu;
     const CollisionImage& gpu_cdt;
     bool particles_differ = true; ///< false: they were compared, and every bit agrees
+    /// Where the reference draws the GPU's particles (DrawnFrame); empty: to be found.
+    std::span<const std::int32_t> texels_of_points = {};
 };
 
 /// Verdicts on what differs in a frame, by index.

@@ -82,10 +82,8 @@ template <class Sites> class LegalPixels {
           fp_(profile.dot, profile.length_order(), profile.normalize_order(), profile.roots.get()),
           vertex_arithmetic_(fp_, known), geometry_arithmetic_(fp_, geometry_stage(known)),
           fragment_arithmetic_(fp_, fragment_stage(known)), vertex_(vertex_arithmetic_),
-          geometry_(geometry_arithmetic_), fragment_(fragment_arithmetic_), shading_(fragment_, sites) {
-        for (const glm::vec3& position : obstacles.positions)
-            clip_.push_back(fp_.transform(params.render_projection, fp_.transform(params.render_view, position)));
-    }
+          geometry_(geometry_arithmetic_), fragment_(fragment_arithmetic_), shading_(fragment_, sites),
+          triangles_(projected(), obstacles.indices, width_, height_, profile.raster) {}
 
     /// Of pixels of the image, once it is as it is stored.
     std::vector<LegalPixel> at(std::span<const std::size_t> pixels) const {
@@ -107,6 +105,13 @@ template <class Sites> class LegalPixels {
     }
 
   private:
+    [[nodiscard]] std::vector<glm::vec4> projected() const {
+        std::vector<glm::vec4> clip;
+        for (const glm::vec3& position : obstacles_.positions)
+            clip.push_back(fp_.transform(params_.render_projection, fp_.transform(params_.render_view, position)));
+        return clip;
+    }
+
     std::vector<WantedPixel> wanted_at(std::span<const std::size_t> pixels) const {
         std::vector<WantedPixel> wanted;
         Image<std::vector<std::int32_t>> slots(width_, height_);
@@ -123,8 +128,7 @@ template <class Sites> class LegalPixels {
             for (const std::int32_t slot : slots.at(x, y))
                 add(wanted[static_cast<std::size_t>(slot)]);
         };
-        const LegalTriangles triangles(clip_, obstacles_.indices, width_, height_, profile_.raster, raster_,
-                                       known_.points && known_.sums);
+        const LegalTriangles triangles(triangles_, raster_, known_.points && known_.sums);
         triangles.for_each(PixelSet(width_, height_, sources), [&](const LegalCover& c) {
             const double margin =
                 c.sure ? HUGE_VAL
@@ -276,7 +280,8 @@ template <class Sites> class LegalPixels {
 
     [[nodiscard]] Interval triangle_depth(std::uint32_t triangle, int x, int y) const {
         const std::uint32_t* index = &obstacles_.indices[std::size_t{triangle} * 3];
-        const std::array<glm::vec4, 3> corners{clip_[index[0]], clip_[index[1]], clip_[index[2]]};
+        const std::array<glm::vec4, 3> corners{triangles_.clip[index[0]], triangles_.clip[index[1]],
+                                               triangles_.clip[index[2]]};
         const TriangleInterpolation interpolation(fp_, corners, width_, height_);
         const double depth = interpolation.depth(interpolation.weights(x, y));
         // Where sums are free too, corners and interpolation may each err as much again.
@@ -331,7 +336,7 @@ template <class Sites> class LegalPixels {
     LegalArithmetic<A> vertex_arithmetic_, geometry_arithmetic_, fragment_arithmetic_;
     Legal vertex_, geometry_, fragment_; ///< of each stage
     Shading<Legal, Sites> shading_;
-    std::vector<glm::vec4> clip_;
+    AssembledTriangles triangles_;
 };
 
 template <class Sites> std::vector<LegalPixel> legal_of(const Sites& sites, const Particles& particles,

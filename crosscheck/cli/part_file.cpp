@@ -109,6 +109,10 @@ RunPart read_run_part(const JsonValue& value, const std::string& file) {
 } // namespace
 
 PartFile read_part_file(const std::filesystem::path& file) {
+    if (file.extension() == ".xml")
+        throw Error(fmt::format("{}: JUnit keeps a part's verdict, not what it found; right is the part's JSON, of "
+                                "which merge --junit FILE makes the whole's JUnit",
+                                file.string()));
     const json document = read_json(file);
     const JsonValue whole(document, file.string());
     if (!document.is_object() || !whole.find("part"))

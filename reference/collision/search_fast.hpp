@@ -188,7 +188,7 @@ template <int radius, class Sums> std::ptrdiff_t nearest_fast(Sums sums, const L
     for (int row = 0; row < N::rows; ++row) {
         const std::ptrdiff_t first = corner + row * stored.stride;
         squares_of_row(sums, self,
-                       {stored.x.data() + first, stored.y.data() + first, stored.z.data() + first,
+                       {stored.x.get() + first, stored.y.get() + first, stored.z.get() + first,
                         N::aside.data() + row * N::lanes, squared.data() + row * N::lanes, N::lanes});
     }
     float least = least_of<N>(squared.data(), infinity);

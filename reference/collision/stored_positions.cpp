@@ -19,14 +19,15 @@ StoredPositions stored_positions(const CollisionImage& cdt, const FrameParams& p
     stored.stride = cdt.width + 2 * margin;
     stored.origin = margin * stored.stride + margin;
     const auto size = static_cast<std::size_t>((cdt.height + 2 * margin) * stored.stride + overrun);
-    stored.x.resize(size);
-    stored.y.resize(size);
-    stored.z.resize(size);
+    for (std::unique_ptr<float[]>* const column : {&stored.x, &stored.y, &stored.z}) {
+        *column = std::make_unique_for_overwrite<float[]>(size);
+        std::fill_n(column->get() + size - overrun, overrun, no_position);
+    }
 #pragma omp parallel for schedule(static)
     for (int ty = -margin; ty < cdt.height + margin; ++ty) {
-        float* x = stored.x.data() + stored.index(0, ty);
-        float* y = stored.y.data() + stored.index(0, ty);
-        float* z = stored.z.data() + stored.index(0, ty);
+        float* x = stored.x.get() + stored.index(0, ty);
+        float* y = stored.y.get() + stored.index(0, ty);
+        float* z = stored.z.get() + stored.index(0, ty);
         if (ty < 0 || ty >= cdt.height) {
             std::fill(x - margin, x + cdt.width + margin, no_position);
             continue;

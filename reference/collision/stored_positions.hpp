@@ -1,6 +1,6 @@
 #pragma once
 #include <cstddef>
-#include <vector>
+#include <memory>
 
 #include "reference/model/collision/scene.hpp"
 #include "reference/model/image.hpp"
@@ -12,7 +12,7 @@ namespace lockstep {
 struct StoredPositions {
     std::ptrdiff_t stride = 0; ///< texels from one row to the next
     std::ptrdiff_t origin = 0; ///< index of texel (0, 0)
-    std::vector<float> x, y, z;
+    std::unique_ptr<float[]> x, y, z; ///< first written by the threads that fill them
 
     [[nodiscard]] std::ptrdiff_t index(int tx, int ty) const { return origin + ty * stride + tx; }
     [[nodiscard]] glm::vec3 at(std::ptrdiff_t index) const {

@@ -179,6 +179,7 @@ TEST_CASE("merge: parts that are missing, there twice, or of another run are ref
     refused({setting.scene.scene}, "holds no part of a run");
     REQUIRE(setting.check({"--json", setting.path("whole.json")}).status == 0);
     refused({setting.path("whole.json")}, "holds no part of a run");
+    refused({setting.path("part.xml")}, "right is the part's JSON");
     for (const std::string& input : {parts[0], setting.recording})
         CHECK_THAT(refusal(run_lockstep(joined({"merge", "--json", input}, parts))), Contains(input));
     const std::string last = parts[2], kept = content(last);

@@ -1,5 +1,6 @@
 #pragma once
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -15,6 +16,7 @@ namespace lockstep {
 /// long run allocates nothing. Twin of gpu/collision/simulation.hpp.
 class ReferenceSimulation {
   public:
+    /// `scene` outlives this, and its obstacles stay as they are.
     ReferenceSimulation(const Scene& scene, Profile profile);
 
     /// One frame from a given state: clear, obstacles, collision pass, or with remedies the layered one; with search =
@@ -36,13 +38,17 @@ class ReferenceSimulation {
   private:
     void draw(const Particles& before, const Particles& after, const FrameParams& params, CollisionImage& cdt,
               std::span<std::int32_t> texels_of_points);
-    void clear(CollisionImage& cdt, const FrameParams& params);
+    void draw_obstacles(const FrameParams& params, CollisionImage& cdt);
 
     const Mesh& obstacles_;
     Profile profile_;
     Particles before_, after_;
     CollisionImage cdt_before_, cdt_after_;
     DepthImage depth_;
+    std::optional<FrameParams> seen_; ///< how the frame before saw the obstacles
+    bool keeps_obstacles_ = false;    ///< they are in the next two as seen_ has them
+    CollisionImage obstacles_cdt_;
+    DepthImage obstacles_depth_;
     DrawingScratch scratch_;
     std::vector<std::int32_t> texels_of_points_;
 };

@@ -10,8 +10,8 @@
 
 namespace lockstep {
 
-/// Prints "FRAME HASH" of the last frame, or of `every` one, each as soon as it is known. `hash_of(frame, shown)` runs the
-/// frame and returns the state's hash after it, which counts where it is shown.
+/// Prints "FRAME HASH" of the last frame, or of `every` one, each as soon as it is known. `hash_of(frame, shown)` runs
+/// the frame and returns the state's hash after it, which counts where it is shown.
 template <class Hash> void print_hash_lines(int frames, bool every, const Hash& hash_of) {
     Progress progress("hash", frames, true);
     for (int frame = 0; frame < frames; ++frame) {

@@ -1,6 +1,7 @@
 #include "crosscheck/scene/profile_json.hpp"
 
 #include <array>
+#include <cmath>
 #include <utility>
 
 #include "reference/model/error.hpp"
@@ -134,6 +135,9 @@ nlohmann::json profile_json(const Profile& profile) {
     for (const auto& [name, accurate] : accuracy_table)
         if (profile.*accurate)
             json[std::string(name)] = name_of(off_on, *(profile.*accurate));
+    json["point_sizes"]["smallest"] = profile.point_sizes.smallest;
+    if (std::isfinite(profile.point_sizes.largest))
+        json["point_sizes"]["largest"] = profile.point_sizes.largest;
     if (profile.any_order)
         json["any_order"] = name_of(off_on, true);
     if (profile.open_corners)
@@ -146,8 +150,8 @@ nlohmann::json profile_json(const Profile& profile) {
 Profile read_profile(const JsonValue& json) {
     json.check_keys({"name", "dot", "length_dot", "normalize_dot", "other_orders", "flush_subnormals",
                      "compute_flush_subnormals", "compute_flush_results", "raster", "ulp_errors", "not_followed",
-                     "point_window_accurate", "corner_window_accurate", "driver_converts", "any_order",
-                     "open_corners"});
+                     "point_window_accurate", "corner_window_accurate", "driver_converts", "any_order", "open_corners",
+                     "point_sizes"});
     Profile profile = base(json);
     read_named(json, "dot", dot_order_names(), profile.dot);
     read_orders(json, profile);
@@ -167,6 +171,16 @@ Profile read_profile(const JsonValue& json) {
     }
     if (const auto raster = json.find("raster"))
         read_raster(*raster, profile.raster);
+    if (const auto sizes = json.find("point_sizes")) {
+        sizes->check_keys({"smallest", "largest"});
+        profile.point_sizes = {};
+        if (const auto smallest = sizes->find("smallest"))
+            profile.point_sizes.smallest = smallest->number(number::not_negative);
+        if (const auto largest = sizes->find("largest"))
+            profile.point_sizes.largest = largest->number(number::positive);
+        if (profile.point_sizes.largest < profile.point_sizes.smallest)
+            sizes->fail("\"largest\" is below \"smallest\"");
+    }
     if (const auto errors = json.find("ulp_errors")) {
         errors->check_keys({"divide", "reciprocal", "sqrt", "inverse_sqrt", "length", "normalize", "fragment_divide",
                             "fragment_reciprocal"});

@@ -372,6 +372,8 @@ Profile profile_from(const ProbeResult& result) {
     rows.require({"transform feedback order"}, "as drawn");
     profile.errors = errors(rows, result);
     profile.raster = raster_rules(rows);
+    if (const ContextInfo& gl = result.context; gl.max_point_size > 0.0F) // else an older probe's
+        profile.point_sizes = {gl.min_point_size, gl.max_point_size};
     profile.point_window_accurate = found(result, "points: window accuracy", "as GLSL's");
     profile.corner_window_accurate = found(result, "triangles: window accuracy", "as GLSL's");
     note_images(rows, result);

@@ -31,11 +31,11 @@ PixelRect ray_box(const Host& host, const RoughWindow& window, const glm::dvec3&
 bool may_leave_boxes(std::span<const Mistake> made, std::size_t spheres) {
     constexpr std::size_t few = 256;
     static constexpr std::array placing{
-        site::before.id,      site::view.id,         site::centre.id,   site::w.id,      site::near.id,
-        site::beyond_near.id, site::radius.id,       site::distance.id, site::size.id,   site::half.id,
-        site::point_scale.id, site::sprite_scale.id, site::p00.id,      site::p11.id,    site::width.id,
-        site::height.id,      site::place_x.id,      site::place_y.id,  site::nx.id,     site::ny.id,
-        site::window_x.id,    site::window_y.id,     site::pixel_x.id,  site::pixel_y.id};
+        site::before.id,      site::view.id,         site::centre.id,   site::w.id,       site::near.id,
+        site::beyond_near.id, site::radius.id,       site::distance.id, site::size.id,    site::half.id,
+        site::point_scale.id, site::sprite_scale.id, site::p00.id,      site::p11.id,     site::width.id,
+        site::height.id,      site::place_x.id,      site::place_y.id,  site::nx.id,      site::ny.id,
+        site::window_x.id,    site::window_y.id,     site::pixel_x.id,  site::pixel_y.id, site::drawn_size.id};
     return spheres <= few && std::ranges::any_of(made, [](const Mistake& mistake) {
                return std::ranges::find(placing, mistake.site) != placing.end();
            });
@@ -50,14 +50,20 @@ BoxesByTile sprite_boxes(const Host& host, const SystemView& state, const Sphere
     for (std::size_t i = 0; i < state[particle_buffer].count(); ++i) {
         const glm::vec3 p(state.vec4(field::position, i));
         const glm::dvec3 c(view * glm::dvec4(glm::dvec3(p), 1.0));
+        const auto drawn_size = [&](double size) {
+            const PointSizes& sizes = host.points().sizes;
+            return host.switches().sprite != Sprite::points
+                       ? size
+                       : std::clamp(size, double{sizes.smallest}, double{sizes.largest});
+        };
         const double away = host.switches().point_size == PointSize::clip_w ? -c.z : glm::length(c);
         if (!(-c.z > 0.5 * double{host.near_plane()}))
             all.emplace_back();
         else if (spheres.shape == Sphere::ray)
             all.push_back(ray_box(host, window, c, double{spheres.radius}));
         else
-            all.push_back(
-                window.disc(window.place(window.clip(p)), 0.5 * double{host.point_scale()} * spheres.radius / away));
+            all.push_back(window.disc(window.place(window.clip(p)),
+                                      0.5 * drawn_size(double{host.point_scale()} * spheres.radius / away)));
     }
     return {std::move(all), s.width, s.height};
 }

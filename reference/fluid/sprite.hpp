@@ -160,7 +160,7 @@ template <class R> class SpriteTwin {
         const Real away = by_w ? ball.w : r_.note(site::distance, r_.length(site::distance, ball.centre));
         const Real scale = r_.note(site::sprite_scale, r_.uniform(site::point_scale, host_.point_scale()) * radius());
         const Real size = r_.note(site::size, r_.divide(site::size, scale, away));
-        ball.half = r_.note(site::half, Real(0.5F) * size);
+        ball.half = r_.note(site::half, Real(0.5F) * drawn_size(size));
         const auto window = [&](At at, At place_at, At scale_at, At size_at, const Real& along, float unit,
                                 int pixels) {
             const Real clip = r_.uniform(scale_at, unit) * along;
@@ -171,6 +171,13 @@ template <class R> class SpriteTwin {
                         s.width);
         ball.y = window(site::window_y, site::place_y, site::p11, site::height, ball.centre.y, host_.projection()[1][1],
                         s.height);
+    }
+    /// What a driver makes of a sprite's size.
+    [[nodiscard]] Real drawn_size(const Real& size) const {
+        if (host_.switches().sprite != Sprite::points)
+            return size;
+        const auto [smallest, largest] = host_.points().sizes;
+        return r_.note(site::drawn_size, r_.max(r_.min(size, Real(largest)), Real(smallest)));
     }
     struct Along {
         Real pixel, middle, half;

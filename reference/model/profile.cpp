@@ -49,6 +49,7 @@ Profile named_profile(std::string_view name) {
     if (name == "llvmpipe") {
         profile.dot = DotOrder::right_to_left;
         profile.compute_flush_subnormals = false;
+        profile.point_sizes = {1.0F, 255.0F};
         return profile;
     }
     if (name == "nvidia") {
@@ -57,6 +58,7 @@ Profile named_profile(std::string_view name) {
         profile.raster.point_snap = SnapRounding::half_to_even;
         profile.raster.viewport = profile.raster.vertex_viewport = ViewportRounding::scaled;
         profile.raster.depth_by_driver_reciprocal = true;
+        profile.point_sizes = {1.0F, 2047.0F};
         profile.point_window_accurate = profile.corner_window_accurate = true;
         profile.not_followed = {"points: viewport", "triangles: viewport"};
         return profile;

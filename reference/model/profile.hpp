@@ -1,5 +1,6 @@
 #pragma once
 #include <cstdint>
+#include <limits>
 #include <memory>
 #include <optional>
 #include <span>
@@ -67,6 +68,14 @@ struct RasterRules {
     bool operator==(const RasterRules&) const = default;
 };
 
+/// The sizes of points that a driver draws, pixels: one that a shader sets is clamped to them (GL 4.5, 14.4;
+/// GL_POINT_SIZE_RANGE).
+struct PointSizes {
+    float smallest = 1.0F, largest = std::numeric_limits<float>::infinity();
+
+    bool operator==(const PointSizes&) const = default;
+};
+
 /// The largest distance seen between a driver's operation and the reference's, ULP; 0: never another bit.
 struct OperationErrors {
     std::int64_t divide = 0;
@@ -99,6 +108,7 @@ struct Profile {
     bool compute_flush_subnormals = true;      ///< subnormal operands are zero in compute shaders
     std::optional<bool> compute_flush_results; ///< subnormal results there; null: as operands
     RasterRules raster;
+    PointSizes point_sizes;
     /// Whether window coordinates were measured to err by no more than glsl_window_accuracy; null: nobody measured.
     std::optional<bool> point_window_accurate, corner_window_accurate;
     DriverConverts converts;

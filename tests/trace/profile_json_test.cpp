@@ -30,6 +30,7 @@ TEST_CASE("profile json: every known profile comes back as it was") {
     other.errors.fragment_divide = 7;
     other.converts = {.triangles = true};
     other.point_window_accurate = false;
+    other.point_sizes = {0.5F, 63.0F};
     const Profile back = read(profile_json(other).dump());
     CHECK(same(back, other));
     CHECK(back.errors.normalize == INT64_MAX);
@@ -37,6 +38,7 @@ TEST_CASE("profile json: every known profile comes back as it was") {
     CHECK(back.errors.fragment_divide == 7);
     CHECK(back.converts == other.converts);
     CHECK(back.point_window_accurate == false);
+    CHECK(back.point_sizes == other.point_sizes);
     CHECK(back.corner_window_accurate == true);
 }
 
@@ -66,5 +68,7 @@ TEST_CASE("profile json: what cannot be is refused with what can") {
     CHECK_THAT(refusal(R"({"name": "x", "ulp_errors": {"divide": -1}})"), Contains("/ulp_errors/divide"));
     CHECK_THAT(refusal(R"({"name": "x", "ulp_errors": {"cbrt": 1}})"), Contains("unknown key \"cbrt\""));
     CHECK_THAT(refusal(R"({"name": "x", "not_followed": "all"})"), Contains("/not_followed"));
+    CHECK_THAT(refusal(R"({"name": "x", "point_sizes": {"smallest": 2, "largest": 1}})"),
+               Contains("/point_sizes: \"largest\" is below \"smallest\""));
     CHECK_THAT(refusal(R"({"name": "x", "raster": {"left_edge_in": true}})"), Contains("is not one of off, on"));
 }

@@ -9,6 +9,7 @@
 #include <glm/vec3.hpp>
 
 #include "reference/model/fluid/settings.hpp"
+#include "reference/model/profile.hpp"
 
 namespace lockstep::fluid {
 
@@ -31,6 +32,9 @@ enum class PointsOutside : std::uint8_t { dropped, drawn_beside, open };
 struct PointRules {
     PointCoord coord = PointCoord::accurate;
     PointsOutside outside = PointsOutside::dropped;
+    PointSizes sizes = {};
+
+    bool operator==(const PointRules&) const = default;
 };
 
 /// What the host hands the passes: made in double, rounded once. Immutable.

@@ -474,9 +474,10 @@ void SystemRun::go_to(int frame, std::size_t pass) {
                 continue;
             step(f, p);
             if (f == frame && p == pass) {
-                earlier_.reset();
                 if (started_[p].frame == frame - 1 && frame > 0)
-                    earlier_ = std::move(started_[p].state);
+                    earlier_.emplace(std::move(started_[p].state));
+                else
+                    earlier_.reset();
             }
             if (f + 1 >= frame)
                 started_[p] = {f, before_};

@@ -1,8 +1,12 @@
 #pragma once
+#include <array>
+#include <cstddef>
+#include <optional>
 #include <utility>
 
 #include "reference/fluid/depth_map.hpp"
 #include "reference/fluid/scene_twin.hpp"
+#include "reference/fluid/unit_normal.hpp"
 #include "reference/system/item_words.hpp"
 
 namespace lockstep::fluid {
@@ -42,6 +46,17 @@ struct NormalTwin {
                        dy = r.note(site::step_y, step(upwards, up.point, site::step_up, down.point));
             const Vec3 cross = r.note(
                 site::cross, Vec3{dx.y * dy.z - dx.z * dy.y, dx.z * dy.x - dx.x * dy.z, dx.x * dy.y - dx.y * dy.x});
+            if constexpr (requires(const Real& x) { x.legal(); })
+                if (const auto legal = by_rays(p, cross, here, {to_right ? 1 : -1, to_right ? right.point : left.point},
+                                               {upwards ? 1 : -1, upwards ? up.point : down.point})) {
+                    const auto within = [&](int c) {
+                        const Interval& set = (*legal)[static_cast<std::size_t>(c)];
+                        return r.unspecified(site::normal, cross.x, static_cast<float>(set.low),
+                                             static_cast<float>(set.high));
+                    };
+                    return words_of<R>(
+                        r.note(site::normal, typename R::Vec4{within(0), within(1), within(2), Real(1.0F)}));
+                }
             if (!r.decide(site::has_no_length, r.dot(site::cross, cross, cross) == Real(0.0F)))
                 n = r.normalize(site::normal, cross);
         }
@@ -49,6 +64,32 @@ struct NormalTwin {
     }
 
   private:
+    /// A neighbour: 1 to the right or above, else -1.
+    template <class Vec3> struct Taken {
+        int offset;
+        Vec3 point;
+    };
+    /// The normal where the sets of the cross product hold 0 and no points of these rays make it 0.
+    template <class Vec3>
+    [[nodiscard]] std::optional<std::array<Interval, 3>> by_rays(const Pixel& p, const Vec3& cross, const Vec3& here,
+                                                                 const Taken<Vec3>& beside,
+                                                                 const Taken<Vec3>& above) const {
+        using item_twin::set_of;
+        if (!set_of(cross.x).contains_zero() || !set_of(cross.y).contains_zero() || !set_of(cross.z).contains_zero())
+            return {};
+        const Settings& s = host->settings();
+        const auto ray = [&](int x, int y) {
+            return glm::dvec3((2.0 * x + 1.0 - s.width) / s.width * host->slope().x,
+                              (2.0 * y + 1.0 - s.height) / s.height * host->slope().y, -1.0);
+        };
+        const auto forward = [](const Vec3& point) { return interval::negate(set_of(point.z)); };
+        auto legal = unit_normal({{forward(here), forward(beside.point), forward(above.point)},
+                                  {ray(p.x, p.y), ray(p.x + beside.offset, p.y), ray(p.x, p.y + above.offset)}});
+        if (legal && beside.offset != above.offset)
+            for (Interval& set : *legal)
+                set = interval::negate(set);
+        return legal;
+    }
     template <class Vec3> struct SideOf {
         bool exists;
         Vec3 point;

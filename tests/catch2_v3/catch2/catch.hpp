@@ -15,6 +15,7 @@ using Matchers::EndsWith;
 using Matchers::Equals;
 using Matchers::Matches;
 using Matchers::StartsWith;
+using Matchers::VectorContains;
 
 inline auto Contains(const std::string& text) { return Matchers::ContainsSubstring(text); }
 

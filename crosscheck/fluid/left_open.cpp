@@ -1,7 +1,5 @@
 #include "crosscheck/fluid/left_open.hpp"
 
-#include <algorithm>
-
 #include <fmt/format.h>
 
 #include "reference/fluid/by_driver.hpp"
@@ -12,13 +10,10 @@ std::vector<std::string> left_open(const Switches& on, const Profile& profile) {
     if (on.sprite != Sprite::points)
         return {};
     std::vector<std::string> lines;
-    const auto is_open = [&](const char* row) {
-        return std::ranges::find(profile.not_followed, row) != profile.not_followed.end();
-    };
     constexpr const char* portable = "sprite=quad promises bits";
-    if (is_open(dropped_outside_row))
+    if (!profile.follows(dropped_outside_row))
         lines.push_back(
-            is_open(drawn_beside_row)
+            !profile.follows(drawn_beside_row)
                 ? fmt::format("sprite=points: this driver departs from GL 4.5, 13.5, which drops a point whose middle "
                               "lies outside the view volume (probe: {}), and is not followed in it, so each such point "
                               "may be drawn or not; {}",
@@ -27,7 +22,7 @@ std::vector<std::string> left_open(const Switches& on, const Profile& profile) {
                               "lies outside the view volume: it draws one whose middle lies beside the image (probe: "
                               "{}), and so do the twins; {}",
                               drawn_beside_row, portable));
-    if (is_open(point_coord_row) && is_open(cut_point_coord_row))
+    if (!profile.follows(point_coord_row) && !profile.follows(cut_point_coord_row))
         lines.push_back(fmt::format("sprite=points: this driver is not followed in gl_PointCoord (probe: {}), so legal "
                                     "is what a middle right to 2/256 pixel and sizes in steps of 1/8 give; {}",
                                     point_coord_row, portable));

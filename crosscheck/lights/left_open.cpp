@@ -1,7 +1,5 @@
 #include "crosscheck/lights/left_open.hpp"
 
-#include <algorithm>
-
 #include <fmt/format.h>
 
 #include "reference/lights/by_driver.hpp"
@@ -10,11 +8,8 @@ namespace lockstep::lights {
 
 std::vector<std::string> left_open(const Switches& on, const Profile& profile) {
     std::vector<std::string> lines;
-    const auto is_open = [&](const char* row) {
-        return std::ranges::find(profile.not_followed, row) != profile.not_followed.end();
-    };
     const auto rests = [&](bool used, const char* value, const char* row, const char* legal, const char* portable) {
-        if (used && is_open(row))
+        if (used && !profile.follows(row))
             lines.push_back(
                 fmt::format("{}: this driver is not followed in it (probe: {}), so legal is {}; {} promises "
                             "bits",
@@ -22,7 +17,7 @@ std::vector<std::string> left_open(const Switches& on, const Profile& profile) {
     };
     const bool black = on.outside == Outside::black;
     rests(on.interpolation == Interpolation::trilinear_hw &&
-              is_open(black ? black_aligned_filter_row : aligned_filter_row),
+              !profile.follows(black ? black_aligned_filter_row : aligned_filter_row),
           "interpolation=trilinear_hw", black ? black_filter_row : filter_row,
           "what places and weights of 8 fraction bits give", "interpolation=trilinear");
     const bool halves = on.volume_format == Format::rgba16f;

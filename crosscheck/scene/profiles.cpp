@@ -64,8 +64,11 @@ class Translation {
     }
 
     void note(const char* row_name) {
-        if (std::find(not_followed.begin(), not_followed.end(), row_name) == not_followed.end())
+        if (!is_noted(row_name))
             not_followed.emplace_back(row_name);
+    }
+    [[nodiscard]] bool is_noted(std::string_view row_name) const {
+        return std::ranges::find(not_followed, row_name) != not_followed.end();
     }
 
     std::vector<std::string> not_followed;
@@ -274,17 +277,17 @@ void note_images(Translation& rows, const ProbeResult& result) {
         follow(row, {"fma(f, b - a, a), all bits", "a + f*(b - a), all bits", "a*(1 - f) + b*f, all bits"});
         const bool is_aligned =
             result.has(other_way) && result.row(other_way).finding == "cell's weights in 256ths, planes cut";
-        if (std::ranges::find(rows.not_followed, row) != rows.not_followed.end() && !is_aligned)
+        if (rows.is_noted(row) && !is_aligned)
             rows.note(other_way);
     }
     follow("image: sRGB store", {"nearest code"});
     follow("image: gl_PointCoord, accuracy", {"to 1/256 pixel, from above"});
     const char* const cut = "image: gl_PointCoord, cut size";
-    if (std::ranges::find(rows.not_followed, "image: gl_PointCoord, accuracy") != rows.not_followed.end())
+    if (rows.is_noted("image: gl_PointCoord, accuracy"))
         follow(cut, {"to 2^-20, of a middle on 256ths and a size cut to 32nds"});
     const char* const dropped = "image: points outside, dropped";
     follow(dropped, {"all, as GL says"});
-    if (std::ranges::find(rows.not_followed, dropped) != rows.not_followed.end())
+    if (rows.is_noted(dropped))
         follow("image: points beside the image, drawn", {"all whose depth is within the volume"});
 }
 

@@ -1,5 +1,4 @@
 #pragma once
-#include <algorithm>
 #include <memory>
 
 #include "reference/fluid/point_coord.hpp"
@@ -13,11 +12,8 @@ inline constexpr const char* const drawn_beside_row = "image: points beside the 
 
 /// What a driver makes of points, as far as the probe's rows say it.
 inline PointRules point_rules(const Profile& profile) {
-    const auto follows = [&](const char* row) {
-        return std::ranges::find(profile.not_followed, row) == profile.not_followed.end();
-    };
     const auto found = [&](const char* first, const char* second, auto by_first, auto by_second, auto by_none) {
-        return follows(first) ? by_first : follows(second) ? by_second : by_none;
+        return profile.follows(first) ? by_first : profile.follows(second) ? by_second : by_none;
     };
     return {found(point_coord_row, cut_point_coord_row, PointCoord::accurate, PointCoord::cut, PointCoord::open),
             found(dropped_outside_row, drawn_beside_row, PointsOutside::dropped, PointsOutside::drawn_beside,

@@ -1,5 +1,6 @@
 #include "reference/model/profile.hpp"
 
+#include <algorithm>
 #include <array>
 
 #include <fmt/format.h>
@@ -28,6 +29,8 @@ std::vector<std::string> drawing_rows(const Profile& profile) {
 }
 
 } // namespace
+
+bool Profile::follows(std::string_view row) const { return std::ranges::find(not_followed, row) == not_followed.end(); }
 
 bool computes_alike(const Profile& a, const Profile& b) {
     const auto same = [&](std::int64_t OperationErrors::*error) {

@@ -128,6 +128,8 @@ struct Profile {
 
     [[nodiscard]] DotOrder length_order() const { return length_dot.value_or(dot); }
     [[nodiscard]] DotOrder normalize_order() const { return normalize_dot.value_or(dot); }
+    /// Whether the probe's row found what the reference follows.
+    [[nodiscard]] bool follows(std::string_view row) const;
     /// Whether dot, length and normalize sum in one order.
     [[nodiscard]] bool one_order() const { return length_order() == dot && normalize_order() == dot; }
 };

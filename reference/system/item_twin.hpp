@@ -423,7 +423,7 @@ template <class Twin> class ItemTwin final : public ItemPass {
         if (profile.roots != nullptr)
             reading.take_roots_by_tables();
         if (options_.stage == PassStage::compute && options_.arithmetic == ArithmeticSwitch::plain &&
-            std::ranges::find(profile.not_followed, "compute: a/c, c constant") != profile.not_followed.end())
+            !profile.follows("compute: a/c, c constant"))
             reading.open_constant_divisors();
     }
 

@@ -72,7 +72,7 @@ class PassByDriver final : public PassByProfile {
 
   private:
     [[nodiscard]] const ItemPass& on(const Profile& profile) const override {
-        return std::ranges::find(profile.not_followed, row_) == profile.not_followed.end() ? *followed_ : *open_;
+        return profile.follows(row_) ? *followed_ : *open_;
     }
     [[nodiscard]] const ItemPass& any() const override { return *followed_; }
 

@@ -1,4 +1,5 @@
 #pragma once
+#include <functional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -22,5 +23,26 @@ inline CheckReport run_system(const System& system, std::vector<GlPass> passes, 
     options.mode = mode;
     return check(system, side, options);
 }
+
+/// The shaders of this machine's GL, of whose driver `told` tells otherwise.
+class OtherDriver final : public SystemSide {
+  public:
+    OtherDriver(const System& system, std::vector<GlPass> passes, const std::string& shaders,
+                std::function<void(Profile&)> told)
+        : side_(gl(), system, std::move(passes), shaders), told_(std::move(told)) {}
+
+    [[nodiscard]] SideDescription describe() const override {
+        SideDescription description = side_.describe();
+        told_(description.profile);
+        return description;
+    }
+    void upload(const SystemView& state) override { side_.upload(state); }
+    void step(std::size_t pass, int frame) override { side_.step(pass, frame); }
+    void read(SystemState& state) const override { side_.read(state); }
+
+  private:
+    GlSystemSide side_;
+    std::function<void(Profile&)> told_;
+};
 
 } // namespace lockstep::test

@@ -32,27 +32,6 @@ void expect_agreement(const dust::Settings& settings, int frames) {
     }
 }
 
-/// The shaders of this machine's GL, of which another driver's rows are told.
-class OtherDriver final : public SystemSide {
-  public:
-    OtherDriver(const System& system, const dust::HostPtr& host, const std::string& shaders,
-                std::vector<std::string> not_followed)
-        : side_(gl(), system, dust::passes(host), shaders), not_followed_(std::move(not_followed)) {}
-
-    [[nodiscard]] SideDescription describe() const override {
-        SideDescription told = side_.describe();
-        told.profile.not_followed = not_followed_;
-        return told;
-    }
-    void upload(const SystemView& state) override { side_.upload(state); }
-    void step(std::size_t pass, int frame) override { side_.step(pass, frame); }
-    void read(SystemState& state) const override { side_.read(state); }
-
-  private:
-    GlSystemSide side_;
-    std::vector<std::string> not_followed_;
-};
-
 } // namespace
 
 TEST_CASE("dust: a driver that multiplies by a constant's reciprocal is legal where its row says so, and not where the "
@@ -69,7 +48,8 @@ TEST_CASE("dust: a driver that multiplies by a constant's reciprocal is legal wh
         const TemporaryFolder shaders;
         copy_replacing("shaders/dust", shaders, "emit.comp", "ls_divide(seed_of_ray, 82801.277)",
                        "mul(seed_of_ray, 1.0 / " + divisor + ")");
-        OtherDriver side(system, host, shaders.path(), std::move(not_followed));
+        OtherDriver side(system, dust::passes(host), shaders.path(),
+                         [&](Profile& profile) { profile.not_followed = not_followed; });
         CheckOptions options;
         options.frames = 8;
         return check(system, side, options);

@@ -31,27 +31,12 @@ fluid::Settings of_sizes(bool large) {
 
 /// A run by a driver that is said to draw these sizes; null: by what GL says of this one.
 Verdict verdict_of(bool large, const PointSizes* sizes) {
-    class Said final : public SystemSide {
-      public:
-        Said(const System& system, const fluid::HostPtr& host, const PointSizes* sizes)
-            : side_(gl(), system, fluid::passes(host), "shaders/fluid"), sizes_(sizes) {}
-        [[nodiscard]] SideDescription describe() const override {
-            SideDescription told = side_.describe();
-            if (sizes_ != nullptr)
-                told.profile.point_sizes = *sizes_;
-            return told;
-        }
-        void upload(const SystemView& state) override { side_.upload(state); }
-        void step(std::size_t pass, int frame) override { side_.step(pass, frame); }
-        void read(SystemState& state) const override { side_.read(state); }
-
-      private:
-        GlSystemSide side_;
-        const PointSizes* sizes_;
-    };
     const fluid::HostPtr host = host_of(of_sizes(large));
     const System system = fluid::system(host);
-    Said side(system, host, sizes);
+    OtherDriver side(system, fluid::passes(host), "shaders/fluid", [&](Profile& profile) {
+        if (sizes != nullptr)
+            profile.point_sizes = *sizes;
+    });
     CheckOptions options;
     options.frames = 1;
     const CheckReport report = check(system, side, options);

@@ -6,6 +6,7 @@
 #include <fmt/ranges.h>
 
 #include "crosscheck/fluid/left_open.hpp"
+#include "crosscheck/judge/compare.hpp"
 #include "reference/fluid/by_driver.hpp"
 #include "tests/fluid/fluid_run.hpp"
 
@@ -42,39 +43,16 @@ SystemState spheres(const fluid::Settings& settings, const Profile& profile) {
     return run.state();
 }
 
-/// How many pixels of a field of one float differ.
-int differing(const SystemState& a, const SystemState& b, FieldId field) {
-    const SystemView one = a.view(), other = b.view();
-    int count = 0;
-    for (std::size_t i = 0; i < one[field.resource].count(); ++i)
-        count += one.word(field, i) != other.word(field, i) ? 1 : 0;
-    return count;
+/// How many pixels of a field's image differ.
+std::size_t differing(const SystemState& a, const SystemState& b, FieldId field) {
+    return differing_items(a[field.resource], b[field.resource]).size();
 }
 
-/// Draws a quad for each point, so whatever its middle, as a driver of these rows may.
-class DrawsAll final : public SystemSide {
-  public:
-    DrawsAll(const System& system, const std::string& sprite, Strings not_followed)
-        : side_(gl(), system, fluid::passes(host_of(near_heap(sprite))), "shaders/fluid"),
-          not_followed_(std::move(not_followed)) {}
-
-    [[nodiscard]] SideDescription describe() const override {
-        SideDescription told = side_.describe();
-        told.profile.not_followed = not_followed_;
-        return told;
-    }
-    void upload(const SystemView& state) override { side_.upload(state); }
-    void step(std::size_t pass, int frame) override { side_.step(pass, frame); }
-    void read(SystemState& state) const override { side_.read(state); }
-
-  private:
-    GlSystemSide side_;
-    Strings not_followed_;
-};
-
+/// `sprite=quad` draws a quad for each point, so whatever its middle, as a driver of these rows may.
 CheckReport check_of(const std::string& sprite, const Strings& not_followed) {
     const System system = fluid::system(host_of(near_heap("points")));
-    DrawsAll side(system, sprite, not_followed);
+    OtherDriver side(system, fluid::passes(host_of(near_heap(sprite))), "shaders/fluid",
+                     [&](Profile& profile) { profile.not_followed = not_followed; });
     CheckOptions options;
     options.frames = 1;
     return check(system, side, options);

@@ -3,7 +3,7 @@
   lights   frame times by number of lights, forward and deferred, in two grids, fitted by light, voxel and pixel;
            how long the same number of atomics takes by itself
   fluid    the filters by radius
-  hashes   preset exact, both sides run free: each frame's hash of all images, in OUT/hashes
+  hashes   preset exact, both sides run free: each frame's hash of all images, in OUT/image_hashes.txt
 Usage: scripts/image_tables.py LOCKSTEP OUT [--gl KIND] [--parts lights,fluid,hashes] [--lights-up-to N] [--frames N]
            [--seconds N] [--runs NAME,...] [--side cpu|gpu] [--known FILE] [--table-frames N] [--twins] [--scenes DIR]
            [--commit NAME] [--cores N]
@@ -248,15 +248,13 @@ def hashed(run, jobs):
             words = [asked.lockstep, *how, "--preset", "exact", "--particles", items, "--frames", asked.frames, *gl,
                      "--threads", threads, *(w for s in settings for w in ("--set", s))]
             print("+", *words, file=sys.stderr, flush=True)
-            to = file.open("w") if asked.side else subprocess.PIPE
-            process = subprocess.Popen(list(map(str, words)), stdout=to, stderr=subprocess.PIPE if asked.side else subprocess.STDOUT,
-                                       text=True)
+            process = subprocess.Popen(list(map(str, words)), stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True)
             running[process] = job
         for process, job in list(running.items()):
             if over and process.poll() is None:
                 process.send_signal(signal.SIGINT)
             if over or process.poll() is not None:
-                reports[job[0]] = "".join(filter(None, process.communicate()))
+                reports[job[0]] = process.communicate()[0]
                 del running[process]
         if over:
             waiting.clear()
@@ -284,7 +282,11 @@ def hashes_table(run):
     for name, _, items, _, _ in jobs:
         file = run.asked.out / "hashes" / f"{name}.txt"
         report = dict(line.split(None, 1) for line in reports.get(name, "").splitlines() if len(line.split(None, 1)) == 2)
-        found = [line.split() for line in file.read_text().splitlines()] if name in reports and file.exists() else []
+        if run.asked.side:
+            printed = reports.get(name, "")
+        else:
+            printed = file.read_text() if name in reports and file.exists() else ""
+        found = [line.split() for line in printed.splitlines() if re.fullmatch(r"\d+( [0-9a-f]{16})+", line)]
         if run.asked.known:
             found = [[frame, known[name][frame], gpu] for frame, gpu in found if frame in known[name]]
         lines += [" ".join([name, *row]) for row in found]

@@ -159,6 +159,7 @@ Outcome run_lockstep_on_terminal(const std::vector<std::string>& arguments, cons
     if (child < 0)
         throw std::runtime_error("forkpty failed");
     if (child == 0) {
+        setenv("TERM", "xterm", 0); // where the test itself has no terminal
         enter(surroundings);
         become_lockstep(arguments);
     }

@@ -8,6 +8,7 @@
 
 #include "gpu/probe/driver_arithmetic.hpp"
 #include "gpu/probe/rows.hpp"
+#include "gpu/shader_object.hpp"
 #include "reference/model/error.hpp"
 
 namespace lockstep {
@@ -39,6 +40,8 @@ ProbeResult probe(const Context& context, const ProbeOptions& options) {
         throw Error("probe: the context's GLSL has no `precise`; GL 4.0 or GL_ARB_gpu_shader5 has");
     const probing::DriverArithmetic plain(false), precise(true);
     probing::measure_vertex_arithmetic(plain, precise, options.inputs, result.rows);
+    if (takes_spirv())
+        probing::measure_module_arithmetic(precise, options.inputs, result.rows);
     probing::measure_chains(precise, result.rows);
     probing::measure_sines(result.rows);
     probing::measure_fragment_arithmetic(result.rows);

@@ -44,7 +44,7 @@ std::vector<ShaderSource> as_gl_takes(std::span<const ShaderSource> given) {
     std::vector<ShaderSource> stages(given.begin(), given.end());
     const auto in_spirv = [](const ShaderSource& stage) { return stage.module != nullptr; };
     const bool all = std::all_of(stages.begin(), stages.end(), in_spirv);
-    if (all && (gl::ShaderBinary == nullptr || gl::SpecializeShader == nullptr))
+    if (all && !takes_spirv())
         throw Error(fmt::format("shader {0}: this GL takes no SPIR-V (GL_ARB_gl_spirv); `spirv-cross {0} --version 450 "
                                 "--no-420pack-extension --output {1}` translates it to GLSL (docs/translators.md)",
                                 stages.front().files.front(),

@@ -26,6 +26,8 @@ GLenum gl_stage(Stage stage) {
 
 } // namespace
 
+bool takes_spirv() { return gl::ShaderBinary != nullptr && gl::SpecializeShader != nullptr; }
+
 ShaderObject::ShaderObject(const ShaderSource& source, std::span<const SpirvModule::Variable> captured) {
     if (source.stage == Stage::compute && gl::DispatchCompute == nullptr)
         throw Error(fmt::format("shader {}: this GL has no compute shaders; they need GL 4.3", source.files.front()));

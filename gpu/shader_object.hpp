@@ -7,6 +7,9 @@
 
 namespace lockstep {
 
+/// Whether the current context takes SPIR-V modules (GL_ARB_gl_spirv).
+bool takes_spirv();
+
 /// A shader object, for as long as it takes to link it.
 class ShaderObject {
   public:

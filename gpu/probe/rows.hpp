@@ -23,6 +23,9 @@ void measure_fragment_arithmetic(Rows& rows);
 /// has one.
 void measure_compute_arithmetic(const DriverArithmetic& precise, Rows& rows);
 
+/// What GLSL leaves open, in a vertex stage that is a SPIR-V module, beside one in GLSL. The context takes modules.
+void measure_module_arithmetic(const DriverArithmetic& precise, std::size_t inputs, Rows& rows);
+
 /// Products of products in functions: whether each is rounded as it is written. In the vertex stage; in the compute
 /// stage, which the context then has.
 void measure_chains(const DriverArithmetic& precise, Rows& rows);

@@ -74,48 +74,49 @@ struct DrawnTwin {
 
     template <class R, class Item> ItemWords<R> operator()(R& r, const PassInput& in, const Item& item) const {
         using Real = typename R::Real;
-        const auto surface =
-            SurfaceTwin<R>(r, *host, in.before, *view, seen.get()).at(pixel_at(host->settings().width, item));
+        const SurfaceTwin<R> drawn(r, *host, in.before, *view, seen.get());
+        const auto hit = drawn.at(pixel_at(host->settings().width, item));
         ItemWords<R> words;
         switch (image) {
         case Drawn::lit:
-            return words_of<R>(surface ? lit_pixel(r, radiance(r, *host, in.before, *surface))
-                                       : background_pixel(r, *host));
+            return words_of<R>(hit ? lit_pixel(r, radiance(r, *host, in.before, drawn.surface(*hit)))
+                                   : background_pixel(r, *host));
         case Drawn::depth:
-            words.add(surface ? r.note(site::depth, surface->depth) : Real(1.0F));
+            words.add(hit ? r.note(site::depth, hit->depth) : Real(1.0F));
             return words;
         case Drawn::albedo:
-            add_codes(r, words, surface);
+            if (hit)
+                add_codes(r, words, drawn.albedo(*hit));
+            else
+                for (int c = 0; c < 4; ++c)
+                    words.add(std::uint32_t{0});
             return words;
-        default:
-            break;
+        case Drawn::position:
+            return stored_words(r, site::stored_position, hit.has_value(), [&] { return drawn.position(*hit); });
+        case Drawn::normal:
+            return stored_words(r, site::stored_normal, hit.has_value(), [&] { return drawn.normal(*hit); });
         }
-        typename R::Vec4 v{};
-        if (surface) {
-            const typename R::Vec3& part = image == Drawn::position ? surface->position : surface->normal;
-            v = {stored(r, part.x), stored(r, part.y), stored(r, part.z), r.note(site::valid, Real(1.0F))};
-        }
-        return words_of<R>(r.note(image == Drawn::position ? site::stored_position : site::stored_normal, v));
+        return words;
     }
 
   private:
+    template <class R, class Part> ItemWords<R> stored_words(R& r, At at, bool is_there, const Part& part) const {
+        typename R::Vec4 v{};
+        if (is_there) {
+            const typename R::Vec3 of = part();
+            v = {stored(r, of.x), stored(r, of.y), stored(r, of.z), r.note(site::valid, typename R::Real(1.0F))};
+        }
+        return words_of<R>(r.note(at, v));
+    }
     template <class R, class Real> Real stored(R& r, const Real& x) const {
         return host->switches().gbuffer_format == Format::rgba16f ? r.monotone(x, half_round) : x;
     }
-    template <class R> static void add_codes(R& r, ItemWords<R>& words, const std::optional<Surface<R>>& surface) {
-        const auto code = [&](const typename R::Real& x) {
-            const int k = static_cast<int>(r.to_int(site::albedo, x * typename R::Real(256.0F)));
+    template <class R> static void add_codes(R& r, ItemWords<R>& words, const typename R::Vec3& albedo) {
+        for (const auto& share : {albedo.x, albedo.y, albedo.z}) {
+            const int k = static_cast<int>(r.to_int(site::albedo, share * typename R::Real(256.0F)));
             words.add(static_cast<std::uint32_t>(k));
-        };
-        if (surface) {
-            code(surface->albedo.x);
-            code(surface->albedo.y);
-            code(surface->albedo.z);
-        } else {
-            for (int c = 0; c < 3; ++c)
-                words.add(std::uint32_t{0});
         }
-        words.add(std::uint32_t{surface ? 255U : 0U});
+        words.add(std::uint32_t{255});
     }
 };
 

@@ -17,10 +17,7 @@ std::shared_ptr<const LatestTriangles> obstacle_triangles(const Host& host);
 BoxesByTile glow_boxes(const Host& host, const SystemView& state);
 
 /// What a pixel shows.
-template <class R> struct Surface {
-    typename R::Vec3 position, normal, albedo;
-    typename R::Real depth;
-};
+template <class R> struct Surface { typename R::Vec3 position, normal, albedo; };
 
 /// The obstacles at a pixel. Twin of shaders/lights/surface.glsl.
 template <class R> class SurfaceTwin {
@@ -33,34 +30,29 @@ template <class R> class SurfaceTwin {
           triangles_(r, {state, field::corner_position, host.view_projection(), host.settings().width,
                          host.settings().height, view.boxes(), seen}) {}
 
-    template <class Place> [[nodiscard]] std::optional<Surface<R>> at(const Place& pixel) const {
-        const std::optional<TriangleHit<R>> hit = triangles_.nearest(pixel);
-        if (!hit)
-            return {};
-        return surface_of(*hit);
+    template <class Place> [[nodiscard]] std::optional<TriangleHit<R>> at(const Place& pixel) const {
+        return triangles_.nearest(pixel);
     }
-
-  private:
-    [[nodiscard]] Surface<R> surface_of(const TriangleHit<R>& hit) const {
+    [[nodiscard]] Surface<R> surface(const TriangleHit<R>& hit) const {
+        return {position(hit), normal(hit), albedo(hit)};
+    }
+    [[nodiscard]] Vec3 position(const TriangleHit<R>& hit) const { return triangles_.position(hit); }
+    [[nodiscard]] Vec3 normal(const TriangleHit<R>& hit) const {
         const auto [a, b, c] = triangles_.corners(hit.triangle);
-        Surface<R> surface;
-        surface.depth = hit.depth;
-        surface.position = triangles_.position(hit);
         const Vec3 u = b - a, v = c - a;
         const Vec3 cross =
             r_.note(site::normal_sum, Vec3{u.y * v.z - u.z * v.y, u.z * v.x - u.x * v.z, u.x * v.y - u.y * v.x});
         const Real length2 = (cross.x * cross.x + cross.y * cross.y) + cross.z * cross.z;
         const Real inverse = r_.divide(site::normal_length, Real(1.0F), r_.sqrt(site::normal_length, length2));
-        surface.normal = cross * inverse;
-        const Vec3 to_eye = r_.uniform(site::eye, host_.settings().camera.eye) - a;
-        const Real side = (surface.normal.x * to_eye.x + surface.normal.y * to_eye.y) + surface.normal.z * to_eye.z;
-        surface.normal = choose(decided(r_, site::faces_away, side < Real(0.0F)), -surface.normal, surface.normal);
-        surface.normal = r_.note(site::surface_normal, surface.normal);
-        surface.albedo =
-            r_.read(site::albedo, state_.vec3(field::corner_albedo, 3 * static_cast<std::size_t>(hit.triangle)));
-        return surface;
+        const Vec3 n = cross * inverse, to_eye = r_.uniform(site::eye, host_.settings().camera.eye) - a;
+        const Real side = (n.x * to_eye.x + n.y * to_eye.y) + n.z * to_eye.z;
+        return r_.note(site::surface_normal, choose(decided(r_, site::faces_away, side < Real(0.0F)), -n, n));
+    }
+    [[nodiscard]] Vec3 albedo(const TriangleHit<R>& hit) const {
+        return r_.read(site::albedo, state_.vec3(field::corner_albedo, 3 * static_cast<std::size_t>(hit.triangle)));
     }
 
+  private:
     R& r_;
     const Host& host_;
     const SystemView& state_;

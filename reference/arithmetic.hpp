@@ -103,11 +103,14 @@ class DriverRoots : public FusedChain {
 };
 
 /// Each operation in an order of its own, as a driver was measured; `roots` null: rounded correctly. Slower than those
-/// above, which have one order for all.
+/// above, which have one order for all. Refers to the profile's tables.
 class OwnOrders : public Strict {
   public:
     OwnOrders(DotOrder dot, DotOrder length, DotOrder normalize, const RootTables* roots)
         : dot_(dot), length_(length), normalize_(normalize), roots_(roots) {}
+    explicit OwnOrders(const Profile& profile)
+        : dot_(profile.dot), length_(profile.length_order()), normalize_(profile.normalize_order()),
+          roots_(profile.roots.get()), normalize_divides_(profile.normalize_divides) {}
 
     [[nodiscard]] float reciprocal(float a) const { return roots_ != nullptr ? roots_->reciprocal_of(a) : 1.0F / a; }
     [[nodiscard]] float divide(float a, float b) const { return roots_ != nullptr ? a * reciprocal(b) : a / b; }
@@ -119,11 +122,17 @@ class OwnOrders : public Strict {
     [[nodiscard]] float length(glm::vec3 v) const { return length_of(dot_in(length_, v, v)); }
     [[nodiscard]] glm::vec3 normalize(glm::vec3 v) const { return direction_of(v, dot_in(normalize_, v, v)); }
     [[nodiscard]] float length_of(float squared) const { return sqrt(squared); }
-    [[nodiscard]] glm::vec3 direction_of(glm::vec3 v, float squared) const { return scale(v, inverse_sqrt(squared)); }
+    [[nodiscard]] glm::vec3 direction_of(glm::vec3 v, float squared) const {
+        if (!normalize_divides_)
+            return scale(v, inverse_sqrt(squared));
+        const float length = sqrt(squared);
+        return {divide(v.x, length), divide(v.y, length), divide(v.z, length)};
+    }
 
   private:
     DotOrder dot_, length_, normalize_;
     const RootTables* roots_;
+    bool normalize_divides_ = false;
 };
 
 } // namespace lockstep

@@ -15,7 +15,7 @@ template <class Pass>
 decltype(auto) with_plain_arithmetic(const Profile& profile, ArithmeticSwitch arithmetic, Pass&& pass) {
     if (arithmetic == ArithmeticSwitch::exact)
         return pass(Portable{});
-    return pass(PlainArithmetic(profile.dot, profile.length_order(), profile.normalize_order(), profile.roots.get()));
+    return pass(PlainArithmetic(profile));
 }
 
 } // namespace lockstep

@@ -6,9 +6,10 @@
 
 namespace lockstep {
 
-/// Whether dot, length and normalize sum in one order, one of those that have an arithmetic of their own.
+/// Whether dot, length and normalize sum in one order, one of those that have an arithmetic of their own, and normalize
+/// is a product.
 inline bool has_fast_orders(const Profile& profile) {
-    return profile.one_order() && profile.dot <= DotOrder::fused_chain &&
+    return profile.one_order() && !profile.normalize_divides && profile.dot <= DotOrder::fused_chain &&
            (profile.roots == nullptr || profile.dot == DotOrder::fused_chain);
 }
 
@@ -18,7 +19,7 @@ template <class Pass> decltype(auto) with_arithmetic(const Profile& profile, Ari
     if (arithmetic == ArithmeticSwitch::exact)
         return pass(Portable{});
     if (!has_fast_orders(profile))
-        return pass(OwnOrders(profile.dot, profile.length_order(), profile.normalize_order(), profile.roots.get()));
+        return pass(OwnOrders(profile));
     if (profile.roots != nullptr)
         return pass(DriverRoots(*profile.roots));
     switch (profile.dot) {

@@ -154,7 +154,7 @@ template <class B> const PackedRoots* tables_of(const B& fp) {
 }
 
 /// Calls `pass` with the block arithmetic that a profile and the switch name. False where there is none, and it was not
-/// called: the driver's tables have what cannot be packed.
+/// called: the driver's tables have what cannot be packed, or normalize divides.
 template <class Pass> bool with_block_arithmetic(const Profile& profile, ArithmeticSwitch arithmetic, Pass&& pass) {
     const auto with_sums = [&](auto sums) {
         if (profile.roots == nullptr) {
@@ -170,6 +170,8 @@ template <class Pass> bool with_block_arithmetic(const Profile& profile, Arithme
         pass(PortableBlocks());
         return true;
     }
+    if (profile.normalize_divides)
+        return false;
     if (profile.length_order() == profile.normalize_order())
         switch (profile.length_order()) {
         case DotOrder::left_to_right:

@@ -220,7 +220,7 @@ void update_fast(const Host& host, const PassInput& in, const Profile& profile, 
     const bool sucks = host.update_kills(in.frame);
     const Reach cone = cone_of(host.at(host.pulled_in(in.frame)));
     const std::optional<float> floor = stopping_floor(host);
-    const PlainArithmetic plain(profile.dot, profile.length_order(), profile.normalize_order(), profile.roots.get());
+    const PlainArithmetic plain(profile);
     const View& before = in.before[grain_buffer];
     Block block{};
     for (; first < last; first += block_size) {

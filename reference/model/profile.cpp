@@ -37,9 +37,10 @@ bool computes_alike(const Profile& a, const Profile& b) {
         return (a.errors.*error == 0) == (b.errors.*error == 0);
     };
     return a.dot == b.dot && a.length_order() == b.length_order() && a.normalize_order() == b.normalize_order() &&
-           a.other_orders == b.other_orders && a.flush_subnormals == b.flush_subnormals && a.raster == b.raster &&
-           drawing_rows(a) == drawing_rows(b) && same(&OperationErrors::divide) && same(&OperationErrors::reciprocal) &&
-           same(&OperationErrors::sqrt) && same(&OperationErrors::inverse_sqrt) && same(&OperationErrors::length) &&
+           a.other_orders == b.other_orders && a.normalize_divides == b.normalize_divides &&
+           a.flush_subnormals == b.flush_subnormals && a.raster == b.raster && drawing_rows(a) == drawing_rows(b) &&
+           same(&OperationErrors::divide) && same(&OperationErrors::reciprocal) && same(&OperationErrors::sqrt) &&
+           same(&OperationErrors::inverse_sqrt) && same(&OperationErrors::length) &&
            same(&OperationErrors::normalize) && same(&OperationErrors::fragment_divide) &&
            same(&OperationErrors::fragment_reciprocal);
 }

@@ -104,6 +104,7 @@ struct Profile {
     std::optional<DotOrder> length_dot;    ///< the sum inside length; null: as dot
     std::optional<DotOrder> normalize_dot; ///< the sum inside normalize; null: as dot
     OtherOrders other_orders;
+    bool normalize_divides = false;            ///< by sqrt(dot); else it multiplies by inversesqrt(dot)
     bool flush_subnormals = true;              ///< subnormal operands and results are zero
     bool compute_flush_subnormals = true;      ///< subnormal operands are zero in compute shaders
     std::optional<bool> compute_flush_results; ///< subnormal results there; null: as operands

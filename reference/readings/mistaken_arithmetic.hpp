@@ -52,8 +52,7 @@ decltype(auto) with_mistaken_arithmetic(const Profile& profile, ArithmeticSwitch
         return fused_or_not(in_order(DotOrder::right_to_left));
     if (has(Change::sums_left_to_right))
         return fused_or_not(in_order(DotOrder::left_to_right));
-    return fused_or_not(
-        PlainArithmetic(profile.dot, profile.length_order(), profile.normalize_order(), profile.roots.get()));
+    return fused_or_not(PlainArithmetic(profile));
 }
 
 } // namespace lockstep

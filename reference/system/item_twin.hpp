@@ -437,8 +437,7 @@ template <class Twin> class ItemTwin final : public ItemPass {
     template <class Work> decltype(auto) with_arithmetic_of(const Profile& profile, const Work& work) const {
         if (options_.arithmetic == ArithmeticSwitch::exact)
             return work(Portable{});
-        return work(
-            PlainArithmetic(profile.dot, profile.length_order(), profile.normalize_order(), profile.roots.get()));
+        return work(PlainArithmetic(profile));
     }
 
     template <class State>

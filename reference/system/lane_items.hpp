@@ -186,12 +186,12 @@ void make_items(const Twin& twin, F arithmetic, const FastRun& run, std::span<co
     }
 }
 
-/// Makes a twin's items by lanes with `make(twin, arithmetic, run)`, but for a driver whose roots come of tables:
-/// false.
+/// Makes a twin's items by lanes with `make(twin, arithmetic, run)`, but for a driver whose roots come of tables, or
+/// whose normalize divides: false.
 template <class Twin, class Make> bool fast_by_lanes(const Twin& twin, const FastRun& run, const Make& make) {
     if (run.arithmetic == ArithmeticSwitch::exact)
         make(twin, PortableLanes{}, run);
-    else if (run.profile.roots == nullptr)
+    else if (run.profile.roots == nullptr && !run.profile.normalize_divides)
         make(twin, PlainLanes{run.profile.dot, run.profile.length_order(), run.profile.normalize_order()}, run);
     else
         return false;

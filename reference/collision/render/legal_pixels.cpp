@@ -79,8 +79,7 @@ template <class Sites> class LegalPixels {
                 const Profile& profile, const KnownOperations& known)
         : sites_(sites), particles_(particles), obstacles_(obstacles), params_(params), profile_(profile),
           known_(known), raster_(known_raster(known)), width_(params.render_width), height_(params.render_height),
-          fp_(profile.dot, profile.length_order(), profile.normalize_order(), profile.roots.get()),
-          vertex_arithmetic_(fp_, known), geometry_arithmetic_(fp_, geometry_stage(known)),
+          fp_(profile), vertex_arithmetic_(fp_, known), geometry_arithmetic_(fp_, geometry_stage(known)),
           fragment_arithmetic_(fp_, fragment_stage(known)), vertex_(vertex_arithmetic_),
           geometry_(geometry_arithmetic_), fragment_(fragment_arithmetic_), shading_(fragment_, sites),
           triangles_(projected(), obstacles.indices, width_, height_, profile.raster) {}

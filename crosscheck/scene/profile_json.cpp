@@ -138,6 +138,8 @@ nlohmann::json profile_json(const Profile& profile) {
     json["point_sizes"]["smallest"] = profile.point_sizes.smallest;
     if (std::isfinite(profile.point_sizes.largest))
         json["point_sizes"]["largest"] = profile.point_sizes.largest;
+    if (profile.normalize_divides)
+        json["normalize_divides"] = name_of(off_on, true);
     if (profile.any_order)
         json["any_order"] = name_of(off_on, true);
     if (profile.open_corners)
@@ -148,10 +150,10 @@ nlohmann::json profile_json(const Profile& profile) {
 }
 
 Profile read_profile(const JsonValue& json) {
-    json.check_keys({"name", "dot", "length_dot", "normalize_dot", "other_orders", "flush_subnormals",
-                     "compute_flush_subnormals", "compute_flush_results", "raster", "ulp_errors", "not_followed",
-                     "point_window_accurate", "corner_window_accurate", "driver_converts", "any_order", "open_corners",
-                     "point_sizes"});
+    json.check_keys({"name", "dot", "length_dot", "normalize_dot", "other_orders", "normalize_divides",
+                     "flush_subnormals", "compute_flush_subnormals", "compute_flush_results", "raster", "ulp_errors",
+                     "not_followed", "point_window_accurate", "corner_window_accurate", "driver_converts", "any_order",
+                     "open_corners", "point_sizes"});
     Profile profile = base(json);
     read_named(json, "dot", dot_order_names(), profile.dot);
     read_orders(json, profile);
@@ -160,6 +162,7 @@ Profile read_profile(const JsonValue& json) {
         read_named(json, "compute_flush_results", off_on, *profile.compute_flush_results);
     }
     read_named(json, "flush_subnormals", off_on, profile.flush_subnormals);
+    read_named(json, "normalize_divides", off_on, profile.normalize_divides);
     read_named(json, "any_order", off_on, profile.any_order);
     read_named(json, "open_corners", off_on, profile.open_corners);
     read_named(json, "compute_flush_subnormals", off_on, profile.compute_flush_subnormals);

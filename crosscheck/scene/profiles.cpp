@@ -102,38 +102,81 @@ std::optional<DotOrder> order_inside(std::string_view finding, std::initializer_
     return {};
 }
 
-/// The sums in dot, length and normalize, `precise` and not.
+/// The orders of the sums in the three functions.
+struct SumOrders {
+    DotOrder dot, length, normalize;
+};
+
+/// What the rows found with a qualifier: ", precise" or nothing.
+SumOrders orders_with(const std::string& qualifier, Translation& rows, const ProbeResult& result) {
+    std::vector<std::pair<const char*, DotOrder>> known;
+    for (const std::string_view name : dot_order_names())
+        known.emplace_back(name.data(), *order_named(name));
+    const DotOrder dot = rows.pick<DotOrder>(("dot(vec3)" + qualifier).c_str(), known);
+    const auto inside = [&](const char* function, std::string_view rounded, std::string_view by_tables) {
+        const std::string_view form = built_from_driver_roots(result) ? by_tables : rounded;
+        return order_inside(result.row(function + qualifier).finding, {form}, dot).value_or(dot);
+    };
+    return {dot, inside("length", "sqrt({}), rounded", "1/y, y inversesqrt({})"),
+            inside("normalize", "v*(1/sqrt({})), rounded", "v*inversesqrt({})")};
+}
+
+/// `own` are followed, `others` are legal, too.
+void set_orders(Profile& profile, const SumOrders& own, const SumOrders& others) {
+    const auto note = [](std::vector<DotOrder>& all, DotOrder of_own, DotOrder other) {
+        if (other != of_own && std::find(all.begin(), all.end(), other) == all.end())
+            all.push_back(other);
+    };
+    const auto apart = [&](DotOrder order) { return order != own.dot ? std::optional(order) : std::nullopt; };
+    profile.dot = own.dot;
+    profile.length_dot = apart(own.length);
+    profile.normalize_dot = apart(own.normalize);
+    OtherOrders& all = profile.other_orders = {};
+    note(all.dot, own.dot, others.dot);
+    note(all.length, own.length, others.length);
+    note(all.normalize, own.normalize, others.normalize);
+    note(all.dot, own.dot, own.length);
+    note(all.dot, own.dot, own.normalize);
+}
+
+/// The sums in dot, length and normalize as with `precise`; those without are legal.
 void follow_orders(Translation& rows, const ProbeResult& result, Profile& profile) {
-    const auto names = dot_order_names();
-    std::vector<std::pair<const char*, DotOrder>> orders;
-    for (const std::string_view name : names)
-        orders.emplace_back(name.data(), *order_named(name));
-    profile.dot = rows.pick<DotOrder>("dot(vec3), precise", orders);
-    const DotOrder plain = rows.pick<DotOrder>("dot(vec3)", orders);
-    const bool tables = built_from_driver_roots(result);
-    const auto note_other = [](std::vector<DotOrder>& others, DotOrder own, DotOrder other) {
-        if (other != own && std::find(others.begin(), others.end(), other) == others.end())
-            others.push_back(other);
+    const SumOrders precise = orders_with(", precise", rows, result);
+    set_orders(profile, precise, orders_with("", rows, result));
+}
+
+/// The other way around, of a stage that says `precise` of nothing.
+void follow_plain_orders(const ProbeResult& result, Profile& profile) {
+    Translation rows(result); // what is not followed is noted already
+    const SumOrders plain = orders_with("", rows, result);
+    set_orders(profile, plain, orders_with(", precise", rows, result));
+}
+
+/// Of a stage that is a SPIR-V module, which goes another way through a driver than GLSL does: Mesa sums in an order of
+/// its own there, and makes normalize a quotient.
+void follow_modules(const ProbeResult& result, Profile& profile) {
+    const auto fail = [&](std::string_view function) {
+        for (const char* stage : {"", "compute: "})
+            profile.not_followed.push_back(fmt::format("{}{}", stage, function));
     };
-    note_other(profile.other_orders.dot, profile.dot, plain);
-    const auto inside = [&](const char* row, DotOrder dot, std::initializer_list<std::string_view> rounded,
-                            std::string_view by_tables) {
+    if (!result.has("module: normalize"))
+        return fail("normalize");
+    const auto found = [&](const char* row, DotOrder in_glsl,
+                           std::initializer_list<std::string_view> forms) -> std::optional<DotOrder> {
         const std::string& finding = result.row(row).finding;
-        return tables ? order_inside(finding, {by_tables}, dot) : order_inside(finding, rounded, dot);
+        return finding == "as in GLSL" ? in_glsl : order_inside(finding, forms, profile.dot);
     };
-    const auto follow = [&](const char* precise_row, const char* plain_row,
-                            std::initializer_list<std::string_view> rounded, std::string_view by_tables,
-                            std::optional<DotOrder>& own, std::vector<DotOrder>& others) {
-        const DotOrder followed = inside(precise_row, profile.dot, rounded, by_tables).value_or(profile.dot);
-        if (followed != profile.dot)
-            own = followed;
-        note_other(others, followed, inside(plain_row, plain, rounded, by_tables).value_or(plain));
-        note_other(profile.other_orders.dot, profile.dot, followed);
-    };
-    follow("length, precise", "length", {"sqrt({}), rounded"}, "1/y, y inversesqrt({})", profile.length_dot,
-           profile.other_orders.length);
-    follow("normalize, precise", "normalize", {"v*(1/sqrt({})), rounded"}, "v*inversesqrt({})", profile.normalize_dot,
-           profile.other_orders.normalize);
+    const auto dot = found("module: dot(vec3)", profile.dot, {"{}"}),
+               length = found("module: length", profile.length_order(), {"sqrt({}), rounded"}),
+               normalize = found("module: normalize", profile.normalize_order(),
+                                 {"v*(1/sqrt({})), rounded", "v/sqrt({}), rounded"});
+    for (const auto& [function, order] : {std::pair{"dot(vec3)", dot}, {"length", length}, {"normalize", normalize}})
+        if (!order)
+            fail(function);
+    const SumOrders own{dot.value_or(profile.dot), length.value_or(profile.length_order()),
+                        normalize.value_or(profile.normalize_order())};
+    profile.normalize_divides = result.row("module: normalize").finding.starts_with("v/");
+    set_orders(profile, own, own);
 }
 
 /// 0 where an order of the sum inside is all that is to be followed.
@@ -234,11 +277,16 @@ bool lacks_precise(const std::filesystem::path& shaders) {
     });
 }
 
-/// Whether a stage that computes particles is a SPIR-V module, which goes another way through a driver than the GLSL of
-/// the probe: Mesa makes normalize a quotient by the length there, and a product with inversesqrt of GLSL's.
+/// Whether a stage that computes particles runs as a SPIR-V module: beside a stage in GLSL it is translated.
 bool computes_in_spirv(const std::filesystem::path& shaders) {
     return !shaders.empty() && std::any_of(std::begin(computing), std::end(computing), [&](const auto& of) {
-        return load_stage(collision_shaders(shaders), of.first, of.second).module != nullptr;
+        constexpr std::array drawing{Stage::vertex, Stage::geometry, Stage::fragment};
+        constexpr std::array alone{Stage::compute};
+        const std::vector<ShaderSource> stages = of.second == Stage::compute
+                                                     ? load_stages(collision_shaders(shaders), of.first, alone)
+                                                     : load_stages(collision_shaders(shaders), of.first, drawing);
+        return !stages.empty() &&
+               std::ranges::all_of(stages, [](const ShaderSource& stage) { return stage.module != nullptr; });
     });
 }
 
@@ -326,7 +374,9 @@ std::string orders_text(const Profile& profile) {
             if (std::string other = dot_text(order); std::find(others.begin(), others.end(), other) == others.end())
                 others.push_back(std::move(other));
     if (!others.empty())
-        text += fmt::format(", or without precise {}", fmt::join(others, ", "));
+        text += fmt::format(", also {}", fmt::join(others, ", "));
+    if (profile.normalize_divides)
+        text += ", normalize by division";
     return text;
 }
 
@@ -416,7 +466,9 @@ Profile with_shaders(Profile profile, const ProbeResult& result, const std::file
     profile.any_order = fuses_without_precise(result) && lacks_precise(shaders);
     profile.open_corners = fuses_without_precise(result) && leaves_corners_open(shaders);
     if (computes_in_spirv(shaders))
-        profile.not_followed.insert(profile.not_followed.end(), {"normalize", "compute: normalize"});
+        follow_modules(result, profile);
+    else if (!profile.any_order && lacks_precise(shaders))
+        follow_plain_orders(result, profile);
     if (has_geometry_stage(shaders))
         return profile;
     // The rows of points behind a geometry stage say nothing of these points.
@@ -431,6 +483,8 @@ Profile with_shaders(Profile profile, const ProbeResult& result, const std::file
 
 Profile without_precise(Profile profile, const ProbeResult& result) {
     profile.any_order = fuses_without_precise(result);
+    if (!profile.any_order)
+        follow_plain_orders(result, profile);
     return profile;
 }
 

@@ -92,7 +92,7 @@ TEST_CASE("drivers: the reference follows the rows with precise, which the shipp
         CHECK(profile.other_orders.normalize == std::vector{DotOrder::right_to_left});
         CHECK(profile.not_followed.empty());
         CHECK(measured_operations(profile).points);
-        CHECK_THAT(describe(profile), Catch::StartsWith("generic: dot (x + y) + z, or without precise x + (y + z), "));
+        CHECK_THAT(describe(profile), Catch::StartsWith("generic: dot (x + y) + z, also x + (y + z), "));
     }
 }
 

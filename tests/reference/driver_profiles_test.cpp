@@ -1,6 +1,7 @@
 #include <catch2/catch.hpp>
 
 #include <algorithm>
+#include <cmath>
 #include <fstream>
 #include <iterator>
 #include <string>
@@ -105,6 +106,19 @@ TEST_CASE("drivers: a right shader is legal with precise and without, and a unit
     CHECK(illegal(scene, named_profile("llvmpipe"), shader_of(DotOrder::left_to_right)) > 100);
     CHECK(found_of_one_ulp(scene, named_profile("llvmpipe")) == 1.0);
     CHECK(found_of_one_ulp(scene, mesa) > 0.75);
+}
+
+TEST_CASE("drivers: a normalize that divides is followed, and is another than one that multiplies") {
+    const RandomScene scene = random_scene(5, 1000, 41, 33);
+    Profile divides = named_profile("llvmpipe");
+    divides.normalize_divides = true;
+    CHECK_FALSE(computes_alike(divides, named_profile("llvmpipe")));
+    CHECK(illegal(scene, divides, divides) == 0);
+    CHECK(illegal(scene, named_profile("llvmpipe"), divides) > 50);
+    CHECK(found_of_one_ulp(scene, divides) == 1.0);
+    const glm::vec3 v(1.0F, -2.0F, 3.0F);
+    CHECK(OwnOrders(divides).normalize(v) == v / std::sqrt(14.0F));
+    CHECK_THAT(describe(divides), Catch::Contains(", normalize by division, "));
 }
 
 TEST_CASE("drivers: length and normalize have orders of their own") {
@@ -253,6 +267,14 @@ TEST_CASE("driver profiles: a stage without precise is held to no order where th
         CHECK(sums_known(precise));
         CHECK(sums_known(empty));
     }
+    const Profile mesa = profile_from(probed("mesa_25_0_7"));
+    const auto followed = [&](const TemporaryFolder& shaders) {
+        return with_shaders(mesa, probed("mesa_25_0_7"), shaders.path());
+    };
+    CHECK(computes_alike(followed(precise), mesa));
+    CHECK(followed(plain).dot == DotOrder::right_to_left); // as this driver sums then
+    CHECK(followed(plain).one_order());
+    CHECK(followed(plain).other_orders.normalize == std::vector{DotOrder::left_to_right});
     const Profile open = with_shaders(profile_from(result), result, plain.path());
     CHECK_FALSE(measured_operations(open).normalize);
     CHECK(describe(open).find("since a stage says no precise") != std::string::npos);

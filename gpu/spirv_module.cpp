@@ -415,7 +415,12 @@ SpirvModule read_spirv(const std::string& file, std::string_view content, Stage 
     } catch (const spirv_cross::CompilerError& error) {
         fail(fmt::format("is no SPIR-V module that can be read: {}", error.what()));
     }
+    std::uint32_t functions = 0; // the set that GLSL's have
     for_each_instruction(made.words, [&](spv::Op op, std::span<const std::uint32_t> words) {
+        if (op == spv::OpExtInstImport && words.size() > 3 && words[2] == 0x4c534c47U && words[3] == 0x6474732eU)
+            functions = words[1]; // "GLSL", ".std"
+        made.calls_normalize = made.calls_normalize || (op == spv::OpExtInst && words.size() > 4 &&
+                                                        words[3] == functions && words[4] == GLSLstd450Normalize);
         made.says_precise = made.says_precise || (op == spv::OpDecorate && words[2] == spv::DecorationNoContraction);
     });
     return made;

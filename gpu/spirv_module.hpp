@@ -29,6 +29,7 @@ struct SpirvModule {
     std::vector<std::uint32_t> words;
     std::string entry_point;
     bool says_precise = false; ///< NoContraction, of something
+    bool calls_normalize = false;
     std::vector<Variable> inputs, outputs, uniforms;
     std::vector<InterfaceBlock> uniform_blocks, storage_blocks;
 

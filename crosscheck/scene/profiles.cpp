@@ -13,6 +13,7 @@
 #include "gpu/probe/root_tables.hpp"
 #include "gpu/shader_source.hpp"
 #include "gpu/shader_words.hpp"
+#include "gpu/spirv_module.hpp"
 #include "reference/known_operations.hpp"
 
 namespace lockstep {
@@ -152,9 +153,11 @@ void follow_plain_orders(const ProbeResult& result, Profile& profile) {
     set_orders(profile, plain, orders_with(", precise", rows, result));
 }
 
-/// Of a stage that is a SPIR-V module, which goes another way through a driver than GLSL does: Mesa sums in an order of
+using Modules = std::vector<std::shared_ptr<const SpirvModule>>;
+
+/// Of stages that are SPIR-V modules, which go another way through a driver than GLSL does: Mesa sums in an order of
 /// its own there, and makes normalize a quotient.
-void follow_modules(const ProbeResult& result, Profile& profile) {
+void follow_modules(const Modules& modules, const ProbeResult& result, Profile& profile) {
     const auto fail = [&](std::string_view function) {
         for (const char* stage : {"", "compute: "})
             profile.not_followed.push_back(fmt::format("{}{}", stage, function));
@@ -175,7 +178,9 @@ void follow_modules(const ProbeResult& result, Profile& profile) {
             fail(function);
     const SumOrders own{dot.value_or(profile.dot), length.value_or(profile.length_order()),
                         normalize.value_or(profile.normalize_order())};
-    profile.normalize_divides = result.row("module: normalize").finding.starts_with("v/");
+    profile.normalize_divides =
+        result.row("module: normalize").finding.starts_with("v/") &&
+        std::ranges::any_of(modules, [](const auto& module) { return module->calls_normalize; });
     set_orders(profile, own, own);
 }
 
@@ -277,17 +282,21 @@ bool lacks_precise(const std::filesystem::path& shaders) {
     });
 }
 
-/// Whether a stage that computes particles runs as a SPIR-V module: beside a stage in GLSL it is translated.
-bool computes_in_spirv(const std::filesystem::path& shaders) {
-    return !shaders.empty() && std::any_of(std::begin(computing), std::end(computing), [&](const auto& of) {
-        constexpr std::array drawing{Stage::vertex, Stage::geometry, Stage::fragment};
-        constexpr std::array alone{Stage::compute};
-        const std::vector<ShaderSource> stages = of.second == Stage::compute
-                                                     ? load_stages(collision_shaders(shaders), of.first, alone)
-                                                     : load_stages(collision_shaders(shaders), of.first, drawing);
-        return !stages.empty() &&
-               std::ranges::all_of(stages, [](const ShaderSource& stage) { return stage.module != nullptr; });
-    });
+/// The SPIR-V modules that compute particles: beside a stage in GLSL one is translated, and is none.
+Modules computing_modules(const std::filesystem::path& shaders) {
+    constexpr std::array drawing{Stage::vertex, Stage::geometry, Stage::fragment};
+    constexpr std::array alone{Stage::compute};
+    Modules modules;
+    if (shaders.empty())
+        return modules;
+    for (const auto& [pass, stage] : computing) {
+        const std::vector<ShaderSource> stages = stage == Stage::compute
+                                                     ? load_stages(collision_shaders(shaders), pass, alone)
+                                                     : load_stages(collision_shaders(shaders), pass, drawing);
+        if (std::ranges::all_of(stages, [](const ShaderSource& one) { return one.module != nullptr; }))
+            modules.push_back(stages.front().module);
+    }
+    return modules;
 }
 
 /// Whether the obstacles' vertex stage redeclares gl_Position neither precise nor invariant. What is precise elsewhere
@@ -465,8 +474,8 @@ Profile with_shaders(Profile profile, const ProbeResult& result, const std::file
                         !encodes(shaders, "obstacle_vertices")};
     profile.any_order = fuses_without_precise(result) && lacks_precise(shaders);
     profile.open_corners = fuses_without_precise(result) && leaves_corners_open(shaders);
-    if (computes_in_spirv(shaders))
-        follow_modules(result, profile);
+    if (const Modules modules = computing_modules(shaders); !modules.empty())
+        follow_modules(modules, result, profile);
     else if (!profile.any_order && lacks_precise(shaders))
         follow_plain_orders(result, profile);
     if (has_geometry_stage(shaders))

@@ -1,4 +1,5 @@
 #pragma once
+#include <array>
 #include <bit>
 #include <cmath>
 #include <concepts>
@@ -94,6 +95,27 @@ template <class Function> LOCKSTEP_INLINE FloatLanes each(const FloatLanes& v, c
     for (int lane = 0; lane < lane_count; ++lane)
         made[lane] = f(v[lane]);
     return made;
+}
+
+/// Vector i takes lane i of each.
+LOCKSTEP_INLINE void transpose(std::array<FloatLanes, lane_count>& rows) {
+    static_assert(lane_count == 8);
+    // Blocks of four, two and one lane beside the diagonal change places.
+    for (const std::size_t i : {0U, 1U, 2U, 3U}) {
+        const FloatLanes a = rows[i], b = rows[i + 4];
+        rows[i] = __builtin_shufflevector(a, b, 0, 1, 2, 3, 8, 9, 10, 11);
+        rows[i + 4] = __builtin_shufflevector(a, b, 4, 5, 6, 7, 12, 13, 14, 15);
+    }
+    for (const std::size_t i : {0U, 1U, 4U, 5U}) {
+        const FloatLanes a = rows[i], b = rows[i + 2];
+        rows[i] = __builtin_shufflevector(a, b, 0, 1, 8, 9, 4, 5, 12, 13);
+        rows[i + 2] = __builtin_shufflevector(a, b, 2, 3, 10, 11, 6, 7, 14, 15);
+    }
+    for (const std::size_t i : {0U, 2U, 4U, 6U}) {
+        const FloatLanes a = rows[i], b = rows[i + 1];
+        rows[i] = __builtin_shufflevector(a, b, 0, 8, 2, 10, 4, 12, 6, 14);
+        rows[i + 1] = __builtin_shufflevector(a, b, 1, 9, 3, 11, 5, 13, 7, 15);
+    }
 }
 
 } // namespace lanes

@@ -4,6 +4,7 @@
 #include <array>
 #include <initializer_list>
 #include <optional>
+#include <span>
 #include <utility>
 
 #include <fmt/format.h>
@@ -268,31 +269,29 @@ bool encodes(const std::filesystem::path& shaders, std::string_view pass) {
     return false;
 }
 
-/// The stages that compute particles.
-constexpr std::pair<std::string_view, Stage> computing[] = {{"collision_pass", Stage::vertex},
-                                                            {"collision_pass", Stage::compute},
-                                                            {"layered_collision_pass", Stage::vertex},
-                                                            {"octree_pass", Stage::compute},
-                                                            {"depth_pass", Stage::compute}};
+/// A pass that computes particles, in the first of its stages.
+struct Computing {
+    std::string_view pass;
+    std::span<const Stage> stages;
+};
+constexpr std::array drawing{Stage::vertex, Stage::geometry, Stage::fragment};
+constexpr std::array vertices{Stage::vertex}, alone{Stage::compute};
+constexpr std::array computing{Computing{"collision_pass", drawing}, Computing{"collision_pass", alone},
+                               Computing{"layered_collision_pass", vertices}, Computing{"octree_pass", alone},
+                               Computing{"depth_pass", alone}};
 
 /// Whether one of them says `precise` of nothing; a copy of a shipped one says it.
 bool lacks_precise(const std::filesystem::path& shaders) {
-    return !shaders.empty() && std::any_of(std::begin(computing), std::end(computing), [&](const auto& of) {
-        return !says_precise(load_stage(collision_shaders(shaders), of.first, of.second));
+    return !shaders.empty() && std::ranges::any_of(computing, [&](const Computing& of) {
+        return !says_precise(load_stage(collision_shaders(shaders), of.pass, of.stages.front()));
     });
 }
 
 /// The SPIR-V modules that compute particles: beside a stage in GLSL one is translated, and is none.
 Modules computing_modules(const std::filesystem::path& shaders) {
-    constexpr std::array drawing{Stage::vertex, Stage::geometry, Stage::fragment};
-    constexpr std::array alone{Stage::compute};
     Modules modules;
-    if (shaders.empty())
-        return modules;
-    for (const auto& [pass, stage] : computing) {
-        const std::vector<ShaderSource> stages = stage == Stage::compute
-                                                     ? load_stages(collision_shaders(shaders), pass, alone)
-                                                     : load_stages(collision_shaders(shaders), pass, drawing);
+    for (const Computing& of : shaders.empty() ? std::span<const Computing>() : computing) {
+        const auto stages = load_stages(collision_shaders(shaders), of.pass, of.stages);
         if (std::ranges::all_of(stages, [](const ShaderSource& one) { return one.module != nullptr; }))
             modules.push_back(stages.front().module);
     }

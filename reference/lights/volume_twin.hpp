@@ -2,11 +2,13 @@
 #include <array>
 #include <cmath>
 #include <cstring>
+#include <type_traits>
 #include <vector>
 
 #include "reference/half.hpp"
 #include "reference/lights/contribution.hpp"
 #include "reference/lights/light_order.hpp"
+#include "reference/system/item_reads.hpp"
 #include "reference/system/item_twin.hpp"
 #include "reference/system/item_words.hpp"
 
@@ -295,7 +297,9 @@ struct ResolveTwin {
     HostPtr host;
     Texture texture;
 
-    template <class R> ItemWords<R> operator()(R& r, const PassInput& in, std::size_t item) const {
+    bool fast(const FastRun& run) const; // image_lanes.cpp
+
+    template <class R, class Item> ItemWords<R> operator()(R& r, const PassInput& in, const Item& item) const {
         const bool colour_of = texture == Texture::colour;
         ItemWords<R> words;
         const auto at = [&](std::size_t k) { return channel(r, in, item, k); };
@@ -309,38 +313,61 @@ struct ResolveTwin {
     }
 
   private:
-    template <class R> typename R::Real whole(R& r, std::int32_t bits) const {
-        using Real = typename R::Real;
-        return r.note(site::high_word, r.real(bits >> 12) * Real(4096.0F) + r.real(bits & 4095));
+    /// The item as many volumes further.
+    template <class Item> [[nodiscard]] Item further(const Item& item, std::size_t volumes) const {
+        const std::size_t voxels = volumes * host->grid().count();
+        if constexpr (std::is_same_v<Item, std::size_t>)
+            return item + voxels;
+        else
+            return {item.v + static_cast<std::int32_t>(voxels), item.count};
     }
-    template <class R> typename R::Real channel(R& r, const PassInput& in, std::size_t item, std::size_t k) const {
+    template <class Item> static auto word(const PassInput& in, const Item& item) {
+        if constexpr (std::is_same_v<Item, std::size_t>)
+            return in.before.integer(field::word, item);
+        else
+            return item_int(in.before, field::word, item).v;
+    }
+    template <class R, class Word> static typename R::Real number(R& r, const Word& word) {
+        if constexpr (HasLanes<R>)
+            return r.real(IndexOf<R>(word));
+        else
+            return r.real(word);
+    }
+    template <class R, class Word> static typename R::Real whole(R& r, const Word& bits) {
         using Real = typename R::Real;
-        const std::size_t voxels = host->grid().count();
+        return r.note(site::high_word, number(r, Word(bits >> 12)) * Real(4096.0F) + number(r, Word(bits & 4095)));
+    }
+    template <class R, class Item>
+    typename R::Real channel(R& r, const PassInput& in, const Item& item, std::size_t k) const {
+        using Real = typename R::Real;
         const Accumulate how = host->switches().accumulate;
         Real value{};
         if (adds_floats(how)) {
-            value = r.read(site::word, in.before.real(field::word, item + k * voxels));
+            value = item_real(r, site::word, in.before, field::word, further(item, k));
         } else if (how == Accumulate::fixed64) {
-            const std::size_t first = item + 2 * k * voxels, second = first + voxels;
             const bool in_order = r.setting(site::low_first, true);
-            const std::uint32_t low = in.before.word(field::word, in_order ? first : second);
-            const std::int32_t high = in.before.integer(field::word, in_order ? second : first);
-            value = whole(r, high) + r.note(site::low_word, r.real(low >> 8U)) * Real(0x1p-24F);
+            const auto low = word(in, further(item, in_order ? 2 * k : 2 * k + 1)),
+                       high = word(in, further(item, in_order ? 2 * k + 1 : 2 * k));
+            using Word = std::remove_const_t<decltype(low)>;
+            value = whole(r, high) + r.note(site::low_word, number(r, Word((low >> 8) & 0xffffff))) * Real(0x1p-24F);
         } else {
-            value = whole(r, in.before.integer(field::word, item + k * voxels)) *
+            value = whole(r, word(in, further(item, k))) *
                     r.uniform(site::fixed_scale, std::ldexp(1.0F, -host->fixed_bits()));
         }
         return r.note(channel_site(k), value);
     }
-    template <class R> typename R::Real counted(R& r, const PassInput& in, std::size_t item) const {
+    template <class R, class Item> typename R::Real counted(R& r, const PassInput& in, const Item& item) const {
         if (!r.setting(site::count_word, true))
             return channel(r, in, item, 6);
-        const std::size_t voxels = host->grid().count();
         const Accumulate how = host->switches().accumulate;
         if (adds_floats(how))
-            return r.note(site::count, r.read(site::word, in.before.real(field::word, item + 7 * voxels)));
-        const std::size_t last = how == Accumulate::fixed64 ? 14 : 7;
-        return r.note(site::count, r.real(in.before.word(field::word, item + last * voxels)));
+            return r.note(site::count, item_real(r, site::word, in.before, field::word, further(item, 7)));
+        const auto count = word(in, further(item, how == Accumulate::fixed64 ? 14 : 7));
+        if constexpr (HasLanes<R>) // a sum of two that are exact: rounded once
+            return number(r, IntLanes((count >> 16) & 0xffff)) * typename R::Real(65536.0F) +
+                   number(r, IntLanes(count & 0xffff));
+        else
+            return r.note(site::count, r.real(static_cast<std::uint32_t>(count)));
     }
 };
 

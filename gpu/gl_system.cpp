@@ -100,7 +100,9 @@ GlSystem::GlSystem(const Schema& schema, std::vector<GlPass> passes, std::filesy
         if (pass.draw)
             used.push_back(Stage::fragment);
         const std::vector<ShaderSource> stages = parts_->sources(pass, used, false);
-        parts_->says_precise = parts_->says_precise && lockstep::says_precise(stages.front());
+        const bool says = lockstep::says_precise(stages.front());
+        parts_->says_precise = parts_->says_precise && says;
+        parts_->says_precise_once = parts_->says_precise_once || says;
         const std::vector<Capture> captures =
             captured ? parts_->storages[parts_->first_storage(pass.resource)].layout.captures()
                      : std::vector<Capture>{};
@@ -179,6 +181,7 @@ void GlSystem::upload(const SystemView& state) {
 GlSystem::Seconds GlSystem::seconds() const { return parts_->seconds; }
 
 bool GlSystem::says_precise() const { return parts_->says_precise; }
+bool GlSystem::says_precise_once() const { return parts_->says_precise_once; }
 
 void GlSystem::time_steps(bool on) { parts_->takes_times = on; }
 

@@ -140,6 +140,7 @@ class GlSystem final : public SystemSide {
 
     /// Whether each stage that computes a part of the state says `precise` of something.
     [[nodiscard]] bool says_precise() const;
+    [[nodiscard]] bool says_precise_once() const; ///< one of them does
 
     /// Seconds that the last step's draw or dispatch took, nothing else with it: to glFinish, and by the GPU's own
     /// clock (GL_TIME_ELAPSED). Of steps after time_steps(true).

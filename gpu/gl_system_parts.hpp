@@ -67,7 +67,8 @@ struct GlSystem::Parts {
     std::optional<std::size_t> kept = {};        ///< the pass of the last step, where that is there to be repeated from
     std::array<GlSampler, 2> samplers = {};      ///< by GlFilter
     bool takes_times = false;
-    bool says_precise = true; ///< each stage that computes, of something
+    bool says_precise = true;       ///< each stage that computes, of something
+    bool says_precise_once = false; ///< one of them does
     Seconds seconds = {};
 
     /// What the pass runs in a frame; null where there is nothing.

@@ -34,7 +34,9 @@ Profile Gl::profile(const std::filesystem::path& shaders) const {
     return probed_ ? with_shaders(profile_, *probed_, shaders) : profile_;
 }
 
-Profile Gl::profile_without_precise() const { return probed_ ? without_precise(profile_, *probed_) : profile_; }
+Profile Gl::profile_without_precise(bool said_elsewhere) const {
+    return probed_ ? without_precise(profile_, *probed_, said_elsewhere) : profile_;
+}
 
 std::string Gl::name() const { return context_ ? summary(context_->describe()) : missing_; }
 

@@ -48,7 +48,10 @@ GlSystemSide::GlSystemSide(const Gl& gl, const System& system, std::vector<GlPas
                        arithmetic) {}
 
 SideDescription GlSystemSide::describe() const {
-    return {gl_.name(), system_.says_precise() ? gl_.profile() : gl_.profile_without_precise(), {}, {}};
+    return {gl_.name(),
+            system_.says_precise() ? gl_.profile() : gl_.profile_without_precise(system_.says_precise_once()),
+            {},
+            {}};
 }
 
 MatchResult match_system(SystemSide& gpu, const System& system, const MatchOptions& options) {

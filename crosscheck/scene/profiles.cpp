@@ -287,6 +287,17 @@ bool lacks_precise(const std::filesystem::path& shaders) {
     });
 }
 
+/// Whether another one than a shipped one says it.
+bool says_precise_too(const std::filesystem::path& shaders) {
+    return std::ranges::any_of(computing, [&](const Computing& of) {
+        const auto stage = [&](const std::filesystem::path& folder) {
+            return load_stage(collision_shaders(folder), of.pass, of.stages.front());
+        };
+        const ShaderSource own = stage(shaders);
+        return says_precise(own) && own.text != stage({}).text;
+    });
+}
+
 /// The SPIR-V modules that compute particles: beside a stage in GLSL one is translated, and is none.
 Modules computing_modules(const std::filesystem::path& shaders) {
     Modules modules;
@@ -475,7 +486,7 @@ Profile with_shaders(Profile profile, const ProbeResult& result, const std::file
     profile.open_corners = fuses_without_precise(result) && leaves_corners_open(shaders);
     if (const Modules modules = computing_modules(shaders); !modules.empty())
         follow_modules(modules, result, profile);
-    else if (!profile.any_order && lacks_precise(shaders))
+    else if (!profile.any_order && lacks_precise(shaders) && !says_precise_too(shaders))
         follow_plain_orders(result, profile);
     if (has_geometry_stage(shaders))
         return profile;
@@ -489,9 +500,9 @@ Profile with_shaders(Profile profile, const ProbeResult& result, const std::file
     return profile;
 }
 
-Profile without_precise(Profile profile, const ProbeResult& result) {
+Profile without_precise(Profile profile, const ProbeResult& result, bool said_elsewhere) {
     profile.any_order = fuses_without_precise(result);
-    if (!profile.any_order)
+    if (!profile.any_order && !said_elsewhere)
         follow_plain_orders(result, profile);
     return profile;
 }

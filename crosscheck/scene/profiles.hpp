@@ -28,8 +28,8 @@ Profile measured_profile(const ProbeResult& result, const std::filesystem::path&
 Profile with_shaders(Profile profile, const ProbeResult& result, const std::filesystem::path& shaders);
 
 /// `profile`, for stages of which one says `precise` of nothing: their sums may be taken in any order where the driver
-/// fuses them.
-Profile without_precise(Profile profile, const ProbeResult& result);
+/// fuses them. Where it does not, and none of them says it, the sums are those without it.
+Profile without_precise(Profile profile, const ProbeResult& result, bool said_elsewhere = false);
 
 /// For a reader of a verdict: which fragment stages leave the rounding of what they store to the driver.
 std::vector<std::string> conversion_notes(const Profile& profile, const Switches& switches);

@@ -135,6 +135,8 @@ struct LaterRow {
 
 inline constexpr LaterRow later_rows[] = {
     {"dot(vec3), precise", "(x+y)+z", 22, 25},
+    {"module: dot(vec3)", "x+(y+z)", 22, 25},
+    {"module: length", "sqrt(x+(y+z)), rounded", 22, 25},
     {"points: snap", "half to even", 22, 25},
     {"fma", "rounded once", 25, 26, true},
     {"fma, precise", "rounded once", 25, 26, true},

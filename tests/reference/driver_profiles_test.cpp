@@ -275,6 +275,8 @@ TEST_CASE("driver profiles: a stage without precise is held to no order where th
     CHECK(followed(plain).dot == DotOrder::right_to_left); // as this driver sums then
     CHECK(followed(plain).one_order());
     CHECK(followed(plain).other_orders.normalize == std::vector{DotOrder::left_to_right});
+    CHECK(without_precise(mesa, probed("mesa_25_0_7")).dot == DotOrder::right_to_left);
+    CHECK(computes_alike(without_precise(mesa, probed("mesa_25_0_7"), true), mesa)); // another stage says it
     const Profile open = with_shaders(profile_from(result), result, plain.path());
     CHECK_FALSE(measured_operations(open).normalize);
     CHECK(describe(open).find("since a stage says no precise") != std::string::npos);

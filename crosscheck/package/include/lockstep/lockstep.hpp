@@ -55,8 +55,8 @@ class Gl {
     /// How the driver computes what GL leaves open, in passes of `shaders`.
     [[nodiscard]] Profile profile(const std::filesystem::path& shaders = {}) const;
 
-    /// The same where a stage says `precise` of nothing.
-    [[nodiscard]] Profile profile_without_precise() const;
+    /// The same where a stage says `precise` of nothing; `said_elsewhere`: another one does.
+    [[nodiscard]] Profile profile_without_precise(bool said_elsewhere = false) const;
 
     /// The context's name as asked for.
     [[nodiscard]] const std::string& asked() const { return asked_; }

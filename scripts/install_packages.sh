@@ -16,7 +16,7 @@ demo=(
     zlib1g-dev                                    # the report page's data, traces
     libassimp-dev libmeshoptimizer-dev            # meshes: reading, decimation
     libhdf5-dev libaec-dev                        # traces: H5MD
-    libdeflate-dev nettle-dev                     # reading them fast, their seal
+    libdeflate-dev nettle-dev libxxhash-dev       # reading them fast, their seal
     libdtl-dev                                    # what a shader changes of the shipped one
     libedit-dev                                   # typed commands: editing, history, completion
     libseccomp-dev                                # the fence around the process that reads one

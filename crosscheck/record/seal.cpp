@@ -11,6 +11,7 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 #include <nettle/sha2.h>
+#include <xxhash.h>
 
 #include "crosscheck/files/plain_text.hpp"
 #include "reference/model/error.hpp"
@@ -21,23 +22,44 @@ namespace {
 constexpr std::string_view first_line = "lockstep trace 1\n", of_systems = "lockstep recording 1\n";
 constexpr std::size_t longest_name = 100;
 
-/// Of what comes after the user block. `read(offset, into)` gives the number of bytes it read.
-template <class Read> Seal seal_of(const Read& read) {
-    std::vector<std::byte> block(std::size_t{1} << 20U);
-    sha256_ctx context;
-    sha256_init(&context);
+class Sha256 {
+  public:
+    Sha256() { sha256_init(&context_); }
+    void add(std::span<const std::byte> bytes) {
+        sha256_update(&context_, bytes.size(), reinterpret_cast<const std::uint8_t*>(bytes.data()));
+    }
+    std::string digits() {
+        std::array<std::uint8_t, SHA256_DIGEST_SIZE> digest{};
+        sha256_digest(&context_, digest.size(), digest.data());
+        return fmt::format("{:02x}", fmt::join(digest, ""));
+    }
+
+  private:
+    sha256_ctx context_{};
+};
+
+class Xxh128 {
+  public:
+    Xxh128() { XXH3_128bits_reset(state_.get()); }
+    void add(std::span<const std::byte> bytes) { XXH3_128bits_update(state_.get(), bytes.data(), bytes.size()); }
+    std::string digits() {
+        const XXH128_hash_t digest = XXH3_128bits_digest(state_.get());
+        return fmt::format("{:016x}{:016x}", digest.high64, digest.low64);
+    }
+
+  private:
+    std::unique_ptr<XXH3_state_t, XXH_errorcode (*)(XXH3_state_t*)> state_{XXH3_createState(), XXH3_freeState};
+};
+
+/// Adds what comes after the user block. Gives the size of the whole file.
+template <class... Digests> std::uint64_t read_into(const OpenedFile& file, Digests&... digests) {
+    std::vector<std::byte> block(std::size_t{1} << 18U); // stays in the cache
     std::uint64_t bytes = seal_size;
-    while (const std::size_t count = read(bytes, std::span(block))) {
-        sha256_update(&context, count, reinterpret_cast<const std::uint8_t*>(block.data()));
+    while (const std::size_t count = file.read(bytes, std::span(block))) {
+        (digests.add(std::span(block).first(count)), ...);
         bytes += count;
     }
-    std::array<std::uint8_t, SHA256_DIGEST_SIZE> digest{};
-    sha256_digest(&context, digest.size(), digest.data());
-    return {bytes, fmt::format("{:02x}", fmt::join(digest, ""))};
-}
-
-Seal seal_of(const OpenedFile& file) {
-    return seal_of([&](std::uint64_t offset, std::span<std::byte> into) { return file.read(offset, into); });
+    return bytes;
 }
 
 /// Takes `word` and the value after it off the front of `text`, to the end of the line.
@@ -50,9 +72,10 @@ std::string_view take(std::string_view& text, std::string_view word) {
     return value;
 }
 
-bool hexadecimal(std::string_view text) {
-    return std::all_of(text.begin(), text.end(),
-                       [](char c) { return (c >= '0' && c <= '9') || (c >= 'a' && c <= 'f'); });
+bool hexadecimal(std::string_view text, std::size_t digits) {
+    return text.size() == digits && std::all_of(text.begin(), text.end(), [](char c) {
+               return (c >= '0' && c <= '9') || (c >= 'a' && c <= 'f');
+           });
 }
 
 } // namespace
@@ -61,6 +84,8 @@ std::string seal_text(const Seal& seal) {
     const std::string first =
         seal.system.empty() ? std::string(first_line) : fmt::format("{}system {}\n", of_systems, seal.system);
     std::string text = fmt::format("{}bytes {}\nsha256 {}\n", first, seal.bytes, seal.sha256);
+    if (!seal.xxh128.empty())
+        text += fmt::format("xxh128 {}\n", seal.xxh128);
     text.resize(seal_size, '\0');
     return text;
 }
@@ -83,17 +108,25 @@ Seal parse_seal(std::string_view text, const std::string& name) {
         throw Error(
             fmt::format("{}: damaged: its {} line is not \"bytes SIZE\"", name, has_system ? "third" : "second"));
     seal.sha256 = take(text, "sha256 ");
-    if (seal.sha256.size() != 2 * SHA256_DIGEST_SIZE || !hexadecimal(seal.sha256))
+    if (!hexadecimal(seal.sha256, 2 * SHA256_DIGEST_SIZE))
         throw Error(fmt::format("{}: damaged: its {} line is not \"sha256 \" and 64 hexadecimal digits", name,
                                 has_system ? "fourth" : "third"));
+    if (text.starts_with("xxh128 ")) {
+        seal.xxh128 = take(text, "xxh128 ");
+        if (!hexadecimal(seal.xxh128, 32))
+            throw Error(fmt::format("{}: damaged: its {} line is not \"xxh128 \" and 32 hexadecimal digits", name,
+                                    has_system ? "fifth" : "fourth"));
+    }
     if (text.find_first_not_of('\0') != std::string_view::npos)
         throw Error(fmt::format("{}: damaged: something other than zero bytes follows its seal", name));
     return seal;
 }
 
 void seal_file(const std::filesystem::path& path, const std::string& system) {
-    Seal seal = seal_of(OpenedFile(path, "trace"));
-    seal.system = system;
+    Sha256 sha256;
+    Xxh128 xxh128;
+    const std::uint64_t bytes = read_into(OpenedFile(path, "trace"), sha256, xxh128);
+    const Seal seal{bytes, sha256.digits(), xxh128.digits(), system};
     const std::string text = seal_text(seal);
     const std::unique_ptr<std::FILE, int (*)(std::FILE*)> file(std::fopen(path.c_str(), "r+b"), std::fclose);
     if (!file || std::fwrite(text.data(), 1, text.size(), file.get()) != text.size() || std::fflush(file.get()) != 0)
@@ -127,9 +160,16 @@ Seal check_seal(const OpenedFile& file, const std::string& system) {
         throw Error(fmt::format("{}: cut off: {} of its {} bytes are here", path, file.size(), told.bytes));
     if (file.size() > told.bytes)
         throw Error(fmt::format("{}: damaged: {} bytes, but {} were sealed", path, file.size(), told.bytes));
-    const Seal found = seal_of(file);
-    if (found.bytes != told.bytes || found.sha256 != told.sha256)
-        throw Error(fmt::format("{}: damaged: its SHA-256 is {}, sealed was {}", path, found.sha256, told.sha256));
+    const auto hold = [&](const char* name, auto digest, const std::string& sealed) {
+        const std::uint64_t bytes = read_into(file, digest);
+        const std::string found = digest.digits();
+        if (bytes != told.bytes || found != sealed)
+            throw Error(fmt::format("{}: damaged: its {} is {}, sealed was {}", path, name, found, sealed));
+    };
+    if (told.xxh128.empty())
+        hold("SHA-256", Sha256(), told.sha256);
+    else
+        hold("XXH128", Xxh128(), told.xxh128);
     return told;
 }
 

@@ -419,8 +419,11 @@ SpirvModule read_spirv(const std::string& file, std::string_view content, Stage 
     for_each_instruction(made.words, [&](spv::Op op, std::span<const std::uint32_t> words) {
         if (op == spv::OpExtInstImport && words.size() > 3 && words[2] == 0x4c534c47U && words[3] == 0x6474732eU)
             functions = words[1]; // "GLSL", ".std"
-        made.calls_normalize = made.calls_normalize || (op == spv::OpExtInst && words.size() > 4 &&
-                                                        words[3] == functions && words[4] == GLSLstd450Normalize);
+        const auto calls = [&](std::uint32_t function) {
+            return op == spv::OpExtInst && words.size() > 4 && words[3] == functions && words[4] == function;
+        };
+        made.calls_normalize = made.calls_normalize || calls(GLSLstd450Normalize);
+        made.calls_inverse_sqrt = made.calls_inverse_sqrt || calls(GLSLstd450InverseSqrt);
         made.says_precise = made.says_precise || (op == spv::OpDecorate && words[2] == spv::DecorationNoContraction);
     });
     return made;

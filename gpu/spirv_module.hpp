@@ -30,6 +30,7 @@ struct SpirvModule {
     std::string entry_point;
     bool says_precise = false; ///< NoContraction, of something
     bool calls_normalize = false;
+    bool calls_inverse_sqrt = false;
     std::vector<Variable> inputs, outputs, uniforms;
     std::vector<InterfaceBlock> uniform_blocks, storage_blocks;
 

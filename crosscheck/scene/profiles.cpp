@@ -179,9 +179,13 @@ void follow_modules(const Modules& modules, const ProbeResult& result, Profile& 
             fail(function);
     const SumOrders own{dot.value_or(profile.dot), length.value_or(profile.length_order()),
                         normalize.value_or(profile.normalize_order())};
+    const auto any = [&](bool SpirvModule::*calls) {
+        return std::ranges::any_of(modules, [&](const auto& module) { return (*module).*calls; });
+    };
     profile.normalize_divides =
-        result.row("module: normalize").finding.starts_with("v/") &&
-        std::ranges::any_of(modules, [](const auto& module) { return module->calls_normalize; });
+        result.row("module: normalize").finding.starts_with("v/") && any(&SpirvModule::calls_normalize);
+    if (profile.normalize_divides && any(&SpirvModule::calls_inverse_sqrt))
+        fail("normalize"); // a direction may be made in either way
     set_orders(profile, own, own);
 }
 

@@ -331,7 +331,7 @@ TEST_CASE("systems: a recording that is damaged, cut off, of another system or o
     };
     CHECK(damaged([&] { std::filesystem::resize_file(other, size / 2); }) ==
           other + ": cut off: " + std::to_string(size / 2) + " of its " + std::to_string(size) + " bytes are here");
-    CHECK_THAT(damaged([&] { write_at(other, 2000, "x"); }), Contains(other + ": damaged: its SHA-256 is "));
+    CHECK_THAT(damaged([&] { write_at(other, 2000, "x"); }), Contains(other + ": damaged: its XXH128 is "));
     CHECK_THAT(
         damaged([&] { write_at(other, 0, "lockstep recording 1\nsystem dusk\n"); }),
         Contains(

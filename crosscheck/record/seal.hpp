@@ -18,7 +18,7 @@ namespace lockstep {
 ///     sha256 OF-WHAT-COMES-AFTER-THE-USER-BLOCK
 ///     xxh128 OF-THE-SAME
 ///
-/// The last line may be missing. Where it is there, the file is held against it alone, which takes a tenth of the time;
+/// The last line may be missing. Where it is there, the file is held against it alone, which takes a fifth of the time;
 /// the SHA-256 then is the name by which parts of a check know their recording.
 ///
 /// That of a recording of any other system than the one whose traces these are begins with two lines of its own:

@@ -30,7 +30,7 @@ using Changes = std::vector<std::pair<std::string, std::string>>;
 
 /// tests/foreign/spirv_stages with both stages as modules, the vertex stage after changes of its text.
 struct Modules {
-    explicit Modules(const Changes& changes = {}, const std::string& compiler = "glslangValidator -G") {
+    explicit Modules(const Changes& changes = {}) {
         const fs::path shipped = "tests/foreign/spirv_stages";
         for (const char* name : {"bindings.json", "collision_pass.geom"})
             fs::copy_file(shipped / name, folder.path() / name);
@@ -41,7 +41,7 @@ struct Modules {
                 text.replace(at, from.size(), to);
         }
         std::ofstream(texts.path() / "collision_pass.vert") << text;
-        run(compiler + " -o '" + vertex() + "' '" + (texts.path() / "collision_pass.vert").string() + "'");
+        run("glslangValidator -G -o '" + vertex() + "' '" + (texts.path() / "collision_pass.vert").string() + "'");
         run("glslangValidator -G -o '" + (folder.path() / "collision_pass.frag.spv").string() + "' '" +
             (shipped / "collision_pass.frag").string() + "'");
     }

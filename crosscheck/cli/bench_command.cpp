@@ -20,6 +20,7 @@
 #include "crosscheck/report/report.hpp"
 #include "crosscheck/report/statistics.hpp"
 #include "crosscheck/report/verdict_text.hpp"
+#include "crosscheck/scene/profile_text.hpp"
 #include "crosscheck/scene/profiles.hpp"
 #include "crosscheck/scene/scene_constants.hpp"
 #include "crosscheck/scene/scene_file.hpp"

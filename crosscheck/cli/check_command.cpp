@@ -38,6 +38,7 @@
 #include "crosscheck/report/power_text.hpp"
 #include "crosscheck/report/progress.hpp"
 #include "crosscheck/report/report.hpp"
+#include "crosscheck/scene/profile_text.hpp"
 #include "crosscheck/scene/profiles.hpp"
 #include "crosscheck/scene/run_text.hpp"
 #include "gpu/collision/simulation.hpp"

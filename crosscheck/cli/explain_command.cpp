@@ -21,6 +21,7 @@
 #include "crosscheck/report/colour.hpp"
 #include "crosscheck/report/progress.hpp"
 #include "crosscheck/report/shader_diff.hpp"
+#include "crosscheck/scene/profile_text.hpp"
 #include "crosscheck/scene/profiles.hpp"
 #include "gpu/context.hpp"
 #include "reference/model/error.hpp"

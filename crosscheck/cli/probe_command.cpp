@@ -9,6 +9,7 @@
 #include "crosscheck/command/option_values.hpp"
 #include "crosscheck/files/output_files.hpp"
 #include "crosscheck/report/probe_table.hpp"
+#include "crosscheck/scene/profile_text.hpp"
 #include "crosscheck/scene/profiles.hpp"
 #include "gpu/probe.hpp"
 

@@ -16,6 +16,7 @@
 #include "crosscheck/files/signals.hpp"
 #include "crosscheck/report/places.hpp"
 #include "crosscheck/report/report.hpp"
+#include "crosscheck/scene/profile_text.hpp"
 #include "crosscheck/scene/profiles.hpp"
 #include "crosscheck/scene/run_text.hpp"
 #include "gpu/collision/simulation.hpp"

@@ -9,7 +9,7 @@
 #include "crosscheck/command/option_values.hpp"
 #include "crosscheck/files/plain_text.hpp"
 #include "crosscheck/report/verdict_text.hpp"
-#include "crosscheck/scene/profiles.hpp"
+#include "crosscheck/scene/profile_text.hpp"
 
 namespace lockstep {
 namespace {

@@ -22,7 +22,7 @@
 #include "crosscheck/report/page/template.hpp"
 #include "crosscheck/report/progress.hpp"
 #include "crosscheck/report/verdict_text.hpp"
-#include "crosscheck/scene/profiles.hpp"
+#include "crosscheck/scene/profile_text.hpp"
 #include "gpu/system_side.hpp"
 #include "reference/model/error.hpp"
 #include "reference/model/near_name.hpp"

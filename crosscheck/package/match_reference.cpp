@@ -10,7 +10,7 @@
 #include "crosscheck/files/threads.hpp"
 #include "crosscheck/package/folded_text.hpp"
 #include "crosscheck/report/places.hpp"
-#include "crosscheck/scene/profiles.hpp"
+#include "crosscheck/scene/profile_text.hpp"
 #include "crosscheck/scene/run_text.hpp"
 #include "lockstep/lockstep.hpp"
 

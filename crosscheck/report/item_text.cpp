@@ -13,7 +13,7 @@
 #include "crosscheck/judge/item_place.hpp"
 #include "crosscheck/judge/item_table.hpp"
 #include "crosscheck/report/row_text.hpp"
-#include "crosscheck/scene/profiles.hpp"
+#include "crosscheck/scene/profile_text.hpp"
 #include "reference/model/error.hpp"
 #include "reference/model/ulp.hpp"
 

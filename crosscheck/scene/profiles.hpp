@@ -3,7 +3,6 @@
 #include <string>
 
 #include "gpu/probe.hpp"
-#include "reference/model/collision/switches.hpp"
 #include "reference/model/profile.hpp"
 
 namespace lockstep {
@@ -30,11 +29,5 @@ Profile with_shaders(Profile profile, const ProbeResult& result, const std::file
 /// `profile`, for stages of which one says `precise` of nothing: their sums may be taken in any order where the driver
 /// fuses them. Where it does not, and none of them says it, the sums are those without it.
 Profile without_precise(Profile profile, const ProbeResult& result, bool said_elsewhere = false);
-
-/// For a reader of a verdict: which fragment stages leave the rounding of what they store to the driver.
-std::vector<std::string> conversion_notes(const Profile& profile, const Switches& switches);
-
-/// One line: "llvmpipe: dot x + (y + z), division and roots rounded, subnormals flushed, 8 sub-pixel bits, ..."
-std::string describe(const Profile& profile);
 
 } // namespace lockstep

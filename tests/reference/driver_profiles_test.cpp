@@ -8,6 +8,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include "crosscheck/scene/profile_text.hpp"
 #include "crosscheck/scene/profiles.hpp"
 #include "reference/collision/collision_pass.hpp"
 #include "reference/collision/legal_outcomes.hpp"

@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <string>
 
+#include "crosscheck/scene/profile_text.hpp"
 #include "crosscheck/scene/profiles.hpp"
 #include "reference/known_operations.hpp"
 

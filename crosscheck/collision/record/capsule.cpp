@@ -8,7 +8,7 @@
 
 #include "crosscheck/collision/judge/step_table.hpp"
 #include "crosscheck/record/capsule_parts.hpp"
-#include "crosscheck/scene/profiles.hpp"
+#include "crosscheck/scene/profile_text.hpp"
 #include "crosscheck/scene/scene_frames.hpp"
 #include "reference/collision/octree/octree_leaves.hpp"
 #include "reference/collision/step_pass.hpp"

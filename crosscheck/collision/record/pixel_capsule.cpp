@@ -5,7 +5,7 @@
 
 #include <fmt/format.h>
 
-#include "crosscheck/scene/profiles.hpp"
+#include "crosscheck/scene/profile_text.hpp"
 #include "crosscheck/scene/scene_frames.hpp"
 #include "reference/model/error.hpp"
 

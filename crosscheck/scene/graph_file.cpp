@@ -423,25 +423,14 @@ class Reader {
             check_divisor(n);
     }
 
-    /// A number that the shader's compiler knows as well.
-    [[nodiscard]] std::optional<float> constant(const GraphSource& source, std::size_t component) const {
-        if (!source.node)
-            return source.numbers[component];
-        const GraphNode& from = graph_.nodes[*source.node];
-        if (from.kind != GraphKind::constant)
-            return {};
-        const bool is_one = source.part < 0 && from.makes == GraphType::real;
-        return from.value.numbers[is_one ? 0 : source.part < 0 ? component : static_cast<std::size_t>(source.part)];
-    }
-
     /// Compilers fold a quotient by a constant 0 to what they like, llvmpipe's to 0.
     void check_divisor(std::size_t n) const {
         const GraphNode& node = graph_.nodes[n];
         for (std::size_t c = 0; c < graph_components(node.takes); ++c) {
-            if (node.kind == GraphKind::divide && constant(node.inputs[1], c) == 0.0F)
+            if (node.kind == GraphKind::divide && graph_constant(graph_, node.inputs[1], c) == 0.0F)
                 read_[n].json.fail(fmt::format("'{}' divides by 0: its port b", node.id));
-            const auto low = constant(node.inputs[0], c);
-            if (node.kind == GraphKind::smoothstep && low && low == constant(node.inputs[1], c))
+            const auto low = graph_constant(graph_, node.inputs[0], c);
+            if (node.kind == GraphKind::smoothstep && low && low == graph_constant(graph_, node.inputs[1], c))
                 read_[n].json.fail(fmt::format("'{}' rises from {} to {}: right are a low and a high that differ",
                                                node.id, *low, *low));
         }

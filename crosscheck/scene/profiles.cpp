@@ -378,8 +378,9 @@ Profile profile_from(const ProbeResult& result) {
                             "compute: dot(vec3)", "compute: length", "compute: normalize"})
         if (result.has(row))
             rows.require({row}, "as in the vertex stage");
-    if (const char* row = "compute: a/c, c constant"; result.has(row))
-        rows.require({row}, "as a/b");
+    for (const char* row : {"a/c, c constant, precise", "compute: a/c, c constant"})
+        if (result.has(row))
+            rows.require({row}, "as a/b");
     for (const char* row : {"compute: a*b+c, in functions", "compute: c-a*b, in functions"})
         if (result.has(row))
             rows.require({row}, "each rounded");

@@ -3,6 +3,7 @@
 #include <utility>
 
 #include "gpu/probe/compute_stage.hpp"
+#include "gpu/probe/constant_divisors.hpp"
 #include "gpu/probe/driver_arithmetic.hpp"
 #include "gpu/probe/inputs.hpp"
 #include "gpu/probe/rows.hpp"
@@ -72,23 +73,16 @@ template <class Read> Floats each_of(const Vectors& vectors, Read read) {
     return values;
 }
 
-/// Divisions by constants of the shader's text, places 11 to 14: as by any number, or by their reciprocals.
+/// a.x, a.y, a.z and b.x of each pair, by constants: places 11 to 14.
 ProbeRow measure_constant_divisors(const DriverArithmetic& vertex, const Vectors& a, const Vectors& b,
                                    const Floats& made) {
-    Floats dividends, divisors, products, values;
+    Floats dividends, values;
     for (std::size_t i = 0; i < a.size(); ++i) {
-        const std::array<std::pair<float, float>, 4> pairs{
-            {{a[i].x, 79238.288F}, {a[i].y, 3.0F}, {a[i].z, 255.0F}, {b[i].x, 82801.277F}}};
-        for (std::size_t k = 0; k < pairs.size(); ++k) {
-            const auto [x, c] = pairs[k];
-            dividends.push_back(x);
-            divisors.push_back(c);
-            products.push_back(x * (1.0F / c));
+        dividends.insert(dividends.end(), {a[i].x, a[i].y, a[i].z, b[i].x});
+        for (std::size_t k = 0; k < 4; ++k)
             values.push_back(made[results_each * i + 11 + k]);
-        }
     }
-    return judge("compute: a/c, c constant", values,
-                 {{"as a/b", vertex.divide(dividends, divisors)}, {"a*(1/c), 1/c rounded", products}});
+    return judge_constant_divisors("compute: a/c, c constant", vertex, dividends, values);
 }
 
 /// The operations that GLSL leaves open, held against the vertex stage's, whose sequences other rows have.

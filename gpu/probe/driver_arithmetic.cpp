@@ -8,7 +8,7 @@ namespace {
 std::vector<Attribute> attributes() {
     return {{"a_DotA", 3},    {"a_DotB", 3},      {"a_MultiplyAdd", 3},    {"a_CommonFactor", 3},
             {"a_CrossA", 3},  {"a_CrossB", 3},    {"a_Transform", 3},      {"a_TransformWritten", 3},
-            {"a_Squares", 3}, {"a_Fma", 3},       {"a_Quotient", 2},       {"a_Roots", 3},
+            {"a_Squares", 3}, {"a_Fma", 3},       {"a_Quotient", 4},       {"a_Roots", 3},
             {"a_Length", 3},  {"a_Normalize", 3}, {"a_Transcendental", 3}, {"a_Copy", 1}};
 }
 
@@ -22,6 +22,7 @@ std::vector<Capture> outputs() {
             {"out_Squares", GL_FLOAT},
             {"out_Fma", GL_FLOAT},
             {"out_Quotient", GL_FLOAT},
+            {"out_ByConstants", GL_FLOAT_VEC4},
             {"out_Reciprocal", GL_FLOAT},
             {"out_Sqrt", GL_FLOAT},
             {"out_InverseSqrt", GL_FLOAT},
@@ -81,12 +82,16 @@ Floats DriverArithmetic::transform_written(const glm::mat4& m, const Vectors& v)
 }
 
 Floats DriverArithmetic::divide(const Floats& a, const Floats& b) const {
-    Floats pairs(a.size() * 2);
+    Floats given(a.size() * 4, 1.0F);
     for (std::size_t i = 0; i < a.size(); ++i) {
-        pairs[2 * i] = a[i];
-        pairs[2 * i + 1] = b[i];
+        given[4 * i] = a[i];
+        given[4 * i + 1] = b[i];
     }
-    return stage_.run(a.size(), {{"a_Quotient", 2, pairs.data()}}, "out_Quotient");
+    return stage_.run(a.size(), {{"a_Quotient", 4, given.data()}}, "out_Quotient");
+}
+
+Floats DriverArithmetic::by_constants(const Floats& a) const {
+    return stage_.run(a.size() / 4, {{"a_Quotient", 4, a.data()}}, "out_ByConstants");
 }
 
 Floats DriverArithmetic::reciprocal(const Floats& x) const { return root(0, x, "out_Reciprocal"); }

@@ -22,6 +22,7 @@ class DriverArithmetic {
     [[nodiscard]] Floats transform(const glm::mat4& m, const Vectors& v) const;         ///< m * vec4(v, 1)
     [[nodiscard]] Floats transform_written(const glm::mat4& m, const Vectors& v) const; ///< the same, written out
     [[nodiscard]] Floats divide(const Floats& a, const Floats& b) const;
+    [[nodiscard]] Floats by_constants(const Floats& a) const; ///< fours by probing::constant_divisors
     [[nodiscard]] Floats reciprocal(const Floats& x) const;
     [[nodiscard]] Floats sqrt(const Floats& x) const;
     [[nodiscard]] Floats inverse_sqrt(const Floats& x) const;

@@ -1,5 +1,6 @@
 #include <cmath>
 
+#include "gpu/probe/constant_divisors.hpp"
 #include "gpu/probe/driver_arithmetic.hpp"
 #include "gpu/probe/inputs.hpp"
 #include "gpu/probe/rows.hpp"
@@ -110,6 +111,8 @@ void measure_roots(const DriverArithmetic& gl, const std::string& qualifier, std
     const Floats a = random_floats(inputs, 4, {-30, 30, true});
     const Floats b = random_floats(inputs, 5, {-30, 30, true});
     measure_division(gl, "a/b" + qualifier, a, b, rows);
+    const Floats dividends = random_floats(inputs, 38, {-30, 30, true});
+    rows.push_back(judge_constant_divisors("a/c, c constant" + qualifier, gl, dividends, gl.by_constants(dividends)));
     // 1/b is subnormal there: a driver that multiplies by it loses the quotient.
     measure_division(gl, "a/b, b from 2^126" + qualifier, random_floats(inputs / 4, 6, {100, 127, true}),
                      random_floats(inputs / 4, 7, {126, 127, true}), rows);

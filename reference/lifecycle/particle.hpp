@@ -7,6 +7,7 @@
 #include "reference/model/lifecycle/host.hpp"
 #include "reference/model/lifecycle/layout.hpp"
 #include "reference/model/lifecycle/schema.hpp"
+#include "reference/readings/constant_divisor.hpp"
 #include "reference/system/item_pass.hpp"
 #include "reference/system/item_words.hpp"
 #include "reference/system/pcg3d.hpp"
@@ -210,7 +211,7 @@ template <class R> class Particle {
             const std::uint32_t shift =
                 rgba8 ? 8U * static_cast<std::uint32_t>(c) : 10U * static_cast<std::uint32_t>(c);
             found[c] =
-                r.divide(site::color_code, R::real((raw_[at_word] >> shift) & most), Real(static_cast<float>(most)));
+                divided_by(r, site::color_code, R::real((raw_[at_word] >> shift) & most), static_cast<float>(most));
         }
         return found;
     }

@@ -149,4 +149,14 @@ const Graph::Output* output_named(const Graph& graph, std::string_view name) {
     return nullptr;
 }
 
+std::optional<float> graph_constant(const Graph& graph, const GraphSource& source, std::size_t component) {
+    if (!source.node)
+        return source.numbers[component];
+    const GraphNode& from = graph.nodes[*source.node];
+    if (from.kind != GraphKind::constant)
+        return {};
+    const bool is_one = source.part < 0 && from.makes == GraphType::real;
+    return from.value.numbers[is_one ? 0 : source.part < 0 ? component : static_cast<std::size_t>(source.part)];
+}
+
 } // namespace lockstep

@@ -162,6 +162,9 @@ bool reads_input(const Graph& graph, std::string_view name);
 /// The output of that name; null: the graph has none.
 const Graph::Output* output_named(const Graph& graph, std::string_view name);
 
+/// A number that the shader's compiler knows as well: one at a port, or of a constant node.
+std::optional<float> graph_constant(const Graph& graph, const GraphSource& source, std::size_t component);
+
 inline constexpr std::size_t most_graph_nodes = 256, deepest_graph = 64, most_curve_keys = 16;
 
 } // namespace lockstep

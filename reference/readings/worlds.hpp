@@ -143,7 +143,7 @@ template <class A> class Worlds {
     void tell(std::string_view output, std::span<const float> values) { told_.push_back({name_id(output), values}); }
 
     /// The compiler may multiply by a constant's reciprocal (constant_divisor.hpp): where a division by others is
-    /// known, one by a constant is either.
+    /// known, one by a constant is either. A run divides by one constant in one way.
     void open_constant_divisors() { constant_divisors_open_ = known().divide; }
 
     /// The arithmetic's quotients and roots are a driver's own, by tables: known of floats, but of a set no more than
@@ -160,6 +160,7 @@ template <class A> class Worlds {
         trail_.clear();
         for (int runs = 1; runs <= most_runs; ++runs) {
             next_value_ = next_answer_ = 0;
+            by_reciprocal_.clear();
             try {
                 const auto state = twin();
                 ended(&state, forks(), open_field(state));
@@ -255,14 +256,17 @@ template <class A> class Worlds {
         quotient.of_factors_ = known().factors_reordered;
         return quotient;
     }
-    bool by_reciprocal(At place) {
+    bool by_reciprocal(At place, float c) {
         if (!constant_divisors_open_)
             return false;
+        for (const auto& [known, answer] : by_reciprocal_)
+            if (known == c)
+                return answer;
         if (next_answer_ == log_.size()) {
             log_.push_back(0);
             fork({{{{&place.site, 0.0, place.where}}}}, {0, 1});
         }
-        return log_[next_answer_++] != 0;
+        return by_reciprocal_.emplace_back(c, log_[next_answer_++] != 0).second;
     }
     Real sqrt(At, Real a) {
         if (known().square_root && a.is_float())
@@ -722,6 +726,7 @@ template <class A> class Worlds {
     std::vector<Value> values_; ///< of this run, and of the one before up to where they part
     std::vector<int> log_;      ///< answers, likewise
     std::size_t next_value_ = 0, next_answer_ = 0;
+    std::vector<std::pair<float, bool>> by_reciprocal_; ///< of this run
     std::vector<Node> path_;
     std::vector<Fork> forks_;                               ///< one for each of path_
     std::vector<std::pair<std::uint32_t, Interval>> trail_; ///< sets as they were before an answer cut them

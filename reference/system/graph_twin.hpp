@@ -1,11 +1,13 @@
 #pragma once
 #include <array>
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
 
 #include "reference/model/graph.hpp"
+#include "reference/readings/constant_divisor.hpp"
 #include "reference/readings/site.hpp"
 #include "reference/system/force_fields.hpp"
 #include "reference/system/pcg3d.hpp"
@@ -180,7 +182,9 @@ template <class R> class GraphRun {
         }
         case divide: {
             const Number a = shared(0), b = shared(1);
-            return each([&](std::size_t c) { return r.divide(site, a.x[c], b.x[c]); });
+            return each([&](std::size_t c) {
+                return quotient_of(r, site, a.x[c], b.x[c], graph_constant(graph_, node.inputs[1], c));
+            });
         }
         case negate: {
             const Number a = shared(0);
@@ -221,7 +225,10 @@ template <class R> class GraphRun {
         case smoothstep: {
             const Number low = shared(0), high = shared(1), a = shared(2);
             return each([&](std::size_t c) {
-                const Real share = r.divide(site, a.x[c] - low.x[c], high.x[c] - low.x[c]);
+                const auto known = [&](std::size_t port) { return graph_constant(graph_, node.inputs[port], c); };
+                const Real share =
+                    quotient_of(r, site, a.x[c] - low.x[c], high.x[c] - low.x[c],
+                                known(0) && known(1) ? std::optional(*known(1) - *known(0)) : std::nullopt);
                 const Real t = smaller(greater(share, Real(0.0F)), Real(1.0F));
                 return (t * t) * (Real(3.0F) - t * Real(2.0F));
             });
@@ -333,7 +340,8 @@ template <class R> class GraphRun {
             return number(keys.front()[1]);
         for (std::size_t k = 1; k < keys.size(); ++k)
             if (r.decide(site, t < number(keys[k][0]))) {
-                const Real share = r.divide(site, t - number(keys[k - 1][0]), number(keys[k][0] - keys[k - 1][0]));
+                const Real share = quotient_of(r, site, t - number(keys[k - 1][0]), number(keys[k][0] - keys[k - 1][0]),
+                                               std::optional(keys[k][0] - keys[k - 1][0]));
                 return number(keys[k - 1][1]) + share * number(keys[k][1] - keys[k - 1][1]);
             }
         return number(keys.back()[1]);

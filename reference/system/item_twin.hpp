@@ -422,8 +422,9 @@ template <class Twin> class ItemTwin final : public ItemPass {
     template <class Reading> void tell_of_driver(Reading& reading, const Profile& profile) const {
         if (profile.roots != nullptr)
             reading.take_roots_by_tables();
-        if (options_.stage == PassStage::compute && options_.arithmetic == ArithmeticSwitch::plain &&
-            !profile.follows("compute: a/c, c constant"))
+        const char* row =
+            options_.stage == PassStage::compute ? "compute: a/c, c constant" : "a/c, c constant, precise";
+        if (options_.arithmetic == ArithmeticSwitch::plain && !profile.follows(row))
             reading.open_constant_divisors();
     }
 

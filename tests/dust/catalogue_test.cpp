@@ -11,7 +11,7 @@
 #include "crosscheck/dust/scene.hpp"
 #include "reference/dust/sites.hpp"
 #include "tests/dust/one_grain.hpp"
-#include "tests/dust/shaders_with.hpp"
+#include "tests/shaders_with.hpp"
 
 /// The scenes of data/scenes/dust/catalogue: what goes wrong in the source's demo, with its cause and without.
 using namespace lockstep;

@@ -3,7 +3,7 @@
 
 #include "crosscheck/dust/scene.hpp"
 #include "tests/dust/dust_run.hpp"
-#include "tests/dust/shaders_with.hpp"
+#include "tests/shaders_with.hpp"
 
 using namespace lockstep;
 using namespace lockstep::test;

@@ -1,6 +1,7 @@
 #include "crosscheck/lifecycle/picture.hpp"
 #include "reference/model/lifecycle/drawing.hpp"
 #include "tests/lifecycle/lifecycle_run.hpp"
+#include "tests/shaders_with.hpp"
 
 using namespace lockstep;
 using namespace lockstep::test;
@@ -56,6 +57,31 @@ TEST_CASE("drawing: the corners of sprites and segments agree with their twin, f
     const CheckReport report = check(picture.system, side, options);
     INFO(report_text(report, {}));
     CHECK(report.verdict == Verdict::agree);
+}
+
+TEST_CASE(
+    "drawing: a driver that multiplies by a constant's reciprocal is legal where its row says so, and not where the "
+    "row says that it divides") {
+    if (!gl())
+        return skip(gl().missing());
+    const lifecycle::HostPtr host = host_of(both());
+    const SystemPicture picture = lifecycle::picture(host, state_of(host), 19);
+    const auto check_with = [&](const std::string& reciprocal, std::vector<std::string> not_followed) {
+        const TemporaryFolder shaders;
+        copy_replacing("shaders/lifecycle", shaders, "packing.glsl", ", 255.0)", " * " + reciprocal + ", 1.0)");
+        OtherDriver side(picture.system, picture.passes, shaders.path(),
+                         [&](Profile& profile) { profile.not_followed = not_followed; });
+        CheckOptions options;
+        options.frames = 1;
+        return check(picture.system, side, options);
+    };
+    const std::string row = "a/c, c constant, precise";
+    const CheckReport open = check_with("(1.0 / 255.0)", {row});
+    INFO(report_text(open, {}));
+    CHECK(open.verdict == Verdict::legal);
+    CHECK(check_with("(1.0 / 255.0)", {}).verdict == Verdict::divergent);
+    CHECK(check_with("(1.0 / 255.0)", {"compute: a/c, c constant"}).verdict == Verdict::divergent);
+    CHECK(check_with("(1.0 / 256.0)", {row}).verdict == Verdict::divergent);
 }
 
 TEST_CASE("drawing: what is drawn are the living, and with expired=hidden none that has no time left") {

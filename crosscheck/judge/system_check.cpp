@@ -453,7 +453,7 @@ void SystemRun::step(int frame, std::size_t pass) {
         wrong_.insert(r);
 }
 
-void SystemRun::go_to(int frame, std::size_t pass) {
+void SystemRun::go_to(int frame, std::size_t pass, const std::function<void(int)>& on_frame) {
     if (pass >= system_.passes.size())
         throw Error(fmt::format("{} has no pass {}; it has 0 to {}", system_.name, pass, system_.passes.size() - 1));
     const ItemPass& made = *system_.passes[pass];
@@ -513,9 +513,11 @@ void ReferenceRun::step_pass(std::size_t pass, int frame) {
     const ItemPass& one = *system_.passes[pass];
     if (!one.runs(frame))
         return;
-    if (one.in_place())
-        return run_pass(one, {state_.view(), frame}, profile_, state_[one.resource()]);
-    run_pass(one, {state_.view(), frame}, profile_, next_[one.resource()]);
+    const SystemView before = state_.view();
+    const PassInput in{before, frame};
+    if (one.in_place(in))
+        return run_pass(one, in, profile_, state_[one.resource()]);
+    run_pass(one, in, profile_, next_[one.resource()]);
     state_.swap(one.resource(), next_);
 }
 

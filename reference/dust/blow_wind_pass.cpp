@@ -11,7 +11,7 @@ std::unique_ptr<ItemPass> blow_wind_pass(const HostPtr& host) {
                       .stage = PassStage::compute,
                       .arithmetic = host->settings().arithmetic,
                       .runs = [host](int frame) { return runs(*host, {"blow_wind"}, frame); },
-                      .in_place = true},
+                      .in_place = from_any_state},
                      BlowWindTwin{host});
 }
 

@@ -13,7 +13,7 @@ std::unique_ptr<ItemPass> emit_pass(const HostPtr& host) {
          .stage = PassStage::compute,
          .arithmetic = host->settings().arithmetic,
          .runs = [host](int frame) { return runs(*host, {"emit"}, frame); },
-         .in_place = true,
+         .in_place = from_any_state,
          .fast = [host](const PassInput& in, const Profile&, std::size_t first, std::size_t last,
                         const WritableView& after,
                         std::vector<std::size_t>& left) { emit_fast(*host, in, first, last, after, left); }},

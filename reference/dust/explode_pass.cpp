@@ -14,7 +14,7 @@ std::unique_ptr<ItemPass> explode_pass(const HostPtr& host, std::size_t ball) {
                           [host, ball](int frame) {
                               return runs(*host, {"explode", ball}, frame);
                           },
-                      .in_place = true},
+                      .in_place = from_any_state},
                      ExplodeTwin{host, ball});
 }
 

@@ -11,7 +11,7 @@ std::unique_ptr<ItemPass> update_pass(const HostPtr& host) {
                             .stage = PassStage::compute,
                             .arithmetic = host->settings().arithmetic,
                             .runs = [host](int frame) { return runs(*host, {"update"}, frame); },
-                            .in_place = true};
+                            .in_place = from_any_state};
     return item_pass(std::move(options), UpdateTwin{host});
 }
 

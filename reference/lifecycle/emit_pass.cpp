@@ -26,7 +26,7 @@ void add_emit(Passes& all, const HostPtr& host, const HostEmitter& of) {
         all.push_back(item_pass(with(options_of(host, "emit_list", survivor_buffer, true), host, of, emit_list_fast),
                                 EmitListTwin{host, &of}));
     } else {
-        emitting.in_place = true;
+        emitting.in_place = from_any_state;
         all.push_back(item_pass(with(std::move(emitting), host, of, emit_fast), EmitTwin{host, &of}));
     }
     all.push_back(item_pass(options_of(host, "emit_counters", counter_buffer, true), EmitCountersTwin{host, &of}));

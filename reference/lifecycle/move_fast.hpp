@@ -11,6 +11,9 @@ namespace lockstep::lifecycle {
 /// their own acceleration moves.
 bool has_move_fast(const Host& host, const HostEmitter& of);
 
+/// Whether `move` leaves every particle of the emitter in its slot, as none of them may die.
+bool nothing_moves(const Host& host, const HostEmitter& of, const PassInput& in);
+
 /// Makes items first to last of `move`, with the bits of MoveTwin; survivors of those that may die are put into `left`.
 void move_fast(const Host& host, const HostEmitter& of, const PassInput& in, std::size_t first, std::size_t last,
                const WritableView& after, std::vector<std::size_t>& left);

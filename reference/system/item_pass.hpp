@@ -90,9 +90,9 @@ class ItemPass {
     /// once, is put right before the next pass, which otherwise would inherit it.
     [[nodiscard]] virtual bool derived() const { return false; }
 
-    /// Whether an item of its buffer follows from no other of that buffer: then `after` may be the state that `in`
-    /// reads.
-    [[nodiscard]] virtual bool in_place() const { return false; }
+    /// Whether, from this state, an item of its buffer follows from no other of that buffer: then `after` may be the
+    /// state that `in` reads.
+    [[nodiscard]] virtual bool in_place(const PassInput& /*in*/) const { return false; }
 
     /// The items that the pass appends in an order that nothing fixes: legal is any that has each of them once.
     /// Nothing: each item has its place.

@@ -164,6 +164,9 @@ struct FastRun {
     std::vector<std::size_t>& left;
 };
 
+/// For ItemPassOptions::in_place.
+inline bool from_any_state(const PassInput& /*in*/) { return true; }
+
 /// What item_pass is told of a pass besides its twin.
 struct ItemPassOptions {
     std::string name;          ///< that of its shader
@@ -172,11 +175,11 @@ struct ItemPassOptions {
     ArithmeticSwitch arithmetic = ArithmeticSwitch::plain; ///< exact: as shaders/portable.glsl computes
     /// The outputs by which the twin's sites know the fields, in their order; empty: their names.
     std::vector<std::string> outputs = {};
-    std::function<bool(int frame)> runs = {}; ///< empty: in every frame
-    bool continues = false;                   ///< ItemPass::continues
-    bool derived = false;                     ///< ItemPass::derived
-    bool in_place = false;                    ///< ItemPass::in_place
-    bool unordered = false;                   ///< ItemPass::unordered
+    std::function<bool(int frame)> runs = {};               ///< empty: in every frame
+    bool continues = false;                                 ///< ItemPass::continues
+    bool derived = false;                                   ///< ItemPass::derived
+    bool unordered = false;                                 ///< ItemPass::unordered
+    std::function<bool(const PassInput& in)> in_place = {}; ///< ItemPass::in_place; empty: from no state
     /// ItemPass::appended; empty: each item has its place.
     std::function<ItemRange(const PassInput& in)> appended = {};
     /// A faster way to the twin's bits, held to them by a test: makes those of items first to last, the last excluded,
@@ -204,7 +207,9 @@ template <class Twin> class ItemTwin final : public ItemPass {
     [[nodiscard]] bool runs(int frame) const override { return !options_.runs || options_.runs(frame); }
     [[nodiscard]] bool continues() const override { return options_.continues; }
     [[nodiscard]] bool derived() const override { return options_.derived; }
-    [[nodiscard]] bool in_place() const override { return options_.in_place; }
+    [[nodiscard]] bool in_place(const PassInput& in) const override {
+        return options_.in_place && options_.in_place(in);
+    }
     [[nodiscard]] bool unordered() const override { return options_.unordered; }
     [[nodiscard]] std::optional<ItemRange> appended(const PassInput& in) const override {
         return options_.appended ? std::optional(options_.appended(in)) : std::nullopt;

@@ -21,7 +21,7 @@ class PassByProfile : public ItemPass {
     [[nodiscard]] bool runs(int frame) const override { return any().runs(frame); }
     [[nodiscard]] bool continues() const override { return any().continues(); }
     [[nodiscard]] bool derived() const override { return any().derived(); }
-    [[nodiscard]] bool in_place() const override { return any().in_place(); }
+    [[nodiscard]] bool in_place(const PassInput& in) const override { return any().in_place(in); }
     [[nodiscard]] std::optional<ItemRange> appended(const PassInput& in) const override { return any().appended(in); }
     [[nodiscard]] bool unordered() const override { return any().unordered(); }
     [[nodiscard]] std::string_view output(const Resource& about, std::uint8_t field) const override {

@@ -208,7 +208,7 @@ TEST_CASE("dust passes: those that say that they run in place read no other grai
         const SystemState before = some_grains(host->settings(), host->settings().count);
         for (const auto& pass : dust::twins(host)) {
             SystemState after = before;
-            for (std::size_t i = 0; i < 300 && pass->in_place(); ++i) {
+            for (std::size_t i = 0; i < 300 && pass->in_place({before.view(), 5}); ++i) {
                 std::set<ItemId> read;
                 SystemView watched = before.view();
                 watched.read = &read;

@@ -55,13 +55,23 @@ bool same(const std::vector<std::uint32_t>& a, const std::vector<std::uint32_t>&
     });
 }
 
+void none_may_die(SystemState& state) {
+    for (std::size_t emitter = 0; emitter < 2; ++emitter)
+        for (const std::uint8_t which : {counter::may_die, counter::survivors, counter::append})
+            state.set({lifecycle::counter_buffer, which}, emitter, 0);
+}
+
 /// Of the passes that make items of these buffers; at least as many as `passes`.
 void expect_bits_of_twin(const lifecycle::Settings& settings, const std::vector<std::uint8_t>& buffers = {0},
-                         std::size_t least_passes = 4) {
+                         std::size_t least_passes = 4, bool some_die = true) {
     const System system = lifecycle::system(host_of(settings));
     std::mt19937 random(11);
-    const SystemState before = any_state(system, random);
+    SystemState before = any_state(system, random);
+    if (!some_die)
+        none_may_die(before);
     const Profile profile = named_profile("strict");
+    const bool is_fast =
+        lifecycle::has_move_fast(lifecycle::Host(settings), lifecycle::Host(settings).emitters().front());
     std::size_t passes = 0;
     for (const auto& pass : system.passes) {
         const std::uint8_t made_by = pass->resource();
@@ -79,6 +89,13 @@ void expect_bits_of_twin(const lifecycle::Settings& settings, const std::vector<
         }
         INFO(pass->name());
         CHECK(off == 0);
+        if (pass->in_place(in)) {
+            SystemState in_place = before;
+            run_pass(*pass, {in_place.view(), 5}, profile, in_place[made_by]);
+            CHECK(state_hash(in_place) == state_hash(after));
+        }
+        if (pass->name() == "move" || pass->name() == "move_particles")
+            CHECK(pass->in_place(in) == (!some_die && is_fast));
     }
     CHECK(passes >= least_passes);
 }
@@ -111,6 +128,7 @@ TEST_CASE("fast ways: moving, simulating and emitting many at once has the twin'
     s.switches.compaction = more == 2 ? Compaction::atomic : Compaction::scan;
     REQUIRE(has_move_fast(Host(s), Host(s).emitters().front()));
     expect_bits_of_twin(s);
+    expect_bits_of_twin(s, {particle_buffer}, 4, false); // then they move in place
 }
 
 TEST_CASE("fast ways: where a switch or a force leaves none, the twin runs") {

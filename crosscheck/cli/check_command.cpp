@@ -284,7 +284,7 @@ int check_and_tell(const CheckRequest& options, OutputFiles& files, const Checke
     files.commit();
     if (!options.quiet)
         fmt::print("{}", files.written_text());
-    if (report.partial())
+    if (report.interrupted())
         return status_interrupted;
     return pass ? status_agree : status_differ;
 }

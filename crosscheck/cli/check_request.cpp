@@ -52,7 +52,7 @@ RunDescription description(const CheckRequest& request, const CheckedRun& run, c
 void tell(const CheckRequest& request, const CheckReport& report, const RunDescription& run) {
     if (request.quiet)
         return;
-    if (report.partial())
+    if (report.interrupted())
         fmt::print("interrupted after {} of {} frames\n", report.frames, report.frames_asked);
     fmt::print("{}{}", colored(plain_text(report_text(report, run))),
                request.power ? power_text(report.power) : std::string());

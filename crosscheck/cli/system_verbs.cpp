@@ -240,7 +240,7 @@ int check_system(const RegisteredSystem& system, RunOptions run, const SystemChe
     if (!drawn.first.empty())
         drawn.about.explain = explain_line(drawn.first);
     if (!asked.quiet) {
-        if (report.partial())
+        if (report.interrupted())
             fmt::print("interrupted after {} of {} frames\n", report.frames, run.frames);
         fmt::print("{}{}", colored(plain_text(report_text(report, about))),
                    asked.power ? power_text(report.power) : std::string());
@@ -276,7 +276,7 @@ int check_system(const RegisteredSystem& system, RunOptions run, const SystemChe
     files.commit();
     if (!asked.quiet)
         fmt::print("{}", files.written_text());
-    if (report.partial())
+    if (report.interrupted())
         return status_interrupted;
     return passes(report, asked.rules) && (!drawn.report || passes(*drawn.report, drawn_rules(asked.rules)))
                ? status_agree

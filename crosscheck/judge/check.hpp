@@ -59,6 +59,7 @@ struct CheckReport {
     int first = 0;        ///< the first frame that was to be compared; those before only led there
     int frames = 0;       ///< frames compared
     int frames_asked = 0; ///< more than `frames`: the run was stopped
+    std::string ended_by; ///< why a run that had diverged could not go on; empty: it could
     std::size_t particles = 0;
     Comparison total;
     std::optional<int> first_frame;     ///< the first frame with a difference, or that did not repeat itself
@@ -82,6 +83,8 @@ struct CheckReport {
 
     /// The run was stopped before its end; a verdict on the frames before that.
     [[nodiscard]] bool partial() const { return frames < frames_asked && verdict != Verdict::nondeterministic; }
+    /// By Ctrl-C.
+    [[nodiscard]] bool interrupted() const { return partial() && ended_by.empty(); }
 };
 
 /// What passes besides agree and legal, and what does not although they do.

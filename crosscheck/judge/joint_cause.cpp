@@ -157,6 +157,8 @@ void JointCauses::hold_against(const std::vector<std::size_t>& divergent, const 
 Cause JointCauses::as_cause(const TriedCause& tried) const {
     Cause cause{{}, {}, tried.explained, tried.contradicted};
     for (const std::size_t mistake : tried.mistakes) {
+        if (tried.mistakes.size() > 1 && mistakes_[mistake].name == left_out_)
+            continue;
         cause.mistakes.push_back(mistakes_[mistake].name);
         cause.meaning += (cause.meaning.empty() ? "" : "; ") + mistakes_[mistake].meaning;
     }

@@ -3,6 +3,7 @@
 #include <cstdint>
 #include <functional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "crosscheck/judge/cause_findings.hpp"
@@ -47,6 +48,9 @@ class JointCauses {
     /// Items that agree and that the mistake by itself contradicts, whatever it explains.
     void contradict_alone(std::size_t mistake, std::uint64_t items) { alone_[mistake] += items; }
 
+    /// Where others explain what diverges with it, a mistake of that name is not told.
+    void leave_out(std::string name) { left_out_ = std::move(name); }
+
     [[nodiscard]] CauseFindings findings() const;
 
     [[nodiscard]] const std::vector<TriedCause>& tried() const { return tried_; }
@@ -72,6 +76,7 @@ class JointCauses {
     std::uint64_t divergent_ = 0;
     std::vector<TriedCause> tried_;
     std::vector<std::uint64_t> alone_;
+    std::string left_out_;
 };
 
 } // namespace lockstep

@@ -9,6 +9,7 @@
 #include "crosscheck/judge/agreeing_frames.hpp"
 #include "crosscheck/judge/append_judge.hpp"
 #include "crosscheck/judge/item_cause.hpp"
+#include "crosscheck/judge/item_hint.hpp"
 #include "crosscheck/judge/item_judge.hpp"
 #include "crosscheck/judge/item_place.hpp"
 #include "crosscheck/judge/item_table.hpp"
@@ -225,6 +226,7 @@ CheckReport check(const System& system, SystemSide& gpu, const CheckOptions& opt
     for (std::size_t p = 0; p < system.passes.size(); ++p)
         causes.emplace_back(system.mistakes, system.passes[p]->name());
     std::vector<AppendCause> append_causes(system.passes.size());
+    ItemHint hint;
     PowerMeter power(system.mistakes);
     std::vector<std::size_t> runs(system.passes.size());                   // of each pass
     std::vector<std::optional<SystemState>> earlier(system.passes.size()); // what each pass last started from
@@ -257,133 +259,139 @@ CheckReport check(const System& system, SystemSide& gpu, const CheckOptions& opt
             gpu.read(now);
             expect_untouched(system, dispatch, before, now, frame);
         };
-        for (std::size_t p = 0; p < system.passes.size(); ++p) {
-            const ItemPass& pass = *system.passes[p];
-            if (!pass.runs(frame))
-                continue;
-            const std::uint8_t r = pass.resource();
-            if (!pass.continues())
-                put_right(gpu, before, reference, inherited);
-            const bool repeat = frame < options.repeated_frames && gpu.repeats() && !pass.continues();
-            if (repeat)
-                gpu.lay_canary(p);
-            if (!pass.continues()) {
-                dispatch = p;
-                is_read = false;
-                {
-                    const Stopwatch timing(times.gpu);
-                    gpu.step(p, frame);
+        try {
+            for (std::size_t p = 0; p < system.passes.size(); ++p) {
+                const ItemPass& pass = *system.passes[p];
+                if (!pass.runs(frame))
+                    continue;
+                const std::uint8_t r = pass.resource();
+                if (!pass.continues())
+                    put_right(gpu, before, reference, inherited);
+                const bool repeat = frame < options.repeated_frames && gpu.repeats() && !pass.continues();
+                if (repeat)
+                    gpu.lay_canary(p);
+                if (!pass.continues()) {
+                    dispatch = p;
+                    is_read = false;
+                    {
+                        const Stopwatch timing(times.gpu);
+                        gpu.step(p, frame);
+                    }
+                    if (repeat || !holds_others(gpu, system, p, left))
+                        read();
                 }
-                if (repeat || !holds_others(gpu, system, p, left))
+                if (repeat) {
+                    find_canary(pass, now, frame);
+                    SystemState again = now;
+                    gpu.repeat_step(p, frame);
+                    gpu.read(again);
+                    const Comparison repeated = compare(now[r], again[r]);
+                    if (pass.unordered() && watch.on_two_runs)
+                        watch.on_two_runs(p, frame, repeated);
+                    if (!repeated.agree() && !pass.unordered() &&
+                        !same_but_for_order(pass, {before.view(), frame}, std::as_const(now)[r],
+                                            std::as_const(again)[r])) {
+                        note_difference(report, frame, repeated);
+                        report.verdict = Verdict::nondeterministic;
+                        report.total.add(repeated);
+                        report.frames = frame + 1;
+                        return report;
+                    }
+                    now = std::move(again);
+                }
+                const SystemView from = judged ? before.view() : reference.view();
+                try {
+                    const Stopwatch timing(times.reference);
+                    run_pass(pass, {from, frame}, profile, made[r]);
+                } catch (const OutsideState& error) {
+                    throw Error(fmt::format("frame {}: the twin of {}: {}", frame, pass.name(), error.what()));
+                }
+                bool holds = false; // what the twin made
+                if (!is_read) {
+                    const Stopwatch timing(times.compare);
+                    holds = gpu.holds(std::as_const(made)[r]) == true;
+                }
+                if (!holds)
                     read();
-            }
-            if (repeat) {
-                find_canary(pass, now, frame);
-                SystemState again = now;
-                gpu.repeat_step(p, frame);
-                gpu.read(again);
-                const Comparison repeated = compare(now[r], again[r]);
-                if (pass.unordered() && watch.on_two_runs)
-                    watch.on_two_runs(p, frame, repeated);
-                if (!repeated.agree() && !pass.unordered() &&
-                    !same_but_for_order(pass, {before.view(), frame}, std::as_const(now)[r], std::as_const(again)[r])) {
-                    note_difference(report, frame, repeated);
-                    report.verdict = Verdict::nondeterministic;
-                    report.total.add(repeated);
-                    report.frames = frame + 1;
-                    return report;
+                Comparison comparison;
+                {
+                    const Stopwatch timing(times.compare);
+                    comparison = holds ? agreement(std::as_const(made)[r])
+                                       : compare(std::as_const(made)[r], std::as_const(now)[r]);
+                    if (!comparison.agree() || !judged)
+                        note_difference(report, frame, comparison);
+                    report.total.add(comparison);
+                    if (changed == 0)
+                        changed = changed_items(from[r], std::as_const(made)[r]);
                 }
-                now = std::move(again);
-            }
-            const SystemView from = judged ? before.view() : reference.view();
-            try {
-                const Stopwatch timing(times.reference);
-                run_pass(pass, {from, frame}, profile, made[r]);
-            } catch (const OutsideState& error) {
-                // What the GPU left may lead there, and then is the verdict already.
-                if (judged && summary.total(DifferenceClass::divergent) > 0) {
-                    stopped = true;
-                    break;
+                if (judged && power_is_tried(runs[p]++)) {
+                    const Stopwatch timing(times.power);
+                    const View agreed = std::as_const(made)[r];
+                    JudgedPass tried{pass, profile, known, frame, from, agreed, agreed};
+                    tried.prepare();
+                    power.add(tried, {});
                 }
-                throw Error(fmt::format("frame {}: the twin of {}: {}", frame, pass.name(), error.what()));
+                const SystemView earlier_view = earlier[p] ? earlier[p]->view() : SystemView();
+                const View reference_view = std::as_const(made)[r];
+                const View gpu_view = holds ? reference_view : std::as_const(now)[r];
+                JudgedPass one{pass, profile,        known,    frame,
+                               from, reference_view, gpu_view, earlier[p] ? &earlier_view : nullptr};
+                std::vector<ItemVerdict> verdicts;
+                if (judged && comparison.differing(r) > 0) {
+                    const Stopwatch timing(times.judge);
+                    one.prepare();
+                    verdicts = judge_items(one);
+                    const std::uint64_t divergent_before = summary.total(DifferenceClass::divergent);
+                    summary.add(frame, r, verdicts);
+                    const bool diverges = summary.total(DifferenceClass::divergent) > divergent_before;
+                    const auto first = [&](DifferenceClass kind) {
+                        for (const ItemVerdict& verdict : verdicts)
+                            if (verdict.kind == kind) {
+                                WrongStep wrong = wrong_step_of_item(one, verdict.index);
+                                wrong.step = fmt::format("{}, {}", one.pass.name(), wrong.step);
+                                summary.first = {{frame, r, verdict.index}, verdict, std::move(wrong), p};
+                                return;
+                            }
+                    };
+                    if (diverges)
+                        hint.add(one, verdicts);
+                    if (diverges && divergent_before == 0)
+                        first(DifferenceClass::divergent);
+                    else if (!summary.first)
+                        first(DifferenceClass::undefined);
+                    if (diverges && options.causes && pass.appended(one.input()))
+                        append_causes[p].add(one);
+                    else if (diverges && options.causes)
+                        causes[p].add(one, verdicts);
+                }
+                if (watch.on_pass)
+                    watch.on_pass({p, one, comparison, verdicts});
+                if (judged && pass.derived() && comparison.differing(r) > 0)
+                    inherited.insert(r);
+                if (holds)
+                    shared.insert(r);
+                else
+                    shared.erase(r);
+                if (!holds || !judged)
+                    reference.swap(r, made);
+                if (holds && !judged)
+                    continue;
+                SystemState& made_by_gpu = holds ? made : now;
+                // The state that what is derived follows from is the one it was judged in.
+                if (!judged || pass.derived()) {
+                    before.swap(r, made_by_gpu);
+                    continue;
+                }
+                if (!earlier[p])
+                    earlier[p] = system.start;
+                go_on(before, made_by_gpu, *earlier[p], r);
             }
-            bool holds = false; // what the twin made
-            if (!is_read) {
-                const Stopwatch timing(times.compare);
-                holds = gpu.holds(std::as_const(made)[r]) == true;
-            }
-            if (!holds)
-                read();
-            Comparison comparison;
-            {
-                const Stopwatch timing(times.compare);
-                comparison =
-                    holds ? agreement(std::as_const(made)[r]) : compare(std::as_const(made)[r], std::as_const(now)[r]);
-                if (!comparison.agree() || !judged)
-                    note_difference(report, frame, comparison);
-                report.total.add(comparison);
-                if (changed == 0)
-                    changed = changed_items(from[r], std::as_const(made)[r]);
-            }
-            if (judged && power_is_tried(runs[p]++)) {
-                const Stopwatch timing(times.power);
-                const View agreed = std::as_const(made)[r];
-                JudgedPass tried{pass, profile, known, frame, from, agreed, agreed};
-                tried.prepare();
-                power.add(tried, {});
-            }
-            const SystemView earlier_view = earlier[p] ? earlier[p]->view() : SystemView();
-            const View reference_view = std::as_const(made)[r];
-            const View gpu_view = holds ? reference_view : std::as_const(now)[r];
-            JudgedPass one{pass, profile,        known,    frame,
-                           from, reference_view, gpu_view, earlier[p] ? &earlier_view : nullptr};
-            std::vector<ItemVerdict> verdicts;
-            if (judged && comparison.differing(r) > 0) {
-                const Stopwatch timing(times.judge);
-                one.prepare();
-                verdicts = judge_items(one);
-                const std::uint64_t divergent_before = summary.total(DifferenceClass::divergent);
-                summary.add(frame, r, verdicts);
-                const bool diverges = summary.total(DifferenceClass::divergent) > divergent_before;
-                const auto first = [&](DifferenceClass kind) {
-                    for (const ItemVerdict& verdict : verdicts)
-                        if (verdict.kind == kind) {
-                            WrongStep wrong = wrong_step_of_item(one, verdict.index);
-                            wrong.step = fmt::format("{}, {}", one.pass.name(), wrong.step);
-                            summary.first = {{frame, r, verdict.index}, verdict, std::move(wrong), p};
-                            return;
-                        }
-                };
-                if (diverges && divergent_before == 0)
-                    first(DifferenceClass::divergent);
-                else if (!summary.first)
-                    first(DifferenceClass::undefined);
-                if (diverges && options.causes && pass.appended(one.input()))
-                    append_causes[p].add(one);
-                else if (diverges && options.causes)
-                    causes[p].add(one, verdicts);
-            }
-            if (watch.on_pass)
-                watch.on_pass({p, one, comparison, verdicts});
-            if (judged && pass.derived() && comparison.differing(r) > 0)
-                inherited.insert(r);
-            if (holds)
-                shared.insert(r);
-            else
-                shared.erase(r);
-            if (!holds || !judged)
-                reference.swap(r, made);
-            if (holds && !judged)
-                continue;
-            SystemState& made_by_gpu = holds ? made : now;
-            // The state that what is derived follows from is the one it was judged in.
-            if (!judged || pass.derived()) {
-                before.swap(r, made_by_gpu);
-                continue;
-            }
-            if (!earlier[p])
-                earlier[p] = system.start;
-            go_on(before, made_by_gpu, *earlier[p], r);
+        } catch (const Error& error) {
+            // What diverged may lead anywhere, and is the verdict already.
+            if (!judged || summary.total(DifferenceClass::divergent) == 0)
+                throw;
+            stopped = true;
+            report.ended_by = error.what();
         }
         report.times.push_back(times);
         report.frames = frame + 1;
@@ -404,6 +412,7 @@ CheckReport check(const System& system, SystemSide& gpu, const CheckOptions& opt
                 of_buffer = found;
         }
         report.verdicts = summary;
+        report.wider_rule = hint.rule();
         report.power = power.summary();
         report.power.conclude();
         note_refuting(report.power, system.mistakes);
@@ -468,7 +477,9 @@ void SystemRun::go_to(int frame, std::size_t pass, const std::function<void(int)
         f = 0;
         p = 0;
     }
-    for (; f <= frame; ++f, p = 0)
+    for (; f <= frame; ++f, p = 0) {
+        if (on_frame)
+            on_frame(f);
         for (; p < system_.passes.size() && !(f == frame && p > pass); ++p) {
             if (!system_.passes[p]->runs(f))
                 continue;
@@ -482,6 +493,7 @@ void SystemRun::go_to(int frame, std::size_t pass, const std::function<void(int)
             if (f + 1 >= frame)
                 started_[p] = {f, before_};
         }
+    }
     frame_ = frame;
     pass_ = pass;
     before_view_ = before_.view();

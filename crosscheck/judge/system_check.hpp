@@ -82,7 +82,8 @@ class SystemRun {
 
     /// Runs on to pass `pass` of frame `frame`; to one that lies behind again from the start. Throws Error where there
     /// is no such pass, or it does not run in that frame.
-    void go_to(int frame, std::size_t pass);
+    /// `on_frame` is called with each frame that is begun.
+    void go_to(int frame, std::size_t pass, const std::function<void(int frame)>& on_frame = {});
 
     [[nodiscard]] JudgedPass judged() const;
     [[nodiscard]] const System& system() const { return system_; }

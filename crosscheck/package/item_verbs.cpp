@@ -57,6 +57,11 @@ std::string heading(const System& system, const std::string& file, const std::st
                        system.settings.empty() ? "none" : system.settings, plain_line(gl), describe(profile));
 }
 
+void go_to(SystemRun& run, const SystemItem& item, std::size_t pass) {
+    Progress progress("explain", item.frame, true);
+    run.go_to(item.frame, pass, [&](int frame) { progress.show(frame); });
+}
+
 } // namespace
 
 Option frame_option(int& frame) {
@@ -82,7 +87,8 @@ ItemPlace place_of(const SystemItem& item, const System& system) {
 std::string explain_text(const System& system, SystemSide& side, const SystemItem& item, const std::string& file) {
     const auto [pass, index] = place_of(item, system);
     const SideDescription about = side.describe();
-    SystemRun run(system, side, known_operations(item.legal, about.profile), item.frame, pass);
+    SystemRun run(system, side, known_operations(item.legal, about.profile));
+    go_to(run, item, pass);
     return heading(system, file, about.name, about.profile) +
            plain_text(explain_item(run, index, number_format(item.hexadecimal)));
 }
@@ -101,7 +107,8 @@ std::string explain_drawn_text(const System& picture, SystemSide& drawn, const S
 ItemCapsule cut_item(const System& system, SystemSide& side, const SystemItem& item) {
     const auto [pass, index] = place_of(item, system);
     const SideDescription about = side.describe();
-    SystemRun run(system, side, known_operations(item.legal, about.profile), item.frame, pass);
+    SystemRun run(system, side, known_operations(item.legal, about.profile));
+    go_to(run, item, pass);
     return cut_item_capsule(run, index, about.name);
 }
 

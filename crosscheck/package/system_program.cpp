@@ -149,7 +149,7 @@ int check_verb(const OwnProgram& program, const Options& options) {
     if (!options.quiet)
         fmt::print(
             "{}{}{}",
-            report.partial() ? fmt::format("interrupted after {} of {} frames\n", report.frames, check.frames) : "",
+            report.interrupted() ? fmt::format("interrupted after {} of {} frames\n", report.frames, check.frames) : "",
             colored(plain_text(report_text(report, run))), options.power ? power_text(report.power) : std::string());
     std::fflush(stdout);
     CheckFiles::Told told{{{"This run", run.repeat}}, explain_line, {}, [](const std::filesystem::path& capsule) {
@@ -169,7 +169,7 @@ int check_verb(const OwnProgram& program, const Options& options) {
     files.commit();
     if (!options.quiet)
         fmt::print("{}", files.written_text());
-    if (report.partial())
+    if (report.interrupted())
         return status_interrupted;
     return passes(report, options.rules) ? status_agree : status_differ;
 }
@@ -341,20 +341,36 @@ Verb verbs_of(const std::string& name, const OwnProgram& program, const std::sha
     return verbs;
 }
 
-} // namespace
+std::string name_of(int argc, char** argv) {
+    return argc > 0 ? std::filesystem::path(argv[0]).filename().string() : "lockstep";
+}
 
-int run_system_program(int argc, char** argv, const System& system, const std::vector<GlPass>& passes,
-                       const std::string& shaders) {
-    const std::string name = argc > 0 ? std::filesystem::path(argv[0]).filename().string() : system.schema.system;
+/// What `run` throws is a message.
+template <class Run> int telling(const std::string& name, const Run& run) {
     try {
-        const OwnProgram program{system, passes, {argv + std::min(argc, 1), argv + argc}};
-        const auto options = std::make_shared<Options>();
-        options->shaders = shaders;
-        return run_command_line(verbs_of(name, program, options), argc, argv, status_could_not_run);
+        return run();
     } catch (const std::exception& error) {
         fmt::print(stderr, "{}: {}\n", name, plain_line(error.what()));
         return status_could_not_run;
     }
+}
+
+} // namespace
+
+int run_system_program(int argc, char** argv, const std::function<System()>& system,
+                       const std::function<std::vector<GlPass>()>& passes, const std::string& shaders) {
+    return telling(name_of(argc, argv), [&] { return run_system_program(argc, argv, system(), passes(), shaders); });
+}
+
+int run_system_program(int argc, char** argv, const System& system, const std::vector<GlPass>& passes,
+                       const std::string& shaders) {
+    const std::string name = name_of(argc, argv);
+    return telling(name, [&] {
+        const OwnProgram program{system, passes, {argv + std::min(argc, 1), argv + argc}};
+        const auto options = std::make_shared<Options>();
+        options->shaders = shaders;
+        return run_command_line(verbs_of(name, program, options), argc, argv, status_could_not_run);
+    });
 }
 
 } // namespace lockstep

@@ -116,12 +116,14 @@ FrameTimes total_times(const CheckReport& r) {
 /// Frames at which growth is told: 0, 1, 2, 4, 8, ... and the last.
 bool told(std::size_t i, std::size_t count) { return i == 0 || i + 1 == count || std::has_single_bit(i); }
 
+std::string frames_text(const CheckReport& r) { return fmt::format("{} frame{}", r.frames, r.frames == 1 ? "" : "s"); }
+
 std::string of_class(const CheckReport& r, DifferenceClass kind) {
     std::vector<std::uint64_t> items;
     for (const VerdictSummary::Counts& counts : r.verdicts->classes)
         items.push_back(counts[static_cast<std::size_t>(kind)]);
-    return fmt::format("from frame {} on: {} in {} frames", r.verdicts->first->place.frame,
-                       items_text(r, items, " state"), r.frames);
+    return fmt::format("from frame {} on: {} in {}", r.verdicts->first->place.frame, items_text(r, items, " state"),
+                       frames_text(r));
 }
 
 /// The same of the rendered frame.
@@ -141,16 +143,16 @@ std::string rendered_counts(const RenderVerdict& r) {
 std::string verdict_counts(const CheckReport& r) {
     switch (r.state_verdict.value_or(r.verdict)) {
     case Verdict::agree:
-        return fmt::format(": every bit of {} {}s{} in {} frames", grouped(r.particles),
-                           r.schema.resources.front().item, others_compared(r), r.frames);
+        return fmt::format(": every bit of {} {}s{} in {}", grouped(r.particles), r.schema.resources.front().item,
+                           others_compared(r), frames_text(r));
     case Verdict::legal:
-        return fmt::format(": {} differ in {} frames, as GL allows", differing_text(r, " state"), r.frames);
+        return fmt::format(": {} differ in {}, as GL allows", differing_text(r, " state"), frames_text(r));
     case Verdict::undefined:
         return fmt::format(" {}, which rest on what GL leaves open", of_class(r, DifferenceClass::undefined));
     case Verdict::divergent:
         return fmt::format(" {}, which no legal run explains", of_class(r, DifferenceClass::divergent));
     case Verdict::differ:
-        return fmt::format(" from frame {} on: {} in {} frames", *r.first_frame, differing_text(r, " state"), r.frames);
+        return fmt::format(" from frame {} on: {} in {}", *r.first_frame, differing_text(r, " state"), frames_text(r));
     case Verdict::nondeterministic:
         return fmt::format(": the GPU gave two answers to frame {}: {} differ between two runs of it", *r.first_frame,
                            differing_text(r, ""));
@@ -271,7 +273,8 @@ std::string pass_options_text(const PassRules& rules) {
 std::string verdict_words(const CheckReport& r) {
     std::string words(verdict_name(r.verdict));
     if (r.partial())
-        words += fmt::format(" (partial: stopped after {} of {} frames)", r.frames, r.frames_asked);
+        words += fmt::format(" (partial: stopped after {} of {} frames{}{})", r.frames, r.frames_asked,
+                             r.ended_by.empty() ? "" : ": ", r.ended_by);
     for (std::size_t i = 0; i < r.untried.size(); ++i)
         words += fmt::format("{}{}", i == 0 ? ", but " : ", and ", r.untried[i]);
     return words;
@@ -418,6 +421,7 @@ nlohmann::json report_json(const CheckReport& r, const RunDescription& run) {
     json report{{"verdict", verdict_name(r.verdict)},
                 {"verdict_line", verdict_line(r)},
                 {"partial", r.partial()},
+                {"ended_by", r.ended_by},
                 {"judged", r.verdicts.has_value()},
                 {"power", power_json(r.power)},
                 {"legal_by", r.wider_rule ? json(legal_option_text(*r.wider_rule).substr(1)) : json()},

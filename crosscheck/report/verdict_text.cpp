@@ -57,6 +57,12 @@ bool is_told(const CauseFindings& found) {
            (found.best.front().has_name || (found.divergent >= enough_items && found.best.size() <= few_changes));
 }
 
+/// "particles", or, where a sample of those that diverge was tried, "particles that were tried".
+std::string tried_text(const VerdictSummary& s, const Schema& schema, std::size_t resource) {
+    const std::uint64_t all = s.classes[resource][static_cast<std::size_t>(DifferenceClass::divergent)];
+    return schema.resources[resource].item + (s.causes[resource].divergent < all ? "s that were tried" : "s");
+}
+
 /// "all 12 particles are explained by".
 std::string all_explained_text(const CauseFindings& found, std::string_view what) {
     return found.divergent == 1 ? fmt::format("the one that diverges of the {} is explained by", what)
@@ -217,11 +223,11 @@ std::string verdict_text(const VerdictSummary& s, const Schema& schema, std::spa
         text += line("undefined", fmt::format("{}: {}", undefined_name(reason), grouped(count)));
     for (std::size_t r = 0; r < s.causes.size(); ++r)
         if (s.causes[r].divergent > 0)
-            text += line("cause", cause_text(s.causes[r], schema.resources[r].item + "s"));
+            text += line("cause", cause_text(s.causes[r], tried_text(s, schema, r)));
     if (s.first)
         text += first_text(*s.first, shape);
     for (std::size_t r = 0; r < s.causes.size(); ++r)
-        if (const std::string closest = closest_text(s.causes[r], schema.resources[r].item + "s"); !closest.empty())
+        if (const std::string closest = closest_text(s.causes[r], tried_text(s, schema, r)); !closest.empty())
             text += line("closest", closest);
     return text;
 }

@@ -12,6 +12,7 @@
 #include <glm/vec3.hpp>
 
 #include "crosscheck/files/json_reader.hpp"
+#include "crosscheck/scene/settings_place.hpp"
 #include "reference/model/camera.hpp"
 #include "reference/model/error.hpp"
 
@@ -96,7 +97,7 @@ template <class Settings> void check_settings(const JsonValue& scene, const Sett
     try {
         check(settings);
     } catch (const Error& error) {
-        scene.fail(error.what());
+        fail_settings(scene, error.what());
     }
 }
 

@@ -93,7 +93,7 @@ TEST_CASE("verdict: a planted difference is status 1, and the line that repeats 
 
     const test::Outcome repeated = run_lockstep(words(report["repeat"]));
     CHECK(repeated.status == 1);
-    CHECK_THAT(repeated.out, Catch::Contains("DIVERGENT from frame 0 on") && Catch::Contains("in 1 frames,"));
+    CHECK_THAT(repeated.out, Catch::Contains("DIVERGENT from frame 0 on") && Catch::Contains("in 1 frame,"));
     CHECK(worst(repeated.out) == worst(outcome.out));
 }
 

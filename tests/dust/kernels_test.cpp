@@ -64,6 +64,30 @@ TEST_CASE("dust: a driver that multiplies by a constant's reciprocal is legal wh
     CHECK(check_with("82801.3", {"compute: a/c, c constant"}).verdict == Verdict::divergent);
 }
 
+TEST_CASE(
+    "dust: what a kernel diverges in by another order of its sums has the rule by which it is legal, and what is wrong "
+    "has none") {
+    if (!gl())
+        return skip(gl().missing());
+    const dust::HostPtr host = host_of(dust::load_scene("data/scenes/dust/cube_limit.json", {.particles = 2000}));
+    const System system = dust::system(host);
+    const auto with_sum = [&](const std::string& sum) {
+        const TemporaryFolder shaders;
+        copy_replacing("shaders/dust", shaders, "dust.glsl", "add(add(mul(v.x, v.x), mul(v.y, v.y)), mul(v.z, v.z))",
+                       sum);
+        return run_system(system, dust::passes(host), shaders.path(), host->settings().arithmetic, 8,
+                          CheckMode::resync);
+    };
+    const CheckReport other_order = with_sum("add(mul(v.x, v.x), add(mul(v.y, v.y), mul(v.z, v.z)))");
+    INFO(report_text(other_order, {}));
+    CHECK(other_order.verdict == Verdict::divergent);
+    CHECK(other_order.wider_rule);
+    CHECK(report_text(other_order, {}).find("\nhint ") != std::string::npos);
+    const CheckReport wrong = with_sum("add(add(mul(v.x, v.x), mul(v.y, v.y)), v.z)");
+    CHECK(wrong.verdict == Verdict::divergent);
+    CHECK_FALSE(wrong.wider_rule);
+}
+
 TEST_CASE("dust: grains fall, bounce off the walls and lie, as their twins do") {
     if (!gl())
         return skip(gl().missing());

@@ -151,11 +151,7 @@ Settings read_scene(const JsonValue& json, const SceneOptions& options) {
     read_particles(json, options, settings);
     if (const auto obstacles = json.find("obstacles"))
         settings.obstacles = read_obstacles(*obstacles, std::nullopt);
-    try {
-        check(settings);
-    } catch (const Error& error) {
-        json.fail(error.what());
-    }
+    check_settings(json, settings);
     return settings;
 }
 

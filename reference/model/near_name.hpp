@@ -6,7 +6,8 @@
 
 namespace lockstep {
 
-/// How many letters to add, drop or change to make one word of the other (Levenshtein 1966).
+/// How many letters to add, drop, change or swap with the next to make one word of the other (Damerau 1964, each letter
+/// once).
 std::size_t edits(std::string_view a, std::string_view b);
 
 /// The one of `names` that `name` is a slip away from: two letters, or a third of a long name, and less than half of a

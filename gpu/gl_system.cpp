@@ -101,6 +101,7 @@ GlSystem::GlSystem(const Schema& schema, std::vector<GlPass> passes, std::filesy
             used.push_back(Stage::fragment);
         const std::vector<ShaderSource> stages = parts_->sources(pass, used, false);
         const bool says = lockstep::says_precise(stages.front());
+        const bool asks_length = lockstep::asks_length(stages.front());
         parts_->says_precise = parts_->says_precise && says;
         parts_->says_precise_once = parts_->says_precise_once || says;
         const std::vector<Capture> captures =
@@ -126,7 +127,8 @@ GlSystem::GlSystem(const Schema& schema, std::vector<GlPass> passes, std::filesy
                                                   std::move(by_member),
                                                   {resource},
                                                   sizes,
-                                                  sizes[0] * sizes[1] * sizes[2]});
+                                                  sizes[0] * sizes[1] * sizes[2],
+                                                  asks_length});
         last = &*parts_->passes.back();
     }
 }
@@ -153,7 +155,7 @@ std::vector<ShaderSource> GlSystem::Parts::sources(const GlPass& pass, std::span
 }
 
 void GlSystem::upload(const SystemView& state) {
-    std::size_t spare = 0; // records behind those that are changed in place: what a last group could write
+    std::size_t spare = 0; // records behind the last: what a last group could write
     for (const auto& linked : parts_->passes)
         spare = std::max(spare, linked ? linked->invocations : 0);
     parts_->images.clear();
@@ -171,7 +173,7 @@ void GlSystem::upload(const SystemView& state) {
         const std::uint8_t r = storage.layout.resource;
         std::vector<RecordBuffer>& two = parts_->buffers.emplace_back();
         for (int i = 0; i < 2; ++i) {
-            two.emplace_back(storage.layout, state[r].count(), storage.block.empty() ? 0 : spare);
+            two.emplace_back(storage.layout, state[r].count(), spare);
             two.back().fill_spare(canary_word);
         }
         two[0].upload(state[r]);
@@ -221,13 +223,16 @@ void GlSystem::Parts::run(const Linked& linked, int frame) {
     check_gl(linked.pass.name);
     if (takes_times) // a buffer that is read may be moved to where kernels are slow
         return;
-    for (std::size_t s = 0; s < storages.size(); ++s)
+    for (std::size_t s = 0; s < storages.size(); ++s) {
+        if (!linked.may_write(storages[s]))
+            continue;
         for (const RecordBuffer& buffer : buffers[s])
             if (!buffer.spare_holds(canary_word))
                 throw Error(
                     fmt::format("frame {}: {} wrote behind the {} {}s of {}; right is to return from item {} on", frame,
-                                linked.pass.name, buffer.size(), storages[s].layout.about().item, storages[s].block,
-                                buffer.size()));
+                                linked.pass.name, buffer.size(), storages[s].layout.about().item,
+                                written_block(*schema, storages[s]), buffer.size()));
+    }
 }
 
 void GlSystem::Parts::step(std::size_t pass, int frame, bool keeps) {

@@ -37,6 +37,10 @@ std::map<std::string, BoundBlock> our_blocks(const Schema& schema, const std::ve
 
 } // namespace
 
+std::string written_block(const Schema& schema, const SystemStorage& storage) {
+    return storage.block.empty() ? block_name(schema.resources[storage.layout.resource], true) : storage.block;
+}
+
 std::vector<SystemStorage> storages_of(const Schema& schema) {
     std::vector<SystemStorage> all;
     for (std::uint8_t r = 0; r < schema.resources.size(); ++r) {

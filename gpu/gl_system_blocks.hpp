@@ -20,6 +20,9 @@ struct SystemStorage {
 /// The storages of a schema, buffer by buffer.
 std::vector<SystemStorage> storages_of(const Schema& schema);
 
+/// The storage block that a pass writes it through.
+std::string written_block(const Schema& schema, const SystemStorage& storage);
+
 /// A storage block of a program, at the binding point of its place among them.
 struct BoundBlock {
     enum class Kind : std::uint8_t { before, after, in_place, data };

@@ -41,22 +41,27 @@ void GlSystem::Parts::dispatch(const Linked& linked, int frame) {
     std::vector<GlBuffer> given; // lives until the dispatch is done
     for (std::size_t b = 0; b < linked.bound.size(); ++b) {
         const BoundBlock& bound = linked.bound[b];
-        GLuint buffer = 0;
+        const auto point = static_cast<GLuint>(b);
         if (bound.kind == Kind::data) {
             std::vector<float> floats = linked.pass.data.at(bound.name)(frame);
             floats.resize(std::max<std::size_t>(floats.size(), 1));
-            buffer = given.emplace_back().id();
+            const GLuint buffer = given.emplace_back().id();
             gl::BindBuffer(GL_COPY_READ_BUFFER, buffer);
             gl::BufferData(GL_COPY_READ_BUFFER, static_cast<GLsizeiptr>(floats.size() * sizeof(float)), floats.data(),
                            GL_STREAM_DRAW);
+            gl::BindBufferBase(GL_SHADER_STORAGE_BUFFER, point, buffer);
         } else {
             const std::uint8_t resource = storages[bound.storage].layout.resource;
             const bool written = std::count(linked.resources.begin(), linked.resources.end(), resource) > 0;
             const bool after =
                 bound.kind == Kind::after || (bound.kind == Kind::in_place && written && is_copied(resource));
-            buffer = (after ? to(bound.storage) : from(bound.storage)).id();
+            const RecordBuffer& buffer = after ? to(bound.storage) : from(bound.storage);
+            if (linked.asks_length)
+                gl::BindBufferRange(GL_SHADER_STORAGE_BUFFER, point, buffer.id(), 0,
+                                    static_cast<GLsizeiptr>(buffer.size() * buffer.layout().bytes()));
+            else
+                gl::BindBufferBase(GL_SHADER_STORAGE_BUFFER, point, buffer.id());
         }
-        gl::BindBufferBase(GL_SHADER_STORAGE_BUFFER, static_cast<GLuint>(b), buffer);
     }
     std::vector<const RecordBuffer*> read, written;
     for (std::size_t s = 0; s < storages.size(); ++s)

@@ -51,7 +51,13 @@ struct GlSystem::Parts {
         std::vector<std::uint8_t> resources;          ///< that it writes
         std::array<std::size_t, 3> group = {1, 1, 1}; ///< invocations along each axis
         std::size_t invocations = 1;                  ///< of a group
+        bool asks_length = false;                     ///< of an array: a block then ends with the last record
         std::optional<std::vector<VertexCapture>> traced = {};
+
+        [[nodiscard]] bool may_write(const SystemStorage& storage) const {
+            return !storage.block.empty() ||
+                   std::find(resources.begin(), resources.end(), storage.layout.resource) != resources.end();
+        }
     };
     const Schema* schema;
     std::filesystem::path shaders;

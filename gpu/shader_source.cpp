@@ -319,6 +319,10 @@ bool says_precise(const ShaderSource& stage) {
     return stage.module != nullptr ? stage.module->says_precise : says(stage.text, "precise");
 }
 
+bool asks_length(const ShaderSource& stage) {
+    return stage.module != nullptr || stage.text.find(".length()") != std::string::npos;
+}
+
 ShadersReadOnce::ShadersReadOnce() { seen = std::make_unique<Seen>(); }
 ShadersReadOnce::~ShadersReadOnce() { seen.reset(); }
 
@@ -326,7 +330,9 @@ ShaderFolders shader_folders(const fs::path& user, std::string_view system) {
     ShaderFolders folders;
     if (!user.empty()) {
         if (!is_folder(user))
-            throw Error(fmt::format("shader folder {} does not exist", user.string()));
+            throw Error(
+                fmt::format("shader folder {} {}", user.string(),
+                            fs::exists(user) ? "is a file; right is the folder that has it" : "does not exist"));
         folders.push_back(user);
     }
     const fs::path shared = built_in_shaders();

@@ -73,6 +73,9 @@ struct ShaderSource {
 /// Whether a stage says `precise` of something.
 bool says_precise(const ShaderSource& stage);
 
+/// Whether its text asks an array for its length; a module may.
+bool asks_length(const ShaderSource& stage);
+
 /// The text of bindings.json for the shaders of a folder, until take_bindings: it counts in the place of the file
 /// there. Throws Error where a text was given already.
 void give_bindings(const std::filesystem::path& folder, std::string text);

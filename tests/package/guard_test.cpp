@@ -1,0 +1,89 @@
+#include <string>
+
+#include <catch2/catch.hpp>
+#include <lockstep/catch.hpp>
+#include <lockstep/system.hpp>
+
+#include "reference/system/item_words.hpp"
+#include "tests/temporary_folder.hpp"
+
+using namespace lockstep;
+using lockstep::test::TemporaryFolder;
+
+/// 100 numbers that are halved, in groups of 64: 28 invocations of the last group have none.
+namespace {
+
+namespace site {
+inline constexpr Site before{"number before"}, number{"number", "number"};
+} // namespace site
+
+const Schema& schema() {
+    static const Schema all = checked(
+        {"halves", {{.name = "numbers", .item = "number", .title = "the numbers", .fields = {{.name = "number"}}}}});
+    return all;
+}
+constexpr FieldId number{0, 0};
+
+struct Halve {
+    template <class R> auto operator()(R& r, const PassInput& in, std::size_t item) const {
+        ItemWords<R> words;
+        words.add(r.note(site::number, r.read(site::before, in.before.real(number, item)) * 0.5F));
+        return words;
+    }
+};
+
+System halves() {
+    System system{.name = "halves",
+                  .schema = schema(),
+                  .passes = {},
+                  .mistakes = {},
+                  .start = {schema(), {{100}}},
+                  .settings = {}};
+    for (std::size_t i = 0; i < 100; ++i)
+        system.start.set(number, i, static_cast<float>(i));
+    system.passes.push_back(item_pass({.name = "halve", .stage = PassStage::compute}, Halve{}));
+    return system;
+}
+
+const Gl& gl() {
+    static const Gl one;
+    return one;
+}
+
+CheckReport run(const std::string& guard) {
+    const TemporaryFolder folder;
+    folder.write("halve.comp", "#version 430 core\n"
+                               "layout(local_size_x = 64) in;\n"
+                               "uniform uint u_ItemCount;\n"
+                               "layout(std430) readonly buffer NumbersBefore { float before[]; };\n"
+                               "layout(std430) writeonly buffer NumbersAfter { float after[]; };\n"
+                               "void main() {\n"
+                               "    uint i = gl_GlobalInvocationID.x;\n" +
+                                   guard +
+                                   "    precise float half_of_it = before[i] * 0.5;\n"
+                                   "    after[i] = half_of_it;\n"
+                                   "}\n");
+    const System system = halves();
+    GlSystemSide side(gl(), system, {{.name = "halve", .stage = Stage::compute}}, folder.path().string());
+    CheckOptions options;
+    options.frames = 3;
+    return check(system, side, options);
+}
+
+} // namespace
+
+TEST_CASE("guard: a compute shader that returns behind the last item agrees, by count and by an array's length") {
+    if (!gl())
+        return skip(gl().missing());
+    CHECK(run("    if (i >= u_ItemCount) return;\n").verdict == Verdict::agree);
+    CHECK(run("    if (i >= uint(before.length())) return;\n").verdict == Verdict::agree);
+}
+
+TEST_CASE("guard: one that writes behind the last item is an error that says where to return") {
+    if (!gl())
+        return skip(gl().missing());
+    const char* said =
+        "frame 0: halve wrote behind the 100 numbers of NumbersAfter; right is to return from item 100 on";
+    CHECK_THROWS_WITH(run(""), said);
+    CHECK_THROWS_WITH(run("    if (i > u_ItemCount) return;\n"), said);
+}

@@ -266,16 +266,18 @@ void UniformValues::add(ProgramVariable variable, const Bindings* bindings) {
     if (bindings == nullptr)
         return interface_.add(std::move(variable));
     auto found = bindings->uniforms.find(variable.name);
-    if (found == bindings->uniforms.end() && variable.block >= 0) // a member of a structure by its own name
+    if (found == bindings->uniforms.end() && variable.name.find('.') != std::string::npos) // a member by its own name
         found = bindings->uniforms.find(
-            fmt::format("{}.{}", variable.name.substr(0, variable.name.find('.')), last_name(variable.name)));
+            variable.block < 0
+                ? last_name(variable.name)
+                : fmt::format("{}.{}", variable.name.substr(0, variable.name.find('.')), last_name(variable.name)));
     if (found == bindings->uniforms.end()) {
         if (const UniformBinding* const whole = binding_of_whole(variable, *bindings))
             fill(variable, *whole, bindings->file);
         return interface_.add(std::move(variable));
     }
     const UniformBinding& binding = found->second;
-    for (std::size_t before = 0; variable.block >= 0 && before < interface_.size(); ++before)
+    for (std::size_t before = 0; before < interface_.size(); ++before)
         if (interface_[before].block == variable.block && variable.name != found->first &&
             last_name(interface_[before].name) == last_name(variable.name))
             throw Error(fmt::format("{}: {}: {} and {} both have this name; right is the whole of it for each",

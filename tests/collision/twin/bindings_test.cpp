@@ -106,8 +106,19 @@ Foreign in_block(const std::string& text, bool instance, bool by_rows) {
                       attributes_and_outputs + " }"};
 }
 
+/// In a uniform that is a structure; its members go by their own names.
+Foreign in_structure(const std::string& text) {
+    Foreign made = in_block(text, true, false);
+    made.text = replaced(replaced(made.text, "layout(std140) uniform Frame {", "struct Frame {"), "} frame;",
+                         "};\nuniform Frame frame;");
+    made.bindings = replaced(
+        replaced(made.bindings, "\"u_CDTexture\" },\n  \"uniform_blocks\": { \"Frame\": {", "\"u_CDTexture\","),
+        "\"unused\": [0, 0.5] } }", "\"unused\": [0, 0.5] }");
+    return made;
+}
+
 std::vector<Foreign> styles(const std::string& text) {
-    return {one_by_one(text), in_block(text, true, false), in_block(text, false, true)};
+    return {one_by_one(text), in_block(text, true, false), in_block(text, false, true), in_structure(text)};
 }
 
 void write(const test::TemporaryFolder& folder, const Foreign& foreign) {

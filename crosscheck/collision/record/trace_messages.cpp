@@ -78,12 +78,12 @@ void check_frames(const TraceInfo& info) {
                                 layout::scene, frames.size() - 1, frames.back().frame, info.frames));
 }
 
-void check_cdt_size(const JsonValue& contents, const Scene& scene) {
+void check_cdt_size(const JsonValue& contents, const Scene& scene, const std::string& file) {
     const auto width = contents.at("cdt_width").integer(1, INT32_MAX);
     const auto height = contents.at("cdt_height").integer(1, INT32_MAX);
     if (width != scene.width || height != cdt_height(scene))
-        throw Error(fmt::format("{}: is {}x{} texels, the scene's is {}x{}", layout::cdt, width, height, scene.width,
-                                cdt_height(scene)));
+        throw Error(fmt::format("{}: {}: is {}x{} texels, the scene's is {}x{}", file, layout::cdt, width, height,
+                                scene.width, cdt_height(scene)));
 }
 
 } // namespace
@@ -118,7 +118,7 @@ TraceInfo read_contents(ByteSource& source, const std::string& file, std::uint64
         static_cast<std::uint64_t>(info.scene.width) * static_cast<std::uint64_t>(cdt_height(info.scene));
     expect_affordable({texels, particles}, file_bytes, file);
     if (info.has_cdt)
-        check_cdt_size(contents, info.scene);
+        check_cdt_size(contents, info.scene, file);
     info.profile = read_recorded_profile(contents, file);
     if (contents.at("has_obstacles").integer(0, 1) == 1) {
         info.scene.obstacles.positions = messages.values<glm::vec3>(MessageKind::positions, largest_mesh);

@@ -227,7 +227,7 @@ std::vector<NamedMistake> made() {
     in({"indirect"}, "may_die_one_less", "one too few may die", mistake_at(site::may_die, one_less));
     in({"indirect"}, "nobody_may_die", "no particle may die", mistake_at(site::may_die, zero));
     in({"indirect"}, "everybody_may_die", "every particle may die",
-       mistake_at(site::may_die, instead, -1, &site::alive));
+       mistake_at(site::may_die, instead, -1, &site::alive_before));
     in({"indirect_arguments"}, "draws_one_more", "one too many is drawn", mistake_at(site::alive_before, one_more));
     in({"indirect_arguments"}, "draws_nobody", "no particle is drawn", mistake_at(site::draw_sprite, zero));
     in({"indirect_arguments"}, "groups_rounded_down", "the last group to destroy is missing",

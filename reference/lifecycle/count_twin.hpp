@@ -115,7 +115,7 @@ struct IndirectCountersTwin {
         UintItem<R> counters(r, in.before, counter_buffer, item);
         if (item != of->number)
             return counters.record();
-        const std::uint32_t alive = counters[counter::alive];
+        const std::uint32_t alive = noted(r, site::alive_before, counters[counter::alive]);
         std::uint32_t d = of->dies == Dies::none ? 0 : alive;
         if (of->dies == Dies::window) {
             d -= counters[counter::young];

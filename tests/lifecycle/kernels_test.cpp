@@ -81,3 +81,19 @@ TEST_CASE("lifecycle: a kernel that writes a buffer which it may only read is to
     CHECK_THROWS_WITH(run_lifecycle(shower(), 6, mode, (folder.path() / "lifecycle").string()),
                       Catch::Contains("move changed emitter 0; it must write the particles alone"));
 }
+
+TEST_CASE("lifecycle: what diverges and leaves a state that its twins cannot go on from keeps its verdict") {
+    if (!gl())
+        return skip(gl().missing());
+    const TemporaryFolder folder;
+    std::filesystem::create_directories(folder.path() / "lifecycle");
+    plant(folder, "lifecycle/post_destroy.comp", "uint died = counters[u_Emitter].may_die - s;",
+          "uint died = present() - s;");
+    const CheckReport report = run_lifecycle(shower(), 60, CheckMode::resync, (folder.path() / "lifecycle").string());
+    INFO(report_text(report, {}));
+    CHECK(report.verdict == Verdict::divergent);
+    CHECK(report.partial());
+    CHECK_FALSE(report.interrupted());
+    CHECK(report.ended_by.find("the twin of ") != std::string::npos);
+    CHECK(report_text(report, {}).find("DIVERGENT (partial: stopped after ") != std::string::npos);
+}

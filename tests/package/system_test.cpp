@@ -1,9 +1,12 @@
 #include <fstream>
+#include <functional>
+#include <new>
 #include <sstream>
 #include <string>
 
 #include <catch2/catch.hpp>
 #include <lockstep/catch.hpp>
+#include <lockstep/system_program.hpp>
 
 #include "tests/consumer/grains/grains.hpp"
 #include "tests/temporary_folder.hpp"
@@ -228,4 +231,14 @@ TEST_CASE("own system: a start, twins and shaders that do not belong together ar
     System with_null = grains::system(10);
     with_null.passes.push_back(nullptr);
     CHECK_THROWS_WITH(check(with_null, side, {}), Catch::Contains("a pass is null"));
+}
+
+TEST_CASE("a program of one's own ends with a message and status 2 where its system cannot be made") {
+    std::string name = "grains", verb = "check";
+    std::vector<char*> argv{name.data(), verb.data(), nullptr};
+    const auto status = [&](const std::function<System()>& system) {
+        return run_system_program(2, argv.data(), system, grains::passes, "shaders");
+    };
+    CHECK(status([]() -> System { throw Error("grains: two fields are named 'speed'"); }) == 2);
+    CHECK(status([]() -> System { throw std::bad_alloc(); }) == 2);
 }

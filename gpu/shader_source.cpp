@@ -271,6 +271,8 @@ class Assembly {
         const auto [path, text] = find(folders_, texts_, std::string(argument.substr(1, end - 1)), where);
         if (std::find(open_.begin(), open_.end(), path) != open_.end())
             throw Error(fmt::format("{}{} includes itself", where, shown(path)));
+        if (source_.bindings == nullptr) // a shipped stage with a file of the user's in it
+            source_.bindings = bindings_beside(path);
         append(path, text);
     }
 

@@ -66,7 +66,7 @@ struct ShaderSource {
     std::string text;
     std::vector<Origin> origins;    ///< one a line of text
     std::vector<std::string> files; ///< the stage's own file first; shipped ones as "shaders/NAME", wherever they lie
-    std::shared_ptr<const Bindings> bindings = {};  ///< that lie beside the stage's own file; null: none
+    std::shared_ptr<const Bindings> bindings = {};  ///< beside the stage's own file, else beside one that it includes
     std::shared_ptr<const SpirvModule> module = {}; ///< a stage in SPIR-V, which has no text; null: GLSL
 };
 

@@ -7,8 +7,7 @@
 namespace lockstep {
 namespace {
 
-bool diverges(const ItemVerdict& verdict) { return verdict.kind == DifferenceClass::divergent; }
-bool is_legal(const ItemVerdict& verdict) { return verdict.kind < DifferenceClass::undefined; }
+bool is_within_rule(const ItemVerdict& verdict) { return verdict.kind < DifferenceClass::undefined; }
 
 bool all_legal(const JudgedPass& pass, const std::vector<std::size_t>& items, Legal legal) {
     const KnownOperations known = known_operations(legal, pass.profile);
@@ -16,9 +15,10 @@ bool all_legal(const JudgedPass& pass, const std::vector<std::size_t>& items, Le
                            pass.reference, pass.gpu,     pass.earlier, pass.prepared};
     if (pass.pass.appended(pass.input())) { // an order is of all of them
         const std::vector<ItemVerdict> verdicts = judge_items(wider);
-        return std::all_of(verdicts.begin(), verdicts.end(), is_legal);
+        return std::all_of(verdicts.begin(), verdicts.end(), is_within_rule);
     }
-    return std::all_of(items.begin(), items.end(), [&](std::size_t item) { return is_legal(judge_item(wider, item)); });
+    return std::all_of(items.begin(), items.end(),
+                       [&](std::size_t item) { return is_within_rule(judge_item(wider, item)); });
 }
 
 } // namespace
@@ -29,7 +29,7 @@ void ItemHint::add(const JudgedPass& pass, const std::vector<ItemVerdict>& verdi
     std::vector<std::size_t> tried;
     const std::size_t most = runs_ < first_runs ? tried_at_first : tried_later;
     for (auto v = verdicts.begin(); v != verdicts.end() && tried.size() < most; ++v)
-        if (diverges(*v))
+        if (v->kind == DifferenceClass::divergent)
             tried.push_back(v->index);
     if (tried.empty())
         return;

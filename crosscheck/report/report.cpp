@@ -323,7 +323,7 @@ std::string report_text(const CheckReport& r, const RunDescription& run) {
             line("", fmt::format("again: {}", run.explain));
         return r.state_verdict ? out + fmt::format("\nrepeat    {}\n", run.repeat) : out;
     }
-    if (r.verdict == Verdict::divergent && r.wider_rule && !(r.verdicts && tells_cause(*r.verdicts)))
+    if (r.verdict == Verdict::divergent && r.wider_rule && !(r.verdicts && names_cause(*r.verdicts)))
         line("hint",
              fmt::format(
                  "none of those that were tried is wrong by{}: a right shader that writes the same in another way "

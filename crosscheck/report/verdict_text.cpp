@@ -182,6 +182,11 @@ nlohmann::json counts_json(const std::array<std::uint64_t, class_names.size()>& 
 
 bool tells_cause(const VerdictSummary& s) { return std::any_of(s.causes.begin(), s.causes.end(), is_told); }
 
+bool names_cause(const VerdictSummary& s) {
+    return std::any_of(s.causes.begin(), s.causes.end(),
+                       [](const CauseFindings& found) { return is_told(found) && found.best.front().has_name; });
+}
+
 std::string wrong_step_text(const WrongStep& wrong) {
     return fmt::format("{}{}{}{}", wrong.operation, wrong.gpu.empty() ? "" : "; the GPU ", wrong.gpu,
                        wrong.where.empty() ? "" : fmt::format(" ({})", wrong.where));

@@ -16,6 +16,9 @@ std::string grouped(std::uint64_t value);
 /// Whether a cause is told of anything: what explains all of a buffer's or image's divergence, and nothing contradicts.
 bool tells_cause(const VerdictSummary& summary);
 
+/// Whether one that is told is a mistake with a name.
+bool names_cause(const VerdictSummary& summary);
+
 /// "texel (70, 294) is 0.25 away ... and nearest; the GPU took (72, 296), 0.5 away (collision_twin.hpp:128)".
 std::string wrong_step_text(const WrongStep& wrong);
 

@@ -163,14 +163,14 @@ std::uint32_t count(const PassInput& in, const HostEmitter& of, std::uint8_t whi
     return in.before.word({counter_buffer, which}, of.number);
 }
 
-std::size_t survivors_of(const Host& host, const HostEmitter& of, const PassInput& in) {
+std::size_t count_of_survivors(const Host& host, const HostEmitter& of, const PassInput& in) {
     return count(in, of, host.switches().compaction == Compaction::scan ? counter::survivors : counter::append);
 }
 
 } // namespace
 
 bool nothing_moves(const Host& host, const HostEmitter& of, const PassInput& in) {
-    return survivors_of(host, of, in) == 0 && count(in, of, counter::may_die) == 0;
+    return count_of_survivors(host, of, in) == 0 && count(in, of, counter::may_die) == 0;
 }
 
 bool has_move_fast(const Host& host, const HostEmitter& of) {
@@ -184,7 +184,7 @@ bool has_move_fast(const Host& host, const HostEmitter& of) {
 void move_fast(const Host& host, const HostEmitter& of, const PassInput& in, std::size_t first, std::size_t last,
                const WritableView& after, std::vector<std::size_t>& left) {
     const View& before = in.before[particle_buffer];
-    const std::size_t survivors = survivors_of(host, of, in), may_die = count(in, of, counter::may_die);
+    const std::size_t survivors = count_of_survivors(host, of, in), may_die = count(in, of, counter::may_die);
     std::size_t present = count(in, of, counter::alive);
     if (host.switches().emit_when == EmitWhen::before_destroy)
         present += count(in, of, counter::emitted);

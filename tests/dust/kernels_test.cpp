@@ -1,4 +1,6 @@
 #include <cstdlib>
+#include <fstream>
+#include <sstream>
 #include <string>
 
 #include "crosscheck/dust/scene.hpp"
@@ -86,6 +88,25 @@ TEST_CASE(
     const CheckReport wrong = with_sum("add(add(mul(v.x, v.x), mul(v.y, v.y)), v.z)");
     CHECK(wrong.verdict == Verdict::divergent);
     CHECK_FALSE(wrong.wider_rule);
+}
+
+TEST_CASE("dust: names bound beside a file that shipped kernels include hold in these kernels, too") {
+    if (!gl())
+        return skip(gl().missing());
+    const dust::HostPtr host = host_of(room(500));
+    const TemporaryFolder shaders;
+    std::ostringstream text;
+    text << std::ifstream("shaders/dust/dust.glsl").rdbuf();
+    const std::string shipped = text.str(), block = "velocityBuffer";
+    REQUIRE(shipped.find(block) != std::string::npos);
+    shaders.write("dust.glsl", std::string(shipped).replace(shipped.find(block), block.size(), "Speeds"));
+    const auto run = [&] {
+        return run_system(dust::system(host), dust::passes(host), shaders.path(), host->settings().arithmetic, 4,
+                          CheckMode::resync);
+    };
+    CHECK_THROWS_WITH(run(), Catch::Contains("nothing is given for storage block Speeds"));
+    shaders.write("bindings.json", R"({ "storage_blocks": { "Speeds": "velocityBuffer" } })");
+    CHECK(run().verdict == Verdict::agree);
 }
 
 TEST_CASE("dust: grains fall, bounce off the walls and lie, as their twins do") {

@@ -21,18 +21,28 @@ bool all_legal(const JudgedPass& pass, const std::vector<std::size_t>& items, Le
                        [&](std::size_t item) { return is_within_rule(judge_item(wider, item)); });
 }
 
+/// At most so many of them, from the first on, as far from one another as they can be.
+std::vector<std::size_t> spread(const std::vector<std::size_t>& items, std::size_t most) {
+    if (items.size() <= most)
+        return items;
+    std::vector<std::size_t> some(most);
+    for (std::size_t i = 0; i < most; ++i)
+        some[i] = items[i * items.size() / most];
+    return some;
+}
+
 } // namespace
 
 void ItemHint::add(const JudgedPass& pass, const std::vector<ItemVerdict>& verdicts) {
     if (!by_any_order_)
         return;
-    std::vector<std::size_t> tried;
-    const std::size_t most = runs_ < first_runs ? tried_at_first : tried_later;
-    for (auto v = verdicts.begin(); v != verdicts.end() && tried.size() < most; ++v)
-        if (v->kind == DifferenceClass::divergent)
-            tried.push_back(v->index);
-    if (tried.empty())
+    std::vector<std::size_t> divergent;
+    for (const ItemVerdict& v : verdicts)
+        if (v.kind == DifferenceClass::divergent)
+            divergent.push_back(v.index);
+    if (divergent.empty())
         return;
+    const std::vector<std::size_t> tried = spread(divergent, runs_ < first_runs ? tried_at_first : tried_later);
     ++runs_;
     by_glsl_ = by_glsl_ && all_legal(pass, tried, Legal::glsl);
     by_any_order_ = by_glsl_ || all_legal(pass, tried, Legal::any_order);

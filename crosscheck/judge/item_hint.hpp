@@ -13,8 +13,9 @@ namespace lockstep {
 /// same in another way, rounding otherwise, is.
 class ItemHint {
   public:
-    /// Items that are tried of a run of a pass: of the first that diverge, and of later ones.
-    static constexpr std::size_t tried_at_first = 32, first_runs = 16, tried_later = 2;
+    /// The most items that are tried of a run of a pass: of the first runs that diverge, and of later ones. A mistake
+    /// may show in few of the items that diverge.
+    static constexpr std::size_t tried_at_first = 1024, first_runs = 16, tried_later = 64;
 
     /// The divergent items of a pass that was judged by Legal::measured.
     void add(const JudgedPass& pass, const std::vector<ItemVerdict>& verdicts);

@@ -90,6 +90,20 @@ TEST_CASE(
     CHECK_FALSE(wrong.wider_rule);
 }
 
+TEST_CASE("dust: a mistake that shows in few of the grains that differ gets no hint") {
+    if (!gl())
+        return skip(gl().missing());
+    const dust::HostPtr host = host_of(dust::load_scene("data/scenes/dust/free_fall.json", {.particles = 1000}));
+    const TemporaryFolder shaders;
+    copy_replacing("shaders/dust", shaders, "random.glsl", "int j = (int(mul(size, 1.27323954473516)) + 1) & ~1;",
+                   "int j = int(mul(size, 1.27323954473516)) & ~1;");
+    const CheckReport report = run_system(dust::system(host), dust::passes(host), shaders.path(),
+                                          host->settings().arithmetic, 30, CheckMode::resync);
+    INFO(report_text(report, {}));
+    CHECK(report.verdict == Verdict::divergent);
+    CHECK_FALSE(report.wider_rule);
+}
+
 TEST_CASE("dust: names bound beside a file that shipped kernels include hold in these kernels, too") {
     if (!gl())
         return skip(gl().missing());

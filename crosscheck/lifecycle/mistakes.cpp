@@ -98,7 +98,8 @@ std::vector<NamedMistake> made() {
     in(simulating, "grows_younger", "time is added", mistake_at(site::aged, negated));
     in(simulating, "last_tick_lost", "a particle with one tick left has none",
        spoiled_at(site::remaining, last_tick_lost));
-    in(simulating, "drag_missing", "nothing brakes", mistake_at(site::drag_factor, zero));
+    in(simulating, "drag_missing", "no drag brakes", mistake_at(site::drag_coefficient, zero));
+    in(simulating, "stopped_by_drag", "drag leaves nothing of the velocity", mistake_at(site::drag_factor, zero));
     in(simulating, "drag_factor_missing", "nothing brakes", mistake_at(site::braked, instead, -1, &site::faster));
     in(simulating, "drag_reversed", "drag pushes particles on", mistake_at(site::drag, negated));
     // Forces.

@@ -30,7 +30,8 @@ template <class R> class Forces {
             switch (force.kind) {
             case Force::Kind::drag:
                 if (switches_.drag == Drag::explicit_force)
-                    m.acceleration = m.acceleration - r.note(site::drag, v * r.uniform(site::drag_factor, force.drag));
+                    m.acceleration =
+                        m.acceleration - r.note(site::drag, v * r.uniform(site::drag_coefficient, force.drag));
                 else
                     m.drag = m.drag * r.uniform(site::drag_factor, force.drag);
                 break;

@@ -75,7 +75,8 @@ inline constexpr Site draw_instances{"instances"}, draw_segments{"segments"};
 
 // Simulation.
 inline constexpr Site force{"force"}, faster{"velocity after the forces"}, braked{"velocity after drag"};
-inline constexpr Site drag{"drag"}, drag_factor{"factor of drag"}, way{"way of the frame"}, drift{"drift"};
+inline constexpr Site drag{"drag"}, drag_coefficient{"coefficient of drag"}, drag_factor{"factor of drag"},
+    way{"way of the frame"}, drift{"drift"};
 inline constexpr Site moving_velocity{"velocity that moves"}, aged{"tick of the age"}, not_below_zero{"has time left"};
 inline constexpr Site is_killed{"is killed"};
 

@@ -294,6 +294,15 @@ std::optional<bool> GlSystem::holds(const View& state) const {
     return hold_numbers(buffers, state);
 }
 
+std::optional<bool> GlSystem::left(const View& before) const {
+    if (parts_->is_image(before.resource))
+        return {};
+    for (std::size_t s = 0; s < parts_->storages.size(); ++s)
+        if (parts_->storages[s].layout.resource == before.resource && !parts_->to(s).holds(before))
+            return false;
+    return true;
+}
+
 std::optional<std::vector<std::uint8_t>> GlSystem::reached_by(std::size_t pass) const {
     const std::optional<Parts::Linked>& linked = parts_->passes.at(pass);
     if (!linked || linked->program.bindings() != nullptr) // blocks of other names

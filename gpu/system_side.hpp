@@ -33,6 +33,10 @@ class SystemSide {
     /// that is known by reading it alone.
     [[nodiscard]] virtual std::optional<bool> holds(const View& /*state*/) const { return {}; }
 
+    /// Whether the last pass left the items that it read of the buffer it makes: `before` says what they were. Nothing:
+    /// nobody knows.
+    [[nodiscard]] virtual std::optional<bool> left(const View& /*before*/) const { return {}; }
+
     /// The buffers and images that a pass can write, whatever its shader does: what is bound to it. Nothing: any.
     [[nodiscard]] virtual std::optional<std::vector<std::uint8_t>> reached_by(std::size_t /*pass*/) const { return {}; }
 

@@ -102,6 +102,16 @@ void find_canary(const ItemPass& pass, const SystemState& now, int frame) {
                                 frame, pass.name(), item_name(view.about(), view.extent, item)));
 }
 
+/// What a dispatch reads of the buffers that it makes is another copy, which it leaves alone. Where nothing was made,
+/// the host may have left it out, and the other copy is none that was read.
+void expect_left(const SystemSide& gpu, const System& system, std::size_t first, const SystemState& before,
+                 const SystemState& now, int frame) {
+    for (const std::uint8_t r : written_by(system, first))
+        if (gpu.left(before[r]) == false && !differing_items(before[r], now[r]).empty())
+            throw Error(fmt::format("frame {}: {} changed {} in the copy that it reads; it must write the other alone",
+                                    frame, system.passes[first]->name(), system.schema.resources[r].title));
+}
+
 /// Gives a state, and the GPU, what is right of the buffers that are derived from others.
 void put_right(SystemSide& gpu, SystemState& state, const SystemState& right, std::set<std::uint8_t>& wrong) {
     if (wrong.empty())
@@ -282,6 +292,7 @@ CheckReport check(const System& system, SystemSide& gpu, const CheckOptions& opt
                 }
                 if (repeat) {
                     find_canary(pass, now, frame);
+                    expect_left(gpu, system, p, before, now, frame);
                     SystemState again = now;
                     gpu.repeat_step(p, frame);
                     gpu.read(again);

@@ -82,6 +82,20 @@ TEST_CASE("lifecycle: a kernel that writes a buffer which it may only read is to
                       Catch::Contains("move changed emitter 0; it must write the particles alone"));
 }
 
+TEST_CASE("lifecycle: a kernel that changes the particles it reads is told, not called nondeterministic") {
+    if (!gl())
+        return skip(gl().missing());
+    const TemporaryFolder folder;
+    std::filesystem::create_directories(folder.path() / "lifecycle");
+    plant(folder, "lifecycle/particles.glsl", "readonly buffer ParticlesBefore { uint before[]; }",
+          "buffer ParticlesBefore { uint before[]; }");
+    plant(folder, "lifecycle/move.comp", "    store(j);\n", "    store(j);\n    before[j * 11u] ^= 1u;\n");
+    lifecycle::Settings s = shower();
+    s.switches.layout = lifecycle::Layout::bytes_44;
+    CHECK_THROWS_WITH(run_lifecycle(s, 6, CheckMode::resync, (folder.path() / "lifecycle").string()),
+                      Catch::Contains("move changed the particles in the copy that it reads"));
+}
+
 TEST_CASE("lifecycle: what diverges and leaves a state that its twins cannot go on from keeps its verdict") {
     if (!gl())
         return skip(gl().missing());

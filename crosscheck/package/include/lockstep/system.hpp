@@ -30,6 +30,7 @@ class GlSystemSide final : public SystemSide {
     void step(std::size_t pass, int frame) override { system_.step(pass, frame); }
     void read(SystemState& state) const override { system_.read(state); }
     [[nodiscard]] std::optional<bool> holds(const View& state) const override { return system_.holds(state); }
+    [[nodiscard]] std::optional<bool> left(const View& before) const override { return system_.left(before); }
     [[nodiscard]] std::optional<std::vector<std::uint8_t>> reached_by(std::size_t pass) const override {
         return system_.reached_by(pass);
     }

@@ -113,12 +113,13 @@ struct ToldTurn {
 class ItemTable {
   public:
     ItemTable(const JudgedPass& pass, std::size_t item, std::span<const ToldValue> told)
-        : strict_(pass.pass.record(pass.input(), item, named_profile("strict"))),
+        : pass_(pass), item_(item), strict_(pass.pass.record(pass.input(), item, named_profile("strict"))),
           reference_(pass.pass.record(pass.input(), item, pass.profile)),
           followed_(pass.pass.follow(pass.input(), item, pass.profile, pass.known, told)) {
         const Resource& about = pass.gpu.about();
         for (std::size_t f = 0; f < about.fields.size(); ++f)
             fields_.emplace(pass.pass.output(about, static_cast<std::uint8_t>(f)), field_label(about.fields[f]));
+        is_shown_.resize(about.fields.size());
         for (const ToldValue& value : told) {
             if (value.turn >= 0)
                 told_turns_[value.turn].values.emplace(value.output, value.values);
@@ -154,6 +155,8 @@ class ItemTable {
                 value(row);
             }
         }
+        end_turn();
+        fields_without_step();
         return std::move(rows_);
     }
 
@@ -179,6 +182,12 @@ class ItemTable {
         const std::string label(field == fields_.end() ? site.label : field->second);
         return occurrence > 0 ? fmt::format("{} [{}]", label, occurrence) : label;
     }
+    void note_shown(const ReadingRow& row) {
+        const Resource& about = pass_.gpu.about();
+        for (std::size_t f = 0; f < about.fields.size(); ++f)
+            if (pass_.pass.output(about, static_cast<std::uint8_t>(f)) == row.site->output)
+                is_shown_[f] = true;
+    }
     [[nodiscard]] bool is_shown(const ReadingRow& row, int occurrence) {
         if (row.is_told)
             return true;
@@ -190,6 +199,42 @@ class ItemTable {
     void note_left_out(int occurrence) {
         if (occurrence == 0 && left_out_ > 0)
             rows_.push_back({.label = fmt::format("({} more of the loop)", std::exchange(left_out_, 0))});
+    }
+
+    /// What the item holds where no step has the field's name: packed words, and what is only copied.
+    void fields_without_step() {
+        const Resource& about = pass_.gpu.about();
+        const std::vector<Component> parts = components(about);
+        const auto strict = pass_.pass.mistaken(pass_.input(), item_, named_profile("strict"), {});
+        const auto outcomes = pass_.on_input().outcomes(pass_.input(), item_, pass_.profile, pass_.known, &pass_.gpu);
+        for (std::size_t at = 0; at < parts.size(); ++at) {
+            const Field& field = about.fields[parts[at].field];
+            if (is_shown_[parts[at].field])
+                continue;
+            const auto of = [&](const View& state) { return state.value(parts[at].field, item_, parts[at].component); };
+            StepRow out{.label = field_label(field)};
+            if (field.components > 1)
+                out.label += fmt::format(".{}", "xyzw"[parts[at].component]);
+            out.strict = cell(Value{field.scalar, strict[at]});
+            out.reference = cell(of(pass_.reference));
+            out.gpu = cell(of(pass_.gpu));
+            const bool legal = std::any_of(outcomes.begin(), outcomes.end(), [&](const ItemOutcome& one) {
+                return one.values[at].any || holds(one.values[at], of(pass_.gpu));
+            });
+            judge_.put(out, same_bits(of(pass_.reference), of(pass_.gpu)), {legal, false}, RowVerdict::rounding, [&] {
+                return lockstep::legal_text(outcomes.front().values[at], field.scalar) + " would be legal";
+            });
+            rows_.push_back(std::move(out));
+        }
+    }
+    static Cell cell(const Value& value) {
+        return value.scalar == Scalar::float32 ? Cell{value.real(), {}} : Cell{{}, fmt::format("{}", value.integer())};
+    }
+    static bool holds(const Interval& legal, const Value& value) {
+        if (value.scalar == Scalar::float32)
+            return legal.contains(value.real());
+        const auto x = static_cast<double>(value.integer());
+        return legal.low <= x && x <= legal.high;
     }
 
     void value(const ReadingRow& row) {
@@ -204,6 +249,7 @@ class ItemTable {
     void numbers(const ReadingRow& row, const std::string& label, const RecordedRow* strict,
                  const RecordedRow* reference) {
         const auto size = static_cast<std::size_t>(row.size);
+        note_shown(row);
         if (row.is_integer)
             return integers(row, label, strict, reference);
         for (std::size_t c = 0; c < size; ++c) {
@@ -439,6 +485,9 @@ class ItemTable {
         rows_.push_back(std::move(out));
     }
 
+    const JudgedPass& pass_;
+    std::size_t item_;
+    std::vector<bool> is_shown_; ///< by field
     Way strict_, reference_;
     FollowedStep followed_;
     std::map<std::string_view, std::string> fields_; ///< names, by output
@@ -460,6 +509,15 @@ std::string field_label(const Field& field) {
     std::string label = field.name;
     std::replace(label.begin(), label.end(), '_', ' ');
     return label;
+}
+
+std::string legal_text(const Interval& legal, Scalar scalar) {
+    if (legal.any)
+        return "anything";
+    const auto text = [&](double x) {
+        return scalar == Scalar::float32 ? fmt::format("{:.9g}", x) : fmt::format("{:.0f}", x);
+    };
+    return legal.low == legal.high ? text(legal.low) : fmt::format("{} to {}", text(legal.low), text(legal.high));
 }
 
 std::vector<StepRow> item_rows(const JudgedPass& pass, std::size_t item, std::span<const ToldValue> told) {

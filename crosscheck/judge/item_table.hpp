@@ -20,4 +20,7 @@ std::vector<ToldValue> told_by_state(const ItemPass& pass, const View& gpu, std:
 /// "collide time"
 std::string field_label(const Field& field);
 
+/// "3", "0.1 to 0.2", "anything"; integers with all their digits.
+std::string legal_text(const Interval& legal, Scalar scalar);
+
 } // namespace lockstep

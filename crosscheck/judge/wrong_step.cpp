@@ -84,14 +84,6 @@ Parting parting(const ItemOutcome& outcome, const View& gpu, std::size_t item,
     return at;
 }
 
-std::string set_text(const Interval& legal, Scalar scalar) {
-    if (scalar != Scalar::float32)
-        return legal.low == legal.high ? fmt::format("{}", legal.low) : fmt::format("{} to {}", legal.low, legal.high);
-    return legal.low == legal.high
-               ? fmt::format("{}", static_cast<float>(legal.low))
-               : fmt::format("{} to {}", static_cast<float>(legal.low), static_cast<float>(legal.high));
-}
-
 /// A decision or choice of the step, answered otherwise.
 struct Otherwise {
     std::string step, right, instead, where;
@@ -259,13 +251,15 @@ WrongStep wrong_step_of_item(const JudgedPass& p, std::size_t item) {
     WrongStep step;
     step.step = field_label(field);
     step.operation = fmt::format("{} {} is legal", component_name(field, c.component),
-                                 set_text(nearest->values[wrong.place], field.scalar));
+                                 legal_text(nearest->values[wrong.place], field.scalar));
     if (wrong.where)
         step.where = line_of(*wrong.where);
     const Value reference = p.reference.value(c.field, item, c.component),
                 gpu = p.gpu.value(c.field, item, c.component);
     if (best.ulps != 0)
-        step.margin = best.ulps == INT64_MAX ? "NaN on one side" : fmt::format("{} ULP outside", best.ulps);
+        step.margin = field.scalar != Scalar::float32 ? fmt::format("off by {}", best.ulps)
+                      : best.ulps == INT64_MAX        ? "NaN on one side"
+                                                      : fmt::format("{} ULP outside", best.ulps);
     step.difference = {{p.pass.resource(), c.field}, item, c.component, reference, gpu, distance(reference, gpu)};
     if (best.ulps == 0)
         return step;

@@ -22,11 +22,9 @@ std::string outcome_text(const ItemOutcome& outcome, const Resource& about) {
     std::string text;
     std::size_t at = 0;
     for (const Component& c : components(about)) {
-        const Interval& legal = outcome.values[at++];
-        text += fmt::format("{}{} ", text.empty() ? "" : ", ", component_name(about.fields[c.field], c.component));
-        text += legal.any                 ? "anything"
-                : legal.low == legal.high ? fmt::format("{:.9g}", legal.low)
-                                          : fmt::format("{:.9g} to {:.9g}", legal.low, legal.high);
+        const Field& field = about.fields[c.field];
+        text += fmt::format("{}{} {}", text.empty() ? "" : ", ", component_name(field, c.component),
+                            legal_text(outcome.values[at++], field.scalar));
     }
     for (const OpenSite& open : outcome.open)
         text +=

@@ -300,7 +300,8 @@ std::string report_text(const CheckReport& r, const RunDescription& run) {
                                  seconds.power));
     if (r.verdict != Verdict::nondeterministic)
         line("hash", r.reference_hash == r.gpu_hash
-                         ? fmt::format("{} on both sides after the last frame", hash_text(r.gpu_hash))
+                         ? fmt::format("{} on both sides after the last frame{}", hash_text(r.gpu_hash),
+                                       r.verdicts && !r.total.agree() ? ", which both made from the GPU's state" : "")
                          : fmt::format("reference {}, GPU {}", hash_text(r.reference_hash), hash_text(r.gpu_hash)));
     if (!r.power.mistakes.empty()) {
         const bool proves = r.verdict != Verdict::divergent; // else one mistake is enough to read about

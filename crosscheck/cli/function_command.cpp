@@ -3,6 +3,7 @@
 #include <filesystem>
 #include <memory>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include <fmt/format.h>
@@ -35,6 +36,12 @@ struct FunctionRequest {
 std::pair<std::string, std::string> parts_of(const std::string& text) {
     const std::size_t sign = text.find('=');
     return {text.substr(0, sign), sign == std::string::npos ? std::string() : text.substr(sign + 1)};
+}
+
+bool is_macro_name(std::string_view name) {
+    const auto is_letter = [](char c) { return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || c == '_'; };
+    return !name.empty() && is_letter(name.front()) &&
+           std::all_of(name.begin(), name.end(), [&](char c) { return is_letter(c) || (c >= '0' && c <= '9'); });
 }
 
 std::vector<float> numbers_in(const std::string& text) {
@@ -108,8 +115,12 @@ Uniforms uniforms_of(const std::string& file, const std::vector<std::string>& gi
 GlslFunction function_of(const FunctionRequest& options, const std::filesystem::path& file, const std::string& name,
                          bool any_uniform) {
     ShaderDefines defines;
-    for (const std::string& define : options.defines)
+    for (const std::string& define : options.defines) {
         defines.push_back(parts_of(define));
+        if (!is_macro_name(defines.back().first))
+            throw Error(fmt::format("--define {}: '{}' is no name of a macro; right is NAME=TEXT", plain_line(define),
+                                    plain_line(defines.back().first)));
+    }
     return {file.string(), name, uniforms_of(file.string(), options.uniforms, any_uniform), std::move(defines)};
 }
 

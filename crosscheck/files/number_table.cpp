@@ -41,23 +41,41 @@ std::optional<Number> number_in(std::string_view digits, const Format&... format
 }
 
 /// The bits of a number as it is written; nothing where it is none.
-std::optional<std::uint32_t> bits_of(std::string_view text, Scalar scalar) {
-    if (scalar == Scalar::int32) {
-        const auto number = number_in<std::int32_t>(text);
-        return number ? std::optional(static_cast<std::uint32_t>(*number)) : std::nullopt;
+std::optional<std::uint32_t> bits_of(std::string_view text, const TableColumn& column) {
+    if (column.is_bool) {
+        const bool is_true = text == "1" || text == "true";
+        return is_true || text == "0" || text == "false" ? std::optional(is_true ? 1U : 0U) : std::nullopt;
     }
     const bool minus = text.starts_with('-');
     std::string_view digits = text.substr(minus ? 1 : 0);
     if (digits.starts_with('-'))
         return {};
     const bool hexadecimal = digits.starts_with("0x") || digits.starts_with("0X");
+    if (column.scalar == Scalar::int32 && !hexadecimal) {
+        const auto number = number_in<std::int32_t>(text);
+        return number ? std::optional(static_cast<std::uint32_t>(*number)) : std::nullopt;
+    }
+    if (column.scalar != Scalar::float32)
+        return minus         ? std::nullopt
+               : hexadecimal ? number_in<std::uint32_t>(digits.substr(2), 16)
+                             : number_in<std::uint32_t>(digits);
     const auto number =
         hexadecimal ? number_in<float>(digits.substr(2), std::chars_format::hex) : number_in<float>(digits);
     return number ? std::optional(std::bit_cast<std::uint32_t>(minus ? -*number : *number)) : std::nullopt;
 }
 
-std::string_view right_number(Scalar scalar) {
-    return scalar == Scalar::int32 ? "no int; right is 7" : "no float; right is 0.25, 0x1p-2, inf or nan";
+std::string_view right_number(const TableColumn& column) {
+    if (column.is_bool)
+        return "no bool; right is 0 or 1, false or true";
+    switch (column.scalar) {
+    case Scalar::int32:
+        return "no int; right is 7, -7 or 0x7";
+    case Scalar::uint32:
+        return "no uint; right is 7 or 0x7, to 4294967295";
+    case Scalar::float32:
+        break;
+    }
+    return "no float; right is 0.25, 0x1p-2, inf or nan";
 }
 
 /// A line with values.
@@ -140,26 +158,30 @@ void read_csv(const std::filesystem::path& path, const std::vector<TableColumn>&
         for (std::size_t c = 0; c < places.size(); ++c)
             for (std::size_t k = 0; k < places[c].size(); ++k) {
                 const std::string_view value = line.values[places[c][k]];
-                const std::optional<std::uint32_t> bits = bits_of(value, columns[c].scalar);
+                const std::optional<std::uint32_t> bits = bits_of(value, columns[c]);
                 if (!bits)
                     throw Error(fmt::format("{}:{}: column {}: '{}' is {}", table.file, line.number,
                                             component_name(columns[c], static_cast<int>(k)), plain_line(value),
-                                            right_number(columns[c].scalar)));
+                                            right_number(columns[c])));
                 table.words[c].push_back(*bits);
             }
     }
 }
 
-std::uint32_t word_of(const JsonValue& value, Scalar scalar) {
+std::uint32_t word_of(const JsonValue& value, const TableColumn& column) {
     if (value.is_text()) {
-        const std::optional<std::uint32_t> bits = bits_of(value.text(), scalar);
+        const std::optional<std::uint32_t> bits = bits_of(value.text(), column);
         if (!bits)
-            value.fail(fmt::format("'{}' is {}", value.label(), right_number(scalar)));
+            value.fail(fmt::format("'{}' is {}", value.label(), right_number(column)));
         return *bits;
     }
-    if (scalar == Scalar::int32)
+    if (column.is_bool)
+        return value.is_truth() ? (value.truth() ? 1U : 0U) : static_cast<std::uint32_t>(value.integer(0, 1));
+    if (column.scalar == Scalar::int32)
         return static_cast<std::uint32_t>(
             value.integer(std::numeric_limits<std::int32_t>::min(), std::numeric_limits<std::int32_t>::max()));
+    if (column.scalar == Scalar::uint32)
+        return static_cast<std::uint32_t>(value.integer(0, std::numeric_limits<std::uint32_t>::max()));
     return std::bit_cast<std::uint32_t>(value.number());
 }
 
@@ -180,7 +202,7 @@ void read_json_table(const std::filesystem::path& path, const std::vector<TableC
                 continue;
             const JsonValue value = row.at(column.name);
             if (column.components == 1) {
-                table.words[c].push_back(word_of(value, column.scalar));
+                table.words[c].push_back(word_of(value, column));
                 continue;
             }
             const std::vector<JsonValue> components = value.is_array() ? value.items() : std::vector<JsonValue>();
@@ -188,7 +210,7 @@ void read_json_table(const std::filesystem::path& path, const std::vector<TableC
                 value.fail(fmt::format("{} is a vec{}; right is an array of {} numbers", column.name, column.components,
                                        column.components));
             for (const JsonValue& component : components)
-                table.words[c].push_back(word_of(component, column.scalar));
+                table.words[c].push_back(word_of(component, column));
         }
         ++table.rows;
     }

@@ -12,9 +12,10 @@ namespace lockstep {
 /// A column of a table: numbers, or vectors of them.
 struct TableColumn {
     std::string name;
-    Scalar scalar = Scalar::float32; ///< or int32
-    int components = 1;              ///< to 4
+    Scalar scalar = Scalar::float32;
+    int components = 1; ///< to 4
     bool optional = false;
+    bool is_bool = false; ///< an int32 that is 0 or 1, or written as false or true
 };
 
 /// Rows of numbers from a file.
@@ -27,8 +28,8 @@ struct NumberTable {
 
 /// Reads FILE.json, an array of objects by the columns' names, or a CSV file with a heading, a component a column
 /// (`velocity.x`); a line that begins with # is left out. A number is the float nearest to it; `inf`, `nan` and
-/// hexadecimal floats (0x1.8p-3) are numbers, in JSON as texts. `taker`: who takes the columns, for messages. Throws
-/// Error with FILE:LINE, or the place in the JSON, and what would be right.
+/// hexadecimal floats (0x1.8p-3) and integers (0xff) are numbers, in JSON as texts. `taker`: who takes the columns, for
+/// messages. Throws Error with FILE:LINE, or the place in the JSON, and what would be right.
 NumberTable read_number_table(const std::filesystem::path& file, const std::vector<TableColumn>& columns,
                               const std::string& taker);
 

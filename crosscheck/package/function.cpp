@@ -34,6 +34,13 @@ std::vector<std::string> field_names(const Signature& signature) {
     return names;
 }
 
+/// A bool lies in a buffer as an int.
+std::string stored_type(const Column& column) { return type_of({column.scalar, column.components}); }
+
+std::string output_type(const Column& column) {
+    return fmt::format("{}out {}", column.scalar == Scalar::float32 ? "" : "flat ", stored_type(column));
+}
+
 /// The text without its line #version, and what that line asks for.
 std::pair<std::string, std::string> without_version(const std::string& text) {
     std::string rest, version = " 400 core";
@@ -60,7 +67,7 @@ Called called(const GlslFunction& function, const std::vector<Column>& columns) 
     const Signature signature = signature_of(function, text);
     const std::optional<Column> result = column_of(signature.result);
     if (!result)
-        fail(function, signature, "its result must be float, int, vec2, vec3 or vec4");
+        fail(function, signature, fmt::format("its result must be {}", column_types));
     if (signature.parameters.size() != columns.size())
         fail(function, signature,
              fmt::format("the table has {} columns for {} arguments", columns.size(), signature.parameters.size()));
@@ -77,20 +84,18 @@ Called called(const GlslFunction& function, const std::vector<Column>& columns) 
     std::vector<std::string> arguments;
     for (std::size_t p = 0; p < columns.size(); ++p) {
         fields.push_back({names[p], columns[p].scalar, columns[p].components});
-        const std::string type = type_of(columns[p]), word = shader_name(names[p]);
-        declared +=
-            fmt::format("in {} a_{};\n{}out {} out_{};\n", type, word, type == "int" ? "flat " : "", type, word);
+        const std::string type = stored_type(columns[p]), word = shader_name(names[p]);
+        declared += fmt::format("in {} a_{};\n{} out_{};\n", type, word, output_type(columns[p]), word);
         copied += fmt::format("    out_{0} = a_{0};\n", word);
-        arguments.push_back("a_" + word);
+        arguments.push_back(columns[p].is_bool ? fmt::format("bool(a_{})", word) : "a_" + word);
     }
     fields.push_back({"result", result->scalar, result->components});
     const std::string file = std::filesystem::path(function.file).filename().string();
     const std::string stage =
-        fmt::format("#version{}\n#define main ls_main_of_the_file\n#include \"{}\"\n#undef main\n{}{}out "
-                    "{} out_Result;\nvoid main() {{\n{}    "
-                    "out_Result = {}({});\n}}\n",
-                    version, file, declared, signature.result == "int" ? "flat " : "", signature.result, copied,
-                    function.name, fmt::join(arguments, ", "));
+        fmt::format("#version{}\n#define main ls_main_of_the_file\n#include \"{}\"\n#undef main\n{}{} out_Result;\n"
+                    "void main() {{\n{}    out_Result = {}({}({}));\n}}\n",
+                    version, file, declared, output_type(*result), copied, result->is_bool ? "int" : "", function.name,
+                    fmt::join(arguments, ", "));
     Called made{
         checked({"function", {{.name = "rows", .item = "row", .title = "the table", .fields = fields}}}), {}, {}};
     GlPass pass;

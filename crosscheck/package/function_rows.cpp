@@ -16,18 +16,18 @@ std::vector<TableColumn> columns_of(const GlslFunction& function, const function
         const std::size_t number = columns.size() + 1;
         const std::optional<function_twin::Column> column = function_twin::column_of(parameter.type);
         if (!column)
-            fail(function, signature, fmt::format("argument {} must be float, int, vec2, vec3 or vec4", number));
+            fail(function, signature, fmt::format("argument {} must be {}", number, function_twin::column_types));
         if (parameter.name == result_name)
             fail(function, signature, "an argument is called result, as the column of what it is to return");
         columns.push_back({parameter.name.empty() ? fmt::format("argument_{}", number) : parameter.name, column->scalar,
-                           column->components});
+                           column->components, false, column->is_bool});
     }
     if (columns.empty())
         fail(function, signature, "it has no arguments, so there is nothing to make a table of");
     const std::optional<function_twin::Column> result = function_twin::column_of(signature.result);
     if (!result)
-        fail(function, signature, "its result must be float, int, vec2, vec3 or vec4");
-    columns.push_back({std::string(result_name), result->scalar, result->components, true});
+        fail(function, signature, fmt::format("its result must be {}", function_twin::column_types));
+    columns.push_back({std::string(result_name), result->scalar, result->components, true, result->is_bool});
     return columns;
 }
 
@@ -51,7 +51,7 @@ FunctionRows read_function_rows(const GlslFunction& function, const std::filesys
         rows.results = std::move(table.words.back());
     columns.pop_back();
     for (const TableColumn& column : columns) {
-        rows.columns.push_back({column.scalar, column.components});
+        rows.columns.push_back({column.scalar, column.components, column.is_bool});
         rows.names.push_back(column.name);
     }
     for (std::size_t row = 0; row < table.rows; ++row)

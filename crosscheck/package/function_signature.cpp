@@ -1,6 +1,7 @@
 #include "crosscheck/package/function_signature.hpp"
 
 #include <algorithm>
+#include <array>
 #include <fstream>
 #include <iterator>
 #include <set>
@@ -103,16 +104,21 @@ std::vector<Parameter> uniforms_in(const std::string& text) {
 } // namespace
 
 std::string type_of(const Column& column) {
-    if (column.scalar == Scalar::int32)
-        return "int";
-    return column.components == 1 ? "float" : fmt::format("vec{}", column.components);
+    if (column.is_bool)
+        return "bool";
+    const std::size_t scalar = static_cast<std::size_t>(column.scalar);
+    if (column.components == 1)
+        return std::array{"float", "int", "uint"}[scalar];
+    return fmt::format("{}vec{}", std::array{"", "i", "u"}[scalar], column.components);
 }
 
 std::optional<Column> column_of(const std::string& type) {
-    for (const Column& column : {Column{Scalar::int32, 1}, Column{Scalar::float32, 1}, Column{Scalar::float32, 2},
-                                 Column{Scalar::float32, 3}, Column{Scalar::float32, 4}})
-        if (type == type_of(column))
-            return column;
+    if (type == type_of({Scalar::int32, 1, true}))
+        return Column{Scalar::int32, 1, true};
+    for (const Scalar scalar : {Scalar::float32, Scalar::int32, Scalar::uint32})
+        for (int components = 1; components <= 4; ++components)
+            if (type == type_of({scalar, components}))
+                return Column{scalar, components};
     return {};
 }
 

@@ -2,6 +2,7 @@
 #include <cstddef>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "lockstep/function.hpp"
@@ -27,6 +28,9 @@ Signature signature_of(const GlslFunction& function, const std::string& text);
 
 /// "vec3 bounce(vec3, float)"
 std::string shown(const std::string& name, const Signature& signature);
+
+/// What a column can be, in words.
+inline constexpr std::string_view column_types = "float, int, uint, bool, or a vector of float, int or uint";
 
 /// "vec3"
 std::string type_of(const Column& column);

@@ -16,8 +16,9 @@ namespace site {
 constexpr Site expected{"expected"};
 } // namespace site
 
-LegalWord exact(std::int32_t value) {
-    return {static_cast<std::uint32_t>(value), {static_cast<double>(value), static_cast<double>(value)}};
+LegalWord exact(const Value& whole) {
+    const auto value = static_cast<double>(whole.integer());
+    return {whole.bits, {value, value}};
 }
 
 /// Leaves the arguments as they are and returns the result that is expected of the row.
@@ -30,8 +31,8 @@ struct ExpectedResult {
         for (std::size_t f = 0; f + 1 < columns.size(); ++f)
             for (int c = 0; c < columns[f].components; ++c) {
                 const FieldId field{0, static_cast<std::uint8_t>(f)};
-                if (columns[f].scalar == Scalar::int32)
-                    row.add(exact(in.before.integer(field, item, c)));
+                if (columns[f].scalar != Scalar::float32)
+                    row.add(exact({columns[f].scalar, in.before.word(field, item, c)}));
                 else
                     row.add(r.uniform(function_twin::site::argument, in.before.real(field, item, c)));
             }
@@ -40,8 +41,9 @@ struct ExpectedResult {
         const auto at = [&](std::size_t c) { return r.uniform(site::expected, std::bit_cast<float>(words[c])); };
         const auto add = [&](const auto&... numbers) { (row.add(numbers), ...); };
         const Site& noted = function_twin::site::result;
-        if (columns.back().scalar == Scalar::int32) {
-            add(exact(static_cast<std::int32_t>(words[0])));
+        if (columns.back().scalar != Scalar::float32) {
+            for (std::size_t c = 0; c < components; ++c)
+                row.add(exact({columns.back().scalar, words[c]}));
         } else if (components == 1) {
             add(r.note(noted, typename R::Real(at(0))));
         } else if (components == 2) {
@@ -79,7 +81,7 @@ SystemState start_of(const Schema& schema, const FunctionRows& rows) {
         for (std::size_t f = 0; f < rows.columns.size(); ++f)
             for (int c = 0; c < rows.columns[f].components; ++c) {
                 const FieldId field{0, static_cast<std::uint8_t>(f)};
-                if (rows.columns[f].scalar == Scalar::int32)
+                if (rows.columns[f].scalar != Scalar::float32)
                     start.set(field, row, rows.words[next++], c);
                 else
                     start.set(field, row, std::bit_cast<float>(rows.words[next++]), c);

@@ -196,3 +196,38 @@ TEST_CASE("function: what cannot be run is one line that says what would be righ
     CHECK_THAT(of_options({setting.shader, "bounce", "--table", "nothing.csv", "--uniform", "u_Kept=1"}),
                Contains("nothing.csv"));
 }
+
+TEST_CASE("function: tables of integers without sign and of truths, in decimals and hexadecimal") {
+    if (!have_software_gl())
+        return;
+    const Setting setting;
+    const std::string shader = setting.file("words.glsl", "uint twice(uint x) { return x * 2u; }\n"
+                                                          "bool odd(uvec2 x) { return (x.x & 1u) == x.y; }\n");
+    const auto run = [&](const std::string& name, const std::string& table) {
+        return run_lockstep({"function", shader, name, "--table", table, "--gl", software_gl()});
+    };
+    const std::string csv = setting.file("twice.csv", "x, result\n7, 14\n0x80000001, 2\n4294967295, 0xfffffffe\n");
+    CHECK_THAT(run("twice", csv).out, Contains("AGREE: every bit of 3 rows"));
+    const std::string json = setting.file("odd.json", R"([{"x": [3, 1], "result": true}, {"x": [2, 1], "result": 0}])");
+    CHECK_THAT(run("odd", json).out, Contains("AGREE: every bit of 2 rows"));
+    const Outcome wrong = run("twice", setting.file("wrong.csv", "x, result\n3000000000, 1705032705\n"));
+    CHECK(wrong.status == 1);
+    CHECK_THAT(wrong.out, Contains("reference 1705032705, GPU 1705032704") && Contains("off by 1"));
+    const auto refused = [&](const std::string& name, const std::string& text) {
+        return refusal(run(name, setting.file("refused.csv", text)));
+    };
+    CHECK_THAT(refused("twice", "x, result\n-1, 0\n"), Contains("'-1' is no uint; right is 7 or 0x7, to 4294967295"));
+    CHECK_THAT(refused("twice", "x, result\n1, 4294967296\n"), Contains("'4294967296' is no uint"));
+    CHECK_THAT(refused("odd", "x.x, x.y, result\n1, 1, 2\n"), Contains("'2' is no bool; right is 0 or 1"));
+}
+
+TEST_CASE("function: a macro needs a name") {
+    if (!have_software_gl())
+        return;
+    const Setting setting;
+    const std::string table = setting.file("walls.csv", walls);
+    for (const char* const define : {"=4.0", "2K=1", "K-2=1", "K (x)=1"}) {
+        CHECK_THAT(refusal(setting.run(table, {"--define", define})),
+                   Contains("is no name of a macro; right is NAME=TEXT"));
+    }
+}

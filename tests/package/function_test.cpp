@@ -142,6 +142,47 @@ TEST_CASE("function: numbers, integers and vectors of each size; a whole stage's
     CHECK(one.report().verdict == Verdict::agree);
 }
 
+TEST_CASE("function: integers without sign, vectors of integers and truths, given and returned") {
+    if (!gl())
+        return lockstep::skip(gl().missing());
+    const TemporaryFolder folder;
+    const std::string file = folder
+                                 .write("words.glsl", "uint hash(uint x, bool twice) {\n"
+                                                      "    x = (x ^ (x >> 16u)) * 2246822519u;\n"
+                                                      "    return twice ? x * 2u : x;\n"
+                                                      "}\n"
+                                                      "uvec3 spread(ivec2 c, uvec3 by) {\n"
+                                                      "    return uvec3(uint(c.x), uint(c.y), 7u) * by;\n"
+                                                      "}\n"
+                                                      "bool inside(ivec3 c) { return c.x >= c.y && c.x < c.z; }\n")
+                                 .string();
+    FunctionTable<std::uint32_t, bool> words;
+    FunctionTable<glm::ivec2, glm::uvec3> cells;
+    FunctionTable<glm::ivec3> ranges;
+    for (std::uint32_t i = 0; i < 200; ++i) {
+        words.emplace_back(i * 2654435761U, i % 3 == 0);
+        cells.emplace_back(glm::ivec2(static_cast<int>(i) - 100, 5), glm::uvec3(i, 3000000000U, 1U));
+        ranges.emplace_back(glm::ivec3(static_cast<int>(i) - 100, -20, 30));
+    }
+    const auto passes = [&](const MatchResult& result) {
+        INFO(result.text());
+        CHECK(result.report().verdict == Verdict::agree);
+    };
+    passes(match_function(gl(), {file, "hash"}, words, [](auto& /*r*/, std::uint32_t x, bool twice) {
+        x = (x ^ (x >> 16U)) * 2246822519U;
+        return twice ? x * 2U : x;
+    }));
+    passes(match_function(gl(), {file, "spread"}, cells, [](auto& /*r*/, const glm::ivec2& c, const glm::uvec3& by) {
+        return glm::uvec3(static_cast<std::uint32_t>(c.x), static_cast<std::uint32_t>(c.y), 7U) * by;
+    }));
+    passes(match_function(gl(), {file, "inside"}, ranges,
+                          [](auto& /*r*/, const glm::ivec3& c) { return c.x >= c.y && c.x < c.z; }));
+    const MatchResult wrong = match_function(gl(), {file, "inside"}, ranges,
+                                             [](auto& /*r*/, const glm::ivec3& c) { return c.x >= c.y && c.x <= c.z; });
+    CHECK(wrong.report().verdict == Verdict::divergent);
+    CHECK(wrong.report().total.differing(0) == 1);
+}
+
 TEST_CASE("function: what GLSL leaves open is legal, and only that") {
     if (!gl())
         return skip(gl().missing());
@@ -174,7 +215,7 @@ TEST_CASE("function: what cannot be run says where and what would be right") {
     CHECK_THAT(error_of(replaced(bounce_text, "const in vec3 n", "const in vec3 n, float t")),
                Contains("the table has 2 columns for 3 arguments"));
     CHECK_THAT(error_of(replaced(bounce_text, "vec3 bounce", "mat3 bounce")),
-               Contains("its result must be float, int, vec2, vec3 or vec4"));
+               Contains("its result must be float, int, uint, bool, or a vector of float, int or uint"));
     CHECK_THAT(error_of(replaced(bounce_text, "const in vec3 n", "out vec3 n")),
                Contains("column 2 of the table is vec3, argument 2 is out"));
     CHECK_THAT(error_of(replaced(bounce_text, "u_Kept)", "u_Keptt)")), Contains("wall.glsl:5"));

@@ -8,9 +8,11 @@
 ///     CHECK(result.passed());
 #include <array>
 #include <cstddef>
+#include <cstdint>
 #include <string>
 #include <string_view>
 #include <tuple>
+#include <type_traits>
 #include <utility>
 #include <vector>
 
@@ -30,7 +32,8 @@ struct GlslFunction {
     ShaderDefines defines = {}; ///< what its file is compiled with
 };
 
-/// A table of arguments: float, int, glm::vec2, vec3 or vec4 each, of the function's own types.
+/// A table of arguments of the function's own types: float, int, std::uint32_t, bool, or a vector of GLM's of the first
+/// three.
 template <class... Arguments> using FunctionTable = std::vector<std::tuple<Arguments...>>;
 
 namespace function_twin {
@@ -39,14 +42,30 @@ namespace function_twin {
 struct Column {
     Scalar scalar = Scalar::float32;
     int components = 1;
+    bool is_bool = false; ///< an int32 that is 0 or 1
 };
+
+template <class Number> constexpr bool is_vector = requires { Number::length(); };
+
 template <class Argument> constexpr Column column_of() {
-    if constexpr (std::is_same_v<Argument, int>)
+    if constexpr (is_vector<Argument>)
+        return {column_of<typename Argument::value_type>().scalar, Argument::length()};
+    else if constexpr (std::is_same_v<Argument, bool>)
+        return {Scalar::int32, 1, true};
+    else if constexpr (std::is_same_v<Argument, std::uint32_t>)
+        return {Scalar::uint32, 1};
+    else if constexpr (std::is_same_v<Argument, int>)
         return {Scalar::int32, 1};
-    else if constexpr (std::is_same_v<Argument, float>)
-        return {Scalar::float32, 1};
     else
-        return {Scalar::float32, Argument::length()};
+        return {Scalar::float32, 1};
+}
+
+/// Whether a number is no float: no reading's, but C++'s own.
+template <class Number> constexpr bool is_whole() {
+    if constexpr (is_vector<Number>)
+        return std::is_integral_v<typename Number::value_type>;
+    else
+        return std::is_integral_v<Number>;
 }
 
 /// The function as a system: an item a row, whose fields are the arguments and, last, the result.
@@ -68,6 +87,15 @@ inline constexpr std::string_view pass_name = "function";
 template <class R, class Argument> auto read(R& r, const SystemView& state, FieldId field, std::size_t item) {
     if constexpr (std::is_same_v<Argument, int>) {
         return r.uniform(site::argument, state.integer(field, item));
+    } else if constexpr (is_whole<Argument>()) {
+        if constexpr (is_vector<Argument>) {
+            Argument all;
+            for (int c = 0; c < Argument::length(); ++c)
+                all[c] = static_cast<typename Argument::value_type>(state.word(field, item, c));
+            return all;
+        } else {
+            return static_cast<Argument>(state.word(field, item));
+        }
     } else if constexpr (std::is_same_v<Argument, float>) {
         return r.read(site::argument, state.real(field, item));
     } else if constexpr (std::is_same_v<Argument, glm::vec3>) {
@@ -81,11 +109,20 @@ template <class R, class Argument> auto read(R& r, const SystemView& state, Fiel
     }
 }
 
+/// A number, a vector of the reading's, or the components of one of GLM's.
+template <class Number> auto parts_of(const Number& x) {
+    if constexpr (is_whole<Number>() && is_vector<Number>)
+        return [&]<std::size_t... c>(std::index_sequence<c...>) { return std::tie(x[static_cast<int>(c)]...); }
+    (std::make_index_sequence<static_cast<std::size_t>(Number::length())>{});
+    else return std::tie(x);
+}
+
 template <class Given, class Result> struct Row {
     Given given;
     Result result;
     auto fields() const {
-        return std::tuple_cat(std::apply([](const auto&... one) { return std::tie(one...); }, given), std::tie(result));
+        return std::tuple_cat(std::apply([](const auto&... one) { return std::tuple_cat(parts_of(one)...); }, given),
+                              parts_of(result));
     }
 };
 
@@ -96,13 +133,23 @@ template <class Twin, class... Arguments> struct RowTwin {
         return [&]<std::size_t... i>(std::index_sequence<i...>) {
             auto given = std::tuple{read<R, Arguments>(r, in.before, {0, static_cast<std::uint8_t>(i)}, item)...};
             auto result = std::apply([&](const auto&... one) { return twin(r, one...); }, given);
-            if constexpr (!std::is_integral_v<decltype(result)>)
+            if constexpr (!is_whole<decltype(result)>())
                 result = r.note(site::result, result);
             return Row<decltype(given), decltype(result)>{std::move(given), std::move(result)};
         }
         (std::index_sequence_for<Arguments...>{});
     }
 };
+
+template <class Argument> void put(SystemState& state, FieldId field, std::size_t row, const Argument& value) {
+    if constexpr (is_whole<Argument>() && is_vector<Argument>)
+        for (int c = 0; c < Argument::length(); ++c)
+            state.set(field, row, value[c], c);
+    else if constexpr (std::is_same_v<Argument, bool>)
+        state.set(field, row, value ? 1 : 0);
+    else
+        state.set(field, row, value);
+}
 
 } // namespace function_twin
 
@@ -122,7 +169,9 @@ template <class... Arguments, class Twin> MatchResult match_function(const Gl& g
                                       function_twin::RowTwin<Twin, Arguments...>{std::move(twin)}));
     for (std::size_t row = 0; row < table.size(); ++row)
         [&]<std::size_t... i>(std::index_sequence<i...>) {
-            (system.start.set({0, static_cast<std::uint8_t>(i)}, row, std::get<i>(table[row])), ...);
+            (function_twin::put<Arguments>(system.start, {0, static_cast<std::uint8_t>(i)}, row,
+                                           std::get<i>(table[row])),
+             ...);
         }
     (std::index_sequence_for<Arguments...>{});
     GlSystemSide gpu(gl, system, called.passes, called.folder);

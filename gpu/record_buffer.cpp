@@ -142,20 +142,45 @@ void copy_values(std::size_t words, const std::byte* from, std::size_t from_stri
     }
 }
 
-/// Whether one of the items' floats is NaN, in the fields that a layout has.
-bool has_nan(const RecordLayout& layout, const View& state, std::size_t first, std::size_t items) {
-    std::uint32_t found = 0;
-    for (const RecordLayout::Member& member : layout.members) {
-        if (layout.field(member).scalar != Scalar::float32)
-            continue;
-        const auto words = static_cast<std::size_t>(layout.field(member).components);
-        const std::byte* const floats = state.columns[member.field] + first * words * word;
-        for (std::size_t i = 0; i < items * words; ++i) {
-            std::uint32_t bits = 0;
-            std::memcpy(&bits, floats + i * word, word);
-            found |= static_cast<std::uint32_t>((bits & 0x7fffffffU) > 0x7f800000U);
-        }
+template <class Bits> Bits bits_at(const std::byte* memory) {
+    Bits bits = 0;
+    std::memcpy(&bits, memory, sizeof bits);
+    return bits;
+}
+
+/// The bits in which `count` values of `Words` words differ from records' members, which lie `stride` bytes apart.
+template <std::size_t Words>
+std::uint64_t unlike(const std::byte* members, std::size_t stride, const std::byte* values, std::size_t count) {
+    std::uint64_t found = 0;
+    for (std::size_t i = 0; i < count; ++i, members += stride, values += Words * word) {
+        for (std::size_t w = 0; w + 1 < Words; w += 2)
+            found |= bits_at<std::uint64_t>(members + w * word) ^ bits_at<std::uint64_t>(values + w * word);
+        if constexpr (Words % 2 == 1)
+            found |= bits_at<std::uint32_t>(members + (Words - 1) * word) ^
+                     bits_at<std::uint32_t>(values + (Words - 1) * word);
     }
+    return found;
+}
+
+bool are_alike(std::size_t words, const std::byte* members, std::size_t stride, const std::byte* values,
+               std::size_t count) {
+    switch (words) {
+    case 1:
+        return unlike<1>(members, stride, values, count) == 0;
+    case 2:
+        return unlike<2>(members, stride, values, count) == 0;
+    case 3:
+        return unlike<3>(members, stride, values, count) == 0;
+    default:
+        return unlike<4>(members, stride, values, count) == 0;
+    }
+}
+
+bool has_nan(const std::byte* floats, std::size_t count) {
+    std::uint32_t found = 0;
+#pragma omp simd reduction(| : found)
+    for (std::size_t i = 0; i < count; ++i)
+        found |= static_cast<std::uint32_t>((bits_at<std::int32_t>(floats + i * word) & 0x7fffffff) > 0x7f800000);
     return found != 0;
 }
 
@@ -166,7 +191,6 @@ class Block {
         : layout_(layout), bytes_(layout.bytes()), room_(std::max<std::size_t>(1, most_bytes * 2 / bytes_)),
           records_(room_ * bytes_) {}
 
-    [[nodiscard]] const RecordLayout& layout() const { return layout_; }
     [[nodiscard]] std::size_t room() const { return room_; } ///< records
     [[nodiscard]] std::byte* records() { return records_.data(); }
 
@@ -299,15 +323,23 @@ bool RecordBuffer::holds(const View& state) const {
 
 namespace {
 
-/// Records `from` to `to`, the last excluded, of a buffer's memory.
-bool holds_numbers(Block& block, const std::byte* memory, const View& state, std::size_t from, std::size_t to) {
-    const RecordLayout& layout = block.layout();
-    for (std::size_t at = from; at < to; at += block.room()) {
-        const std::size_t count = std::min(block.room(), to - at);
-        block.gather(state, at, count);
-        if (std::memcmp(memory + at * layout.bytes(), block.records(), count * layout.bytes()) != 0 ||
-            has_nan(layout, state, at, count))
-            return false;
+/// Whether a buffer's records `first` to `last`, the last excluded, are a state's, and no float of them is NaN.
+bool holds_numbers(const RecordLayout& layout, const std::byte* memory, const View& state, std::size_t first,
+                   std::size_t last) {
+    constexpr std::size_t some = 64; // of the nearest cache: each member comes by them once more
+    const std::size_t bytes = layout.bytes();
+    for (; first < last; first += some) {
+        const std::size_t count = std::min(some, last - first);
+        const std::byte* of_member = memory + first * bytes;
+        for (const RecordLayout::Member& member : layout.members) {
+            const Field& field = layout.field(member);
+            const auto words = static_cast<std::size_t>(field.components);
+            const std::byte* const values = state.columns[member.field] + first * words * word;
+            if (!are_alike(words, of_member, bytes, values, count) ||
+                (field.scalar == Scalar::float32 && has_nan(values, count * words)))
+                return false;
+            of_member += words * word;
+        }
     }
     return true;
 }
@@ -322,19 +354,12 @@ bool hold_numbers(std::span<const RecordBuffer* const> buffers, const View& stat
         // One loop over all of them: at the end of each every thread waits.
         constexpr std::size_t range = 1024;
         const auto ranges = static_cast<std::ptrdiff_t>((state.count() + range - 1) / range);
-#pragma omp parallel if (ranges > 1)
-        {
-            std::vector<Block> blocks;
-            for (const RecordBuffer* buffer : buffers)
-                blocks.emplace_back(buffer->layout());
-#pragma omp for schedule(static)
-            for (std::ptrdiff_t r = 0; r < ranges; ++r) {
-                const std::size_t from = static_cast<std::size_t>(r) * range;
-                const std::size_t to = std::min(from + range, state.count());
-                for (std::size_t b = 0; b < blocks.size() && same.load(std::memory_order_relaxed); ++b)
-                    if (!holds_numbers(blocks[b], memory[b], state, from, to))
-                        same = false;
-            }
+#pragma omp parallel for schedule(dynamic) if (ranges > 1)
+        for (std::ptrdiff_t r = 0; r < ranges; ++r) {
+            const std::size_t from = static_cast<std::size_t>(r) * range, to = std::min(from + range, state.count());
+            for (std::size_t b = 0; b < buffers.size() && same.load(std::memory_order_relaxed); ++b)
+                if (!holds_numbers(buffers[b]->layout(), memory[b], state, from, to))
+                    same = false;
         }
     });
     return same;

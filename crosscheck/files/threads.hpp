@@ -12,7 +12,8 @@ std::string stack_problem();
 
 /// First thing in main: lets OpenMP's threads sleep while they wait. By default they spin, on the cores that a software
 /// driver's own threads need, which costs `check` more than the reference itself. OpenMP reads OMP_WAIT_POLICY before
-/// main, so the program starts itself once more with it set; a policy that the user set stays.
+/// main, so the program starts itself once more with it set; a policy that the user set stays. GNU's OpenMP spins a
+/// thousand times before it sleeps (some 20 microseconds), since one parallel loop often follows another at once.
 void let_waiting_threads_sleep(char** argv);
 
 /// The same for a program of other people's that lockstep is a part of, which cannot be started once more: holds a

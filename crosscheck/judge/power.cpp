@@ -12,9 +12,9 @@ MistakenItem judge_mistaken(const JudgedPass& p, std::size_t item, std::span<con
     const Resource& about = p.reference.about();
     bool same = true;
     std::size_t at = 0;
-    for (const Component& c : components(about))
-        same = same && same_bits(Value{about.fields[c.field].scalar, words[at++]},
-                                 p.reference.value(c.field, item, c.component));
+    for (std::uint8_t field = 0; field < about.fields.size(); ++field)
+        for (int c = 0; c < about.fields[field].components; ++c)
+            same = same && same_bits(Value{about.fields[field].scalar, words[at++]}, p.reference.value(field, item, c));
     if (same)
         return MistakenItem::same;
     const auto outcomes = p.on_input().outcomes(p.input(), item, p.profile, p.known, nullptr);

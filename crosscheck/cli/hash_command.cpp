@@ -27,12 +27,18 @@ struct HashRequest {
     RunOptions run;
     HashedSide side = HashedSide::cpu;
     std::string profile = "strict";
+    FrameRange frames;
+    std::vector<std::string> lead_in;
     bool every = false;
 };
 
+HashedFrames frames_of(const HashRequest& options) {
+    return {options.frames.first, options.frames.end, options.every, options.lead_in};
+}
+
 void hash_reference(const Scene& scene, const HashRequest& options) {
     ReferenceSimulation reference(scene, named_profile(options.profile));
-    print_hash_lines(options.run.frames, options.every, [&](int frame, bool shown) {
+    print_hash_lines(frames_of(options), [&](int frame, bool shown) {
         reference.step(frame_params(scene, frame));
         return shown ? state_hash(reference.particles(), reference.cdt()) : 0;
     });
@@ -44,7 +50,7 @@ void hash_gpu(const Scene& scene, const HashRequest& options) {
     GpuSimulation gpu(scene, options.run.shaders);
     Particles particles;
     CollisionImage cdt;
-    print_hash_lines(options.run.frames, options.every, [&](int frame, bool shown) -> std::uint64_t {
+    print_hash_lines(frames_of(options), [&](int frame, bool shown) -> std::uint64_t {
         gpu.step(frame_params(scene, frame));
         if (!shown)
             return 0;
@@ -57,8 +63,11 @@ void hash_gpu(const Scene& scene, const HashRequest& options) {
 int run(const HashRequest& options) {
     const bool gpu = options.side == HashedSide::gpu;
     if (const RegisteredSystem* system = system_of(options.run))
-        return gpu ? hash_system_on_gpu(*system, options.run, options.every)
-                   : hash_system(*system, options.run, options.profile, options.every);
+        return gpu ? hash_system_on_gpu(*system, options.run, frames_of(options))
+                   : hash_system(*system, options.run, options.profile, frames_of(options));
+    if (!options.lead_in.empty())
+        throw Error("hash: --lead-in goes with a scene that names its \"system\"; a collision frame needs all of the one "
+                    "before");
     const Scene scene = load(options.run);
     (gpu ? hash_gpu : hash_reference)(scene, options);
     return status_agree;
@@ -71,18 +80,22 @@ Verb hash_command() {
     Verb verb{"hash", "run one side alone and print its state hash; the reference needs no GL"};
     add_scene_options(verb, options->run);
     add_gl_options(verb, options->run);
-    verb.add(integer_option("--frames", "N", {1, most_frames}, options->run.frames, "frames to run"));
+    verb.add(frames_option("--frames", options->frames, "frames to run; A..B: hashes of these only, counted from 0"));
     verb.add(choice_option<HashedSide>("--side", options->side, {{"cpu", HashedSide::cpu}, {"gpu", HashedSide::gpu}},
                                        "cpu: the reference; gpu: the shaders, none of whose frames is judged"));
     verb.add(text_option("--profile", "strict|llvmpipe|nvidia", options->profile,
                          "strict, llvmpipe or nvidia: the order of sums"));
     verb.add(flag("--every", options->every, "print every frame's hash, not only the last"));
+    verb.add(texts_option("--lead-in", "PASS", options->lead_in,
+                          "before the frames A..B run these passes alone; right where all others are made anew"));
     verb.footer = "Example: lockstep hash data/scenes/lattice.json --frames 1000 --preset exact";
     verb.run = [options](const Call& call) {
         const bool cpu = options->side == HashedSide::cpu;
         for (const std::string_view name : {"--gl", "--shaders", "--allow-unused", "--profile"})
             if (call.has(name) && cpu != (name == "--profile"))
                 throw Error(fmt::format("hash: {} goes with --side {}", name, cpu ? "gpu" : "cpu"));
+        if (call.has("--lead-in") && (cpu || !options->frames.is_part))
+            throw Error("hash: --lead-in goes with --side gpu and --frames A..B");
         return run(*options);
     };
     return verb;

@@ -296,14 +296,15 @@ int explain_system(const RegisteredSystem& system, const RunOptions& run, const 
     return status_agree;
 }
 
-int hash_system(const RegisteredSystem& system, const RunOptions& run, const std::string& profile, bool every) {
-    print_hashes(read_scene(system, run).scene.system, profile, run.frames, every);
+int hash_system(const RegisteredSystem& system, const RunOptions& run, const std::string& profile,
+                const HashedFrames& frames) {
+    print_hashes(read_scene(system, run).scene.system, profile, frames);
     return status_agree;
 }
 
-int hash_system_on_gpu(const RegisteredSystem& system, const RunOptions& run, bool every) {
+int hash_system_on_gpu(const RegisteredSystem& system, const RunOptions& run, const HashedFrames& frames) {
     SystemInput input(system, run, {});
-    print_gpu_hashes(input.system(), input.open(), run.frames, every);
+    print_gpu_hashes(input.system(), input.open(), frames);
     return status_agree;
 }
 

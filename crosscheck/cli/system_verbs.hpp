@@ -60,8 +60,9 @@ int debug_system(const RegisteredSystem& system, const RunOptions& run, Legal le
 int record_system(const RegisteredSystem& system, const RunOptions& run, const std::filesystem::path& output,
                   int deflate);
 int tell_recording(const RegisteredSystem& system, const std::filesystem::path& file);
-int hash_system(const RegisteredSystem& system, const RunOptions& run, const std::string& profile, bool every);
-int hash_system_on_gpu(const RegisteredSystem& system, const RunOptions& run, bool every);
+int hash_system(const RegisteredSystem& system, const RunOptions& run, const std::string& profile,
+                const HashedFrames& frames);
+int hash_system_on_gpu(const RegisteredSystem& system, const RunOptions& run, const HashedFrames& frames);
 int bench_system(const RegisteredSystem& system, const RunOptions& run, const SystemBench& asked);
 int render_system(const RegisteredSystem& system, const RunOptions& run, const SystemRender& asked);
 int cut_system(const RegisteredSystem& system, const RunOptions& run, const SystemItem& item,

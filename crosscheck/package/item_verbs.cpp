@@ -33,22 +33,27 @@ namespace {
 
 constexpr std::array<std::string_view, 2> report_files{"report.html", "capsule.json"};
 
-/// The first that runs in the frame where none is named.
-std::size_t pass_named(const std::string& name, const System& system, int frame) {
+/// By its name or its place; `option` is where it was named.
+std::size_t pass_named(const std::string& name, const System& system, std::string_view option) {
     std::vector<std::string> names;
-    for (const auto& pass : system.passes) {
-        if (name.empty() && pass->runs(frame))
-            return names.size();
+    for (const auto& pass : system.passes)
         names.emplace_back(pass->name());
-    }
     if (const auto found = std::find(names.begin(), names.end(), name); found != names.end())
         return static_cast<std::size_t>(found - names.begin());
     std::size_t place = 0;
     const auto [end, status] = std::from_chars(name.data(), name.data() + name.size(), place);
     if (status == std::errc{} && end == name.data() + name.size() && place < names.size())
         return place;
-    throw Error(fmt::format("--pass: there is no pass '{}'; there are {}{}", plain_line(name), fmt::join(names, ", "),
-                            did_you_mean(name, names)));
+    throw Error(fmt::format("{}: there is no pass '{}'; there are {}{}", option, plain_line(name),
+                            fmt::join(names, ", "), did_you_mean(name, names)));
+}
+
+/// The one that is named, or else the first that runs in the frame.
+std::size_t pass_named(const std::string& name, const System& system, int frame) {
+    for (std::size_t p = 0; name.empty() && p < system.passes.size(); ++p)
+        if (system.passes[p]->runs(frame))
+            return p;
+    return pass_named(name, system, "--pass");
 }
 
 std::string heading(const System& system, const std::string& file, const std::string& gl, const Profile& profile) {
@@ -141,20 +146,34 @@ std::vector<std::string> first_item_words(const System& system, const CheckRepor
             item_argument(system.schema.resources[place.resource], system.start.extent(place.resource), place.index)};
 }
 
-void print_hashes(const System& system, const std::string& profile, int frames, bool every) {
+void print_hashes(const System& system, const std::string& profile, const HashedFrames& frames) {
     ReferenceRun reference(system, named_profile(profile));
-    print_hash_lines(frames, every, [&](int frame, bool shown) {
+    print_hash_lines(frames, [&](int frame, bool shown) {
         reference.step(frame);
         return shown ? reference.hash() : 0;
     });
 }
 
-void print_gpu_hashes(const System& system, SystemSide& side, int frames, bool every) {
+namespace {
+
+/// Of each pass whether it runs before the first frame that is shown.
+std::vector<bool> leading(const System& system, const std::vector<std::string>& lead_in) {
+    std::vector<bool> found(system.passes.size(), lead_in.empty());
+    for (const std::string& name : lead_in)
+        found[pass_named(name, system, "--lead-in")] = true;
+    return found;
+}
+
+} // namespace
+
+void print_gpu_hashes(const System& system, SystemSide& side, const HashedFrames& frames) {
+    const std::vector<bool> leads = leading(system, frames.lead_in);
     SystemState state = system.start;
     side.upload(std::as_const(state).view());
-    print_hash_lines(frames, every, [&](int frame, bool shown) -> std::uint64_t {
+    print_hash_lines(frames, [&](int frame, bool shown) -> std::uint64_t {
         for (std::size_t p = 0; p < system.passes.size(); ++p)
-            if (system.passes[p]->runs(frame) && !system.passes[p]->continues())
+            if (system.passes[p]->runs(frame) && !system.passes[p]->continues() &&
+                (leads[p] || frame >= frames.first))
                 side.step(p, frame);
         if (!shown)
             return 0;

@@ -16,6 +16,7 @@
 #include "crosscheck/record/item_capsule.hpp"
 #include "crosscheck/record/system_recording.hpp"
 #include "crosscheck/report/debug_session.hpp"
+#include "crosscheck/report/hash_lines.hpp"
 #include "crosscheck/report/page/system_page.hpp"
 #include "crosscheck/report/value_text.hpp"
 
@@ -70,10 +71,11 @@ int status_of(const ItemCapsule& capsule, const System& system);
 std::vector<std::string> first_item_words(const System& system, const CheckReport& report,
                                           std::optional<int> frame = {});
 
-/// Prints the reference's state hash after the last frame, or after `every` one.
-void print_hashes(const System& system, const std::string& profile, int frames, bool every);
-/// The same of a side that runs alone: nothing is judged, and only what is printed is read.
-void print_gpu_hashes(const System& system, SystemSide& side, int frames, bool every);
+/// Prints the reference's state hash after these frames; it has no lead-in.
+void print_hashes(const System& system, const std::string& profile, const HashedFrames& frames);
+/// The same of a side that runs alone: nothing is judged, and only what is printed is read. Throws Error where the
+/// lead-in names no pass.
+void print_gpu_hashes(const System& system, SystemSide& side, const HashedFrames& frames);
 
 /// Records info.frames frames of `side` and says so; its settings, renderer and profile become `info`'s. Gives the exit
 /// status.

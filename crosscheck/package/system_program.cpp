@@ -239,7 +239,7 @@ int show_verb(const OwnProgram& program, const Options& options) {
 }
 
 int hash_verb(const OwnProgram& program, const Options& options) {
-    print_hashes(program.system, options.profile, options.frames, options.every);
+    print_hashes(program.system, options.profile, {.end = options.frames, .every = options.every});
     return status_agree;
 }
 

@@ -78,6 +78,26 @@ TEST_CASE("systems: verbs of the collision system refuse another's scene and nam
           "explain: a scene of system dust needs --item I");
 }
 
+TEST_CASE("systems: a range of frames has the hashes of the whole run, with the passes that it needs before it") {
+    const std::string lights = "data/scenes/lights/crowd.json";
+    const auto hashes = [&](const std::vector<std::string>& words) {
+        return run_lockstep(test::joined({"hash", lights, "--particles", "300", "--preset", "exact", "--every"}, words))
+            .out;
+    };
+    const std::string whole = hashes({"--frames", "6"});
+    const std::string last = whole.substr(whole.find("\n4 ") + 1);
+    CHECK(hashes({"--frames", "4..5"}) == last);
+    const auto on_gpu = [&](const std::string& pass) {
+        return hashes(on_gl({"--side", "gpu", "--frames", "4..5", "--lead-in", pass}));
+    };
+    CHECK(on_gpu("light_step_pass") == last);
+    CHECK(on_gpu("0") == last);
+    CHECK(on_gpu("glow_pass") != last); // the lights have not moved
+    CHECK_THAT(
+        refusal(run_lockstep(on_gl({"hash", lights, "--side", "gpu", "--frames", "4..5", "--lead-in", "light_step"}))),
+        Catch::StartsWith("--lead-in: there is no pass 'light_step'; there are light_step_pass, "));
+}
+
 TEST_CASE("systems: hash is of the reference alone, the same for any number of threads") {
     const std::vector<std::string> words{"hash", scene, "--particles", "500", "--frames", "20"};
     const test::Outcome one = run_lockstep(test::joined(words, {"--threads", "1"}));

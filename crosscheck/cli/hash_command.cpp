@@ -66,8 +66,9 @@ int run(const HashRequest& options) {
         return gpu ? hash_system_on_gpu(*system, options.run, frames_of(options))
                    : hash_system(*system, options.run, options.profile, frames_of(options));
     if (!options.lead_in.empty())
-        throw Error("hash: --lead-in goes with a scene that names its \"system\"; a collision frame needs all of the one "
-                    "before");
+        throw Error(
+            "hash: --lead-in goes with a scene that names its \"system\"; a collision frame needs all of the one "
+            "before");
     const Scene scene = load(options.run);
     (gpu ? hash_gpu : hash_reference)(scene, options);
     return status_agree;

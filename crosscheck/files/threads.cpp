@@ -57,7 +57,7 @@ void let_waiting_threads_sleep(char** argv) {
     if (std::getenv("OMP_WAIT_POLICY") != nullptr || setenv("OMP_WAIT_POLICY", "passive", 1) != 0)
         return;
     setenv("GOMP_SPINCOUNT", "1000", 0); // without it, waits in vain are only slower
-    execv("/proc/self/exe", argv); // returns only where it failed: then they spin
+    execv("/proc/self/exe", argv);       // returns only where it failed: then they spin
 }
 
 void have_waiting_threads_sleep_soon() {

@@ -172,8 +172,7 @@ void print_gpu_hashes(const System& system, SystemSide& side, const HashedFrames
     side.upload(std::as_const(state).view());
     print_hash_lines(frames, [&](int frame, bool shown) -> std::uint64_t {
         for (std::size_t p = 0; p < system.passes.size(); ++p)
-            if (system.passes[p]->runs(frame) && !system.passes[p]->continues() &&
-                (leads[p] || frame >= frames.first))
+            if (system.passes[p]->runs(frame) && !system.passes[p]->continues() && (leads[p] || frame >= frames.first))
                 side.step(p, frame);
         if (!shown)
             return 0;

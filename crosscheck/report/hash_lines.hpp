@@ -19,8 +19,8 @@ struct HashedFrames {
     std::vector<std::string> lead_in = {}; ///< the passes that run before `first`; empty: all
 };
 
-/// Prints "FRAME HASH" of each of these frames as soon as it is known. `hash_of(frame, shown)` runs the frame and returns
-/// the state's hash after it, which counts where it is shown.
+/// Prints "FRAME HASH" of each of these frames as soon as it is known. `hash_of(frame, shown)` runs the frame and
+/// returns the state's hash after it, which counts where it is shown.
 template <class Hash> void print_hash_lines(const HashedFrames& frames, const Hash& hash_of) {
     Progress progress("hash", frames.end, true);
     for (int frame = 0; frame < frames.end; ++frame) {

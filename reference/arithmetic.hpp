@@ -112,6 +112,9 @@ class OwnOrders : public Strict {
         : dot_(profile.dot), length_(profile.length_order()), normalize_(profile.normalize_order()),
           roots_(profile.roots.get()), normalize_divides_(profile.normalize_divides) {}
 
+    [[nodiscard]] bool has_tables() const { return roots_ != nullptr; } ///< else division and roots are IEEE 754's
+    [[nodiscard]] DotOrder dot_order() const { return dot_; }
+
     [[nodiscard]] float reciprocal(float a) const { return roots_ != nullptr ? roots_->reciprocal_of(a) : 1.0F / a; }
     [[nodiscard]] float divide(float a, float b) const { return roots_ != nullptr ? a * reciprocal(b) : a / b; }
     [[nodiscard]] float sqrt(float a) const { return roots_ != nullptr ? reciprocal(inverse_sqrt(a)) : std::sqrt(a); }

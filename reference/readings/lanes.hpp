@@ -134,7 +134,6 @@ struct PlainLanes {
         return part * (1.0F / sqrt(sum(normalize_order, v, v)));
     }
 
-  private:
     LOCKSTEP_INLINE static FloatLanes sum(DotOrder order, const Three& a, const Three& b) {
         if (order == DotOrder::left_to_right)
             return (a.x * b.x + a.y * b.y) + a.z * b.z;

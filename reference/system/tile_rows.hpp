@@ -19,26 +19,25 @@ template <class A> A arithmetic_of(const Values<A>& r) {
     return Opened(r).arithmetic();
 }
 
-/// Each operation as the plain arithmetic of a driver has it, with tables of roots or without, lane by lane.
+/// Each operation as the plain arithmetic of a driver has it: with tables of roots lane by lane.
 struct OwnOrderLanes {
     using Three = Vec3<FloatLanes>;
     OwnOrders fp;
 
     LOCKSTEP_INLINE static FloatLanes flush(const FloatLanes& v) { return v; }
     [[nodiscard]] LOCKSTEP_INLINE FloatLanes divide(const FloatLanes& a, const FloatLanes& b) const {
+        if (!fp.has_tables())
+            return a / b;
         FloatLanes made = a;
         for (int k = 0; k < lane_count; ++k)
             made[k] = fp.divide(a[k], b[k]);
         return made;
     }
     [[nodiscard]] LOCKSTEP_INLINE FloatLanes sqrt(const FloatLanes& a) const {
-        return lanes::each(a, [this](float x) { return fp.sqrt(x); });
+        return fp.has_tables() ? lanes::each(a, [this](float x) { return fp.sqrt(x); }) : lanes::sqrt(a);
     }
     [[nodiscard]] LOCKSTEP_INLINE FloatLanes dot(const Three& a, const Three& b) const {
-        FloatLanes made = a.x;
-        for (int k = 0; k < lane_count; ++k)
-            made[k] = fp.dot({a.x[k], a.y[k], a.z[k]}, {b.x[k], b.y[k], b.z[k]});
-        return made;
+        return PlainLanes::sum(fp.dot_order(), a, b);
     }
 };
 

@@ -30,7 +30,8 @@ struct SphereDepthTwin {
     std::shared_ptr<DrawnBalls> balls = {};
 
     [[nodiscard]] SphereDepthTwin at(const PassInput& in) const {
-        return {host, sprite_boxes(*host, in.before, spheres()), std::make_shared<DrawnBalls>()};
+        return {host, sprite_boxes(*host, in.before, spheres()),
+                std::make_shared<DrawnBalls>(in.before[particle_buffer].count())};
     }
 
     [[nodiscard]] HandedSpheres<SphereDepthTwin> handed(std::span<const Mistake> made) const { return {*this, made}; }
@@ -45,7 +46,7 @@ struct SphereDepthTwin {
         auto nearest = least<SphereAt<R>>(r, site::nearest_sphere, 1.0F);
         for_each_tried(boxes, in.before, pixel, tried, [&](std::uint32_t i) {
             if (const auto ball = sprite.ball(i))
-                offer(r, in.before, sprite, *ball, pixel, item,
+                offer(r, sprite, *ball, meeting(r, *host, in, sprite, *ball, item),
                       [&](const auto& condition, const Real& key, const Real& stored) {
                           nearest.offer(site::sphere_here, condition, key, SphereAt<R>{stored});
                       });
@@ -66,24 +67,23 @@ struct SphereDepthTwin {
     [[nodiscard]] Spheres spheres() const { return {host->switches().sphere, host->settings().radius}; }
 
     /// Calls `made(condition, key, stored)` where the sphere may cover the pixel.
-    template <class R, class Place, class Item, class Made>
-    void offer(R& r, const SystemView& state, const SpriteTwin<R>& sprite, const Ball<R>& ball, const Place& pixel,
-               const Item& item, const Made& made) const {
+    template <class R, class Meets, class Made>
+    void offer(R& r, const SpriteTwin<R>& sprite, const Ball<R>& ball, const Meets& meets, const Made& made) const {
         using Real = typename R::Real;
         const DepthCode<R> code(r, *host);
         const Real zero(0.0F), one(1.0F);
         const auto offer_at = [&](const Real& height_of, const auto& covered) {
             const Real z = r.note(site::surface_z, height_of), window = code.window(z), stored = code.stored(z);
-            made(covered && z < zero && before_scene(r, *host, state, item, window), code.tested(z, stored),
+            made(covered && z < zero && before_scene(r, *host, meets.scene, window), code.tested(z, stored),
                  r.note(site::sphere_depth, stored));
         };
         if (host->switches().sphere == Sphere::ray) {
-            const RayOfPixel<R> ray = ray_at(r, sprite, ball, pixel);
+            const RayOfPixel<R> ray = ray_at(r, sprite, ball, meets.place());
             if (!everywhere(decided(r, site::off_sphere, ray.chord < zero)))
                 offer_at(-(ray.middle - half_chord(r, ray)), ray.chord >= zero);
             return;
         }
-        const Real squared = sprite.squared_if_drawn(ball, sprite.squared(ball, pixel));
+        const Real squared = sprite.squared_if_drawn(ball, meets.squared());
         // A point's edge is open: one fork among all spheres, not one for each.
         if (host->switches().sprite == Sprite::points || !everywhere(decided(r, site::off_disc, squared > one)))
             offer_at(ball.centre.z + r.note(site::rise, sprite.radius() * sprite.height(squared)), squared <= one);

@@ -12,13 +12,27 @@
 namespace lockstep::fluid {
 namespace {
 
-/// Calls `draw(row, reading, sprite, ball, place, items, inside)` for each sphere at each row of a tile that its box
-/// touches, by number, and stores what `words_of(row, items)` makes of the row.
-template <class Twin, class A, class Row, class Draw, class Words>
-void draw_spheres(const Twin& twin, const A& fp, const PassInput& in, std::size_t tiles, const Row& empty,
+/// A sphere in a tile: what is the same in all of its rows.
+template <class R> struct TileBall {
+    Ball<R> ball;
+    typename R::Real along_x, along_y; ///< of SpriteTwin::squared: of each column, and of each row
+    typename R::Real window;           ///< of its middle
+};
+
+/// A row of a tile, with what is made of it.
+template <class R, class Made> struct TileRow {
+    typename R::Real scene; ///< scene_depth
+    Made made;
+};
+
+/// Calls `draw(made, reading, sprite, ball, meeting, inside)` for each sphere at each row of a tile that it may cover,
+/// by number, and stores what `words_of(made, items)` makes of the row.
+template <class Twin, class A, class Made, class Draw, class Words>
+void draw_spheres(const Twin& twin, const A& fp, const PassInput& in, std::size_t tiles, const Made& empty,
                   const Draw& draw, const Words& words_of, const WritableView& after) {
     const auto lane_fp = lanes_of(fp);
     using R = Lanes<std::remove_cvref_t<decltype(lane_fp)>>;
+    using Row = TileRow<R, Made>;
     R reading(lane_fp, (1U << lane_count) - 1);
     const auto& balls = twin.balls->of(fp, *twin.host, in.before, twin.spheres());
     const SpriteTwin<R> sprite(reading, *twin.host, in.before, twin.spheres());
@@ -28,21 +42,37 @@ void draw_spheres(const Twin& twin, const A& fp, const PassInput& in, std::size_
         const IntLanes behind = from(first);
         return LaneItems{behind > last ? lanes::all(last) : behind, lane_count};
     };
+    const bool is_flat = twin.spheres().shape == Sphere::flat;
     draw_rows(
-        twin.boxes, width, twin.host->settings().height, tiles, empty,
-        [&](std::uint32_t i) {
-            std::optional<Ball<R>> wide;
-            if (const auto& ball = balls[i]) {
-                const auto& [x, y, z, w, middle_x, middle_y, half] = *ball;
-                wide = Ball<R>{{x, y, z}, w, middle_x, middle_y, half};
-            }
-            return wide;
+        twin.boxes, width, twin.host->settings().height, tiles,
+        [&](const Pixel& place) {
+            return Row{item_real(reading, site::scene_depth_in, in.before, field::scene_depth, items_at(place)), empty};
         },
-        [&](Row& row, const Ball<R>& ball, const LanePixel& place, const LaneMask& inside) {
-            draw(row, reading, sprite, ball, place, items_at(first_of(place)), inside);
+        [&](std::uint32_t i, const Pixel& first) {
+            std::optional<TileBall<R>> in_tile;
+            if (!balls[i])
+                return in_tile;
+            const auto& [x, y, z, w, middle_x, middle_y, half] = *balls[i];
+            const Ball<R> ball{{x, y, z}, w, middle_x, middle_y, half};
+            const auto nx = sprite.from_middle_x(ball, from(first.x)), ny = sprite.from_middle_y(ball, from(first.y));
+            const auto along_x = nx * nx;
+            // Rounding keeps the order of sums: what lies beside the sprite in a column or a row is not covered.
+            if (is_flat && everywhere(along_x > typename R::Real(1.0F)))
+                return in_tile;
+            in_tile = {ball, along_x, ny * ny, DepthCode<R>(reading, *twin.host).window(ball.centre.z)};
+            return in_tile;
+        },
+        [&](Row& row, const TileBall<R>& in_tile, const LanePixel& place, const LaneMask& inside) {
+            const float along_y = in_tile.along_y.v[place.y % lane_count];
+            if (is_flat && along_y > 1.0F)
+                return;
+            draw(row.made, reading, sprite, in_tile.ball,
+                 Meeting([&] { return place; }, [&] { return sprite.squared_of(in_tile.along_x, along_y); },
+                         [&] { return in_tile.window; }, [&] { return row.scene; }),
+                 inside);
         },
         [&](const Row& row, const Pixel& place, int count) {
-            const IntLanes words = words_of(row, items_at(place));
+            const IntLanes words = words_of(row.made, items_at(place));
             std::memcpy(after.columns[0] + (static_cast<std::size_t>(place.y) * static_cast<std::size_t>(width) +
                                             static_cast<std::size_t>(place.x)) *
                                                sizeof(float),
@@ -59,14 +89,12 @@ template <class A> void depth_row(const SphereDepthTwin& twin, const A& fp, cons
     const float nothing = DepthCode<Values<A>>(one, *twin.host).empty();
     draw_spheres(
         twin, fp, in, tiles, Row{lanes::all(1.0F), lanes::all(nothing)},
-        [&](Row& row, auto& r, const auto& sprite, const auto& ball, const LanePixel& pixel, const LaneItems& items,
-            const LaneMask& inside) {
-            twin.offer(r, in.before, sprite, ball, pixel, items,
-                       [&](const LaneMask& condition, const auto& key, const auto& stored) {
-                           const IntLanes nearer = (inside && condition).v & (key.v < row.key);
-                           row.key = nearer ? key.v : row.key;
-                           row.stored = nearer ? stored.v : row.stored;
-                       });
+        [&](Row& row, auto& r, const auto& sprite, const auto& ball, const auto& meets, const LaneMask& inside) {
+            twin.offer(r, sprite, ball, meets, [&](const LaneMask& condition, const auto& key, const auto& stored) {
+                const IntLanes nearer = (inside && condition).v & (key.v < row.key);
+                row.key = nearer ? key.v : row.key;
+                row.stored = nearer ? stored.v : row.stored;
+            });
         },
         [](const Row& row, const LaneItems&) { return lanes::bits(row.stored); }, after);
 }
@@ -80,9 +108,8 @@ template <class A> void thickness_row(const ThicknessTwin& twin, const A& fp, co
     using F = decltype(lanes_of(fp));
     draw_spheres(
         twin, fp, in, tiles, Row{lanes::all(0.0F), lanes::all(0)},
-        [&](Row& row, auto& r, const auto& sprite, const auto& ball, const LanePixel& pixel, const LaneItems& items,
-            const LaneMask& inside) {
-            twin.addend(r, in.before, sprite, ball, pixel, items, [&](const LaneMask& covered, const auto& t) {
+        [&](Row& row, auto& r, const auto& sprite, const auto& ball, const auto& meets, const LaneMask& inside) {
+            twin.addend(r, sprite, ball, meets, [&](const LaneMask& covered, const auto& t) {
                 const IntLanes adds = (inside && covered).v;
                 if (twin.is_fixed())
                     row.units += adds & __builtin_convertvector(t.v, IntLanes);

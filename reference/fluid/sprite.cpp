@@ -7,6 +7,8 @@
 
 #include <glm/geometric.hpp>
 
+#include "reference/parallel_blocks.hpp"
+
 namespace lockstep::fluid {
 namespace {
 
@@ -45,9 +47,7 @@ BoxesByTile sprite_boxes(const Host& host, const SystemView& state, const Sphere
     const Settings& s = host.settings();
     const RoughWindow window{glm::dmat4(host.view_projection()), s.width, s.height};
     const glm::dmat4 view(host.view());
-    std::vector<PixelRect> all;
-    all.reserve(state[particle_buffer].count());
-    for (std::size_t i = 0; i < state[particle_buffer].count(); ++i) {
+    const auto box_of = [&](std::size_t i) -> PixelRect {
         const glm::vec3 p(state.vec4(field::position, i));
         const glm::dvec3 c(view * glm::dvec4(glm::dvec3(p), 1.0));
         const auto drawn_size = [&](double size) {
@@ -58,13 +58,17 @@ BoxesByTile sprite_boxes(const Host& host, const SystemView& state, const Sphere
         };
         const double away = host.switches().point_size == PointSize::clip_w ? -c.z : glm::length(c);
         if (!(-c.z > 0.5 * double{host.near_plane()}))
-            all.emplace_back();
-        else if (spheres.shape == Sphere::ray)
-            all.push_back(ray_box(host, window, c, double{spheres.radius}));
-        else
-            all.push_back(window.disc(window.place(window.clip(p)),
-                                      0.5 * drawn_size(double{host.point_scale()} * spheres.radius / away)));
-    }
+            return {};
+        if (spheres.shape == Sphere::ray)
+            return ray_box(host, window, c, double{spheres.radius});
+        return window.disc(window.place(window.clip(p)),
+                           0.5 * drawn_size(double{host.point_scale()} * spheres.radius / away));
+    };
+    std::vector<PixelRect> all(state[particle_buffer].count());
+    parallel_ranges(all.size(), [&](std::size_t first, std::size_t last) {
+        for (std::size_t i = first; i < last; ++i)
+            all[i] = box_of(i);
+    });
     return {std::move(all), s.width, s.height};
 }
 

@@ -1,9 +1,10 @@
 #pragma once
+#include <algorithm>
 #include <array>
+#include <atomic>
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
-#include <mutex>
 #include <optional>
 #include <span>
 #include <tuple>
@@ -104,19 +105,18 @@ template <class R> class SpriteTwin {
 
     /// The squared distance of a pixel's centre from the sprite's middle; above 1 it is not covered.
     template <class Place> [[nodiscard]] Real squared(const Ball<R>& ball, const Place& pixel) const {
-        const bool is_point = host_.switches().sprite == Sprite::points;
-        const auto along = [&](At at, const Real& centre, const Real& middle) {
-            const Real from = r_.divide(at, centre - middle, ball.half);
-            return r_.note(at, is_point ? point_coordinate(at, from, {centre, middle, ball.half}) : from);
-        };
-        if constexpr (HasLanes<R>) { // of a row beside the sprite: rounding keeps the order of sums
-            const Real ny = along(site::ny, r_.real(pixel.y) + Real(0.5F), ball.y), along_y = ny * ny;
-            if (everywhere(along_y > Real(1.0F)))
-                return along_y;
-        }
-        const Real nx = along(site::nx, r_.note(site::pixel_x, r_.real(pixel.x) + Real(0.5F)), ball.x),
-                   ny = along(site::ny, r_.note(site::pixel_y, r_.real(pixel.y) + Real(0.5F)), ball.y);
-        return r_.note(site::magnitude, nx * nx + ny * ny);
+        const Real nx = from_middle_x(ball, pixel.x), ny = from_middle_y(ball, pixel.y);
+        return squared_of(nx * nx, ny * ny);
+    }
+    [[nodiscard]] Real squared_of(const Real& along_x, const Real& along_y) const {
+        return r_.note(site::magnitude, along_x + along_y);
+    }
+    /// How far the centre of a column's or of a row's pixels is from the middle, of half the sprite's side.
+    [[nodiscard]] Real from_middle_x(const Ball<R>& ball, const IndexOf<R>& x) const {
+        return from_middle(site::nx, r_.note(site::pixel_x, r_.real(x) + Real(0.5F)), ball.x, ball);
+    }
+    [[nodiscard]] Real from_middle_y(const Ball<R>& ball, const IndexOf<R>& y) const {
+        return from_middle(site::ny, r_.note(site::pixel_y, r_.real(y) + Real(0.5F)), ball.y, ball);
     }
     /// The same, or off the disc, of a sphere that may not be drawn.
     [[nodiscard]] Real squared_if_drawn(const Ball<R>& ball, const Real& squared) const {
@@ -179,6 +179,11 @@ template <class R> class SpriteTwin {
         const auto [smallest, largest] = host_.points().sizes;
         return r_.note(site::drawn_size, r_.max(r_.min(size, Real(largest)), Real(smallest)));
     }
+    [[nodiscard]] Real from_middle(At at, const Real& centre, const Real& middle, const Ball<R>& ball) const {
+        const Real from = r_.divide(at, centre - middle, ball.half);
+        const bool is_point = host_.switches().sprite == Sprite::points;
+        return r_.note(at, is_point ? point_coordinate(at, from, {centre, middle, ball.half}) : from);
+    }
     struct Along {
         Real pixel, middle, half;
     };
@@ -201,37 +206,67 @@ template <class R> class SpriteTwin {
     Spheres spheres_;
 };
 
-/// The balls of one state in one arithmetic, made when they are first asked for. Any number of threads may ask.
+/// The balls of one state in one arithmetic, made when they are first asked for, by all threads that ask.
 class DrawnBalls {
   public:
     using Numbers = std::array<float, 7>; ///< of a ball, in its order
+    explicit DrawnBalls(std::size_t count) : all_(count) {}
+
     template <class A> const std::vector<std::optional<Numbers>>& of(const A& arithmetic, const Host& host,
                                                                      const SystemView& state, const Spheres& spheres) {
-        std::call_once(once_, [&] {
-            Values<A> r(arithmetic);
-            const SpriteTwin<Values<A>> sprite(r, host, state, spheres);
-            all_.resize(state[particle_buffer].count());
-            const auto number = [](const auto& x) { return static_cast<float>(x); };
-            for (std::uint32_t i = 0; i < all_.size(); ++i)
-                if (const auto ball = sprite.ball(i))
-                    all_[i] = {number(ball->centre.x), number(ball->centre.y), number(ball->centre.z), number(ball->w),
-                               number(ball->x),        number(ball->y),        number(ball->half)};
-        });
+        Values<A> r(arithmetic);
+        const SpriteTwin<Values<A>> sprite(r, host, state, spheres);
+        for (std::size_t first = next_.fetch_add(block); first < all_.size(); first = next_.fetch_add(block)) {
+            const std::size_t last = std::min(first + block, all_.size());
+            for (std::size_t i = first; i < last; ++i)
+                make(sprite, i);
+            made_.fetch_add(last - first);
+            made_.notify_all();
+        }
+        for (std::size_t made = made_.load(); made < all_.size(); made = made_.load())
+            made_.wait(made);
         return all_;
     }
 
   private:
-    std::once_flag once_;
+    static constexpr std::size_t block = 1024;
+
+    template <class Sprite> void make(const Sprite& sprite, std::size_t i) {
+        const auto number = [](const auto& x) { return static_cast<float>(x); };
+        if (const auto ball = sprite.ball(static_cast<std::uint32_t>(i)))
+            all_[i] = {number(ball->centre.x), number(ball->centre.y), number(ball->centre.z), number(ball->w),
+                       number(ball->x),        number(ball->y),        number(ball->half)};
+    }
+
     std::vector<std::optional<Numbers>> all_;
+    std::atomic<std::size_t> next_ = 0, made_ = 0;
 };
 
-/// The condition under which `scene_depth` lets what lies at a window depth be seen.
-template <class R, class Item>
-auto before_scene(R& r, const Host& host, const SystemView& state, const Item& item, const typename R::Real& window) {
+/// What a pass asks where a sphere meets a pixel: functions, as not every sphere and not every pass asks for all.
+template <class Place, class Squared, class Window, class Scene> struct Meeting {
+    Meeting(Place place_, Squared squared_, Window window_, Scene scene_)
+        : place(place_), squared(squared_), window(window_), scene(scene_) {}
+    Place place;     ///< the pixel
+    Squared squared; ///< SpriteTwin::squared there
+    Window window;   ///< the window depth of the sphere's middle
+    Scene scene;     ///< scene_depth there
+};
+
+/// A sphere and one pixel.
+template <class R> auto meeting(R& r, const Host& host, const PassInput& in, const SpriteTwin<R>& sprite,
+                                const Ball<R>& ball, std::size_t item) {
+    const Pixel pixel = Pixel::of(host.settings().width, item);
+    return Meeting([pixel] { return pixel; }, [&sprite, &ball, pixel] { return sprite.squared(ball, pixel); },
+                   [&r, &host, &ball] { return DepthCode<R>(r, host).window(ball.centre.z); },
+                   [&r, &in, item] { return item_real(r, site::scene_depth_in, in.before, field::scene_depth, item); });
+}
+
+/// The condition under which `scene_depth()` lets what lies at a window depth be seen.
+template <class R, class Scene>
+auto before_scene(R& r, const Host& host, const Scene& scene_depth, const typename R::Real& window) {
     using Real = typename R::Real;
     const bool tests = r.setting(site::tests_scene, host.switches().scene_depth == SceneDepth::test);
-    const Real scene = tests ? item_real(r, site::scene_depth_in, state, field::scene_depth, item) : Real(HUGE_VALF);
-    return window < scene;
+    return window < (tests ? scene_depth() : Real(HUGE_VALF));
 }
 
 } // namespace lockstep::fluid

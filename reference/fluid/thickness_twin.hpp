@@ -33,7 +33,8 @@ struct ThicknessTwin {
     std::shared_ptr<DrawnBalls> balls = {};
 
     [[nodiscard]] ThicknessTwin at(const PassInput& in) const {
-        return {host, sprite_boxes(*host, in.before, spheres()), std::make_shared<DrawnBalls>()};
+        return {host, sprite_boxes(*host, in.before, spheres()),
+                std::make_shared<DrawnBalls>(in.before[particle_buffer].count())};
     }
 
     [[nodiscard]] HandedSpheres<ThicknessTwin> handed(std::span<const Mistake> made) const { return {*this, made}; }
@@ -51,7 +52,7 @@ struct ThicknessTwin {
             if (i + 1 == count && !r.setting(site::takes_last_sphere, true))
                 return;
             if (const auto ball = sprite.ball(i))
-                addend(r, in.before, sprite, *ball, pixel, item, [&](bool covered, const Real& t) {
+                addend(r, sprite, *ball, meeting(r, *host, in, sprite, *ball, item), [&](bool covered, const Real& t) {
                     if (covered)
                         terms.push_back(t);
                 });
@@ -75,19 +76,17 @@ struct ThicknessTwin {
     [[nodiscard]] bool is_fixed() const { return host->switches().thickness_sum == ThicknessSum::fixed; }
 
     /// Calls `made(covered, t)` where the sphere may cover the pixel: metres, or units of 2^-16 of a fixed sum.
-    template <class R, class Place, class Item, class Made>
-    void addend(R& r, const SystemView& state, const SpriteTwin<R>& sprite, const Ball<R>& ball, const Place& pixel,
-                const Item& item, const Made& made) const {
+    template <class R, class Meets, class Made>
+    void addend(R& r, const SpriteTwin<R>& sprite, const Ball<R>& ball, const Meets& meets, const Made& made) const {
         using Real = typename R::Real;
-        const Real squared = sprite.squared(ball, pixel);
+        const Real squared = meets.squared();
         const auto off = decided(r, site::off_disc, squared > Real(1.0F));
         if (everywhere(off))
             return;
         auto covered = !off;
         if (host->switches().scene_depth == SceneDepth::test) {
             const auto nearer =
-                decided(r, site::nearer_than_scene,
-                        before_scene(r, *host, state, item, DepthCode<R>(r, *host).window(ball.centre.z)));
+                decided(r, site::nearer_than_scene, before_scene(r, *host, meets.scene, meets.window()));
             if (nowhere(nearer))
                 return;
             covered = covered && nearer;

@@ -37,8 +37,15 @@ using IntLanes [[gnu::vector_size(4 * lane_count)]] = std::int32_t;
 
 namespace lanes {
 
-LOCKSTEP_INLINE FloatLanes all(float x) { return FloatLanes{x, x, x, x, x, x, x, x}; }
-LOCKSTEP_INLINE IntLanes all(int i) { return IntLanes{i, i, i, i, i, i, i, i}; }
+// Shuffled: of a list of eight GCC makes eight instructions where a caller is compiled for more than its callees.
+LOCKSTEP_INLINE FloatLanes all(float x) {
+    const FloatLanes one{x};
+    return __builtin_shufflevector(one, one, 0, 0, 0, 0, 0, 0, 0, 0);
+}
+LOCKSTEP_INLINE IntLanes all(int i) {
+    const IntLanes one{i};
+    return __builtin_shufflevector(one, one, 0, 0, 0, 0, 0, 0, 0, 0);
+}
 LOCKSTEP_INLINE IntLanes bits(const FloatLanes& v) { return std::bit_cast<IntLanes>(v); }
 LOCKSTEP_INLINE FloatLanes floats(const IntLanes& v) { return std::bit_cast<FloatLanes>(v); }
 
@@ -49,15 +56,18 @@ template <class Vector, class Number> LOCKSTEP_INLINE Vector loaded(const Number
     return v;
 }
 
+#if defined(__SSE2__)
+// Shuffled, not copied: what is stored in halves and loaded whole has to wait.
+LOCKSTEP_INLINE __m128 low_half(const FloatLanes& v) { return __builtin_shufflevector(v, v, 0, 1, 2, 3); }
+LOCKSTEP_INLINE __m128 high_half(const FloatLanes& v) { return __builtin_shufflevector(v, v, 4, 5, 6, 7); }
+#endif
+
 /// One bit a lane of a mask, whose lanes are 0 or -1.
 LOCKSTEP_INLINE unsigned set_of(const IntLanes& mask) {
 #if defined(__SSE2__)
-    struct Halves {
-        __m128 low, high;
-    };
-    const auto halves = std::bit_cast<Halves>(mask);
-    return static_cast<unsigned>(_mm_movemask_ps(halves.low)) | static_cast<unsigned>(_mm_movemask_ps(halves.high))
-                                                                    << 4;
+    const auto v = std::bit_cast<FloatLanes>(mask);
+    return static_cast<unsigned>(_mm_movemask_ps(low_half(v))) | static_cast<unsigned>(_mm_movemask_ps(high_half(v)))
+                                                                     << 4;
 #else
     unsigned set = 0;
     for (int lane = 0; lane < lane_count; ++lane)
@@ -68,11 +78,7 @@ LOCKSTEP_INLINE unsigned set_of(const IntLanes& mask) {
 
 LOCKSTEP_INLINE FloatLanes sqrt(const FloatLanes& v) {
 #if defined(__SSE2__)
-    struct Halves {
-        __m128 low, high;
-    };
-    const auto halves = std::bit_cast<Halves>(v);
-    return std::bit_cast<FloatLanes>(Halves{_mm_sqrt_ps(halves.low), _mm_sqrt_ps(halves.high)});
+    return __builtin_shufflevector(_mm_sqrt_ps(low_half(v)), _mm_sqrt_ps(high_half(v)), 0, 1, 2, 3, 4, 5, 6, 7);
 #else
     FloatLanes root = v;
     for (int lane = 0; lane < lane_count; ++lane)

@@ -4,6 +4,8 @@
 #include <cmath>
 #include <utility>
 
+#include "reference/parallel_blocks.hpp"
+
 namespace lockstep {
 namespace {
 
@@ -52,14 +54,30 @@ BoxesByTile::BoxesByTile(std::vector<PixelRect> boxes, int width, int height)
     : boxes_(std::move(boxes)), width_(width), height_(height),
       columns_(static_cast<std::size_t>((width + side - 1) / side)),
       starts_(columns_ * static_cast<std::size_t>((height + side - 1) / side) + 1) {
-    for (const PixelRect& box : boxes_)
-        for_each_tile(box, columns_, [&](std::size_t tile) { ++starts_[tile + 1]; });
-    for (std::size_t tile = 1; tile < starts_.size(); ++tile)
-        starts_[tile] += starts_[tile - 1];
-    numbers_.resize(starts_.back());
-    std::vector<std::size_t> next(starts_.begin(), starts_.end() - 1);
-    for (std::uint32_t i = 0; i < boxes_.size(); ++i)
-        for_each_tile(boxes_[i], columns_, [&](std::size_t tile) { numbers_[next[tile]++] = i; });
+    // A counting sort by parts of the boxes: where each part's numbers of a tile begin depends on the boxes alone.
+    constexpr std::size_t most_parts = 16, boxes_of_part = 4096;
+    const std::size_t tiles = starts_.size() - 1,
+                      parts = std::clamp(boxes_.size() / boxes_of_part, std::size_t{1}, most_parts);
+    std::vector<std::size_t> places(parts * tiles);
+    const auto for_each_part = [&](const auto& visit) {
+        parallel_blocks(static_cast<std::ptrdiff_t>(parts), [&](std::ptrdiff_t which) {
+            const auto part = static_cast<std::size_t>(which);
+            std::size_t* const of_part = &places[part * tiles];
+            for (std::size_t i = part * boxes_.size() / parts; i < (part + 1) * boxes_.size() / parts; ++i)
+                for_each_tile(boxes_[i], columns_, [&](std::size_t tile) { visit(i, of_part[tile]); });
+        });
+    };
+    for_each_part([](std::size_t, std::size_t& count) { ++count; });
+    std::size_t total = 0;
+    for (std::size_t tile = 0; tile < tiles; ++tile) {
+        for (std::size_t part = 0; part < parts; ++part) {
+            std::size_t& place = places[part * tiles + tile];
+            total += std::exchange(place, total);
+        }
+        starts_[tile + 1] = total;
+    }
+    numbers_.resize(total);
+    for_each_part([&](std::size_t i, std::size_t& place) { numbers_[place++] = static_cast<std::uint32_t>(i); });
 }
 
 PixelRect BoxesByTile::tile(std::size_t tile) const {

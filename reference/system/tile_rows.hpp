@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <array>
 #include <cstdint>
+#include <type_traits>
 
 #include "reference/plain_arithmetic.hpp"
 #include "reference/readings/lanes.hpp"
@@ -44,23 +45,26 @@ struct OwnOrderLanes {
 inline PortableLanes lanes_of(const Portable&) { return {}; }
 inline OwnOrderLanes lanes_of(const PlainArithmetic& fp) { return {fp}; }
 
-/// BoxesByTile::draw, a row of a tile at a time: `draw(row, drawn, place, inside)` for the pixels from `place` on that
-/// are `inside`; `done(row, place, count)` with as many as lie in the image.
-template <class Row, class Make, class Draw, class Done>
-void draw_rows(const BoxesByTile& boxes, int width, int height, std::size_t tiles, const Row& empty, const Make& make,
+/// BoxesByTile::draw, a row of a tile at a time. `begin(place)` makes a row, and `make(i, place)` what is drawn in a
+/// tile, from their first pixel. Then `draw(row, drawn, place, inside)` for the pixels from `place` on that are
+/// `inside`, and `done(row, place, count)` with as many as lie in the image.
+template <class Begin, class Make, class Draw, class Done>
+void draw_rows(const BoxesByTile& boxes, int width, int height, std::size_t tiles, const Begin& begin, const Make& make,
                const Draw& draw, const Done& done) {
     constexpr int side = BoxesByTile::side;
+    using Row = std::remove_cvref_t<std::invoke_result_t<Begin, Pixel>>;
     static_assert(side == lane_count);
     const int y0 = static_cast<int>(tiles) * side, y1 = std::min(y0 + side, height);
     for (int x0 = 0; x0 < width; x0 += side) {
         const int x1 = std::min(x0 + side, width);
         std::array<Row, side> rows;
-        rows.fill(empty);
+        for (int y = y0; y < y1; ++y)
+            rows[static_cast<std::size_t>(y - y0)] = begin(Pixel{x0, y});
         for (const std::uint32_t i : boxes.near({x0, y0})) {
             const PixelRect& box = boxes.box(i);
             const IntLanes at = from(x0);
             const LaneMask inside((at >= box.x0) & (at < std::min(x1, box.x1)));
-            if (const auto drawn = make(i))
+            if (const auto drawn = make(i, Pixel{x0, y0}))
                 for (int y = std::max(y0, box.y0); y < std::min(y1, box.y1); ++y)
                     draw(rows[static_cast<std::size_t>(y - y0)], *drawn, LanePixel{LaneInt(at), x0, y}, inside);
         }

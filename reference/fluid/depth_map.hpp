@@ -26,9 +26,8 @@ template <class R> class DepthMap {
     /// What is stored at a pixel, the nearest one of the image.
     [[nodiscard]] Real at(At place, const Index& x, int y) const {
         const Settings& s = host_.settings();
-        if constexpr (!HasLanes<R>)
-            if (host_.switches().depth_fetch == DepthFetch::linear)
-                return filtered(place, x, y);
+        if (host_.switches().depth_fetch == DepthFetch::linear)
+            return filtered(place, x, y);
         return r_.note(place, item_real(r_, place, state_, from_,
                                         item_of(clamped(x, 0, s.width - 1), clamped(y, 0, s.height - 1), s.width)));
     }
@@ -49,17 +48,15 @@ template <class R> class DepthMap {
     [[nodiscard]] const DepthCode<R>& code() const { return code_; }
 
   private:
-    [[nodiscard]] float raw(int x, int y) const {
-        return state_.real(from_, static_cast<std::size_t>(y) * static_cast<std::size_t>(host_.settings().width) +
-                                      static_cast<std::size_t>(x));
-    }
-    [[nodiscard]] Real filtered(At place, int x, int y) const {
+    [[nodiscard]] Real filtered(At place, const Index& x, int y) const {
         const Settings& s = host_.settings();
-        const auto along = [&](int i, int size, At size_at) {
+        const auto along = [&](const auto& i, int size, At size_at) {
             const Real extent = r_.uniform(size_at, static_cast<float>(size));
             return r_.divide(place, r_.real(i) + Real(0.5F), extent) * extent;
         };
-        const auto texel = [this](int tx, int ty) { return raw(tx, ty); };
+        const auto texel = [this, &s](const Index& tx, const Index& ty) {
+            return raw_real(state_, from_, item_of(tx, ty, s.width));
+        };
         return linear_fetch(r_, place, {along(x, s.width, site::width), along(y, s.height, site::height)},
                             Texels<decltype(texel)>{s.width, s.height, texel});
     }

@@ -1,4 +1,5 @@
 #include "reference/fluid/depth_filter_twin.hpp"
+#include "reference/fluid/linear_lanes.hpp"
 #include "reference/fluid/normal_twin.hpp"
 #include "reference/fluid/scene_twin.hpp"
 #include "reference/fluid/shade_twin.hpp"
@@ -15,18 +16,11 @@ LOCKSTEP_MAKE_LANES(SceneTwin)
 
 constexpr auto make_all = [](const auto& twin, const auto& fp, const FastRun& run) { make(twin, fp, run); };
 
-/// Where lanes have what the switches ask.
-template <class Twin> bool by_lanes(const Twin& twin, const FastRun& run) {
-    const Switches& on = twin.host->switches();
-    return on.depth_fetch == DepthFetch::texel && on.scene_fetch != SceneFetch::linear &&
-           fast_by_lanes(twin, run, make_all);
-}
-
 } // namespace
 
-bool DepthFilterTwin::fast(const FastRun& run) const { return by_lanes(*this, run); }
-bool NormalTwin::fast(const FastRun& run) const { return by_lanes(*this, run); }
-bool ShadeTwin::fast(const FastRun& run) const { return by_lanes(*this, run); }
+bool DepthFilterTwin::fast(const FastRun& run) const { return fast_by_lanes(*this, run, make_all); }
+bool NormalTwin::fast(const FastRun& run) const { return fast_by_lanes(*this, run, make_all); }
+bool ShadeTwin::fast(const FastRun& run) const { return fast_by_lanes(*this, run, make_all); }
 bool SceneTwin::fast(const FastRun& run) const {
     SceneTwin seeing = *this;
     seeing.seen = view->seen(run.in.before);

@@ -81,7 +81,7 @@ template <class Texel> Interval legal_fetch(const FetchedAxis& x, const FetchedA
 }
 
 /// What the texture unit makes of the texels around a place, given in texels, GL_LINEAR: fma(f, b - a, a) along x, then
-/// y.
+/// y (of lanes linear_lanes.hpp).
 template <class R, class Texel>
 typename R::Real linear_fetch(R& r, At at, const typename R::Vec2& place, const Texels<Texel>& image) {
     using Real = typename R::Real;

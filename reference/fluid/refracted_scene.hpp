@@ -26,10 +26,7 @@ template <class R> class RefractedScene {
         case SceneFetch::bilinear:
             return bilinear(place);
         case SceneFetch::linear:
-            if constexpr (HasLanes<R>)
-                break;
-            else
-                return {filtered(place, 0), filtered(place, 1), filtered(place, 2)};
+            return {filtered(place, 0), filtered(place, 1), filtered(place, 2)};
         }
         return {};
     }
@@ -37,12 +34,6 @@ template <class R> class RefractedScene {
   private:
     [[nodiscard]] Index whole(const Real& x) const {
         return index_of<R>(r_.to_int(site::base, r_.note(site::base, x)));
-    }
-    [[nodiscard]] float raw(int x, int y, int c) const {
-        return state_.real(field::scene,
-                           static_cast<std::size_t>(y) * static_cast<std::size_t>(host_.settings().width) +
-                               static_cast<std::size_t>(x),
-                           c);
     }
     [[nodiscard]] Vec3 texel(const Index& x, const Index& y) const {
         const Settings& s = host_.settings();
@@ -70,7 +61,9 @@ template <class R> class RefractedScene {
             const Real extent = r_.uniform(size_at, static_cast<float>(size));
             return r_.divide(site::filtered, at, extent) * extent;
         };
-        const auto one = [this, c](int x, int y) { return raw(x, y, c); };
+        const auto one = [this, c, &s](const Index& x, const Index& y) {
+            return raw_real(state_, field::scene, item_of(x, y, s.width), c);
+        };
         return linear_fetch(r_, site::filtered,
                             Vec2{along(place.x, s.width, site::width), along(place.y, s.height, site::height)},
                             Texels<decltype(one)>{s.width, s.height, one});

@@ -52,8 +52,10 @@ template <class R, class Real> Real built_in_exponential(R& r, At at, const Real
     if (set.any)
         return exponential_rules::anything<R, Real>(r, at, 0.0);
     const auto f = [](double v) { return std::exp(v); };
-    return exponential_rules::legal<R, Real>(r, at, f(double{set.as_float()}),
-                                             exponential_rules::widened(set.low, set.high, f));
+    Interval legal{0.0, 0.0};
+    if constexpr (requires { x.legal(); })
+        legal = exponential_rules::widened(set.low, set.high, f);
+    return exponential_rules::legal<R, Real>(r, at, f(double{set.as_float()}), legal);
 }
 
 /// x^n of 1 <= n < 1024: the squares that make it up, the largest first.

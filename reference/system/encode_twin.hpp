@@ -58,6 +58,21 @@ struct EncodeTwin {
         }
     }
 
+    /// The same of linear8. Numbers that an arithmetic flushes have code 0 as they stand.
+    void by_rounding(const PassInput& in, std::size_t first, std::size_t last, const WritableView& after) const {
+        const View& from = in.before[numbers.resource];
+        for (std::size_t item = first; item < last; ++item) {
+            std::array<float, 3> v{};
+            std::memcpy(v.data(), from.columns[numbers.field] + item * 4 * sizeof(float), sizeof v);
+            std::array<std::uint32_t, 4> codes{0, 0, 0, 255};
+            for (std::size_t c = 0; c < v.size(); ++c) {
+                const float above = v[c] > 0.0F ? v[c] : 0.0F, clamped = above < 1.0F ? above : 1.0F;
+                codes[c] = static_cast<std::uint32_t>(static_cast<std::int32_t>(255.0F * clamped + 0.5F));
+            }
+            std::memcpy(after.columns[0] + item * sizeof codes, codes.data(), sizeof codes);
+        }
+    }
+
   private:
     /// The number of thresholds at or below.
     static std::uint32_t nearest_code_of(float x) {
@@ -121,6 +136,10 @@ inline std::unique_ptr<ItemPass> encode_pass(ItemPassOptions options, const Enco
         options.fast = [twin](const PassInput& in, const Profile&, std::size_t first, std::size_t last,
                               const WritableView& after,
                               std::vector<std::size_t>&) { twin.by_table(in, first, last, after); };
+    else if (twin.encoding == Encoding::linear8)
+        options.fast = [twin](const PassInput& in, const Profile&, std::size_t first, std::size_t last,
+                              const WritableView& after,
+                              std::vector<std::size_t>&) { twin.by_rounding(in, first, last, after); };
     return item_pass(std::move(options), twin);
 }
 

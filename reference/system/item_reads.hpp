@@ -21,6 +21,10 @@ template <class R>
 typename R::Real item_real(R& r, At at, const SystemView& state, FieldId field, std::size_t item, int component = 0) {
     return r.read(at, state.real(field, item, component));
 }
+/// The same as it stands.
+inline float raw_real(const SystemView& state, FieldId field, std::size_t item, int component = 0) {
+    return state.real(field, item, component);
+}
 /// The first three components of a vec4.
 template <class R> typename R::Vec3 item_vec3(R& r, At at, const SystemView& state, FieldId field, std::size_t item) {
     return r.read(at, glm::vec3(state.vec4(field, item)));

@@ -61,6 +61,9 @@ LOCKSTEP_INLINE FloatLanes lane_floats(const SystemView& state, FieldId field, c
     return found;
 }
 
+LOCKSTEP_INLINE FloatLanes raw_real(const SystemView& state, FieldId field, const LaneItems& items, int component = 0) {
+    return lane_floats(state, field, items, component);
+}
 template <class F> LaneReal<F> item_real(Lanes<F>& r, At at, const SystemView& state, FieldId field,
                                          const LaneItems& items, int component = 0) {
     return r.read(at, lane_floats(state, field, items, component));
@@ -118,7 +121,9 @@ template <class F> LaneReal<F> portable_exponential(Lanes<F>& /*r*/, At, const L
 // GLSL's own functions, lane by lane: as those of one item give them.
 template <class F> LaneReal<F> built_in_exponential(Lanes<F>& /*r*/, At at, const LaneReal<F>& x) {
     Values<Strict> one{Strict{}};
-    return lanes::each(x.v, [&](float v) { return built_in_exponential<Values<Strict>, float>(one, at, v); });
+    const auto of = [&](float v) { return built_in_exponential<Values<Strict>, float>(one, at, v); };
+    const bool is_one = lanes::set_of(lanes::bits(x.v) == lanes::bits(x.v)[0]) == (1U << lane_count) - 1;
+    return is_one ? LaneReal<F>(of(x.v[0])) : LaneReal<F>(lanes::each(x.v, of));
 }
 template <class F> LaneReal<F> built_in_power(Lanes<F>& /*r*/, At at, const LaneReal<F>& x, int n) {
     Values<Strict> one{Strict{}};

@@ -7,8 +7,8 @@
 namespace lockstep::fluid {
 
 /// linear_fetch, lane by lane.
-template <class F, class Texel> LaneReal<F>
-linear_fetch(Lanes<F>& /*r*/, At, const typename Lanes<F>::Vec2& place, const Texels<Texel>& image) {
+template <class F, class Texel>
+LaneReal<F> linear_fetch(Lanes<F>& /*r*/, At, const typename Lanes<F>::Vec2& place, const Texels<Texel>& image) {
     struct Axis {
         FloatLanes f;
         LaneInt base;

@@ -45,7 +45,8 @@ bool may_leave_boxes(std::span<const Mistake> made, std::size_t spheres) {
 
 BoxesByTile sprite_boxes(const Host& host, const SystemView& state, const Spheres& spheres) {
     const Settings& s = host.settings();
-    const RoughWindow window{glm::dmat4(host.view_projection()), s.width, s.height};
+    // A sprite's middle and its side are open to a tenth of a pixel at most (point_coord.hpp).
+    const RoughWindow window{glm::dmat4(host.view_projection()), s.width, s.height, 1.0};
     const glm::dmat4 view(host.view());
     const auto box_of = [&](std::size_t i) -> PixelRect {
         const glm::vec3 p(state.vec4(field::position, i));

@@ -24,7 +24,6 @@ template <class Visit> void for_each_tile(const PixelRect& box, std::size_t colu
 } // namespace
 
 PixelRect RoughWindow::box(const glm::dvec2& low, const glm::dvec2& high) const {
-    constexpr double room = 2.0;
     if (!std::isfinite(low.x + low.y + high.x + high.y))
         return {};
     const auto clamped = [](double at, int size) { return static_cast<int>(std::clamp(at, 0.0, double(size))); };

@@ -33,13 +33,13 @@ struct Pixel {
 struct RoughWindow {
     glm::dmat4 to_clip{1.0};
     int width = 1, height = 1;
+    double room = 2.0; ///< around what is drawn, pixels: more than passes' own boxes and rounding need
 
     [[nodiscard]] glm::dvec4 clip(const glm::vec3& p) const { return to_clip * glm::dvec4(glm::dvec3(p), 1.0); }
     [[nodiscard]] glm::dvec2 place(const glm::dvec4& clip) const {
         return {(clip.x / clip.w + 1.0) * 0.5 * width, (clip.y / clip.w + 1.0) * 0.5 * height};
     }
-    /// The pixels of a rectangle of the window, with more room around than passes' own boxes and rounding need. Nothing
-    /// where it is no number.
+    /// The pixels of a rectangle of the window, with room around. Nothing where it is no number.
     [[nodiscard]] PixelRect box(const glm::dvec2& low, const glm::dvec2& high) const;
     [[nodiscard]] PixelRect disc(const glm::dvec2& centre, double radius) const {
         return box(centre - radius, centre + radius);

@@ -4,13 +4,18 @@
 #include <array>
 #include <cerrno>
 #include <cmath>
+#include <cstdio>
 #include <cstring>
-#include <fstream>
+#include <memory>
 #include <set>
+#include <span>
 #include <utility>
 
+#include <fcntl.h>
 #include <fmt/format.h>
 #include <fmt/ranges.h>
+#include <sys/stat.h>
+#include <unistd.h>
 
 #include "crosscheck/files/plain_text.hpp"
 #include "reference/model/error.hpp"
@@ -45,21 +50,16 @@ class Syntax : public nlohmann::json_sax<json> {
     bool number_float(number_float_t, const string_t&) override { return count(); }
     bool string(string_t&) override { return count(); }
     bool binary(binary_t&) override { return count(); }
-    bool start_array(std::size_t) override { return enter(); }
+    bool start_array(std::size_t) override { return enter(Level{.is_array = true}); }
     bool end_array() override { return leave(); }
-    bool start_object(std::size_t) override {
-        keys_.emplace_back();
-        return enter();
-    }
-    bool end_object() override {
-        keys_.pop_back();
-        return leave();
-    }
+    bool start_object(std::size_t) override { return enter(Level{}); }
+    bool end_object() override { return leave(); }
     bool key(string_t& name) override {
-        if (keys_.back().insert(name).second)
-            return true;
-        problem = fmt::format(" the key {} stands twice in one object", shown(name));
-        return false;
+        const bool is_new = open_.back().keys.insert(name).second;
+        if (!is_new)
+            problem = fmt::format(" {}: the key {} stands twice in one object", path(), shown(name));
+        open_.back().place = name;
+        return is_new;
     }
     bool parse_error(std::size_t position, const std::string&, const json::exception& error) override {
         const std::string_view before = text_.substr(0, std::min(position, text_.size()));
@@ -71,19 +71,39 @@ class Syntax : public nlohmann::json_sax<json> {
     }
 
   private:
+    /// An array or object that has begun: the keys that it had, and the place of the value that is read.
+    struct Level {
+        bool is_array = false;
+        std::set<std::string> keys = {};
+        std::string place = {};
+        std::size_t index = 0;
+    };
+
+    /// Of the array or object that has begun last.
+    [[nodiscard]] std::string path() const {
+        std::string text;
+        for (const Level& level : std::span(open_).first(open_.size() - 1))
+            text += "/" + (level.is_array ? std::to_string(level.index - 1) : plain_line(level.place));
+        return text.empty() ? "/" : shortened(std::move(text), 200);
+    }
     bool count() {
+        if (!open_.empty())
+            ++open_.back().index;
         if (++values_ <= json_limits::values)
             return true;
         problem = fmt::format(" more than {} values", json_limits::values);
         return false;
     }
-    bool enter() {
-        if (++depth_ > json_limits::depth)
+    bool enter(Level level) {
+        if (open_.size() == json_limits::depth)
             problem = fmt::format(" arrays and objects within each other more than {} deep", json_limits::depth);
-        return problem.empty() && count();
+        if (!problem.empty() || !count())
+            return false;
+        open_.push_back(std::move(level));
+        return true;
     }
     bool leave() {
-        --depth_;
+        open_.pop_back();
         return true;
     }
 
@@ -96,24 +116,34 @@ class Syntax : public nlohmann::json_sax<json> {
     }
 
     std::string_view text_;
-    std::vector<std::set<std::string>> keys_;
-    std::size_t depth_ = 0;
+    std::vector<Level> open_;
     std::size_t values_ = 0;
 };
 
 std::string too_long() { return fmt::format("more than {} MiB of JSON", json_limits::bytes >> 20U); }
 
+/// A pipe is read as well, so that a program may hand a scene over; one that nobody writes to would be waited for
+/// without end.
 std::string read_text(const std::filesystem::path& file) {
-    std::ifstream stream(file, std::ios::binary);
+    const auto fail = [&](const std::string& what) { throw Error(fmt::format("{}: {}", file.string(), what)); };
+    const int opened = open(file.c_str(), O_RDONLY | O_CLOEXEC | O_NOCTTY | O_NONBLOCK);
+    if (opened < 0)
+        fail(fmt::format("cannot be read: {}", std::strerror(errno)));
+    const std::unique_ptr<std::FILE, int (*)(std::FILE*)> stream(fdopen(opened, "rb"), &std::fclose);
     std::string text;
     std::array<char, 1U << 16U> block{};
-    while (stream.read(block.data(), block.size()) || stream.gcount() > 0) {
-        text.append(block.data(), static_cast<std::size_t>(stream.gcount()));
+    ssize_t got = read(opened, block.data(), block.size());
+    struct stat about {};
+    if (got == 0 && fstat(opened, &about) == 0 && S_ISFIFO(about.st_mode))
+        fail("is a pipe that nobody writes to; right is a file");
+    fcntl(opened, F_SETFL, O_RDONLY);
+    for (; got != 0; got = read(opened, block.data(), block.size())) {
+        if (got < 0 && errno != EINTR && errno != EAGAIN)
+            fail(fmt::format("cannot be read: {}", std::strerror(errno)));
+        text.append(block.data(), static_cast<std::size_t>(std::max<ssize_t>(got, 0)));
         if (text.size() > json_limits::bytes)
-            throw Error(fmt::format("{}: {}", file.string(), too_long()));
+            fail(too_long());
     }
-    if (!stream.eof())
-        throw Error(fmt::format("{}: cannot be read: {}", file.string(), std::strerror(errno)));
     return text;
 }
 

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <bit>
+#include <cctype>
 #include <charconv>
 #include <limits>
 #include <optional>
@@ -26,6 +27,13 @@ std::string component_name(const TableColumn& column, int component) {
     return column.components == 1 ? column.name : fmt::format("{}.{}", column.name, "xyzw"[component]);
 }
 
+/// "a vec3", "an ivec2".
+std::string vector_type(const TableColumn& column) {
+    const std::string type = glsl_type(Field{.name = {}, .scalar = column.scalar, .components = column.components});
+    return column.is_bool ? fmt::format("a bvec{}", column.components)
+                          : fmt::format("{} {}", type.front() == 'i' ? "an" : "a", type);
+}
+
 std::string_view without_spaces(std::string_view text) {
     const std::size_t first = text.find_first_not_of(" \t\r");
     return first == std::string_view::npos ? std::string_view()
@@ -47,8 +55,10 @@ std::optional<std::uint32_t> bits_of(std::string_view text, const TableColumn& c
         return is_true || text == "0" || text == "false" ? std::optional(is_true ? 1U : 0U) : std::nullopt;
     }
     const bool minus = text.starts_with('-');
+    if (text.starts_with('+'))
+        text.remove_prefix(1);
     std::string_view digits = text.substr(minus ? 1 : 0);
-    if (digits.starts_with('-'))
+    if (digits.starts_with('-') || digits.starts_with('+'))
         return {};
     const bool hexadecimal = digits.starts_with("0x") || digits.starts_with("0X");
     if (column.scalar == Scalar::int32 && !hexadecimal) {
@@ -59,8 +69,10 @@ std::optional<std::uint32_t> bits_of(std::string_view text, const TableColumn& c
         return minus         ? std::nullopt
                : hexadecimal ? number_in<std::uint32_t>(digits.substr(2), 16)
                              : number_in<std::uint32_t>(digits);
-    const auto number =
-        hexadecimal ? number_in<float>(digits.substr(2), std::chars_format::hex) : number_in<float>(digits);
+    auto number = hexadecimal ? number_in<float>(digits.substr(2), std::chars_format::hex) : number_in<float>(digits);
+    // The float nearest to what is closer to 0 than any.
+    if (const auto tiny = number || hexadecimal ? std::nullopt : number_in<double>(digits); tiny && *tiny < 1e-37)
+        number = static_cast<float>(*tiny);
     return number ? std::optional(std::bit_cast<std::uint32_t>(minus ? -*number : *number)) : std::nullopt;
 }
 
@@ -85,6 +97,8 @@ struct TableLine {
 };
 
 std::vector<TableLine> lines_of(std::string_view text) {
+    if (constexpr std::string_view byte_order_mark = "\xef\xbb\xbf"; text.starts_with(byte_order_mark))
+        text.remove_prefix(byte_order_mark.size());
     std::vector<TableLine> all;
     for (std::size_t number = 1; !text.empty(); ++number) {
         const std::size_t end = std::min(text.find('\n'), text.size());
@@ -152,8 +166,8 @@ void read_csv(const std::filesystem::path& path, const std::vector<TableColumn>&
     for (std::size_t l = 1; l < lines.size(); ++l) {
         const TableLine& line = lines[l];
         if (line.values.size() != lines.front().values.size())
-            throw Error(fmt::format("{}:{}: {} values for {} columns", table.file, line.number, line.values.size(),
-                                    lines.front().values.size()));
+            throw Error(fmt::format("{}:{}: {} for {}", table.file, line.number, counted(line.values.size(), "value"),
+                                    counted(lines.front().values.size(), "column")));
         table.lines.push_back(line.number);
         for (std::size_t c = 0; c < places.size(); ++c)
             for (std::size_t k = 0; k < places[c].size(); ++k) {
@@ -207,8 +221,8 @@ void read_json_table(const std::filesystem::path& path, const std::vector<TableC
             }
             const std::vector<JsonValue> components = value.is_array() ? value.items() : std::vector<JsonValue>();
             if (components.size() != static_cast<std::size_t>(column.components))
-                value.fail(fmt::format("{} is a vec{}; right is an array of {} numbers", column.name, column.components,
-                                       column.components));
+                value.fail(fmt::format("{} is {}; right is an array of {} {}", column.name, vector_type(column),
+                                       column.components, column.is_bool ? "truths" : "numbers"));
             for (const JsonValue& component : components)
                 table.words[c].push_back(word_of(component, column));
         }
@@ -226,7 +240,10 @@ NumberTable read_number_table(const std::filesystem::path& file, const std::vect
                       .rows = 0,
                       .words = std::vector<std::vector<std::uint32_t>>(columns.size()),
                       .lines = {}};
-    if (file.extension() == ".json")
+    std::string extension = file.extension().string();
+    std::transform(extension.begin(), extension.end(), extension.begin(),
+                   [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+    if (extension == ".json")
         read_json_table(file, columns, table);
     else
         read_csv(file, columns, taker, table);

@@ -80,4 +80,8 @@ std::string plain_text(std::string_view text) { return plain(text, true); }
 
 bool is_plain(std::string_view text) { return plain_line(text) == text; }
 
+std::string counted(std::size_t count, std::string_view one) {
+    return fmt::format("{} {}{}", count, one, count == 1 ? "" : "s");
+}
+
 } // namespace lockstep

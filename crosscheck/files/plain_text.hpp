@@ -1,4 +1,5 @@
 #pragma once
+#include <cstddef>
 #include <string>
 #include <string_view>
 
@@ -14,5 +15,8 @@ std::string plain_text(std::string_view text);
 
 /// Whether plain_line leaves it as it is.
 bool is_plain(std::string_view text);
+
+/// "1 row", "2 rows".
+std::string counted(std::size_t count, std::string_view one);
 
 } // namespace lockstep

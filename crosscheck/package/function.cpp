@@ -8,8 +8,10 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include "crosscheck/files/plain_text.hpp"
 #include "crosscheck/package/function_signature.hpp"
 #include "gpu/gl_system.hpp"
+#include "gpu/shader_source.hpp"
 
 namespace lockstep::function_twin {
 namespace {
@@ -63,14 +65,15 @@ std::pair<std::string, std::string> without_version(const std::string& text) {
 } // namespace
 
 Called called(const GlslFunction& function, const std::vector<Column>& columns) {
-    const std::string text = shader_text(function.file);
+    const std::string text = read_shader_file(function.file);
     const Signature signature = signature_of(function, text);
     const std::optional<Column> result = column_of(signature.result);
     if (!result)
         fail(function, signature, fmt::format("its result must be {}", column_types));
     if (signature.parameters.size() != columns.size())
         fail(function, signature,
-             fmt::format("the table has {} columns for {} arguments", columns.size(), signature.parameters.size()));
+             fmt::format("the table has {} for {}", counted(columns.size(), "column"),
+                         counted(signature.parameters.size(), "argument")));
     for (std::size_t p = 0; p < columns.size(); ++p)
         if (signature.parameters[p].type != type_of(columns[p]))
             fail(function, signature,

@@ -34,8 +34,11 @@ TEST_CASE("json reader: so have its size and its number of values") {
     CHECK_THROWS_WITH(read_json("/dev/zero"), "/dev/zero: more than 64 MiB of JSON");
 }
 
-TEST_CASE("json reader: a key that stands twice is told, a byte order mark is skipped") {
-    CHECK_THROWS_WITH(parse_json(R"({"a": {"b": 1, "b": 2}})", "a"), R"(a: the key "b" stands twice in one object)");
+TEST_CASE("json reader: a key that stands twice is reported with its place, a byte order mark is skipped") {
+    CHECK_THROWS_WITH(parse_json(R"({"a": {"b": 1, "b": 2}})", "a"),
+                      R"(a: /a: the key "b" stands twice in one object)");
+    CHECK_THROWS_WITH(parse_json(R"({"a": [0, [], {"c": 3}, {"b": {"d": []}, "e": 1, "b": 2}]})", "a"),
+                      R"(a: /a/3: the key "b" stands twice in one object)");
     CHECK(parse_json("\xef\xbb\xbf[1]", "a") == nlohmann::json{1});
 }
 

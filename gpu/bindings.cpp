@@ -130,8 +130,10 @@ class Reader {
         for (const json& one : value.is_array() ? value : json::array({value}))
             if (one.is_string())
                 binding.values.emplace_back(one.get<std::string>());
-            else if (one.is_number() && std::isfinite(one.get<double>()))
+            else if (one.is_number() && std::isfinite(static_cast<float>(one.get<double>())))
                 binding.values.emplace_back(one.get<double>());
+            else if (one.is_number())
+                fail(path, "is beyond what a float holds, 3.4e38");
             else
                 fail(path, "is neither a name nor a number, nor a list of these");
         if (binding.values.empty())

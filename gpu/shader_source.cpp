@@ -59,9 +59,14 @@ std::string shown(const fs::path& path) {
     return (fs::path("shaders") / (inside == "." ? fs::path() : inside)).string();
 }
 
-/// Without a byte order mark.
-std::string read_file(const fs::path& path) {
+} // namespace
+
+std::string read_shader_file(const fs::path& path) {
     const auto fail = [&](const std::string& what) { throw Error(fmt::format("shader {}: {}", shown(path), what)); };
+    std::error_code status;
+    if (fs::exists(path, status) && !fs::is_regular_file(path, status))
+        fail(fs::is_directory(path, status) ? "is a folder; right is a file"
+                                            : "is a pipe or a device; right is a file");
     std::ifstream stream(path, std::ios::binary);
     std::string text(longest_text + 1, '\0');
     stream.read(text.data(), static_cast<std::streamsize>(text.size()));
@@ -81,6 +86,8 @@ std::string read_file(const fs::path& path) {
     constexpr std::string_view mark = "\xef\xbb\xbf";
     return text.starts_with(mark) ? text.substr(mark.size()) : text;
 }
+
+namespace {
 
 /// `argument`: of a #version line.
 void check_version(std::string_view argument, const std::string& where) {
@@ -120,7 +127,7 @@ std::optional<std::string> text_of(const fs::path& path) {
     std::error_code error;
     std::optional<std::string> text;
     if (fs::is_regular_file(path, error))
-        text = read_file(path);
+        text = read_shader_file(path);
     if (seen)
         seen->files.emplace(path, text);
     return text;

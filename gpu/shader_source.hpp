@@ -30,6 +30,10 @@ using ShaderFolders = std::vector<std::filesystem::path>;
 /// share (data_folder.hpp). Throws Error if `user` is no folder, or there is no built-in one.
 ShaderFolders shader_folders(const std::filesystem::path& user = {}, std::string_view system = {});
 
+/// The text of a shader's file, without a byte order mark, or a SPIR-V module. Throws Error naming the file: it is no
+/// file, too long, or no UTF-8 text.
+std::string read_shader_file(const std::filesystem::path& path);
+
 /// Preprocessor definitions, name and value.
 using ShaderDefines = std::vector<std::pair<std::string, std::string>>;
 

@@ -61,8 +61,10 @@ bool looks_like_shader(std::string name, const std::set<std::string>& stems) {
 
 /// A misspelt bindings.json would leave all names unbound.
 void check_bindings_name(const fs::path& user) {
-    if (fs::exists(user / bindings_file))
+    if (fs::is_regular_file(user / bindings_file))
         return;
+    if (fs::exists(user / bindings_file))
+        throw Error(fmt::format("shader folder {}: {} is no file", user.string(), bindings_file));
     for (const fs::directory_entry& entry : fs::directory_iterator(user)) {
         const std::string name = entry.path().filename().string();
         if (name.ends_with(".json") && !nearest_name(name, {std::string(bindings_file)}).empty())

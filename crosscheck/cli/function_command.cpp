@@ -18,6 +18,7 @@
 #include "crosscheck/files/shell_words.hpp"
 #include "crosscheck/package/function_signature.hpp"
 #include "crosscheck/report/colour.hpp"
+#include "gpu/shader_source.hpp"
 #include "lockstep/function_table.hpp"
 #include "reference/model/near_name.hpp"
 
@@ -93,7 +94,7 @@ std::optional<UniformValue> value_of(const std::string& type, const std::vector<
 
 /// Those of `given` that `file` declares. `any`: whether it is fine to declare none of a name.
 Uniforms uniforms_of(const std::string& file, const std::vector<std::string>& given, bool any) {
-    const std::string text = function_twin::shader_text(file);
+    const std::string text = read_shader_file(file);
     Uniforms uniforms;
     for (const std::string& one : given) {
         const auto [name, value] = parts_of(one);
@@ -191,9 +192,9 @@ Verb function_command() {
     verb.add(path_option("--like", "FILE", options->like,
                          "a shader whose function of that name gives the results, instead of the table"));
     verb.add(text_option("--like-name", "NAME", options->like_name, "the name of that function, where it is another"));
-    verb.add(texts_option("--uniform", "NAME=VALUE", options->uniforms,
-                          "a uniform that it reads: u_Kept=0.5, u_Gravity=0,-9.81,0"));
-    verb.add(texts_option("--define", "NAME=TEXT", options->defines, "a macro that the shader is compiled with"));
+    verb.add(settings_option("--uniform", "NAME=VALUE", options->uniforms,
+                             "a uniform that it reads: u_Kept=0.5, u_Gravity=0,-9.81,0"));
+    verb.add(settings_option("--define", "NAME=TEXT", options->defines, "a macro that the shader is compiled with"));
     verb.add(text_option("--gl", "auto|osmesa|egl|egl-device:N", options->gl, "which GL to open"));
     verb.add(path_option("--json", "FILE", options->json, "write the report as JSON"));
     verb.add(flag("--quiet", options->quiet, "print nothing"));

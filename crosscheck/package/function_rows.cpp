@@ -2,6 +2,7 @@
 
 #include "crosscheck/files/number_table.hpp"
 #include "crosscheck/package/function_signature.hpp"
+#include "gpu/shader_source.hpp"
 #include "lockstep/function_table.hpp"
 
 namespace lockstep {
@@ -41,8 +42,7 @@ std::size_t FunctionRows::width() const {
 }
 
 FunctionRows read_function_rows(const GlslFunction& function, const std::filesystem::path& file) {
-    const function_twin::Signature signature =
-        function_twin::signature_of(function, function_twin::shader_text(function.file));
+    const function_twin::Signature signature = function_twin::signature_of(function, read_shader_file(function.file));
     std::vector<TableColumn> columns = columns_of(function, signature);
     NumberTable table = read_number_table(file, columns, function_twin::shown(function.name, signature));
     FunctionRows rows{

@@ -2,8 +2,6 @@
 
 #include <algorithm>
 #include <array>
-#include <fstream>
-#include <iterator>
 #include <set>
 
 #include <fmt/format.h>
@@ -120,14 +118,6 @@ std::optional<Column> column_of(const std::string& type) {
             if (type == type_of({scalar, components}))
                 return Column{scalar, components};
     return {};
-}
-
-std::string shader_text(const std::string& file) {
-    std::ifstream stream(file, std::ios::binary);
-    std::string text((std::istreambuf_iterator<char>(stream)), {});
-    if (!stream.is_open() || stream.bad())
-        throw Error(fmt::format("shader {}: cannot be read", plain_line(file)));
-    return text;
 }
 
 Signature signature_of(const GlslFunction& function, const std::string& text) {

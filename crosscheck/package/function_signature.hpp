@@ -20,9 +20,6 @@ struct Signature {
     std::size_t line = 1;
 };
 
-/// A file's text. Throws Error where it cannot be read.
-std::string shader_text(const std::string& file);
-
 /// Of the one definition of that name. Throws Error naming those there are.
 Signature signature_of(const GlslFunction& function, const std::string& text);
 

@@ -98,6 +98,18 @@ System system_of(const GlslFunction& function, const function_twin::Called& call
                   .mistakes = {},
                   .start = start_of(called.schema, rows),
                   .settings = {}};
+    // A result that was not written is none that is right.
+    const Resource& about = called.schema.resources.front();
+    const FieldId result{0, static_cast<std::uint8_t>(about.fields.size() - 1)};
+    const int components = about.fields.back().components;
+    for (std::size_t word = 0; word < results.size(); ++word) {
+        const std::size_t row = word / static_cast<std::size_t>(components);
+        const int component = static_cast<int>(word % static_cast<std::size_t>(components));
+        if (about.fields.back().scalar == Scalar::float32)
+            system.start.set(result, row, std::bit_cast<float>(~results[word]), component);
+        else
+            system.start.set(result, row, ~results[word], component);
+    }
     system.passes.push_back(item_pass({.name = std::string(function_twin::pass_name)},
                                       ExpectedResult{all_columns(called.schema), std::move(results)}));
     return system;

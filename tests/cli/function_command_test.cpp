@@ -219,6 +219,8 @@ TEST_CASE("function: tables of integers without sign and of truths, in decimals 
     CHECK_THAT(refused("twice", "x, result\n-1, 0\n"), Contains("'-1' is no uint; right is 7 or 0x7, to 4294967295"));
     CHECK_THAT(refused("twice", "x, result\n1, 4294967296\n"), Contains("'4294967296' is no uint"));
     CHECK_THAT(refused("odd", "x.x, x.y, result\n1, 1, 2\n"), Contains("'2' is no bool; right is 0 or 1"));
+    CHECK_THAT(refusal(run("odd", setting.file("three.json", R"([{"x": [3, 1, 2], "result": true}])"))),
+               Contains("three.json: /0/x: x is a uvec2; right is an array of 2 numbers"));
 }
 
 TEST_CASE("function: a macro needs a name") {

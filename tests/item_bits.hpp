@@ -11,7 +11,7 @@
 
 #include <catch2/catch.hpp>
 
-#include "crosscheck/judge/system_check.hpp"
+#include "crosscheck/judge/system_run.hpp"
 
 namespace lockstep::test {
 

@@ -5,7 +5,7 @@
 #include "crosscheck/cli/system_verbs.hpp"
 #include "crosscheck/files/output_files.hpp"
 #include "crosscheck/files/png.hpp"
-#include "crosscheck/judge/system_check.hpp"
+#include "crosscheck/judge/system_run.hpp"
 #include "crosscheck/report/progress.hpp"
 #include "crosscheck/scene/profiles.hpp"
 #include "reference/model/error.hpp"

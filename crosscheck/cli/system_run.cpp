@@ -11,7 +11,7 @@
 #include "crosscheck/files/plain_text.hpp"
 #include "crosscheck/files/shell_words.hpp"
 #include "crosscheck/files/threads.hpp"
-#include "crosscheck/judge/system_check.hpp"
+#include "crosscheck/judge/system_run.hpp"
 #include "crosscheck/report/overlay.hpp"
 #include "reference/model/error.hpp"
 

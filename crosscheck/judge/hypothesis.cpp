@@ -42,12 +42,15 @@ void add_named(std::vector<Hypothesis>& all, const NamedMistake& named, const Ju
 }
 
 void add_hosts(std::vector<Hypothesis>& all, const JudgedPass& pass) {
-    all.push_back({.host = Host::unwritten, .text = "items_not_written"});
+    if (!pass.surely_written)
+        all.push_back({.host = Host::unwritten, .text = "items_not_written"});
     if (pass.earlier != nullptr)
         all.push_back({.host = Host::earlier_state, .text = "state_of_earlier_frame"});
     const std::span<const Field> fields = pass.gpu.fields();
     for (std::uint8_t f = 0; f < fields.size() && fields.size() > 1; ++f) {
-        all.push_back({.host = Host::field_kept, .text = fmt::format("{}_not_written", fields[f].name), .fields = {f}});
+        if (!pass.surely_written)
+            all.push_back(
+                {.host = Host::field_kept, .text = fmt::format("{}_not_written", fields[f].name), .fields = {f}});
         for (std::uint8_t g = 0; g < f; ++g)
             if (fields[f].components == fields[g].components && fields[f].scalar == fields[g].scalar)
                 all.push_back({.host = Host::fields_swapped,

@@ -246,6 +246,9 @@ CauseFindings ItemCauseFinder::of_single(bool beside_description) const {
         // What has no item to show that the description lacks is another word for it, and fails where that does.
         if (hypothesis.distinct == 0 && !beside_description)
             continue;
+        // Of a few items two fields hold each other's values by chance.
+        if (hypothesis.host == Hypothesis::Host::fields_swapped && hypothesis.explained < enough_evidence)
+            continue;
         const bool named = !hypothesis.named.empty();
         const bool is_alike = hypothesis.alike != nullptr && divergent_ >= enough_evidence;
         // A constant that fits a few is no evidence, nor is one of several that fit as well, but for those fitted.
@@ -285,7 +288,11 @@ CauseFindings ItemCauseFinder::findings() const {
         }
         const bool is_part = found.best.empty() && !single.best.empty() && single.best.front().contradicted == 0 &&
                              single.best.front().explained >= enough_evidence;
-        return is_part ? single : found;
+        if (is_part)
+            return single;
+        if (found.best.empty())
+            found.divergent = std::max(found.divergent, single.divergent);
+        return found;
     }
     if (single.explains_all())
         for (const Cause& cause : single.best)

@@ -44,7 +44,7 @@ bool may_change(const std::vector<SeenSite>& sites, const Mistake& made) {
 
 } // namespace
 
-void PowerMeter::add(const JudgedPass& p, const std::vector<std::size_t>& telling, std::size_t asked) {
+bool PowerMeter::add(const JudgedPass& p, const std::vector<std::size_t>& telling, std::size_t asked) {
     std::vector<std::size_t> unseen;
     std::size_t of_pass = 0;
     for (std::size_t m = 0; m < named_.size(); ++m)
@@ -55,7 +55,7 @@ void PowerMeter::add(const JudgedPass& p, const std::vector<std::size_t>& tellin
                 unseen.push_back(m);
         }
     if (unseen.empty() || p.reference.count() == 0)
-        return;
+        return false;
     const std::size_t most = asked > 0 ? asked : std::min(tried_a_frame * of_pass / unseen.size(), tried_at_most);
     const std::vector<std::size_t> items = items_to_try(p, telling, most);
     std::vector<std::vector<SeenSite>> sites(items.size());
@@ -67,9 +67,14 @@ void PowerMeter::add(const JudgedPass& p, const std::vector<std::size_t>& tellin
     for (const std::vector<SeenSite>& of_item : sites)
         for (const SeenSite& seen : of_item)
             reached.insert(seen.site->id);
+    const auto steps_of = [&](std::size_t m) {
+        return int{tried_[m].reached} + int{tried_[m].changes} + int{tried_[m].first_frame >= 0};
+    };
+    std::vector<char> is_further(unseen.size());
     parallel_blocks(static_cast<std::ptrdiff_t>(unseen.size()), [&](std::ptrdiff_t u) {
         const std::size_t m = unseen[static_cast<std::size_t>(u)];
         const std::array made{named_[m].mistake};
+        const int before = steps_of(m);
         tried_[m].reached = tried_[m].reached || reached.contains(made[0].site);
         for (std::size_t i = 0; i < items.size(); ++i) {
             const std::size_t item = items[i];
@@ -82,7 +87,9 @@ void PowerMeter::add(const JudgedPass& p, const std::vector<std::size_t>& tellin
                 break;
             }
         }
+        is_further[static_cast<std::size_t>(u)] = steps_of(m) > before ? 1 : 0;
     });
+    return std::find(is_further.begin(), is_further.end(), 1) != is_further.end();
 }
 
 bool PowerMeter::has_seen_all() const {
@@ -98,6 +105,7 @@ PowerSummary PowerMeter::summary() const {
             continue;
         PowerSummary::Mistake& mistake = summary.mistakes.emplace_back();
         mistake.name = named_[m].name;
+        mistake.pass = named_[m].pass;
         mistake.meaning = named_[m].meaning;
         if (tried.first_frame >= 0)
             mistake.first_frame = tried.first_frame;

@@ -1,4 +1,5 @@
 #pragma once
+#include <algorithm>
 #include <cstddef>
 #include <cstdint>
 #include <set>
@@ -22,8 +23,9 @@ class PowerMeter {
 
     /// A frame's pass, as the reference made it. `telling`: items that are worth a try more than others. `most`: so
     /// many items are tried; 0: as the class says. What parts of a run show comes to what the whole shows where it is
-    /// given.
-    void add(const JudgedPass& pass, const std::vector<std::size_t>& telling, std::size_t most = 0);
+    /// given. Returns whether a mistake got further than before: its place was reached, it changed something, it
+    /// showed.
+    bool add(const JudgedPass& pass, const std::vector<std::size_t>& telling, std::size_t most = 0);
 
     /// Whether all mistakes of the passes that were seen have shown: more frames tell nothing more of these.
     [[nodiscard]] bool has_seen_all() const;
@@ -41,6 +43,25 @@ class PowerMeter {
 
     const std::vector<NamedMistake>& named_;
     std::vector<Tried> tried_;
+};
+
+/// Which runs of a pass are tried: each while they bring something new, else ever fewer, to one in eight.
+class PowerPace {
+  public:
+    /// Whether the next run is to be tried.
+    [[nodiscard]] bool is_due() { return ++run_ >= next_; }
+
+    void tried(bool brought_something) {
+        constexpr std::size_t tries_at_a_gap = 4, widest = 8;
+        if (brought_something)
+            gap_ = 1, in_vain_ = 0;
+        else if (++in_vain_ % tries_at_a_gap == 0)
+            gap_ = std::min(2 * gap_, widest);
+        next_ = run_ + gap_;
+    }
+
+  private:
+    std::size_t run_ = 0, next_ = 0, gap_ = 1, in_vain_ = 0;
 };
 
 /// How an item's words, made with a mistake, stand to what the item may legally become.

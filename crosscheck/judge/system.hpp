@@ -56,6 +56,7 @@ struct JudgedPass {
     /// What the pass started from in the frame before; null in frame 0.
     const SystemView* earlier = nullptr;
     std::shared_ptr<const ItemPass> prepared = nullptr; ///< for its input
+    bool surely_written = false;                        ///< of what diverges nothing is as it was for want of a write
 
     [[nodiscard]] PassInput input() const { return {before, frame}; }
     /// The pass on its input, and on no other.

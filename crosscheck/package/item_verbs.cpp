@@ -16,6 +16,7 @@
 #include "crosscheck/command/session_input.hpp"
 #include "crosscheck/files/plain_text.hpp"
 #include "crosscheck/files/signals.hpp"
+#include "crosscheck/judge/dispatch.hpp"
 #include "crosscheck/judge/item_place.hpp"
 #include "crosscheck/report/hash_lines.hpp"
 #include "crosscheck/report/item_text.hpp"

@@ -13,6 +13,7 @@
 #include "crosscheck/judge/legal.hpp"
 #include "crosscheck/judge/system.hpp"
 #include "crosscheck/judge/system_check.hpp"
+#include "crosscheck/judge/system_run.hpp"
 #include "crosscheck/record/item_capsule.hpp"
 #include "crosscheck/record/system_recording.hpp"
 #include "crosscheck/report/debug_session.hpp"

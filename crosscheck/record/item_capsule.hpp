@@ -6,7 +6,7 @@
 
 #include "crosscheck/files/json_reader.hpp"
 #include "crosscheck/judge/item_verdict.hpp"
-#include "crosscheck/judge/system_check.hpp"
+#include "crosscheck/judge/system_run.hpp"
 #include "crosscheck/report/value_text.hpp"
 
 namespace lockstep {

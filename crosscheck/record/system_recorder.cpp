@@ -5,7 +5,8 @@
 
 #include <fmt/format.h>
 
-#include "crosscheck/judge/system_check.hpp"
+#include "crosscheck/judge/dispatch.hpp"
+#include "crosscheck/judge/system_run.hpp"
 #include "crosscheck/record/growing_file.hpp"
 #include "crosscheck/record/layout.hpp"
 #include "crosscheck/record/root_offsets.hpp"

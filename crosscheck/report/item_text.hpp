@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "crosscheck/judge/step_row.hpp"
-#include "crosscheck/judge/system_check.hpp"
+#include "crosscheck/judge/system_run.hpp"
 #include "crosscheck/report/report.hpp"
 #include "crosscheck/report/value_text.hpp"
 #include "gpu/side_description.hpp"

@@ -1,7 +1,7 @@
 #pragma once
 #include <memory>
 
-#include "crosscheck/judge/system_check.hpp"
+#include "crosscheck/judge/system_run.hpp"
 #include "crosscheck/report/debug_run.hpp"
 
 namespace lockstep {

@@ -1,6 +1,7 @@
 #include <bit>
 #include <functional>
 
+#include "crosscheck/judge/dispatch.hpp"
 #include "reference/lights/volume_twin.hpp"
 #include "tests/lights/lit_points.hpp"
 

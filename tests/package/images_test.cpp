@@ -13,6 +13,7 @@
 #include <lockstep/system.hpp>
 #include <nlohmann/json.hpp>
 
+#include "crosscheck/judge/dispatch.hpp"
 #include "crosscheck/record/system_recording.hpp"
 #include "crosscheck/report/page/system_page.hpp"
 #include "crosscheck/report/verdict_text.hpp"

@@ -19,6 +19,7 @@ struct PowerSummary {
             {};                   ///< why it could not show, as far as these frames tell; the first is told
         bool refutes = false;     ///< where it would have shown and nothing diverges, it was not made
         std::string why_not = {}; ///< it did not show, once that is known: "no hit had two in range"
+        std::string pass = {};    ///< that it is made in, where passes have mistakes of one name
     };
     /// Something in which mistakes show, and how often the run had it.
     struct Situation {
@@ -31,6 +32,12 @@ struct PowerSummary {
     [[nodiscard]] std::size_t seen() const {
         return static_cast<std::size_t>(std::count_if(mistakes.begin(), mistakes.end(),
                                                       [](const Mistake& m) { return m.first_frame.has_value(); }));
+    }
+    /// "square_without_z", or "square_without_z (update)" where another pass has one of the name.
+    [[nodiscard]] std::string shown_name(const Mistake& mistake) const {
+        const auto of_name = [&](const Mistake& other) { return other.name == mistake.name; };
+        const bool is_only = std::count_if(mistakes.begin(), mistakes.end(), of_name) < 2;
+        return is_only || mistake.pass.empty() ? mistake.name : mistake.name + " (" + mistake.pass + ")";
     }
     /// 0 to 1; 0 where nothing was tried.
     [[nodiscard]] double share() const {

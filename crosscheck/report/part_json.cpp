@@ -288,6 +288,7 @@ json power_part_json(const PowerSummary& power) {
                               [](const PowerSummary::Mistake& m) {
                                   return json{{"name", m.name},
                                               {"meaning", m.meaning},
+                                              {"pass", m.pass},
                                               {"first_frame", m.first_frame ? json(*m.first_frame) : json()},
                                               {"changes", m.changes ? 1 : 0},
                                               {"reasons", m.reasons},
@@ -302,10 +303,11 @@ PowerSummary read_power(const JsonValue& value) {
     value.check_keys({"mistakes", "situations"});
     PowerSummary power;
     for (const JsonValue& one : value.at("mistakes").items()) {
-        one.check_keys({"name", "meaning", "first_frame", "changes", "reasons", "refutes"});
+        one.check_keys({"name", "meaning", "pass", "first_frame", "changes", "reasons", "refutes"});
         PowerSummary::Mistake& mistake = power.mistakes.emplace_back();
         mistake.name = one.at("name").text();
         mistake.meaning = one.at("meaning").text();
+        mistake.pass = one.at("pass").text();
         if (!one.at("first_frame").is_null())
             mistake.first_frame = frame(one.at("first_frame"));
         mistake.changes = truth(one.at("changes"));

@@ -18,9 +18,9 @@ std::vector<std::string> unseen_by_reason(const PowerSummary& power) {
         const auto known =
             std::find_if(names.begin(), names.end(), [&](const auto& entry) { return entry.first == mistake.why_not; });
         if (known == names.end())
-            names.emplace_back(mistake.why_not, mistake.name);
+            names.emplace_back(mistake.why_not, power.shown_name(mistake));
         else
-            known->second += ", " + mistake.name;
+            known->second += ", " + power.shown_name(mistake);
     }
     std::vector<std::string> lines;
     for (const auto& [reason, of] : names)
@@ -45,7 +45,7 @@ std::string power_line(const PowerSummary& power) {
     std::size_t named = 0;
     for (const PowerSummary::Mistake& mistake : power.mistakes)
         if (!mistake.first_frame && named++ < most_named)
-            text += fmt::format("{}{} ({})", named == 1 ? "; not: " : ", ", mistake.name, mistake.why_not);
+            text += fmt::format("{}{} ({})", named == 1 ? "; not: " : ", ", power.shown_name(mistake), mistake.why_not);
     if (named > most_named)
         text += fmt::format(" and {} more (--power lists them)", named - most_named);
     return text;
@@ -56,6 +56,8 @@ nlohmann::json power_json(const PowerSummary& power) {
                    situations = nlohmann::json::object();
     for (const PowerSummary::Mistake& mistake : power.mistakes) {
         nlohmann::json entry{{"name", mistake.name}, {"meaning", mistake.meaning}};
+        if (!mistake.pass.empty())
+            entry["pass"] = mistake.pass;
         if (mistake.first_frame) {
             entry["frame"] = *mistake.first_frame;
         } else {
@@ -73,9 +75,10 @@ nlohmann::json power_json(const PowerSummary& power) {
 std::string power_text(const PowerSummary& power) {
     std::string text = fmt::format("\n  {:<34} {:>11}\n", "mistake", "shows first");
     for (const PowerSummary::Mistake& mistake : power.mistakes)
-        text += mistake.first_frame ? fmt::format("  {:<34} {:>11}  {}\n", mistake.name,
-                                                  fmt::format("frame {}", *mistake.first_frame), mistake.meaning)
-                                    : fmt::format("  {:<34} {:>11}  {}\n", mistake.name, "not", mistake.why_not);
+        text += mistake.first_frame
+                    ? fmt::format("  {:<34} {:>11}  {}\n", power.shown_name(mistake),
+                                  fmt::format("frame {}", *mistake.first_frame), mistake.meaning)
+                    : fmt::format("  {:<34} {:>11}  {}\n", power.shown_name(mistake), "not", mistake.why_not);
     return text;
 }
 

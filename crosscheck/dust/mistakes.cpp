@@ -8,6 +8,7 @@
 #include <string>
 #include <utility>
 
+#include "crosscheck/dust/mistake_words.hpp"
 #include "reference/dust/handed.hpp"
 #include "reference/dust/random.hpp"
 #include "reference/dust/sites.hpp"
@@ -75,6 +76,29 @@ void by_distance(std::span<float> value, const CameBy& run) {
 void normal_of_next(std::span<float> value, const CameBy& run) {
     for (std::size_t c = 0; c < value.size(); ++c)
         value[c] = run.of(site::from_centre)[c] / run.of(site::reach)[0];
+}
+
+void normal_of_sphere_alone(std::span<float> value, const CameBy& run) {
+    for (std::size_t c = 0; c < value.size(); ++c)
+        value[c] = (run.of(site::contact)[c] - run.of(site::sphere_centre)[c]) / run.of(site::sphere_half)[0];
+}
+
+void normal_of_grain(std::span<float> value, const CameBy& run) {
+    for (std::size_t c = 0; c < value.size(); ++c)
+        value[c] = (run.of(site::contact)[c] - run.of(site::sphere_centre)[c]) / run.of(site::radius)[0];
+}
+
+void reach_not_squared(std::span<float> value, const CameBy& run) {
+    value[0] = run.of(site::reach)[0] - run.of(site::missed)[0];
+}
+
+void from_the_end(std::span<float> value, const CameBy& run) {
+    float square = 0.0F;
+    for (std::size_t c = 0; c < 3; ++c) {
+        const float way = run.of(site::next)[c] - run.of(site::contact)[c];
+        square += way * way;
+    }
+    value[0] = std::sqrt(square);
 }
 
 void z_is_y(std::span<float> value, const CameBy& /*run*/) { value[2] = value[1]; }
@@ -184,28 +208,6 @@ template <const Site& was> void tail_left_out(std::span<float> value, const Came
         std::copy_n(run.of(was).begin(), value.size(), value.begin());
 }
 
-Mistake formula_at(const Site& site, Formula formula) {
-    return {.site = site.id, .change = Change::by_formula, .formula = formula};
-}
-
-Mistake with(Mistake mistake, const Mistake& also) {
-    mistake.also = &also;
-    return mistake;
-}
-
-Mistake spoiled_at(const Site& site, Formula formula) {
-    return {.site = site.id, .change = Change::spoiled, .formula = formula};
-}
-
-/// One that a shader with a formula of its own makes, which rounds in its own way.
-NamedMistake free_formula(std::string name, std::string meaning, std::string pass, const Mistake& mistake) {
-    return {.name = std::move(name),
-            .meaning = std::move(meaning),
-            .pass = std::move(pass),
-            .mistake = mistake,
-            .freely_written = true};
-}
-
 } // namespace
 
 const std::vector<NamedMistake>& mistakes() {
@@ -272,6 +274,22 @@ const std::vector<NamedMistake>& mistakes() {
          mistake_at(site::speed_in_box, Change::plus, -1, &site::translation)},
         {"normal_of_next", "the sphere's normal is that of the next position, not of the contact", "update",
          formula_at(site::normal, normal_of_next)},
+        {"normal_not_grown", "the sphere's normal is divided by its radius, without the grain's", "update",
+         spoiled_at(site::normal, normal_of_sphere_alone)},
+        {"normal_by_grain", "the sphere's normal is divided by the grain's radius alone", "update",
+         spoiled_at(site::normal, normal_of_grain)},
+        {"reach_not_squared", "a chord is made of the reach, not of its square", "update",
+         spoiled_at(site::chord, reach_not_squared)},
+        free_formula("way_in_from_the_end", "the way to a contact is taken from where the movement ends", "update",
+                     spoiled_at(site::way_in, from_the_end)),
+        {"lower_walls_further_out", "a grain's radius is taken away at the lower walls, not added", "update",
+         mistake_at(site::lower_margin, Change::negated)},
+        {"upper_walls_further_out", "a grain's radius is added at the upper walls, not taken away", "update",
+         mistake_at(site::upper_margin, Change::negated)},
+        {"lower_walls_without_grain", "lower walls are met by the grains' centres", "update",
+         mistake_at(site::lower_margin, Change::zero)},
+        {"upper_walls_without_grain", "upper walls are met by the grains' centres", "update",
+         mistake_at(site::upper_margin, Change::zero)},
         {"path_not_cut", "the whole movement is mirrored, not what is left of it", "update",
          mistake_at(site::rest, Change::instead, -1, &site::movement)},
         {"reflected_once", "a reflection takes its normal part away once, not twice", "update",

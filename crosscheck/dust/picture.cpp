@@ -8,6 +8,7 @@
 
 #include <glm/geometric.hpp>
 
+#include "crosscheck/dust/drawing_mistakes.hpp"
 #include "gpu/dust/passes.hpp"
 #include "reference/dust/draw_pass.hpp"
 #include "reference/model/dust/drawing.hpp"
@@ -93,7 +94,7 @@ SystemPicture picture(const HostPtr& host, const SystemState& state, int frame) 
         .name = "picture",
         .schema = drawn_schema(),
         .passes = {},
-        .mistakes = {},
+        .mistakes = drawing_mistakes(),
         .start = {drawn_schema(), {state.extent(0), state.extent(1), {settings.count * corners(mesh).size()}}},
         .settings = {}};
     system.passes.push_back(draw_pass(host, made));

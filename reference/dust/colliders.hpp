@@ -79,7 +79,7 @@ template <class R> class ColliderTwin {
         const Vec3 a = r.note(site::to_centre, centre - m.current);
         const Real q = r.note(site::closest, r.dot(site::closest, a, n));
         const Real h = r.note(site::missed, r.note(site::sqr_way, squared(a)) - r.note(site::closest_squared, q * q));
-        Real chord = sqr_reach - h;
+        Real chord = r.note(site::chord, sqr_reach - h);
         if (!touches && !r.decide(site::crosses_sphere, chord > 0.0F))
             return false;
         if (switches_.root == Root::clamp && r.decide(site::grazes, chord < 0.0F))
@@ -227,8 +227,10 @@ template <class R> class ColliderTwin {
 
     void walls(Movement<R>& m) const {
         const Real margin = r.note(site::wall_margin, radius_);
-        const Vec3 hi = less(r.uniform(site::world_max, host_.settings().world.max), margin);
-        const Vec3 lo = more(r.uniform(site::world_min, host_.settings().world.min), margin);
+        const Vec3 hi =
+            less(r.uniform(site::world_max, host_.settings().world.max), r.note(site::upper_margin, margin));
+        const Vec3 lo =
+            more(r.uniform(site::world_min, host_.settings().world.min), r.note(site::lower_margin, margin));
         for (const Axis axis : {&Vec3::x, &Vec3::y, &Vec3::z}) {
             const Real low = r.note(site::lower_limit, lo.*axis), high = r.note(site::upper_limit, hi.*axis);
             if (r.decide(site::above_wall, m.next.*axis > hi.*axis)) {

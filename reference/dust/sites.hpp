@@ -113,7 +113,9 @@ inline constexpr Site on_face{"contact is on the face"};
 inline constexpr Site upper_limit{"upper limit"}, lower_limit{"lower limit"};
 inline constexpr Site upper_alone{"an upper wall alone answers"}, lower_alone{"a lower wall alone answers"};
 inline constexpr Site above_wall{"beyond an upper wall", {}, "m"}, below_wall{"beyond a lower wall", {}, "m"};
-inline constexpr Site wall_margin{"wall's margin"}, above_floor{"above the floor", {}, "m"};
+inline constexpr Site wall_margin{"wall's margin"}, lower_margin{"lower walls' margin"};
+inline constexpr Site upper_margin{"upper walls' margin"}, chord{"squared half of the chord"},
+    above_floor{"above the floor", {}, "m"};
 inline constexpr Site started_beyond{"started beyond the wall", {}, "m"}, to_wall{"way along the ray"};
 inline constexpr Site below_floor{"below the floor", {}, "m"};
 

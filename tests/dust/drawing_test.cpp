@@ -107,22 +107,49 @@ TEST_CASE("dust drawing: mistakes of the vertex stage are found, and named") {
         std::string text, replacement, cause;
     };
     const std::vector<Mutant> mutants{
-        {"ls_multiply(cameraRight[axis], x)", "ls_multiply(cameraUp[axis], x)", ""},
-        {"ls_multiply(cameraUp[axis], y)", "ls_multiply(cameraUp[axis], x)", ""},
-        {"ls_multiply(turned[axis], scale)", "turned[axis]", "scale: one"},
-        {"ls_multiply(turned[axis], scale)", "ls_multiply(turned[axis], scale * 0.5)", "corner, turned: halved"},
-        {"ls_flush(a_Position[axis])", "0.0", "position before: zero"},
+        {"ls_multiply(cameraRight[axis], x)", "ls_multiply(cameraUp[axis], x)", "up_twice"},
+        {"ls_multiply(cameraUp[axis], y)", "ls_multiply(cameraRight[axis], y)", "right_twice"},
+        {"ls_multiply(cameraUp[axis], y)", "ls_multiply(cameraUp[axis], x)", "x_for_both"},
+        {"ls_multiply(cameraRight[axis], x)", "ls_multiply(cameraRight[axis], y)", "y_for_both"},
+        {"ls_multiply(cameraRight[axis], x), ls_multiply(cameraUp[axis], y)",
+         "ls_multiply(cameraUp[axis], x), ls_multiply(cameraRight[axis], y)", "axes_swapped"},
+        {"ls_multiply(cameraRight[axis], x)", "ls_multiply(cameraRight[axis], -x)", "right_reversed"},
+        {"ls_multiply(cameraUp[axis], y)", "ls_multiply(-cameraUp[axis], y)", "up_reversed"},
+        {"ls_multiply(turned[axis], scale)", "turned[axis]", "scale_missing"},
+        {"ls_multiply(turned[axis], scale)", "ls_multiply(turned[axis], scale * 2.0)", "grains_twice_as_large"},
+        {"ls_multiply(turned[axis], scale)", "ls_multiply(turned[axis], scale * 0.5)", "grains_half_as_large"},
+        {"ls_add(ls_multiply(turned[axis], scale), ls_flush(a_Position[axis]))",
+         "(turned[axis] + a_Position[axis]) * scale", "place_scaled"},
+        {"ls_flush(a_Position[axis])", "0.0", "place_missing"},
+        {"ls_flush(a_Position[axis])", "-a_Position[axis]", "place_subtracted"},
+        {"ls_transform(viewProjection, world)", "ls_transform(transpose(viewProjection), world)", "matrix_transposed"},
+        {"ls_transform(viewProjection, world);", "ls_transform(viewProjection, world); out_Clip /= out_Clip.w;",
+         "divided_by_w"},
         {"(gl_VertexID & 2)", "(gl_VertexID & 1)", ""},
-        {"? -0.5 : 0.5;\n    float y", "? 0.5 : -0.5;\n    float y", "corner's x: negated"},
-        {"out_Drawn = a_Alive", "out_Drawn = 1", ""},
-        {"out_Drawn = a_Alive", "out_Drawn = 1 - a_Alive", ""},
+        {"(gl_VertexID & 1) == 0 ? -0.5 : 0.5;\n    float y = (gl_VertexID & 2)",
+         "(gl_VertexID & 2) == 0 ? -0.5 : 0.5;\n    float y = (gl_VertexID & 1)", "corners_swapped"},
+        {"? -0.5 : 0.5;\n    float y", "? 0.5 : -0.5;\n    float y", "mirrored"},
+        {"(gl_VertexID & 2) == 0 ? -0.5 : 0.5", "(gl_VertexID & 2) == 0 ? 0.5 : -0.5", "upside_down"},
+        {"out_Drawn = a_Alive", "out_Drawn = 1", "dead_drawn"},
+        {"out_Drawn = a_Alive", "out_Drawn = 1 - a_Alive", "dead_alone_drawn"},
+        {"out_Drawn = a_Alive", "out_Drawn = 0", "nothing_drawn"},
+        {"ls_flush3(a_Colour)", "ls_flush3(a_Colour.bgr)", "red_is_blue"},
         {"ls_flush3(a_Colour)", "ls_flush3(a_Position)", ""},
-        {"vec2(x + 0.5, y + 0.5)", "vec2(y + 0.5, x + 0.5)", ""},
-        {"vec2(x + 0.5, y + 0.5)", "vec2(x, y)", ""}};
+        {"vec2(x + 0.5, y + 0.5)", "vec2(y + 0.5, x + 0.5)", "texture_swapped"},
+        {"vec2(x + 0.5, y + 0.5)", "vec2(0.5 - x, y + 0.5)", "texture_mirrored"},
+        {"vec2(x + 0.5, y + 0.5)", "vec2(x + 0.5, 0.5 - y)", "texture_upside_down"},
+        {"vec2(x + 0.5, y + 0.5)", "vec2(x, y)", "texture_not_moved"},
+        {"    for (int axis = 0; axis < 3; ++axis) {\n        turned[axis] =",
+         "    mat3 axes = mat3(cameraRight, cameraUp, cameraBack);\n"
+         "    for (int axis = 0; axis < 3; ++axis) {\n        turned[axis] = dot(vec3(x, y, z), axes[axis]) + 0.0 *",
+         "turned_back"},
+        {"turned[axis] = ls_add", "turned[axis] = vec3(x, y, z)[axis] + 0.0 * ls_add", "not_turned"}};
     const dust::HostPtr host = kernels("exact");
     SystemState state = after_frames(host, 20);
     for (std::size_t i = 0; i < host->settings().count; i += 5)
         state.set(dust::field::alive, i, std::int32_t{0});
+    for (std::size_t i = 0; i < host->settings().count; ++i)
+        state.set(dust::field::colour, i, glm::vec3(0.25F, 0.5F, 0.75F));
     for (const Mutant& mutant : mutants) {
         INFO(mutant.text << " -> " << mutant.replacement);
         std::ostringstream read;

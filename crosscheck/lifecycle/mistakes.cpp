@@ -64,6 +64,19 @@ void premultiplied(std::span<float> tint, const CameBy& /*run*/) {
         tint[c] *= tint[3];
 }
 
+/// Drag brakes the old velocity alone, not what accelerated it.
+void braked_before(std::span<float> value, const CameBy& run) {
+    for (std::size_t c = 0; c < value.size(); ++c)
+        value[c] = run.of(site::velocity_before)[c] * run.of(site::drag_factor)[0] +
+                   run.of(site::force)[c] * run.of(site::tick)[0];
+}
+
+/// One component of a place in a box drawn as another is.
+template <std::size_t component, std::size_t as> void drawn_as(std::span<float> value, const CameBy& run) {
+    value[component] =
+        run.of(site::shape_low)[component] + run.of(site::random)[as] * run.of(site::shape_size)[component];
+}
+
 /// Of whole ticks.
 void last_tick_lost(std::span<float> left, const CameBy& /*run*/) {
     if (left[0] == 1.0F)
@@ -101,6 +114,11 @@ std::vector<NamedMistake> made() {
     in(simulating, "drag_missing", "no drag brakes", mistake_at(site::drag_coefficient, zero));
     in(simulating, "stopped_by_drag", "drag leaves nothing of the velocity", mistake_at(site::drag_factor, zero));
     in(simulating, "drag_factor_missing", "nothing brakes", mistake_at(site::braked, instead, -1, &site::faster));
+    in(simulating, "drag_before_acceleration", "drag brakes the old velocity, not what a tick makes of it",
+       spoiled_at(site::braked, braked_before));
+    in({"emit"}, "box_y_as_x", "y in a box is drawn as x is", spoiled_at(site::shape_place, drawn_as<1, 0>));
+    in({"emit"}, "box_z_as_x", "z in a box is drawn as x is", spoiled_at(site::shape_place, drawn_as<2, 0>));
+    in({"emit"}, "box_z_as_y", "z in a box is drawn as y is", spoiled_at(site::shape_place, drawn_as<2, 1>));
     in(simulating, "drag_reversed", "drag pushes particles on", mistake_at(site::drag, negated));
     // Forces.
     in(simulating, "vortex_reversed", "the vortex turns the other way", mistake_at(site::swirl, negated));

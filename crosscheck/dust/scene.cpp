@@ -28,10 +28,22 @@ Pose read_pose(const JsonValue& json) {
     return pose;
 }
 
+void refuse(const JsonValue& json, std::string_view key, std::string_view tool) {
+    if (const auto found = json.find(key))
+        found->fail(fmt::format("is no property of {}; right is to leave it out", tool));
+}
+
 Tool read_tool(const JsonValue& json) {
     json.check_keys({"tool", "from", "to", "force", "range", "angle", "death_range", "distance"});
     Tool tool;
     tool.kind = static_cast<Tool::Kind>(json.at("tool").choice({"vacuum", "emit", "wind"}));
+    const std::string name = json.at("tool").text();
+    if (tool.kind == Tool::Kind::emit)
+        refuse(json, "range", name);
+    if (tool.kind != Tool::Kind::vacuum)
+        refuse(json, "death_range", name);
+    if (tool.kind != Tool::Kind::emit)
+        refuse(json, "distance", name);
     read_field(json, "from", tool.from);
     read_field(json, "to", tool.to);
     read_field(json, "force", tool.force);

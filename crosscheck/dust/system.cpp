@@ -20,7 +20,7 @@ System system(const HostPtr& host, const std::string& name) {
                 .passes = twins(host),
                 .mistakes = {},
                 .start = {schema(), {{settings.count}, {1}}},
-                .settings = differing_text(switch_values(settings.switches), switch_values(Switches()))};
+                .settings = switches_text(settings.switches, settings.arithmetic, preset)};
     dust.start.set(field::alive_number, 0, static_cast<std::uint32_t>(settings.count));
     for (const NamedMistake& mistake : mistakes())
         if (std::any_of(dust.passes.begin(), dust.passes.end(),

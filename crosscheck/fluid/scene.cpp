@@ -68,8 +68,11 @@ void read_switches_and_numbers(const JsonValue& json, const SceneOptions& option
 void read_fluid(const JsonValue& json, Settings& settings) {
     json.check_keys({"radius", "filter_radius", "flow_iterations", "flow_step", "tick"});
     read_field(json, "radius", settings.radius);
-    read_field(json, "filter_radius", settings.filter_radius);
-    read_field(json, "flow_iterations", settings.flow_iterations);
+    const auto up_to = [](int most) {
+        return [most](const JsonValue& v) { return static_cast<int>(v.integer(0, most)); };
+    };
+    read_field(json, "filter_radius", settings.filter_radius, up_to(most_filter_radius));
+    read_field(json, "flow_iterations", settings.flow_iterations, up_to(most_flow_iterations));
     read_field(json, "flow_step", settings.flow_step);
     read_field(json, "tick", settings.tick);
 }
@@ -87,7 +90,22 @@ std::vector<glm::vec3> read_points(const JsonValue& json) {
     std::vector<glm::vec3> points;
     for (const JsonValue& one : json.items())
         points.push_back(one.vector());
+    if (points.empty())
+        json.fail(fmt::format("0 particles; right is 1 to {}", most_particles));
     return points;
+}
+
+std::vector<std::vector<glm::vec3>> read_recording(const JsonValue& json) {
+    std::vector<std::vector<glm::vec3>> frames;
+    for (const JsonValue& one : json.items()) {
+        frames.push_back(read_points(one));
+        if (frames.back().size() != frames.front().size())
+            one.fail(fmt::format("frame {} has {} particle{}; right is {}, as frame 0 has", frames.size() - 1,
+                                 frames.back().size(), frames.back().size() == 1 ? "" : "s", frames.front().size()));
+    }
+    if (frames.empty())
+        json.fail("0 frames; right is at least one");
+    return frames;
 }
 
 /// Those that lie written in the file, frame by frame or once, or those of emitters.
@@ -98,11 +116,10 @@ void read_particles(const JsonValue& json, const SceneOptions& options, Settings
             given.push_back(key);
     if (given.size() != 1)
         json.fail("a fluid has its particles by one of particles, recording, emitters");
-    if (const auto recording = json.find("recording"))
-        for (const JsonValue& frame : recording->items())
-            settings.recording.push_back(read_points(frame));
-    if (!settings.recording.empty())
+    if (const auto recording = json.find("recording")) {
+        settings.recording = read_recording(*recording);
         settings.particles = settings.recording.front();
+    }
     if (const auto particles = json.find("particles"))
         settings.particles = read_points(*particles);
     const auto emitters_of = json.find("emitters");

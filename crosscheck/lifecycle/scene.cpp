@@ -13,17 +13,23 @@
 #include "crosscheck/files/png.hpp"
 #include "crosscheck/scene/graph_file.hpp"
 #include "crosscheck/scene/scene_fields.hpp"
+#include "crosscheck/scene/scene_settings.hpp"
 #include "reference/model/error.hpp"
 
 namespace lockstep::lifecycle {
 namespace {
 
 constexpr std::int64_t last_frame = 1'000'000;
+constexpr NumberRule fraction{0.0, 1.0, "a fraction from 0 to 1"};
+
+void read_from_zero(const JsonValue& json, std::string_view key, float& value) {
+    read_field(json, key, value, [](const JsonValue& v) { return v.number(number::not_negative); });
+}
 
 void read_pair(const JsonValue& json, std::string_view key, std::array<float, 2>& value) {
     read_field(json, key, value, [](const JsonValue& v) {
-        const std::vector<JsonValue> two = elements(v, 2, "two numbers");
-        return std::array{two[0].number(), two[1].number()};
+        const std::vector<JsonValue> two = elements(v, 2, "two numbers from 0 up");
+        return std::array{two[0].number(number::not_negative), two[1].number(number::not_negative)};
     });
 }
 
@@ -61,7 +67,7 @@ Force read_force(const JsonValue& json) {
     read_field(json, "radius", force.radius);
     read_field(json, "falloff", force.falloff, [](const JsonValue& v) { return static_cast<int>(v.integer(0, 2)); });
     read_field(json, "pull", force.pull);
-    read_field(json, "softening", force.softening);
+    read_from_zero(json, "softening", force.softening);
     read_field(json, "kill_radius", force.kill_radius);
     read_field(json, "frequency", force.frequency);
     read_field(json, "pan", force.pan);
@@ -90,8 +96,9 @@ void read_shape(const JsonValue& json, Emitter& e) {
                                                                                                : "sphere"));
     };
     if (e.shape == Emitter::Shape::box) {
-        e.min = json.at("min").vector();
-        e.max = json.at("max").vector();
+        const Box box = read_box(json);
+        e.min = box.min;
+        e.max = box.max;
         refuse("position");
         refuse("centre");
         refuse("radius");
@@ -99,7 +106,7 @@ void read_shape(const JsonValue& json, Emitter& e) {
     }
     read_field(json, place, e.min);
     e.max = e.min;
-    read_field(json, "radius", e.radius);
+    read_from_zero(json, "radius", e.radius);
     refuse("min");
     refuse("max");
     refuse(e.shape == Emitter::Shape::point ? "radius" : "position");
@@ -166,10 +173,10 @@ Emitter read_emitter(const JsonValue& json, NamedFiles& files) {
         for (const JsonValue& place : path->items())
             e.path.push_back(read_place(place));
     read_field(json, "direction", e.direction);
-    read_field(json, "direction_jitter", e.direction_jitter);
-    read_field(json, "speed", e.speed);
-    read_field(json, "speed_jitter", e.speed_jitter);
-    read_field(json, "cone", e.cone, [](const JsonValue& v) { return v.number(number::not_negative); });
+    read_from_zero(json, "direction_jitter", e.direction_jitter);
+    read_from_zero(json, "speed", e.speed);
+    read_field(json, "speed_jitter", e.speed_jitter, [](const JsonValue& v) { return v.number(fraction); });
+    read_from_zero(json, "cone", e.cone);
     read_field(json, "acceleration", e.acceleration);
     read_pair(json, "size", e.size);
     if (const auto color = json.find("color")) {

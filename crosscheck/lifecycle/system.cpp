@@ -29,9 +29,9 @@ std::string polygon_text(const Host& host) {
                        corners.empty() ? 100.0 : 100.0 * (1.0 - area(corners)));
 }
 
-/// What differs from the preset `corrected`, and where everyone may die though ages would say who.
+/// The preset and what differs from it, and where everyone may die though ages would say who.
 std::string text_of(const Host& host) {
-    std::string text = differing_text(switch_values(host.switches()), switch_values(Switches()));
+    std::string text = switches_text(host.switches(), host.settings().arithmetic, preset);
     for (const HostEmitter& of : host.emitters())
         if (host.switches().may_die != MayDie::all && !host.lists() && of.dies == Dies::all)
             text += fmt::format("; of emitter {} any particle may die", of.number);

@@ -15,11 +15,13 @@
 namespace lockstep::lights {
 namespace {
 
+constexpr NumberRule fraction{0.0, 1.0, "a fraction from 0 to 1"};
+
 glm::ivec3 read_size(const JsonValue& json) {
     const std::vector<JsonValue> three = elements(json, 3, "the voxels along x, y and z");
     glm::ivec3 size;
     for (int axis = 0; axis < 3; ++axis)
-        size[axis] = static_cast<int>(three[static_cast<std::size_t>(axis)].integer(1, 4096));
+        size[axis] = static_cast<int>(three[static_cast<std::size_t>(axis)].integer(2, 256));
     return size;
 }
 
@@ -38,6 +40,13 @@ struct LightGroup {
     std::vector<glm::vec3> palette{glm::vec3(1.0F)};
 };
 
+glm::vec3 read_colour(const JsonValue& json) {
+    const glm::vec3 colour = json.vector();
+    for (const JsonValue& channel : json.items())
+        static_cast<void>(channel.number(number::not_negative));
+    return colour;
+}
+
 LightGroup read_group(const JsonValue& json) {
     LightGroup group;
     const bool is_point = json.at("shape").choice({"box", "point"}) == 1;
@@ -54,11 +63,12 @@ LightGroup read_group(const JsonValue& json) {
     read_field(json, "count", group.count, [](const JsonValue& v) {
         return static_cast<std::size_t>(v.integer(1, static_cast<std::int64_t>(most_lights)));
     });
-    read_field(json, "speed", group.speed);
-    read_field(json, "direction_jitter", group.jitter);
+    const auto from_zero = [](const JsonValue& v) { return v.number(number::not_negative); };
+    read_field(json, "speed", group.speed, from_zero);
+    read_field(json, "direction_jitter", group.jitter, [](const JsonValue& v) { return v.number(fraction); });
     read_field(json, "range", group.range);
-    read_field(json, "intensity", group.intensity);
-    read_list(json, "palette", group.palette, [](const JsonValue& v) { return v.vector(); });
+    read_field(json, "intensity", group.intensity, from_zero);
+    read_list(json, "palette", group.palette, read_colour);
     if (group.palette.empty())
         json.fail("a palette has at least one colour");
     return group;

@@ -22,7 +22,7 @@ System system(const HostPtr& host, const std::string& name) {
                 .passes = twins(host),
                 .mistakes = {},
                 .start = start(host->settings()),
-                .settings = differing_text(switch_values(host->switches()), switch_values(Switches()))};
+                .settings = switches_text(host->switches(), host->settings().arithmetic, preset)};
     for (const NamedMistake& mistake : mistakes())
         if (std::any_of(made.passes.begin(), made.passes.end(),
                         [&](const auto& pass) { return pass->name() == mistake.pass; }))

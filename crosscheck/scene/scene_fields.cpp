@@ -81,22 +81,24 @@ void set_value(std::string_view setting, std::string_view system, std::vector<Sw
     if (found == all.end()) {
         std::vector<std::string> names(all.size());
         std::transform(all.begin(), all.end(), names.begin(), [](const SwitchValue& one) { return one.name; });
-        throw Error(fmt::format("there is no switch '{}' of {}; there are {}{}", plain_line(std::string(name)), system,
+        throw Error(fmt::format("--set {}: there is no switch '{}' of {}; there are {}{}",
+                                plain_line(std::string(setting)), plain_line(std::string(name)), system,
                                 fmt::join(names, ", "), did_you_mean(std::string(name), names)));
     }
     const auto word = std::find(found->values.begin(), found->values.end(), value);
     if (word == found->values.end())
-        throw Error(fmt::format("{}: '{}' is not one of {}", name, plain_line(std::string(value)),
+        throw Error(fmt::format("--set {}: '{}' is not one of {}", name, plain_line(std::string(value)),
                                 fmt::join(found->values, ", ")));
     found->value = static_cast<std::size_t>(word - found->values.begin());
 }
 
-std::string differing_text(const std::vector<SwitchValue>& all, const std::vector<SwitchValue>& usual) {
+std::string differing_text(std::string_view preset, const std::vector<SwitchValue>& all,
+                           const std::vector<SwitchValue>& usual) {
     std::string text;
     for (std::size_t i = 0; i < all.size(); ++i)
         if (all[i].value != usual[i].value)
             text += fmt::format(" {}={}", all[i].name, all[i].values[all[i].value]);
-    return text.empty() ? "corrected" : "corrected, but" + text;
+    return text.empty() ? std::string(preset) : fmt::format("{}, but{}", preset, text);
 }
 
 } // namespace lockstep

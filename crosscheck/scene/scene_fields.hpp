@@ -13,6 +13,7 @@
 
 #include "crosscheck/files/json_reader.hpp"
 #include "crosscheck/scene/settings_place.hpp"
+#include "reference/model/arithmetic_switch.hpp"
 #include "reference/model/camera.hpp"
 #include "reference/model/error.hpp"
 
@@ -101,7 +102,14 @@ template <class Settings> void check_settings(const JsonValue& scene, const Sett
     }
 }
 
-/// "corrected", or "corrected, but walls=all ..." with what differs from `usual`.
-std::string differing_text(const std::vector<SwitchValue>& all, const std::vector<SwitchValue>& usual);
+/// "corrected", or "corrected, but walls=all ..." with what differs from `usual`, the preset's.
+std::string differing_text(std::string_view preset, const std::vector<SwitchValue>& all,
+                           const std::vector<SwitchValue>& usual);
+/// The same of the preset whose arithmetic it is; `preset` gives its switches by name.
+template <class Switches, class Preset>
+std::string switches_text(const Switches& switches, ArithmeticSwitch arithmetic, const Preset& preset) {
+    const std::string_view name = arithmetic == ArithmeticSwitch::exact ? "exact" : "corrected";
+    return differing_text(name, switch_values(switches), switch_values(preset(name)));
+}
 
 } // namespace lockstep

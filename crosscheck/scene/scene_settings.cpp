@@ -1,6 +1,7 @@
 #include "crosscheck/scene/scene_settings.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <cstdint>
 
 #include <fmt/format.h>
@@ -18,6 +19,37 @@ namespace lockstep {
 namespace {
 
 constexpr std::int64_t largest_image = 16384;
+
+/// A way is straight, so it comes nearest to a view along the camera's up, or to none, in one place: the frames on both
+/// sides of it are looked at.
+void check_way(const JsonValue& json, const Camera& camera, const CameraKey& a, const CameraKey& b) {
+    const glm::dvec3 up = glm::normalize(glm::dvec3(camera.up));
+    const glm::dvec3 first = glm::cross(glm::dvec3(a.target) - glm::dvec3(a.eye), up);
+    const glm::dvec3 change = glm::cross(glm::dvec3(b.target) - glm::dvec3(b.eye), up) - first;
+    const double squared = glm::dot(change, change);
+    const double nearest = squared > 0.0 ? std::clamp(-glm::dot(first, change) / squared, 0.0, 1.0) : 0.0;
+    const int before = a.frame + static_cast<int>(std::floor(nearest * (b.frame - a.frame)));
+    for (const int frame : {before, before + 1}) {
+        const Camera at = camera_at(camera, {a, b}, frame);
+        if (parallel(at.target - at.eye, at.up))
+            json.fail(
+                fmt::format("on the way here, in frame {}, eye, target and the camera's up lie on one line; right "
+                            "is a key that leads around it",
+                            frame));
+    }
+}
+
+/// Only where all keys are right by themselves.
+void check_camera_path(const JsonValue& json, const Camera& camera, const std::vector<CameraKey>& path) {
+    const std::vector<JsonValue> items = json.items();
+    for (std::size_t k = 0; k < items.size(); ++k) {
+        if (!items[k].find("eye") && !items[k].find("target"))
+            items[k].fail("a key without eye and target; right is one of them, or both");
+        if (k > 0)
+            check_way(items[k], camera, path[k - 1], path[k]);
+    }
+}
+
 std::vector<CameraKey> read_camera_path(const JsonValue& json, const Camera& camera) {
     std::vector<CameraKey> path;
     for (const JsonValue& item : json.items()) {
@@ -32,6 +64,7 @@ std::vector<CameraKey> read_camera_path(const JsonValue& json, const Camera& cam
             item.fail("eye, target and the camera's up lie on one line");
         path.push_back(key);
     }
+    check_camera_path(json, camera, path);
     return path;
 }
 

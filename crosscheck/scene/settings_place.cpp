@@ -4,6 +4,7 @@
 #include <cctype>
 #include <charconv>
 #include <optional>
+#include <string_view>
 #include <vector>
 
 #include <fmt/format.h>
@@ -42,13 +43,21 @@ void find_below(const JsonValue& json, const std::string& word, std::vector<Json
     }
 }
 
+/// The component of a vector, or the object or list of that number.
+std::optional<JsonValue> element(const std::vector<JsonValue>& items, const std::string& word) {
+    const bool holds_more = !items.empty() && (items.front().is_object() || items.front().is_array());
+    std::size_t n = items.size();
+    if (holds_more)
+        std::from_chars(word.data(), word.data() + word.size(), n);
+    else if (items.size() == 3 && word.size() == 1)
+        n = std::string_view("xyz").find(word.front());
+    return n < items.size() ? std::optional(items[n]) : std::nullopt;
+}
+
 std::optional<JsonValue> step(const JsonValue& from, const std::string& word) {
-    if (from.is_array()) {
-        std::size_t n = 0;
-        const auto [end, problem] = std::from_chars(word.data(), word.data() + word.size(), n);
-        if (problem == std::errc() && end == word.data() + word.size())
-            return n < from.items().size() ? std::optional(from.items()[n]) : std::nullopt;
-    }
+    if (from.is_array())
+        if (const auto found = element(from.items(), word))
+            return found;
     std::vector<JsonValue> found;
     find_below(from, word, found);
     return found.size() == 1 ? std::optional(found.front()) : std::nullopt;

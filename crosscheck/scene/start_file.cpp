@@ -43,6 +43,20 @@ void check_finite(const NumberTable& table) {
         }
 }
 
+/// As of an emitter; a particle without speed needs no direction.
+void check_motion(const NumberTable& table, const Particles& particles) {
+    for (std::size_t row = 0; row < table.rows; ++row) {
+        const auto wrong = [&](const std::string& what) {
+            throw Error(fmt::format("{}: particle {}: {}", place_of(table, row), row, what));
+        };
+        const float speed = particles.speed[row];
+        if (speed < 0.0F)
+            wrong(fmt::format("speed is {}; right is a number from 0 up", speed));
+        if (speed > 0.0F && !(glm::length(glm::dvec3(particles.direction[row])) > 0.0))
+            wrong(fmt::format("direction has no length, and speed is {}; right is a length above 0", speed));
+    }
+}
+
 void check_columns(const NumberTable& table) {
     const auto has = [&](StartColumn column) { return !table.words[column].empty(); };
     const bool right = has(in_velocity) ? !has(in_direction) && !has(in_speed) : has(in_direction) && has(in_speed);
@@ -95,8 +109,10 @@ Particles read_start(const std::filesystem::path& file, const Switches& switches
         if (whole && switches.velocity != Velocity::vector)
             split(particles.direction[i], particles.direction[i], particles.speed[i]);
     }
-    if (!whole)
+    if (!whole) {
+        check_motion(table, particles);
         hold_velocity(particles, switches);
+    }
     return particles;
 }
 

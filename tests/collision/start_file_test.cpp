@@ -60,6 +60,22 @@ TEST_CASE("start file: where a particle holds a vector, it is what the file says
     CHECK(made.start.speed[0] == 1.0F);
 }
 
+TEST_CASE("start file: a camera's way is refused with the key, and the frame, in which it has no view") {
+    const auto path = [](const std::string& keys) {
+        return refusal(by_velocity + "1,2,3,4,5,6\n", R"(, "camera_path": [)" + keys + "]");
+    };
+    CHECK_THAT(path(R"({"frame": 5})"),
+               EndsWith("/camera_path/0: a key without eye and target; right is one of them, or both"));
+    CHECK_THAT(path(R"({"frame": 0, "eye": [0, 0, 3]}, {"frame": 2, "eye": [0, 0, -3]})"),
+               EndsWith("/camera_path/1: on the way here, in frame 1, eye, target and the camera's up lie on one line; "
+                        "right is a key that leads around it"));
+    CHECK_THAT(path(R"({"frame": 0, "eye": [-1, 1, 0]}, {"frame": 1000000000, "eye": [1, 1, 0]})"),
+               Contains("in frame 500000000, "));
+    CHECK(path(R"({"frame": 0, "eye": [0, 0, 3]}, {"frame": 1, "eye": [0, 0, -3]})").empty());
+    CHECK(path(R"({"frame": 0, "eye": [0, 0, 3]}, {"frame": 9, "eye": [3, 0, 0]}, {"frame": 18, "eye": [0, 0, -3]})")
+              .empty());
+}
+
 TEST_CASE("start file: what is wrong in it is told by its line") {
     CHECK_THAT(refusal("position.x,position.y,positoin.z,speed\n1,2,3,4\n"),
                Contains("start.csv:1: column positoin.z is none of a start's") && Contains("did you mean position.z?"));
@@ -70,6 +86,13 @@ TEST_CASE("start file: what is wrong in it is told by its line") {
     CHECK_THAT(refusal(by_velocity + "1,2,3,4,5,6\n1,2,3,4,nan,6\n"),
                EndsWith("start.csv:3: particle 1: velocity is nan; right is a finite number"));
     CHECK_THAT(refusal(by_velocity + "1,2,3,4,5,six\n"), Contains("start.csv:2: column velocity.z: 'six' is no float"));
+    const std::string by_speed = "position.x,position.y,position.z,direction.x,direction.y,direction.z,speed\n";
+    CHECK_THAT(refusal(by_speed + "0,0,0,0,-1,0,0.1\n0,0,0,0,-1,0,-0.1\n"),
+               EndsWith("start.csv:3: particle 1: speed is -0.1; right is a number from 0 up"));
+    CHECK_THAT(
+        refusal(by_speed + "0,0,0,0,0,0,0.1\n"),
+        EndsWith("start.csv:2: particle 0: direction has no length, and speed is 0.1; right is a length above 0"));
+    CHECK(refusal(by_speed + "0,0,0,0,0,0,0\n").empty());
     CHECK_THAT(refusal(by_velocity), Contains("it has no rows"));
     CHECK_THAT(refusal(by_velocity + "1,2,3,4,5,6\n", R"(, "emitters": [])"),
                EndsWith("scene.json: /start: is there beside emitters; right is one of both"));

@@ -102,7 +102,8 @@ TEST_CASE("fluid scenes: what is wrong in a scene is one line that names the pla
     CHECK_THAT(told("/fluid/radius", 1e-40), Contains("right is above 0.000001, to 1000"));
     CHECK_THAT(told("/fluid/radius", 1e20), Contains("right is above 0.000001, to 1000"));
     CHECK_THAT(told("/fluid/radius", "x"), Contains("/fluid/radius"));
-    CHECK_THAT(told("/fluid/filter_radius", 32), Contains("filter_radius is 32 pixels; right is 0 to 31"));
+    CHECK_THAT(told("/fluid/filter_radius", 32), Contains("/fluid/filter_radius: 32 is not an integer from 0 to 31"));
+    CHECK_THAT(told("/fluid/flow_iterations", 2000000), Contains("2000000 is not an integer from 0 to 1000"));
     CHECK_THAT(told("/fluid/rest_density", 1000), Contains("rest_density"));
     CHECK_THAT(told("/wave/period", 0), Contains("wave: period is 0 s; right is above 0"));
     CHECK_THAT(told("/render", nlohmann::json::array({800})), Contains("right is its width and height"));
@@ -126,7 +127,14 @@ TEST_CASE("fluid scenes: what is wrong in a scene is one line that names the pla
                       Contains("wave and recording: right is one of them"));
     both.erase("wave");
     both["recording"][1].erase(0);
-    CHECK_THROWS_WITH(fluid::read_scene(JsonValue(both, "x.json")), Contains("frame 1 has 15 particles, frame 0 16"));
+    CHECK_THROWS_WITH(fluid::read_scene(JsonValue(both, "x.json")),
+                      Contains("x.json: /recording/1: frame 1 has 15 particles; right is 16, as frame 0 has"));
+    both["recording"][1].clear();
+    CHECK_THROWS_WITH(fluid::read_scene(JsonValue(both, "x.json")),
+                      Contains("x.json: /recording/1: 0 particles; right is 1 to 2097152"));
+    both["recording"].clear();
+    CHECK_THROWS_WITH(fluid::read_scene(JsonValue(both, "x.json")),
+                      Contains("x.json: /recording: 0 frames; right is at least one"));
 }
 
 /// Writes the kept hashes anew: lockstep_tests_fluid "[golden]"

@@ -107,6 +107,7 @@ TEST_CASE("lifecycle scenes: what is wrong with a file is said in one line, with
         return "";
     };
     CHECK(error_of("") == "");
+    CHECK(error_of(R"("direction_jitter": 2, "speed": 0, "color": [[2, 1, 1, 1], [1, 1, 1, 1]], "uv_scale": 0)") == "");
     const std::pair<const char*, const char*> wrong[] = {
         {R"("capacity": 0)", "/emitters/0/capacity"},
         {R"("capacity": 16776961)", "/emitters/0/capacity"},
@@ -115,7 +116,7 @@ TEST_CASE("lifecycle scenes: what is wrong with a file is said in one line, with
         {R"("rate": 1e400)", "scene.json"},
         {R"("bursts": [[0]])", "/emitters/0/bursts/0"},
         {R"("bursts": [[0, -1]])", "/emitters/0/bursts/0/1"},
-        {R"("lifetime": [2, 1])", "lifetime is 2 to 1"},
+        {R"("lifetime": [2, 1])", "/emitters/0/lifetime: emitter 0: lifetime is 2 to 1"},
         {R"("lifetime": [1])", "/emitters/0/lifetime"},
         {R"("direction": [0, 0, 0])", "direction has no length"},
         {R"("cone": 181)", "cone is 181 degrees"},
@@ -131,6 +132,14 @@ TEST_CASE("lifecycle scenes: what is wrong with a file is said in one line, with
         {R"("forces": [{"type": "drag", "radius": 1}])", "radius"},
         {R"("forces": [{"type": "curl_noise", "seed": 16777216}])", "seed"},
         {R"("colour": 3)", "colour"},
+        {R"("shape": "box", "min": [0, 1, 0], "max": [0, 0, 0])", "/emitters/0: min is above max in y"},
+        {R"("shape": "sphere", "radius": -1)", "/emitters/0/radius: -1 is not a number from 0 up"},
+        {R"("direction_jitter": -1)", "/emitters/0/direction_jitter: -1 is not a number from 0 up"},
+        {R"("speed": -1)", "/emitters/0/speed: -1 is not a number from 0 up"},
+        {R"("speed_jitter": 2)", "/emitters/0/speed_jitter: 2 is not a fraction from 0 to 1"},
+        {R"("size": [-1, 1])", "/emitters/0/size/0: -1 is not a number from 0 up"},
+        {R"("lifetime": [-1, 1])", "/emitters/0/lifetime/0: -1 is not a number from 0 up"},
+        {R"("forces": [{"type": "attraction", "softening": -1}])", "/forces/0/softening: -1 is not a number from 0 up"},
     };
     for (const auto& [inside, words] : wrong) {
         const std::string error = error_of(inside);

@@ -92,9 +92,15 @@ TEST_CASE("lights scenes: what is wrong in a scene is one line that names the pl
         }
     };
     using Catch::Contains;
-    CHECK_THAT(told("/grid/size", {15, 8, 16}), Contains("15 voxels along x; right is a power of two, 2 to 256"));
+    CHECK_THAT(told("/grid/size", {15, 8, 16}),
+               Contains("/grid/size/0: grid: size.x is 15 voxels; right is a power of two, 2 to 256"));
+    CHECK_THAT(told("/grid/size", {16, 0, 16}), Contains("/grid/size/1: 0 is not an integer from 2 to 256"));
+    CHECK_THAT(told("/grid/size", {16, 8, 4096}), Contains("/grid/size/2: 4096 is not an integer from 2 to 256"));
+    CHECK_THAT(told("/grid/voxel", 0),
+               Contains("/grid/voxel: grid: a voxel of 0 m; right is a power of two, 0.25 to 4"));
     CHECK_THAT(told("/grid/voxel", 0.75), Contains("a voxel of 0.75 m; right is a power of two, 0.25 to 4"));
-    CHECK_THAT(told("/grid/origin", {0.5, 0, 0}), Contains("origin.x is 0.5 m; right is a multiple of a voxel, 1 m"));
+    CHECK_THAT(told("/grid/origin", {0.5, 0, 0}),
+               Contains("/grid/origin/0: grid: origin.x is 0.5 m; right is a multiple of a voxel, 1 m"));
     CHECK_THAT(told("/lights/0/range", 15), Contains("a range of 15 m; right is up to 14 voxels, 14 m"));
     CHECK_THAT(told("/lights/0/range", 0), Contains("a range of 0 m; right is above 0"));
     CHECK_THAT(told("/lights/0/range", 1e-30), Contains("right is above 0.000001"));
@@ -107,6 +113,23 @@ TEST_CASE("lights scenes: what is wrong in a scene is one line that names the pl
     CHECK_THAT(told("/obstacles/0/albedo", {1, 0.5, 0.5}), Contains("three multiples of 1/256, below 1"));
     CHECK_THAT(told("/switches/shading", "directional"), Contains("/switches/shading"));
     CHECK_THAT(told("/lights/0/shape", "ring"), Contains("/lights/0/shape"));
+    CHECK_THAT(told("/lights/0/direction_jitter", -0.1),
+               Contains("/direction_jitter: -0.1 is not a fraction from 0 to 1"));
+    CHECK_THAT(told("/lights/0/speed", -1), Contains("/lights/0/speed: -1 is not a number from 0 up"));
+    CHECK_THAT(told("/lights/0/intensity", -1), Contains("/lights/0/intensity: -1 is not a number from 0 up"));
+    CHECK_THAT(told("/lights/0/palette", nlohmann::json::parse("[[1, -1, 1]]")),
+               Contains("/lights/0/palette/0/1: -1 is not a number from 0 up"));
+    CHECK(told("/lights/0/intensity", 1e30) == "nothing");
+    for (const char* const accumulate : {"fixed64", "fixed32"}) {
+        nlohmann::json summed = right;
+        summed["switches"]["accumulate"] = accumulate;
+        summed["lights"][0]["intensity"] = 1e9;
+        CHECK_NOTHROW(lights::read_scene(JsonValue(summed, "x.json")));
+        summed["lights"][0]["intensity"] = 1e30;
+        CHECK_THROWS_WITH(lights::read_scene(JsonValue(summed, "x.json")),
+                          Contains("x.json: /lights: lights: their sums are beyond") &&
+                              Contains("right is below 2^31"));
+    }
     CHECK(told("/seed", 4) == "nothing");
 }
 

@@ -73,7 +73,7 @@ TEST_CASE("scene_file: every key arrives where it belongs") {
         "constants": {"tick": 0.02, "gravity": [0, -1, 0.5], "collision_range": 0.02, "collision_time": 0,
                       "texel_collide_range": 4, "billboard_radius": 0.1},
         "camera": {"eye": [1, 2, 3], "target": [0, 1, 0], "up": [0, 0, 1], "fov_y": 60, "near": 0.5, "far": 20},
-        "camera_path": [{"frame": 0}, {"frame": 10, "eye": [4, 5, 6], "target": [1, 1, 1]}],
+        "camera_path": [{"frame": 0, "target": [0, 1, 0]}, {"frame": 10, "eye": [4, 5, 6], "target": [1, 1, 1]}],
         "collision_camera": {"eye": [0, 0, 5]},
         "image": [64, 32], "render": [320, 240],
         "cdt_box": {"min": [-2, -3, -4], "max": [2, 3, 4]},
@@ -146,7 +146,7 @@ TEST_CASE("scene_file: malformed JSON is told with line and column") {
     CHECK_THAT(error_of_text("{\"seed\": NaN}"), Catch::StartsWith("x.json:1:10: malformed JSON: "));
     CHECK(error_of_text("{\"constants\": {\"tick\": 1e999}}") ==
           "x.json:1:28: malformed JSON: number overflow parsing '1e999'");
-    CHECK(error_of_text(R"({"seed": 1, "seed": 2})") == "x.json: the key \"seed\" stands twice in one object");
+    CHECK(error_of_text(R"({"seed": 1, "seed": 2})") == "x.json: /: the key \"seed\" stands twice in one object");
 }
 
 TEST_CASE("scene_file: a file that cannot be read is told with the reason") {

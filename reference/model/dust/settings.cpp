@@ -1,6 +1,7 @@
 #include "reference/model/dust/settings.hpp"
 
 #include <cmath>
+#include <utility>
 
 #include <fmt/format.h>
 #include <glm/geometric.hpp>
@@ -57,11 +58,11 @@ void check_tool(const Tool& tool, std::size_t k) {
     expect(tool.from <= tool.to, "tools: {} is on from {} to {}; right is upwards", k, tool.from, tool.to);
     expect(tool.angle > 0.0F && tool.angle <= 90.0F, "tools: {} has an angle of {} degrees; right is 0.01 to 90", k,
            tool.angle);
-    expect(tool.range >= 0.0F && tool.force >= 0.0F, "tools: {} has a negative force or range", k);
-    expect(
-        is_squared(tool.range) && is_squared(tool.force) && is_squared(tool.death_range) && is_squared(tool.distance),
-        "tools: {} has force {}, range {}, death_range {}, distance {}; right is 0 to 1.8e19, since they are squared",
-        k, tool.force, tool.range, tool.death_range, tool.distance);
+    const std::pair<const char*, float> squared[] = {
+        {"force", tool.force}, {"range", tool.range}, {"death_range", tool.death_range}, {"distance", tool.distance}};
+    for (const auto& [name, value] : squared)
+        expect(is_squared(value), "tools: {} has a {} of {}; right is 0 to 1.8e19, since it is squared", k, name,
+               value);
 }
 
 void check_collider(const Collider& c, std::size_t k) {
@@ -70,15 +71,18 @@ void check_collider(const Collider& c, std::size_t k) {
     if (c.sphere)
         expect(c.radius > 0.0F && is_squared(c.radius),
                "colliders: sphere {} has radius {}; right is above 0, to 1.8e19", k, c.radius);
-    else
-        expect(c.scale.x > 0.0F && c.scale.y > 0.0F && c.scale.z > 0.0F && is_finite(c.scale),
-               "colliders: box {} has scale {} {} {}; right is above 0", k, c.scale.x, c.scale.y, c.scale.z);
+    for (int axis = 0; axis < 3 && !c.sphere; ++axis)
+        expect(c.scale[axis] > 0.0F && std::isfinite(c.scale[axis]),
+               "colliders: box {} has a scale.{} of {}; right is above 0", k, "xyz"[axis], c.scale[axis]);
 }
 
 void check_ball(const Ball& ball, std::size_t k) {
-    expect(is_direction(ball.forward) && ball.range > 0.0F, "cannon: ball {} has no direction or no range", k);
-    expect(is_finite(ball.position) && std::isfinite(ball.speed) && std::isfinite(ball.force) && is_squared(ball.range),
-           "cannon: ball {} has a number that is not finite, or a range beyond 1.8e19, which is squared", k);
+    expect(is_direction(ball.forward), "cannon: ball {} has no direction: forward has no length; right is one above 0",
+           k);
+    expect(ball.range > 0.0F && is_squared(ball.range),
+           "cannon: ball {} has a range of {}; right is above 0, to 1.8e19, since it is squared", k, ball.range);
+    expect(is_finite(ball.position) && std::isfinite(ball.speed) && std::isfinite(ball.force),
+           "cannon: ball {} has a number that is not finite", k);
 }
 
 } // namespace
@@ -115,7 +119,8 @@ void check(const Settings& s) {
         check_ball(s.cannon[k], k);
     const double dt = double{s.tick} * double{s.timescale};
     expect(s.cannon.empty() || dt == 0.0 || dt >= shortest_flight_step,
-           "cannon: a frame of {} s; right is 0 or at least {} s, as balls fly for five", dt, shortest_flight_step);
+           "tick and timescale make a frame of {} s; right is 0 or at least {} s, as balls of a cannon fly for five",
+           dt, shortest_flight_step);
     expect(s.switches.box_kind == BoxKind::aabb || s.switches.box_detect == BoxDetect::boxed,
            "box_detect rounded goes with box_kind aabb; right for obb is boxed");
 }

@@ -44,8 +44,9 @@ void check_motion(const Settings& s) {
         expect(is_positive(s.wave->period), "wave: period is {} s; right is above 0", s.wave->period);
     }
     for (std::size_t frame = 0; frame < s.recording.size(); ++frame)
-        expect(s.recording[frame].size() == s.particles.size(), "recording: frame {} has {} particles, frame 0 {}",
-               frame, s.recording[frame].size(), s.particles.size());
+        expect(s.recording[frame].size() == s.particles.size(),
+               "recording: frame {} has {} particles; right is {}, as frame 0 has", frame, s.recording[frame].size(),
+               s.particles.size());
 }
 
 /// How far before the camera the nearest point of a sphere is that is drawn, over all frames.
@@ -107,9 +108,11 @@ void check(const Settings& s) {
     check_motion(s);
     check_flow(s);
     const double addend = s.switches.thickness_kind == ThicknessKind::published ? 0.025 : 2.0 * double{s.radius};
-    expect(s.switches.thickness_sum != ThicknessSum::fixed ||
-               static_cast<double>(s.particles.size()) * (65536.0 * addend + 1.0) < 0x1p31,
-           "{} particles of up to {} m in units of 2^-16 m are beyond a word of thickness", s.particles.size(), addend);
+    const double sum = static_cast<double>(s.particles.size()) * (65536.0 * addend + 1.0);
+    expect(s.switches.thickness_sum != ThicknessSum::fixed || sum < 0x1p31,
+           "particles: their sum is beyond a word of thickness; right is below 2^31 units of 2^-16 m, and {} of up to "
+           "{} m make {}",
+           s.particles.size(), addend, sum);
 }
 
 } // namespace lockstep::fluid

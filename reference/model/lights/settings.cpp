@@ -20,20 +20,23 @@ bool is_power_of_two(int n) { return n > 0 && (n & (n - 1)) == 0; }
 /// Bits of a word that a sum may fill.
 int bits_of_a_sum(Accumulate accumulate) { return accumulate == Accumulate::fixed32 ? 31 : 24; }
 
+/// No sum can be larger.
+double largest_sum(const Settings& s) { return static_cast<double>(s.lights.size()) * largest_addend(s); }
+
 void check_grid(const Grid& grid, Accumulate accumulate) {
+    int exponent = 0;
+    expect(std::frexp(grid.voxel, &exponent) == 0.5F && grid.voxel >= 0.25F && grid.voxel <= 4.0F,
+           "grid: a voxel of {} m; right is a power of two, 0.25 to 4", grid.voxel);
     for (int axis = 0; axis < 3; ++axis) {
         expect(is_power_of_two(grid.size[axis]) && grid.size[axis] >= 2 && grid.size[axis] <= 256,
-               "grid: {} voxels along {}; right is a power of two, 2 to 256", grid.size[axis], "xyz"[axis]);
+               "grid: size.{} is {} voxels; right is a power of two, 2 to 256", "xyz"[axis], grid.size[axis]);
         const float steps = grid.origin[axis] / grid.voxel;
         expect(steps == std::floor(steps) && std::abs(steps) <= 65536.0F,
                "grid: origin.{} is {} m; right is a multiple of a voxel, {} m", "xyz"[axis], grid.origin[axis],
                grid.voxel);
     }
-    int exponent = 0;
-    expect(std::frexp(grid.voxel, &exponent) == 0.5F && grid.voxel >= 0.25F && grid.voxel <= 4.0F,
-           "grid: a voxel of {} m; right is a power of two, 0.25 to 4", grid.voxel);
     expect(accumulate != Accumulate::fixed64 || grid.size.z <= 128,
-           "grid: {} voxels along z; right for accumulate fixed64 is up to 128: its 15 words lie behind each other",
+           "grid: size.z is {} voxels; right for accumulate fixed64 is up to 128: its 15 words lie behind each other",
            grid.size.z);
 }
 
@@ -58,7 +61,7 @@ double largest_addend(const Settings& s) {
 }
 
 int most_fixed_bits(const Settings& s) {
-    const double most = static_cast<double>(s.lights.size()) * largest_addend(s);
+    const double most = largest_sum(s);
     int k = bits_of_a_sum(s.switches.accumulate);
     while (most * std::ldexp(1.0, k) >= std::ldexp(1.0, bits_of_a_sum(s.switches.accumulate)))
         --k;
@@ -86,8 +89,12 @@ void check(const Settings& s) {
            "shading directionality goes with direction unit and direction_weight attenuation");
     const bool has_bits =
         s.switches.accumulate == Accumulate::fixed32 || s.switches.accumulate == Accumulate::blend_exact;
-    expect(!has_bits || most_fixed_bits(s) >= 0, "{} lights of up to {} are beyond a fixed-point word", s.lights.size(),
-           largest_addend(s));
+    expect(s.switches.accumulate != Accumulate::fixed64 || largest_sum(s) < 0x1p31,
+           "lights: their sums are beyond accumulate fixed64; right is below 2^31, and {} of up to {:.6g} make {:.6g}",
+           s.lights.size(), largest_addend(s), largest_sum(s));
+    expect(!has_bits || most_fixed_bits(s) >= 0,
+           "lights: their sums are beyond a fixed-point word; right is below 2^{}, and {} of up to {:.6g} make {:.6g}",
+           bits_of_a_sum(s.switches.accumulate), s.lights.size(), largest_addend(s), largest_sum(s));
     expect(!has_bits || !s.fixed_bits || (*s.fixed_bits >= 0 && *s.fixed_bits <= most_fixed_bits(s)),
            "fixed_bits is {}: {} lights of up to {} would overflow; right is 0 to {}", s.fixed_bits.value_or(0),
            s.lights.size(), largest_addend(s), most_fixed_bits(s));

@@ -13,7 +13,7 @@ def blocks_of(text):
         words = line.split()
         if line.startswith("## "):
             title = line[3:]
-        elif " frames each, " in line:
+        elif " each, " in line:
             blocks.append({"title": title, "gl": before, "verdict": None, "cells": {}})
         elif len(words) >= 10 and words[0].isdigit() and words[1].isdigit():
             cell, cells = (int(words[0]), int(words[1])), blocks[-1]["cells"]

@@ -15,6 +15,7 @@
 #include "crosscheck/collision/judge/check.hpp"
 #include "crosscheck/command/judging_options.hpp"
 #include "crosscheck/command/option_values.hpp"
+#include "crosscheck/files/plain_text.hpp"
 #include "crosscheck/judge/stopwatch.hpp"
 #include "crosscheck/report/progress.hpp"
 #include "crosscheck/report/report.hpp"
@@ -170,6 +171,8 @@ Timing time_run(const Scene& scene, const Profile& profile, const BenchRequest& 
     };
     last = now();
     timing.report = check(scene, profile, gpu, check_options);
+    ask_power(timing.report, options.rules.power_at_least);
+    ask_hits(timing.report, options.rules);
     for (const FrameTimes& times : timing.report.times)
         reference.push_back(times.reference);
     time_alone(gpu, scene, options.run.frames, alone, timer);
@@ -194,7 +197,8 @@ int run(const BenchRequest& options) {
         shaders_to_run(options.run, load(options.run))); // says what is wrong with the scene before the table begins
     const Context context(parse_context_request(options.run.gl));
     const Profile profile = options.gl_only ? Profile() : measured_profile(context, options.run.shaders);
-    fmt::print("{}\n{} frames each, median ms a frame; {}\n\n", summary(context.describe()), options.run.frames,
+    fmt::print("{}\n{} each, median ms a frame; {}\n\n", summary(context.describe()),
+               counted(static_cast<std::size_t>(options.run.frames), "frame"),
                options.gl_only ? "GL alone, nothing checked" : fmt::format("profile {}", describe(profile)));
     if (options.gl_only)
         fmt::print("{:>6} {:>9} {:>9} {:>9}\n", "radius", "particles", "GL", "GL timer");
@@ -241,10 +245,25 @@ int run(const BenchRequest& options) {
             !line.empty() && !options.no_render)
             fmt::print("       {}, by the GL timer\n", line);
     }
-    fmt::print("peak memory {:.0f} MiB, {:.0f} bytes a particle at {} particles\n",
-               static_cast<double>(peak_bytes()) / 1048576.0,
-               static_cast<double>(peak_bytes()) / static_cast<double>(largest), largest);
+    fmt::print("peak memory {:.0f} MiB, {:.0f} bytes a particle at {}\n", static_cast<double>(peak_bytes()) / 1048576.0,
+               static_cast<double>(peak_bytes()) / static_cast<double>(largest), counted(largest, "particle"));
     return status;
+}
+
+/// Throws Error where an option was given that the others, or the scene's system, leave without effect.
+void check_bench_options(const Call& call, const BenchRequest& options) {
+    if (call.has("--particles") && call.has("--counts"))
+        throw Error("bench: --particles N and --counts N mean the same; right is one of them");
+    if (options.gl_only)
+        for (const std::string_view name : {"--legal", "--allow-undefined", "--require-hits", "--power-at-least"})
+            if (call.has(name))
+                throw Error(fmt::format("bench: {} does not go with --gl-only, which judges nothing", name));
+    const bool is_registered = system_of(options.run) != nullptr;
+    for (const std::string_view name : {"--radius", "--no-render", "--require-hits"})
+        if (call.has(name) && is_registered)
+            throw Error(fmt::format("bench: {} goes with scenes of system collision", name));
+    if (options.floor && !is_registered)
+        throw Error("bench: --floor does not go with scenes of system collision");
 }
 
 } // namespace
@@ -269,16 +288,9 @@ Verb bench_command() {
     verb.footer = "Exit status: as lockstep check's, 1 where a row does not pass.\n"
                   "Example: lockstep bench data/scenes/lattice.json --counts 50000,200000 --radius 1";
     verb.run = [options](const Call& call) {
-        if (call.has("--particles") && call.has("--counts"))
-            throw Error("bench: --particles N and --counts N mean the same; right is one of them");
+        check_bench_options(call, *options);
         if (options->run.particles)
             options->counts = {*options->run.particles};
-        if (call.has("--radius") && system_of(options->run) != nullptr)
-            throw Error("bench: --radius goes with scenes of system collision");
-        if (call.has("--no-render") && system_of(options->run) != nullptr)
-            throw Error("bench: --no-render goes with scenes of system collision");
-        if (call.has("--floor") && system_of(options->run) == nullptr)
-            throw Error("bench: --floor does not go with scenes of system collision");
         return run(*options);
     };
     return verb;

@@ -240,6 +240,7 @@ int check_and_tell(const CheckRequest& options, OutputFiles& files, const Checke
     conclude(report);
     const PassRules rules = checked.part == nullptr ? options.rules : rules_of_part(options.rules);
     ask_power(report, rules.power_at_least);
+    ask_hits(report, rules);
 
     if (render)
         judge_last(options, checked, earlier, report);
@@ -417,9 +418,11 @@ Verb report_command() {
     verb.run = [options](const Call& call) {
         options->frames_given = call.has("--frames");
         options->run.frames = options->frames.end;
-        if (const RegisteredSystem* system = system_of_recording(options->trace))
-            return check_system(*system, options->run, system_check(*options));
-        return run_trace(*options);
+        const RegisteredSystem* system = system_of_recording(options->trace);
+        if (system != nullptr && options->rules.require_hits)
+            throw Error(
+                fmt::format("report: --require-hits does not go with a recording of system {}", name_of(*system)));
+        return system != nullptr ? check_system(*system, options->run, system_check(*options)) : run_trace(*options);
     };
     return verb;
 }
@@ -461,6 +464,8 @@ Verb check_command() {
     verb.run = [options](const Call& call) {
         if (options->render && options->no_render)
             throw Error("check: --render does not go with --no-render; right is one of them");
+        if (options->mode == CheckMode::free && call.has("--legal"))
+            throw Error("check: --legal does not go with --mode free, which judges nothing; right is --mode resync");
         options->run.frames = options->frames.end;
         if (options->stress) {
             check_stress_options(call, *options);

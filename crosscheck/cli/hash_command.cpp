@@ -84,11 +84,12 @@ Verb hash_command() {
     verb.add(frames_option("--frames", options->frames, "frames to run; A..B: hashes of these only, counted from 0"));
     verb.add(choice_option<HashedSide>("--side", options->side, {{"cpu", HashedSide::cpu}, {"gpu", HashedSide::gpu}},
                                        "cpu: the reference; gpu: the shaders, none of whose frames is judged"));
-    verb.add(text_option("--profile", "strict|llvmpipe|nvidia", options->profile,
-                         "strict, llvmpipe or nvidia: the order of sums"));
+    add_profile_option(verb, options->profile);
     verb.add(flag("--every", options->every, "print every frame's hash, not only the last"));
-    verb.add(texts_option("--lead-in", "PASS", options->lead_in,
-                          "before the frames A..B run these passes alone; right where all others are made anew"));
+    verb.add(
+        texts_option("--lead-in", "PASS", options->lead_in,
+                     "with --side gpu and --frames A..B: before these frames run these passes alone; right where all "
+                     "others are made anew"));
     verb.footer = "Example: lockstep hash data/scenes/lattice.json --frames 1000 --preset exact";
     verb.run = [options](const Call& call) {
         const bool cpu = options->side == HashedSide::cpu;

@@ -11,6 +11,7 @@
 #include "crosscheck/cli/part_file.hpp"
 #include "crosscheck/collision/judge/check.hpp"
 #include "crosscheck/collision/record/trace_side.hpp"
+#include "crosscheck/command/judging_options.hpp"
 #include "crosscheck/command/option_values.hpp"
 #include "crosscheck/files/json_text.hpp"
 #include "crosscheck/files/output_files.hpp"
@@ -213,6 +214,7 @@ int merge(const MergeRequest& asked) {
         find_causes(report, parts.front(), asked.trace.empty() ? request.trace : asked.trace, asked.threads);
     conclude(report);
     ask_power(report, request.rules.power_at_least);
+    ask_hits(report, request.rules);
     const RunDescription run = description(request, parts.front().run, report);
     const bool pass = passes(report, request.rules);
     tell(request, report, run);

@@ -116,8 +116,7 @@ Verb render_command() {
     verb.add(required(path_option("-o,--output", "FILE", options->output, "PNG file to write")));
     verb.add(choice_option<Side>("--side", options->side, {{"cpu", Side::cpu}, {"gpu", Side::gpu}},
                                  "cpu: the reference, needs no GL; gpu: the shaders"));
-    verb.add(text_option("--profile", "strict|llvmpipe|nvidia", options->profile,
-                         "strict, llvmpipe or nvidia: the reference's order of sums"));
+    add_profile_option(verb, options->profile);
     verb.add(flag("--octree", options->octree,
                   "draw the octree's nodes that hold a particle, whichever search the scene makes; octree_size is the "
                   "side of its root"));

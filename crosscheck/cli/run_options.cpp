@@ -22,12 +22,12 @@ namespace lockstep {
 
 namespace {
 
-/// A scene in `folder` whose name is near.
+/// A scene that is there, in `folder`, whose name is near.
 std::filesystem::path near_scene(const std::filesystem::path& folder, const std::filesystem::path& scene) {
     std::error_code error;
     std::vector<std::string> names;
     for (const auto& entry : std::filesystem::directory_iterator(folder.empty() ? "." : folder, error))
-        if (entry.path().extension() == ".json")
+        if (entry.path().extension() == ".json" && entry.exists(error))
             names.push_back(entry.path().stem().string());
     const std::string name = nearest_name(scene.stem().string(), names);
     return name.empty() ? "" : folder / (name + ".json");
@@ -42,7 +42,10 @@ void check_scene_exists(const std::filesystem::path& scene) {
     std::filesystem::path meant = near_scene(scene.parent_path(), scene);
     if (meant.empty())
         meant = near_scene(std::filesystem::proximate(shipped_scene("lattice").parent_path(), error), scene);
-    throw Error(fmt::format("{}: cannot be read: {}{}", scene.string(), std::strerror(ENOENT),
+    const std::string leads = std::filesystem::is_symlink(std::filesystem::symlink_status(scene, error))
+                                  ? fmt::format(": a link to {}", std::filesystem::read_symlink(scene, error).string())
+                                  : std::string();
+    throw Error(fmt::format("{}{}: cannot be read: {}{}", scene.string(), leads, std::strerror(ENOENT),
                             meant.empty() ? "" : fmt::format("; did you mean {}?", meant.string())));
 }
 
@@ -55,8 +58,10 @@ void add_scene_options(Verb& verb, RunOptions& options, SceneArgument scene) {
 }
 
 void add_settings_options(Verb& verb, RunOptions& options) {
-    verb.add(text_option("--preset", "listing|paper|corrected|exact", options.preset, "instead of the scene's preset"));
-    verb.add(texts_option("--set", "NAME=VALUE", options.set, "change one switch or constant; may be repeated"));
+    verb.add(word_option("--preset", {"listing", "paper", "corrected", "exact"}, options.preset,
+                         "instead of the scene's preset; listing is of system collision alone"));
+    verb.add(settings_option("--set", "NAME=VALUE", options.set,
+                             "change one switch, or in system collision a constant; may be repeated"));
     add_threads_option(verb, options);
 }
 
@@ -69,6 +74,11 @@ void add_gl_options(Verb& verb, RunOptions& options) {
     verb.add(text_option("--gl", "auto|osmesa|egl|egl-device:N", options.gl, "which GL to open"));
     verb.add(path_option("--shaders", "DIR", options.shaders, "take shader files from here first"));
     verb.add(flag("--allow-unused", options.allow_unused, "let shaders that do not run here lie beside those that do"));
+}
+
+void add_profile_option(Verb& verb, std::string& profile) {
+    verb.add(word_option("--profile", {"strict", "llvmpipe", "nvidia"}, profile,
+                         "strict, llvmpipe or nvidia: the reference's order of sums"));
 }
 
 void add_trace_option(Verb& verb, std::filesystem::path& trace) {

@@ -50,6 +50,7 @@ void add_scene_options(Verb& verb, RunOptions& options, SceneArgument scene = Sc
 void add_settings_options(Verb& verb, RunOptions& options);
 void add_threads_option(Verb& verb, RunOptions& options);
 void add_gl_options(Verb& verb, RunOptions& options);
+void add_profile_option(Verb& verb, std::string& profile);
 
 /// --trace FILE instead of the scene, which is then optional. check_scene_or_trace throws Error unless one of both is
 /// given, or when an option stands there that only a run on this machine's GL has.

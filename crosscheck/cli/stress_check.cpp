@@ -10,6 +10,7 @@
 #include "crosscheck/cli/commands.hpp"
 #include "crosscheck/cli/part_file.hpp"
 #include "crosscheck/cli/stress_report.hpp"
+#include "crosscheck/command/judging_options.hpp"
 #include "crosscheck/files/json_text.hpp"
 #include "crosscheck/files/output_files.hpp"
 #include "crosscheck/files/plain_text.hpp"
@@ -46,8 +47,9 @@ StressScene run_scene(const StressOptions& options, const RunOptions& run, const
     check_options.frames = run.frames;
     check_options.known = known_operations(options.legal, profile);
     check_options.stop = &interrupted;
-    const CheckReport report = check(scene, profile, gpu, check_options);
+    CheckReport report = check(scene, profile, gpu, check_options);
     const PassRules rules{options.rules.allow_undefined, options.rules.require_hits};
+    ask_hits(report, rules);
     RunDescription about;
     about.scene = fmt::format("{} ({})", scene.name, plain_line(run.scene.string()));
     about.context = context;

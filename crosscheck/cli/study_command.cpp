@@ -85,9 +85,9 @@ void study_scene(const StudyRequest& options) {
     if (!options.chart.empty())
         files.write(options.chart, chart_svg(frames, scene.name));
     files.commit();
-    fmt::print("scene     {} ({}): {} particles, range {}\nswitches  {}\n\n{}", scene.name,
-               plain_line(options.studied.run.scene.string()), scene.start.size(), scene.constants.collision_range,
-               settings_text(options.studied.run, scene), study_text(frames));
+    fmt::print("scene     {} ({}): {}, range {}\nswitches  {}\n\n{}", scene.name,
+               plain_line(options.studied.run.scene.string()), counted(scene.start.size(), "particle"),
+               scene.constants.collision_range, settings_text(options.studied.run, scene), study_text(frames));
     if (!options.images.empty())
         fmt::print("\npictures  {}: {}\n", options.images.string(), picture_legend());
 }

@@ -20,6 +20,7 @@
 #include "crosscheck/command/option_values.hpp"
 #include "crosscheck/files/json_text.hpp"
 #include "crosscheck/files/output_files.hpp"
+#include "crosscheck/files/plain_text.hpp"
 #include "crosscheck/files/png.hpp"
 #include "crosscheck/files/threads.hpp"
 #include "crosscheck/scene/profiles.hpp"
@@ -72,7 +73,8 @@ void print_remedies(const RemedyRequest& options, bool gl) {
         std::fflush(stdout);
     };
     const std::string where = context ? summary(context->describe()) : "no GL: recall alone; --gl measures the cost";
-    fmt::print("{}\n{} particles in a cube at rest, radius 4\n\n{}", where, remedies.particles, remedy_head());
+    fmt::print("{}\n{} in a cube at rest, radius 4\n\n{}", where, counted(remedies.particles, "particle"),
+               remedy_head());
     const std::vector<RemedyRow> rows = remedy_table(remedies);
     if (!options.json.empty())
         files.write(options.json, json_text({{"gl", where}, {"rows", remedy_json(rows)}}));
@@ -212,11 +214,6 @@ Verb remedies_verb() {
 }
 
 } // namespace
-
-void add_profile_option(Verb& verb, std::string& profile) {
-    verb.add(
-        text_option("--profile", "strict|llvmpipe|nvidia", profile, "strict, llvmpipe or nvidia: the order of sums"));
-}
 
 void add_scenes_option(Verb& verb, std::filesystem::path& scenes) {
     verb.add(path_option("--scenes", "DIR", scenes,

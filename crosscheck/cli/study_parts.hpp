@@ -22,8 +22,6 @@ void add_studied_scene(Verb& verb, StudiedScene& studied, SceneArgument scene = 
 void check_frames(const StudiedScene& studied);
 void check_has_cdt(const Scene& scene);
 
-void add_profile_option(Verb& verb, std::string& profile);
-
 /// The folder of a study's own scenes: that of the option, else the shipped one.
 void add_scenes_option(Verb& verb, std::filesystem::path& scenes);
 std::filesystem::path scenes_or_shipped(const std::filesystem::path& scenes);

@@ -7,8 +7,10 @@
 #include "crosscheck/cli/commands.hpp"
 #include "crosscheck/cli/system_run.hpp"
 #include "crosscheck/cli/system_verbs.hpp"
+#include "crosscheck/files/plain_text.hpp"
 #include "crosscheck/judge/stopwatch.hpp"
 #include "crosscheck/judge/system_check.hpp"
+#include "crosscheck/judge/system_run.hpp"
 #include "crosscheck/report/report.hpp"
 #include "crosscheck/report/statistics.hpp"
 #include "gpu/copy_time.hpp"
@@ -174,10 +176,10 @@ void print_floor(const SystemScene& scene, const RunOptions& run, std::size_t co
 
 int bench_system(const RegisteredSystem& system, const RunOptions& run, const SystemBench& asked) {
     const Gl gl = open_gl(run);
-    fmt::print("{}\n{} frames after {}, median ms; GL: the shaders alone, to glFinish\n\n{:>9} {:<18} {:>10} {:>10} "
+    fmt::print("{}\n{} after {}, median ms; GL: the shaders alone, to glFinish\n\n{:>9} {:<18} {:>10} {:>10} "
                "{:>10} {:>8} {:>10} {:>9}  {:<16} {}\n",
-               gl.name(), run.frames, asked.warm_up, "items", "pass", "GL", "GL timer", "reference", "GL/ref", "check",
-               "check/GL", "hash", "verdict");
+               gl.name(), counted(static_cast<std::size_t>(run.frames), "frame"), asked.warm_up, "items", "pass", "GL",
+               "GL timer", "reference", "GL/ref", "check", "check/GL", "hash", "verdict");
     int status = status_agree;
     for (const std::size_t count : asked.counts) {
         RunOptions one = run;
@@ -193,6 +195,7 @@ int bench_system(const RegisteredSystem& system, const RunOptions& run, const Sy
         if (!asked.gl_only) {
             time_reference(twins, side.describe().profile, asked.warm_up, run.frames, times);
             report = time_check(twins, side, asked, run.frames, times);
+            ask_power(report, asked.rules.power_at_least);
         }
         for (std::size_t p = 0; p < twins.passes.size(); ++p)
             if (!times.passes[p].gl.empty() || !times.passes[p].reference.empty())

@@ -1,6 +1,7 @@
 #include "crosscheck/command/command_line.hpp"
 
 #include <algorithm>
+#include <span>
 #include <sstream>
 
 #include <CLI/CLI.hpp>
@@ -14,6 +15,30 @@
 namespace lockstep {
 namespace {
 
+/// "5,": the library would leave the empty place out.
+std::vector<std::string> elements(const std::string& list) {
+    std::vector<std::string> all;
+    std::size_t from = 0;
+    for (std::size_t comma = list.find(','); comma != list.npos; comma = list.find(',', from)) {
+        all.push_back(list.substr(from, comma - from));
+        from = comma + 1;
+    }
+    all.push_back(list.substr(from));
+    return all;
+}
+
+/// Returns what is wrong with the values.
+std::string keep_lists(const Option& option, std::span<const std::string> lists) {
+    std::vector<std::string> values;
+    for (const std::string& list : lists)
+        for (const std::string& value : elements(list)) {
+            if (value.empty())
+                return fmt::format("'{}' lacks a value; right is {}", list, option.value);
+            values.push_back(value);
+        }
+    return option.keep(values);
+}
+
 void add_option(CLI::App& app, const Option& option) {
     const std::string name = names(option).back();
     if (option.value.empty()) {
@@ -21,8 +46,10 @@ void add_option(CLI::App& app, const Option& option) {
             option.name, [keep = option.keep] { keep({}); }, option.description);
         return;
     }
-    const auto keep = [name, keep = option.keep](const CLI::results_t& values) {
-        if (const std::string problem = keep(values); !problem.empty())
+    const auto keep = [name, option](const CLI::results_t& values) {
+        const std::string problem =
+            option.values == GivenValues::list ? keep_lists(option, values) : option.keep(values);
+        if (!problem.empty())
             throw CLI::ValidationError(name, problem);
         return true;
     };
@@ -30,8 +57,6 @@ void add_option(CLI::App& app, const Option& option) {
     added->type_name(option.value)->required(option.required);
     if (option.values != GivenValues::one)
         added->expected(CLI::detail::expected_max_vector_size)->allow_extra_args(is_argument(option));
-    if (option.values == GivenValues::list)
-        added->delimiter(',');
 }
 
 void describe(CLI::App& app, const Verb& verb) {
@@ -48,15 +73,41 @@ void describe(CLI::App& app, const Verb& verb) {
 struct Called {
     const CLI::App& app;
     const Verb& verb;
-    std::string words; ///< as it was typed: "lockstep capsule cut"
+    std::string words;  ///< as it was typed: "lockstep capsule cut"
+    std::string strays; ///< what was given to the verb that it is a part of, which then does not run; empty: nothing
 };
 
-Called called(const CLI::App& app, const Verb& verb, const std::string& words) {
+bool has_option(const Verb& verb, std::string_view name) {
+    for (const Option& option : all_options(verb))
+        for (const std::string& one : names(option))
+            if (one == name)
+                return true;
+    return false;
+}
+
+/// What was given to `verb` before its `part`, and where it belongs.
+std::string stray(const CLI::App& app, const Verb& verb, const Verb& part, const std::string& words) {
+    for (const Option& option : verb.options) {
+        const std::string name = names(option).back();
+        if (app.count(name) == 0)
+            continue;
+        if (!has_option(part, name))
+            return fmt::format("{} does not go with the verb {}", name, part.name);
+        const std::string given = is_argument(option) ? app.get_option(name)->results().front() : name;
+        return fmt::format("{}'{}' stands before the verb; right is {} {}{}", is_argument(option) ? "" : "option ",
+                           given, words, given, is_argument(option) ? "" : " ...");
+    }
+    return {};
+}
+
+Called called(const CLI::App& app, const Verb& verb, const std::string& words, const std::string& strays = {}) {
     for (const CLI::App* part : app.get_subcommands())
         for (const Verb& candidate : verb.verbs)
-            if (candidate.name == part->get_name())
-                return called(*part, candidate, words + " " + candidate.name);
-    return {app, verb, words};
+            if (candidate.name == part->get_name()) {
+                const std::string longer = words + " " + candidate.name;
+                return called(*part, candidate, longer, strays.empty() ? stray(app, verb, candidate, longer) : strays);
+            }
+    return {app, verb, words, strays};
 }
 
 /// `unknown`: the word in its place, if any.
@@ -64,8 +115,9 @@ std::string verb_error(const Verb& program, const Verb& verb, const std::string&
     std::vector<std::string> names;
     for (const Verb& part : verb.verbs)
         names.push_back(part.name);
-    const std::string there = fmt::format(
-        "the verbs {}are {}", &verb == &program ? "" : fmt::format("of {} ", verb.name), fmt::join(names, ", "));
+    const std::string of = &verb == &program ? "" : fmt::format(" of {}", verb.name);
+    const std::string there =
+        fmt::format("the verb{} {}", names.size() == 1 ? of + " is" : "s" + of + " are", fmt::join(names, ", "));
     if (unknown.empty())
         return fmt::format("a verb is missing; {}", there);
     return fmt::format("unknown verb '{}'; {}{}", unknown, there, did_you_mean(unknown, names));
@@ -84,6 +136,50 @@ std::string option_error(const Called& call, const std::string& unknown) {
     return fmt::format("unknown option '{}'{}", unknown, did_you_mean(unknown.substr(0, unknown.find('=')), all));
 }
 
+/// The words of a command line after the program's name.
+using Words = std::span<const char* const>;
+
+/// The "--" after which nothing is an option.
+Words::iterator mark_in(Words words) { return std::find(words.begin(), words.end(), std::string_view("--")); }
+
+/// Whether `word` stands behind the mark, and not before it.
+bool is_behind_mark(Words words, std::string_view word) {
+    const auto mark = mark_in(words);
+    return mark != words.end() && std::find(words.begin(), mark, word) == mark;
+}
+
+/// `--quiet=no`, which the library takes for a flag given or not given.
+std::string valued_flag(const Verb& verb, Words words) {
+    for (const std::string_view word : words.first(static_cast<std::size_t>(mark_in(words) - words.begin())))
+        for (const Option& option : verb.options)
+            if (option.value.empty() && word.starts_with(names(option).back() + "="))
+                return fmt::format("{} takes no value; '{}' gives it one", names(option).back(), word);
+    return {};
+}
+
+/// What the library lets pass.
+std::string misplaced(const Called& call, Words words) {
+    return call.strays.empty() ? valued_flag(call.verb, words) : call.strays;
+}
+
+/// Of an argument too many: the option that took another one's name for its value, `--set --frames 3`; else nothing.
+std::string robbing_error(const Called& call) {
+    for (const Option& option : call.verb.options) {
+        const std::string name = names(option).back();
+        if (is_argument(option) || option.value.empty() || call.app.count(name) == 0)
+            continue;
+        for (const std::string& value : call.app.get_option(name)->results())
+            if (has_option(call.verb, value))
+                return fmt::format("{} needs a value, and '{}' is an option", name, value);
+    }
+    return {};
+}
+
+std::string too_many_error(const Called& call, const std::string& unknown) {
+    const std::string robbed = robbing_error(call);
+    return robbed.empty() ? fmt::format("'{}' is one argument too many", unknown) : robbed;
+}
+
 /// What is needed and was not given: "--frame F is missing: the frame, counted from 0".
 std::string missing_error(const Called& call) {
     for (const Option& option : call.verb.options)
@@ -94,26 +190,39 @@ std::string missing_error(const Called& call) {
     return "something is missing";
 }
 
+/// "--set: 1 required NAME=VALUE missing", "--frames: At Most 1 required but received 2".
+std::string mismatch_error(const std::string& text) {
+    const bool twice = text.find("received") != text.npos;
+    return fmt::format("{} {}", text.substr(0, text.find(':')), twice ? "is given more than once" : "needs a value");
+}
+
 /// The library's own words are for programmers.
-std::string usage_error(const Verb& program, const Called& call, const CLI::App& app, const CLI::Error& error) {
+std::string usage_error(const Verb& program, const Called& call, const CLI::App& app, const CLI::Error& error,
+                        Words words) {
     const Verb& verb = call.verb;
+    if (const std::string problem = misplaced(call, words); !problem.empty())
+        return problem;
     std::vector<std::string> unknown = app.remaining(true);
+    std::erase(unknown, "--");
     std::stable_partition(unknown.begin(), unknown.end(), [](const std::string& text) { return text[0] == '-'; });
     if (!unknown.empty() && unknown.front().starts_with('-'))
-        return option_error(call, unknown.front());
+        return is_behind_mark(words, unknown.front())
+                   ? fmt::format("'{}' is one argument too many; behind -- nothing is an option", unknown.front())
+                   : option_error(call, unknown.front());
     if (!verb.verbs.empty() && !verb.run)
         return verb_error(program, verb, unknown.empty() ? "" : unknown.front());
     if (!unknown.empty())
-        return fmt::format("'{}' is one argument too many", unknown.front());
-    const std::string text = error.what();
+        return too_many_error(call, unknown.front());
     if (error.get_name() == "RequiredError")
         return missing_error(call);
-    if (error.get_name() == "ArgumentMismatch") {
-        const std::string option = text.substr(0, text.find(':'));
-        const bool twice = text.find("received") != std::string::npos;
-        return fmt::format("{} {}", option, twice ? "is given more than once" : "needs a value");
-    }
-    return text;
+    if (error.get_name() == "ArgumentMismatch")
+        return mismatch_error(error.what());
+    return error.what();
+}
+
+/// With where more is said.
+std::string error_line(const Verb& program, const Called& call, const std::string& problem) {
+    return fmt::format("{}: {} ({} --help says more)\n", program.name, plain_line(problem), call.words);
 }
 
 } // namespace
@@ -124,10 +233,10 @@ int run_command_line(const Verb& program, int argc, char** argv, int misused) {
     if (!program.version.empty())
         app.set_version_flag("--version", fmt::format("{} {}", program.name, program.version));
     describe(app, program);
-    app.failure_message([&program](const CLI::App* root, const CLI::Error& error) {
+    const Words words(argv + std::min(argc, 1), argv + argc);
+    app.failure_message([&program, words](const CLI::App* root, const CLI::Error& error) {
         const Called call = called(*root, program, program.name);
-        return fmt::format("{}: {} ({} --help says more)\n", program.name,
-                           plain_line(usage_error(program, call, *root, error)), call.words);
+        return error_line(program, call, usage_error(program, call, *root, error, words));
     });
     try {
         app.parse(argc, argv);
@@ -143,6 +252,10 @@ int run_command_line(const Verb& program, int argc, char** argv, int misused) {
         return asked ? 0 : misused;
     }
     const Called last = called(app, program, program.name);
+    if (const std::string problem = misplaced(last, words); !problem.empty()) {
+        fmt::print(stderr, "{}", error_line(program, last, problem));
+        return misused;
+    }
     Call call{program, last.verb, {}};
     for (const Option& option : last.verb.options)
         if (const std::string name = names(option).back(); last.app.count(name) > 0)

@@ -52,13 +52,19 @@ std::string usage(const Verb& verb, const std::string& called) {
     for (const Option& option : verb.options)
         if (is_argument(option))
             line += option.required ? " " + option.value : fmt::format(" [{}]", option.value);
-    return line + (verb.verbs.empty() ? "" : verb.run ? " [VERB ...]" : " VERB ...");
+    return line + (verb.verbs.empty() || verb.run ? "" : " VERB ...");
+}
+
+/// A verb that runs by itself or by a part has a line of either.
+std::string usages(const Verb& verb, const std::string& called) {
+    const std::string lines = wrapped(usage(verb, called), 0, 7);
+    return verb.verbs.empty() || !verb.run ? lines : lines + fmt::format("{:7}{} VERB ...\n", "", called);
 }
 
 } // namespace
 
 std::string help_text(const Verb& verb, const std::string& called) {
-    std::string text = wrapped(verb.description, 0, 0) + "\n" + wrapped(usage(verb, called), 0, 7);
+    std::string text = wrapped(verb.description, 0, 0) + "\n" + usages(verb, called);
     std::string arguments, options, verbs;
     for (const Option& option : all_options(verb)) {
         if (is_argument(option))

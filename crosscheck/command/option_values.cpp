@@ -28,6 +28,8 @@ template <class Integer> std::string read(Texts texts, IntegerRange range, std::
         const std::optional<std::int64_t> value = number<std::int64_t>(text);
         if (!value || *value < range.min || *value > range.max)
             return fmt::format("'{}' is not an integer from {} to {}", text, range.min, range.max);
+        if (std::find(integers.begin(), integers.end(), static_cast<Integer>(*value)) != integers.end())
+            return fmt::format("'{}' is given more than once", text);
         integers.push_back(static_cast<Integer>(*value));
     }
     return {};
@@ -89,6 +91,20 @@ Option text_option(std::string name, std::string value, std::optional<std::strin
 
 Option texts_option(std::string name, std::string value, std::vector<std::string>& target, std::string description) {
     const auto keep = [&target](Texts texts) {
+        target.assign(texts.begin(), texts.end());
+        return std::string();
+    };
+    return {std::move(name), std::move(value), std::move(description), keep, GivenValues::repeated};
+}
+
+Option settings_option(std::string name, std::string value, std::vector<std::string>& target, std::string description) {
+    const auto keep = [&target](Texts texts) {
+        std::vector<std::string> names;
+        for (const std::string& text : texts) {
+            names.push_back(text.substr(0, text.find('=')));
+            if (std::find(names.begin(), names.end() - 1, names.back()) != names.end() - 1)
+                return fmt::format("{} is given more than once", names.back());
+        }
         target.assign(texts.begin(), texts.end());
         return std::string();
     };
@@ -188,6 +204,17 @@ Option named_option(std::string name, std::vector<std::string> choices, std::fun
         return std::string();
     };
     return {std::move(name), std::move(value), std::move(description), keep};
+}
+
+Option word_option(std::string name, std::vector<std::string> words, std::string& target, std::string description) {
+    const auto choose = [&target, words](std::size_t place) { target = words[place]; };
+    return starting_at(named_option(std::move(name), words, choose, std::move(description)), target);
+}
+
+Option word_option(std::string name, std::vector<std::string> words, std::optional<std::string>& target,
+                   std::string description) {
+    const auto choose = [&target, words](std::size_t place) { target = words[place]; };
+    return named_option(std::move(name), words, choose, std::move(description));
 }
 
 Option required(Option option) {

@@ -22,6 +22,9 @@ Option text_option(std::string name, std::string value, std::string& target, std
 Option text_option(std::string name, std::string value, std::optional<std::string>& target, std::string description);
 Option texts_option(std::string name, std::string value, std::vector<std::string>& target, std::string description);
 
+/// NAME=VALUE, repeated; refuses a NAME that is given twice.
+Option settings_option(std::string name, std::string value, std::vector<std::string>& target, std::string description);
+
 /// Refuses the empty name. A `value` of DIR is a folder, anything else a file.
 Option path_option(std::string name, std::string value, std::filesystem::path& target, std::string description);
 
@@ -44,7 +47,7 @@ struct FrameRange {
 };
 Option frames_option(std::string name, FrameRange& target, std::string description);
 
-/// "1,4"; replaces what the target held.
+/// "1,4"; replaces what the target held, and refuses a number that is given twice.
 Option integers_option(std::string name, std::string value, IntegerRange range, std::vector<int>& target,
                        std::string description);
 Option integers_option(std::string name, std::string value, IntegerRange range, std::vector<std::size_t>& target,
@@ -59,6 +62,11 @@ Option share_option(std::string name, double& target, std::string description);
 /// One of a few names, given to `choose` by its place among them.
 Option named_option(std::string name, std::vector<std::string> choices, std::function<void(std::size_t)> choose,
                     std::string description);
+
+/// One of a few words, kept as it is.
+Option word_option(std::string name, std::vector<std::string> words, std::string& target, std::string description);
+Option word_option(std::string name, std::vector<std::string> words, std::optional<std::string>& target,
+                   std::string description);
 
 /// Needed, and so without a value of its own.
 Option required(Option option);

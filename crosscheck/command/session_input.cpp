@@ -15,6 +15,11 @@
 namespace lockstep {
 namespace {
 
+/// An error's text would end at a character 0.
+std::string obeyed(const Session& session, const std::string& line) {
+    return colored(plain_text(session.obey(line.find('\0') == line.npos ? line : plain_line(line))));
+}
+
 void obey_terminal(const Session& session) {
     LineEditor editor("(lockstep) ", session.complete);
     while (!session.ended()) {
@@ -22,7 +27,7 @@ void obey_terminal(const Session& session) {
         if (!line)
             return;
         try {
-            fmt::print("{}", colored(plain_text(session.obey(*line))));
+            fmt::print("{}", obeyed(session, *line));
         } catch (const Error& error) {
             fmt::print("{}\n", plain_line(error.what()));
         }
@@ -38,7 +43,7 @@ void obey_input(const Session& session) {
     std::string line;
     for (int number = 1; !session.ended() && std::getline(std::cin, line); ++number) {
         try {
-            fmt::print("{}", colored(plain_text(session.obey(line))));
+            fmt::print("{}", obeyed(session, line));
             std::fflush(stdout);
         } catch (const Error& error) {
             throw Error(fmt::format("line {}: {}", number, error.what()));

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <charconv>
+#include <cmath>
 
 #include <fmt/format.h>
 
@@ -45,7 +46,8 @@ DebugCondition parse_condition(const std::string& text) {
         const std::string number = trimmed(text.substr(at + one.text.size()));
         const char* const end = number.data() + number.size();
         const auto [rest, status] = std::from_chars(number.data(), end, condition.number);
-        if (condition.label.empty() || number.empty() || status != std::errc{} || rest != end)
+        if (condition.label.empty() || number.empty() || status != std::errc{} || rest != end ||
+            std::isnan(condition.number))
             break;
         return condition;
     }

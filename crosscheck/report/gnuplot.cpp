@@ -9,6 +9,7 @@
 #include <fcntl.h>
 #include <poll.h>
 #include <spawn.h>
+#include <sys/mman.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -40,12 +41,40 @@ struct Pipe {
     std::array<int, 2> ends{-1, -1};
 };
 
+/// What gnuplot says of a chart, kept in memory: a warning is none of the reader's business, a failure is.
+class Messages {
+  public:
+    Messages() : file_(memfd_create("gnuplot", MFD_CLOEXEC)) {
+        if (file_ < 0)
+            throw Error("chart: no memory for gnuplot's messages");
+    }
+    ~Messages() { close(file_); }
+    Messages(const Messages&) = delete;
+    Messages& operator=(const Messages&) = delete;
+
+    [[nodiscard]] int file() const { return file_; }
+    /// ": " and their beginning, as one line; empty: there are none.
+    [[nodiscard]] std::string line() const {
+        std::array<char, 300> start{};
+        const ssize_t got = pread(file_, start.data(), start.size(), 0);
+        std::istringstream words(std::string(start.data(), static_cast<std::size_t>(got > 0 ? got : 0)));
+        std::string line;
+        for (std::string word; words >> word;)
+            line += (line.empty() ? ": " : " ") + word;
+        return line;
+    }
+
+  private:
+    int file_;
+};
+
 /// gnuplot between two pipes: no shell, and no file.
-pid_t start_gnuplot(const Pipe& in, const Pipe& out) {
+pid_t start_gnuplot(const Pipe& in, const Pipe& out, const Messages& messages) {
     posix_spawn_file_actions_t files;
     posix_spawn_file_actions_init(&files);
     posix_spawn_file_actions_adddup2(&files, in.ends[0], STDIN_FILENO);
     posix_spawn_file_actions_adddup2(&files, out.ends[1], STDOUT_FILENO);
+    posix_spawn_file_actions_adddup2(&files, messages.file(), STDERR_FILENO);
     posix_spawnattr_t attributes;
     posix_spawnattr_init(&attributes);
     sigset_t ignored;
@@ -103,7 +132,8 @@ bool have_gnuplot() {
 
 std::string run_gnuplot(const std::string& script) {
     Pipe in, out;
-    const pid_t child = start_gnuplot(in, out);
+    const Messages messages;
+    const pid_t child = start_gnuplot(in, out, messages);
     in.close_end(0);
     out.close_end(1);
     const std::string output = exchange(in, out, script);
@@ -111,7 +141,7 @@ std::string run_gnuplot(const std::string& script) {
     while (waitpid(child, &status, 0) < 0 && errno == EINTR) {
     }
     if (status != 0 || output.empty())
-        throw Error("chart: gnuplot failed; its message stands above");
+        throw Error("chart: gnuplot failed" + messages.line());
     return output;
 }
 

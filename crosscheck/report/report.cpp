@@ -116,6 +116,9 @@ FrameTimes total_times(const CheckReport& r) {
 /// Frames at which growth is told: 0, 1, 2, 4, 8, ... and the last.
 bool told(std::size_t i, std::size_t count) { return i == 0 || i + 1 == count || std::has_single_bit(i); }
 
+std::string particles_text(const CheckReport& r) {
+    return fmt::format("{} {}{}", grouped(r.particles), r.schema.resources.front().item, r.particles == 1 ? "" : "s");
+}
 std::string frames_text(const CheckReport& r) { return fmt::format("{} frame{}", r.frames, r.frames == 1 ? "" : "s"); }
 
 std::string of_class(const CheckReport& r, DifferenceClass kind) {
@@ -143,8 +146,7 @@ std::string rendered_counts(const RenderVerdict& r) {
 std::string verdict_counts(const CheckReport& r) {
     switch (r.state_verdict.value_or(r.verdict)) {
     case Verdict::agree:
-        return fmt::format(": every bit of {} {}s{} in {}", grouped(r.particles), r.schema.resources.front().item,
-                           others_compared(r), frames_text(r));
+        return fmt::format(": every bit of {}{} in {}", particles_text(r), others_compared(r), frames_text(r));
     case Verdict::legal:
         return fmt::format(": {} differ in {}, as GL allows", differing_text(r, " state"), frames_text(r));
     case Verdict::undefined:
@@ -283,8 +285,7 @@ std::string verdict_words(const CheckReport& r) {
 std::string report_text(const CheckReport& r, const RunDescription& run) {
     std::string out;
     const auto line = [&](std::string_view key, std::string_view text) { out += fmt::format("{:<10}{}\n", key, text); };
-    line("scene", fmt::format("{}: {} {}s, {} frames, {}", run.scene, grouped(r.particles),
-                              r.schema.resources.front().item, r.frames, run.mode));
+    line("scene", fmt::format("{}: {}, {}, {}", run.scene, particles_text(r), frames_text(r), run.mode));
     line("switches", run.settings);
     line("GL", run.context);
     line("shaders", shaders_line(run));

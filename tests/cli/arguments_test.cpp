@@ -51,6 +51,8 @@ TEST_CASE("arguments: a slip is told with what was meant; another word is not") 
     CHECK_THAT(says({"frobnicate"}), Catch::EndsWith(", manual" + help));
     CHECK(says({"capsule", "shw"}) ==
           "unknown verb 'shw'; the verbs of capsule are cut, show; did you mean show?" + help_of("capsule"));
+    CHECK(says({"new", "sistem"}) ==
+          "unknown verb 'sistem'; the verb of new is system; did you mean system?" + help_of("new"));
     CHECK(says({"capsule"}) == "a verb is missing; the verbs of capsule are cut, show" + help_of("capsule"));
     CHECK(says({"check", scene, "--freams=3"}) ==
           "unknown option '--freams=3'; did you mean --frames?" + help_of("check"));
@@ -60,6 +62,10 @@ TEST_CASE("arguments: a slip is told with what was meant; another word is not") 
     CHECK(says({"hash", "lattice"}) ==
           "lattice: cannot be read: No such file or directory; did you mean data/scenes/lattice.json?");
     CHECK(says({"hash", "nothing_like_it.json"}) == "nothing_like_it.json: cannot be read: No such file or directory");
+    const test::TemporaryFolder folder;
+    const std::string link = (folder.path() / "link.json").string();
+    std::filesystem::create_symlink("nowhere.json", link);
+    CHECK(says({"hash", link}) == link + ": a link to nowhere.json: cannot be read: No such file or directory");
     CHECK_THAT(says({"check", scene, "--set", "base_texle=floor"}), Catch::EndsWith("; did you mean base_texel?"));
     CHECK_THAT(says({"check", scene, "--set", "tik=1"}), Catch::EndsWith("; did you mean tick?"));
 }
@@ -92,7 +98,43 @@ TEST_CASE("arguments: an unknown option, or a missing one, is named") {
         {{"check", scene, "--frames"}, "--frames needs a value" + help_of("check")},
         {{"check", scene, "--frames", "2", "--frames", "3"}, "--frames is given more than once" + help_of("check")},
         {{"check", scene, scene}, "'" + scene + "' is one argument too many" + help_of("check")},
+        {{"hash", scene, "--", "--frames", "3"},
+         "'--frames' is one argument too many; behind -- nothing is an option" + help_of("hash")},
+        {{"hash", scene, "--set", "--frames", "3"},
+         "--set needs a value, and '--frames' is an option" + help_of("hash")},
     });
+}
+
+TEST_CASE("arguments: a flag takes no value") {
+    check_all({
+        {{"hash", scene, "--every=false"}, "--every takes no value; '--every=false' gives it one" + help_of("hash")},
+        {{"hash", scene, "--every=true"}, "--every takes no value; '--every=true' gives it one" + help_of("hash")},
+        {{"hash", scene, "--every=10"}, "--every takes no value; '--every=10' gives it one" + help_of("hash")},
+        {{"hash", scene, "--every="}, "--every takes no value; '--every=' gives it one" + help_of("hash")},
+        {{"check", scene, "--quiet=no"}, "--quiet takes no value; '--quiet=no' gives it one" + help_of("check")},
+    });
+}
+
+TEST_CASE("arguments: a name that is set twice is refused") {
+    check_all({
+        {{"hash", scene, "--set", "tick=0.01", "--set", "base_texel=floor", "--set", "tick=0.02"},
+         "--set: tick is given more than once" + help_of("hash")},
+        {{"bench", scene, "--counts", "50,60,50"}, "--counts: '50' is given more than once" + help_of("bench")},
+    });
+}
+
+TEST_CASE("arguments: what stands before a part of a verb is refused, with where it belongs") {
+    check_all({
+        {{"study", scene, "rest"},
+         "'" + scene + "' stands before the verb; right is lockstep study rest " + scene + help_of("study rest")},
+        {{"study", scene, "rest", scene},
+         "'" + scene + "' stands before the verb; right is lockstep study rest " + scene + help_of("study rest")},
+        {{"study", "--every", "2", "rest", scene},
+         "option '--every' stands before the verb; right is lockstep study rest --every ..." + help_of("study rest")},
+        {{"study", "--csv", "a", "rest", scene}, "--csv does not go with the verb rest" + help_of("study rest")},
+    });
+    CHECK_THAT(run_lockstep({"study", "--help"}).out,
+               Catch::Contains("\nUsage: lockstep study [OPTIONS] [SCENE]\n       lockstep study VERB ...\n"));
 }
 
 TEST_CASE("arguments: a number that is none, or out of range, is told with the range") {
@@ -114,6 +156,8 @@ TEST_CASE("arguments: a number that is none, or out of range, is told with the r
         {{"check", scene, "--threads", "-2"}, "--threads: '-2' is not an integer from 0 to 1024" + help_of("check")},
         {{"bench", scene, "--counts", "10,0"},
          "--counts: '0' is not an integer from 1 to 100000000" + help_of("bench")},
+        {{"bench", scene, "--counts", "5,"}, "--counts: '5,' lacks a value; right is N,..." + help_of("bench")},
+        {{"bench", scene, "--counts", "5,,6"}, "--counts: '5,,6' lacks a value; right is N,..." + help_of("bench")},
         {{"bench", scene, "--radius", "65"}, "--radius: '65' is not an integer from 0 to 64" + help_of("bench")},
     });
 }
@@ -151,10 +195,18 @@ TEST_CASE("arguments: an option that the side or the verb would ignore is refuse
         {{"hash", scene, "--side", "gpu", "--frames", "2..3", "--lead-in", "step"},
          "hash: --lead-in goes with a scene that names its \"system\"; a collision frame needs all of the one before"},
         {{"render", scene, "-o", "x.png", "--shaders", "."}, "render: --shaders goes with --side gpu"},
-        {{"render", scene, "-o", "x.png", "--side", "gpu", "--profile", "bogus"},
+        {{"render", scene, "-o", "x.png", "--side", "gpu", "--profile", "nvidia"},
          "render: --profile goes with --side cpu"},
         {{"check", scene, "--render", "--no-render"},
          "check: --render does not go with --no-render; right is one of them"},
+        {{"check", scene, "--mode", "free", "--legal", "glsl"},
+         "check: --legal does not go with --mode free, which judges nothing; right is --mode resync"},
+        {{"bench", scene, "--gl-only", "--require-hits"},
+         "bench: --require-hits does not go with --gl-only, which judges nothing"},
+        {{"bench", scene, "--gl-only", "--power-at-least", "100%"},
+         "bench: --power-at-least does not go with --gl-only, which judges nothing"},
+        {{"bench", scene, "--gl-only", "--legal", "glsl"},
+         "bench: --legal does not go with --gl-only, which judges nothing"},
         {{"bench", scene, "--particles", "3", "--counts", "5"},
          "bench: --particles N and --counts N mean the same; right is one of them"},
     });
@@ -189,8 +241,12 @@ TEST_CASE("arguments: an unknown choice is told with the choices") {
         {{"render", scene, "-o", "x.png", "--side", "tpu"},
          "--side: 'tpu' is not one of cpu, gpu; did you mean cpu?" + help_of("render")},
         {{"check", scene, "--preset", "correct"},
-         "unknown preset 'correct'; the presets are listing, paper, corrected, exact; did you mean corrected?"},
-        {{"hash", scene, "--profile", "amd"}, "unknown profile 'amd'; the profiles are strict, llvmpipe, nvidia"},
+         "--preset: 'correct' is not one of listing, paper, corrected, exact; did you mean corrected?" +
+             help_of("check")},
+        {{"hash", scene, "--profile", "amd"},
+         "--profile: 'amd' is not one of strict, llvmpipe, nvidia" + help_of("hash")},
+        {{"study", scene, "--profile", "nvidai"},
+         "--profile: 'nvidai' is not one of strict, llvmpipe, nvidia; did you mean nvidia?" + help_of("study")},
         {{"check", scene, "--gl", "glx"},
          "unknown GL context 'glx'; allowed are auto, osmesa, egl, egl-device:N (N = 0, 1, ...)"},
     });
@@ -265,6 +321,7 @@ TEST_CASE("arguments: help keeps to 80 columns, and says what holds without an o
     CHECK_THAT(check, Catch::Contains("(default: resync)") && Catch::Contains("(default: auto)") &&
                           Catch::Contains("\nArguments:\n  SCENE "));
     CHECK_THAT(run_lockstep({"explain", "--help"}).out, Catch::Contains("counted from 0 (required)"));
+    CHECK_THAT(run_lockstep({"hash", "--help"}).out, Catch::Contains("with --side gpu and --frames A..B"));
     CHECK_THAT(run_lockstep({"study", "--help"}).out,
                Catch::Contains("\n  thesis ") && !Catch::Contains("--recall-table"));
 }

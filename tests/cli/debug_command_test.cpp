@@ -166,9 +166,13 @@ TEST_CASE("debug_command: what cannot be done is told with the line of the scrip
           "line 3: unknown command 'nonsense'; the commands are frame, particle, texel, show, step, back, next, why, "
           "print, history, break, continue, set, list, help, quit");
     CHECK_THAT(setting.error("fram 2\n"), Catch::EndsWith("; did you mean frame?"));
+    CHECK_THAT(setting.error(std::string("fra\0me 2\n", 9)),
+               Catch::StartsWith("line 1: unknown command 'fra\\x00me'; the commands are frame, "));
     CHECK(setting.error("continue\n") == "line 1: continue: there is no break; `break NAME < NUMBER` makes one");
     CHECK(setting.error("break speed near 0.1\n") ==
           "line 1: break: 'speed near 0.1' is not NAME < NUMBER; <=, >, >=, ==, != go as well");
+    CHECK(setting.error("break speed < nan\n") ==
+          "line 1: break: 'speed < nan' is not NAME < NUMBER; <=, >, >=, ==, != go as well");
     CHECK(setting.error("break sped < 0.1\n") == "line 1: break: frame 0 particle 0: there is no row 'sped' with a "
                                                  "number; did you mean speed?; `show` lists them");
     CHECK_THAT(setting.error("print clipp.x\n"),

@@ -73,6 +73,23 @@ TEST_CASE("study: gnuplot is given the chart by a pipe, whatever the temporary f
     CHECK(std::filesystem::file_size(folder + "/a.svg") > 65536);
 }
 
+TEST_CASE("study: gnuplot's warnings are not shown, and why it failed is") {
+    const test::TemporaryFolder programs, output;
+    const std::string chart = (output.path() / "a.svg").string();
+    const auto drawn_by = [&](const std::string& script) {
+        const auto gnuplot = programs.write("gnuplot", "#!/bin/sh\n" + script);
+        std::filesystem::permissions(gnuplot, std::filesystem::perms::owner_all);
+        test::Surroundings surroundings;
+        surroundings.environment = {{"PATH", programs.path().string() + ":/usr/bin:/bin"}};
+        return run_lockstep({"study", scene(), "--frames", "2", "--chart", chart}, surroundings);
+    };
+    const test::Outcome warned = drawn_by("echo 'Warning: empty x range' >&2\ncat\n");
+    CHECK(warned.status == 0);
+    CHECK(warned.err.empty());
+    CHECK(refusal(drawn_by("cat > /dev/null\nprintf '\\nline 3:\\n  no such colour\\n' >&2\nexit 1\n")) ==
+          "chart: gnuplot failed: line 3: no such colour");
+}
+
 TEST_CASE("study: what cannot be studied is refused in one line") {
     CHECK(refusal(run_lockstep({"study"})) ==
           "study: a SCENE is needed, or one of rest, cameras, recall, catalogue, remedies, thesis");

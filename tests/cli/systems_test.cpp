@@ -140,7 +140,7 @@ TEST_CASE("systems: render writes a picture of either side, check judges what th
     mine.write("draw.vert", text);
     const test::Outcome wrong = run_lockstep(test::joined(check, {"--shaders", mine.path().string()}));
     CHECK(wrong.status == 1);
-    CHECK_THAT(wrong.out, Contains("what frame 4 of") && Contains("DIVERGENT") && Contains("scale: one"));
+    CHECK_THAT(wrong.out, Contains("what frame 4 of") && Contains("DIVERGENT") && Contains("scale_missing"));
 }
 
 TEST_CASE("systems: bench has a row a pass that runs, and a frame's with its hash and verdict") {
@@ -152,6 +152,8 @@ TEST_CASE("systems: bench has a row a pass that runs, and a frame's with its has
     for (const char* row : {"      100 update ", "      300 update_count ", "      300 frame "})
         CHECK_THAT(bench.out, Contains(row));
     CHECK_THAT(bench.out, Contains(" AGREE\n"));
+    CHECK(refusal(run_lockstep({"bench", scene, "--require-hits"})) ==
+          "bench: --require-hits goes with scenes of system collision");
     CHECK(refusal(run_lockstep({"bench", scene, "--radius", "2"})) ==
           "bench: --radius goes with scenes of system collision");
 }
@@ -176,6 +178,7 @@ TEST_CASE("systems: bench times GL alone, and as many atomics as lights make") {
         run_lockstep(on_gl({"bench", "data/scenes/lattice.json", "--counts", "100", "--radius", "1", "--frames", "1",
                             "--warm-up", "0", "--gl-only", "--no-render"}));
     CHECK(particles.status == 0);
+    CHECK_THAT(particles.out, Contains("\n1 frame each, median ms a frame; "));
     CHECK_THAT(particles.out, Contains("GL alone, nothing checked") && Contains(" collision_pass ") &&
                                   Contains("nothing rendered") && !Contains("AGREE"));
 }
@@ -339,6 +342,8 @@ TEST_CASE("systems: a recording that is damaged, cut off, of another system or o
           "check: --images goes with a scene that is run here, not with --trace");
     CHECK_THAT(refusal(run_lockstep({"record", scene, "-o", out.path().string() + "/no/where.h5"})),
                Contains("no/where.h5"));
+    CHECK(refusal(run_lockstep({"report", file, "--require-hits"})) ==
+          "report: --require-hits does not go with a recording of system dust");
     CHECK(refusal(run_lockstep({"record", scene, "--cdt", "-o", file})) ==
           "record: --cdt goes with scenes of system collision");
 

@@ -213,10 +213,16 @@ TEST_CASE("verdict: a run in which nothing collided says so, and fails where hit
     const Setting setting;
     test::Outcome outcome = setting.check({"--frames", "3", "--particles", "1"});
     CHECK(outcome.status == 0);
-    CHECK_THAT(outcome.out, Catch::Contains("verdict   AGREE, but nothing collided: every bit of 1 particles"));
+    CHECK_THAT(outcome.out, Catch::Contains("verdict   AGREE, but nothing collided: every bit of 1 particle and"));
     CHECK(json_of(setting.report)["untried"] == nlohmann::json{"nothing collided"});
-    outcome = setting.check({"--frames", "3", "--particles", "1", "--require-hits"});
+    const std::string junit = (setting.folder.path() / "junit.xml").string();
+    outcome = setting.check({"--frames", "3", "--particles", "1", "--require-hits", "--junit", junit});
     CHECK(outcome.status == 1);
+    const std::string why = "AGREE, but nothing collided (--require-hits asks for a hit)";
+    CHECK_THAT(outcome.out, Catch::Contains("verdict   " + why + ": every bit of 1 particle and"));
+    std::ifstream failure(junit);
+    CHECK_THAT(std::string(std::istreambuf_iterator<char>(failure), {}),
+               Catch::Contains("<failure message=\"" + why + "\">"));
     outcome = setting.check({"--frames", "6", "--require-hits"});
     CHECK(outcome.status == 0);
     CHECK(json_of(setting.report)["untried"].empty());
@@ -301,7 +307,11 @@ TEST_CASE("verdict: bench has check's words and status") {
     };
     test::Outcome outcome = bench({"--counts", "1"});
     CHECK(outcome.status == 0);
-    CHECK_THAT(outcome.out, Catch::Contains(" AGREE, but nothing collided\n"));
+    CHECK_THAT(outcome.out, Catch::Contains(" AGREE, but nothing collided\n") && Catch::Contains(" at 1 particle\n") &&
+                                !Catch::Contains("particles^"));
+    outcome = bench({"--counts", "1", "--require-hits"});
+    CHECK(outcome.status == 1);
+    CHECK_THAT(outcome.out, Catch::Contains(" AGREE, but nothing collided (--require-hits asks for a hit)\n"));
     outcome = bench({"--counts", "300", "--set", "search=octree"});
     CHECK_THAT(outcome.out, Catch::Contains(" AGREE\n"));
     test::plant(setting.shaders, "collision_pass.vert", "ls_flush(a_CollideTime) - u_Tick;",

@@ -228,10 +228,9 @@ void GlSystem::Parts::run(const Linked& linked, int frame) {
             continue;
         for (const RecordBuffer& buffer : buffers[s])
             if (!buffer.spare_holds(canary_word))
-                throw Error(
-                    fmt::format("frame {}: {} wrote behind the {} {}s of {}; right is to return from item {} on", frame,
-                                linked.pass.name, buffer.size(), storages[s].layout.about().item,
-                                written_block(*schema, storages[s]), buffer.size()));
+                throw Error(fmt::format("frame {}: {} wrote behind the {} {}s of {}; right is no write from item {} on",
+                                        frame, linked.pass.name, buffer.size(), storages[s].layout.about().item,
+                                        written_block(*schema, storages[s]), buffer.size()));
     }
 }
 

@@ -83,7 +83,7 @@ TEST_CASE("guard: one that writes behind the last item is an error that says whe
     if (!gl())
         return skip(gl().missing());
     const char* said =
-        "frame 0: halve wrote behind the 100 numbers of NumbersAfter; right is to return from item 100 on";
+        "frame 0: halve wrote behind the 100 numbers of NumbersAfter; right is no write from item 100 on";
     CHECK_THROWS_WITH(run(""), said);
     CHECK_THROWS_WITH(run("    if (i > u_ItemCount) return;\n"), said);
 }

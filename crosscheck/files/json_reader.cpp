@@ -126,18 +126,18 @@ std::string too_long() { return fmt::format("more than {} MiB of JSON", json_lim
 /// without end.
 std::string read_text(const std::filesystem::path& file) {
     const auto fail = [&](const std::string& what) { throw Error(fmt::format("{}: {}", file.string(), what)); };
-    const int opened = open(file.c_str(), O_RDONLY | O_CLOEXEC | O_NOCTTY | O_NONBLOCK);
+    const int opened = ::open(file.c_str(), O_RDONLY | O_CLOEXEC | O_NOCTTY | O_NONBLOCK);
     if (opened < 0)
         fail(fmt::format("cannot be read: {}", std::strerror(errno)));
     const std::unique_ptr<std::FILE, int (*)(std::FILE*)> stream(fdopen(opened, "rb"), &std::fclose);
     std::string text;
     std::array<char, 1U << 16U> block{};
-    ssize_t got = read(opened, block.data(), block.size());
+    ssize_t got = ::read(opened, block.data(), block.size());
     struct stat about {};
     if (got == 0 && fstat(opened, &about) == 0 && S_ISFIFO(about.st_mode))
         fail("is a pipe that nobody writes to; right is a file");
-    fcntl(opened, F_SETFL, O_RDONLY);
-    for (; got != 0; got = read(opened, block.data(), block.size())) {
+    ::fcntl(opened, F_SETFL, O_RDONLY);
+    for (; got != 0; got = ::read(opened, block.data(), block.size())) {
         if (got < 0 && errno != EINTR && errno != EAGAIN)
             fail(fmt::format("cannot be read: {}", std::strerror(errno)));
         text.append(block.data(), static_cast<std::size_t>(std::max<ssize_t>(got, 0)));

@@ -78,14 +78,9 @@ void normal_of_next(std::span<float> value, const CameBy& run) {
         value[c] = run.of(site::from_centre)[c] / run.of(site::reach)[0];
 }
 
-void normal_of_sphere_alone(std::span<float> value, const CameBy& run) {
+template <const Site& by> void normal_by(std::span<float> value, const CameBy& run) {
     for (std::size_t c = 0; c < value.size(); ++c)
-        value[c] = (run.of(site::contact)[c] - run.of(site::sphere_centre)[c]) / run.of(site::sphere_half)[0];
-}
-
-void normal_of_grain(std::span<float> value, const CameBy& run) {
-    for (std::size_t c = 0; c < value.size(); ++c)
-        value[c] = (run.of(site::contact)[c] - run.of(site::sphere_centre)[c]) / run.of(site::radius)[0];
+        value[c] = (run.of(site::contact)[c] - run.of(site::sphere_centre)[c]) / run.of(by)[0];
 }
 
 void reach_not_squared(std::span<float> value, const CameBy& run) {
@@ -275,9 +270,9 @@ const std::vector<NamedMistake>& mistakes() {
         {"normal_of_next", "the sphere's normal is that of the next position, not of the contact", "update",
          formula_at(site::normal, normal_of_next)},
         {"normal_not_grown", "the sphere's normal is divided by its radius, without the grain's", "update",
-         spoiled_at(site::normal, normal_of_sphere_alone)},
+         spoiled_at(site::normal, normal_by<site::sphere_half>)},
         {"normal_by_grain", "the sphere's normal is divided by the grain's radius alone", "update",
-         spoiled_at(site::normal, normal_of_grain)},
+         spoiled_at(site::normal, normal_by<site::radius>)},
         {"reach_not_squared", "a chord is made of the reach, not of its square", "update",
          spoiled_at(site::chord, reach_not_squared)},
         free_formula("way_in_from_the_end", "the way to a contact is taken from where the movement ends", "update",

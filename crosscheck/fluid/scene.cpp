@@ -100,8 +100,8 @@ std::vector<std::vector<glm::vec3>> read_recording(const JsonValue& json) {
     for (const JsonValue& one : json.items()) {
         frames.push_back(read_points(one));
         if (frames.back().size() != frames.front().size())
-            one.fail(fmt::format("frame {} has {} particle{}; right is {}, as frame 0 has", frames.size() - 1,
-                                 frames.back().size(), frames.back().size() == 1 ? "" : "s", frames.front().size()));
+            one.fail(fmt::format("frame {} has {}; right is {}, as frame 0 has", frames.size() - 1,
+                                 counted(frames.back().size(), "particle"), frames.front().size()));
     }
     if (frames.empty())
         json.fail("0 frames; right is at least one");

@@ -74,18 +74,20 @@ std::size_t words_of(const std::vector<function_twin::Column>& columns) {
     return words;
 }
 
+void set_bits(SystemState& state, FieldId field, std::size_t row, int component, std::uint32_t bits) {
+    if (state.schema()[field].scalar == Scalar::float32)
+        state.set(field, row, std::bit_cast<float>(bits), component);
+    else
+        state.set(field, row, bits, component);
+}
+
 SystemState start_of(const Schema& schema, const FunctionRows& rows) {
     SystemState start(schema, {{rows.count()}});
     std::size_t next = 0;
     for (std::size_t row = 0; row < rows.count(); ++row)
         for (std::size_t f = 0; f < rows.columns.size(); ++f)
-            for (int c = 0; c < rows.columns[f].components; ++c) {
-                const FieldId field{0, static_cast<std::uint8_t>(f)};
-                if (rows.columns[f].scalar != Scalar::float32)
-                    start.set(field, row, rows.words[next++], c);
-                else
-                    start.set(field, row, std::bit_cast<float>(rows.words[next++]), c);
-            }
+            for (int c = 0; c < rows.columns[f].components; ++c)
+                set_bits(start, {0, static_cast<std::uint8_t>(f)}, row, c, rows.words[next++]);
     return start;
 }
 
@@ -99,17 +101,10 @@ System system_of(const GlslFunction& function, const function_twin::Called& call
                   .start = start_of(called.schema, rows),
                   .settings = {}};
     // A result that was not written is none that is right.
-    const Resource& about = called.schema.resources.front();
-    const FieldId result{0, static_cast<std::uint8_t>(about.fields.size() - 1)};
-    const int components = about.fields.back().components;
-    for (std::size_t word = 0; word < results.size(); ++word) {
-        const std::size_t row = word / static_cast<std::size_t>(components);
-        const int component = static_cast<int>(word % static_cast<std::size_t>(components));
-        if (about.fields.back().scalar == Scalar::float32)
-            system.start.set(result, row, std::bit_cast<float>(~results[word]), component);
-        else
-            system.start.set(result, row, ~results[word], component);
-    }
+    const FieldId result{0, static_cast<std::uint8_t>(rows.columns.size())};
+    const auto components = static_cast<std::size_t>(called.schema[result].components);
+    for (std::size_t word = 0; word < results.size(); ++word)
+        set_bits(system.start, result, word / components, static_cast<int>(word % components), ~results[word]);
     system.passes.push_back(item_pass({.name = std::string(function_twin::pass_name)},
                                       ExpectedResult{all_columns(called.schema), std::move(results)}));
     return system;

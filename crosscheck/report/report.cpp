@@ -1,5 +1,4 @@
 #include "crosscheck/report/report.hpp"
-#include "crosscheck/report/power_text.hpp"
 
 #include <algorithm>
 #include <bit>
@@ -7,6 +6,7 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
+#include "crosscheck/files/plain_text.hpp"
 #include "crosscheck/judge/item_place.hpp"
 #include "crosscheck/report/power_text.hpp"
 #include "crosscheck/report/shader_diff.hpp"
@@ -119,7 +119,7 @@ bool told(std::size_t i, std::size_t count) { return i == 0 || i + 1 == count ||
 std::string particles_text(const CheckReport& r) {
     return fmt::format("{} {}{}", grouped(r.particles), r.schema.resources.front().item, r.particles == 1 ? "" : "s");
 }
-std::string frames_text(const CheckReport& r) { return fmt::format("{} frame{}", r.frames, r.frames == 1 ? "" : "s"); }
+std::string frames_text(const CheckReport& r) { return counted(static_cast<std::size_t>(r.frames), "frame"); }
 
 std::string of_class(const CheckReport& r, DifferenceClass kind) {
     std::vector<std::uint64_t> items;

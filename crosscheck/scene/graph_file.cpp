@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -10,6 +11,7 @@
 #include <fmt/ranges.h>
 
 #include "crosscheck/files/plain_text.hpp"
+#include "crosscheck/scene/graph_constants.hpp"
 #include "reference/model/near_name.hpp"
 #include "reference/readings/site.hpp"
 
@@ -81,6 +83,7 @@ class Reader {
             static_cast<void>(description->label());
         read_ids();
         find_stage();
+        constants_.emplace(graph_.nodes.size());
         for (std::size_t n = 0; n < graph_.nodes.size(); ++n)
             read_values(n);
         for (std::size_t n = 0; n < graph_.nodes.size(); ++n)
@@ -285,6 +288,7 @@ class Reader {
             read_[n].json.fail(fmt::format("more than {} nodes behind each other", deepest_graph));
         if (read_[n].type->kind > GraphKind::input && read_[n].type->kind != GraphKind::random)
             fit(n);
+        constants_->add(graph_, n);
         read_[n].depth = behind + 1;
         read_[n].resolved = true;
         open_.pop_back();
@@ -423,14 +427,18 @@ class Reader {
             check_divisor(n);
     }
 
+    [[nodiscard]] std::optional<float> constant(std::size_t n, std::size_t port, std::size_t component) const {
+        return constants_->at(graph_, graph_.nodes[n].inputs[port], component);
+    }
+
     /// Compilers fold a quotient by a constant 0 to what they like, llvmpipe's to 0.
     void check_divisor(std::size_t n) const {
         const GraphNode& node = graph_.nodes[n];
         for (std::size_t c = 0; c < graph_components(node.takes); ++c) {
-            if (node.kind == GraphKind::divide && graph_constant(graph_, node.inputs[1], c) == 0.0F)
+            if (node.kind == GraphKind::divide && constant(n, 1, c) == 0.0F)
                 read_[n].json.fail(fmt::format("'{}' divides by 0: its port b", node.id));
-            const auto low = graph_constant(graph_, node.inputs[0], c);
-            if (node.kind == GraphKind::smoothstep && low && low == graph_constant(graph_, node.inputs[1], c))
+            const auto low = constant(n, 0, c);
+            if (node.kind == GraphKind::smoothstep && low && low == constant(n, 1, c))
                 read_[n].json.fail(fmt::format("'{}' rises from {} to {}: right are a low and a high that differ",
                                                node.id, *low, *low));
         }
@@ -492,6 +500,7 @@ class Reader {
     std::vector<Read> read_;
     std::map<std::string, std::size_t> places_;
     std::map<std::uint32_t, std::string> channels_; ///< of the random nodes
+    std::optional<GraphConstants> constants_;       ///< of the nodes that are resolved
     std::vector<std::size_t> open_;                 ///< being resolved, each for the one before
 };
 

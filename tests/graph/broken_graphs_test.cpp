@@ -177,6 +177,20 @@ std::vector<std::pair<std::string, std::string>> broken_graphs() {
     with(node("k", "divide", {{"a", "v"}, {"b", 0}}), "'k' divides by 0");
     with(node("k", "divide", {{"a", "v"}, {"b", {1, 0, 2}}}), "'k' divides by 0");
     with(node("k", "smoothstep", {{"low", 1}, {"high", 1}, {"a", "v"}}), "'k' rises from 1 to 1");
+    const auto folded = [&](const json& zero, const char* const divisor) {
+        json graph = small;
+        graph["nodes"].push_back(node("two", "add", {{"a", 1}, {"b", json::array({0.5, 1, 1})}}));
+        graph["nodes"].push_back(node("parts", "split", {{"a", "two"}}));
+        graph["nodes"].push_back(zero);
+        graph["nodes"].push_back(node("k", "divide", {{"a", "v"}, {"b", divisor}}));
+        add(graph, "'k' divides by 0");
+    };
+    folded(node("zero", "subtract", {{"a", "two"}, {"b", 2}}), "zero");
+    folded(node("zero", "multiply", {{"a", "two"}, {"b", 0}}), "zero");
+    folded(node("zero", "floor", {{"a", json::array({0.5, 1, 2})}}), "zero");
+    folded(node("zero", "compose", {{"x", 1}, {"y", "parts.x"}, {"z", 0}}), "zero");
+    folded(node("zero", "subtract", {{"a", "parts.y"}, {"b", "parts.z"}}), "zero");
+    folded(node("zero", "mix", {{"a", 0}, {"b", "two"}, {"t", 0}}), "zero");
     with({{"id", "k"}, {"type", "parameter"}, {"value", 5}, {"range", {9, 4}}}, "right is the least first");
     with({{"id", "k"}, {"type", "parameter"}, {"value", 5}, {"range", {9}}}, "right is the least and the greatest");
     with({{"id", "k"}, {"type", "parameter"}, {"value", {1, 2}}}, "a parameter is a float");

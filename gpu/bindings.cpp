@@ -60,14 +60,24 @@ class Reader {
     }
 
     json parsed(const std::string& text) const {
-        std::vector<std::set<std::string>> names; // of the objects that are open
+        struct Open {
+            std::set<std::string> names;
+            std::string last = {};
+        };
+        std::vector<Open> open; // objects, each in the one before
         const auto check_twice = [&](int, json::parse_event_t event, const json& value) {
             if (event == json::parse_event_t::object_start)
-                names.emplace_back();
+                open.emplace_back();
             else if (event == json::parse_event_t::object_end)
-                names.pop_back();
-            else if (event == json::parse_event_t::key && !names.back().insert(value.get<std::string>()).second)
-                fail("", fmt::format("the name {} stands twice in one object", value.get<std::string>()));
+                open.pop_back();
+            else if (event == json::parse_event_t::key) {
+                std::string path;
+                for (std::size_t i = 0; i + 1 < open.size(); ++i)
+                    path += "/" + open[i].last;
+                open.back().last = value.get<std::string>();
+                if (!open.back().names.insert(open.back().last).second)
+                    fail(path, fmt::format("the name {} stands twice in one object", open.back().last));
+            }
             return true;
         };
         if (text.find('\0') != std::string::npos) // where the parser stops without a word

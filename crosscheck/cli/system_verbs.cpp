@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cstdio>
+#include <utility>
 #include <vector>
 
 #include <fmt/format.h>
@@ -72,7 +73,8 @@ DrawnFrame judge_drawn(const SystemInput& input, const SystemSide& side, const R
     const std::uint8_t made = picture.system.passes.front()->resource();
     DrawnFrame judged{check(picture.system, drawn, options), std::move(about), frame,
                       picture.system.start.extent(made).count(), picture.system.schema.resources[made].item};
-    judged.first = first_item_words(picture.system, *judged.report, frame); // the picture's own only frame is 0
+    number_frame(*judged.report, frame);
+    judged.first = first_item_words(picture.system, *judged.report);
     return judged;
 }
 
@@ -241,6 +243,8 @@ int check_system(const RegisteredSystem& system, RunOptions run, const SystemChe
     DrawnFrame drawn = asked.render && !report.partial() ? judge_drawn(input, side, run, asked, report) : DrawnFrame{};
     if (!drawn.first.empty())
         drawn.about.explain = explain_line(drawn.first);
+    if (drawn.report && passes(report, asked.rules) && !passes(*drawn.report, drawn_rules(asked.rules)))
+        report.state_verdict = std::exchange(report.verdict, drawn.report->verdict);
     if (!asked.quiet) {
         if (report.interrupted())
             fmt::print("interrupted after {} of {} frames\n", report.frames, run.frames);

@@ -26,6 +26,28 @@ void note_difference(CheckReport& report, int frame, const Comparison& compariso
         report.worst.push_back({frame, difference});
 }
 
+void number_frame(CheckReport& report, int frame) {
+    report.first = frame;
+    if (report.first_frame)
+        report.first_frame = frame;
+    for (FrameDifference& difference : report.worst)
+        difference.frame = frame;
+    for (FrameCount& counts : report.counts)
+        counts.frame = frame;
+    for (PowerSummary::Mistake& mistake : report.power.mistakes)
+        if (mistake.first_frame)
+            mistake.first_frame = frame;
+    if (!report.verdicts)
+        return;
+    for (std::optional<FirstDivergence>* first : {&report.verdicts->first, &report.verdicts->first_beyond_rounding})
+        if (*first)
+            (*first)->place.frame = frame;
+    for (auto& [kind, ties] : report.verdicts->ties)
+        ties.closest.frame = frame;
+    for (int& divergent : report.verdicts->divergent_frames)
+        divergent = frame;
+}
+
 Verdict verdict_on(const CheckReport& report) {
     if (report.total.agree())
         return Verdict::agree;

@@ -77,7 +77,7 @@ struct CheckReport {
     std::uint64_t gpu_hash = 0;            ///< state_hash of particles and CDT after the last frame
     std::vector<FrameTimes> times;         ///< one a frame
     std::optional<RenderVerdict> rendered; ///< not set: the rendered frame was not compared
-    std::optional<Verdict> state_verdict;  ///< set: on all but the rendered frame, which made the verdict worse
+    std::optional<Verdict> state_verdict;  ///< set: on all but what a frame draws, which made the verdict worse
     /// What such a run was to try and did not, as words after "but": "nothing collided".
     std::vector<std::string> untried;
 
@@ -103,6 +103,9 @@ struct PassRules {
 
 /// Counts what a comparison of a frame found; there may be several of a frame.
 void note_difference(CheckReport& report, int frame, const Comparison& comparison);
+
+/// Numbers the one frame of a run that began with frame 0 as another.
+void number_frame(CheckReport& report, int frame);
 
 /// What the counts of a run come to.
 [[nodiscard]] Verdict verdict_on(const CheckReport& report);

@@ -135,12 +135,12 @@ int status_of(const ItemCapsule& capsule, const System& system) {
     return judge(capsule, system).kind >= DifferenceClass::undefined ? status_differ : status_agree;
 }
 
-std::vector<std::string> first_item_words(const System& system, const CheckReport& report, std::optional<int> frame) {
+std::vector<std::string> first_item_words(const System& system, const CheckReport& report) {
     if (!report.verdicts || !report.verdicts->first)
         return {};
     const Place& place = report.verdicts->first->place;
     return {"--frame",
-            std::to_string(frame.value_or(place.frame)),
+            std::to_string(place.frame),
             "--pass",
             std::string(system.passes[report.verdicts->first->pass]->name()),
             "--item",

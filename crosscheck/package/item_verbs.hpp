@@ -68,9 +68,8 @@ std::string shown_text(const ItemCapsule& capsule, const System& system, NumberF
 int status_of(const ItemCapsule& capsule, const System& system);
 
 /// The options of `explain` for a run's first divergence: "--frame", "3", "--pass", "update", ...; none where there is
-/// none. `frame` stands for the run's own, where that is another run's last.
-std::vector<std::string> first_item_words(const System& system, const CheckReport& report,
-                                          std::optional<int> frame = {});
+/// none.
+std::vector<std::string> first_item_words(const System& system, const CheckReport& report);
 
 /// Prints the reference's state hash after these frames; it has no lead-in.
 void print_hashes(const System& system, const std::string& profile, const HashedFrames& frames);

@@ -167,8 +167,8 @@ std::string verdict_line(const CheckReport& r) {
     const std::string state = verdict_counts(r) + (judged ? "" : "; compared, not judged");
     if (!r.state_verdict)
         return verdict_words(r) + state;
-    return fmt::format("{}{}; the state itself {}{}", verdict_words(r), rendered_counts(*r.rendered),
-                       verdict_name(*r.state_verdict), state);
+    const std::string drawn = r.rendered ? rendered_counts(*r.rendered) : " in what the last frame draws";
+    return fmt::format("{}{}; the state itself {}{}", verdict_words(r), drawn, verdict_name(*r.state_verdict), state);
 }
 
 std::string first_pixel_text(const RenderVerdict& r) {

@@ -271,3 +271,17 @@ TEST_CASE("dust remedy sweep: a box's thin plate stops what flies through it, an
                 CHECK(std::abs(grains.velocity(i).y) == 240.0F);
         }
 }
+
+TEST_CASE("dust switches: a run's text names the preset whose arithmetic it is, and what differs from it") {
+    dust::Settings settings;
+    const auto text = [&] { return dust::system(host_of(settings)).settings; };
+    settings.switches = dust::preset("corrected");
+    CHECK(text() == "corrected");
+    settings.switches = dust::preset("exact");
+    settings.arithmetic = ArithmeticSwitch::exact;
+    CHECK(text() == "exact");
+    settings.switches.world = dust::World::none;
+    CHECK(text() == "exact, but world=none");
+    settings.arithmetic = ArithmeticSwitch::plain;
+    CHECK(text() == "corrected, but random=integer world=none");
+}

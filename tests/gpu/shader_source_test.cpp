@@ -5,6 +5,8 @@
 #include <fstream>
 #include <sstream>
 
+#include <sys/stat.h>
+
 #include <fmt/format.h>
 
 #include "gpu/collision/collision_shaders.hpp"
@@ -72,6 +74,18 @@ TEST_CASE("shader source: a blank file leaves its stage out") {
     const auto sources = load_stages({user.path(), built_in.path()}, "a", stages);
     REQUIRE(sources.size() == 1);
     CHECK(sources[0].stage == Stage::vertex);
+}
+
+TEST_CASE("shader source: a folder or a pipe of a shader's name is told as one") {
+    const TemporaryFolder folder;
+    const std::string where = folder.path().string();
+    fs::create_directory(folder.path() / "a.vert");
+    REQUIRE(mkfifo((folder.path() / "b.vert").c_str(), 0600) == 0);
+    CHECK_THROWS_WITH(read_shader_file(folder.path() / "a.vert"),
+                      "shader " + where + "/a.vert: is a folder; right is a file");
+    CHECK_THROWS_WITH(read_shader_file(folder.path() / "b.vert"),
+                      "shader " + where + "/b.vert: is a pipe or a device; right is a file");
+    CHECK_THROWS_WITH(read_shader_file(folder.path() / "c.vert"), "shader " + where + "/c.vert: cannot be read");
 }
 
 TEST_CASE("shader source: what is wrong with a file is told with file and line") {

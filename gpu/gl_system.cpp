@@ -288,7 +288,9 @@ std::optional<bool> GlSystem::holds(const View& state) const {
         return {};
     std::vector<const RecordBuffer*> buffers;
     for (std::size_t s = 0; s < parts_->storages.size(); ++s)
-        if (parts_->storages[s].layout.resource == state.resource)
+        if (const RecordLayout& layout = parts_->storages[s].layout;
+            layout.resource == state.resource &&
+            std::ranges::any_of(layout.members, [&](const auto& member) { return state.columns[member.field]; }))
             buffers.push_back(&parts_->from(s));
     return hold_numbers(buffers, state);
 }
@@ -302,15 +304,16 @@ std::optional<bool> GlSystem::left(const View& before) const {
     return true;
 }
 
-std::optional<std::vector<std::uint8_t>> GlSystem::reached_by(std::size_t pass) const {
+bool GlSystem::reaches(std::size_t pass, FieldId field) const {
     const std::optional<Parts::Linked>& linked = parts_->passes.at(pass);
     if (!linked || linked->program.bindings() != nullptr) // blocks of other names
-        return {};
-    std::vector<std::uint8_t> reached = linked->resources;
-    for (const BoundBlock& bound : linked->bound)
-        if (bound.kind != BoundBlock::Kind::data)
-            reached.push_back(parts_->storages[bound.storage].layout.resource);
-    return reached;
+        return true;
+    const bool is_made = std::ranges::find(linked->resources, field.resource) != linked->resources.end();
+    if (is_made && !parts_->in_place(field.resource)) // the copies change places
+        return true;
+    return std::ranges::any_of(linked->bound, [&](const BoundBlock& bound) {
+        return bound.kind != BoundBlock::Kind::data && parts_->storages[bound.storage].layout.has(field);
+    });
 }
 
 std::vector<CapturedVertex> GlSystem::trace(std::size_t pass, int frame, std::size_t item) {

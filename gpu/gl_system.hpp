@@ -133,7 +133,7 @@ class GlSystem final : public SystemSide {
     void read(SystemState& state) const override;
     [[nodiscard]] std::optional<bool> holds(const View& state) const override; ///< of buffers
     [[nodiscard]] std::optional<bool> left(const View& before) const override; ///< of buffers
-    [[nodiscard]] std::optional<std::vector<std::uint8_t>> reached_by(std::size_t pass) const override;
+    [[nodiscard]] bool reaches(std::size_t pass, FieldId field) const override;
 
     [[nodiscard]] bool repeats() const override { return true; }
     void lay_canary(std::size_t pass) override;

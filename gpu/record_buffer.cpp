@@ -240,6 +240,11 @@ template <class Work> void in_blocks(const RecordLayout& layout, std::size_t cou
 
 } // namespace
 
+bool RecordLayout::has(FieldId id) const {
+    return id.resource == resource &&
+           std::ranges::any_of(members, [&](const Member& member) { return member.field == id.field; });
+}
+
 std::size_t RecordLayout::bytes() const {
     std::size_t words = 0;
     for (const Member& member : members)
@@ -334,9 +339,10 @@ bool holds_numbers(const RecordLayout& layout, const std::byte* memory, const Vi
         for (const RecordLayout::Member& member : layout.members) {
             const Field& field = layout.field(member);
             const auto words = static_cast<std::size_t>(field.components);
-            const std::byte* const values = state.columns[member.field] + first * words * word;
-            if (!are_alike(words, of_member, bytes, values, count) ||
-                (field.scalar == Scalar::float32 && has_nan(values, count * words)))
+            const std::byte* const column = state.columns[member.field];
+            const std::byte* const values = column + first * words * word;
+            if (column != nullptr && (!are_alike(words, of_member, bytes, values, count) ||
+                                      (field.scalar == Scalar::float32 && has_nan(values, count * words))))
                 return false;
             of_member += words * word;
         }

@@ -27,6 +27,7 @@ struct RecordLayout {
     [[nodiscard]] const Resource& about() const { return schema->resources[resource]; }
     [[nodiscard]] const Field& field(const Member& member) const { return about().fields[member.field]; }
     [[nodiscard]] std::size_t bytes() const; ///< of a record
+    [[nodiscard]] bool has(FieldId id) const;
 
     /// What a program that writes such records captures: out_ and the name, in the records' order.
     [[nodiscard]] std::vector<Capture> captures() const;

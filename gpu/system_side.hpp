@@ -30,15 +30,16 @@ class SystemSide {
     virtual void read(SystemState& state) const = 0;
 
     /// Whether a buffer or image is after the last pass what `state` says, to the last bit, and has no NaN. Nothing:
-    /// that is known by reading it alone.
+    /// that is known by reading it alone. Fields whose columns are null are not asked for: those that no pass
+    /// reaches().
     [[nodiscard]] virtual std::optional<bool> holds(const View& /*state*/) const { return {}; }
 
     /// Whether the last pass left the items that it read of the buffer it makes: `before` says what they were. Nothing:
     /// nobody knows.
     [[nodiscard]] virtual std::optional<bool> left(const View& /*before*/) const { return {}; }
 
-    /// The buffers and images that a pass can write, whatever its shader does: what is bound to it. Nothing: any.
-    [[nodiscard]] virtual std::optional<std::vector<std::uint8_t>> reached_by(std::size_t /*pass*/) const { return {}; }
+    /// Whether a pass can write a field, whatever its shader does: it is bound to it. True where nobody knows.
+    [[nodiscard]] virtual bool reaches(std::size_t /*pass*/, FieldId /*field*/) const { return true; }
 
     [[nodiscard]] virtual SideDescription describe() const { return {}; }
 

@@ -14,6 +14,17 @@
 
 namespace lockstep {
 
+namespace {
+
+bool reaches(const SystemSide& gpu, std::size_t pass, const Schema& schema, std::uint8_t resource) {
+    for (std::uint8_t f = 0; f < schema.resources[resource].fields.size(); ++f)
+        if (gpu.reaches(pass, {resource, f}))
+            return true;
+    return false;
+}
+
+} // namespace
+
 void check_system(const System& system) {
     if (system.passes.empty())
         throw Error(fmt::format("{}: a system without passes does nothing", system.schema.system));
@@ -86,15 +97,30 @@ void expect_left(const SystemSide& gpu, const System& system, std::size_t first,
                                     frame, system.passes[first]->name(), system.schema.resources[r].title));
 }
 
+View without_kept(View made, const View& before, const SystemSide& gpu, std::size_t pass) {
+    for (std::uint8_t f = 0; f < made.columns.size(); ++f)
+        if (made.columns[f] == before.columns[f] && !gpu.reaches(pass, {made.resource, f}))
+            made.columns[f] = nullptr;
+    return made;
+}
+
+void expect_kept(const ItemPass& pass, const View& before, const View& made, int frame) {
+    for (const std::uint8_t f : pass.keeps())
+        for (std::size_t i = 0; i < made.count(); ++i)
+            for (int c = 0; c < made.fields()[f].components; ++c)
+                if (!same_bits(before.value(f, i, c), made.value(f, i, c)))
+                    throw Error(fmt::format("frame {}: the twin of {} makes {} of {} otherwise, which the pass says it "
+                                            "keeps; right is to leave it out of ItemPassOptions::keeps",
+                                            frame, pass.name(), made.fields()[f].name,
+                                            item_name(made.about(), made.extent, i)));
+}
+
 bool holds_others(const SystemSide& gpu, const System& system, std::size_t first,
                   const std::function<View(std::uint8_t)>& before) {
     const std::vector<std::uint8_t> written = written_by(system, first);
-    const std::optional<std::vector<std::uint8_t>> reached = gpu.reached_by(first);
-    const auto is_among = [](const std::vector<std::uint8_t>& all, std::uint8_t r) {
-        return std::ranges::find(all, r) != all.end();
-    };
     for (std::uint8_t r = 0; r < system.schema.resources.size(); ++r)
-        if (!is_among(written, r) && (!reached || is_among(*reached, r)) && gpu.holds(before(r)) != true)
+        if (std::ranges::find(written, r) == written.end() && reaches(gpu, first, system.schema, r) &&
+            gpu.holds(before(r)) != true)
             return false;
     return true;
 }

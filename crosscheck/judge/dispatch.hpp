@@ -37,6 +37,13 @@ void expect_left(const SystemSide& gpu, const System& system, std::size_t first,
 bool holds_others(const SystemSide& gpu, const System& system, std::size_t first,
                   const std::function<View(std::uint8_t)>& before);
 
+/// What a pass made, without the fields that cannot be otherwise on the GPU: those that are `before`'s own columns,
+/// which the GPU held, and that its pass does not reach.
+View without_kept(View made, const View& before, const SystemSide& gpu, std::size_t pass);
+
+/// Throws Error where a twin made a field otherwise that its pass says it keeps.
+void expect_kept(const ItemPass& pass, const View& before, const View& made, int frame);
+
 /// Gives a state, and the GPU, what is right of the buffers that are derived from others.
 void put_right(SystemSide& gpu, SystemState& state, const SystemState& right, std::set<std::uint8_t>& wrong);
 

@@ -76,7 +76,7 @@ void SystemRun::step(int frame, std::size_t pass) {
     const std::uint8_t r = one.resource();
     if (!one.derived())
         return;
-    run_pass(one, {std::as_const(before_).view(), frame}, profile_, right_[r]);
+    run_pass(one, before_, frame, profile_, right_);
     if (!differing_items(std::as_const(right_)[r], std::as_const(now_)[r]).empty())
         wrong_.insert(r);
 }
@@ -118,7 +118,7 @@ void SystemRun::go_to(int frame, std::size_t pass, const std::function<void(int)
     before_view_ = before_.view();
     earlier_view_ = earlier_ ? earlier_->view() : SystemView();
     reference_ = before_;
-    run_pass(made, {before_view_, frame}, profile_, reference_[made.resource()]);
+    run_pass(made, before_, frame, profile_, reference_);
     reference_view_ = std::as_const(reference_)[made.resource()];
     gpu_view_ = std::as_const(now_)[made.resource()];
 }
@@ -147,8 +147,8 @@ void ReferenceRun::step_pass(std::size_t pass, int frame) {
     const SystemView before = state_.view();
     const PassInput in{before, frame};
     if (one.in_place(in))
-        return run_pass(one, in, profile_, state_[one.resource()]);
-    run_pass(one, in, profile_, next_[one.resource()]);
+        return run_pass(one, in, profile_, state_.all_but(one.keeps(), one.resource()));
+    run_pass(one, state_, frame, profile_, next_);
     state_.swap(one.resource(), next_);
 }
 

@@ -14,6 +14,7 @@ std::unique_ptr<ItemPass> emit_pass(const HostPtr& host) {
          .arithmetic = host->settings().arithmetic,
          .runs = [host](int frame) { return runs(*host, {"emit"}, frame); },
          .in_place = from_any_state,
+         .keeps = {field::colour.field},
          .fast = [host](const PassInput& in, const Profile&, std::size_t first, std::size_t last,
                         const WritableView& after,
                         std::vector<std::size_t>& left) { emit_fast(*host, in, first, last, after, left); }},

@@ -14,7 +14,8 @@ std::unique_ptr<ItemPass> explode_pass(const HostPtr& host, std::size_t ball) {
                           [host, ball](int frame) {
                               return runs(*host, {"explode", ball}, frame);
                           },
-                      .in_place = from_any_state},
+                      .in_place = from_any_state,
+                      .keeps = {field::position.field, field::alive.field, field::colour.field}},
                      ExplodeTwin{host, ball});
 }
 

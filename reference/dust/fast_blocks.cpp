@@ -49,8 +49,10 @@ void copy_floats(const View& before, FieldId field, std::size_t first, std::size
 
 void keep(const View& before, std::size_t first, std::size_t last, const WritableView& after, bool exact) {
     for (const FieldId field : {field::position, field::velocity, field::colour})
-        copy_floats(before, field, first, last, after, exact);
-    if (const auto* alive = words_at(before, field::alive, first); alive != words_at(after, field::alive, first))
+        if (has(after, field))
+            copy_floats(before, field, first, last, after, exact);
+    const auto* alive = words_at(before, field::alive, first);
+    if (has(after, field::alive) && alive != words_at(after, field::alive, first))
         std::memcpy(words_at(after, field::alive, first), alive, (last - first) * sizeof(std::int32_t));
 }
 

@@ -12,6 +12,9 @@
 /// What the fast ways of kernels share (ItemPassOptions::fast): grains in blocks of block_size.
 namespace lockstep::dust {
 
+/// Whether a view to write has the field.
+inline bool has(const WritableView& view, FieldId field) { return view.columns[field.field] != nullptr; }
+
 /// Where a field's words of a grain lie.
 template <class Byte> Byte* words_at(const BasicView<Byte>& view, FieldId field, std::size_t grain) {
     return view.columns[field.field] +

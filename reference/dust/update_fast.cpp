@@ -193,13 +193,13 @@ void store(const Block& block, std::size_t first, std::size_t last, const View& 
     const std::size_t bytes = 3 * (last - first) * sizeof(float);
     std::memcpy(words_at(after, field::position, to), block.next.data() + 3 * first, bytes);
     std::memcpy(words_at(after, field::velocity, to), block.velocity.data() + 3 * first, bytes);
-    std::byte* colour = words_at(after, field::colour, to);
-    if (exact) {
+    std::byte* colour = has(after, field::colour) ? words_at(after, field::colour, to) : nullptr;
+    if (exact && colour != nullptr) {
         std::array<float, words> flushed{};
         std::memcpy(flushed.data(), words_at(before, field::colour, to), bytes);
         flush(flushed);
         std::memcpy(colour, flushed.data(), bytes);
-    } else if (const std::byte* kept = words_at(before, field::colour, to); kept != colour) {
+    } else if (const std::byte* kept = words_at(before, field::colour, to); colour != nullptr && kept != colour) {
         std::memcpy(colour, kept, bytes);
     }
     std::memcpy(words_at(after, field::alive, to), block.alive.data() + first, (last - first) * sizeof(std::int32_t));

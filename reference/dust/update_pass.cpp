@@ -11,7 +11,8 @@ std::unique_ptr<ItemPass> update_pass(const HostPtr& host) {
                             .stage = PassStage::compute,
                             .arithmetic = host->settings().arithmetic,
                             .runs = [host](int frame) { return runs(*host, {"update"}, frame); },
-                            .in_place = from_any_state};
+                            .in_place = from_any_state,
+                            .keeps = {field::colour.field}};
     return item_pass(std::move(options), UpdateTwin{host});
 }
 

@@ -11,7 +11,8 @@ std::unique_ptr<ItemPass> vacuum_up_pass(const HostPtr& host) {
                       .stage = PassStage::compute,
                       .arithmetic = host->settings().arithmetic,
                       .runs = [host](int frame) { return runs(*host, {"vacuum_up"}, frame); },
-                      .in_place = from_any_state},
+                      .in_place = from_any_state,
+                      .keeps = {field::colour.field}},
                      VacuumUpTwin{host});
 }
 

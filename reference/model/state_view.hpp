@@ -28,7 +28,7 @@ template <class Byte> struct BasicView {
     const Schema* schema = nullptr;
     std::uint8_t resource = 0;
     Extent extent;
-    std::vector<Byte*> columns; ///< one a field
+    std::vector<Byte*> columns; ///< one a field; null: left out, where a function says that it may be
 
     [[nodiscard]] const Resource& about() const { return schema->resources[resource]; }
     [[nodiscard]] const std::vector<Field>& fields() const { return about().fields; }

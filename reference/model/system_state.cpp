@@ -16,7 +16,7 @@ BasicView<Byte> view_of(const Schema& schema, std::uint8_t resource, Extent exte
     BasicView<Byte> view{&schema, resource, extent, {}};
     const std::size_t first = schema.column({resource, 0});
     for (std::size_t f = 0; f < schema.resources[resource].fields.size(); ++f)
-        view.columns.push_back(state_view::bytes(columns[first + f]));
+        view.columns.push_back(columns[first + f].bytes());
     return view;
 }
 
@@ -76,6 +76,22 @@ std::uint32_t SystemView::total(FieldId field, int component) const {
     return sum;
 }
 
+Column& Column::operator=(const Column& other) {
+    if (words_ == other.words_)
+        return *this;
+    if (words_.use_count() == 1)
+        *words_ = *other.words_;
+    else
+        words_ = std::make_shared<Words>(*other.words_);
+    return *this;
+}
+
+std::byte* Column::bytes() {
+    if (words_.use_count() > 1)
+        words_ = std::make_shared<Words>(*words_);
+    return reinterpret_cast<std::byte*>(words_->data());
+}
+
 SystemState::SystemState(const Schema& schema, std::vector<Extent> extents)
     : schema_(&schema), extents_(std::move(extents)) {
     if (extents_.size() != schema.resources.size())
@@ -106,6 +122,18 @@ SystemView SystemState::view() const {
     for (std::size_t r = 0; r < extents_.size(); ++r)
         all.resources.push_back((*this)[static_cast<std::uint8_t>(r)]);
     return all;
+}
+
+WritableView SystemState::all_but(std::span<const std::uint8_t> kept, std::uint8_t resource) {
+    WritableView view{schema_, resource, extents_[resource], {}};
+    for (std::uint8_t f = 0; f < schema_->resources[resource].fields.size(); ++f)
+        view.columns.push_back(
+            std::ranges::find(kept, f) != kept.end() ? nullptr : columns_[schema_->column({resource, f})].bytes());
+    return view;
+}
+
+void SystemState::share(FieldId field, const SystemState& other) {
+    columns_[schema_->column(field)].share(other.columns_[other.schema_->column(field)]);
 }
 
 void SystemState::take(std::uint8_t resource, const SystemState& other) {
@@ -143,7 +171,8 @@ void SystemState::set(FieldId field, std::size_t item, std::uint32_t value, int 
     if (!known || item >= items || component < 0 || component >= (*schema_)[field].components)
         throw_outside_of(*schema_, items, field, item, component);
     const auto components = static_cast<std::size_t>((*schema_)[field].components);
-    columns_[schema_->column(field)][item * components + static_cast<std::size_t>(component)] = value;
+    const std::size_t word = item * components + static_cast<std::size_t>(component);
+    std::memcpy(columns_[schema_->column(field)].bytes() + word * sizeof value, &value, sizeof value);
 }
 
 void SystemState::set(FieldId field, std::size_t item, std::int32_t value, int component) {

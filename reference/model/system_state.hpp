@@ -3,7 +3,9 @@
 #include <cstddef>
 #include <cstdint>
 #include <cstring>
+#include <memory>
 #include <set>
+#include <span>
 #include <string_view>
 #include <vector>
 
@@ -86,6 +88,26 @@ struct SystemView {
     [[noreturn]] void throw_outside(FieldId field, std::size_t item, int component) const;
 };
 
+/// The words of one field. Two may share them until one is written.
+class Column {
+  public:
+    explicit Column(std::size_t size) : words_(std::make_shared<Words>(size)) {}
+    ~Column() = default;
+    Column(const Column& other) : words_(std::make_shared<Words>(*other.words_)) {}
+    Column(Column&&) noexcept = default;
+    Column& operator=(const Column& other);
+    Column& operator=(Column&&) noexcept = default;
+
+    void share(const Column& other) { words_ = other.words_; }
+    void swap(Column& other) noexcept { words_.swap(other.words_); }
+    [[nodiscard]] const std::byte* bytes() const { return reinterpret_cast<const std::byte*>(words_->data()); }
+    [[nodiscard]] std::byte* bytes();
+
+  private:
+    using Words = std::vector<std::uint32_t>;
+    std::shared_ptr<Words> words_;
+};
+
 /// A state of its own: of each field an array of 32-bit words, zero at first.
 class SystemState {
   public:
@@ -101,7 +123,11 @@ class SystemState {
     [[nodiscard]] WritableView operator[](std::uint8_t resource);
     [[nodiscard]] View operator[](std::uint8_t resource) const;
     [[nodiscard]] SystemView view() const;
+    /// To write all fields of a resource but those of `kept`, whose columns are null.
+    [[nodiscard]] WritableView all_but(std::span<const std::uint8_t> kept, std::uint8_t resource);
 
+    /// One field as `other` has it, without a copy until one of the two is written.
+    void share(FieldId field, const SystemState& other);
     /// What `other`, a state of the same schema and extents, has of a resource.
     void take(std::uint8_t resource, const SystemState& other);
     /// The same, both ways and without a copy. Views of the resource then show the other's.
@@ -118,7 +144,7 @@ class SystemState {
   private:
     const Schema* schema_ = nullptr;
     std::vector<Extent> extents_;
-    std::vector<std::vector<std::uint32_t>> columns_; ///< Schema::column
+    std::vector<Column> columns_; ///< Schema::column
 };
 
 /// The place of a field by its name. Throws Error naming those there are.

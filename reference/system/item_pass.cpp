@@ -30,4 +30,11 @@ void run_pass(const ItemPass& pass, const PassInput& in, const Profile& profile,
                     [&](std::size_t first, std::size_t last) { pass.run(in, profile, first, last, after); });
 }
 
+void run_pass(const ItemPass& pass, const SystemState& before, int frame, const Profile& profile, SystemState& after) {
+    const std::uint8_t r = pass.resource();
+    for (const std::uint8_t f : pass.keeps())
+        after.share({r, f}, before);
+    run_pass(pass, {before.view(), frame}, profile, after.all_but(pass.keeps(), r));
+}
+
 } // namespace lockstep

@@ -94,6 +94,10 @@ class ItemPass {
     /// state that `in` reads.
     [[nodiscard]] virtual bool in_place(const PassInput& /*in*/) const { return false; }
 
+    /// The fields of its buffer that it leaves as they are in every item, whatever it reads. run() and run_all() do not
+    /// write columns that are null.
+    [[nodiscard]] virtual std::span<const std::uint8_t> keeps() const { return {}; }
+
     /// The items that the pass appends in an order that nothing fixes: legal is any that has each of them once.
     /// Nothing: each item has its place.
     [[nodiscard]] virtual std::optional<ItemRange> appended(const PassInput& /*in*/) const { return {}; }
@@ -146,5 +150,8 @@ class ItemPass {
 
 /// All items of the pass's buffer. The same bits for any number of threads.
 void run_pass(const ItemPass& pass, const PassInput& in, const Profile& profile, const WritableView& after);
+
+/// The same from one state into another, which comes to share the fields that the pass keeps.
+void run_pass(const ItemPass& pass, const SystemState& before, int frame, const Profile& profile, SystemState& after);
 
 } // namespace lockstep

@@ -1,5 +1,6 @@
 #pragma once
 #include <algorithm>
+#include <array>
 #include <bit>
 #include <concepts>
 #include <functional>
@@ -137,11 +138,16 @@ struct WordColumn {
     std::size_t stride; ///< bytes from item to item
 };
 
+/// Those of a field that is left out are one word, which is never read.
 inline std::vector<WordColumn> word_columns(const WritableView& state) {
+    static thread_local std::array<std::byte, sizeof(std::uint32_t)> unread;
     std::vector<WordColumn> all;
     for (const Component& c : components(state.about()))
-        all.push_back({state.columns[c.field] + static_cast<std::size_t>(c.component) * sizeof(std::uint32_t),
-                       static_cast<std::size_t>(state.fields()[c.field].components) * sizeof(std::uint32_t)});
+        if (state.columns[c.field] == nullptr)
+            all.push_back({unread.data(), 0});
+        else
+            all.push_back({state.columns[c.field] + static_cast<std::size_t>(c.component) * sizeof(std::uint32_t),
+                           static_cast<std::size_t>(state.fields()[c.field].components) * sizeof(std::uint32_t)});
     return all;
 }
 
@@ -180,6 +186,8 @@ struct ItemPassOptions {
     bool derived = false;                                   ///< ItemPass::derived
     bool unordered = false;                                 ///< ItemPass::unordered
     std::function<bool(const PassInput& in)> in_place = {}; ///< ItemPass::in_place; empty: from no state
+    /// ItemPass::keeps. check() holds the twin to it in its first run.
+    std::vector<std::uint8_t> keeps = {};
     /// ItemPass::appended; empty: each item has its place.
     std::function<ItemRange(const PassInput& in)> appended = {};
     /// A faster way to the twin's bits, held to them by a test: makes those of items first to last, the last excluded,
@@ -210,6 +218,7 @@ template <class Twin> class ItemTwin final : public ItemPass {
     [[nodiscard]] bool in_place(const PassInput& in) const override {
         return options_.in_place && options_.in_place(in);
     }
+    [[nodiscard]] std::span<const std::uint8_t> keeps() const override { return options_.keeps; }
     [[nodiscard]] bool unordered() const override { return options_.unordered; }
     [[nodiscard]] std::optional<ItemRange> appended(const PassInput& in) const override {
         return options_.appended ? std::optional(options_.appended(in)) : std::nullopt;

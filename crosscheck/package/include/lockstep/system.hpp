@@ -31,9 +31,7 @@ class GlSystemSide final : public SystemSide {
     void read(SystemState& state) const override { system_.read(state); }
     [[nodiscard]] std::optional<bool> holds(const View& state) const override { return system_.holds(state); }
     [[nodiscard]] std::optional<bool> left(const View& before) const override { return system_.left(before); }
-    [[nodiscard]] std::optional<std::vector<std::uint8_t>> reached_by(std::size_t pass) const override {
-        return system_.reached_by(pass);
-    }
+    [[nodiscard]] bool reaches(std::size_t pass, FieldId field) const override { return system_.reaches(pass, field); }
     [[nodiscard]] bool repeats() const override { return true; }
     void lay_canary(std::size_t pass) override { system_.lay_canary(pass); }
     void repeat_step(std::size_t pass, int frame) override { system_.repeat_step(pass, frame); }

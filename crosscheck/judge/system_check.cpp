@@ -18,8 +18,8 @@
 #include "crosscheck/judge/power.hpp"
 #include "crosscheck/judge/stopwatch.hpp"
 #include "crosscheck/judge/system_run.hpp"
+#include "crosscheck/judge/unwritten.hpp"
 #include "crosscheck/judge/wrong_step.hpp"
-#include "gpu/canary.hpp"
 #include "gpu/system_side.hpp"
 #include "reference/model/error.hpp"
 
@@ -56,9 +56,10 @@ class SystemChecker {
     SystemChecker(const System& system, SystemSide& gpu, const CheckOptions& options, const CheckWatch& watch)
         : system_(system), gpu_(gpu), options_(options), watch_(watch), profile_(gpu.describe().profile),
           known_(options.known.value_or(measured_operations(profile_))), judged_(options.mode == CheckMode::resync),
-          summary_(system.schema), has_cause_(system.passes.size()), append_causes_(system.passes.size()),
-          power_(system.mistakes), paces_(system.passes.size()), earlier_(system.passes.size()), before_(system.start),
-          now_(system.start), reference_(system.start), made_(system.start) {
+          summary_(system.schema), has_run_(system.passes.size()), has_cause_(system.passes.size()),
+          unwritten_(system.passes.size()), append_causes_(system.passes.size()), power_(system.mistakes),
+          paces_(system.passes.size()), earlier_(system.passes.size()), before_(system.start), now_(system.start),
+          reference_(system.start), made_(system.start) {
         for (const auto& pass : system.passes)
             causes_.emplace_back(system.mistakes, pass->name());
         report_.schema = system.schema;
@@ -111,9 +112,10 @@ class SystemChecker {
         const std::uint8_t r = pass.resource();
         if (!pass.continues() && !dispatch(p))
             return false;
-        const SystemView from = judged_ ? before_.view() : reference_.view();
-        run_twin(pass, from);
-        const bool holds = gpu_holds_made(r);
+        const SystemState& start = judged_ ? before_ : reference_;
+        const SystemView from = start.view();
+        run_twin(p, start);
+        const bool holds = gpu_holds_made(p, from);
         if (!holds)
             read();
         const Comparison comparison = compare_made(r, from, holds);
@@ -188,21 +190,31 @@ class SystemChecker {
 
     // The reference beside it.
 
-    void run_twin(const ItemPass& pass, const SystemView& from) {
+    /// The first run of a pass shows whether its twin keeps what it says.
+    void run_twin(std::size_t p, const SystemState& start) {
+        const ItemPass& pass = *system_.passes[p];
+        const std::uint8_t r = pass.resource();
         try {
             const Stopwatch timing(times_.reference);
-            run_pass(pass, {from, frame_}, profile_, made_[pass.resource()]);
+            const bool is_known = has_run_[p];
+            has_run_[p] = true;
+            if (is_known)
+                return run_pass(pass, start, frame_, profile_, made_);
+            run_pass(pass, {start.view(), frame_}, profile_, made_[r]);
+            expect_kept(pass, start[r], std::as_const(made_)[r], frame_);
         } catch (const OutsideState& error) {
             throw Error(fmt::format("frame {}: the twin of {}: {}", frame_, pass.name(), error.what()));
         }
     }
 
     /// Whether the GPU holds what the twin made, as far as can be seen without reading it back.
-    bool gpu_holds_made(std::uint8_t r) {
+    bool gpu_holds_made(std::size_t p, const SystemView& from) {
         if (is_read_)
             return false;
         const Stopwatch timing(times_.compare);
-        return gpu_.holds(std::as_const(made_)[r]) == true;
+        const std::uint8_t r = system_.passes[p]->resource();
+        const View made = std::as_const(made_)[r];
+        return gpu_.holds(shared_.contains(r) ? without_kept(made, from[r], gpu_, dispatch_) : made) == true;
     }
 
     Comparison compare_made(std::uint8_t r, const SystemView& from, bool holds) {
@@ -225,27 +237,20 @@ class SystemChecker {
         paces_[p].tried(power_.add(tried, {}));
     }
 
-    /// Whether the pass, run again over what was laid in its buffer, writes all that diverges. False where that cannot
-    /// be seen: buffers that are changed in place have no room to lay it in.
-    bool writes_divergent(const JudgedPass& one, const std::vector<ItemVerdict>& verdicts) {
+    /// The pass once more, over a pattern in its buffer. Nothing where it cannot be laid: buffers that are changed in
+    /// place have no room for it.
+    std::optional<Unwritten> run_over_canary(const JudgedPass& one, const std::vector<ItemVerdict>& verdicts) {
         const std::span<const Field> fields = one.gpu.fields();
         if (one.pass.continues() || !gpu_.repeats() ||
             std::ranges::any_of(fields, [](const Field& field) { return !field.block.empty(); }))
-            return false;
+            return {};
         gpu_.upload(std::as_const(before_).view());
         gpu_.lay_canary(dispatch_);
         gpu_.step(dispatch_, frame_);
         SystemState again = now_;
         gpu_.read(again);
         gpu_.upload(std::as_const(now_).view());
-        const View view = std::as_const(again)[one.pass.resource()];
-        const auto holds_canary = [&](const ItemVerdict& verdict) {
-            return verdict.kind == DifferenceClass::divergent &&
-                   std::ranges::any_of(components(view.about()), [&](const Component& c) {
-                       return view.value(c.field, verdict.index, c.component).bits == canary_word;
-                   });
-        };
-        return std::ranges::none_of(verdicts, holds_canary);
+        return unwritten_in(std::as_const(again)[one.pass.resource()], verdicts);
     }
 
     std::vector<ItemVerdict> judge(JudgedPass& one, std::size_t p) {
@@ -265,7 +270,11 @@ class SystemChecker {
         if (diverges && options_.causes && one.pass.appended(one.input()))
             append_causes_[p].add(one);
         else if (diverges && options_.causes) {
-            one.surely_written = !has_cause_[p] && writes_divergent(one, verdicts);
+            if (!has_cause_[p])
+                if (const std::optional<Unwritten> left = run_over_canary(one, verdicts)) {
+                    one.surely_written = left->none;
+                    unwritten_[p] = left->cause;
+                }
             has_cause_[p] = true;
             causes_[p].add(one, verdicts);
         }
@@ -331,8 +340,9 @@ class SystemChecker {
 
     void conclude_verdicts() {
         for (std::size_t p = 0; p < causes_.size(); ++p) {
-            const CauseFindings found =
-                append_causes_[p].empty() ? causes_[p].findings() : append_causes_[p].findings();
+            const CauseFindings found = !unwritten_[p].best.empty() ? unwritten_[p]
+                                        : append_causes_[p].empty() ? causes_[p].findings()
+                                                                    : append_causes_[p].findings();
             CauseFindings& of_buffer = summary_.causes[system_.passes[p]->resource()];
             if (found.divergent > of_buffer.divergent)
                 of_buffer = found;
@@ -355,8 +365,10 @@ class SystemChecker {
 
     CheckReport report_;
     VerdictSummary summary_;
-    std::vector<ItemCauseFinder> causes_; ///< of each pass, as those that follow
-    std::vector<bool> has_cause_;         ///< one was looked for
+    std::vector<bool> has_run_;            ///< each pass, at least once
+    std::vector<ItemCauseFinder> causes_;  ///< of each pass, as those that follow
+    std::vector<bool> has_cause_;          ///< one was looked for
+    std::vector<CauseFindings> unwritten_; ///< of what diverges first
     std::vector<AppendCause> append_causes_;
     ItemHint hint_;
     PowerMeter power_;

@@ -76,7 +76,7 @@ std::uint32_t SystemView::total(FieldId field, int component) const {
     return sum;
 }
 
-Column& Column::operator=(const Column& other) {
+SystemState::Column& SystemState::Column::operator=(const Column& other) {
     if (words_ == other.words_)
         return *this;
     if (words_.use_count() == 1)
@@ -86,7 +86,7 @@ Column& Column::operator=(const Column& other) {
     return *this;
 }
 
-std::byte* Column::bytes() {
+std::byte* SystemState::Column::bytes() {
     if (words_.use_count() > 1)
         words_ = std::make_shared<Words>(*words_);
     return reinterpret_cast<std::byte*>(words_->data());

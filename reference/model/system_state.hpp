@@ -88,26 +88,6 @@ struct SystemView {
     [[noreturn]] void throw_outside(FieldId field, std::size_t item, int component) const;
 };
 
-/// The words of one field. Two may share them until one is written.
-class Column {
-  public:
-    explicit Column(std::size_t size) : words_(std::make_shared<Words>(size)) {}
-    ~Column() = default;
-    Column(const Column& other) : words_(std::make_shared<Words>(*other.words_)) {}
-    Column(Column&&) noexcept = default;
-    Column& operator=(const Column& other);
-    Column& operator=(Column&&) noexcept = default;
-
-    void share(const Column& other) { words_ = other.words_; }
-    void swap(Column& other) noexcept { words_.swap(other.words_); }
-    [[nodiscard]] const std::byte* bytes() const { return reinterpret_cast<const std::byte*>(words_->data()); }
-    [[nodiscard]] std::byte* bytes();
-
-  private:
-    using Words = std::vector<std::uint32_t>;
-    std::shared_ptr<Words> words_;
-};
-
 /// A state of its own: of each field an array of 32-bit words, zero at first.
 class SystemState {
   public:
@@ -142,6 +122,26 @@ class SystemState {
     void set(FieldId field, std::size_t item, glm::vec4 value);
 
   private:
+    /// The words of one field. Two may share them until one is written.
+    class Column {
+      public:
+        explicit Column(std::size_t size) : words_(std::make_shared<Words>(size)) {}
+        ~Column() = default;
+        Column(const Column& other) : words_(std::make_shared<Words>(*other.words_)) {}
+        Column(Column&&) noexcept = default;
+        Column& operator=(const Column& other);
+        Column& operator=(Column&&) noexcept = default;
+
+        void share(const Column& other) { words_ = other.words_; }
+        void swap(Column& other) noexcept { words_.swap(other.words_); }
+        [[nodiscard]] const std::byte* bytes() const { return reinterpret_cast<const std::byte*>(words_->data()); }
+        [[nodiscard]] std::byte* bytes();
+
+      private:
+        using Words = std::vector<std::uint32_t>;
+        std::shared_ptr<Words> words_;
+    };
+
     const Schema* schema_ = nullptr;
     std::vector<Extent> extents_;
     std::vector<Column> columns_; ///< Schema::column

@@ -192,11 +192,12 @@ TEST_CASE("emitters' graphs: a lifetime stays within the emitter's, whatever a g
         return skip(gl().missing());
     for (const char* const life : {"-1", "1e30", "\"nan\""}) {
         lifecycle::Settings s = in_exact(small());
-        s.emitters.front().emission = graph_of(
-            "emission", std::string(R"({"nodes": [{"id": "zero", "type": "subtract", "inputs": {"a": 1, "b": 1}},
+        s.emitters.front().emission =
+            graph_of("emission", std::string(R"({"nodes": [{"id": "time", "type": "input", "value": "time"},
+                                           {"id": "zero", "type": "subtract", "inputs": {"a": "time", "b": "time"}},
                                            {"id": "nan", "type": "divide", "inputs": {"a": 0, "b": "zero"}}],
                                  "outputs": {"lifetime": )") +
-                            life + "}}");
+                                     life + "}}");
         INFO(life);
         CHECK(run_lifecycle(s, 40, CheckMode::free).verdict == Verdict::agree);
         const SystemState state = after(s, 40);

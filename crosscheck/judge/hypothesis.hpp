@@ -19,6 +19,7 @@ struct Hypothesis {
     const NamedMistake* alike = nullptr;           ///< the named one that is this very change, held to rounding here
     std::string text = {};                         ///< of one without a name; or the named one's constants
     std::array<std::uint8_t, 2> fields = {};       ///< of the host's mistake
+    bool loosely = false;                          ///< need only come near, whatever is made
     std::uint64_t explained = 0, contradicted = 0; ///< divergent items; ones that agree, and would not
     std::uint64_t distinct = 0;                    ///< of those that it has right, which no description has
     std::uint64_t telling = 0;                     ///< of those explained, which are off by more than rounding

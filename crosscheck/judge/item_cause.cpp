@@ -162,10 +162,10 @@ void ItemCauseFinder::try_pairs(const Trial& trial, const std::vector<Hypothesis
             tried_.insert(tried_.begin(), pairs[p]);
 }
 
-/// Whether enough items speak against either alone.
+/// Whether enough items speak against either alone, held to no more than both are.
 bool ItemCauseFinder::needs_both(const Hypothesis& pair, const Trial& trial) {
     for (std::size_t part = 0; part < pair.made.size(); ++part) {
-        const Hypothesis alone{.made = {pair.made[part]}, .named = {pair.named[part]}};
+        const Hypothesis alone{.made = {pair.made[part]}, .named = {pair.named[part]}, .loosely = pair.rounds()};
         const auto unlike = [&](std::span<const std::size_t> items) {
             return static_cast<std::uint64_t>(std::count_if(
                 items.begin(), items.end(), [&](std::size_t item) { return !explains(alone, trial.likeness, item); }));

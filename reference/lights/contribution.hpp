@@ -53,9 +53,10 @@ template <class R> typename R::Vec3 voxel_point(R& r, const Host& host, const Vo
     const auto h = r.uniform(site::voxel_size, host.grid().voxel);
     const auto x = r.note(site::voxel_x, R::real(v.x)), y = r.note(site::voxel_y, R::real(v.y)),
                z = r.note(site::voxel_z, R::real(v.z));
+    const auto i = r.note(site::voxel_index, typename R::Vec3{x, y, z});
     const typename R::Vec3 origin = r.uniform(site::low, host.grid().origin);
     return r.note(site::voxel_point,
-                  typename R::Vec3{origin.x + (x + o) * h, origin.y + (y + o) * h, origin.z + (z + o) * h});
+                  typename R::Vec3{origin.x + (i.x + o) * h, origin.y + (i.y + o) * h, origin.z + (i.z + o) * h});
 }
 
 /// What a light adds to a voxel: colour, direction and weight, and 1 to the count. Twin of shaders/lights/light.glsl.
@@ -104,7 +105,8 @@ template <class R> std::optional<Contribution<R>> contribution(R& r, const Host&
     if (on.direction == Direction::unit) {
         if (r.setting(site::on_the_point, on.zero_distance == ZeroDistance::skip))
             if (r.decide(site::on_the_point, s == Real(0.0F)))
-                return made;
+                return r.setting(site::point_counts, true) ? std::optional(made) : std::nullopt;
+        r.read(site::way, state.vec3(field::light_direction, light));
         const Real inverse = r.note(site::inverse, r.divide(site::inverse, Real(1.0F), r.sqrt(site::distance, s)));
         d = r.note(site::unit, q * inverse);
     }

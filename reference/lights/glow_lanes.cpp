@@ -23,7 +23,8 @@ void glow_row(const GlowTwin& twin, const A& fp, const PassInput& in, std::size_
     const std::byte* before = in.before[field::pixel.resource].columns[field::pixel.field];
     const auto item_at = [&](const Pixel& place) { return item_of(place.x, place.y, width); };
     draw_rows(
-        twin.boxes, width, twin.host->settings().height, tiles, [](const Pixel&) { return Row{}; },
+        twin.boxes->of({}, *twin.host, in.before), width, twin.host->settings().height, tiles,
+        [](const Pixel&) { return Row{}; },
         [&](std::uint32_t i, const Pixel&) {
             std::optional<GlowTwin::Disc<R>> wide;
             const auto number = [](const auto& x) { return typename R::Real(static_cast<float>(x)); };

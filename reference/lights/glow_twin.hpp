@@ -1,7 +1,10 @@
 #pragma once
+#include <memory>
 #include <optional>
+#include <utility>
 #include <vector>
 
+#include "reference/lights/glow_boxes.hpp"
 #include "reference/lights/lighting_twin.hpp"
 #include "reference/plain_arithmetic.hpp"
 #include "reference/system/tile_rows.hpp"
@@ -18,9 +21,23 @@ void draw_row(const GlowTwin& twin, const PlainArithmetic& arithmetic, const Pas
 /// the driver is followed, else in any. Twin of shaders/lights/glow_pass.*.
 struct GlowTwin {
     HostPtr host;
-    BoxesByTile boxes = {};
+    std::shared_ptr<const GlowBoxes> boxes = {};
+    GlowDrawing drawing = {};
+    std::size_t rows = 0; ///< of tiles
+    glm::mat4 to_clip{1.0F};
 
-    [[nodiscard]] GlowTwin at(const PassInput& in) const { return {host, glow_boxes(*host, in.before)}; }
+    [[nodiscard]] GlowTwin at(const PassInput& in) const {
+        auto made = std::make_shared<const GlowBoxes>();
+        const std::size_t all = made->of({}, *host, in.before).rows();
+        return {host, std::move(made), {}, all, host->view_projection()};
+    }
+    [[nodiscard]] GlowTwin handed(std::span<const Mistake> made) const {
+        GlowTwin mistaken = *this;
+        mistaken.drawing = glow_drawing(made);
+        if (mistaken.drawing.matrix != WrongDrawing::none)
+            mistaken.to_clip = handed_matrix(*host, mistaken.drawing.matrix);
+        return mistaken;
+    }
 
     template <class R> ItemWords<R> operator()(R& r, const PassInput& in, std::size_t item) const {
         using Real = typename R::Real;
@@ -28,27 +45,31 @@ struct GlowTwin {
         const Pixel pixel = Pixel::of(host->settings().width, item);
         const glm::vec4 before = in.before.vec4(field::pixel, item);
         Vec3 sum = r.read(site::lit_before, glm::vec3(before));
+        Real alpha = r.read(site::lit_before, before.w);
+        const bool is_added = r.setting(site::blends, true), keeps_alpha = r.setting(site::keeps_alpha, true);
+        const BoxesByTile& tried = boxes->of(drawing, *host, in.before);
         std::vector<Vec3> terms; // in any order
         if (!host->follows_driver())
             terms.push_back(sum);
-        for (const std::uint32_t i : boxes.near(pixel))
-            if (pixel.is_in(boxes.box(i)))
+        for (const std::uint32_t i : tried.near(pixel))
+            if (pixel.is_in(tried.box(i)))
                 if (const auto disc = disc_of(r, in, i))
                     offer(r, in, *disc, pixel, item, [&](bool covered, const Vec3& c) {
                         if (!covered)
                             return;
-                        sum = sum + c;
+                        sum = is_added ? sum + c : c;
+                        if (!is_added || !keeps_alpha)
+                            alpha = is_added ? alpha + Real(1.0F) : Real(0.0F);
                         if (!host->follows_driver())
                             terms.push_back(c);
                     });
         if (terms.size() > 1)
             sum = in_any_order(r, terms);
-        const Real alpha = r.read(site::lit_before, before.w);
         return words_of<R>(r.note(site::lit, typename R::Vec4{sum.x, sum.y, sum.z, alpha}));
     }
 
     // Light by light, a row of tiles at a time (glow_lanes.cpp).
-    [[nodiscard]] std::size_t parts() const { return boxes.rows(); }
+    [[nodiscard]] std::size_t parts() const { return rows; }
     template <class A>
     void part(const Values<A>& r, const PassInput& in, std::size_t row, const WritableView& after) const {
         draw_row(*this, arithmetic_of(r), in, row, after);
@@ -64,7 +85,7 @@ struct GlowTwin {
         using Real = typename R::Real;
         const Real zero(0.0F), one(1.0F), half(0.5F);
         Disc<R> disc{light, {}, {}, {}, {}, {}};
-        disc.clip = r.note(site::clip, r.transform(site::clip, r.uniform(site::projection, host->view_projection()),
+        disc.clip = r.note(site::clip, r.transform(site::clip, r.uniform(site::projection, to_clip),
                                                    r.read(site::before, in.before.vec3(field::light_position, light))));
         if (!r.decide(site::before_camera, disc.clip.w > zero))
             return {};

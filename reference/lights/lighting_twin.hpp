@@ -16,6 +16,8 @@ typename R::Vec3 radiance(R& r, const Host& host, const SystemView& state, const
     const Vec3 u = r.note(site::grid_place, (surface.position - r.uniform(site::low, host.grid().origin)) *
                                                 r.uniform(site::inv_voxel, host.inv_voxel()));
     const Sample<R> s = SamplingTwin<R>(r, host, state).mean_at(u);
+    r.note(site::sampled_count, s[3]);
+    const Real weight = r.note(site::sampled_weight, s[7]);
     const Vec3 d = r.note(site::sampled_direction, Vec3{s[4], s[5], s[6]});
     const Vec3 colour_at = r.note(site::sampled_colour, Vec3{s[0], s[1], s[2]});
     const Real m = r.note(site::length2, (d.x * d.x + d.y * d.y) + d.z * d.z);
@@ -34,9 +36,10 @@ typename R::Vec3 radiance(R& r, const Host& host, const SystemView& state, const
             diffuse = cosine;
         diffuse = r.note(site::lambert, diffuse);
         if (on.shading == Shading::directionality) {
+            const Real share = r.divide(site::directionality, length, weight);
             const Real k =
-                r.note(site::directionality, r.min(Real(1.0F), r.divide(site::directionality, length, s[7])));
-            diffuse = k * diffuse + (Real(1.0F) - k) * Real(0.25F);
+                r.note(site::directionality, r.setting(site::is_one, true) ? r.min(Real(1.0F), share) : share);
+            diffuse = k * diffuse + (Real(1.0F) - k) * r.uniform(site::even_share, 0.25F);
         }
     }
     diffuse = r.note(site::diffuse, diffuse);
@@ -67,14 +70,33 @@ struct DrawnTwin {
     std::shared_ptr<const LatestTriangles> triangles; ///< one for all images
     std::shared_ptr<const TriangleView> view = {};
     std::shared_ptr<const SeenTriangles> seen = {}; ///< for readings of many lanes
+    std::shared_ptr<const WrongObstacleBoxes> wrong_boxes = {};
+    WrongDrawing drawing = WrongDrawing::none;
+    glm::mat4 to_clip{1.0F};
 
-    [[nodiscard]] DrawnTwin at(const PassInput& in) const { return {host, image, triangles, triangles->of(in.before)}; }
+    [[nodiscard]] DrawnTwin at(const PassInput& in) const {
+        return {host,
+                image,
+                triangles,
+                triangles->of(in.before),
+                {},
+                std::make_shared<const WrongObstacleBoxes>(),
+                WrongDrawing::none,
+                host->view_projection()};
+    }
+    [[nodiscard]] DrawnTwin handed(std::span<const Mistake> made) const {
+        DrawnTwin mistaken = *this;
+        mistaken.drawing = wrong_drawing(made);
+        if (mistaken.drawing != WrongDrawing::none)
+            mistaken.to_clip = handed_matrix(*host, mistaken.drawing);
+        return mistaken;
+    }
     void look(const PassInput& in) const { static_cast<void>(view->seen(in.before)); }
     bool fast(const FastRun& run) const; // image_lanes.cpp
 
     template <class R, class Item> ItemWords<R> operator()(R& r, const PassInput& in, const Item& item) const {
         using Real = typename R::Real;
-        const SurfaceTwin<R> drawn(r, *host, in.before, *view, seen.get());
+        const SurfaceTwin<R> drawn(r, *host, in.before, to_clip, boxes(in.before), seen.get());
         const auto hit = drawn.at(pixel_at(host->settings().width, item));
         ItemWords<R> words;
         switch (image) {
@@ -92,14 +114,24 @@ struct DrawnTwin {
                     words.add(std::uint32_t{0});
             return words;
         case Drawn::position:
-            return stored_words(r, site::stored_position, hit.has_value(), [&] { return drawn.position(*hit); });
+            return stored_words(r, site::stored_position, hit.has_value(), [&] {
+                const typename R::Vec3 p = drawn.position(*hit);
+                return r.setting(site::from_origin, true) ? p : p - r.uniform(site::eye, host->settings().camera.eye);
+            });
         case Drawn::normal:
-            return stored_words(r, site::stored_normal, hit.has_value(), [&] { return drawn.normal(*hit); });
+            return stored_words(r, site::stored_normal, hit.has_value(), [&] {
+                return r.setting(site::own_value, true) ? drawn.normal(*hit) : drawn.position(*hit);
+            });
         }
         return words;
     }
 
   private:
+    [[nodiscard]] const BoxesByTile& boxes(const SystemView& state) const {
+        return drawing == WrongDrawing::none
+                   ? view->boxes()
+                   : wrong_boxes->of(index_of(drawing), [&] { return obstacle_boxes(*host, state, drawing); });
+    }
     template <class R, class Part> ItemWords<R> stored_words(R& r, At at, bool is_there, const Part& part) const {
         typename R::Vec4 v{};
         if (is_there) {
@@ -128,22 +160,33 @@ struct DeferredTwin {
 
     template <class R, class Item> ItemWords<R> operator()(R& r, const PassInput& in, const Item& item) const {
         using Real = typename R::Real;
-        const Real valid = item_real(r, site::valid, in.before, field::texel_position, item, 3);
+        const Item from = read_at(r, item);
+        const Real valid = item_real(r, site::valid, in.before, field::texel_position, from, 3);
         if (!r.decide(site::is_valid, valid != Real(0.0F)))
             return words_of<R>(background_pixel(r, *host));
         Surface<R> surface;
-        surface.position = item_vec3(r, site::surface_point, in.before, field::texel_position, item);
-        surface.normal = item_vec3(r, site::surface_normal, in.before, field::texel_normal, item);
+        surface.position = item_vec3(r, site::surface_point, in.before, field::texel_position, from);
+        surface.normal = item_vec3(r, site::surface_normal, in.before, field::texel_normal, from);
         if constexpr (HasLanes<R>) {
             const auto share = [&](int c) {
-                return whole_real(r, in.before, field::texel_albedo, item, c) * Real(1.0F / 256.0F);
+                return whole_real(r, in.before, field::texel_albedo, from, c) * Real(1.0F / 256.0F);
             };
             surface.albedo = {share(0), share(1), share(2)};
         } else {
-            const auto code = [&](int c) { return static_cast<float>(in.before.word(field::texel_albedo, item, c)); };
+            const auto code = [&](int c) { return static_cast<float>(in.before.word(field::texel_albedo, from, c)); };
             surface.albedo = r.read(site::albedo, glm::vec3(code(0), code(1), code(2)) / 256.0F);
         }
         return words_of<R>(lit_pixel(r, radiance(r, *host, in.before, surface)));
+    }
+
+  private:
+    template <class R, class Item> [[nodiscard]] Item read_at(R& r, const Item& item) const {
+        if constexpr (!HasLanes<R>)
+            if (const Settings& s = host->settings(); !r.setting(site::same_row, true)) {
+                const Pixel pixel = Pixel::of(s.width, item);
+                return item_of(pixel.x, s.height - 1 - pixel.y, s.width);
+            }
+        return item;
     }
 };
 

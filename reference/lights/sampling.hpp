@@ -48,7 +48,8 @@ template <class R> class SamplingTwin {
     }
 
     [[nodiscard]] Sample<R> at(const Vec3& u) const {
-        switch (host_.switches().interpolation) {
+        const Interpolation how = host_.switches().interpolation;
+        switch (r_.setting(site::interpolates, true) ? how : Interpolation::nearest) {
         case Interpolation::nearest:
             return texel(whole(r_.floor(u.x)), whole(r_.floor(u.y)), whole(r_.floor(u.z)));
         case Interpolation::trilinear_hw:
@@ -70,8 +71,8 @@ template <class R> class SamplingTwin {
     [[nodiscard]] int whole(const Real& x) const {
         return static_cast<int>(r_.to_int(site::base, r_.note(site::base, x)));
     }
-    [[nodiscard]] Axis axis(const Real& u) const {
-        const Real t = u - r_.uniform(site::half_texel, 0.5F);
+    [[nodiscard]] Axis axis(const Real& u, const Site& half = site::half_texel) const {
+        const Real t = r_.note(site::texel_place, u - r_.uniform(half, 0.5F));
         const int base = whole(r_.floor(t));
         Real f = r_.note(site::fraction, t - r_.real(base));
         if (host_.switches().interpolation == Interpolation::trilinear8)
@@ -87,8 +88,10 @@ template <class R> class SamplingTwin {
         if (host_.switches().outside == Outside::black && !r_.decide(site::in_grid, inside))
             return found;
         const std::size_t i = v.index(host_.grid());
-        const glm::vec4 colour = state_.vec4(field::voxel_colour, i),
-                        direction = state_.vec4(field::voxel_direction, i);
+        const bool own_colour = r_.setting(site::own_colour, true),
+                   own_direction = r_.setting(site::own_direction, true);
+        const glm::vec4 colour = state_.vec4(own_colour ? field::voxel_colour : field::voxel_direction, i),
+                        direction = state_.vec4(own_direction ? field::voxel_direction : field::voxel_colour, i);
         for (int c = 0; c < 4; ++c) {
             found[static_cast<std::size_t>(c)] = r_.read(site::texel, colour[c]);
             found[static_cast<std::size_t>(c) + 4] = r_.read(site::texel, direction[c]);
@@ -105,24 +108,28 @@ template <class R> class SamplingTwin {
     }
     [[nodiscard]] Sample<R> linear(const Vec3& u) const {
         const Axis x = axis(u.x), y = axis(u.y), z = axis(u.z);
+        const Vec3 f = r_.note(site::fractions, Vec3{x.f, y.f, z.f});
         const auto along_x = [&](int dy, int dz) {
-            return lerp(texel(x.base, y.base + dy, z.base + dz), texel(x.base + 1, y.base + dy, z.base + dz), x.f);
+            return lerp(texel(x.base, y.base + dy, z.base + dz), texel(x.base + 1, y.base + dy, z.base + dz), f.x);
         };
-        const auto along_y = [&](int dz) { return lerp(along_x(0, dz), along_x(1, dz), y.f); };
-        return lerp(along_y(0), along_y(1), z.f);
+        const auto along_y = [&](int dz) { return lerp(along_x(0, dz), along_x(1, dz), f.y); };
+        return lerp(along_y(0), along_y(1), f.z);
     }
 
-    [[nodiscard]] std::array<Real, 4> weights(const Real& f) const {
-        const Real half(0.5F), one(1.0F), ff = f * f;
-        return {r_.note(site::weight_before, f * (Real(-0.5F) + f * (one - f * half))),
-                one + ff * (Real(-2.5F) + Real(1.5F) * f), f * (half + f * (Real(2.0F) - Real(1.5F) * f)),
-                ff * (Real(-0.5F) + half * f)};
+    [[nodiscard]] std::array<Real, 4> weights(const Real& of) const {
+        const Real f = r_.note(site::weighed, of), half(0.5F), one(1.0F), ff = f * f;
+        const typename R::Vec4 all{r_.note(site::weight_before, f * (Real(-0.5F) + f * (one - f * half))),
+                                   one + ff * (Real(-2.5F) + Real(1.5F) * f),
+                                   f * (half + f * (Real(2.0F) - Real(1.5F) * f)), ff * (Real(-0.5F) + half * f)};
+        const typename R::Vec4 w = r_.note(site::weights, all);
+        return {w.x, w.y, w.z, w.w};
     }
     [[nodiscard]] int first_of_four(const Axis& along) const {
         return static_cast<int>(r_.note(site::first_texel, typename R::Int(along.base - 1)));
     }
     [[nodiscard]] Sample<R> cubic(const Vec3& u) const {
-        const Axis x = axis(u.x), y = axis(u.y), z = axis(u.z);
+        const Site& half = site::half_texel_of_four;
+        const Axis x = axis(u.x, half), y = axis(u.y, half), z = axis(u.z, half);
         const std::array<Real, 4> wx = weights(x.f), wy = weights(y.f), wz = weights(z.f);
         const int first_x = first_of_four(x), first_y = first_of_four(y), first_z = first_of_four(z);
         const auto add = [](Sample<R>& sum, const Sample<R>& one, const Real& w, bool first) {

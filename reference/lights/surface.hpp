@@ -2,7 +2,9 @@
 #include <memory>
 #include <optional>
 
+#include "reference/lights/made_on_asking.hpp"
 #include "reference/lights/sites.hpp"
+#include "reference/lights/wrong_drawing.hpp"
 #include "reference/model/lights/host.hpp"
 #include "reference/model/lights/schema.hpp"
 #include "reference/system/item_pass.hpp"
@@ -13,8 +15,9 @@ namespace lockstep::lights {
 
 /// The obstacles before the camera.
 std::shared_ptr<const LatestTriangles> obstacle_triangles(const Host& host);
-/// Of each glow of a state the pixels that it may cover: what lies outside is not tried.
-BoxesByTile glow_boxes(const Host& host, const SystemView& state);
+/// Of each triangle the pixels that it may cover by mistake.
+BoxesByTile obstacle_boxes(const Host& host, const SystemView& state, WrongDrawing how);
+using WrongObstacleBoxes = MadeOnAsking<BoxesByTile, wrong_drawings>;
 
 /// What a pixel shows.
 template <class R> struct Surface { typename R::Vec3 position, normal, albedo; };
@@ -25,10 +28,11 @@ template <class R> class SurfaceTwin {
     using Vec3 = typename R::Vec3;
 
   public:
-    SurfaceTwin(R& r, const Host& host, const SystemView& state, const TriangleView& view, const SeenTriangles* seen)
+    SurfaceTwin(R& r, const Host& host, const SystemView& state, const glm::mat4& to_clip, const BoxesByTile& boxes,
+                const SeenTriangles* seen)
         : r_(r), host_(host), state_(state),
-          triangles_(r, {state, field::corner_position, host.view_projection(), host.settings().width,
-                         host.settings().height, view.boxes(), seen}) {}
+          triangles_(r, {state, field::corner_position, to_clip, host.settings().width, host.settings().height, boxes,
+                         seen}) {}
 
     template <class Place> [[nodiscard]] std::optional<TriangleHit<R>> at(const Place& pixel) const {
         return triangles_.nearest(pixel);

@@ -2,6 +2,8 @@
 #include <array>
 #include <cmath>
 #include <cstring>
+#include <memory>
+#include <optional>
 #include <type_traits>
 #include <vector>
 
@@ -76,15 +78,26 @@ inline const Site& channel_site(std::size_t k) {
     return *all[k];
 }
 
+template <class R> std::size_t noted_channel(R& r, std::size_t k) {
+    const typename R::Int noted = r.note(site::channel, typename R::Int(static_cast<int>(k)));
+    return static_cast<std::size_t>(std::clamp(static_cast<int>(noted), 0, 6));
+}
+
 /// Calls `add` with what each light that reaches the voxel adds to it, of those that the shader tries there.
 template <class R, class Add> void for_each_light(R& r, const Host& host, const SystemView& state,
                                                   const std::vector<std::uint32_t>& order, const TriedLights& tried,
                                                   const Voxel& v, const Add& add) {
     const auto point = voxel_point(r, host, v);
     const auto lights = r.range(site::all_lights, 0, static_cast<int>(order.size()) - 1);
+    std::optional<int> left; // a row of cells
     tried.for_each(lights, v, [&](std::size_t k) {
-        if (const auto made = contribution(r, host, state, order[k], point, v))
+        if (left == tried.row(k))
+            return;
+        const auto light = r.setting(site::by_cell, true) ? order[k] : static_cast<std::uint32_t>(k);
+        if (const auto made = contribution(r, host, state, light, point, v))
             add(*made);
+        else if (!r.setting(site::goes_on, true))
+            left = tried.row(k);
     });
 }
 
@@ -105,16 +118,16 @@ struct ScatterTwin {
     }
 
     template <class R> ItemWords<R> operator()(R& r, const PassInput& in, std::size_t item) const {
-        const std::size_t voxels = host->grid().count(), word = item / voxels;
-        const Voxel v = Voxel::of(host->grid(), item % voxels);
-        ItemWords<R> words;
         const Accumulate how = host->switches().accumulate;
+        const auto [voxel, word] = place_of(r, item);
+        const Voxel v = Voxel::of(host->grid(), voxel);
+        ItemWords<R> words;
         if (adds_floats(how))
             words.add(float_sum(r, in, item, v, word));
         else if (word == (how == Accumulate::fixed64 ? 14U : 7U))
             words.add(counted(r, in, item, v));
         else if (how == Accumulate::fixed64)
-            words.add(fixed64_word(r, in, item % voxels, v, word));
+            words.add(fixed64_word(r, in, voxel, v, word));
         else
             words.add(fixed32_word(r, in, item, v, word));
         return words;
@@ -136,6 +149,20 @@ struct ScatterTwin {
     }
 
   private:
+    /// A word of the accumulator.
+    struct Place {
+        std::size_t voxel, word;
+    };
+    template <class R> Place place_of(R& r, std::size_t item) const {
+        const Grid& grid = host->grid();
+        const std::size_t voxels = grid.count();
+        if (r.setting(site::is_stacked, true))
+            return {item % voxels, item / voxels};
+        const auto words = static_cast<std::size_t>(channels(host->switches().accumulate));
+        const std::size_t layer = voxels / static_cast<std::size_t>(grid.size.z), at = item / layer;
+        return {at / words * layer + item % layer, at % words};
+    }
+
     /// The accumulator's words, channel by channel.
     struct Words {
         WritableView view;
@@ -227,7 +254,7 @@ struct ScatterTwin {
             terms.push_back(r.read(site::word, before));
         for_each(r, in, v, [&](const Contribution<R>& made) {
             terms.push_back(word == 7 ? r.uniform(site::one_more, 1.0F)
-                                      : r.note(channel_site(word), made.channels()[word]));
+                                      : r.note(channel_site(word), made.channels()[noted_channel(r, word)]));
         });
         Real sum = r.any_order_sum(site::sum, terms);
         if (host->switches().accumulate == Accumulate::racing)
@@ -250,11 +277,14 @@ struct ScatterTwin {
         const bool always_carries = r.setting(site::always_carries, false);
         std::uint32_t without_carries = in.before.word(field::word, low + voxels);
         for_each(r, in, v, [&](const Contribution<R>& made) {
-            const auto x = r.note(channel_site(word / 2), made.channels()[word / 2]);
+            const auto x = r.note(channel_site(word / 2), made.channels()[noted_channel(r, word / 2)]);
             const Interval set = item_twin::set_of(x);
             const auto value = set.any ? 0.0F : set.as_float();
             const bool no_borrow = !r.setting(site::borrows, true) && value < 0.0F && value != std::floor(value);
-            sum.add(value, set, 0x1p31, [&](double n) { return to_fixed64(n) + (no_borrow ? 0x100000000 : 0); });
+            const bool cut = !r.setting(site::rounds_down, true);
+            sum.add(value, set, 0x1p31, [&](double n) {
+                return (cut ? static_cast<std::int64_t>(n * 0x1p32) : to_fixed64(n)) + (no_borrow ? 0x100000000 : 0);
+            });
             if (std::abs(value) < 0x1p31F)
                 without_carries +=
                     static_cast<std::uint32_t>(to_fixed64(double{value}) >> 32) + (always_carries ? 1U : 0U);
@@ -269,9 +299,10 @@ struct ScatterTwin {
         FixedSum sum;
         sum.start(in.before.integer(field::word, item));
         for_each(r, in, v, [&](const Contribution<R>& made) {
-            const Real x = r.note(channel_site(word), made.channels()[word]);
-            const Real q = r.note(
-                site::quantum, r.floor(x * r.uniform(site::fixed_scale, scale()) + r.uniform(site::half_unit, 0.5F)));
+            const Real x = r.note(channel_site(word), made.channels()[noted_channel(r, word)]);
+            const Real units =
+                r.note(site::units, x * r.uniform(site::fixed_scale, scale()) + r.uniform(site::half_unit, 0.5F));
+            const Real q = r.note(site::quantum, r.floor(units));
             const Interval set = item_twin::set_of(q);
             sum.add(set.any ? 0.0F : set.as_float(), set, 0x1p31,
                     [](double n) { return static_cast<std::int64_t>(n); });
@@ -300,7 +331,7 @@ struct ResolveTwin {
     bool fast(const FastRun& run) const; // image_lanes.cpp
 
     template <class R, class Item> ItemWords<R> operator()(R& r, const PassInput& in, const Item& item) const {
-        const bool colour_of = texture == Texture::colour;
+        const bool colour_of = r.setting(site::own_sums, true) == (texture == Texture::colour);
         ItemWords<R> words;
         const auto at = [&](std::size_t k) { return channel(r, in, item, k); };
         typename R::Vec4 v;
@@ -321,6 +352,17 @@ struct ResolveTwin {
         else
             return {item.v + static_cast<std::int32_t>(voxels), item.count};
     }
+    /// A word of a voxel.
+    template <class R, class Item> [[nodiscard]] Item place_of(R& r, const Item& voxel, std::size_t k) const {
+        if constexpr (!HasLanes<R>)
+            if (!r.setting(site::is_stacked, true)) {
+                const Grid& grid = host->grid();
+                const auto words = static_cast<std::size_t>(channels(host->switches().accumulate));
+                const std::size_t layer = grid.count() / static_cast<std::size_t>(grid.size.z);
+                return (voxel / layer * words + k) * layer + voxel % layer;
+            }
+        return further(voxel, k);
+    }
     template <class Item> static auto word(const PassInput& in, const Item& item) {
         if constexpr (std::is_same_v<Item, std::size_t>)
             return in.before.integer(field::word, item);
@@ -337,21 +379,28 @@ struct ResolveTwin {
         using Real = typename R::Real;
         return r.note(site::high_word, number(r, Word(bits >> 12)) * Real(4096.0F) + number(r, Word(bits & 4095)));
     }
+    template <class R, class Word> static typename R::Real upper_24_bits(R& r, const Word& low) {
+        if constexpr (!HasLanes<R>)
+            if (!r.setting(site::low_is_cut, true))
+                return r.real(static_cast<std::uint32_t>(low)) * typename R::Real(0x1p-8F);
+        return number(r, Word((low >> 8) & 0xffffff));
+    }
     template <class R, class Item>
     typename R::Real channel(R& r, const PassInput& in, const Item& item, std::size_t k) const {
         using Real = typename R::Real;
         const Accumulate how = host->switches().accumulate;
         Real value{};
+        if constexpr (!HasLanes<R>)
+            k = noted_channel(r, k);
         if (adds_floats(how)) {
-            value = item_real(r, site::word, in.before, field::word, further(item, k));
+            value = item_real(r, site::word, in.before, field::word, place_of(r, item, k));
         } else if (how == Accumulate::fixed64) {
             const bool in_order = r.setting(site::low_first, true);
-            const auto low = word(in, further(item, in_order ? 2 * k : 2 * k + 1)),
-                       high = word(in, further(item, in_order ? 2 * k + 1 : 2 * k));
-            using Word = std::remove_const_t<decltype(low)>;
-            value = whole(r, high) + r.note(site::low_word, number(r, Word((low >> 8) & 0xffffff))) * Real(0x1p-24F);
+            const auto low = word(in, place_of(r, item, in_order ? 2 * k : 2 * k + 1)),
+                       high = word(in, place_of(r, item, in_order ? 2 * k + 1 : 2 * k));
+            value = whole(r, high) + r.note(site::low_word, upper_24_bits(r, low)) * Real(0x1p-24F);
         } else {
-            value = whole(r, word(in, further(item, k))) *
+            value = whole(r, word(in, place_of(r, item, k))) *
                     r.uniform(site::fixed_scale, std::ldexp(1.0F, -host->fixed_bits()));
         }
         return r.note(channel_site(k), value);
@@ -361,8 +410,8 @@ struct ResolveTwin {
             return channel(r, in, item, 6);
         const Accumulate how = host->switches().accumulate;
         if (adds_floats(how))
-            return r.note(site::count, item_real(r, site::word, in.before, field::word, further(item, 7)));
-        const auto count = word(in, further(item, how == Accumulate::fixed64 ? 14 : 7));
+            return r.note(site::count, item_real(r, site::word, in.before, field::word, place_of(r, item, 7)));
+        const auto count = word(in, place_of(r, item, how == Accumulate::fixed64 ? 14 : 7));
         if constexpr (HasLanes<R>) // a sum of two that are exact: rounded once
             return number(r, IntLanes((count >> 16) & 0xffff)) * typename R::Real(65536.0F) +
                    number(r, IntLanes(count & 0xffff));
@@ -390,13 +439,17 @@ struct GatherTwin {
 
     template <class R> ItemWords<R> operator()(R& r, const PassInput& in, std::size_t item) const {
         using Real = typename R::Real;
-        const Voxel v = Voxel::of(host->grid(), item);
+        Voxel v = Voxel::of(host->grid(), item);
+        if (!r.setting(site::own_place, true) && host->grid().size.x == host->grid().size.z)
+            std::swap(v.x, v.z);
+        const bool own = r.setting(site::own_sums, true);
+        const Texture other = texture == Texture::colour ? Texture::direction : Texture::colour;
         std::array<std::vector<Real>, 4> terms;
         for_each_light(r, *host, in.before, order, tried, v, [&](const Contribution<R>& made) {
             for (std::size_t c = 0; c < 4; ++c)
-                terms[c].push_back(addend(r, made, c));
+                terms[c].push_back(addend(r, made, own ? texture : other, c));
         });
-        typename R::Vec4 sum{added(r, terms[0]), added(r, terms[1]), added(r, terms[2]), added(r, terms[3])};
+        typename R::Vec4 sum{added(r, terms[0]), added(r, terms[1]), added(r, terms[2]), added(r, terms[3], false)};
         sum = r.note(site::sum, sum);
         ItemWords<R> words;
         add_texel(r, words, texture, stored_format(), sum);
@@ -409,7 +462,7 @@ struct GatherTwin {
         scatter(r, *host, in.before, order, [&](std::ptrdiff_t) {
             return [&](std::size_t voxel, const Contribution<R>& made) {
                 for (std::size_t c = 0; c < 4; ++c)
-                    sums[voxel][c] = next(sums[voxel][c], addend(r, made, c));
+                    sums[voxel][c] = next(sums[voxel][c], addend(r, made, texture, c));
             };
         });
         for (std::size_t voxel = 0; voxel < sums.size(); ++voxel) {
@@ -434,11 +487,11 @@ struct GatherTwin {
     [[nodiscard]] Format stored_format() const {
         return blends_halves() ? Format::rgba32f : host->switches().volume_format;
     }
-    template <class R> typename R::Real addend(R& r, const Contribution<R>& made, std::size_t c) const {
+    template <class R> typename R::Real addend(R& r, const Contribution<R>& made, Texture of, std::size_t c) const {
         using Real = typename R::Real;
-        if (texture == Texture::colour && c == 3)
+        if (of == Texture::colour && c == 3)
             return r.uniform(site::one_more, 1.0F);
-        const std::size_t k = c + (texture == Texture::direction ? 3 : 0);
+        const std::size_t k = c + (of == Texture::direction ? 3 : 0);
         Real x = r.note(channel_site(k), made.channels()[k]);
         if (host->switches().accumulate == Accumulate::blend_exact) {
             const float scale = std::ldexp(1.0F, host->fixed_bits());
@@ -450,15 +503,17 @@ struct GatherTwin {
     template <class Real> Real next(const Real& sum, const Real& x) const {
         return blends_halves() ? Real(half_truncated(static_cast<float>(sum + x))) : sum + x;
     }
-    template <class R> typename R::Real added(R& r, const std::vector<typename R::Real>& terms) const {
+    template <class R>
+    typename R::Real added(R& r, const std::vector<typename R::Real>& terms, bool is_vector = true) const {
         using Real = typename R::Real;
         if (blends_halves())
             return host->follows_driver() ? followed_halves(r, terms) : blended_halves(r, terms);
         if (blends(host->switches().accumulate) && !host->follows_driver())
             return r.any_order_sum(site::sum, terms);
         Real sum(0.0F);
+        const bool adds = r.setting(site::adds, true), is_greatest = is_vector && r.setting(site::greatest, false);
         for (const Real& x : terms)
-            sum = sum + x;
+            sum = is_greatest ? r.max(sum, x) : adds ? sum + x : x;
         return sum;
     }
     /// In the order of drawing, each rounded toward zero, or each to the nearest: the value is the first of these.
@@ -492,22 +547,14 @@ struct GatherTwin {
 /// How many lights a cell has, and where they begin among all. Twin of shaders/lights/light_sort_pass.comp.
 struct CellTwin {
     HostPtr host;
-    std::vector<std::uint32_t> counts = {}, starts = {};
+    std::shared_ptr<const SortedCells> cells = {};
+    CellBy by = CellBy::place;
 
-    [[nodiscard]] CellTwin at(const PassInput& in) const {
-        CellTwin made{host, std::vector<std::uint32_t>(host->grid().count()), {}};
-        for (const std::uint32_t i : by_cell(*host, in.before)) {
-            const Voxel v = cell_of(host->grid(), in.before.vec3(field::light_position, i));
-            ++made.counts[clamped_cell(host->grid(), v).index(host->grid())];
-        }
-        std::uint32_t sum = 0;
-        for (const std::uint32_t count : made.counts) {
-            made.starts.push_back(sum);
-            sum += count;
-        }
-        return made;
-    }
-    template <class R> ItemWords<R> operator()(R& r, const PassInput& /*in*/, std::size_t item) const {
+    [[nodiscard]] CellTwin at(const PassInput& /*in*/) const { return {host, std::make_shared<const SortedCells>()}; }
+    [[nodiscard]] CellTwin handed(std::span<const Mistake> made) const { return {host, cells, sorted_by(made)}; }
+
+    template <class R> ItemWords<R> operator()(R& r, const PassInput& in, std::size_t item) const {
+        const CellLists& lists = cells->of(by, *host, in.before);
         ItemWords<R> words;
         const auto add = [&](const Site& place, std::uint32_t number) {
             const typename R::Int noted = r.note(place, typename R::Int(static_cast<int>(number)));
@@ -516,10 +563,10 @@ struct CellTwin {
         const std::size_t width = static_cast<std::size_t>(host->grid().size.x), row = item / width * width;
         std::uint32_t in_row = 0;
         for (std::size_t i = row; i < row + width; ++i)
-            in_row += counts[i];
-        r.note(site::row_end, typename R::Int(static_cast<int>(starts[row] + in_row)));
-        add(site::cell_count, counts[item]);
-        add(site::cell_start, starts[item]);
+            in_row += lists.counts[i];
+        r.note(site::row_end, typename R::Int(static_cast<int>(lists.starts[row] + in_row)));
+        add(site::cell_count, lists.counts[item]);
+        add(site::cell_start, lists.starts[item]);
         return words;
     }
 };
@@ -527,11 +574,14 @@ struct CellTwin {
 /// The light at a place of the order by cells; behind the last of them what was there.
 struct SortTwin {
     HostPtr host;
-    std::vector<std::uint32_t> order = {};
+    std::shared_ptr<const SortedCells> cells = {};
+    CellBy by = CellBy::place;
 
-    [[nodiscard]] SortTwin at(const PassInput& in) const { return {host, by_cell(*host, in.before)}; }
+    [[nodiscard]] SortTwin at(const PassInput& /*in*/) const { return {host, std::make_shared<const SortedCells>()}; }
+    [[nodiscard]] SortTwin handed(std::span<const Mistake> made) const { return {host, cells, sorted_by(made)}; }
 
     template <class R> ItemWords<R> operator()(R& r, const PassInput& in, std::size_t item) const {
+        const std::vector<std::uint32_t>& order = cells->of(by, *host, in.before).order;
         const std::uint32_t light = item < order.size() ? order[item] : in.before.word(field::place, item);
         const typename R::Int noted = r.note(site::sorted, typename R::Int(static_cast<int>(light)));
         ItemWords<R> words;

@@ -51,6 +51,18 @@ lights::Settings settings_of(const std::string& run) {
         s.background = {0.25F, 0.5F, 0.125F};
     } else if (run == "linear8") {
         s.switches.encoding = lights::Encoding::linear8;
+    } else if (run == "blend") {
+        s.switches.accumulate = lights::Accumulate::blend;
+    } else if (run == "forward") {
+        s.switches.pipeline = lights::Pipeline::forward;
+    } else if (run == "directionality") {
+        s.switches.shading = lights::Shading::directionality;
+    } else if (run == "light over the floor") {
+        s.lights.push_back({.position = {1.0F, 0.125F, 1.0F},
+                            .range = 2.0F,
+                            .direction = {0.0F, -1.0F, 0.0F},
+                            .speed = 40.0F,
+                            .colour = {0.5F, 0.5F, 0.25F}});
     } else if (run == "voxels of half a metre") {
         s.grid = {.size = {32, 16, 32}, .voxel = 0.5F, .origin = {-8.0F, 0.0F, -8.0F}};
     }
@@ -120,6 +132,24 @@ std::vector<HostMutant> host_catalogue() {
     const auto transposed = [](const Uniforms& all) {
         return glm::transpose(std::get<glm::mat4>(all.at("u_ProjView")));
     };
+    const auto without_view = [](const Uniforms&) { return host_of(mutants_room())->projection(); };
+    const auto without_projection = [](const Uniforms&) { return view_matrix(mutants_room().camera); };
+    const auto swapped = [](const Uniforms&) {
+        return view_matrix(mutants_room().camera) * host_of(mutants_room())->projection();
+    };
+    const auto blended = [](GlDraw::Blend how) {
+        return [how](GlPass& pass) {
+            if (pass.name == "glow_pass" && pass.draw)
+                pass.draw->blend = how;
+        };
+    };
+    const auto without_depth_test = [](GlPass& pass) {
+        if (pass.name == "gbuffer_pass" && pass.draw)
+            pass.draw->has_depth = false;
+    };
+    const auto by_size = [](const Uniforms& all) {
+        return std::get<glm::vec3>(all.at("u_GridEnd")) - std::get<glm::vec3>(all.at("u_GridOrigin"));
+    };
     const auto fewer = [](const Uniforms& all) { return std::get<unsigned>(all.at("u_LightCount")) - 1; };
     return {
         {"buffers_not_swapped", "plain", "step_left_out", left_out("light_step_pass")},
@@ -127,7 +157,7 @@ std::vector<HostMutant> host_catalogue() {
         {"time_does_not_pass", "plain", "u_Tick: zero", uniform("light_step_pass", "u_Tick", zero)},
         {"walls_not_set", "plain", "u_GridEnd: zero", uniform("light_step_pass", "u_GridEnd", zeros)},
         {"offset_not_set", "plain", "corner_for_centre", uniform("light_volume_gather", "u_VoxelOffset", zero)},
-        {"origin_not_set", "fixed64", "", uniform("light_volume_scatter", "u_GridOrigin", zeros)},
+        {"origin_not_set", "fixed64", "origin_ignored", uniform("light_volume_scatter", "u_GridOrigin", zeros)},
         {"last_light_left_out", "fixed64", "last_light_left_out",
          uniform("light_volume_scatter", "u_LightCount", fewer)},
         {"a_bit_too_many", "fixed32", "scale_doubled",
@@ -141,8 +171,20 @@ std::vector<HostMutant> host_catalogue() {
         {"eye_not_set", "plain", "u_Eye: zero", uniform("gbuffer_pass", "u_Eye", zeros)},
         {"gain_not_set", "plain", "glow_without_gain",
          uniform("glow_pass", "u_GlowGain", [](const Uniforms&) { return 1.0F; })},
-        {"glow_matrix_transposed", "plain", "", uniform("glow_pass", "u_ProjView", transposed)},
-        {"disc_of_half_size", "plain", "u_DiscScale: halved",
+        {"walls_by_size", "plain", "walls_by_size", uniform("light_step_pass", "u_GridEnd", by_size)},
+        {"without_view", "plain", "view_missing", uniform("gbuffer_pass", "u_ProjView", without_view)},
+        {"without_projection", "plain", "nothing_drawn", uniform("gbuffer_pass", "u_ProjView", without_projection)},
+        {"matrices_swapped", "plain", "nothing_drawn", uniform("gbuffer_pass", "u_ProjView", swapped)},
+        {"glow_matrices_swapped", "plain", "glow_missing", uniform("glow_pass", "u_ProjView", swapped)},
+        {"matrix_transposed", "plain", "projection_transposed", uniform("gbuffer_pass", "u_ProjView", transposed)},
+        {"glow_matrix_transposed", "plain", "projection_transposed", uniform("glow_pass", "u_ProjView", transposed)},
+        {"without_depth_test", "plain", "last_triangle_stays", without_depth_test},
+        {"glow_not_blended", "plain", "glow_not_blended", blended(GlDraw::Blend::none)},
+        {"glow_blended_by_alpha", "plain", "glow_missing", blended(GlDraw::Blend::by_alpha)},
+        {"disc_of_twice_the_size", "plain", "discs_twice_as_large",
+         uniform("glow_pass", "u_DiscScale",
+                 [](const Uniforms& all) { return 2.0F * std::get<float>(all.at("u_DiscScale")); })},
+        {"disc_of_half_size", "plain", "discs_half_as_large",
          uniform("glow_pass", "u_DiscScale",
                  [](const Uniforms& all) { return 0.5F * std::get<float>(all.at("u_DiscScale")); })},
     };

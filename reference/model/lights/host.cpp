@@ -15,8 +15,8 @@ Host::Host(Settings settings, Driver driver) : settings_(std::move(settings)), d
         if (std::isfinite(light.range))
             longest = std::max(longest, light.range);
     reach_ = static_cast<int>(std::ceil(longest / settings_.grid.voxel)) + 1;
-    const double aspect = static_cast<double>(settings_.width) / settings_.height;
-    view_projection_ = view_projection_matrix(settings_.camera, static_cast<float>(aspect));
+    aspect_ = static_cast<float>(static_cast<double>(settings_.width) / settings_.height);
+    view_projection_ = view_projection_matrix(settings_.camera, aspect_);
     const double half_angle = double{settings_.camera.fov_y} * std::numbers::pi / 360.0;
     disc_scale_ = static_cast<float>(double{settings_.glow_radius} * 0.5 * settings_.height / std::tan(half_angle));
 }

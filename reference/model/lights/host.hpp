@@ -34,6 +34,8 @@ class Host {
     /// Cells to look at to each side of a voxel's own: the longest range, and one more.
     [[nodiscard]] int reach() const { return reach_; }
     [[nodiscard]] const glm::mat4& view_projection() const { return view_projection_; }
+    /// View to clip space.
+    [[nodiscard]] glm::mat4 projection() const { return projection_matrix(settings_.camera, aspect_); }
     [[nodiscard]] float disc_scale() const { return disc_scale_; } ///< of a glow: pixels times w, its radius
 
   private:
@@ -41,7 +43,7 @@ class Host {
     Driver driver_;
     int most_bits_ = 0, reach_ = 1;
     glm::mat4 view_projection_{1.0F};
-    float disc_scale_ = 1.0F;
+    float aspect_ = 1.0F, disc_scale_ = 1.0F;
 };
 
 using HostPtr = std::shared_ptr<const Host>;

@@ -154,6 +154,7 @@ std::vector<NamedMistake> of_obstacles() {
 std::vector<NamedMistake> of_glows() {
     static const Mistake drawn{
         .site = site::on_disc.id, .change = Change::decided_by_formula, .formula = in_box_of_disc_beside};
+    static const Mistake lower_y = mistake_at(site::glow_y, Change::half_less);
     const Mistake beside = with(mistake_at(site::centre_x, Change::half_less), drawn);
     return {
         {"glow_through_walls", "glows are seen through what is before them", "glow_pass",
@@ -180,6 +181,8 @@ std::vector<NamedMistake> of_glows() {
          mistake_at(site::glow_radius, Change::not_done)},
         {"glow_behind_walls", "glows are seen where something is before them, and nowhere else", "glow_pass",
          mistake_at(site::glow_nearer, Change::reversed, 0)},
+        {"glow_half_a_pixel_aside", "discs lie half a pixel lower along x and y", "glow_pass",
+         with(mistake_at(site::glow_x, Change::half_less), lower_y)},
         {"glow_inverted", "glows are brightest at their rims", "glow_pass",
          mistake_at(site::glow_share, Change::instead, -1, &site::disc)},
         {"glow_by_distance", "glows fade with the distance, not with its square", "glow_pass",

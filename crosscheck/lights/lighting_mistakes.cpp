@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <utility>
 
 #include "crosscheck/lights/mistake_words.hpp"
 #include "reference/lights/sites.hpp"
@@ -66,6 +67,8 @@ void by_power(Words value, const CameBy& /*run*/) {
     for (float& x : value)
         x = std::pow(x, 2.2F);
 }
+void yz_swapped(Words value, const CameBy& /*run*/) { std::swap(value[1], value[2]); }
+void xz_swapped(Words value, const CameBy& /*run*/) { std::swap(value[0], value[2]); }
 void of_side(Words value, const CameBy& /*run*/) { value[0] = std::cbrt(value[0]); }
 void cut(Words value, const CameBy& run) { value[0] = std::trunc(first(run, site::texel_place)); }
 void rounded(Words value, const CameBy& run) { value[0] = std::floor(first(run, site::texel_place) + 0.5F); }
@@ -156,10 +159,8 @@ std::vector<NamedMistake> lighting_mistakes() {
             spoiled_at(site::sample_mean, of_side));
         add("voxel_size_for_inverse", "places are multiplied by a voxel's size, not divided by it",
             mistake_at(site::inv_voxel, Change::reciprocal));
-        add("place_y_and_z_swapped", "a place's y is taken for its z",
-            mistake_at(site::grid_place, Change::yz_swapped));
-        add("place_x_and_z_swapped", "a place's x is taken for its z",
-            mistake_at(site::grid_place, Change::xz_swapped));
+        add("place_y_and_z_swapped", "a place's y is taken for its z", formula_at(site::grid_place, yz_swapped));
+        add("place_x_and_z_swapped", "a place's x is taken for its z", formula_at(site::grid_place, xz_swapped));
         add("lit_from_behind", "the direction is from the lights to the point",
             mistake_at(site::sampled_direction, Change::negated));
         add("lit_from_both_sides", "light from behind lights as light from the front does",
@@ -188,6 +189,11 @@ std::vector<NamedMistake> lighting_mistakes() {
         add("textures_swapped", "colours and directions are read of each other's texture",
             with(mistake_at(site::own_colour, Change::never), own_direction));
         add("direction_of_colour", "the texture of colours is read for directions", own_direction);
+        all.push_back({.name = "surfaces_black",
+                       .meaning = "what is lit is black",
+                       .pass = pass,
+                       .mistake = mistake_at(site::radiance, Change::zero),
+                       .describes = true});
         all.push_back({.name = "light_missing",
                        .meaning = "what the textures hold lights nothing",
                        .pass = pass,
@@ -210,8 +216,6 @@ std::vector<NamedMistake> lighting_mistakes() {
     }
     all.push_back({"normal_from_0_to_1", "normals are taken to be stored from 0 to 1", "deferred_light_pass",
                    spoiled_at(site::surface_normal, from_0_to_1)});
-    all.push_back({"validity_inverted", "what is nowhere is lit, and surfaces are not", "deferred_light_pass",
-                   mistake_at(site::is_valid, Change::inverted)});
     all.push_back({"background_missing", "what is nowhere is black", "forward_light_pass",
                    mistake_at(site::background, Change::zero)});
     all.push_back({"read_upside_down", "the first row is lit as the last one", "deferred_light_pass",

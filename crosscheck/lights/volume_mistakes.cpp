@@ -139,6 +139,8 @@ std::vector<NamedMistake> of_volumes() {
         add("falloff_linear", "the window is of the share of the range, not of its fourth power",
             formula_at(site::falloff, falloff_linear));
         add("window_missing", "light does not end at the range", mistake_at(site::falloff, Change::one));
+        add("window_squared_twice", "the window is squared twice",
+            mistake_at(site::falloff, Change::times, -1, &site::falloff));
         add("window_turned", "the window grows with the distance", spoiled_at(site::falloff, window_turned));
         add("share_of_range", "the squared distance is divided by the range, not by its square",
             formula_at(site::ratio, share_of_range));
@@ -156,6 +158,9 @@ std::vector<NamedMistake> of_volumes() {
             mistake_at(site::point_counts, Change::never));
         add("next_cells_only", "of a light only the next voxels are tried", tried(WronglyTried::next_cells));
         add("lower_half_only", "of a light's ball the upper half is not tried", tried(WronglyTried::lower_half));
+        add("upper_half_only", "of a light's ball the lower half is not tried", tried(WronglyTried::upper_half));
+        add("own_layer_only", "of a light's ball only the voxels of its own z are tried",
+            tried(WronglyTried::own_layer));
     }
     return all;
 }

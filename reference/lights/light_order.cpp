@@ -84,6 +84,12 @@ void take_away(WronglyTried how, const glm::ivec3& size, TriedVoxels& of) {
     case WronglyTried::lower_half:
         box.high = {of.cell.x + 1, of.cell.y + 1, of.cell.z + 1};
         break;
+    case WronglyTried::upper_half:
+        box.low = {of.cell.x - 1, of.cell.y - 1, of.cell.z - 1};
+        break;
+    case WronglyTried::own_layer:
+        box.low.z = box.high.z = of.cell.z;
+        break;
     case WronglyTried::last_layer:
         box.high.z = std::min(box.high.z, size.z - 1) - 1;
         break;

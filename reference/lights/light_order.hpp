@@ -60,6 +60,8 @@ enum class WronglyTried {
     next_layers,
     next_cells,
     lower_half,
+    upper_half,
+    own_layer,
     last_layer,          ///< the grid's last voxels along z
     last_layer_of_cells, ///< the lights of its last cells along z
     last_cells_of_rows,  ///< the same along x

@@ -29,7 +29,7 @@ template <class R> class DepthCode {
     }
     /// As depth_format rounds numbers from 0 to 1.
     [[nodiscard]] Real coded(const Real& v) const {
-        if (host_.switches().depth_format != DepthFormat::d24)
+        if (!r_.setting(site::has_codes, host_.switches().depth_format == DepthFormat::d24))
             return v;
         const Real codes = r_.uniform(site::codes, depth_codes);
         return r_.divide(site::depth_code,
@@ -40,9 +40,9 @@ template <class R> class DepthCode {
         return r_.note(site::tested, is_metric() ? -z * r_.uniform(site::depth_scale, host_.depth_scale()) : stored);
     }
     [[nodiscard]] Real decoded(const Real& stored) const {
-        if (is_metric())
+        if (is_metric() || !r_.setting(site::decodes, true))
             return stored;
-        const bool is_window = value() == DepthValue::window;
+        const bool is_window = value() == DepthValue::window && !r_.setting(site::window_is_ndc, false);
         return r_.note(site::decoded, of_ndc(is_window ? stored * Real(2.0F) - Real(1.0F) : stored));
     }
     /// As `unproject` takes what is stored.
@@ -70,8 +70,9 @@ template <class R> class DepthCode {
 /// The slope of the ray through a pixel's centre.
 template <class R> typename R::Vec2 pixel_slope(R& r, const Host& host, const IndexOf<R>& x, int y) {
     const Settings& s = host.settings();
+    const int centre = r.setting(site::ray_of_centre, true) ? 1 : 0;
     const auto along = [&](At at, At size_at, At unit_at, const auto& i, int size, float unit) {
-        const auto place = r.divide(at, r.real(2 * i + 1 - size), r.uniform(size_at, static_cast<float>(size)));
+        const auto place = r.divide(at, r.real(2 * i + centre - size), r.uniform(size_at, static_cast<float>(size)));
         return r.note(at, place * r.uniform(unit_at, unit));
     };
     return {along(site::slope_x, site::width, site::unit_slope_x, x, s.width, host.slope().x),

@@ -21,7 +21,8 @@ struct DepthFilterTwin {
     template <class R, class Item> ItemWords<R> operator()(R& r, const PassInput& in, const Item& item) const {
         using Real = typename R::Real;
         const auto pixel = pixel_at(host->settings().width, item);
-        const DepthMap<R> map(r, *host, in.before, step.of_spheres ? field::depth : field::smooth_depth);
+        const bool of_spheres = r.setting(site::reads_spheres, step.of_spheres);
+        const DepthMap<R> map(r, *host, in.before, of_spheres ? field::depth : field::smooth_depth);
         const Real centre = map.at(site::centre_depth, pixel.x, pixel.y);
         ItemWords<R> words;
         words.add(r.note(site::smooth_depth, filtered(r, map, pixel, centre)));

@@ -12,7 +12,10 @@
 namespace lockstep::fluid {
 
 /// The image that normals and shading take their depth from.
-inline FieldId last_depth(const Host& host) { return host.filter_steps().empty() ? field::depth : field::smooth_depth; }
+template <class R> FieldId last_depth(R& r, const Host& host) {
+    const bool filters = !host.filter_steps().empty() && r.setting(site::reads_filtered, true);
+    return filters ? field::smooth_depth : field::depth;
+}
 
 /// A depth image as a pass reads it. Twin of shaders/fluid/source.glsl.
 template <class R> class DepthMap {
@@ -28,6 +31,9 @@ template <class R> class DepthMap {
         const Settings& s = host_.settings();
         if (host_.switches().depth_fetch == DepthFetch::linear)
             return filtered(place, x, y);
+        if constexpr (!HasLanes<R>)
+            if (!has(x, y) && !r_.setting(site::ends_at_edge, true))
+                return r_.note(place, Real(0.0F));
         return r_.note(place, item_real(r_, place, state_, from_,
                                         item_of(clamped(x, 0, s.width - 1), clamped(y, 0, s.height - 1), s.width)));
     }

@@ -45,6 +45,8 @@ template <class R> class NarrowRange {
     [[nodiscard]] Real at(const Index& x, int y, const FilterStep& step, const Real& z) const {
         const int n = reach(z);
         Sums sums{z, Real(1.0F)};
+        if (!r_.setting(site::takes_centre, true))
+            sums = {Real(0.0F), Real(0.0F)};
         if (step.shape == FilterStep::Shape::along)
             along(sums, x, y, step, n, z);
         else if (host_.switches().narrow_cleanup == NarrowCleanup::quadrants)
@@ -59,14 +61,15 @@ template <class R> class NarrowRange {
         if constexpr (HasLanes<R>)
             return weights_->of(dx, dy, n);
         const Real twice_squared = r_.real(2 * n * n);
-        Real nine_times = r_.real(9 * (dx * dx + dy * dy));
+        const int up = r_.setting(site::weighs_rows, true) ? dy : 0;
+        Real nine_times = r_.real(9 * (dx * dx + up * up));
         if (host_.switches().narrow_weights == NarrowWeights::texcoord) {
             const auto squared = [&](int d) {
                 const Real u = r_.divide(site::screen_width, r_.real(d),
                                          r_.uniform(site::screen_width, static_cast<float>(host_.settings().width)));
                 return u * u;
             };
-            nine_times = (squared(dx) + squared(dy)) * Real(9.0F);
+            nine_times = (squared(dx) + squared(up)) * Real(9.0F);
         }
         const Real x = r_.note(site::exponent, r_.divide(site::exponent, nine_times, twice_squared));
         return r_.note(site::weight, exponential_of(r_, host_, -x));
@@ -93,7 +96,8 @@ template <class R> class NarrowRange {
     [[nodiscard]] int reach(const Real& z) const {
         const Real pixels = r_.divide(site::reach, r_.uniform(site::narrow_scale, host_.narrow_scale()), r_.abs(z));
         const Real most = r_.uniform(site::most_reach, static_cast<float>(most_narrow_reach));
-        return static_cast<int>(r_.to_int(site::reach, r_.note(site::reach, r_.min(most, -r_.floor(-pixels)))));
+        const Real whole = r_.setting(site::reach_is_ceiling, true) ? -r_.floor(-pixels) : r_.floor(pixels);
+        return static_cast<int>(r_.to_int(site::reach, r_.note(site::reach, r_.min(most, whole))));
     }
     [[nodiscard]] Sample sample(const Index& x, int y, const Real& w) const {
         const Real stored = map_.at(site::sample, x, y);
@@ -106,19 +110,34 @@ template <class R> class NarrowRange {
     void judge(Sample& own, Sample& partner, Range& range, const Real& z) const {
         if constexpr (HasLanes<R>) {
             judge_lanes(own, partner, range, z);
-            return;
-        } else if (!own.is_empty && r_.decide(site::too_near, own.z > range.high)) {
-            own.weight = r_.note(site::own_weight, Real(0.0F));
-            if (r_.setting(site::partner_weight, true))
-                partner.weight = Real(0.0F);
-        } else if (own.is_empty || r_.decide(site::too_far, own.z < range.low)) {
-            own.z = r_.note(site::clamped_sample, z - r_.uniform(site::mu, host_.narrow_mu()));
         } else {
-            if (r_.setting(site::widens_high, true))
-                range.high = r_.note(site::high, r_.max(range.high, own.z + delta()));
-            if (r_.setting(site::widens_low, true))
-                range.low = r_.note(site::low, r_.min(range.low, own.z - delta()));
+            const bool refuses_near = r_.setting(site::refuses_near, true);
+            if (!own.is_empty && r_.decide(site::too_near, refuses_near ? own.z > range.high : own.z < range.low)) {
+                if (!r_.setting(site::near_is_refused, true)) {
+                    own.z = range.high;
+                    return;
+                }
+                own.weight = r_.note(site::own_weight, Real(0.0F));
+                if (r_.setting(site::partner_weight, true))
+                    partner.weight = Real(0.0F);
+            } else if (own.is_empty ||
+                       r_.decide(site::too_far, refuses_near ? own.z < range.low : own.z > range.high)) {
+                const Real drawn_in = z - r_.uniform(site::mu, host_.narrow_mu());
+                own.z = r_.note(site::clamped_sample, r_.setting(site::drawn_to_centre, true) ? drawn_in : range.low);
+                if (!r_.setting(site::far_is_kept, true))
+                    own.weight = partner.weight = Real(0.0F);
+            } else {
+                widen(range, own.z);
+            }
         }
+    }
+    void widen(Range& range, const Real& by) const {
+        const bool keeps = r_.setting(site::range_is_kept, true);
+        const Real high = by + delta(), low = by - delta();
+        if (r_.setting(site::widens_high, true))
+            range.high = r_.note(site::high, keeps ? r_.max(range.high, high) : high);
+        if (r_.setting(site::widens_low, true))
+            range.low = r_.note(site::low, keeps ? r_.min(range.low, low) : low);
     }
     /// The same, lane by lane.
     void judge_lanes(Sample& own, Sample& partner, Range& range, const Real& z) const {
@@ -149,7 +168,7 @@ template <class R> class NarrowRange {
             const Real w = weight(dx, dy, n);
             std::array<Sample, 2> pair{sample(x + dx, y + dy, w), sample(x - dx, y - dy, w)};
             judge(pair[0], pair[1], ahead, z);
-            judge(pair[1], pair[0], behind, z);
+            judge(pair[1], pair[0], r_.setting(site::two_ranges, true) ? behind : ahead, z);
             add(sums, pair);
         }
     }

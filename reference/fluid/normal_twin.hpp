@@ -21,12 +21,12 @@ struct NormalTwin {
         using Real = typename R::Real;
         using Vec3 = typename R::Vec3;
         const auto p = pixel_at(host->settings().width, item);
-        const DepthMap<R> map(r, *host, in.before, last_depth(*host));
+        const DepthMap<R> map(r, *host, in.before, last_depth(r, *host));
         const Real stored = map.at(site::centre_depth, p.x, p.y);
         if (map.is_empty(site::centre_empty, stored))
             return words_of<R>(r.note(site::normal, typename R::Vec4{}));
         const Vec3 here = point_at(r, *host, p.x, p.y, map.code().unprojected(stored));
-        const auto side = [&](int dx, int dy) { return neighbour(r, map, p.x + dx, p.y + dy); };
+        const auto side = [&](int dx, int dy) { return neighbour(r, map, {p.x, p.y}, {dx, dy}); };
         const auto right = side(1, 0), left = side(-1, 0), up = side(0, 1), down = side(0, -1);
         Vec3 n = r.note(site::facing, Vec3{Real(0.0F), Real(0.0F), Real(1.0F)});
         if ((right.exists || left.exists) && (up.exists || down.exists)) {
@@ -36,14 +36,16 @@ struct NormalTwin {
             const auto upwards =
                 picks(up.exists, down.exists, [&] { return takes_upper(r, here, up.point, down.point); });
             const auto step_from = [&](At at, const Vec3& before) { return r.note(at, here - before); };
-            const auto step = [&](const auto& on, const Vec3& after, At at, const Vec3& before) {
+            const auto step = [&](const auto& on, const auto& after, At at, const auto& before) {
                 if constexpr (HasLanes<R>)
-                    return choose(on, after - here, here - before);
+                    return choose(on, after.point - here, here - before.point);
+                else if (after.exists && before.exists && !r.setting(site::one_sided, true))
+                    return after.point - before.point;
                 else
-                    return on ? after - here : step_from(at, before);
+                    return on ? after.point - here : step_from(at, before.point);
             };
-            const Vec3 dx = r.note(site::step_x, step(to_right, right.point, site::step_left, left.point)),
-                       dy = r.note(site::step_y, step(upwards, up.point, site::step_up, down.point));
+            const Vec3 dx = r.note(site::step_x, step(to_right, right, site::step_left, left)),
+                       dy = r.note(site::step_y, step(upwards, up, site::step_up, down));
             const Vec3 cross = r.note(
                 site::cross, Vec3{dx.y * dy.z - dx.z * dy.y, dx.z * dy.x - dx.x * dy.z, dx.x * dy.y - dx.y * dy.x});
             if constexpr (requires(const Real& x) { x.legal(); })
@@ -94,15 +96,24 @@ struct NormalTwin {
         bool exists;
         Vec3 point;
     };
-    template <class R>
-    SideOf<typename R::Vec3> neighbour(R& r, const DepthMap<R>& map, const IndexOf<R>& x, int y) const {
+    template <class Index> struct Place {
+        Index x;
+        int y;
+    };
+    template <class R> SideOf<typename R::Vec3> neighbour(R& r, const DepthMap<R>& map, const Place<IndexOf<R>>& pixel,
+                                                          const Place<int>& offset) const {
+        const IndexOf<R> x = pixel.x + offset.x;
+        const int y = pixel.y + offset.y;
         const bool facing = r.setting(site::faces_at_edges, host->switches().edge_normal == EdgeNormal::facing);
         if (facing && !agreed(r, site::neighbour_empty, map.has(x, y)))
             return {false, {}};
         const auto stored = map.at(site::sample, x, y);
         if (facing && map.is_empty(site::neighbour_empty, stored))
             return {false, {}};
-        return {true, point_at(r, *host, x, y, map.code().unprojected(stored))};
+        const auto z = map.code().unprojected(stored);
+        if (!r.setting(site::on_own_ray, true))
+            return {true, point_at(r, *host, pixel.x, pixel.y, z)};
+        return {true, point_at(r, *host, x, y, z)};
     }
     /// The side that is there; of two that of `between`.
     template <class Between> static auto picks(bool first, bool second, const Between& between) {
@@ -118,7 +129,7 @@ struct NormalTwin {
     template <class R, class Vec3> auto takes_upper(R& r, const Vec3& here, const Vec3& up, const Vec3& down) const {
         if (host->switches().difference_pick == DifferencePick::nearer)
             return decided(r, site::upper_side, up.z > down.z);
-        return !decided(r, site::upper_side, r.abs(here.z - down.z) < r.abs(up.z - here.z));
+        return decided(r, site::upper_side, !(r.abs(here.z - down.z) < r.abs(up.z - here.z)));
     }
 };
 

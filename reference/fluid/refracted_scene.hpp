@@ -45,7 +45,7 @@ template <class R> class RefractedScene {
         Real f;
     };
     [[nodiscard]] Axis axis(const Real& at) const {
-        const Real p = at - Real(0.5F);
+        const Real p = r_.setting(site::texels_have_middles, true) ? at - Real(0.5F) : at;
         const Index base = whole(r_.floor(p));
         return {base, r_.note(site::fraction, p - r_.real(base))};
     }

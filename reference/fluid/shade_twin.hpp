@@ -15,7 +15,7 @@ struct ShadeTwin {
         using Real = typename R::Real;
         using Vec3 = typename R::Vec3;
         const auto pixel = pixel_at(host->settings().width, item);
-        const DepthMap<R> map(r, *host, in.before, last_depth(*host));
+        const DepthMap<R> map(r, *host, in.before, last_depth(r, *host));
         const Real stored = map.at(site::centre_depth, pixel.x, pixel.y);
         Vec3 lit{};
         if (map.is_empty(site::centre_empty, stored))

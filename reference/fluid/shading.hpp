@@ -15,7 +15,7 @@ inline constexpr float most_bend = 0.03325F;
 template <class R, class Real> Real step(R& r, float a, float b, const Real& x) {
     const Real t =
         r.note(site::share, r.min(Real(1.0F), r.max(Real(0.0F), divided_by(r, site::share, x - Real(a), b - a))));
-    return (t * t) * (Real(3.0F) - Real(2.0F) * t);
+    return r.setting(site::step_is_smooth, true) ? (t * t) * (Real(3.0F) - Real(2.0F) * t) : t;
 }
 template <class Vec3, class Real> Vec3 mixed(const Vec3& a, const Vec3& b, const Real& share) {
     return a * (Real(1.0F) - share) + b * share;
@@ -32,7 +32,8 @@ template <class R> struct Shading {
     template <class Place, class Item>
     [[nodiscard]] Vec3 at(const Place& pixel, const Item& item, const Real& z) const {
         const Vec3 e = point_at(r, host, pixel.x, pixel.y, z);
-        const Vec3 n = item_vec3(r, site::normal_in, state, field::normal, item);
+        const Vec3 stored = item_vec3(r, site::normal_in, state, field::normal, item);
+        const Vec3 n = r.setting(site::normal_is_of_view, true) ? stored : in_world(stored);
         const Vec3 to_eye = r.note(site::to_eye, -r.normalize(site::to_eye, e));
         const auto g4 = r.transform(site::world, r.uniform(site::inverse_view, host.inverse_view()), e);
         const Vec3 world = r.note(site::world, Vec3{g4.x, g4.y, g4.z});
@@ -44,11 +45,18 @@ template <class R> struct Shading {
         const Vec3 diffuse =
             r.note(site::diffuse, lambert(light, n, world, colour) * r.note(site::scattered, one - alpha));
         const Real cosine = r.note(site::cosine, r.max(Real(0.0F), r.dot(site::cosine, n, to_eye)));
-        const Vec3 surface = r.note(site::surface, mixed(refracted, sky(to_eye, n), fresnel(cosine)));
         const Real shine = specular(light, n, to_eye);
+        const Vec3 surface = r.note(site::surface, mixed(refracted, sky(to_eye, n), fresnel(cosine)));
         return r.note(site::surface_light, diffuse + (surface + Vec3{shine, shine, shine}) * alpha);
     }
 
+    [[nodiscard]] Vec3 in_world(const Vec3& of_view) const {
+        const glm::mat4& m = host.inverse_view();
+        const auto along = [&](int row) {
+            return (Real(m[0][row]) * of_view.x + Real(m[1][row]) * of_view.y) + Real(m[2][row]) * of_view.z;
+        };
+        return {along(0), along(1), along(2)};
+    }
     [[nodiscard]] Real specular(const Vec3& light, const Vec3& n, const Vec3& to_eye) const {
         const Vec3 h = r.note(site::halfway, r.normalize(site::halfway, to_eye + light));
         const Real shine = r.note(site::shine, r.max(Real(0.0F), r.dot(site::shine, n, h)));

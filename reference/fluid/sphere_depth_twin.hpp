@@ -74,7 +74,10 @@ struct SphereDepthTwin {
         const Real zero(0.0F), one(1.0F);
         const auto offer_at = [&](const Real& height_of, const auto& covered) {
             const Real z = r.note(site::surface_z, height_of), window = code.window(z), stored = code.stored(z);
-            made(covered && z < zero && before_scene(r, *host, meets.scene, window), code.tested(z, stored),
+            const Real in_scene = r.setting(site::scene_tests_surface, true) ? window : meets.window();
+            made(covered && z < zero && before_scene(r, *host, meets.scene, in_scene),
+                 r.setting(site::nearest_is_of_surface, true) ? code.tested(z, stored)
+                                                              : code.tested(ball.centre.z, code.stored(ball.centre.z)),
                  r.note(site::sphere_depth, stored));
         };
         if (host->switches().sphere == Sphere::ray) {

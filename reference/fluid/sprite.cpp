@@ -37,7 +37,8 @@ bool may_leave_boxes(std::span<const Mistake> made, std::size_t spheres) {
         site::beyond_near.id, site::radius.id,       site::distance.id, site::size.id,    site::half.id,
         site::point_scale.id, site::sprite_scale.id, site::p00.id,      site::p11.id,     site::width.id,
         site::height.id,      site::place_x.id,      site::place_y.id,  site::nx.id,      site::ny.id,
-        site::window_x.id,    site::window_y.id,     site::pixel_x.id,  site::pixel_y.id, site::drawn_size.id};
+        site::window_x.id,    site::window_y.id,     site::pixel_x.id,  site::pixel_y.id, site::drawn_size.id,
+        site::view_moves.id,  site::sized_by_w.id};
     return spheres <= few && std::ranges::any_of(made, [](const Mistake& mistake) {
                return std::ranges::find(placing, mistake.site) != placing.end();
            });

@@ -86,7 +86,9 @@ template <class R> class SpriteTwin {
         const glm::vec3 p(state_.vec4(field::position, particle));
         if (!(std::isfinite(p.x) && std::isfinite(p.y) && std::isfinite(p.z)))
             return {};
-        const auto view = r_.transform(site::centre, r_.uniform(site::view, host_.view()), r_.read(site::before, p));
+        const glm::mat4 to_view =
+            r_.setting(site::view_moves, true) ? host_.view() : glm::mat4(glm::mat3(host_.view()));
+        const auto view = r_.transform(site::centre, r_.uniform(site::view, to_view), r_.read(site::before, p));
         Ball<R> ball{r_.note(site::centre, Vec3{view.x, view.y, view.z}), {}};
         ball.w = r_.note(site::w, -ball.centre.z);
         const bool is_ray = spheres_.shape == Sphere::ray;
@@ -156,7 +158,7 @@ template <class R> class SpriteTwin {
     }
     void place(Ball<R>& ball) const {
         const Settings& s = host_.settings();
-        const bool by_w = host_.switches().point_size == PointSize::clip_w;
+        const bool by_w = r_.setting(site::sized_by_w, host_.switches().point_size == PointSize::clip_w);
         const Real away = by_w ? ball.w : r_.note(site::distance, r_.length(site::distance, ball.centre));
         const Real scale = r_.note(site::sprite_scale, r_.uniform(site::point_scale, host_.point_scale()) * radius());
         const Real size = r_.note(site::size, r_.divide(site::size, scale, away));

@@ -58,6 +58,8 @@ struct ThicknessTwin {
                 });
         });
         ItemWords<R> words;
+        if (!terms.empty() && !r.setting(site::adds_all, true))
+            terms.resize(1);
         if (is_fixed())
             words.add(units_of(in.before.word(field::thickness, item), terms));
         else

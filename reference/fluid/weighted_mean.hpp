@@ -20,7 +20,8 @@ template <class R> class WeightedMean {
 
     /// Of a number that the pixel itself has.
     [[nodiscard]] Real at(const Index& x, int y, const FilterStep& step, const Real& centre) const {
-        Sums sums{Real(0.0F), Real(0.0F)};
+        Sums sums{r_.setting(site::sum_from_0, true) ? Real(0.0F) : centre,
+                  Real(r_.setting(site::weights_from_0, true) ? 0.0F : 1.0F)};
         if constexpr (requires { centre.legal(); }) {
             std::vector<Sample> samples;
             for_each_sample(x, y, step, [&](const Real& stored, const Real& w) { samples.push_back({stored, w}); });
@@ -54,16 +55,21 @@ template <class R> class WeightedMean {
             for (const auto j : r_.range(site::samples, -reach, reach)) {
                 const int at = static_cast<int>(j), dx = static_cast<int>(direction.x) * at,
                           dy = static_cast<int>(direction.y) * at;
+                if (at == 0 && !takes_centre())
+                    continue;
                 visit(sample(x + dx, y + dy), weight(at));
             }
         } else {
             for (const auto row : r_.range(site::rows, -reach, reach))
                 for (const auto column : r_.range(site::samples, -reach, reach)) {
                     const int dx = static_cast<int>(column), dy = static_cast<int>(row);
+                    if (dx == 0 && dy == 0 && !takes_centre())
+                        continue;
                     visit(sample(x + dx, y + dy), weight(dx) * r_.note(site::row_weight, weight(dy)));
                 }
         }
     }
+    [[nodiscard]] bool takes_centre() const { return r_.setting(site::takes_centre, true); }
     [[nodiscard]] bool may_be_either(const Real& stored) const {
         const Interval set = item_twin::set_of(stored);
         return set.any || (!set.is_point() && set.contains(map_.code().empty()));
@@ -94,8 +100,11 @@ template <class R> class WeightedMean {
     void add(Sums& sums, const Real& stored, const Real& w, const Real& centre) const {
         const bool skips = r_.setting(site::skips_empty, true);
         const auto empty = map_.has_nothing(site::empty, stored);
-        if (skips && everywhere(empty))
+        if (skips && everywhere(empty)) {
+            if (r_.setting(site::empty_weighs, false))
+                sums.weights = sums.weights + w;
             return;
+        }
         const Term term = term_of(stored, w, centre);
         const auto left_out = skips && empty;
         sums.weighted = r_.note(site::weighted_sum, choose(left_out, sums.weighted, sums.weighted + term.part));
@@ -111,8 +120,10 @@ template <class R> class WeightedMean {
             return {s, s * w, w};
         const Real part = s * w,
                    q = r_.note(site::range_step, (s - centre) * r_.uniform(site::range_scale, host_.range_scale()));
-        const Real v = r_.note(site::range_weight, exponential_of(r_, host_, r_.note(site::exponent, -(q * q))));
-        return {s, part * v, w * v};
+        const Real power = r_.setting(site::range_is_squared, true) ? q * q : q;
+        const Real v = r_.note(site::range_weight, exponential_of(r_, host_, r_.note(site::exponent, -power)));
+        return {s, r_.setting(site::range_in_sum, true) ? part * v : part,
+                r_.setting(site::range_in_weights, true) ? w * v : w};
     }
 
     R& r_;

@@ -20,7 +20,7 @@ System system(const HostPtr& host, const std::string& name) {
                 .mistakes = {},
                 .start = start(host->settings()),
                 .settings = switches_text(host->switches(), host->settings().arithmetic, preset)};
-    for (const NamedMistake& mistake : mistakes())
+    for (const NamedMistake& mistake : mistakes(*host))
         if (std::any_of(made.passes.begin(), made.passes.end(),
                         [&](const auto& pass) { return pass->name() == mistake.pass; }))
             made.mistakes.push_back(mistake);

@@ -78,10 +78,6 @@ void of_sprites(Of& of, const Host& host) {
              decided_at(site::off_disc, off_half_the_disc))
         .add("size_by_square", "a sprite's size is divided by the square of the distance",
              formula_at(site::size, by_square))
-        .add("size_by_distance", "a sprite's size is divided by the distance to the eye",
-             mistake_at(site::sized_by_w, Change::never))
-        .add("size_by_w", "a sprite's size is divided by the distance along the view",
-             mistake_at(site::sized_by_w, Change::always))
         .add("height_of_distance", "the height of the sphere is by the distance, not by its square",
              spoiled_at(site::magnitude, distance_of_square))
         .add("ndc_turned", "NDC depth is negated, as where near and far are swapped",
@@ -89,6 +85,12 @@ void of_sprites(Of& of, const Host& host) {
         .add("depth_from_0", "clip depth is that of a range from 0 to 1",
              formula_at(site::depth_coefficients, as_given,
                         {static_cast<float>(far / (near - far)), static_cast<float>(near * far / (near - far))}));
+    if (host.switches().point_size == PointSize::clip_w)
+        of.add("size_by_distance", "a sprite's size is divided by the distance to the eye",
+               mistake_at(site::sized_by_w, Change::never));
+    else
+        of.add("size_by_w", "a sprite's size is divided by the distance along the view",
+               mistake_at(site::sized_by_w, Change::always));
     of_point_scale(of, host);
 }
 
@@ -102,7 +104,8 @@ void add_depth_mistakes(Of of, const Host& host) {
 
 void add_sphere_mistakes(Of of, const Host& host) {
     of_sprites(of, host);
-    add_ray_mistakes(of, host);
+    if (host.switches().sphere == Sphere::ray)
+        add_ray_mistakes(of, host);
     add_depth_mistakes(of, host);
     of.add_description("no_sphere", "no sphere is drawn", mistake_at(site::sphere_here, Change::never));
     of.add("back_of_sphere", "the far side of spheres is stored", mistake_at(site::nz, Change::negated))

@@ -45,7 +45,7 @@ void at_least_ambient(Words value, const CameBy& run) {
                    std::max(run.of(site::ambient)[c], run.of(site::sampled_colour)[c] * first(run, site::diffuse));
 }
 void stepped(Words value, const CameBy& /*run*/) { value[0] = value[0] > 0.0F ? 1.0F : 0.0F; }
-void without_z(Words value, const CameBy& run) {
+void cosine_without_z(Words value, const CameBy& run) {
     const auto &n = run.of(site::surface_normal), &l = run.of(site::to_lights);
     value[0] = n[0] * l[0] + n[1] * l[1];
 }
@@ -70,9 +70,8 @@ void by_power(Words value, const CameBy& /*run*/) {
 void yz_swapped(Words value, const CameBy& /*run*/) { std::swap(value[1], value[2]); }
 void xz_swapped(Words value, const CameBy& /*run*/) { std::swap(value[0], value[2]); }
 void of_side(Words value, const CameBy& /*run*/) { value[0] = std::cbrt(value[0]); }
-void cut(Words value, const CameBy& run) { value[0] = std::trunc(first(run, site::texel_place)); }
+void texel_cut(Words value, const CameBy& run) { value[0] = std::trunc(first(run, site::texel_place)); }
 void rounded(Words value, const CameBy& run) { value[0] = std::floor(first(run, site::texel_place) + 0.5F); }
-void y_is_x(Words value, const CameBy& /*run*/) { value[1] = value[0]; }
 void b_spline(Words value, const CameBy& run) {
     const float f = first(run, site::weighed), rest = 1.0F - f;
     value[0] = rest * rest * rest / 6.0F;
@@ -143,7 +142,7 @@ std::vector<NamedMistake> lighting_mistakes() {
         add("normal_of_position", "the position is taken for the normal",
             mistake_at(site::surface_normal, Change::instead, -1, &site::surface_point));
         add("half_texel_added", "half a texel is added, not taken away", mistake_at(site::half_texel, Change::negated));
-        add("texel_cut", "texels before the first are taken for the first", spoiled_at(site::base, cut));
+        add("texel_cut", "texels before the first are taken for the first", spoiled_at(site::base, texel_cut));
         add("texel_rounded", "the nearest texel is taken for the one before", spoiled_at(site::base, rounded));
         add("not_interpolated", "of the texels around a place the nearest is taken",
             mistake_at(site::interpolates, Change::never));
@@ -167,7 +166,7 @@ std::vector<NamedMistake> lighting_mistakes() {
             spoiled_at(site::lambert, of_both_sides));
         add("lambert_stepped", "what faces the lights is fully lit", spoiled_at(site::lambert, stepped));
         add("lambert_squared", "the cosine is squared", mistake_at(site::lambert, Change::times, -1, &site::cosine));
-        add("cosine_without_z", "the cosine leaves z out", spoiled_at(site::cosine, without_z));
+        add("cosine_without_z", "the cosine leaves z out", spoiled_at(site::cosine, cosine_without_z));
         add("colour_turned", "red and blue of what is sampled are swapped",
             mistake_at(site::sampled_colour, Change::xz_swapped));
         add("place_cut", "places are cut to whole voxels", spoiled_at(site::grid_place, whole));

@@ -25,5 +25,6 @@ inline Mistake with(Mistake mistake, const Mistake& also) {
 }
 
 inline float first(const CameBy& run, const Site& site) { return run.of(site)[0]; }
+inline void y_is_x(Words value, const CameBy& /*run*/) { value[1] = value[0]; }
 
 } // namespace lockstep::lights

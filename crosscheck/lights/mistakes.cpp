@@ -12,7 +12,6 @@
 namespace lockstep::lights {
 namespace {
 
-void y_is_x(Words value, const CameBy& /*run*/) { value[1] = value[0]; }
 void z_is_y(Words value, const CameBy& /*run*/) { value[2] = value[1]; }
 /// As far from the wall across as the place is behind this one.
 void from_high(Words value, const CameBy& run) {

@@ -24,7 +24,7 @@ void unsigned_word(Words value, const CameBy& /*run*/) {
     if (value[0] < 0.0F)
         value[0] = static_cast<float>(double{value[0]} + 0x1p32);
 }
-void without_z(Words value, const CameBy& run) {
+void square_without_z(Words value, const CameBy& run) {
     const auto& q = run.of(site::to_light);
     value[0] = q[0] * q[0] + q[1] * q[1];
 }
@@ -47,7 +47,7 @@ void of_length_one(Words value, const CameBy& /*run*/) {
     for (std::size_t c = 0; c < 3 && length > 0.0F; ++c)
         value[c] /= length;
 }
-void cut(Words value, const CameBy& run) { value[0] = std::trunc(first(run, site::units)); }
+void units_cut(Words value, const CameBy& run) { value[0] = std::trunc(first(run, site::units)); }
 void other_vector(Words value, const CameBy& /*run*/) {
     if (value[0] < 6.0F)
         value[0] += value[0] < 3.0F ? 3.0F : -3.0F;
@@ -131,7 +131,7 @@ std::vector<NamedMistake> of_volumes() {
         add("half_voxel_taken_away", "half a voxel is taken away from a voxel's corner, not added",
             mistake_at(site::offset, Change::negated));
         add("y_and_z_swapped", "a voxel's y is taken for its z", mistake_at(site::voxel_index, Change::yz_swapped));
-        add("square_without_z", "squared distances leave z out", spoiled_at(site::squared, without_z));
+        add("square_without_z", "squared distances leave z out", spoiled_at(site::squared, square_without_z));
         add("distance_for_square", "the distance is taken for its square", formula_at(site::squared, rooted));
         add("range_is_a_diameter", "a light reaches half of its range", mistake_at(site::range_before, Change::halved));
         add("falloff_by_share", "the window is of the squared share, not of its square",
@@ -232,7 +232,7 @@ void add_words(std::vector<NamedMistake>& all) {
           mistake_at(site::borrows, Change::never)},
          {"negatives_cut", "negative addends are rounded up, not down", scatter,
           mistake_at(site::rounds_down, Change::never)},
-         {"negatives_cut", "negative addends are rounded up, not down", scatter, spoiled_at(site::quantum, cut)},
+         {"negatives_cut", "negative addends are rounded up, not down", scatter, spoiled_at(site::quantum, units_cut)},
          {"origin_ignored", "a voxel's point is taken from the world's origin, not the grid's", scatter,
           with(tried(WronglyTried::from_world_origin), points_from_world_origin)},
          {"last_layer_left_out", "the last layer of voxels is left out", scatter, tried(WronglyTried::last_layer)},

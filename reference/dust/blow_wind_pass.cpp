@@ -12,7 +12,7 @@ std::unique_ptr<ItemPass> blow_wind_pass(const HostPtr& host) {
                       .arithmetic = host->settings().arithmetic,
                       .runs = [host](int frame) { return runs(*host, {"blow_wind"}, frame); },
                       .in_place = from_any_state,
-                      .keeps = {field::position.field, field::alive.field, field::colour.field}},
+                      .keeps = {field::colour.field}},
                      BlowWindTwin{host});
 }
 

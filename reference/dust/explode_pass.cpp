@@ -15,7 +15,7 @@ std::unique_ptr<ItemPass> explode_pass(const HostPtr& host, std::size_t ball) {
                               return runs(*host, {"explode", ball}, frame);
                           },
                       .in_place = from_any_state,
-                      .keeps = {field::position.field, field::alive.field, field::colour.field}},
+                      .keeps = {field::colour.field}},
                      ExplodeTwin{host, ball});
 }
 

@@ -77,7 +77,7 @@ std::uint32_t SystemView::total(FieldId field, int component) const {
 }
 
 SystemState::Column& SystemState::Column::operator=(const Column& other) {
-    if (words_ == other.words_)
+    if (this == &other || words_ == other.words_)
         return *this;
     if (words_.use_count() == 1)
         *words_ = *other.words_;

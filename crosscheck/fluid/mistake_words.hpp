@@ -7,7 +7,7 @@
 #include <utility>
 #include <vector>
 
-#include "crosscheck/judge/system.hpp"
+#include "crosscheck/judge/mistake_words.hpp"
 
 /// What the lists of fluid's mistakes are written with.
 namespace lockstep::fluid {
@@ -15,14 +15,6 @@ namespace lockstep::fluid {
 using Words = std::span<float>;
 using Constants = std::array<float, 3>;
 
-/// By a formula that leaves the very bits.
-inline Mistake spoiled_at(const Site& site, Formula formula, const Constants& constants = {}) {
-    return {.site = site.id, .change = Change::spoiled, .formula = formula, .constants = constants};
-}
-/// By one that others write in other orders.
-inline Mistake formula_at(const Site& site, Formula formula, const Constants& constants = {}) {
-    return {.site = site.id, .change = Change::by_formula, .formula = formula, .constants = constants};
-}
 inline Mistake ranged_at(const Site& site, Formula formula) {
     return {.site = site.id, .change = Change::ranged_by_formula, .formula = formula};
 }
@@ -32,14 +24,6 @@ inline Mistake decided_at(const Site& site, Formula formula) {
 inline Mistake instead_of(const Site& site, const Site& source) {
     return mistake_at(site, Change::instead, -1, &source);
 }
-
-/// `also` outlives what is returned, and has the same constants.
-inline Mistake with(Mistake mistake, const Mistake& also) {
-    mistake.also = &also;
-    return mistake;
-}
-
-inline float first(const CameBy& run, const Site& site) { return run.of(site)[0]; }
 
 // Formulas of constants.
 

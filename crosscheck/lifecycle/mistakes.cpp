@@ -5,6 +5,7 @@
 #include <span>
 #include <string>
 
+#include "crosscheck/judge/mistake_words.hpp"
 #include "reference/lifecycle/packing.hpp"
 
 #include "reference/lifecycle/draw_sites.hpp"
@@ -18,10 +19,6 @@ constexpr std::initializer_list<const char*> simulating{"move", "move_particles"
 /// The passes in which numbers become halves.
 constexpr std::initializer_list<const char*> packing{
     "emit", "move", "move_particles", "simulate", "simulate_particles", "ribbon_distance", "prefix_sum_particles"};
-
-Mistake spoiled_at(const Site& site, Formula formula) {
-    return {.site = site.id, .change = Change::spoiled, .formula = formula};
-}
 
 template <HalfRounding rounding> void rounded(std::span<float> code, const CameBy& run) {
     code[0] = ordered_half(half_code(run.of(site::half_source)[0], rounding));

@@ -12,7 +12,7 @@ std::unique_ptr<ItemPass> blow_wind_pass(const HostPtr& host) {
                       .arithmetic = host->settings().arithmetic,
                       .runs = [host](int frame) { return runs(*host, {"blow_wind"}, frame); },
                       .in_place = from_any_state,
-                      .keeps = {field::colour.field}},
+                      .keeps = {field::position.field, field::colour.field, field::alive.field}},
                      BlowWindTwin{host});
 }
 

@@ -15,7 +15,7 @@ std::unique_ptr<ItemPass> explode_pass(const HostPtr& host, std::size_t ball) {
                               return runs(*host, {"explode", ball}, frame);
                           },
                       .in_place = from_any_state,
-                      .keeps = {field::colour.field}},
+                      .keeps = {field::position.field, field::colour.field, field::alive.field}},
                      ExplodeTwin{host, ball});
 }
 

@@ -25,9 +25,13 @@ template <class Mark> void keep_others(const Host& host, const PassInput& in, st
         std::array<std::int32_t, block_size> alive{};
         std::memcpy(alive.data(), words_at(before, field::alive, first), count * sizeof(std::int32_t));
         keep(before, first, first + count, after, exact);
-        for (std::size_t i = 0; i < count; ++i)
-            if (marks[i] != 0 && (alive[i] == 1) == living)
-                left.push_back(first + i);
+        std::array<std::size_t, block_size> marked; // NOLINT: as many as there are
+        std::size_t found = 0;
+        for (std::size_t i = 0; i < count; ++i) { // without a branch, which nobody could foresee
+            marked[found] = first + i;
+            found += marks[i] & static_cast<std::uint32_t>((alive[i] == 1) == living);
+        }
+        left.insert(left.end(), marked.begin(), marked.begin() + static_cast<std::ptrdiff_t>(found));
     }
 }
 

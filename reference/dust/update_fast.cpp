@@ -202,7 +202,9 @@ void store(const Block& block, std::size_t first, std::size_t last, const View& 
     } else if (const std::byte* kept = words_at(before, field::colour, to); colour != nullptr && kept != colour) {
         std::memcpy(colour, kept, bytes);
     }
-    std::memcpy(words_at(after, field::alive, to), block.alive.data() + first, (last - first) * sizeof(std::int32_t));
+    if (has(after, field::alive))
+        std::memcpy(words_at(after, field::alive, to), block.alive.data() + first,
+                    (last - first) * sizeof(std::int32_t));
 }
 
 } // namespace

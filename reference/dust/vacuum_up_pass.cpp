@@ -6,13 +6,14 @@
 namespace lockstep::dust {
 
 std::unique_ptr<ItemPass> vacuum_up_pass(const HostPtr& host) {
+    const FieldId kept = host->switches().suction == Suction::force_kernel ? field::position : field::velocity;
     return item_pass({.name = "vacuum_up",
                       .resource = grain_buffer,
                       .stage = PassStage::compute,
                       .arithmetic = host->settings().arithmetic,
                       .runs = [host](int frame) { return runs(*host, {"vacuum_up"}, frame); },
                       .in_place = from_any_state,
-                      .keeps = {field::colour.field}},
+                      .keeps = {kept.field, field::colour.field}},
                      VacuumUpTwin{host});
 }
 

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <bit>
+#include <mutex>
 #include <utility>
 
 #include <fmt/format.h>
@@ -76,20 +77,67 @@ std::uint32_t SystemView::total(FieldId field, int component) const {
     return sum;
 }
 
+/// Arrays of one size. Columns of several threads may ask at once.
+class SystemState::Column::Spares {
+  public:
+    /// Of any words.
+    static std::shared_ptr<std::uint32_t[]> take(const std::shared_ptr<Spares>& from, std::size_t size) {
+        return {from->take(size).release(), [from](std::uint32_t* words) { from->give_back(Words(words)); }};
+    }
+
+  private:
+    using Words = std::unique_ptr<std::uint32_t[]>;
+    static constexpr std::size_t most = 2;
+
+    Words take(std::size_t size) {
+        const std::scoped_lock lock(mutex_);
+        if (waiting_.empty())
+            return std::make_unique_for_overwrite<std::uint32_t[]>(size);
+        Words words = std::move(waiting_.back());
+        waiting_.pop_back();
+        return words;
+    }
+    void give_back(Words words) {
+        const std::scoped_lock lock(mutex_);
+        if (waiting_.size() < most)
+            waiting_.push_back(std::move(words));
+    }
+
+    std::mutex mutex_;
+    std::vector<Words> waiting_;
+};
+
+SystemState::Column::Column(std::size_t size)
+    : size_(size), spares_(std::make_shared<Spares>()), words_(Spares::take(spares_, size)) {
+    std::fill_n(words_.get(), size, 0U);
+}
+
+SystemState::Column::Column(const Column& other)
+    : size_(other.size_), spares_(other.spares_), words_(Spares::take(spares_, size_)) {
+    std::copy_n(other.words_.get(), size_, words_.get());
+}
+
 SystemState::Column& SystemState::Column::operator=(const Column& other) {
     if (this == &other || words_ == other.words_)
         return *this;
-    if (words_.use_count() == 1)
-        *words_ = *other.words_;
-    else
-        words_ = std::make_shared<Words>(*other.words_);
+    if (size_ != other.size_)
+        return *this = Column(other);
+    std::copy_n(other.words_.get(), size_, reinterpret_cast<std::uint32_t*>(new_bytes()));
     return *this;
 }
 
+void SystemState::Column::swap(Column& other) noexcept { std::swap(*this, other); }
+
 std::byte* SystemState::Column::bytes() {
     if (words_.use_count() > 1)
-        words_ = std::make_shared<Words>(*words_);
-    return reinterpret_cast<std::byte*>(words_->data());
+        *this = Column(*this);
+    return reinterpret_cast<std::byte*>(words_.get());
+}
+
+std::byte* SystemState::Column::new_bytes() {
+    if (words_.use_count() > 1)
+        words_ = Spares::take(spares_, size_);
+    return reinterpret_cast<std::byte*>(words_.get());
 }
 
 SystemState::SystemState(const Schema& schema, std::vector<Extent> extents)
@@ -128,7 +176,7 @@ WritableView SystemState::all_but(std::span<const std::uint8_t> kept, std::uint8
     WritableView view{schema_, resource, extents_[resource], {}};
     for (std::uint8_t f = 0; f < schema_->resources[resource].fields.size(); ++f)
         view.columns.push_back(
-            std::ranges::find(kept, f) != kept.end() ? nullptr : columns_[schema_->column({resource, f})].bytes());
+            std::ranges::find(kept, f) != kept.end() ? nullptr : columns_[schema_->column({resource, f})].new_bytes());
     return view;
 }
 

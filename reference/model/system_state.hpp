@@ -103,7 +103,7 @@ class SystemState {
     [[nodiscard]] WritableView operator[](std::uint8_t resource);
     [[nodiscard]] View operator[](std::uint8_t resource) const;
     [[nodiscard]] SystemView view() const;
-    /// To write all fields of a resource but those of `kept`, whose columns are null.
+    /// To write every item of a resource anew, in all fields but those of `kept`, whose columns are null.
     [[nodiscard]] WritableView all_but(std::span<const std::uint8_t> kept, std::uint8_t resource);
 
     /// One field as `other` has it, without a copy until one of the two is written.
@@ -122,24 +122,29 @@ class SystemState {
     void set(FieldId field, std::size_t item, glm::vec4 value);
 
   private:
-    /// The words of one field. Two may share them until one is written.
+    /// The words of one field. Two may share them until one is written. Words that no column has any more wait for the
+    /// next that needs some: large arrays are slow to get from the system.
     class Column {
       public:
-        explicit Column(std::size_t size) : words_(std::make_shared<Words>(size)) {}
+        explicit Column(std::size_t size); ///< of zeros
         ~Column() = default;
-        Column(const Column& other) : words_(std::make_shared<Words>(*other.words_)) {}
+        Column(const Column& other);
         Column(Column&&) noexcept = default;
         Column& operator=(const Column& other);
         Column& operator=(Column&&) noexcept = default;
 
         void share(const Column& other) { words_ = other.words_; }
-        void swap(Column& other) noexcept { words_.swap(other.words_); }
-        [[nodiscard]] const std::byte* bytes() const { return reinterpret_cast<const std::byte*>(words_->data()); }
+        void swap(Column& other) noexcept;
+        [[nodiscard]] const std::byte* bytes() const { return reinterpret_cast<const std::byte*>(words_.get()); }
         [[nodiscard]] std::byte* bytes();
+        /// For who writes every word: those that were shared are not copied.
+        [[nodiscard]] std::byte* new_bytes();
 
       private:
-        using Words = std::vector<std::uint32_t>;
-        std::shared_ptr<Words> words_;
+        class Spares;
+        std::size_t size_;
+        std::shared_ptr<Spares> spares_; ///< of all copies of a column
+        std::shared_ptr<std::uint32_t[]> words_;
     };
 
     const Schema* schema_ = nullptr;

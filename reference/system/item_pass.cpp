@@ -31,6 +31,8 @@ void run_pass(const ItemPass& pass, const PassInput& in, const Profile& profile,
 }
 
 void run_pass(const ItemPass& pass, const SystemState& before, int frame, const Profile& profile, SystemState& after) {
+    if (!pass.runs(frame))
+        return;
     const std::uint8_t r = pass.resource();
     for (const std::uint8_t f : pass.keeps())
         after.share({r, f}, before);

@@ -140,10 +140,13 @@ int Host::pulled_in(int frame) const {
     return before_tools ? frame - 1 : frame;
 }
 
+bool Host::update_may_kill() const {
+    return switches().suction == Suction::force_in_update ||
+           (switches().suction == Suction::force_kernel && switches().forecast == Forecast::moved);
+}
+
 bool Host::update_kills(int frame) const {
-    const bool asks = switches().suction == Suction::force_in_update ||
-                      (switches().suction == Suction::force_kernel && switches().forecast == Forecast::moved);
-    return asks && pulled_in(frame) >= 0 && is_on(Tool::Kind::vacuum, pulled_in(frame));
+    return update_may_kill() && pulled_in(frame) >= 0 && is_on(Tool::Kind::vacuum, pulled_in(frame));
 }
 
 bool Host::has(Tool::Kind kind) const {

@@ -58,7 +58,8 @@ class Host {
     [[nodiscard]] bool is_on(Tool::Kind kind, int frame) const;
     /// The frame whose vacuum pulls, or last pulled, what Update moves in `frame`; -1: none.
     [[nodiscard]] int pulled_in(int frame) const;
-    /// Whether Update asks who dies in the mouth, be it alone or again.
+    /// Whether Update asks who dies in the mouth, be it alone or again: in some frame, and in `frame`.
+    [[nodiscard]] bool update_may_kill() const;
     [[nodiscard]] bool update_kills(int frame) const;
     /// Whether the tool's kernel has something to do in any frame.
     [[nodiscard]] bool has(Tool::Kind kind) const;

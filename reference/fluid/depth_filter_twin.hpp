@@ -1,5 +1,6 @@
 #pragma once
 #include <memory>
+#include <vector>
 
 #include "reference/fluid/curvature_flow.hpp"
 #include "reference/fluid/narrow_range.hpp"
@@ -14,7 +15,9 @@ namespace lockstep::fluid {
 struct DepthFilterTwin {
     HostPtr host;
     FilterStep step;
-    std::shared_ptr<const KnownNarrowWeights> weights = {}; ///< null: not of the narrow-range filter
+    /// What the filter's weight() gives; null: of another filter, or never read by lanes.
+    std::shared_ptr<const KnownNarrowWeights> narrow_weights = {};
+    std::shared_ptr<const std::vector<float>> mean_weights = {};
 
     bool fast(const FastRun& run) const; // image_lanes.cpp
 
@@ -40,7 +43,7 @@ struct DepthFilterTwin {
         const DepthCode<R>& code = map.code();
         switch (host->switches().filter) {
         case Filter::narrow_range: {
-            const NarrowRange<R> filter(r, *host, map, weights.get());
+            const NarrowRange<R> filter(r, *host, map, narrow_weights.get());
             return code.stored(filter.at(pixel.x, pixel.y, step, code.decoded(centre)));
         }
         case Filter::curvature_flow: {
@@ -50,7 +53,7 @@ struct DepthFilterTwin {
         default:
             break;
         }
-        const WeightedMean<R> filter(r, *host, map);
+        const WeightedMean<R> filter(r, *host, map, mean_weights.get());
         if (filter.is_metric())
             return code.stored(filter.at(pixel.x, pixel.y, step, code.decoded(centre)));
         return code.coded(filter.at(pixel.x, pixel.y, step, centre));

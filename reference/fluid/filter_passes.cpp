@@ -4,31 +4,38 @@
 namespace lockstep::fluid {
 namespace {
 
-/// By the twin of one item.
-template <class A> KnownNarrowWeights weights_in(const Host& host, A arithmetic) {
+// Weights by the twin of one item.
+template <class A> void add_weights(DepthFilterTwin& twin, A arithmetic) {
+    const Host& host = *twin.host;
     Values<A> r(arithmetic);
     const SystemView nothing;
     const DepthMap<Values<A>> map(r, host, nothing, field::depth);
-    const NarrowRange<Values<A>> filter(r, host, map);
-    return KnownNarrowWeights([&](int dx, int dy, int n) { return static_cast<float>(filter.weight(dx, dy, n)); });
-}
-
-/// Of the host's arithmetic; in the plain one for drivers without tables of roots.
-std::shared_ptr<const KnownNarrowWeights> narrow_weights(const Host& host) {
-    return std::make_shared<const KnownNarrowWeights>(host.settings().arithmetic == ArithmeticSwitch::exact
-                                                          ? weights_in(host, Portable{})
-                                                          : weights_in(host, Strict{}));
+    if (host.switches().filter == Filter::narrow_range) {
+        const NarrowRange<Values<A>> filter(r, host, map);
+        twin.narrow_weights = std::make_shared<const KnownNarrowWeights>(
+            [&](int dx, int dy, int n) { return static_cast<float>(filter.weight(dx, dy, n)); });
+    } else if (host.switches().filter != Filter::curvature_flow) {
+        const WeightedMean<Values<A>> filter(r, host, map);
+        std::vector<float> weights;
+        for (int j = 0; j <= host.settings().filter_radius; ++j)
+            weights.push_back(static_cast<float>(filter.weight(j)));
+        twin.mean_weights = std::make_shared<const std::vector<float>>(std::move(weights));
+    }
 }
 
 } // namespace
 
 void add_filter_passes(const HostPtr& host, Passes& all) {
-    std::shared_ptr<const KnownNarrowWeights> weights;
-    if (host->switches().filter == Filter::narrow_range)
-        weights = narrow_weights(*host);
-    for (const FilterStep& step : host->filter_steps())
-        all.push_back(item_pass(options_of(*host, "depth_filter_pass", smooth_depth_image, PassStage::compute),
-                                DepthFilterTwin{host, step, weights}));
+    DepthFilterTwin twin{.host = host, .step = {}};
+    // Of the host's arithmetic; in the plain one for drivers without tables of roots.
+    if (host->settings().arithmetic == ArithmeticSwitch::exact)
+        add_weights(twin, Portable{});
+    else
+        add_weights(twin, Strict{});
+    for (const FilterStep& step : host->filter_steps()) {
+        twin.step = step;
+        all.push_back(item_pass(options_of(*host, "depth_filter_pass", smooth_depth_image, PassStage::compute), twin));
+    }
 }
 
 } // namespace lockstep::fluid

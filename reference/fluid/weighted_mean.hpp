@@ -16,7 +16,10 @@ template <class R> class WeightedMean {
     using Index = IndexOf<R>;
 
   public:
-    WeightedMean(R& r, const Host& host, const DepthMap<R>& map) : r_(r), host_(host), map_(map) {}
+    /// `weights`: what weight() gives, from the middle on; null where it is to compute them itself, as all but lanes
+    /// do.
+    WeightedMean(R& r, const Host& host, const DepthMap<R>& map, const std::vector<float>* weights = nullptr)
+        : r_(r), host_(host), map_(map), weights_(weights) {}
 
     /// Of a number that the pixel itself has.
     [[nodiscard]] Real at(const Index& x, int y, const FilterStep& step, const Real& centre) const {
@@ -36,6 +39,15 @@ template <class R> class WeightedMean {
         return r_.note(site::mean, r_.divide(site::mean, sums.weighted, sums.weights));
     }
 
+    /// Of a sample so many pixels aside.
+    [[nodiscard]] Real weight(int j) const {
+        if constexpr (HasLanes<R>)
+            return r_.uniform(site::weight, (*weights_)[static_cast<std::size_t>(std::abs(j))]);
+        if (host_.switches().transcendentals == Transcendentals::portable)
+            return r_.uniform(site::weight, host_.weights()[static_cast<std::size_t>(std::abs(j))]);
+        const Real q = r_.real(j) * r_.uniform(site::blur_scale, host_.blur_scale());
+        return r_.note(site::weight, exponential_of(r_, host_, r_.note(site::exponent, -(q * q))));
+    }
     [[nodiscard]] bool is_metric() const { return host_.switches().filter_constants == FilterConstants::metric; }
 
   private:
@@ -91,12 +103,6 @@ template <class R> class WeightedMean {
     }
 
     [[nodiscard]] Real sample(const Index& x, int y) const { return map_.at(site::sample, x, y); }
-    [[nodiscard]] Real weight(int j) const {
-        if (host_.switches().transcendentals == Transcendentals::portable)
-            return r_.uniform(site::weight, host_.weights()[static_cast<std::size_t>(std::abs(j))]);
-        const Real q = r_.real(j) * r_.uniform(site::blur_scale, host_.blur_scale());
-        return r_.note(site::weight, exponential_of(r_, host_, r_.note(site::exponent, -(q * q))));
-    }
     void add(Sums& sums, const Real& stored, const Real& w, const Real& centre) const {
         const bool skips = r_.setting(site::skips_empty, true);
         const auto empty = map_.has_nothing(site::empty, stored);
@@ -129,6 +135,7 @@ template <class R> class WeightedMean {
     R& r_;
     const Host& host_;
     const DepthMap<R>& map_;
+    const std::vector<float>* weights_;
 };
 
 } // namespace lockstep::fluid

@@ -46,16 +46,23 @@ template <class R, class Real> Real anything(R& r, At at, double value) {
 
 } // namespace exponential_rules
 
+/// e^x, the nearest float or one beside it, as lanes have it too (system/lane_items.hpp).
+inline float exponential_value(float x) {
+    if (!(x >= least_exponent && x <= 0.0F))
+        return static_cast<float>(std::exp(double{x}));
+    return exponential(
+        x, [](float v) { return std::floor(v); }, [](float p, float j) { return std::ldexp(p, static_cast<int>(j)); });
+}
+
 /// GLSL's exp.
 template <class R, class Real> Real built_in_exponential(R& r, At at, const Real& x) {
     const Interval set = item_twin::set_of(x);
     if (set.any)
         return exponential_rules::anything<R, Real>(r, at, 0.0);
-    const auto f = [](double v) { return std::exp(v); };
     Interval legal{0.0, 0.0};
     if constexpr (requires { x.legal(); })
-        legal = exponential_rules::widened(set.low, set.high, f);
-    return exponential_rules::legal<R, Real>(r, at, f(double{set.as_float()}), legal);
+        legal = exponential_rules::widened(set.low, set.high, [](double v) { return std::exp(v); });
+    return exponential_rules::legal<R, Real>(r, at, exponential_value(set.as_float()), legal);
 }
 
 /// x^n of 1 <= n < 1024: the squares that make it up, the largest first.

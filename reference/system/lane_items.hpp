@@ -106,24 +106,29 @@ template <class F> class ItemWords<Lanes<F>> {
     std::size_t size_ = 0;
 };
 
-/// portable_exponential (readings/exponential.hpp), lane by lane.
-template <class F> LaneReal<F> portable_exponential(Lanes<F>& /*r*/, At, const LaneReal<F>& x) {
-    const LaneReal<F> power = exponential(
+/// e^x of x from -87 to 0.
+template <class F> LaneReal<F> exponential_of_lanes(const LaneReal<F>& x) {
+    return exponential(
         x, [](const LaneReal<F>& v) { return Lanes<F>::floor(v); },
         [](const LaneReal<F>& p, const LaneReal<F>& j) {
             const IntLanes n = __builtin_convertvector(j.v, IntLanes), half = n / 2;
             const auto two_to = [](const IntLanes& k) { return LaneReal<F>(lanes::floats((k + 127) << 23)); };
             return p * two_to(half) * two_to(n - half);
         });
-    return choose(x >= LaneReal<F>(least_exponent), power, LaneReal<F>(0.0F));
+}
+
+/// portable_exponential (readings/exponential.hpp), lane by lane.
+template <class F> LaneReal<F> portable_exponential(Lanes<F>& /*r*/, At, const LaneReal<F>& x) {
+    return choose(x >= LaneReal<F>(least_exponent), exponential_of_lanes(x), LaneReal<F>(0.0F));
 }
 
 // GLSL's own functions, lane by lane: as those of one item give them.
-template <class F> LaneReal<F> built_in_exponential(Lanes<F>& /*r*/, At at, const LaneReal<F>& x) {
-    Values<Strict> one{Strict{}};
-    const auto of = [&](float v) { return built_in_exponential<Values<Strict>, float>(one, at, v); };
-    const bool is_one = lanes::set_of(lanes::bits(x.v) == lanes::bits(x.v)[0]) == (1U << lane_count) - 1;
-    return is_one ? LaneReal<F>(of(x.v[0])) : LaneReal<F>(lanes::each(x.v, of));
+template <class F> LaneReal<F> built_in_exponential(Lanes<F>& /*r*/, At, const LaneReal<F>& x) {
+    const IntLanes is_inside = (x.v >= least_exponent) & (x.v <= 0.0F);
+    FloatLanes found = exponential_of_lanes(LaneReal<PlainLanes>(is_inside ? x.v : lanes::all(0.0F))).v;
+    for (unsigned others = ~lanes::set_of(is_inside) & ((1U << lane_count) - 1); others != 0; others &= others - 1)
+        found[std::countr_zero(others)] = exponential_value(x.v[std::countr_zero(others)]);
+    return found;
 }
 template <class F> LaneReal<F> built_in_power(Lanes<F>& /*r*/, At at, const LaneReal<F>& x, int n) {
     Values<Strict> one{Strict{}};

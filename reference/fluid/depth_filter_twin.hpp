@@ -18,6 +18,7 @@ struct DepthFilterTwin {
     /// What the filter's weight() gives; null: of another filter, or never read by lanes.
     std::shared_ptr<const KnownNarrowWeights> narrow_weights = {};
     std::shared_ptr<const std::vector<float>> mean_weights = {};
+    std::shared_ptr<const PixelPlaces> places = {};
 
     bool fast(const FastRun& run) const; // image_lanes.cpp
 
@@ -25,7 +26,7 @@ struct DepthFilterTwin {
         using Real = typename R::Real;
         const auto pixel = pixel_at(host->settings().width, item);
         const bool of_spheres = r.setting(site::reads_spheres, step.of_spheres);
-        const DepthMap<R> map(r, *host, in.before, of_spheres ? field::depth : field::smooth_depth);
+        const DepthMap<R> map(r, *host, in.before, of_spheres ? field::depth : field::smooth_depth, places.get());
         const Real centre = map.at(site::centre_depth, pixel.x, pixel.y);
         ItemWords<R> words;
         words.add(r.note(site::smooth_depth, filtered(r, map, pixel, centre)));

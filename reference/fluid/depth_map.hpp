@@ -3,6 +3,7 @@
 
 #include "reference/fluid/depth_code.hpp"
 #include "reference/fluid/linear_fetch.hpp"
+#include "reference/fluid/pixel_places.hpp"
 #include "reference/model/fluid/schema.hpp"
 #include "reference/readings/decided.hpp"
 #include "reference/readings/exponential.hpp"
@@ -23,8 +24,9 @@ template <class R> class DepthMap {
     using Index = IndexOf<R>;
 
   public:
-    DepthMap(R& r, const Host& host, const SystemView& state, FieldId from)
-        : r_(r), host_(host), state_(state), from_(from), code_(r, host) {}
+    /// `places`: pixel_places(host), by which lanes filter; null: they find the places themselves, as all others do.
+    DepthMap(R& r, const Host& host, const SystemView& state, FieldId from, const PixelPlaces* places = nullptr)
+        : r_(r), host_(host), state_(state), from_(from), places_(places), code_(r, host) {}
 
     /// What is stored at a pixel, the nearest one of the image.
     [[nodiscard]] Real at(At place, const Index& x, int y) const {
@@ -56,6 +58,9 @@ template <class R> class DepthMap {
   private:
     [[nodiscard]] Real filtered(At place, const Index& x, int y) const {
         const Settings& s = host_.settings();
+        if constexpr (HasLanes<R>)
+            if (places_ != nullptr && is_amidst(*places_, x, y))
+                return linear_fetch(r_, x, y, *places_, state_[from_.resource].columns[from_.field]);
         const auto along = [&](const auto& i, int size, At size_at) {
             const Real extent = r_.uniform(size_at, static_cast<float>(size));
             return r_.divide(place, r_.real(i) + Real(0.5F), extent) * extent;
@@ -71,6 +76,7 @@ template <class R> class DepthMap {
     const Host& host_;
     const SystemView& state_;
     FieldId from_;
+    const PixelPlaces* places_;
     DepthCode<R> code_;
 };
 

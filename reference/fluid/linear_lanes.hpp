@@ -1,10 +1,12 @@
 #pragma once
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstddef>
 #include <cstring>
 
 #include "reference/fluid/linear_fetch.hpp"
+#include "reference/fluid/pixel_places.hpp"
 #include "reference/system/lane_items.hpp"
 #include "reference/vector_loops.hpp"
 
@@ -25,27 +27,30 @@ LOCKSTEP_INLINE FloatLanes mixed(const FloatLanes& from, const FloatLanes& to, c
     return lanes::loaded<FloatLanes>(first.data());
 }
 
-/// A texel of each lane and the one behind it, in one row.
-struct Neighbours {
-    FloatLanes one, next;
-};
+} // namespace linear_lanes
 
-/// Lanes that lie side by side, each of them on its texel or on the one before, as rounding has it, read three vectors.
-template <class Texel>
-LOCKSTEP_INLINE Neighbours neighbours(const Texels<Texel>& image, const LaneInt& base, const LaneInt& row) {
-    const IntLanes off = base.v - from(0);
-    const int first = lanes::set_of(off == off[0] + 1) != 0 ? off[0] + 1 : off[0];
-    const IntLanes is_before = off == first - 1;
-    const bool are_near = lanes::set_of(is_before | (off == first)) == (1U << lane_count) - 1;
-    if (!are_near || first < 1 || first + lane_count >= image.width)
-        return {image.texel(base.clamped(0, image.width - 1), row),
-                image.texel((base + 1).clamped(0, image.width - 1), row)};
-    const FloatLanes before = image.texel(LaneInt(from(first - 1)), row), at = image.texel(LaneInt(from(first)), row),
-                     behind = image.texel(LaneInt(from(first + 1)), row);
-    return {is_before ? before : at, is_before ? at : behind};
+/// Pixels of a row, each with those beside it in the image: at least one on each side.
+inline bool is_amidst(const PixelPlaces& places, const LaneInt& x, int y) {
+    const int first = x.v[0], width = static_cast<int>(places.x.f.size()), height = static_cast<int>(places.y.f.size());
+    return first >= 1 && first + lane_count < width && y >= 0 && y < height &&
+           lanes::set_of(x.v == from(first)) == (1U << lane_count) - 1;
 }
 
-} // namespace linear_lanes
+/// linear_fetch at the middles of pixels that are amidst an image of floats.
+template <class F>
+LaneReal<F> linear_fetch(Lanes<F>& /*r*/, const LaneInt& x, int y, const PixelPlaces& places, const std::byte* texels) {
+    const int first = x.v[0], width = static_cast<int>(places.x.f.size()), height = static_cast<int>(places.y.f.size());
+    const FloatLanes f = lanes::loaded<FloatLanes>(&places.x.f[static_cast<std::size_t>(first)]);
+    const IntLanes is_before = lanes::loaded<IntLanes>(&places.x.base[static_cast<std::size_t>(first)]) < x.v;
+    const auto row = [&](int at) {
+        const std::byte* own = texels + static_cast<std::ptrdiff_t>(std::clamp(at, 0, height - 1) * width + first) * 4;
+        const FloatLanes before = lanes::loaded<FloatLanes>(own - 4), middle = lanes::loaded<FloatLanes>(own),
+                         behind = lanes::loaded<FloatLanes>(own + 4);
+        return linear_lanes::mixed(is_before ? before : middle, is_before ? middle : behind, f);
+    };
+    const std::int32_t base = places.y.base[static_cast<std::size_t>(y)];
+    return linear_lanes::mixed(row(base), row(base + 1), lanes::all(places.y.f[static_cast<std::size_t>(y)]));
+}
 
 /// linear_fetch, lane by lane.
 template <class F, class Texel>
@@ -61,8 +66,9 @@ LaneReal<F> linear_fetch(Lanes<F>& /*r*/, At, const typename Lanes<F>::Vec2& pla
     };
     const Axis x = axis(place.x.v, image.width), y = axis(place.y.v, image.height);
     const auto row = [&](int dy) {
-        const auto [one, next] = linear_lanes::neighbours(image, x.base, (y.base + dy).clamped(0, image.height - 1));
-        return linear_lanes::mixed(one, next, x.f);
+        const LaneInt at = (y.base + dy).clamped(0, image.height - 1);
+        return linear_lanes::mixed(image.texel(x.base.clamped(0, image.width - 1), at),
+                                   image.texel((x.base + 1).clamped(0, image.width - 1), at), x.f);
     };
     return linear_lanes::mixed(row(0), row(1), y.f);
 }

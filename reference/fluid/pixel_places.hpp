@@ -1,0 +1,42 @@
+#pragma once
+#include <cmath>
+#include <cstdint>
+#include <memory>
+#include <vector>
+
+#include "reference/model/fluid/host.hpp"
+
+namespace lockstep::fluid {
+
+/// Where GL_LINEAR finds the middles of pixels along an axis: beside those of their texels, by what the shader's
+/// quotient by the image's size, and its product with it, leave. A pixel's value is fma(f, next - texel, texel) of the
+/// texel at `base`, its own or the one before.
+struct PixelAxis {
+    std::vector<float> f;
+    std::vector<std::int32_t> base;
+
+    /// In every arithmetic, as no number here is tiny.
+    explicit PixelAxis(int size) {
+        for (int i = 0; i < size; ++i) {
+            const auto extent = static_cast<float>(size);
+            const float middle = (static_cast<float>(i) + 0.5F) / extent * extent;
+            const float place = middle - 0.5F, whole = std::floor(place);
+            f.push_back(place - whole);
+            base.push_back(static_cast<std::int32_t>(whole));
+        }
+    }
+};
+
+struct PixelPlaces {
+    PixelAxis x, y;
+};
+
+/// Null where texels are fetched as they are.
+inline std::shared_ptr<const PixelPlaces> pixel_places(const Host& host) {
+    const Settings& s = host.settings();
+    if (host.switches().depth_fetch != DepthFetch::linear)
+        return nullptr;
+    return std::make_shared<const PixelPlaces>(PixelPlaces{PixelAxis(s.width), PixelAxis(s.height)});
+}
+
+} // namespace lockstep::fluid

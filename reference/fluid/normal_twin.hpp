@@ -73,13 +73,13 @@ struct NormalTwin {
         int offset;
         Vec3 point;
     };
-    /// The normal where the sets of the cross product hold 0 and no points of these rays make it 0.
+    /// The normal where the cross product's length may be lost, and no points of these rays make it 0.
     template <class Vec3>
     [[nodiscard]] std::optional<std::array<Interval, 3>> by_rays(const Pixel& p, const Vec3& cross, const Vec3& here,
                                                                  const Taken<Vec3>& beside,
                                                                  const Taken<Vec3>& above) const {
         using item_twin::set_of;
-        if (!set_of(cross.x).contains_zero() || !set_of(cross.y).contains_zero() || !set_of(cross.z).contains_zero())
+        if (!may_lack_length({set_of(cross.x), set_of(cross.y), set_of(cross.z)}))
             return {};
         const Settings& s = host->settings();
         const auto ray = [&](int x, int y) {

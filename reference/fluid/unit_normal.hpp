@@ -101,6 +101,19 @@ inline double nearest(const glm::dvec3& to, const PointsOnRays& points, const Bo
 
 } // namespace unit_normal_rules
 
+/// Whether a dot product of a vector with itself may come out as 0, or as any small number: its least length is lost in
+/// what rounding makes of its greatest.
+inline bool may_lack_length(const std::array<Interval, 3>& vector) {
+    double least = 0.0, most = 0.0;
+    for (const Interval& set : vector) {
+        const double near = set.contains_zero() ? 0.0 : std::min(std::abs(set.low), std::abs(set.high));
+        const double far = set.any ? HUGE_VAL : std::max(std::abs(set.low), std::abs(set.high));
+        least += near * near;
+        most += far * far;
+    }
+    return !(least > 0x1p-18 * most && least > 1e-30);
+}
+
 /// What normalize((p1 - p0) x (p2 - p0)) may be, component by component, each point being anywhere in its set. Points
 /// on three rays never lie in a line with the product 0, so this has a direction where the product's own sets hold 0.
 /// Nothing where that is not sure in floats.

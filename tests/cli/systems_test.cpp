@@ -401,3 +401,13 @@ TEST_CASE("systems: a capsule repeats its verdict without the scene's file and w
     folder.write("other.json", text.replace(text.rfind("\"system\":\"dust\""), 15, "\"system\":\"sand\""));
     CHECK_THAT(refusal(run_lockstep({"capsule", "show", (folder.path() / "other.json").string()})), Contains("sand"));
 }
+
+TEST_CASE("cli capsule: pixels of an NVIDIA driver's run whose normals' length was lost in rounding's sets are legal") {
+    for (const std::string name : {"tilted_sheet_normal", "wave_normal"}) {
+        const test::Outcome shown = run_lockstep({"capsule", "show", "data/results/fluid/capsules/" + name + ".json"});
+        CAPTURE(name, shown.out, shown.err);
+        CHECK(shown.status == 0);
+        CHECK_THAT(shown.out, Contains("verdict   rounding"));
+        CHECK_THAT(shown.out, !Contains("anything"));
+    }
+}

@@ -88,6 +88,16 @@ TEST_CASE("unit normal: of points that may lie at the eye, or anywhere, nothing 
     CHECK_FALSE(fluid::unit_normal(points));
 }
 
+TEST_CASE("unit normal: a product's length is lost where its least is little beside what its greatest is rounded by") {
+    const Interval wide(-5e-4, 5e-4), near(4e-8, 9e-5), far(1e-4, 2e-4);
+    CHECK(fluid::may_lack_length({wide, wide, wide}));
+    CHECK(fluid::may_lack_length({wide, wide, near})); // above 0, and 1e-10 of the whole
+    CHECK(fluid::may_lack_length({wide, wide, Interval::anything()}));
+    CHECK(fluid::may_lack_length({wide, wide, Interval(NAN)}));
+    CHECK_FALSE(fluid::may_lack_length({wide, wide, far}));
+    CHECK_FALSE(fluid::may_lack_length({Interval(0.0F), Interval(0.0F), far}));
+}
+
 TEST_CASE("unit normal: no normal of the published values is undefined, whatever a filtered fetch may give") {
     fluid::Settings s = in_preset(heap(), "paper");
     const System system = fluid::system(host_of(s));

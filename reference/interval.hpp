@@ -82,6 +82,14 @@ inline Interval multiply(Interval a, Interval b) {
                    *std::max_element(std::begin(ends), std::end(ends)));
 }
 
+/// |v|.
+inline Interval magnitude(Interval v) {
+    if (v.any)
+        return v;
+    const double low = std::abs(v.low), high = std::abs(v.high);
+    return {v.contains_zero() ? 0.0 : std::min(low, high), std::max(low, high)};
+}
+
 /// v * v, which multiply(v, v) would let be negative.
 inline Interval square(Interval v) {
     const Interval product = multiply(v, v);

@@ -82,10 +82,20 @@ template <class A> class LegalArithmetic {
         return result;
     }
 
+    /// A number's product with itself: of its size, and so never below 0.
+    [[nodiscard]] Interval square(Interval v) const {
+        const Interval size = interval::magnitude(v);
+        return not_negative(product(size, size));
+    }
+
     /// Where factors may be taken in another order: x * y of rounded products, against any other order of their
     /// factors, which has as many roundings. Each rounding is 2^-24; those of this product, of the other, and of the
     /// one within.
     [[nodiscard]] Interval product_of_products(Interval a, Interval b) const { return in_another_order(product(a, b)); }
+    [[nodiscard]] Interval square_of_product(Interval v) const {
+        const Interval size = interval::magnitude(v);
+        return not_negative(product_of_products(size, size));
+    }
     [[nodiscard]] Interval quotient_of_products(Interval a, Interval b) const { return in_another_order(divide(a, b)); }
 
     [[nodiscard]] Interval3 sum(const Interval3& a, const Interval3& b) const {
@@ -212,6 +222,8 @@ template <class A> class LegalArithmetic {
     [[nodiscard]] Interval in_another_order(Interval v) const {
         return v.any ? v : interval::to_floats(flushed(interval::widen(v, another_order)));
     }
+
+    static Interval not_negative(Interval v) { return v.any || !(v.low < 0.0) ? v : Interval(0.0, v.high); }
 
     [[nodiscard]] Interval flushed(Interval v) const { return known_.subnormals ? v : interval::maybe_flushed(v); }
 

@@ -73,6 +73,8 @@ template <class A> class Worlds {
         Real(Worlds* run, float x) : run_(run), point_(x) {}
         Real(Worlds* run, std::uint32_t id) : run_(run), id_(id) {}
         [[nodiscard]] bool is_float() const { return id_ == no_id; }
+        /// One value, not two of one set.
+        [[nodiscard]] bool is_same(Real other) const { return !is_float() && id_ == other.id_; }
         static Worlds* run_of(Real a, Real b) { return a.run_ != nullptr ? a.run_ : b.run_; }
         static Real added(Real a, Real b) {
             if (const auto sum = of_floats(a, b, [](auto x, auto y) { return x + y; }))
@@ -87,17 +89,22 @@ template <class A> class Worlds {
         static Real multiplied(Real a, Real b) {
             if (const auto product = of_floats(a, b, [](auto x, auto y) { return x * y; }))
                 return *product;
-            return run_of(a, b)->make({a, b}, [&](const auto& fp) { return fp.product(a.set(), b.set()); });
+            return run_of(a, b)->make({a, b}, [&](const auto& fp) {
+                return a.is_same(b) ? fp.square(a.set()) : fp.product(a.set(), b.set());
+            });
         }
         /// Where the order of factors is open, a product remembers that it is one.
         static Real chained(Real a, Real b) {
             Worlds* run = run_of(a, b);
             if (run == nullptr || !run->known().factors_reordered)
                 return multiplied(a, b);
-            Real product =
-                a.of_factors_ || b.of_factors_
-                    ? run->make({a, b}, [&](const auto& fp) { return fp.product_of_products(a.set(), b.set()); })
-                    : multiplied(a, b);
+            Real product = a.of_factors_ || b.of_factors_
+                               ? run->make({a, b},
+                                           [&](const auto& fp) {
+                                               return a.is_same(b) ? fp.square_of_product(a.set())
+                                                                   : fp.product_of_products(a.set(), b.set());
+                                           })
+                               : multiplied(a, b);
             product.of_factors_ = true;
             return product;
         }

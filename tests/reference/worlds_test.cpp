@@ -91,6 +91,34 @@ TEST_CASE(
     CHECK(single[0].b.is_point());
 }
 
+TEST_CASE("worlds: a value's product with itself is never below 0, and that of two with the same set may be") {
+    KnownOperations reordered = KnownOperations::all();
+    reordered.factors_reordered = true;
+    for (const KnownOperations& known : {KnownOperations::all(), KnownOperations(), reordered}) {
+        Reading r(Strict(), known);
+        const auto about_0 = [&](At at) { return r.unspecified(at, 0.0F, -0.5F, 0.25F); };
+        const auto ends = run(r, [&] {
+            const Reading::Real one = about_0(x), other = about_0(y);
+            return State{one * one, one * other};
+        });
+        REQUIRE(ends.size() == 1);
+        CHECK(ends[0].a.low == 0.0);
+        CHECK(ends[0].a.contains(0.25F));
+        CHECK(ends[0].a.high < 0.2500001);
+        CHECK(ends[0].b.contains(-0.125F));
+
+        const auto products = run(r, [&] {
+            const Reading::Real half = about_0(x) * Reading::Real(0.5F);
+            return State{half * half, r.sqrt(y, half * half)};
+        });
+        REQUIRE(products.size() == 1);
+        CHECK(products[0].a.low == 0.0);
+        CHECK(products[0].a.contains(0.0625F));
+        CHECK(products[0].undefined == Undefined::none);
+        CHECK(products[0].b.contains(0.25F));
+    }
+}
+
 TEST_CASE("worlds: an answer holds for every copy of what was asked, and is taken back for the other way") {
     Reading r(Strict(), {});
     const auto ends = run(r, [&] {

@@ -51,6 +51,7 @@ class SystemRun {
     void go_to(int frame, std::size_t pass, const std::function<void(int frame)>& on_frame = {});
 
     [[nodiscard]] JudgedPass judged() const;
+    [[nodiscard]] std::size_t pass() const { return pass_; }
     [[nodiscard]] const System& system() const { return system_; }
     [[nodiscard]] const Profile& profile() const { return profile_; }
     /// What the GPU's pass told of an item, where it can.

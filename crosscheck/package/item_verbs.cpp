@@ -2,14 +2,12 @@
 
 #include <algorithm>
 #include <array>
-#include <charconv>
 #include <cstdio>
 #include <string_view>
 #include <utility>
 #include <vector>
 
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 
 #include "crosscheck/command/exit_status.hpp"
 #include "crosscheck/command/option_values.hpp"
@@ -18,6 +16,7 @@
 #include "crosscheck/files/signals.hpp"
 #include "crosscheck/judge/dispatch.hpp"
 #include "crosscheck/judge/item_place.hpp"
+#include "crosscheck/judge/pass_names.hpp"
 #include "crosscheck/report/hash_lines.hpp"
 #include "crosscheck/report/item_text.hpp"
 #include "crosscheck/report/page/template.hpp"
@@ -26,7 +25,6 @@
 #include "crosscheck/scene/profile_text.hpp"
 #include "gpu/system_side.hpp"
 #include "reference/model/error.hpp"
-#include "reference/model/near_name.hpp"
 #include "reference/model/state_hash.hpp"
 
 namespace lockstep {
@@ -34,27 +32,12 @@ namespace {
 
 constexpr std::array<std::string_view, 2> report_files{"report.html", "capsule.json"};
 
-/// By its name or its place; `option` is where it was named.
-std::size_t pass_named(const std::string& name, const System& system, std::string_view option) {
-    std::vector<std::string> names;
-    for (const auto& pass : system.passes)
-        names.emplace_back(pass->name());
-    if (const auto found = std::find(names.begin(), names.end(), name); found != names.end())
-        return static_cast<std::size_t>(found - names.begin());
-    std::size_t place = 0;
-    const auto [end, status] = std::from_chars(name.data(), name.data() + name.size(), place);
-    if (status == std::errc{} && end == name.data() + name.size() && place < names.size())
-        return place;
-    throw Error(fmt::format("{}: there is no pass '{}'; there are {}{}", option, plain_line(name),
-                            fmt::join(names, ", "), did_you_mean(name, names)));
-}
-
 /// The one that is named, or else the first that runs in the frame.
-std::size_t pass_named(const std::string& name, const System& system, int frame) {
-    for (std::size_t p = 0; name.empty() && p < system.passes.size(); ++p)
-        if (system.passes[p]->runs(frame))
+std::size_t asked_pass(const SystemItem& item, const System& system) {
+    for (std::size_t p = 0; item.pass.empty() && p < system.passes.size(); ++p)
+        if (system.passes[p]->runs(item.frame))
             return p;
-    return pass_named(name, system, "--pass");
+    return pass_named(item.pass, system, item.frame, "--pass");
 }
 
 std::string heading(const System& system, const std::string& file, const std::string& gl, const Profile& profile) {
@@ -76,7 +59,8 @@ Option frame_option(int& frame) {
 
 Option pass_option(std::string& pass) {
     return text_option("--pass", "NAME", pass,
-                       "the pass that makes the item; without it the first that runs in the frame");
+                       "the pass that makes the item, or its number where several "
+                       "have a name; without it the first that runs in the frame");
 }
 
 Option hex_option(bool& hexadecimal) {
@@ -84,7 +68,7 @@ Option hex_option(bool& hexadecimal) {
 }
 
 ItemPlace place_of(const SystemItem& item, const System& system) {
-    const std::size_t pass = pass_named(item.pass, system, item.frame);
+    const std::size_t pass = asked_pass(item, system);
     const std::uint8_t resource = system.passes[pass]->resource();
     return {pass, item_named(plain_line(item.item), system.schema.resources[resource], system.start.extent(resource),
                              system.name)};
@@ -142,7 +126,7 @@ std::vector<std::string> first_item_words(const System& system, const CheckRepor
     return {"--frame",
             std::to_string(place.frame),
             "--pass",
-            std::string(system.passes[report.verdicts->first->pass]->name()),
+            pass_argument(system, report.verdicts->first->pass, place.frame),
             "--item",
             item_argument(system.schema.resources[place.resource], system.start.extent(place.resource), place.index)};
 }
@@ -161,7 +145,7 @@ namespace {
 std::vector<bool> leading(const System& system, const std::vector<std::string>& lead_in) {
     std::vector<bool> found(system.passes.size(), lead_in.empty());
     for (const std::string& name : lead_in)
-        found[pass_named(name, system, "--lead-in")] = true;
+        found[pass_named(name, system, 0, "--lead-in")] = true;
     return found;
 }
 

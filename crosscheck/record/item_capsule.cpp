@@ -14,6 +14,7 @@
 #include "crosscheck/files/json_reader.hpp"
 #include "crosscheck/judge/item_judge.hpp"
 #include "crosscheck/judge/item_place.hpp"
+#include "crosscheck/judge/pass_names.hpp"
 #include "crosscheck/record/capsule_parts.hpp"
 #include "crosscheck/report/item_text.hpp"
 #include "crosscheck/scene/profile_json.hpp"
@@ -34,13 +35,6 @@ void set_words(SystemState& state, std::uint8_t resource, std::size_t item, cons
 
 std::size_t words_in(const Resource& resource) { return item_bytes(resource) / sizeof(std::uint32_t); }
 
-const ItemPass& pass_named(const System& system, const std::string& name) {
-    for (const auto& pass : system.passes)
-        if (pass->name() == name)
-            return *pass;
-    throw Error(fmt::format("{} has no pass '{}'", system.schema.system, name));
-}
-
 std::vector<Extent> extents_of(const SystemState& state) {
     std::vector<Extent> extents;
     for (std::uint8_t r = 0; r < state.schema().resources.size(); ++r)
@@ -50,7 +44,7 @@ std::vector<Extent> extents_of(const SystemState& state) {
 
 /// Calls `work` with the capsule's step as a judged pass.
 template <class Work> auto with_judged(const ItemCapsule& capsule, const System& system, const Work& work) {
-    const ItemPass& pass = pass_named(system, capsule.pass);
+    const ItemPass& pass = *system.passes[pass_named(capsule.pass, system, capsule.frame, "pass")];
     const SystemView before = capsule.before.view();
     SystemState reference = capsule.before;
     pass.run({before, capsule.frame}, capsule.profile, capsule.item, capsule.item + 1, reference[pass.resource()]);
@@ -151,6 +145,17 @@ std::vector<Extent> read_extents(const JsonValue& value, const Schema& schema) {
     return extents;
 }
 
+/// A pass_argument.
+std::string read_pass(const JsonValue& value, const System& system) {
+    std::vector<std::string_view> names;
+    for (std::size_t p = 0; p < system.passes.size(); ++p) {
+        if (value.label() == std::to_string(p))
+            return value.label();
+        names.push_back(system.passes[p]->name());
+    }
+    return std::string(names[value.choice(names)]);
+}
+
 } // namespace
 
 ItemCapsule cut_item_capsule(SystemRun& run, std::size_t item, const std::string& renderer) {
@@ -160,8 +165,8 @@ ItemCapsule cut_item_capsule(SystemRun& run, std::size_t item, const std::string
         throw Error(fmt::format("there is no {} {}; {} has 0 to {}", judged.gpu.about().item, item, run.system().name,
                                 judged.gpu.count() - 1));
     ItemCapsule capsule{.system = run.system().schema.system,
-                        .pass = std::string(judged.pass.name()),
                         .renderer = renderer,
+                        .pass = pass_argument(run.system(), run.pass(), judged.frame),
                         .frame = judged.frame,
                         .item = item,
                         .profile = judged.profile,
@@ -226,15 +231,12 @@ ItemCapsule read_item_capsule(const JsonValue& value, const System& system) {
                       "known", "extents", "before", "gpu", "told"});
     const std::string_view right[] = {system.schema.system};
     static_cast<void>(value.at("system").choice(right));
-    std::vector<std::string_view> passes;
-    for (const auto& pass : system.passes)
-        passes.push_back(pass->name());
-    const ItemPass& pass = *system.passes[value.at("pass").choice(passes)];
     ItemCapsule capsule;
     capsule.system = system.schema.system;
-    capsule.pass = std::string(pass.name());
+    capsule.pass = read_pass(value.at("pass"), system);
     capsule.renderer = value.at("renderer").label();
     capsule.frame = static_cast<int>(value.at("frame").integer(0, 1'000'000'000));
+    const ItemPass& pass = *system.passes[pass_named(capsule.pass, system, capsule.frame, "pass")];
     capsule.profile = read_profile(value.at("profile"));
     capsule.profile.roots = read_roots(value.at("roots"));
     capsule.known = read_known(value.at("known"));

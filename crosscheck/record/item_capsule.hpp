@@ -15,7 +15,8 @@ namespace lockstep {
 /// and what was measured of the driver. A program that has the system judges it anywhere, without GL and without the
 /// run.
 struct ItemCapsule {
-    std::string system, pass, renderer;
+    std::string system, renderer;
+    std::string pass; ///< pass_argument
     int frame = 0;
     std::size_t item = 0;
     Profile profile;

@@ -4,15 +4,14 @@
 #include <utility>
 
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 
 #include "crosscheck/judge/item_judge.hpp"
 #include "crosscheck/judge/item_place.hpp"
 #include "crosscheck/judge/item_table.hpp"
+#include "crosscheck/judge/pass_names.hpp"
 #include "crosscheck/report/item_text.hpp"
 #include "gpu/system_side.hpp"
 #include "reference/model/error.hpp"
-#include "reference/model/near_name.hpp"
 
 namespace lockstep {
 
@@ -41,12 +40,7 @@ DebugItem SystemDebugRun::select(std::size_t selector, const std::string& argume
         const std::uint8_t r = system_->passes[now.group]->resource();
         return {now.group, item_named(argument, system_->schema.resources[r], extent(now.group), system_->name)};
     }
-    const std::vector<std::string> names = groups();
-    const auto found = std::find(names.begin(), names.end(), argument);
-    if (found == names.end())
-        throw Error(fmt::format("pass: there is no pass '{}'; there are {}{}", argument, fmt::join(names, ", "),
-                                did_you_mean(argument, names)));
-    const auto pass = static_cast<std::size_t>(found - names.begin());
+    const std::size_t pass = pass_named(argument, *system_, frame_, "pass");
     if (!runs(pass))
         throw Error(fmt::format("pass: {} does not run in frame {}", argument, frame_));
     return {pass, now.index};

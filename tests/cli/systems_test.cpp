@@ -411,3 +411,27 @@ TEST_CASE("cli capsule: pixels of an NVIDIA driver's run whose normals' length w
         CHECK_THAT(shown.out, !Contains("anything"));
     }
 }
+
+TEST_CASE("cli capsule: of passes with one name each is reached by its number, and its capsule remembers it") {
+    const test::TemporaryFolder folder;
+    const std::string scene = "data/scenes/fluid/one_sphere.json", file = (folder.path() / "pixel.json").string();
+    const auto cut = [&](const std::string& pass) {
+        const test::Outcome done = run_lockstep(on_gl({"capsule", "cut", scene, "--frame", "0", "--pass", pass,
+                                                       "--item", "100,100", "-o", file, "--set", "filter=bilateral"}));
+        std::ifstream stream(file);
+        return done.status == 0 ? std::string{std::istreambuf_iterator<char>(stream), {}} : std::string();
+    };
+    const std::string first = cut("depth_filter_pass");
+    REQUIRE_THAT(first, Contains("\"pass\":\"depth_filter_pass\""));
+    int number = 0;
+    while (number < 20 && cut(std::to_string(number)) != first)
+        ++number;
+    REQUIRE(number < 20);
+    const std::string second = cut(std::to_string(number + 1));
+    CHECK_THAT(second, Contains("\"pass\":\"" + std::to_string(number + 1) + "\"") && Contains("smooth_depth"));
+    const test::Outcome shown = run_lockstep({"capsule", "show", file});
+    CHECK(shown.status == 0);
+    CHECK_THAT(shown.out, Contains("pass depth_filter_pass"));
+    CHECK_THAT(refusal(run_lockstep(on_gl({"explain", scene, "--frame", "0", "--pass", "77", "--item", "100,100"}))),
+               Contains("--pass: there is no pass '77'; there are "));
+}

@@ -8,6 +8,7 @@
 #include "crosscheck/judge/item_judge.hpp"
 #include "crosscheck/judge/item_place.hpp"
 #include "crosscheck/judge/item_table.hpp"
+#include "crosscheck/judge/pass_names.hpp"
 #include "crosscheck/report/item_text.hpp"
 #include "crosscheck/report/page/rows_json.hpp"
 #include "crosscheck/report/value_text.hpp"
@@ -195,7 +196,7 @@ std::string SystemPage::text(std::string_view page_template, const CheckReport& 
         const std::uint8_t resource = system_.passes[item.pass]->resource();
         listed.push_back(item_json(item));
         listed.back()["command"] = explain_line(
-            {"--frame", std::to_string(item.frame), "--pass", std::string(system_.passes[item.pass]->name()), "--item",
+            {"--frame", std::to_string(item.frame), "--pass", pass_argument(system_, item.pass, item.frame), "--item",
              item_argument(system_.schema.resources[resource], system_.start.extent(resource), item.index)});
         tables.push_back(item.told);
     }

@@ -84,7 +84,7 @@ inline Interval multiply(Interval a, Interval b) {
 
 /// |v|.
 inline Interval magnitude(Interval v) {
-    if (v.any)
+    if (v.any || std::isnan(v.low))
         return v;
     const double low = std::abs(v.low), high = std::abs(v.high);
     return {v.contains_zero() ? 0.0 : std::min(low, high), std::max(low, high)};

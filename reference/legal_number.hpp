@@ -41,13 +41,7 @@ template <class A> class LegalNumber {
         return of(a, b, [](const auto& fp, Interval x, Interval y) { return fp.product(x, y); });
     }
     friend LegalNumber operator-(LegalNumber a) { return a.with(interval::negate(a.set_)); }
-    friend LegalNumber abs(LegalNumber a) {
-        const Interval v = a.set_;
-        if (v.any)
-            return a;
-        const double low = std::abs(v.low), high = std::abs(v.high);
-        return a.with({v.contains_zero() ? 0.0 : std::min(low, high), std::max(low, high)});
-    }
+    friend LegalNumber abs(LegalNumber a) { return a.with(interval::magnitude(a.set_)); }
     /// clamp_to of triangle_interpolation.hpp.
     friend LegalNumber clamp_to(LegalNumber a, float high) {
         const double most = high;

@@ -106,10 +106,11 @@ inline double nearest(const glm::dvec3& to, const PointsOnRays& points, const Bo
 inline bool may_lack_length(const std::array<Interval, 3>& vector) {
     double least = 0.0, most = 0.0;
     for (const Interval& set : vector) {
-        const double near = set.contains_zero() ? 0.0 : std::min(std::abs(set.low), std::abs(set.high));
-        const double far = set.any ? HUGE_VAL : std::max(std::abs(set.low), std::abs(set.high));
-        least += near * near;
-        most += far * far;
+        if (set.any)
+            return true;
+        const Interval size = interval::magnitude(set);
+        least += size.low * size.low;
+        most += size.high * size.high;
     }
     return !(least > 0x1p-18 * most && least > 1e-30);
 }

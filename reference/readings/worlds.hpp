@@ -288,13 +288,7 @@ template <class A> class Worlds {
         return ordered(a, b, [](double x, double y) { return x < y ? y : x; });
     }
     Real abs(Real a) {
-        return make({a}, [&](const auto&) {
-            const Interval v = a.set();
-            if (v.any || std::isnan(v.low))
-                return v;
-            const double low = std::abs(v.low), high = std::abs(v.high);
-            return Interval(v.low <= 0.0 && v.high >= 0.0 ? 0.0 : std::min(low, high), std::max(low, high));
-        });
+        return make({a}, [&](const auto&) { return interval::magnitude(a.set()); });
     }
     template <class Function> Real monotone(Real a, const Function& f) {
         if (a.is_float())

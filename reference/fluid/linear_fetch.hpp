@@ -4,6 +4,7 @@
 #include <cstddef>
 
 #include "reference/fluid/sites.hpp"
+#include "reference/readings/unspecified.hpp"
 #include "reference/system/item_twin.hpp"
 
 namespace lockstep::fluid {
@@ -94,7 +95,7 @@ typename R::Real linear_fetch(R& r, At at, const typename R::Vec2& place, const 
     Interval legal{0.0F};
     if constexpr (requires { value.legal(); })
         legal = legal_fetch(x, y, image);
-    return r.note(at, r.unspecified(at, value, static_cast<float>(legal.low), static_cast<float>(legal.high)));
+    return r.note(at, unspecified_within(r, at, value, legal));
 }
 
 } // namespace lockstep::fluid

@@ -7,6 +7,8 @@
 #include <vector>
 
 #include "reference/fluid/depth_map.hpp"
+#include "reference/fluid/narrow_bound.hpp"
+#include "reference/readings/unspecified.hpp"
 
 namespace lockstep::fluid {
 
@@ -44,15 +46,18 @@ template <class R> class NarrowRange {
 
     [[nodiscard]] Real at(const Index& x, int y, const FilterStep& step, const Real& z) const {
         const int n = reach(z);
+        if constexpr (requires { z.legal(); }) {
+            const NarrowBound bound = bound_at(x, y, step, n, z);
+            if (bound.ways() > most_ways)
+                return r_.note(site::mean, unspecified_within(r_, site::mean, z, bound.mean()));
+        }
         Sums sums{z, Real(1.0F)};
         if (!r_.setting(site::takes_centre, true))
             sums = {Real(0.0F), Real(0.0F)};
-        if (step.shape == FilterStep::Shape::along)
-            along(sums, x, y, step, n, z);
-        else if (host_.switches().narrow_cleanup == NarrowCleanup::quadrants)
-            quadrants(sums, x, y, n, z);
-        else
-            plane(sums, x, y, n, z);
+        const bool is_line = step.shape == FilterStep::Shape::along;
+        const Range range = around(z);
+        Ranges ranges{{range, range}, is_line && r_.setting(site::two_ranges, true)};
+        for_each_group(step, n, [&](const auto& offsets) { take(sums, ranges, offsets, x, y, n, z); });
         return r_.note(site::mean, r_.divide(site::mean, sums.weighted, sums.weights));
     }
 
@@ -83,6 +88,12 @@ template <class R> class NarrowRange {
     struct Range {
         Real high, low;
     };
+    struct Ranges {
+        std::array<Range, 2> all;
+        bool are_two; ///< the second of a pair has its own
+        Range& of(std::size_t sample) { return all[are_two && sample == 1 ? 1 : 0]; }
+    };
+    static constexpr double most_ways = 8.0; ///< tried one by one
     template <class Empty> struct SampleAt {
         Empty is_empty;
         Real z, weight;
@@ -159,46 +170,66 @@ template <class R> class NarrowRange {
         sums.weights = r_.note(site::sum_of_weights, sums.weights + weights);
     }
 
-    void along(Sums& sums, const Index& x, int y, const FilterStep& step, int n, const Real& z) const {
+    template <std::size_t n> void take(Sums& sums, Ranges& ranges, const std::array<glm::ivec2, n>& offsets,
+                                       const Index& x, int y, int reach, const Real& z) const {
+        const Real w = weight(offsets[0].x, offsets[0].y, reach);
+        std::array<Sample, n> samples;
+        for (std::size_t k = 0; k < n; ++k)
+            samples[k] = sample(x + offsets[k].x, y + offsets[k].y, w);
+        for (std::size_t k = 0; k < n; ++k)
+            judge(samples[k], samples[n - 1 - k], ranges.of(k), z);
+        add(sums, samples);
+    }
+    [[nodiscard]] NarrowBound bound_at(const Index& x, int y, const FilterStep& step, int reach, const Real& z) const {
+        NarrowBound bound(item_twin::set_of(z), host_.narrow_delta(), host_.narrow_mu(),
+                          step.shape == FilterStep::Shape::along);
+        for_each_group(step, reach, [&]<std::size_t n>(const std::array<glm::ivec2, n>& offsets) {
+            const Real w = weight(offsets[0].x, offsets[0].y, reach);
+            std::array<NarrowSample, n> samples;
+            for (std::size_t k = 0; k < n; ++k)
+                samples[k] = as_set(map_.at(site::sample, x + offsets[k].x, y + offsets[k].y));
+            bound.take(samples, item_twin::set_of(w));
+        });
+        return bound;
+    }
+    [[nodiscard]] NarrowSample as_set(const Real& stored) const {
+        const Interval set = item_twin::set_of(stored);
+        const bool may_be_empty = set.contains(map_.code().empty());
+        return {item_twin::set_of(map_.code().decoded(stored)), may_be_empty, !(may_be_empty && set.is_point())};
+    }
+
+    /// Calls `visit` with the offsets of samples whose partners are each other's: the first one's is the last.
+    template <class Visit> void for_each_group(const FilterStep& step, int n, const Visit& visit) const {
+        if (step.shape == FilterStep::Shape::along)
+            along(step, n, visit);
+        else if (host_.switches().narrow_cleanup == NarrowCleanup::quadrants)
+            quadrants(n, visit);
+        else
+            plane(n, visit);
+    }
+    template <class Visit> void along(const FilterStep& step, int n, const Visit& visit) const {
         const auto direction = r_.uniform(site::blur_direction, step.direction);
-        Range ahead = around(z), behind = ahead;
         for (const auto i : r_.range(site::samples, 1, n)) {
-            const int j = static_cast<int>(i), dx = j * static_cast<int>(direction.x),
-                      dy = j * static_cast<int>(direction.y);
-            const Real w = weight(dx, dy, n);
-            std::array<Sample, 2> pair{sample(x + dx, y + dy, w), sample(x - dx, y - dy, w)};
-            judge(pair[0], pair[1], ahead, z);
-            judge(pair[1], pair[0], r_.setting(site::two_ranges, true) ? behind : ahead, z);
-            add(sums, pair);
+            const int j = static_cast<int>(i);
+            const glm::ivec2 offset(j * static_cast<int>(direction.x), j * static_cast<int>(direction.y));
+            visit(std::array{offset, -offset});
         }
     }
     /// The four samples of each offset, but never those straight above or beside the pixel.
-    void quadrants(Sums& sums, const Index& x, int y, int n, const Real& z) const {
-        Range range = around(z);
+    template <class Visit> void quadrants(int n, const Visit& visit) const {
         for (const auto column : r_.range(site::rows, 1, n))
             for (const auto row : r_.range(site::samples, 1, n)) {
                 const int dx = static_cast<int>(column), dy = static_cast<int>(row);
-                const Real w = weight(dx, dy, n);
-                std::array<Sample, 4> four{sample(x + dx, y + dy, w), sample(x + dx, y - dy, w),
-                                           sample(x - dx, y + dy, w), sample(x - dx, y - dy, w)};
-                for (std::size_t k = 0; k < 4; ++k)
-                    judge(four[k], four[3 - k], range, z);
-                add(sums, four);
+                visit(std::array{glm::ivec2(dx, dy), glm::ivec2(dx, -dy), glm::ivec2(-dx, dy), glm::ivec2(-dx, -dy)});
             }
     }
     /// Every sample of the square, in pairs through the pixel.
-    void plane(Sums& sums, const Index& x, int y, int n, const Real& z) const {
-        Range range = around(z);
+    template <class Visit> void plane(int n, const Visit& visit) const {
         for (const auto row : r_.range(site::rows, -n, 0))
             for (const auto column : r_.range(site::samples, -n, n)) {
-                const int dx = static_cast<int>(column), dy = static_cast<int>(row);
-                if (!(dy < 0 || dx < 0))
-                    continue;
-                const Real w = weight(dx, dy, n);
-                std::array<Sample, 2> pair{sample(x + dx, y + dy, w), sample(x - dx, y - dy, w)};
-                judge(pair[0], pair[1], range, z);
-                judge(pair[1], pair[0], range, z);
-                add(sums, pair);
+                const glm::ivec2 offset(static_cast<int>(column), static_cast<int>(row));
+                if (offset.y < 0 || offset.x < 0)
+                    visit(std::array{offset, -offset});
             }
     }
 

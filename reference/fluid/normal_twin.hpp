@@ -8,6 +8,7 @@
 #include "reference/fluid/depth_map.hpp"
 #include "reference/fluid/scene_twin.hpp"
 #include "reference/fluid/unit_normal.hpp"
+#include "reference/readings/unspecified.hpp"
 #include "reference/system/item_words.hpp"
 
 namespace lockstep::fluid {
@@ -54,9 +55,7 @@ struct NormalTwin {
                 if (const auto legal = by_rays(p, cross, here, {to_right ? 1 : -1, to_right ? right.point : left.point},
                                                {upwards ? 1 : -1, upwards ? up.point : down.point})) {
                     const auto within = [&](int c) {
-                        const Interval& set = (*legal)[static_cast<std::size_t>(c)];
-                        return r.unspecified(site::normal, cross.x, static_cast<float>(set.low),
-                                             static_cast<float>(set.high));
+                        return unspecified_within(r, site::normal, cross.x, (*legal)[static_cast<std::size_t>(c)]);
                     };
                     return words_of<R>(
                         r.note(site::normal, typename R::Vec4{within(0), within(1), within(2), Real(1.0F)}));

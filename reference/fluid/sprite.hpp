@@ -14,6 +14,7 @@
 #include "reference/fluid/point_coord.hpp"
 #include "reference/model/fluid/schema.hpp"
 #include "reference/readings/mistake.hpp"
+#include "reference/readings/unspecified.hpp"
 #include "reference/system/item_reads.hpp"
 #include "reference/system/item_twin.hpp"
 #include "reference/system/pixel_boxes.hpp"
@@ -195,8 +196,7 @@ template <class R> class SpriteTwin {
             const PointSpan span{item_twin::set_of(of.pixel), item_twin::set_of(of.middle), item_twin::set_of(of.half)};
             if (span.middle.any || span.half.any || !(span.half.low > 0.0))
                 return from;
-            const Interval set = point_place(host_.points().coord, span);
-            return r_.unspecified(at, from, static_cast<float>(set.low), static_cast<float>(set.high));
+            return unspecified_within(r_, at, from, point_place(host_.points().coord, span));
         } else {
             return from;
         }

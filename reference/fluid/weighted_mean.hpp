@@ -7,6 +7,7 @@
 
 #include "reference/fluid/depth_map.hpp"
 #include "reference/readings/mean_of_some.hpp"
+#include "reference/readings/unspecified.hpp"
 
 namespace lockstep::fluid {
 
@@ -96,10 +97,7 @@ template <class R> class WeightedMean {
             const Term term = term_of(one.stored, one.weight, centre);
             terms.push_back({item_twin::set_of(term.s), item_twin::set_of(term.share), open});
         }
-        const Interval set = mean_of_some(terms);
-        return r_.note(site::mean,
-                       r_.unspecified(site::mean, centre, set.any ? -HUGE_VALF : static_cast<float>(set.low),
-                                      set.any ? HUGE_VALF : static_cast<float>(set.high)));
+        return r_.note(site::mean, unspecified_within(r_, site::mean, centre, mean_of_some(terms)));
     }
 
     [[nodiscard]] Real sample(const Index& x, int y) const { return map_.at(site::sample, x, y); }

@@ -121,6 +121,15 @@ template <class R> class SpriteTwin {
     [[nodiscard]] Real from_middle_y(const Ball<R>& ball, const IndexOf<R>& y) const {
         return from_middle(site::ny, r_.note(site::pixel_y, r_.real(y) + Real(0.5F)), ball.y, ball);
     }
+    /// Whether nothing is added for it is off the disc. Where that is open it is not: the height there may be 0, and
+    /// what is added with it, so that no decision is needed.
+    [[nodiscard]] auto is_off(const Real& squared) const {
+        const auto off = squared > Real(1.0F);
+        if constexpr (has_sets)
+            if (const auto [yes, no] = r_.ways(off); yes && no && !item_twin::set_of(squared).any)
+                return false;
+        return decided(r_, site::off_disc, off);
+    }
     /// The same, or off the disc, of a sphere that may not be drawn.
     [[nodiscard]] Real squared_if_drawn(const Ball<R>& ball, const Real& squared) const {
         if constexpr (has_sets)

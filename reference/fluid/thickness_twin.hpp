@@ -82,7 +82,7 @@ struct ThicknessTwin {
     void addend(R& r, const SpriteTwin<R>& sprite, const Ball<R>& ball, const Meets& meets, const Made& made) const {
         using Real = typename R::Real;
         const Real squared = meets.squared();
-        const auto off = decided(r, site::off_disc, squared > Real(1.0F));
+        const auto off = sprite.is_off(squared);
         if (everywhere(off))
             return;
         auto covered = !off;

@@ -1,8 +1,13 @@
 #include <algorithm>
-#include <array>
+#include <cmath>
+#include <cstddef>
 #include <cstdint>
 #include <cstring>
 #include <optional>
+#include <span>
+#include <type_traits>
+#include <utility>
+#include <vector>
 
 #include "reference/fluid/sphere_depth_twin.hpp"
 #include "reference/fluid/thickness_twin.hpp"
@@ -11,6 +16,10 @@
 
 namespace lockstep::fluid {
 namespace {
+
+using BallNumbers = DrawnBalls::Numbers;
+using AllBalls = std::vector<std::optional<BallNumbers>>;
+constexpr std::size_t z_of_ball = 2;
 
 /// A sphere in a tile: what is the same in all of its rows.
 template <class R> struct TileBall {
@@ -25,16 +34,15 @@ template <class R, class Made> struct TileRow {
     Made made;
 };
 
-/// Calls `draw(made, reading, sprite, ball, meeting, inside)` for each sphere at each row of a tile that it may cover,
-/// by number, and stores what `words_of(made, items)` makes of the row.
-template <class Twin, class A, class Made, class Draw, class Words>
-void draw_spheres(const Twin& twin, const A& fp, const PassInput& in, std::size_t tiles, const Made& empty,
-                  const Draw& draw, const Words& words_of, const WritableView& after) {
+/// Draws each sphere at each row of a tile that it may cover, as `pass` does it (NearestSpheres, AddedSpheres), and
+/// stores what it makes of the row.
+template <class Twin, class A, class Pass> void draw_spheres(const Twin& twin, const A& fp, const PassInput& in,
+                                                             std::size_t tiles, Pass pass, const WritableView& after) {
     const auto lane_fp = lanes_of(fp);
     using R = Lanes<std::remove_cvref_t<decltype(lane_fp)>>;
-    using Row = TileRow<R, Made>;
+    using Row = TileRow<R, typename Pass::Made>;
     R reading(lane_fp, (1U << lane_count) - 1);
-    const auto& balls = twin.balls->of(fp, *twin.host, in.before, twin.spheres());
+    const AllBalls& balls = twin.balls->of(fp, *twin.host, in.before, twin.spheres());
     const SpriteTwin<R> sprite(reading, *twin.host, in.before, twin.spheres());
     const int width = twin.host->settings().width;
     const auto items_at = [&](const Pixel& place) {
@@ -45,12 +53,14 @@ void draw_spheres(const Twin& twin, const A& fp, const PassInput& in, std::size_
     const bool is_flat = twin.spheres().shape == Sphere::flat;
     draw_rows(
         twin.boxes, width, twin.host->settings().height, tiles,
+        [&](std::span<const std::uint32_t> near) { return pass.ordered(balls, near); },
         [&](const Pixel& place) {
-            return Row{item_real(reading, site::scene_depth_in, in.before, field::scene_depth, items_at(place)), empty};
+            return Row{item_real(reading, site::scene_depth_in, in.before, field::scene_depth, items_at(place)),
+                       pass.nothing()};
         },
-        [&](std::uint32_t i, const Pixel& first) {
+        [&](std::uint32_t i, const Pixel& first, const auto& rows) {
             std::optional<TileBall<R>> in_tile;
-            if (!balls[i])
+            if (!balls[i] || !pass.may_show(*balls[i], rows))
                 return in_tile;
             const auto& [x, y, z, w, middle_x, middle_y, half] = *balls[i];
             const Ball<R> ball{{x, y, z}, w, middle_x, middle_y, half};
@@ -63,16 +73,16 @@ void draw_spheres(const Twin& twin, const A& fp, const PassInput& in, std::size_
             return in_tile;
         },
         [&](Row& row, const TileBall<R>& in_tile, const LanePixel& place, const LaneMask& inside) {
-            const float along_y = in_tile.along_y.v[place.y % lane_count];
+            const float along_y = in_tile.along_y.v[static_cast<unsigned>(place.y) % lane_count];
             if (is_flat && along_y > 1.0F)
                 return;
-            draw(row.made, reading, sprite, in_tile.ball,
-                 Meeting([&] { return place; }, [&] { return sprite.squared_of(in_tile.along_x, along_y); },
-                         [&] { return in_tile.window; }, [&] { return row.scene; }),
-                 inside);
+            pass.draw(row.made, reading, sprite, in_tile.ball,
+                      Meeting([&] { return place; }, [&] { return sprite.squared_of(in_tile.along_x, along_y); },
+                              [&] { return in_tile.window; }, [&] { return row.scene; }),
+                      inside);
         },
         [&](const Row& row, const Pixel& place, int count) {
-            const IntLanes words = words_of(row.made, items_at(place));
+            const IntLanes words = pass.words(row.made, items_at(place));
             std::memcpy(after.columns[0] + (static_cast<std::size_t>(place.y) * static_cast<std::size_t>(width) +
                                             static_cast<std::size_t>(place.x)) *
                                                sizeof(float),
@@ -80,48 +90,121 @@ void draw_spheres(const Twin& twin, const A& fp, const PassInput& in, std::size_
         });
 }
 
-template <class A> void depth_row(const SphereDepthTwin& twin, const A& fp, const PassInput& in, std::size_t tiles,
-                                  const WritableView& after) {
-    struct Row {
+/// The depth of the nearest sphere. Whatever the order, it is the same: what is compared equal is stored equal.
+template <class A> class NearestSpheres {
+  public:
+    struct Made {
         FloatLanes key, stored;
     };
-    Values<A> one(fp);
-    const float nothing = DepthCode<Values<A>>(one, *twin.host).empty();
-    draw_spheres(
-        twin, fp, in, tiles, Row{lanes::all(1.0F), lanes::all(nothing)},
-        [&](Row& row, auto& r, const auto& sprite, const auto& ball, const auto& meets, const LaneMask& inside) {
-            twin.offer(r, sprite, ball, meets, [&](const LaneMask& condition, const auto& key, const auto& stored) {
-                const IntLanes nearer = (inside && condition).v & (key.v < row.key);
-                row.key = nearer ? key.v : row.key;
-                row.stored = nearer ? stored.v : row.stored;
-            });
-        },
-        [](const Row& row, const LaneItems&) { return lanes::bits(row.stored); }, after);
-}
+    NearestSpheres(const SphereDepthTwin& twin, const A& fp)
+        : twin_(twin), fp_(fp), code_(fp_, *twin.host), radius_(twin.spheres().radius),
+          is_flat_(twin.spheres().shape == Sphere::flat) {}
 
-template <class A> void thickness_row(const ThicknessTwin& twin, const A& fp, const PassInput& in, std::size_t tiles,
-                                      const WritableView& after) {
-    struct Row {
+    NearestSpheres(const NearestSpheres&) = delete;
+    NearestSpheres& operator=(const NearestSpheres&) = delete;
+
+    [[nodiscard]] Made nothing() const { return {lanes::all(1.0F), lanes::all(code_.empty())}; }
+    /// Those that touch the nearest one's depths first: they hide most others.
+    std::span<const std::uint32_t> ordered(const AllBalls& balls, std::span<const std::uint32_t> near) {
+        float nearest = -HUGE_VALF;
+        for (const std::uint32_t i : near)
+            if (balls[i])
+                nearest = std::max(nearest, (*balls[i])[z_of_ball]);
+        const float front = nearest - 2.0F * radius_;
+        order_.clear();
+        behind_.clear();
+        for (const std::uint32_t i : near)
+            if (balls[i])
+                ((*balls[i])[z_of_ball] >= front ? order_ : behind_).push_back(i);
+        order_.insert(order_.end(), behind_.begin(), behind_.end());
+        return order_;
+    }
+    /// Also of the rows that draw() gets next: what lies nearer there than all of this sphere.
+    template <class Rows> bool may_show(const BallNumbers& ball, const Rows& rows) {
+        least_key_ = least_key(ball[z_of_ball]);
+        IntLanes may_be_nearer = lanes::all(0);
+        for (const auto& row : rows)
+            may_be_nearer |= row.made.key > least_key_;
+        return lanes::set_of(may_be_nearer) != 0;
+    }
+    template <class R, class Meets> void draw(Made& made, R& r, const SpriteTwin<R>& sprite, const Ball<R>& ball,
+                                              const Meets& meets, const LaneMask& inside) const {
+        IntLanes may_be_nearer = inside.v & (made.key > least_key_);
+        if (is_flat_)
+            may_be_nearer &= meets.squared().v <= 1.0F;
+        if (lanes::set_of(may_be_nearer) == 0)
+            return;
+        twin_.offer(r, sprite, ball, meets, [&](const LaneMask& condition, const auto& key, const auto& stored) {
+            const IntLanes nearer = (inside && condition).v & (key.v < made.key);
+            made.key = nearer ? key.v : made.key;
+            made.stored = nearer ? stored.v : made.stored;
+        });
+    }
+    static IntLanes words(const Made& made, const LaneItems& /*items*/) { return lanes::bits(made.stored); }
+
+  private:
+    /// Less than what the depth test compares, wherever a sphere is met: its nearest point's, by more than rounding and
+    /// a code of the depth can be. Nothing is known of one that comes near the camera.
+    float least_key(float centre_z) {
+        constexpr float more_than_rounding = 0x1p-18F;
+        const float nearest = centre_z * (1.0F - 0x1p-16F) + radius_ * 1.001F;
+        if (!(nearest < -0.5F * twin_.host->near_plane()))
+            return -1.0F;
+        const typename Values<A>::Real z(nearest);
+        return static_cast<float>(code_.tested(z, code_.stored(z))) - more_than_rounding;
+    }
+
+    const SphereDepthTwin& twin_;
+    Values<A> fp_;
+    DepthCode<Values<A>> code_;
+    float radius_;
+    bool is_flat_;
+    float least_key_ = 0.0F; ///< of the sphere that is drawn
+    std::vector<std::uint32_t> order_, behind_;
+};
+
+/// How thick all spheres are together, added up by number.
+template <class A> class AddedSpheres {
+  public:
+    struct Made {
         FloatLanes sum;
         IntLanes units;
     };
-    using F = decltype(lanes_of(fp));
-    draw_spheres(
-        twin, fp, in, tiles, Row{lanes::all(0.0F), lanes::all(0)},
-        [&](Row& row, auto& r, const auto& sprite, const auto& ball, const auto& meets, const LaneMask& inside) {
-            twin.addend(r, sprite, ball, meets, [&](const LaneMask& covered, const auto& t) {
-                const IntLanes adds = (inside && covered).v;
-                if (twin.is_fixed())
-                    row.units += adds & __builtin_convertvector(t.v, IntLanes);
-                else
-                    row.sum = adds ? F::flush(row.sum + t.v) : row.sum;
-            });
-        },
-        [&](const Row& row, const LaneItems& items) {
-            return twin.is_fixed() ? lanes::bits(lane_floats(in.before, field::thickness, items, 0)) + row.units
-                                   : lanes::bits(row.sum);
-        },
-        after);
+    AddedSpheres(const ThicknessTwin& twin, const SystemView& before) : twin_(twin), before_(before) {}
+
+    [[nodiscard]] static Made nothing() { return {lanes::all(0.0F), lanes::all(0)}; }
+    static std::span<const std::uint32_t> ordered(const AllBalls& /*balls*/, std::span<const std::uint32_t> near) {
+        return near;
+    }
+    template <class Rows> static bool may_show(const BallNumbers& /*ball*/, const Rows& /*rows*/) { return true; }
+    template <class R, class Meets> void draw(Made& made, R& r, const SpriteTwin<R>& sprite, const Ball<R>& ball,
+                                              const Meets& meets, const LaneMask& inside) const {
+        using F = decltype(lanes_of(std::declval<A>()));
+        twin_.addend(r, sprite, ball, meets, [&](const LaneMask& covered, const auto& t) {
+            const IntLanes adds = (inside && covered).v;
+            if (twin_.is_fixed())
+                made.units += adds & __builtin_convertvector(t.v, IntLanes);
+            else
+                made.sum = adds ? F::flush(made.sum + t.v) : made.sum;
+        });
+    }
+    [[nodiscard]] IntLanes words(const Made& made, const LaneItems& items) const {
+        return twin_.is_fixed() ? lanes::bits(lane_floats(before_, field::thickness, items, 0)) + made.units
+                                : lanes::bits(made.sum);
+    }
+
+  private:
+    const ThicknessTwin& twin_;
+    const SystemView& before_;
+};
+
+template <class A> void depth_row(const SphereDepthTwin& twin, const A& fp, const PassInput& in, std::size_t tiles,
+                                  const WritableView& after) {
+    draw_spheres(twin, fp, in, tiles, NearestSpheres<A>(twin, fp), after);
+}
+template <class A> void thickness_row(const ThicknessTwin& twin, const A& fp, const PassInput& in, std::size_t tiles,
+                                      const WritableView& after) {
+    draw_spheres(twin, fp, in, tiles, AddedSpheres<A>(twin, in.before), after);
 }
 
 } // namespace

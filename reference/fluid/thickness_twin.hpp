@@ -82,14 +82,15 @@ struct ThicknessTwin {
     void addend(R& r, const SpriteTwin<R>& sprite, const Ball<R>& ball, const Meets& meets, const Made& made) const {
         using Real = typename R::Real;
         const Real squared = meets.squared();
+        // Lanes go on: a branch that is hard to foretell takes longer than what it leaves out.
         const auto off = sprite.is_off(squared);
-        if (everywhere(off))
+        if (!HasLanes<R> && everywhere(off))
             return;
         auto covered = !off;
         if (host->switches().scene_depth == SceneDepth::test) {
             const auto nearer =
                 decided(r, site::nearer_than_scene, before_scene(r, *host, meets.scene, meets.window()));
-            if (nowhere(nearer))
+            if (!HasLanes<R> && nowhere(nearer))
                 return;
             covered = covered && nearer;
         }

@@ -23,9 +23,9 @@ void glow_row(const GlowTwin& twin, const A& fp, const PassInput& in, std::size_
     const std::byte* before = in.before[field::pixel.resource].columns[field::pixel.field];
     const auto item_at = [&](const Pixel& place) { return item_of(place.x, place.y, width); };
     draw_rows(
-        twin.boxes->of({}, *twin.host, in.before), width, twin.host->settings().height, tiles,
+        twin.boxes->of({}, *twin.host, in.before), width, twin.host->settings().height, tiles, in_their_order,
         [](const Pixel&) { return Row{}; },
-        [&](std::uint32_t i, const Pixel&) {
+        [&](std::uint32_t i, const Pixel&, const auto& /*rows*/) {
             std::optional<GlowTwin::Disc<R>> wide;
             const auto number = [](const auto& x) { return typename R::Real(static_cast<float>(x)); };
             if (const auto disc = twin.disc_of(one, in, i))

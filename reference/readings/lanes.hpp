@@ -37,14 +37,19 @@ using IntLanes [[gnu::vector_size(4 * lane_count)]] = std::int32_t;
 
 namespace lanes {
 
-// Shuffled: of a list of eight GCC makes eight instructions where a caller is compiled for more than its callees.
+// Loops over arrays: GCC makes one instruction of such a loop, for whatever its caller is compiled. Shuffles and lists
+// it splits before, for what this is compiled for by itself.
 LOCKSTEP_INLINE FloatLanes all(float x) {
-    const FloatLanes one{x};
-    return __builtin_shufflevector(one, one, 0, 0, 0, 0, 0, 0, 0, 0);
+    std::array<float, lane_count> each;
+    for (float& one : each)
+        one = x;
+    return std::bit_cast<FloatLanes>(each);
 }
 LOCKSTEP_INLINE IntLanes all(int i) {
-    const IntLanes one{i};
-    return __builtin_shufflevector(one, one, 0, 0, 0, 0, 0, 0, 0, 0);
+    std::array<int, lane_count> each;
+    for (int& one : each)
+        one = i;
+    return std::bit_cast<IntLanes>(each);
 }
 LOCKSTEP_INLINE IntLanes bits(const FloatLanes& v) { return std::bit_cast<IntLanes>(v); }
 LOCKSTEP_INLINE FloatLanes floats(const IntLanes& v) { return std::bit_cast<FloatLanes>(v); }
@@ -77,14 +82,10 @@ LOCKSTEP_INLINE unsigned set_of(const IntLanes& mask) {
 }
 
 LOCKSTEP_INLINE FloatLanes sqrt(const FloatLanes& v) {
-#if defined(__SSE2__)
-    return __builtin_shufflevector(_mm_sqrt_ps(low_half(v)), _mm_sqrt_ps(high_half(v)), 0, 1, 2, 3, 4, 5, 6, 7);
-#else
-    FloatLanes root = v;
-    for (int lane = 0; lane < lane_count; ++lane)
-        root[lane] = std::sqrt(v[lane]);
-    return root;
-#endif
+    auto roots = std::bit_cast<std::array<float, lane_count>>(v);
+    for (float& root : roots)
+        root = std::sqrt(root);
+    return std::bit_cast<FloatLanes>(roots);
 }
 LOCKSTEP_INLINE FloatLanes floor(const FloatLanes& v) {
     const IntLanes magnitude = bits(v) & 0x7fffffff, sign = bits(v) & std::numeric_limits<std::int32_t>::min();

@@ -23,11 +23,13 @@ template <class F> void see(const F& fp, const TriangleScene& scene, std::size_t
     R reading(fp, (1U << lane_count) - 1);
     const DrawnTriangles<R> triangles(reading, scene);
     draw_rows(
-        scene.boxes, scene.width, scene.height, tiles,
+        scene.boxes, scene.width, scene.height, tiles, in_their_order,
         [](const Pixel&) {
             return Row{lanes::all(-1), lanes::all(0.0F), lanes::all(0.0F), lanes::all(1.0F)};
         },
-        [&](std::uint32_t i, const Pixel&) { return std::optional(triangles.projected(static_cast<int>(i))); },
+        [&](std::uint32_t i, const Pixel&, const auto& /*rows*/) {
+            return std::optional(triangles.projected(static_cast<int>(i)));
+        },
         [&](Row& row, const auto& triangle, const LanePixel& pixel, const LaneMask& inside) {
             triangles.offer(triangle, pixel, [&](const LaneMask& covered, const TriangleHit<R>& hit) {
                 const IntLanes nearer = inside.v & covered.v & (hit.depth.v < row.depth);

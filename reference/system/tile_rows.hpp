@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <array>
 #include <cstdint>
+#include <span>
 #include <type_traits>
 
 #include "reference/plain_arithmetic.hpp"
@@ -45,12 +46,15 @@ struct OwnOrderLanes {
 inline PortableLanes lanes_of(const Portable&) { return {}; }
 inline OwnOrderLanes lanes_of(const PlainArithmetic& fp) { return {fp}; }
 
-/// BoxesByTile::draw, a row of a tile at a time. `begin(place)` makes a row, and `make(i, place)` what is drawn in a
-/// tile, from their first pixel. Then `draw(row, drawn, place, inside)` for the pixels from `place` on that are
-/// `inside`, and `done(row, place, count)` with as many as lie in the image.
-template <class Begin, class Make, class Draw, class Done>
-void draw_rows(const BoxesByTile& boxes, int width, int height, std::size_t tiles, const Begin& begin, const Make& make,
-               const Draw& draw, const Done& done) {
+/// For draw_rows: boxes by number.
+inline std::span<const std::uint32_t> in_their_order(std::span<const std::uint32_t> boxes) { return boxes; }
+
+/// BoxesByTile::draw, a row of a tile at a time, in each tile as `order(boxes)` has them. `begin(place)` makes a row,
+/// and `make(i, place, rows)` what is drawn in a tile, from their first pixel. Then `draw(row, drawn, place, inside)`
+/// for the pixels from `place` on that are `inside`, and `done(row, place, count)` with as many as lie in the image.
+template <class Order, class Begin, class Make, class Draw, class Done>
+void draw_rows(const BoxesByTile& boxes, int width, int height, std::size_t tiles, const Order& order,
+               const Begin& begin, const Make& make, const Draw& draw, const Done& done) {
     constexpr int side = BoxesByTile::side;
     using Row = std::remove_cvref_t<std::invoke_result_t<Begin, Pixel>>;
     static_assert(side == lane_count);
@@ -60,11 +64,11 @@ void draw_rows(const BoxesByTile& boxes, int width, int height, std::size_t tile
         std::array<Row, side> rows;
         for (int y = y0; y < y1; ++y)
             rows[static_cast<std::size_t>(y - y0)] = begin(Pixel{x0, y});
-        for (const std::uint32_t i : boxes.near({x0, y0})) {
+        for (const std::uint32_t i : order(boxes.near({x0, y0}))) {
             const PixelRect& box = boxes.box(i);
             const IntLanes at = from(x0);
             const LaneMask inside((at >= box.x0) & (at < std::min(x1, box.x1)));
-            if (const auto drawn = make(i, Pixel{x0, y0}))
+            if (const auto drawn = make(i, Pixel{x0, y0}, rows))
                 for (int y = std::max(y0, box.y0); y < std::min(y1, box.y1); ++y)
                     draw(rows[static_cast<std::size_t>(y - y0)], *drawn, LanePixel{LaneInt(at), x0, y}, inside);
         }

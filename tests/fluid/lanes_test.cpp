@@ -1,5 +1,8 @@
+#include <algorithm>
 #include <string>
 #include <vector>
+
+#include <glm/geometric.hpp>
 
 #include "tests/fluid/fluid_run.hpp"
 #include "tests/item_bits.hpp"
@@ -32,6 +35,28 @@ TEST_CASE("fluid lanes: every pixel of every pass is that of the twin by itself"
     s.flow_iterations = 1;
     const fluid::HostPtr host = host_of(s);
     check_item_bits(fluid::system(host), Profile{}, 1);
+}
+
+TEST_CASE("fluid lanes: spheres that hide one another, from the back and from the front, far and up to the camera") {
+    const Strings values = GENERATE(Strings{"sprite=points", "sphere=flat"}, Strings{"sprite=quad", "sphere=ray"},
+                                    Strings{"sprite=quad", "depth_value=view", "depth_format=r32f", "unproject=stored"},
+                                    Strings{"sprite=quad", "depth_value=ndc"});
+    const float away = GENERATE(1.0F, 0.25F); // from the middle, of the scene's
+    const bool reversed = GENERATE(false, true);
+    CAPTURE(values, away, reversed);
+    fluid::Settings s = with(in_preset(heap(6), "corrected"), values);
+    s.switches.filter = fluid::Filter::off;
+    s.width = 53;
+    s.height = 43;
+    s.radius = 0.18F;
+    s.camera.eye = s.camera.target + away * (s.camera.eye - s.camera.target);
+    // Larger than they are far: what is nearest of these lies behind the camera.
+    const glm::vec3 ahead = glm::normalize(s.camera.target - s.camera.eye);
+    for (const float far : {0.14F, 0.15F, 0.17F})
+        s.particles.push_back(s.camera.eye + far * ahead + glm::vec3(0.04F * (far - 0.14F), 0.0F, 0.0F));
+    if (reversed)
+        std::ranges::reverse(s.particles);
+    check_item_bits(fluid::system(host_of(s)), Profile{}, 1);
 }
 
 TEST_CASE("fluid lanes: orders of sums are the driver's") {

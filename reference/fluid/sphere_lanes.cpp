@@ -36,10 +36,10 @@ template <class R, class Made> struct TileRow {
 
 /// Draws each sphere at each row of a tile that it may cover, as `pass` does it (NearestSpheres, AddedSpheres), and
 /// stores what it makes of the row.
-template <class Twin, class A, class Pass> void draw_spheres(const Twin& twin, const A& fp, const PassInput& in,
-                                                             std::size_t tiles, Pass pass, const WritableView& after) {
-    const auto lane_fp = lanes_of(fp);
-    using R = Lanes<std::remove_cvref_t<decltype(lane_fp)>>;
+template <class Twin, class A, class F, class Pass> void draw_spheres(const Twin& twin, const A& fp, const F& lane_fp,
+                                                                      const PassInput& in, std::size_t tiles,
+                                                                      Pass& pass, const WritableView& after) {
+    using R = Lanes<F>;
     using Row = TileRow<R, typename Pass::Made>;
     R reading(lane_fp, (1U << lane_count) - 1);
     const AllBalls& balls = twin.balls->of(fp, *twin.host, in.before, twin.spheres());
@@ -164,7 +164,7 @@ template <class A> class NearestSpheres {
 };
 
 /// How thick all spheres are together, added up by number.
-template <class A> class AddedSpheres {
+class AddedSpheres {
   public:
     struct Made {
         FloatLanes sum;
@@ -179,13 +179,12 @@ template <class A> class AddedSpheres {
     template <class Rows> static bool may_show(const BallNumbers& /*ball*/, const Rows& /*rows*/) { return true; }
     template <class R, class Meets> void draw(Made& made, R& r, const SpriteTwin<R>& sprite, const Ball<R>& ball,
                                               const Meets& meets, const LaneMask& inside) const {
-        using F = decltype(lanes_of(std::declval<A>()));
         twin_.addend(r, sprite, ball, meets, [&](const LaneMask& covered, const auto& t) {
             const IntLanes adds = (inside && covered).v;
             if (twin_.is_fixed())
                 made.units += adds & __builtin_convertvector(t.v, IntLanes);
             else
-                made.sum = adds ? F::flush(made.sum + t.v) : made.sum;
+                made.sum = adds ? r.arithmetic().flush(made.sum + t.v) : made.sum;
         });
     }
     [[nodiscard]] IntLanes words(const Made& made, const LaneItems& items) const {
@@ -200,11 +199,13 @@ template <class A> class AddedSpheres {
 
 template <class A> void depth_row(const SphereDepthTwin& twin, const A& fp, const PassInput& in, std::size_t tiles,
                                   const WritableView& after) {
-    draw_spheres(twin, fp, in, tiles, NearestSpheres<A>(twin, fp), after);
+    NearestSpheres<A> pass(twin, fp);
+    with_lanes_of(fp, [&](const auto& lane_fp) { draw_spheres(twin, fp, lane_fp, in, tiles, pass, after); });
 }
 template <class A> void thickness_row(const ThicknessTwin& twin, const A& fp, const PassInput& in, std::size_t tiles,
                                       const WritableView& after) {
-    draw_spheres(twin, fp, in, tiles, AddedSpheres<A>(twin, in.before), after);
+    const AddedSpheres pass(twin, in.before);
+    with_lanes_of(fp, [&](const auto& lane_fp) { draw_spheres(twin, fp, lane_fp, in, tiles, pass, after); });
 }
 
 } // namespace

@@ -8,10 +8,8 @@
 namespace lockstep::lights {
 namespace {
 
-template <class A>
-void glow_row(const GlowTwin& twin, const A& fp, const PassInput& in, std::size_t tiles, const WritableView& after) {
-    const auto lane_fp = lanes_of(fp);
-    using F = std::remove_cvref_t<decltype(lane_fp)>;
+template <class A, class F> void glow_row(const GlowTwin& twin, const A& fp, const F& lane_fp, const PassInput& in,
+                                          std::size_t tiles, const WritableView& after) {
     using R = Lanes<F>;
     struct Row {
         IntLanes is_lit{};
@@ -74,11 +72,11 @@ void glow_row(const GlowTwin& twin, const A& fp, const PassInput& in, std::size_
 
 LOCKSTEP_VECTOR_CLONES void draw_row(const GlowTwin& twin, const Portable& fp, const PassInput& in, std::size_t row,
                                      const WritableView& after) {
-    glow_row(twin, fp, in, row, after);
+    with_lanes_of(fp, [&](const auto& lane_fp) { glow_row(twin, fp, lane_fp, in, row, after); });
 }
 LOCKSTEP_VECTOR_CLONES void draw_row(const GlowTwin& twin, const PlainArithmetic& fp, const PassInput& in,
                                      std::size_t row, const WritableView& after) {
-    glow_row(twin, fp, in, row, after);
+    with_lanes_of(fp, [&](const auto& lane_fp) { glow_row(twin, fp, lane_fp, in, row, after); });
 }
 
 } // namespace lockstep::lights

@@ -22,29 +22,40 @@ template <class A> A arithmetic_of(const Values<A>& r) {
 }
 
 /// Each operation as the plain arithmetic of a driver has it: with tables of roots lane by lane.
-struct OwnOrderLanes {
+template <bool by_tables> struct OwnOrderLanes {
     using Three = Vec3<FloatLanes>;
     OwnOrders fp;
 
     LOCKSTEP_INLINE static FloatLanes flush(const FloatLanes& v) { return v; }
     [[nodiscard]] LOCKSTEP_INLINE FloatLanes divide(const FloatLanes& a, const FloatLanes& b) const {
-        if (!fp.has_tables())
+        if constexpr (!by_tables) {
             return a / b;
-        FloatLanes made = a;
-        for (int k = 0; k < lane_count; ++k)
-            made[k] = fp.divide(a[k], b[k]);
-        return made;
+        } else {
+            FloatLanes made = a;
+            for (int k = 0; k < lane_count; ++k)
+                made[k] = fp.divide(a[k], b[k]);
+            return made;
+        }
     }
     [[nodiscard]] LOCKSTEP_INLINE FloatLanes sqrt(const FloatLanes& a) const {
-        return fp.has_tables() ? lanes::each(a, [this](float x) { return fp.sqrt(x); }) : lanes::sqrt(a);
+        if constexpr (by_tables)
+            return lanes::each(a, [this](float x) { return fp.sqrt(x); });
+        else
+            return lanes::sqrt(a);
     }
     [[nodiscard]] LOCKSTEP_INLINE FloatLanes dot(const Three& a, const Three& b) const {
         return PlainLanes::sum(fp.dot_order(), a, b);
     }
 };
 
-inline PortableLanes lanes_of(const Portable&) { return {}; }
-inline OwnOrderLanes lanes_of(const PlainArithmetic& fp) { return {fp}; }
+/// Calls `visit` with an arithmetic on lanes.
+template <class Visit> void with_lanes_of(const Portable& /*fp*/, const Visit& visit) { visit(PortableLanes{}); }
+template <class Visit> void with_lanes_of(const PlainArithmetic& fp, const Visit& visit) {
+    if (fp.has_tables())
+        visit(OwnOrderLanes<true>{fp});
+    else
+        visit(OwnOrderLanes<false>{fp});
+}
 
 /// For draw_rows: boxes by number.
 inline std::span<const std::uint32_t> in_their_order(std::span<const std::uint32_t> boxes) { return boxes; }
@@ -68,8 +79,9 @@ void draw_rows(const BoxesByTile& boxes, int width, int height, std::size_t tile
             const PixelRect& box = boxes.box(i);
             const IntLanes at = from(x0);
             const LaneMask inside((at >= box.x0) & (at < std::min(x1, box.x1)));
+            const int last = std::min(y1, box.y1);
             if (const auto drawn = make(i, Pixel{x0, y0}, rows))
-                for (int y = std::max(y0, box.y0); y < std::min(y1, box.y1); ++y)
+                for (int y = std::max(y0, box.y0); y < last; ++y)
                     draw(rows[static_cast<std::size_t>(y - y0)], *drawn, LanePixel{LaneInt(at), x0, y}, inside);
         }
         for (int y = y0; y < y1; ++y)

@@ -6,6 +6,7 @@
 
 #include "tests/fluid/fluid_run.hpp"
 #include "tests/item_bits.hpp"
+#include "tests/uneven_roots.hpp"
 
 using namespace lockstep;
 using namespace lockstep::test;
@@ -57,6 +58,16 @@ TEST_CASE("fluid lanes: spheres that hide one another, from the back and from th
     if (reversed)
         std::ranges::reverse(s.particles);
     check_item_bits(fluid::system(host_of(s)), Profile{}, 1);
+}
+
+TEST_CASE("fluid lanes: quotients and roots by a driver's tables") {
+    const Profile profile = profile_with_roots();
+    fluid::Settings s = in_preset(heap(3), GENERATE("corrected", "paper"));
+    s.width = 21;
+    s.height = 13;
+    s.filter_radius = 2;
+    s.flow_iterations = 1;
+    check_item_bits(fluid::system(host_of(s)), profile, 1);
 }
 
 TEST_CASE("fluid lanes: orders of sums are the driver's") {

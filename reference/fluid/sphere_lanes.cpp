@@ -74,8 +74,6 @@ template <class Twin, class A, class F, class Pass> void draw_spheres(const Twin
         },
         [&](Row& row, const TileBall<R>& in_tile, const LanePixel& place, const LaneMask& inside) {
             const float along_y = in_tile.along_y.v[static_cast<unsigned>(place.y) % lane_count];
-            if (is_flat && along_y > 1.0F)
-                return;
             pass.draw(row.made, reading, sprite, in_tile.ball,
                       Meeting([&] { return place; }, [&] { return sprite.squared_of(in_tile.along_x, along_y); },
                               [&] { return in_tile.window; }, [&] { return row.scene; }),

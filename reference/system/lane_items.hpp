@@ -100,6 +100,7 @@ template <class F> class ItemWords<Lanes<F>> {
     [[nodiscard]] std::uint32_t word(std::size_t w, int lane) const {
         return static_cast<std::uint32_t>(words_[w][lane]);
     }
+    [[nodiscard]] const IntLanes& of_lanes(std::size_t w) const { return words_[w]; }
 
   private:
     std::array<IntLanes, most> words_; // NOLINT: as many as were added
@@ -146,19 +147,27 @@ template <class F, class State> ItemWords<Lanes<F>> lane_words(const State& stat
 /// Makes as many items as there are lanes, or less: in turns, of those that go one way at every decision.
 template <class F, class Twin> void make_batch(const Twin& twin, F arithmetic, const FastRun& run,
                                                std::span<const item_twin::WordColumn> columns, const LaneItems& items) {
+    constexpr unsigned every_lane = (1U << lane_count) - 1;
+    const bool are_side_by_side = lanes::set_of(items.v == from(items.v[0])) == every_lane;
     unsigned waiting = (1U << items.count) - 1;
     while (waiting != 0) {
         Lanes<F> reading(arithmetic, waiting);
         const ItemWords<Lanes<F>> words = lane_words<F>(twin(reading, run.in, items));
         if (reading.active() == 0)
             break;
-        for (std::size_t w = 0; w < words.size(); ++w)
+        for (std::size_t w = 0; w < words.size(); ++w) {
+            if (are_side_by_side && reading.active() == every_lane && columns[w].stride == sizeof(std::uint32_t)) {
+                std::memcpy(columns[w].first + static_cast<std::size_t>(items.v[0]) * sizeof(std::uint32_t),
+                            &words.of_lanes(w), sizeof(IntLanes));
+                continue;
+            }
             for (int lane = 0; lane < static_cast<int>(items.count); ++lane)
                 if ((reading.active() >> lane & 1U) != 0) {
                     const std::uint32_t word = words.word(w, lane);
                     std::memcpy(columns[w].first + static_cast<std::size_t>(items.v[lane]) * columns[w].stride, &word,
                                 sizeof word);
                 }
+        }
         waiting &= ~reading.active();
     }
     for (int lane = 0; lane < static_cast<int>(items.count); ++lane)

@@ -32,8 +32,7 @@ LOCKSTEP_INLINE FloatLanes mixed(const FloatLanes& from, const FloatLanes& to, c
 /// Pixels of a row, each with those beside it in the image: at least one on each side.
 inline bool is_amidst(const PixelPlaces& places, const LaneInt& x, int y) {
     const int first = x.v[0], width = static_cast<int>(places.x.f.size()), height = static_cast<int>(places.y.f.size());
-    return first >= 1 && first + lane_count < width && y >= 0 && y < height &&
-           lanes::set_of(x.v == from(first)) == (1U << lane_count) - 1;
+    return first >= 1 && first + lane_count < width && y >= 0 && y < height && are_side_by_side(x.v);
 }
 
 /// linear_fetch at the middles of pixels that are amidst an image of floats.

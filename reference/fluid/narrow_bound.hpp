@@ -10,6 +10,13 @@
 
 namespace lockstep::fluid {
 
+/// The ranges by which pairs of samples are judged: one for all, or the second of each pair has its own.
+template <class Range> struct PairRanges {
+    std::array<Range, 2> all;
+    bool are_two = false;
+    Range& of(std::size_t sample) { return all[are_two && sample == 1 ? 1 : 0]; }
+};
+
 /// A sample of the narrow-range filter: its depth where it is not empty, m, and which of both it may be.
 struct NarrowSample {
     Interval z;
@@ -23,16 +30,16 @@ class NarrowBound {
   public:
     /// `two_ranges`: the second of a pair is judged by a range of its own.
     NarrowBound(const Interval& z, float delta, float mu, bool two_ranges)
-        : delta_(delta), drawn_in_(rounded(interval::add(z, Interval(-mu)))),
-          two_ranges_(two_ranges), terms_{{z, Interval(1.0F), false}} {
-        ranges_.fill({widened(z, delta_), widened(z, -delta_)});
+        : delta_(delta), drawn_in_(rounded(interval::add(z, Interval(-mu)))), terms_{{z, Interval(1.0F), false}} {
+        const Range range{widened(z, delta_), widened(z, -delta_)};
+        ranges_ = {{range, range}, two_ranges};
     }
 
     /// Samples in the order in which they are judged. The partner of the first is the last.
     template <std::size_t n> void take(const std::array<NarrowSample, n>& samples, const Interval& weight) {
         std::array<Judged, n> judged;
         for (std::size_t k = 0; k < n; ++k)
-            judged[k] = judge(samples[k], ranges_[two_ranges_ && k == 1 ? 1 : 0]);
+            judged[k] = judge(samples[k], ranges_.of(k));
         for (std::size_t k = 0; k < n; ++k) {
             const Judged &own = judged[k], &partner = judged[n - 1 - k];
             if (own.may_count && partner.may_count)
@@ -90,8 +97,7 @@ class NarrowBound {
 
     float delta_;
     Interval drawn_in_;
-    bool two_ranges_;
-    std::array<Range, 2> ranges_;
+    PairRanges<Range> ranges_;
     std::vector<WeightedTerm> terms_;
     double ways_ = 1.0;
 };

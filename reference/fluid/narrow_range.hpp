@@ -88,11 +88,7 @@ template <class R> class NarrowRange {
     struct Range {
         Real high, low;
     };
-    struct Ranges {
-        std::array<Range, 2> all;
-        bool are_two; ///< the second of a pair has its own
-        Range& of(std::size_t sample) { return all[are_two && sample == 1 ? 1 : 0]; }
-    };
+    using Ranges = PairRanges<Range>;
     static constexpr double most_ways = 8.0; ///< tried one by one
     template <class Empty> struct SampleAt {
         Empty is_empty;

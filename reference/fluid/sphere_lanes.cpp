@@ -5,8 +5,6 @@
 #include <cstring>
 #include <optional>
 #include <span>
-#include <type_traits>
-#include <utility>
 #include <vector>
 
 #include "reference/fluid/sphere_depth_twin.hpp"
@@ -41,7 +39,7 @@ template <class Twin, class A, class F, class Pass> void draw_spheres(const Twin
                                                                       Pass& pass, const WritableView& after) {
     using R = Lanes<F>;
     using Row = TileRow<R, typename Pass::Made>;
-    R reading(lane_fp, (1U << lane_count) - 1);
+    R reading(lane_fp, every_lane);
     const AllBalls& balls = twin.balls->of(fp, *twin.host, in.before, twin.spheres());
     const SpriteTwin<R> sprite(reading, *twin.host, in.before, twin.spheres());
     const int width = twin.host->settings().width;
@@ -172,7 +170,7 @@ class AddedSpheres {
 
     [[nodiscard]] static Made nothing() { return {lanes::all(0.0F), lanes::all(0)}; }
     static std::span<const std::uint32_t> ordered(const AllBalls& /*balls*/, std::span<const std::uint32_t> near) {
-        return near;
+        return in_their_order(near);
     }
     template <class Rows> static bool may_show(const BallNumbers& /*ball*/, const Rows& /*rows*/) { return true; }
     template <class R, class Meets> void draw(Made& made, R& r, const SpriteTwin<R>& sprite, const Ball<R>& ball,

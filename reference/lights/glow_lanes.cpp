@@ -16,7 +16,7 @@ template <class A, class F> void glow_row(const GlowTwin& twin, const A& fp, con
         std::array<FloatLanes, 3> sum{};
     };
     Values<A> one(fp);
-    R reading(lane_fp, (1U << lane_count) - 1);
+    R reading(lane_fp, every_lane);
     const int width = twin.host->settings().width;
     const std::byte* before = in.before[field::pixel.resource].columns[field::pixel.field];
     const auto item_at = [&](const Pixel& place) { return item_of(place.x, place.y, width); };

@@ -7,6 +7,7 @@
 #include "reference/interval.hpp"
 #include "reference/model/exponential.hpp"
 #include "reference/readings/site.hpp"
+#include "reference/readings/unspecified.hpp"
 #include "reference/system/item_twin.hpp"
 
 namespace lockstep {
@@ -36,8 +37,7 @@ template <class Function> Interval widened(double low, double high, const Functi
 }
 
 template <class R, class Real> Real legal(R& r, At at, double value, const Interval& set) {
-    return r.unspecified(at, Real(static_cast<float>(value)), static_cast<float>(set.low),
-                         static_cast<float>(set.high));
+    return unspecified_within(r, at, Real(static_cast<float>(value)), set);
 }
 
 template <class R, class Real> Real anything(R& r, At at, double value) {

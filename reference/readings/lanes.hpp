@@ -32,6 +32,7 @@ namespace lockstep {
 
 /// Numbers of as many items as go through a twin together. A lane rounds like a scalar.
 inline constexpr int lane_count = 8;
+inline constexpr unsigned every_lane = (1U << lane_count) - 1; ///< a bit a lane
 using FloatLanes [[gnu::vector_size(4 * lane_count)]] = float;
 using IntLanes [[gnu::vector_size(4 * lane_count)]] = std::int32_t;
 
@@ -202,7 +203,7 @@ struct LaneMask : HeldLanes<IntLanes> {
     friend LaneMask operator!(const LaneMask& a) { return {~a.v}; }
 };
 
-inline bool everywhere(const LaneMask& decision) { return lanes::set_of(decision.v) == (1U << lane_count) - 1; }
+inline bool everywhere(const LaneMask& decision) { return lanes::set_of(decision.v) == every_lane; }
 inline bool nowhere(const LaneMask& decision) { return lanes::set_of(decision.v) == 0; }
 template <class Number> Number choose(const LaneMask& decision, const Number& yes, const Number& no) {
     return Number(decision.v ? yes.v : no.v);

@@ -37,6 +37,9 @@ inline Pixel first_of(const LanePixel& pixel) { return {pixel.first, pixel.y}; }
 
 LOCKSTEP_INLINE IntLanes from(int first) { return IntLanes{0, 1, 2, 3, 4, 5, 6, 7} + first; }
 
+/// Whether each is one more than the one before.
+LOCKSTEP_INLINE bool are_side_by_side(const IntLanes& at) { return lanes::set_of(at == from(at[0])) == every_lane; }
+
 inline LanePixel pixel_at(int width, const LaneItems& items) {
     const int first = items.v[0] % width;
     return {LaneInt(from(first)), first, items.v[0] / width};
@@ -48,7 +51,7 @@ LOCKSTEP_INLINE FloatLanes lane_floats(const SystemView& state, FieldId field, c
     const std::byte* from_first = view.columns[field.field];
     FloatLanes found{};
     const IntLanes& at = items.v;
-    if (components == 1 && lanes::set_of(at == from(at[0])) == (1U << lane_count) - 1) {
+    if (components == 1 && are_side_by_side(at)) {
         std::memcpy(&found, from_first + static_cast<std::size_t>(at[0]) * sizeof(float), sizeof found);
         return found;
     }
@@ -127,7 +130,7 @@ template <class F> LaneReal<F> portable_exponential(Lanes<F>& /*r*/, At, const L
 template <class F> LaneReal<F> built_in_exponential(Lanes<F>& /*r*/, At, const LaneReal<F>& x) {
     const IntLanes is_inside = (x.v >= least_exponent) & (x.v <= 0.0F);
     FloatLanes found = exponential_of_lanes(LaneReal<PlainLanes>(is_inside ? x.v : lanes::all(0.0F))).v;
-    for (unsigned others = ~lanes::set_of(is_inside) & ((1U << lane_count) - 1); others != 0; others &= others - 1)
+    for (unsigned others = ~lanes::set_of(is_inside) & every_lane; others != 0; others &= others - 1)
         found[std::countr_zero(others)] = exponential_value(x.v[std::countr_zero(others)]);
     return found;
 }
@@ -147,8 +150,7 @@ template <class F, class State> ItemWords<Lanes<F>> lane_words(const State& stat
 /// Makes as many items as there are lanes, or less: in turns, of those that go one way at every decision.
 template <class F, class Twin> void make_batch(const Twin& twin, F arithmetic, const FastRun& run,
                                                std::span<const item_twin::WordColumn> columns, const LaneItems& items) {
-    constexpr unsigned every_lane = (1U << lane_count) - 1;
-    const bool are_side_by_side = lanes::set_of(items.v == from(items.v[0])) == every_lane;
+    const bool are_neighbours = are_side_by_side(items.v);
     unsigned waiting = (1U << items.count) - 1;
     while (waiting != 0) {
         Lanes<F> reading(arithmetic, waiting);
@@ -156,7 +158,7 @@ template <class F, class Twin> void make_batch(const Twin& twin, F arithmetic, c
         if (reading.active() == 0)
             break;
         for (std::size_t w = 0; w < words.size(); ++w) {
-            if (are_side_by_side && reading.active() == every_lane && columns[w].stride == sizeof(std::uint32_t)) {
+            if (are_neighbours && reading.active() == every_lane && columns[w].stride == sizeof(std::uint32_t)) {
                 std::memcpy(columns[w].first + static_cast<std::size_t>(items.v[0]) * sizeof(std::uint32_t),
                             &words.of_lanes(w), sizeof(IntLanes));
                 continue;

@@ -20,7 +20,7 @@ template <class F> void see(const F& fp, const TriangleScene& scene, std::size_t
         IntLanes triangle;
         FloatLanes second, third, depth;
     };
-    R reading(fp, (1U << lane_count) - 1);
+    R reading(fp, every_lane);
     const DrawnTriangles<R> triangles(reading, scene);
     draw_rows(
         scene.boxes, scene.width, scene.height, tiles, in_their_order,

@@ -1,7 +1,9 @@
 #pragma once
+#include <cstddef>
 #include <limits>
 #include <memory>
 #include <string>
+#include <string_view>
 #include <utility>
 #include <vector>
 
@@ -29,6 +31,14 @@ inline fluid::Settings in_preset(fluid::Settings settings, const std::string& na
     settings.shading = fluid::shading_numbers(name);
     settings.arithmetic = name == "exact" ? ArithmeticSwitch::exact : ArithmeticSwitch::plain;
     return settings;
+}
+
+/// Runs what comes before the first pass of this name, which it returns the number of.
+inline std::size_t run_up_to(ReferenceRun& run, const System& system, std::string_view pass) {
+    std::size_t p = 0;
+    for (; system.passes[p]->name() != pass; ++p)
+        run.step_pass(p, 0);
+    return p;
 }
 
 /// Settings with these switches, each as --set has it.

@@ -35,9 +35,7 @@ LegalThickness legal_thickness(const fluid::Settings& settings) {
     const System system = fluid::system(host_of(settings));
     const Profile profile = named_profile("nvidia");
     ReferenceRun run(system, profile);
-    std::size_t p = 0;
-    for (; system.passes[p]->name() != "thickness_pass"; ++p)
-        run.step_pass(p, 0);
+    const std::size_t p = run_up_to(run, system, "thickness_pass");
     const std::uint8_t resource = system.passes[p]->resource();
     const SystemState before = run.state();
     run.step_pass(p, 0);

@@ -103,9 +103,7 @@ TEST_CASE("unit normal: no normal of the published values is undefined, whatever
     const System system = fluid::system(host_of(s));
     const Profile profile = named_profile("nvidia");
     ReferenceRun run(system, profile);
-    std::size_t p = 0;
-    for (; system.passes[p]->name() != "normal_pass"; ++p)
-        run.step_pass(p, 0);
+    const std::size_t p = run_up_to(run, system, "normal_pass");
     const SystemView before = run.state().view();
     const KnownOperations known = measured_operations(profile);
     int judged = 0, undefined = 0;

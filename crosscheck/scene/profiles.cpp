@@ -349,6 +349,10 @@ void note_images(Translation& rows, const ProbeResult& result) {
         if (rows.is_noted(row) && !is_aligned)
             rows.note(other_way);
     }
+    const char* const plane = "image: linear filter of a plane";
+    follow(plane, {"fma(f, b - a, a), all bits", "a + f*(b - a), all bits"});
+    if (rows.is_noted(plane))
+        follow("image: linear filter of a plane, aligned", {"cell's weights in 256ths, cut"});
     follow("image: sRGB store", {"nearest code"});
     follow("image: gl_PointCoord, accuracy", {"to 1/256 pixel, from above"});
     const char* const cut = "image: gl_PointCoord, cut size";

@@ -142,7 +142,8 @@ TEST_CASE("probe: tells sequences apart") {
                              "image: blend rgba16f",
                              "image: linear filter, weights",
                              "image: linear filter",
-                             "image: linear filter, border of 0"}) {
+                             "image: linear filter, border of 0",
+                             "image: linear filter of a plane"}) {
         const ProbeRow& row = result.row(name);
         INFO(name);
         if (row.finding == none_known)

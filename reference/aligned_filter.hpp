@@ -23,6 +23,11 @@ using FilterCell = std::array<float, 8>;
 
 /// A place on an axis, in texels from the first one's middle, to 256ths, halves up.
 inline double filter_place(double texels) { return std::floor(texels * 256.0 + 0.5); }
+/// The same of a texture's coordinate, 0 to 1 over `size` texels, which is cut to 2^-21 first.
+inline double filter_place(double coordinate, int size) {
+    const double cut = std::floor(coordinate * 0x1p21) * 0x1p-21;
+    return filter_place(cut * size - 0.5);
+}
 
 /// Weights, 256 in all, of a cell's texels at a place that is so many 256ths behind the first on each axis: shared out
 /// by z, then x, then y, the second half rounded and the first what is left.

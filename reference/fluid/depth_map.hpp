@@ -31,7 +31,9 @@ template <class R> class DepthMap {
     /// What is stored at a pixel, the nearest one of the image.
     [[nodiscard]] Real at(At place, const Index& x, int y) const {
         const Settings& s = host_.settings();
-        if (host_.switches().depth_fetch == DepthFetch::linear)
+        // Lanes come here only where a middle's place is its texel (lanes_filter).
+        const bool is_texel = HasLanes<R> && host_.linear_filter() == LinearFilter::aligned;
+        if (host_.switches().depth_fetch == DepthFetch::linear && !is_texel)
             return filtered(place, x, y);
         if constexpr (!HasLanes<R>)
             if (!has(x, y) && !r_.setting(site::ends_at_edge, true))
@@ -62,13 +64,12 @@ template <class R> class DepthMap {
             if (places_ != nullptr && is_amidst(*places_, x, y))
                 return linear_fetch(r_, x, y, *places_, state_[from_.resource].columns[from_.field]);
         const auto along = [&](const auto& i, int size, At size_at) {
-            const Real extent = r_.uniform(size_at, static_cast<float>(size));
-            return r_.divide(place, r_.real(i) + Real(0.5F), extent) * extent;
+            return r_.divide(place, r_.real(i) + Real(0.5F), r_.uniform(size_at, static_cast<float>(size)));
         };
         const auto texel = [this, &s](const Index& tx, const Index& ty) {
             return raw_real(state_, from_, item_of(tx, ty, s.width));
         };
-        return linear_fetch(r_, place, {along(x, s.width, site::width), along(y, s.height, site::height)},
+        return linear_fetch(r_, place, host_.linear_filter(), {along(x, s.width, site::width), along(y, s.height, site::height)},
                             Texels<decltype(texel)>{s.width, s.height, texel});
     }
 

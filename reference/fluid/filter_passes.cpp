@@ -1,3 +1,4 @@
+#include "reference/fluid/by_driver.hpp"
 #include "reference/fluid/depth_filter_twin.hpp"
 #include "reference/fluid/passes.hpp"
 
@@ -34,7 +35,11 @@ void add_filter_passes(const HostPtr& host, Passes& all) {
         add_weights(twin, Strict{});
     for (const FilterStep& step : host->filter_steps()) {
         twin.step = step;
-        all.push_back(item_pass(options_of(*host, "depth_filter_pass", smooth_depth_image, PassStage::compute), twin));
+        all.push_back(by_filter(host, [twin](const HostPtr& by) {
+            DepthFilterTwin made = twin;
+            made.host = by;
+            return item_pass(options_of(*by, "depth_filter_pass", smooth_depth_image, PassStage::compute), made);
+        }));
     }
 }
 

@@ -18,9 +18,14 @@ constexpr auto make_all = [](const auto& twin, const auto& fp, const FastRun& ru
 
 } // namespace
 
-bool DepthFilterTwin::fast(const FastRun& run) const { return fast_by_lanes(*this, run, make_all); }
-bool NormalTwin::fast(const FastRun& run) const { return fast_by_lanes(*this, run, make_all); }
-bool ShadeTwin::fast(const FastRun& run) const { return fast_by_lanes(*this, run, make_all); }
+bool DepthFilterTwin::fast(const FastRun& run) const {
+    return lanes_filter(*host) && fast_by_lanes(*this, run, make_all);
+}
+bool NormalTwin::fast(const FastRun& run) const { return lanes_filter(*host) && fast_by_lanes(*this, run, make_all); }
+bool ShadeTwin::fast(const FastRun& run) const {
+    return lanes_filter(*host, host->switches().scene_fetch == SceneFetch::linear) &&
+           fast_by_lanes(*this, run, make_all);
+}
 bool SceneTwin::fast(const FastRun& run) const {
     SceneTwin seeing = *this;
     seeing.seen = view->seen(run.in.before);

@@ -51,19 +51,20 @@ LaneReal<F> linear_fetch(Lanes<F>& /*r*/, const LaneInt& x, int y, const PixelPl
     return linear_lanes::mixed(row(base), row(base + 1), lanes::all(places.y.f[static_cast<std::size_t>(y)]));
 }
 
-/// linear_fetch, lane by lane.
+/// linear_fetch with weights of all bits, lane by lane.
 template <class F, class Texel>
-LaneReal<F> linear_fetch(Lanes<F>& /*r*/, At, const typename Lanes<F>::Vec2& place, const Texels<Texel>& image) {
+LaneReal<F> linear_fetch(Lanes<F>& /*r*/, At, LinearFilter, const typename Lanes<F>::Vec2& coordinate,
+                         const Texels<Texel>& image) {
     struct Axis {
         FloatLanes f;
         LaneInt base;
     };
     const auto axis = [](const FloatLanes& at, int size) {
-        const FloatLanes t = at - 0.5F, whole = lanes::floor(t), end = lanes::all(static_cast<float>(size));
+        const FloatLanes end = lanes::all(static_cast<float>(size)), t = at * end - 0.5F, whole = lanes::floor(t);
         const FloatLanes from = whole >= -1.0F ? whole : lanes::all(-1.0F); // of no number, too
         return Axis{t - whole, __builtin_convertvector(from > end ? end : from, IntLanes)};
     };
-    const Axis x = axis(place.x.v, image.width), y = axis(place.y.v, image.height);
+    const Axis x = axis(coordinate.x.v, image.width), y = axis(coordinate.y.v, image.height);
     const auto row = [&](int dy) {
         const LaneInt at = (y.base + dy).clamped(0, image.height - 1);
         return linear_lanes::mixed(image.texel(x.base.clamped(0, image.width - 1), at),

@@ -1,9 +1,12 @@
 #pragma once
+#include <algorithm>
 #include <cmath>
 #include <cstdint>
 #include <memory>
+#include <ranges>
 #include <vector>
 
+#include "reference/aligned_filter.hpp"
 #include "reference/model/fluid/host.hpp"
 
 namespace lockstep::fluid {
@@ -37,6 +40,21 @@ inline std::shared_ptr<const PixelPlaces> pixel_places(const Host& host) {
     if (host.switches().depth_fetch != DepthFetch::linear)
         return nullptr;
     return std::make_shared<const PixelPlaces>(PixelPlaces{PixelAxis(s.width), PixelAxis(s.height)});
+}
+
+/// Whether a unit that filters in fixed point gives each pixel its own texel at its middle: so it is up to some thousand
+/// pixels.
+inline bool middles_are_texels(int size) {
+    return std::ranges::all_of(std::views::iota(0, size), [size](int i) {
+        return filter_place((static_cast<float>(i) + 0.5F) / static_cast<float>(size), size) == 256.0 * i;
+    });
+}
+
+/// Whether lanes give what one item gives: of a unit that filters in fixed point only where nothing is filtered.
+inline bool lanes_filter(const Host& host, bool between_texels = false) {
+    const Settings& s = host.settings();
+    return host.linear_filter() != LinearFilter::aligned ||
+           (!between_texels && middles_are_texels(s.width) && middles_are_texels(s.height));
 }
 
 } // namespace lockstep::fluid

@@ -9,7 +9,8 @@
 
 namespace lockstep::fluid {
 
-/// The scene's colour at a place given in texels, texel (0, 0) from 0 to 1. Twin of shaders/fluid/scene_fetch.glsl.
+/// The scene's colour at a place given in texels, texel (0, 0) from 0 to 1. Twin of fetched_scene in
+/// shaders/fluid/fluid_shade_pass.comp.
 template <class R> class RefractedScene {
     using Real = typename R::Real;
     using Vec2 = typename R::Vec2;
@@ -58,13 +59,12 @@ template <class R> class RefractedScene {
     [[nodiscard]] Real filtered(const Vec2& place, int c) const {
         const Settings& s = host_.settings();
         const auto along = [&](const Real& at, int size, At size_at) {
-            const Real extent = r_.uniform(size_at, static_cast<float>(size));
-            return r_.divide(site::filtered, at, extent) * extent;
+            return r_.divide(site::filtered, at, r_.uniform(size_at, static_cast<float>(size)));
         };
         const auto one = [this, c, &s](const Index& x, const Index& y) {
             return raw_real(state_, field::scene, item_of(x, y, s.width), c);
         };
-        return linear_fetch(r_, site::filtered,
+        return linear_fetch(r_, site::filtered, host_.linear_filter(),
                             Vec2{along(place.x, s.width, site::width), along(place.y, s.height, site::height)},
                             Texels<decltype(one)>{s.width, s.height, one});
     }

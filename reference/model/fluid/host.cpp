@@ -57,7 +57,8 @@ std::vector<FilterStep> steps(const Settings& s) {
 
 } // namespace
 
-Host::Host(Settings settings, PointRules points) : settings_(std::move(settings)), points_(points) {
+Host::Host(Settings settings, PointRules points, LinearFilter filter)
+    : settings_(std::move(settings)), points_(points), linear_filter_(filter) {
     check(settings_);
     const Switches& on = settings_.switches;
     const double width = settings_.width, height = settings_.height, r = settings_.radius;

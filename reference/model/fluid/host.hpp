@@ -37,16 +37,21 @@ struct PointRules {
     bool operator==(const PointRules&) const = default;
 };
 
+/// How twins take GL_LINEAR to be made: with weights of all bits, in fixed point (reference/aligned_filter.hpp), or
+/// with any weights of 8 bits.
+enum class LinearFilter : std::uint8_t { all_bits, aligned, open };
+
 /// What the host hands the passes: made in double, rounded once. Immutable.
 class Host {
   public:
     /// Throws Error as check() does.
-    explicit Host(Settings settings, PointRules points = {});
+    explicit Host(Settings settings, PointRules points = {}, LinearFilter filter = LinearFilter::all_bits);
 
     [[nodiscard]] const Settings& settings() const { return settings_; }
     [[nodiscard]] const Switches& switches() const { return settings_.switches; }
 
     [[nodiscard]] const PointRules& points() const { return points_; }
+    [[nodiscard]] LinearFilter linear_filter() const { return linear_filter_; }
 
     [[nodiscard]] const glm::mat4& view() const { return view_; }
     [[nodiscard]] const glm::mat4& projection() const { return projection_; }
@@ -84,6 +89,7 @@ class Host {
   private:
     Settings settings_;
     PointRules points_;
+    LinearFilter linear_filter_;
     glm::mat4 view_{1.0F}, projection_{1.0F}, view_projection_{1.0F}, inverse_view_{1.0F};
     glm::vec2 slope_{1.0F}, flow_scale_{1.0F};
     float depth_scale_ = 1.0F, point_scale_ = 1.0F, thickness_radius_ = 0.0F, thickness_gain_ = 0.0F,

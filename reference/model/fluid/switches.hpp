@@ -57,6 +57,11 @@ struct Switches {
     Transcendentals transcendentals = Transcendentals::portable;
     Encoding encoding = Encoding::srgb_table;
 
+    /// Whether a pass leaves the filtering of a texture to GL.
+    [[nodiscard]] bool filters_by_gl() const {
+        return depth_fetch == DepthFetch::linear || scene_fetch == SceneFetch::linear;
+    }
+
     bool operator==(const Switches&) const = default;
 };
 

@@ -15,6 +15,21 @@ bool same_item(const View& a, const View& b, std::size_t item) {
     });
 }
 
+namespace {
+
+std::optional<LegalFloats> widest_of(const ItemOutcome& outcome, const Resource& about) {
+    std::optional<LegalFloats> widest;
+    const std::vector<Component> parts = components(about);
+    for (std::size_t c = 0; c < parts.size(); ++c) {
+        const LegalFloats one{c, outcome.values[c]};
+        if (about.fields[parts[c].field].scalar == Scalar::float32 && (!widest || one.width() > widest->width()))
+            widest = one;
+    }
+    return widest;
+}
+
+} // namespace
+
 ItemVerdict judge_item(const JudgedPass& p, std::size_t item) {
     const auto outcomes = p.on_input().outcomes(p.input(), item, p.profile, p.known, &p.gpu);
     ItemVerdict verdict{.index = item, .outcomes = outcomes.size()};
@@ -37,6 +52,7 @@ ItemVerdict judge_item(const JudgedPass& p, std::size_t item) {
             continue;
         verdict.kind = kind;
         verdict.undefined = outcome.undefined;
+        verdict.widest = kind == DifferenceClass::undefined ? std::nullopt : widest_of(outcome, p.gpu.about());
         verdict.tie = std::nullopt;
         if (kind == DifferenceClass::tie && !outcome.open.empty())
             verdict.tie = Tie{{outcome.open.front().site, outcome.open.front().unit}, outcome.open.front().margin};

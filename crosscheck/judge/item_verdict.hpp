@@ -5,6 +5,7 @@
 #include <string_view>
 
 #include "crosscheck/judge/lean.hpp"
+#include "crosscheck/judge/legal_widths.hpp"
 #include "reference/tie.hpp"
 #include "reference/undefined.hpp"
 
@@ -25,6 +26,7 @@ struct ItemVerdict {
     std::size_t outcomes = 1; ///< legal ones
     std::optional<Tie> tie = std::nullopt;
     Undefined undefined = Undefined::none;
+    std::optional<LegalFloats> widest = std::nullopt; ///< of its floats', where it is legal
     bool follows_particle = false;           ///< a texel that holds what the GPU's own particles leave there
     std::optional<Lean> lean = std::nullopt; ///< of a texel that is a tie or divergent, where a shift would explain it
 };

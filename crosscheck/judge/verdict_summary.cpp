@@ -26,6 +26,8 @@ void VerdictSummary::add(int frame, std::uint8_t resource, std::span<const ItemV
     for (const ItemVerdict& verdict : verdicts) {
         ++classes[resource][static_cast<std::size_t>(verdict.kind)];
         ++set_sizes[verdict.outcomes];
+        if (verdict.widest)
+            widths[resource].add({frame, resource, verdict.index}, *verdict.widest);
         if (verdict.tie)
             note_tie(ties, *verdict.tie, {frame, resource, verdict.index});
         if (verdict.lean) {
@@ -46,6 +48,8 @@ void VerdictSummary::join(const VerdictSummary& next) {
             classes[r][kind] += next.classes[r][kind];
     for (const auto& [size, count] : next.set_sizes)
         set_sizes[size] += count;
+    for (std::size_t r = 0; r < widths.size(); ++r)
+        widths[r].join(next.widths[r]);
     for (const auto& [kind, tie] : next.ties) {
         const auto [entry, is_new] = ties.try_emplace(kind, tie);
         if (is_new)

@@ -11,15 +11,10 @@
 #include "crosscheck/judge/cause_findings.hpp"
 #include "crosscheck/judge/compare.hpp"
 #include "crosscheck/judge/item_verdict.hpp"
+#include "crosscheck/judge/legal_widths.hpp"
+#include "crosscheck/judge/place.hpp"
 
 namespace lockstep {
-
-/// Where a verdict belongs.
-struct Place {
-    int frame = 0;
-    std::uint8_t resource = 0; ///< of the schema
-    std::size_t index = 0;
-};
 
 /// Ties of one kind.
 struct TieCount {
@@ -63,6 +58,7 @@ struct VerdictSummary {
     using Counts = std::array<std::uint64_t, class_names.size()>; ///< by DifferenceClass
     std::vector<Counts> classes;                                  ///< of each buffer and image, in the schema's order
     std::map<std::size_t, std::uint64_t> set_sizes;               ///< how many items had that many legal outcomes
+    std::vector<LegalWidths> widths;                              ///< likewise, of items that are legal
     std::map<TieKind, TieCount> ties;
     std::map<Undefined, std::uint64_t> undefined;
     Leans leans;
@@ -74,7 +70,7 @@ struct VerdictSummary {
     std::vector<CauseFindings> causes;    ///< likewise
 
     VerdictSummary() = default;
-    explicit VerdictSummary(const Schema& schema) : classes(schema.resources.size()), causes(schema.resources.size()) {}
+    explicit VerdictSummary(const Schema& schema) : classes(schema.resources.size()), widths(schema.resources.size()), causes(schema.resources.size()) {}
 
     /// The name of the shift that ties alone convict; empty: none.
     [[nodiscard]] std::string convicted_shift() const;

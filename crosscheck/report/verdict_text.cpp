@@ -1,6 +1,7 @@
 #include "crosscheck/report/verdict_text.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <iterator>
 
 #include <fmt/format.h>
@@ -8,6 +9,7 @@
 #include <nlohmann/json.hpp>
 
 #include "crosscheck/judge/item_place.hpp"
+#include "crosscheck/judge/item_table.hpp"
 #include "crosscheck/report/value_text.hpp"
 
 namespace lockstep {
@@ -122,6 +124,25 @@ std::string shift_name(const VerdictSummary& s) {
                : s.leans.shift([&](Leans::Direction d) { return s.leans.all_this_way(d); });
 }
 
+std::string width_text(double width, const std::string& unit) {
+    if (width == HUGE_VAL)
+        return "anything";
+    return fmt::format("{:.3g}{}{}", width, unit.empty() ? "" : " ", unit);
+}
+
+/// "the normals: 1.2e-07 for half of the pixels that differ, 0.0041 at most: normal.x 0.9 to 0.9041, frame 0 pixel (3,
+/// 4)".
+std::string leeway_text(const LegalWidths& widths, const Shape& shape) {
+    const auto& [place, floats] = *widths.widest();
+    const Resource& about = shape.schema.resources[place.resource];
+    const Component part = components(about)[floats.component];
+    const Field& field = about.fields[part.field];
+    return fmt::format("{}: {} for half of the {}s that differ, {} at most: {} {}, {}", about.title,
+                       width_text(widths.half(), about.fields.size() == 1 ? field.unit : ""), about.item,
+                       width_text(floats.width(), field.unit), component_name(field, part.component),
+                       legal_text(floats.set, Scalar::float32), place_text(place, shape));
+}
+
 /// "7 left, 305 right, 1 down, 0 up".
 template <class Count> std::string directions_text(const Count& count) {
     std::string text;
@@ -154,6 +175,23 @@ nlohmann::json place_json(const Place& place, const Shape& shape) {
     nlohmann::json item =
         nlohmann::json::parse(fmt::format("[{}]", item_argument(resource, shape.extent(place.resource), place.index)));
     return {{"frame", place.frame}, {item_key(shape.schema, place.resource), item.size() == 1 ? item[0] : item}};
+}
+
+nlohmann::json width_json(double width) {
+    return width < HUGE_VAL ? nlohmann::json(width) : nlohmann::json("anything");
+}
+
+nlohmann::json leeway_json(const LegalWidths& widths, const Shape& shape) {
+    if (!widths.widest())
+        return nullptr;
+    const LegalFloats& floats = widths.widest()->floats;
+    const Resource& about = shape.schema.resources[widths.widest()->place.resource];
+    const Component part = components(about)[floats.component];
+    return {{"half_at_most", width_json(widths.half())},
+            {"widest", width_json(floats.width())},
+            {"field", about.fields[part.field].name},
+            {"component", part.component},
+            {"place", place_json(widths.widest()->place, shape)}};
 }
 
 nlohmann::json cause_json(const CauseFindings& found) {
@@ -212,6 +250,9 @@ std::string verdict_text(const VerdictSummary& s, const Schema& schema, std::spa
     if (!s.set_sizes.empty())
         text += line("outcomes", fmt::format("legal ones: median {}, largest {}", s.median_set_size(),
                                              s.set_sizes.rbegin()->first));
+    for (const LegalWidths& widths : s.widths)
+        if (widths.widest())
+            text += line("leeway", leeway_text(widths, shape));
     for (const auto& [kind, tie] : s.ties)
         text +=
             line("ties", fmt::format("{}: {}, margins {:.3g} to {:.3g} {}; closest {}", kind.name, grouped(tie.count),
@@ -278,6 +319,7 @@ nlohmann::json verdict_json(const VerdictSummary& s, const Schema& schema, std::
         const std::string key = item_key(schema, static_cast<std::uint8_t>(r));
         verdicts[key + "s"] = counts_json(s.classes[r]);
         verdicts[key + "_cause"] = cause_json(s.causes[r]);
+        verdicts[key + "_leeway"] = leeway_json(s.widths[r], shape);
     }
     return verdicts;
 }

@@ -103,6 +103,11 @@ void of_narrow_range(Of& of) {
         .add("near_drawn_in", "samples that are too near are drawn in to the range",
              mistake_at(site::near_is_refused, Change::never))
         .add("far_refused", "samples that are too far are refused", mistake_at(site::far_is_kept, Change::never))
+        .add("empty_refused", "empty samples are refused", mistake_at(site::empty_is_far, Change::never))
+        .add("judged_from_last", "of samples that are judged together the last is judged first",
+             mistake_at(site::judges_from_first, Change::never))
+        .add("rows_first", "the clean-up goes row by row, not column by column",
+             mistake_at(site::columns_first, Change::never))
         .add("one_range", "both sides of the pixel have one range", mistake_at(site::two_ranges, Change::never))
         .add("reach_rounded_down", "the filter's reach is rounded down",
              mistake_at(site::reach_is_ceiling, Change::never))

@@ -59,6 +59,28 @@ void add_hosts(std::vector<Hypothesis>& all, const JudgedPass& pass) {
     }
 }
 
+/// The named one that is this change; of a setting that is inverted the one that switches it, if one alone does.
+const NamedMistake* same_among(const std::vector<const NamedMistake*>& exact, const Mistake& mistake,
+                               const std::vector<SeenSite>& sites) {
+    const auto found = std::ranges::find(exact, mistake, &NamedMistake::mistake);
+    if (found != exact.end())
+        return *found;
+    const bool is_setting = std::ranges::any_of(sites, [&](const SeenSite& seen) {
+        return seen.kind == SeenSite::Kind::setting && seen.site->id == mistake.site;
+    });
+    if (!is_setting || mistake.change != Change::inverted)
+        return nullptr;
+    const NamedMistake* only = nullptr;
+    for (const NamedMistake* one : exact)
+        for (const Change change : {Change::always, Change::never})
+            if (one->mistake == Mistake{.site = mistake.site, .change = change}) {
+                if (only != nullptr)
+                    return nullptr;
+                only = one;
+            }
+    return only;
+}
+
 } // namespace
 
 bool Hypothesis::rounds() const {
@@ -122,10 +144,8 @@ std::vector<Hypothesis> hypotheses_of(const std::vector<const NamedMistake*>& na
     for (const Mistake& mistake : mistakes_at(sites)) {
         if (std::any_of(all.begin(), all.end(), [&](const Hypothesis& h) { return h.made == std::vector{mistake}; }))
             continue;
-        const auto same =
-            std::find_if(exact.begin(), exact.end(), [&](const NamedMistake* one) { return one->mistake == mistake; });
         all.push_back(
-            {.made = {mistake}, .alike = same == exact.end() ? nullptr : *same, .text = mistake_text(mistake, sites)});
+            {.made = {mistake}, .alike = same_among(exact, mistake, sites), .text = mistake_text(mistake, sites)});
     }
     return all;
 }

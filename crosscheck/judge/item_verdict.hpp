@@ -27,7 +27,7 @@ struct ItemVerdict {
     std::optional<Tie> tie = std::nullopt;
     Undefined undefined = Undefined::none;
     std::optional<LegalFloats> widest = std::nullopt; ///< of its floats', where it is legal
-    bool follows_particle = false;           ///< a texel that holds what the GPU's own particles leave there
+    bool follows_particle = false;                    ///< a texel that holds what the GPU's own particles leave there
     std::optional<Lean> lean = std::nullopt; ///< of a texel that is a tie or divergent, where a shift would explain it
 };
 

@@ -117,9 +117,9 @@ Floats joined(const Volume& volume, const Floats& where, bool black, const Named
     return values;
 }
 
-/// In fixed point, places cut to 2^-21 and rounded to 256ths of a texel, of texels that have few enough exponents for a double to hold every sum: `kept` bits of a plane's
-/// texels below the greatest, `rounded` of the result. How many bits of one plane are kept below the other's is not
-/// known: either way is taken that gives what was measured.
+/// In fixed point, places cut to 2^-21 and rounded to 256ths of a texel, of texels that have few enough exponents for a
+/// double to hold every sum: `kept` bits of a plane's texels below the greatest, `rounded` of the result. How many bits
+/// of one plane are kept below the other's is not known: either way is taken that gives what was measured.
 Floats aligned(const Volume& volume, const Floats& where, bool black, int kept, int rounded, const Floats& measured) {
     Floats values;
     for (std::size_t i = 0; i < where.size(); i += 4) {
@@ -256,8 +256,8 @@ void measure_planes(Rows& rows) {
     std::vector<Prediction<float>> forms;
     for (const NamedWeight& weight : weights)
         for (const NamedMix& mix : mixes)
-            forms.push_back({std::string(mix.name) + ", " + weight.name,
-                             predicted(joined(volume, where, false, weight, mix))});
+            forms.push_back(
+                {std::string(mix.name) + ", " + weight.name, predicted(joined(volume, where, false, weight, mix))});
     rows.push_back(judge("image: linear filter of a plane", values, forms));
     rows.push_back(judge("image: linear filter of a plane, aligned", values,
                          {{"cell's weights in 256ths, cut", predicted(aligned(volume, where, false, 28, 24, four))}}));

@@ -69,7 +69,8 @@ template <class R> class DepthMap {
         const auto texel = [this, &s](const Index& tx, const Index& ty) {
             return raw_real(state_, from_, item_of(tx, ty, s.width));
         };
-        return linear_fetch(r_, place, host_.linear_filter(), {along(x, s.width, site::width), along(y, s.height, site::height)},
+        return linear_fetch(r_, place, host_.linear_filter(),
+                            {along(x, s.width, site::width), along(y, s.height, site::height)},
                             Texels<decltype(texel)>{s.width, s.height, texel});
     }
 

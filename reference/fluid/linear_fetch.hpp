@@ -8,12 +8,10 @@ namespace lockstep::fluid {
 
 /// What the texture unit makes of the texels around a coordinate, 0 to 1 on each axis, GL_LINEAR (of lanes
 /// linear_lanes.hpp).
-template <class R, class Texel>
-typename R::Real linear_fetch(R& r, At at, LinearFilter filter, const typename R::Vec2& coordinate,
-                              const Texels<Texel>& image) {
+template <class R, class Texel> typename R::Real
+linear_fetch(R& r, At at, LinearFilter filter, const typename R::Vec2& coordinate, const Texels<Texel>& image) {
     using Real = typename R::Real;
-    const FetchedAxis x{item_twin::set_of(coordinate.x), image.width},
-        y{item_twin::set_of(coordinate.y), image.height};
+    const FetchedAxis x{item_twin::set_of(coordinate.x), image.width}, y{item_twin::set_of(coordinate.y), image.height};
     const Real value(fetched(filter, x, y, image));
     Interval legal{0.0F};
     if constexpr (requires { value.legal(); })

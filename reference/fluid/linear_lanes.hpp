@@ -52,9 +52,8 @@ LaneReal<F> linear_fetch(Lanes<F>& /*r*/, const LaneInt& x, int y, const PixelPl
 }
 
 /// linear_fetch with weights of all bits, lane by lane.
-template <class F, class Texel>
-LaneReal<F> linear_fetch(Lanes<F>& /*r*/, At, LinearFilter, const typename Lanes<F>::Vec2& coordinate,
-                         const Texels<Texel>& image) {
+template <class F, class Texel> LaneReal<F>
+linear_fetch(Lanes<F>& /*r*/, At, LinearFilter, const typename Lanes<F>::Vec2& coordinate, const Texels<Texel>& image) {
     struct Axis {
         FloatLanes f;
         LaneInt base;

@@ -119,7 +119,10 @@ template <class R> class NarrowRange {
             judge_lanes(own, partner, range, z);
         } else {
             const bool refuses_near = r_.setting(site::refuses_near, true);
-            if (!own.is_empty && r_.decide(site::too_near, refuses_near ? own.z > range.high : own.z < range.low)) {
+            if (own.is_empty && !r_.setting(site::empty_is_far, true)) {
+                own.weight = partner.weight = Real(0.0F);
+            } else if (!own.is_empty &&
+                       r_.decide(site::too_near, refuses_near ? own.z > range.high : own.z < range.low)) {
                 if (!r_.setting(site::near_is_refused, true)) {
                     own.z = range.high;
                     return;
@@ -172,8 +175,11 @@ template <class R> class NarrowRange {
         std::array<Sample, n> samples;
         for (std::size_t k = 0; k < n; ++k)
             samples[k] = sample(x + offsets[k].x, y + offsets[k].y, w);
-        for (std::size_t k = 0; k < n; ++k)
+        const bool from_first = r_.setting(site::judges_from_first, true);
+        for (std::size_t i = 0; i < n; ++i) {
+            const std::size_t k = from_first ? i : n - 1 - i;
             judge(samples[k], samples[n - 1 - k], ranges.of(k), z);
+        }
         add(sums, samples);
     }
     [[nodiscard]] NarrowBound bound_at(const Index& x, int y, const FilterStep& step, int reach, const Real& z) const {
@@ -213,9 +219,11 @@ template <class R> class NarrowRange {
     }
     /// The four samples of each offset, but never those straight above or beside the pixel.
     template <class Visit> void quadrants(int n, const Visit& visit) const {
-        for (const auto column : r_.range(site::rows, 1, n))
-            for (const auto row : r_.range(site::samples, 1, n)) {
-                const int dx = static_cast<int>(column), dy = static_cast<int>(row);
+        const bool columns_first = r_.setting(site::columns_first, true);
+        for (const auto outer : r_.range(site::rows, 1, n))
+            for (const auto inner : r_.range(site::samples, 1, n)) {
+                const int i = static_cast<int>(outer), j = static_cast<int>(inner), dx = columns_first ? i : j,
+                          dy = columns_first ? j : i;
                 visit(std::array{glm::ivec2(dx, dy), glm::ivec2(dx, -dy), glm::ivec2(-dx, dy), glm::ivec2(-dx, -dy)});
             }
     }

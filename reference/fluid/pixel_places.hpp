@@ -42,8 +42,8 @@ inline std::shared_ptr<const PixelPlaces> pixel_places(const Host& host) {
     return std::make_shared<const PixelPlaces>(PixelPlaces{PixelAxis(s.width), PixelAxis(s.height)});
 }
 
-/// Whether a unit that filters in fixed point gives each pixel its own texel at its middle: so it is up to some thousand
-/// pixels.
+/// Whether a unit that filters in fixed point gives each pixel its own texel at its middle: so it is up to some
+/// thousand pixels.
 inline bool middles_are_texels(int size) {
     return std::ranges::all_of(std::views::iota(0, size), [size](int i) {
         return filter_place((static_cast<float>(i) + 0.5F) / static_cast<float>(size), size) == 256.0 * i;

@@ -62,7 +62,8 @@ inline constexpr Site narrow_scale{"u_NarrowScale"}, reach{"reach", {}, "pixel"}
     reach_is_ceiling{"reach is rounded up"}, refuses_near{"near samples are refused"},
     drawn_to_centre{"samples are drawn in to the pixel"}, range_is_kept{"range keeps what widened it"},
     near_is_refused{"near samples count for nothing"}, far_is_kept{"far samples count"},
-    two_ranges{"each side has its range"};
+    two_ranges{"each side has its range"}, empty_is_far{"empty samples are far ones"},
+    judges_from_first{"samples are judged from the first"}, columns_first{"columns come first"};
 inline constexpr Site flow_scale_x{"Cx"}, flow_scale_y{"Cy"}, flow_step{"u_FlowStep"},
     flow_reach{"u_FlowReach", {}, "m"}, within_reach{"neighbour within reach", {}, "m"}, zx{"zx"}, zy{"zy"}, zxx{"zxx"},
     zyy{"zyy"}, zxy{"zxy"}, takes_middle_twice{"middle is taken twice"}, slopes_of_two{"slopes are over two pixels"},

@@ -48,7 +48,7 @@ double LegalWidths::half() const {
     for (const auto& [step, count] : counts_) {
         below += count;
         if (2 * below >= items)
-            return bound_of(step);
+            return std::min(bound_of(step), widest_->floats.width());
     }
     return 0.0;
 }

@@ -1,6 +1,12 @@
 #include <algorithm>
+#include <bit>
 #include <cmath>
 #include <cstddef>
+#include <cstdint>
+#include <fstream>
+#include <ios>
+#include <sstream>
+#include <string>
 #include <vector>
 
 #include <catch2/catch.hpp>
@@ -71,6 +77,38 @@ TEST_CASE("linear laws: a set of coordinates holds what each of its floats gives
         ++all;
     }
     CHECK(narrow == all);
+}
+
+TEST_CASE("linear laws: a unit of fixed point gives what one was measured to give") {
+    std::ifstream file("data/results/h200/plane_filter.txt");
+    std::string line;
+    while (std::getline(file, line) && line.starts_with("#")) {
+    }
+    const auto next = [](std::istringstream& words) {
+        std::uint32_t bits = 0;
+        words >> std::hex >> bits;
+        return std::bit_cast<float>(bits);
+    };
+    std::istringstream head(line);
+    int width = 0, height = 0;
+    head >> width >> height;
+    std::vector<float> values;
+    for (int i = 0; i < width * height; ++i)
+        values.push_back(next(head));
+    const auto texel = [&](int x, int y) { return values[static_cast<std::size_t>(y * width + x)]; };
+    const Texels<decltype(texel)> image{width, height, texel};
+    std::size_t measured = 0, right = 0, legal = 0;
+    while (std::getline(file, line)) {
+        std::istringstream words(line);
+        const FetchedAxis x{Interval(next(words)), width}, y{Interval(next(words)), height};
+        const float value = next(words);
+        ++measured;
+        right += fetched(LinearFilter::aligned, x, y, image) == value ? 1U : 0U;
+        legal += legal_fetch(LinearFilter::open, x, y, image).contains(value) ? 1U : 0U;
+    }
+    CHECK(measured == 634);
+    CHECK(right == measured);
+    CHECK(legal == measured);
 }
 
 TEST_CASE("linear laws: texels that are alike stay as they are, where the driver is followed") {

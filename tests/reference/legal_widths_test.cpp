@@ -38,6 +38,9 @@ TEST_CASE("legal widths: half of the items, and the widest with its place") {
     REQUIRE(widths.widest());
     CHECK(widths.widest()->place.index == 0);
     CHECK(widths.widest()->floats.width() == 1.0);
+    LegalWidths one;
+    one.add({0, 0, 0}, {0, Interval(1.0, 1.3)});
+    CHECK(one.half() == one.widest()->floats.width());
 }
 
 TEST_CASE("legal widths: of points there is nothing, of anything no bound, joined the widest of both") {

@@ -28,10 +28,11 @@ struct SphereDepthTwin {
     HostPtr host;
     BoxesByTile boxes = {};
     std::shared_ptr<DrawnBalls> balls = {};
+    std::shared_ptr<BoxesAround> around = {};
 
     [[nodiscard]] SphereDepthTwin at(const PassInput& in) const {
         return {host, sprite_boxes(*host, in.before, spheres()),
-                std::make_shared<DrawnBalls>(in.before[particle_buffer].count())};
+                std::make_shared<DrawnBalls>(in.before[particle_buffer].count()), std::make_shared<BoxesAround>()};
     }
 
     [[nodiscard]] HandedSpheres<SphereDepthTwin> handed(std::span<const Mistake> made) const { return {*this, made}; }
@@ -44,7 +45,7 @@ struct SphereDepthTwin {
         const Pixel pixel = Pixel::of(host->settings().width, item);
         const SpriteTwin<R> sprite(r, *host, in.before, spheres());
         auto nearest = least<SphereAt<R>>(r, site::nearest_sphere, 1.0F);
-        for_each_tried(boxes, in.before, pixel, tried, [&](std::uint32_t i) {
+        for_each_tried(*this, in.before, pixel, tried, [&](std::uint32_t i) {
             if (const auto ball = sprite.ball(i))
                 offer(r, sprite, *ball, meeting(r, *host, in, sprite, *ball, item),
                       [&](const auto& condition, const Real& key, const Real& stored) {

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
+#include <mutex>
 #include <utility>
 #include <vector>
 
@@ -28,9 +30,21 @@ PixelRect ray_box(const Host& host, const RoughWindow& window, const glm::dvec3&
     return window.box(place(bound(c.x, -1.0), bound(c.y, -1.0)), place(bound(c.x, 1.0), bound(c.y, 1.0)));
 }
 
+/// How far from its place in double a pass may find a sphere, pixels: its place p in the world and c in view space are
+/// sums of four products in floats, and so is its place in the window.
+double rounding(const Host& host, const glm::dvec3& p, const glm::dvec3& c) {
+    const auto size = [](const glm::dvec3& v) { return std::abs(v.x) + std::abs(v.y) + std::abs(v.z); };
+    const Settings& s = host.settings();
+    const glm::dmat4 projection(host.projection());
+    const double w = -c.z, away = 0x1p-21 * (size(p) + size(glm::dvec3(host.view()[3]))) / w,
+                 beside = 1.0 + (std::abs(c.x) + std::abs(c.y)) / w,
+                 scale = std::max(s.width * projection[0][0], s.height * projection[1][1]);
+    return scale * beside * (away + 0x1p-21);
+}
+
 } // namespace
 
-bool may_leave_boxes(std::span<const Mistake> made, std::size_t spheres) {
+Tried tried_with(std::span<const Mistake> made, std::size_t spheres) {
     constexpr std::size_t few = 256;
     static constexpr std::array placing{
         site::before.id,      site::view.id,         site::centre.id,   site::w.id,       site::near.id,
@@ -39,15 +53,13 @@ bool may_leave_boxes(std::span<const Mistake> made, std::size_t spheres) {
         site::height.id,      site::place_x.id,      site::place_y.id,  site::nx.id,      site::ny.id,
         site::window_x.id,    site::window_y.id,     site::pixel_x.id,  site::pixel_y.id, site::drawn_size.id,
         site::view_moves.id,  site::sized_by_w.id};
-    return spheres <= few && std::ranges::any_of(made, [](const Mistake& mistake) {
-               return std::ranges::find(placing, mistake.site) != placing.end();
-           });
+    const bool places = std::ranges::any_of(
+        made, [](const Mistake& mistake) { return std::ranges::find(placing, mistake.site) != placing.end(); });
+    return !places ? Tried::in_their_boxes : spheres <= few ? Tried::everywhere : Tried::around_them;
 }
 
-BoxesByTile sprite_boxes(const Host& host, const SystemView& state, const Spheres& spheres) {
+BoxesByTile sprite_boxes(const Host& host, const SystemView& state, const Spheres& spheres, double beside) {
     const Settings& s = host.settings();
-    // A sprite's middle and its side are open to a tenth of a pixel at most (point_coord.hpp).
-    const RoughWindow window{glm::dmat4(host.view_projection()), s.width, s.height, 1.0};
     const glm::dmat4 view(host.view());
     const auto box_of = [&](std::size_t i) -> PixelRect {
         const glm::vec3 p(state.vec4(field::position, i));
@@ -61,6 +73,10 @@ BoxesByTile sprite_boxes(const Host& host, const SystemView& state, const Sphere
         const double away = host.switches().point_size == PointSize::clip_w ? -c.z : glm::length(c);
         if (!(-c.z > 0.5 * double{host.near_plane()}))
             return {};
+        // Pixels are met at their middles, half a pixel from their sides. A sprite's middle and its side are open to a
+        // tenth of a pixel at most (point_coord.hpp).
+        const RoughWindow window{glm::dmat4(host.view_projection()), s.width, s.height,
+                                 -0.5 + 0.1 + rounding(host, glm::dvec3(p), c) + beside};
         if (spheres.shape == Sphere::ray)
             return ray_box(host, window, c, double{spheres.radius});
         return window.disc(window.place(window.clip(p)),
@@ -72,6 +88,11 @@ BoxesByTile sprite_boxes(const Host& host, const SystemView& state, const Sphere
             all[i] = box_of(i);
     });
     return {std::move(all), s.width, s.height};
+}
+
+const BoxesByTile& BoxesAround::of(const Host& host, const SystemView& state, const Spheres& spheres) {
+    std::call_once(made_, [&] { boxes_ = sprite_boxes(host, state, spheres, room); });
+    return boxes_;
 }
 
 } // namespace lockstep::fluid

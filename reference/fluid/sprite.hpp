@@ -5,6 +5,7 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
+#include <mutex>
 #include <optional>
 #include <span>
 #include <tuple>
@@ -28,14 +29,27 @@ struct Spheres {
     float radius = 0.0F;
 };
 
-/// Of each particle the pixels that its sphere may cover: what lies outside is not tried.
-BoxesByTile sprite_boxes(const Host& host, const SystemView& state, const Spheres& spheres);
+/// Of each particle the pixels that its sphere may cover, and those so many pixels beside them: what lies outside is
+/// not tried.
+BoxesByTile sprite_boxes(const Host& host, const SystemView& state, const Spheres& spheres, double beside = 0.0);
 
-/// Whether mistakes may take spheres out of their boxes, and they are few enough to be tried at every pixel.
-bool may_leave_boxes(std::span<const Mistake> made, std::size_t spheres);
+/// The same with room for mistakes that move spheres a little, made when they are first asked for, by one state.
+class BoxesAround {
+  public:
+    const BoxesByTile& of(const Host& host, const SystemView& state, const Spheres& spheres);
+
+  private:
+    static constexpr double room = 1.5; ///< pixels
+
+    std::once_flag made_;
+    BoxesByTile boxes_;
+};
 
 /// Which spheres a pixel is tried with.
-enum class Tried { in_their_boxes, everywhere };
+enum class Tried { in_their_boxes, around_them, everywhere };
+
+/// Everywhere where mistakes may take spheres out of their boxes, and they are few enough; of many around them.
+Tried tried_with(std::span<const Mistake> made, std::size_t spheres);
 
 /// A twin of spheres as a host that makes mistakes hands it its inputs.
 template <class Twin> struct HandedSpheres {
@@ -43,19 +57,20 @@ template <class Twin> struct HandedSpheres {
     std::span<const Mistake> made;
 
     template <class R> auto operator()(R& r, const PassInput& in, std::size_t item) const {
-        const bool leave = may_leave_boxes(made, in.before[particle_buffer].count());
-        return twin.at_pixel(r, in, item, leave ? Tried::everywhere : Tried::in_their_boxes);
+        return twin.at_pixel(r, in, item, tried_with(made, in.before[particle_buffer].count()));
     }
 };
 
 /// Calls `visit` with the number of each sphere that a pixel is tried with.
-template <class Visit> void for_each_tried(const BoxesByTile& boxes, const SystemView& state, const Pixel& pixel,
-                                           Tried tried, const Visit& visit) {
+template <class Twin, class Visit>
+void for_each_tried(const Twin& twin, const SystemView& state, const Pixel& pixel, Tried tried, const Visit& visit) {
     if (tried == Tried::everywhere) {
         for (std::uint32_t i = 0; i < state[particle_buffer].count(); ++i)
             visit(i);
         return;
     }
+    const BoxesByTile& boxes =
+        tried == Tried::in_their_boxes ? twin.boxes : twin.around->of(*twin.host, state, twin.spheres());
     for (const std::uint32_t i : boxes.near(pixel))
         if (pixel.is_in(boxes.box(i)))
             visit(i);

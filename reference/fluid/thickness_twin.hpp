@@ -31,10 +31,11 @@ struct ThicknessTwin {
     HostPtr host;
     BoxesByTile boxes = {};
     std::shared_ptr<DrawnBalls> balls = {};
+    std::shared_ptr<BoxesAround> around = {};
 
     [[nodiscard]] ThicknessTwin at(const PassInput& in) const {
         return {host, sprite_boxes(*host, in.before, spheres()),
-                std::make_shared<DrawnBalls>(in.before[particle_buffer].count())};
+                std::make_shared<DrawnBalls>(in.before[particle_buffer].count()), std::make_shared<BoxesAround>()};
     }
 
     [[nodiscard]] HandedSpheres<ThicknessTwin> handed(std::span<const Mistake> made) const { return {*this, made}; }
@@ -48,7 +49,7 @@ struct ThicknessTwin {
         const SpriteTwin<R> sprite(r, *host, in.before, spheres());
         std::vector<Real> terms;
         const std::size_t count = in.before[particle_buffer].count();
-        for_each_tried(boxes, in.before, pixel, tried, [&](std::uint32_t i) {
+        for_each_tried(*this, in.before, pixel, tried, [&](std::uint32_t i) {
             if (i + 1 == count && !r.setting(site::takes_last_sphere, true))
                 return;
             if (const auto ball = sprite.ball(i))

@@ -181,4 +181,12 @@ bool explains(const Hypothesis& hypothesis, const ItemLikeness& likeness, std::s
     return likeness.are_near_gpus(item, words, is_sum ? summed_ulps : rewritten_ulps);
 }
 
+bool contradicts(const Hypothesis& hypothesis, const ItemLikeness& likeness, std::size_t item) {
+    if (explains(hypothesis, likeness, item))
+        return false;
+    const JudgedPass& p = likeness.pass();
+    return hypothesis.host != Host::none ||
+           !likeness.may_be_gpus(item, p.on_input().mistaken(p.input(), item, p.profile, hypothesis.made));
+}
+
 } // namespace lockstep

@@ -42,6 +42,9 @@ std::vector<Hypothesis> hypotheses_of(const std::vector<const NamedMistake*>& na
                                       const std::vector<const NamedMistake*>& exact, const JudgedPass& pass,
                                       const std::vector<std::size_t>& items);
 
+/// Whether an item that is right cannot be so if the hypothesis holds.
+bool contradicts(const Hypothesis& hypothesis, const ItemLikeness& likeness, std::size_t item);
+
 /// Whether an item came out as the hypothesis has it.
 bool explains(const Hypothesis& hypothesis, const ItemLikeness& likeness, std::size_t item);
 

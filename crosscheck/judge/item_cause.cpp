@@ -58,10 +58,10 @@ bool ItemCauseFinder::hold(Hypothesis& hypothesis, const Trial& trial, std::int6
     }
     if (!trial.divergent.empty() && hypothesis.explained == before)
         return true;
-    for (const std::size_t item : trial.agreeing) {
+    for (const std::size_t item : trial.right) {
         if (hypothesis.balance() < at_least)
             return false;
-        const bool agrees = explains(hypothesis, trial.likeness, item);
+        const bool agrees = !contradicts(hypothesis, trial.likeness, item);
         hypothesis.contradicted += agrees ? 0 : 1;
         hypothesis.distinct += agrees && trial.described[item] == 0 ? 1 : 0;
     }
@@ -170,7 +170,7 @@ bool ItemCauseFinder::needs_both(const Hypothesis& pair, const Trial& trial) {
             return static_cast<std::uint64_t>(std::count_if(
                 items.begin(), items.end(), [&](std::size_t item) { return !explains(alone, trial.likeness, item); }));
         };
-        if (unlike(trial.divergent) + unlike(trial.agreeing) < enough_evidence)
+        if (unlike(trial.divergent) + unlike(trial.right) < enough_evidence)
             return false;
     }
     return true;
@@ -198,9 +198,8 @@ void ItemCauseFinder::try_single(const JudgedPass& pass, const std::vector<ItemV
         return;
     const std::size_t most = later ? later_items : trial_items;
     const std::vector<std::size_t> items = spread(sample(divergent, most)),
-                                   agreeing =
-                                       spread(agreeing_items(pass.gpu.count(), verdicts,
-                                                             later ? agreeing_items_held / 4 : agreeing_items_held));
+                                   right = spread(right_items(pass.gpu.count(), verdicts,
+                                                              later ? right_items_held / 4 : right_items_held));
     const ItemLikeness likeness(pass);
     std::vector<char> described(pass.gpu.count());
     const auto part = [&](std::size_t from, std::size_t to) {
@@ -208,9 +207,9 @@ void ItemCauseFinder::try_single(const JudgedPass& pass, const std::vector<ItemV
             return std::span(all).subspan(std::min(from, all.size()),
                                           std::min(to, all.size()) - std::min(from, all.size()));
         };
-        return Trial{likeness, of(items), of(agreeing), described};
+        return Trial{likeness, of(items), of(right), described};
     };
-    for (const std::vector<std::size_t>& some : {items, agreeing})
+    for (const std::vector<std::size_t>& some : {items, right})
         parallel_blocks(static_cast<std::ptrdiff_t>(some.size()), [&](std::ptrdiff_t i) {
             const std::size_t item = some[static_cast<std::size_t>(i)];
             described[item] = std::any_of(describing_.begin(), describing_.end(), [&](const Hypothesis& description) {
@@ -231,7 +230,7 @@ void ItemCauseFinder::try_single(const JudgedPass& pass, const std::vector<ItemV
         try_pairs(part(0, first_items), held, divergent_before);
     if (!tried_.empty() && tried_.front().explained == divergent_ &&
         std::any_of(tried_.begin(), tried_.end(), [](const Hypothesis& h) { return h.telling != 0; }))
-        try_all(part(first_items, agreeing_items_held));
+        try_all(part(first_items, right_items_held));
 }
 
 CauseFindings ItemCauseFinder::of_single(bool beside_description) const {

@@ -21,10 +21,10 @@ namespace lockstep {
 class ItemCauseFinder {
   public:
     static constexpr int trial_frames = 4;
-    static constexpr std::size_t trial_items = 512; ///< a frame
-    static constexpr std::size_t first_items = 128; ///< of them; the rest is only for what explains all of these
-    static constexpr std::size_t agreeing_items_held = 4096; ///< a frame: hits are few among them
-    static constexpr std::size_t later_items = 64;           ///< a frame that follows
+    static constexpr std::size_t trial_items = 512;       ///< a frame
+    static constexpr std::size_t first_items = 128;       ///< of them; the rest is only for what explains all of these
+    static constexpr std::size_t right_items_held = 4096; ///< a frame: hits are few among them
+    static constexpr std::size_t later_items = 64;        ///< a frame that follows
     static constexpr std::size_t most_shown = 3;
     static constexpr std::uint64_t enough_evidence = 8; ///< divergent items, where many hypotheses would fit a few
 
@@ -41,7 +41,7 @@ class ItemCauseFinder {
     /// The items of a frame that hypotheses are held against.
     struct Trial {
         const ItemLikeness& likeness;
-        std::span<const std::size_t> divergent, agreeing;
+        std::span<const std::size_t> divergent, right;
         std::span<const char> described; ///< by item: whether a mistake that only describes has its words
     };
     static bool hold(Hypothesis& hypothesis, const Trial& trial, std::int64_t at_least);

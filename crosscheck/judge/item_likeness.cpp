@@ -1,6 +1,7 @@
 #include "crosscheck/judge/item_likeness.hpp"
 
 #include <array>
+#include <cmath>
 
 #include "crosscheck/judge/rounding_only.hpp"
 
@@ -60,6 +61,21 @@ bool ItemLikeness::are(const View& side, std::size_t item, std::span<const std::
 
 bool ItemLikeness::are_gpus(std::size_t item, std::span<const std::uint32_t> words) const {
     return are(pass_.gpu, item, words);
+}
+
+bool ItemLikeness::may_be_gpus(std::size_t item, std::span<const std::uint32_t> words) const {
+    constexpr double as_near = 4.0; // what else leads there may err as well
+    for (std::size_t w = 0; w < parts_.size(); ++w) {
+        const Value gpu = pass_.gpu.value(parts_[w].field, item, parts_[w].component),
+                    reference = pass_.reference.value(parts_[w].field, item, parts_[w].component),
+                    made{gpu.scalar, words[w]};
+        if (alike(made, gpu) || alike(made, reference))
+            continue;
+        if (gpu.scalar != Scalar::float32 ||
+            !(std::abs(double{made.real()} - gpu.real()) <= as_near * std::abs(double{reference.real()} - gpu.real())))
+            return false;
+    }
+    return true;
 }
 
 bool ItemLikeness::are_references(std::size_t item, std::span<const std::uint32_t> words) const {

@@ -19,6 +19,9 @@ class ItemLikeness {
     /// Whether an item's words, made with a mistake, are the GPU's, but for the sign of zero, which depends on how a
     /// mistake was written down.
     [[nodiscard]] bool are_gpus(std::size_t item, std::span<const std::uint32_t> words) const;
+    /// Whether they may be the GPU's of an item that is right: the same bits, or as near as the reference's are that
+    /// differ by what is legal.
+    [[nodiscard]] bool may_be_gpus(std::size_t item, std::span<const std::uint32_t> words) const;
     /// Whether they differ from the GPU's by rounding alone, in every field.
     [[nodiscard]] bool are_near_gpus(std::size_t item, std::span<const std::uint32_t> words, float ulps) const;
     /// The same of the reference's own.

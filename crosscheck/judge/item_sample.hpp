@@ -15,4 +15,7 @@ std::vector<std::size_t> divergent_items(const std::vector<ItemVerdict>& verdict
 /// At most `most` of `count` items, of those that have no verdict: they do not differ.
 std::vector<std::size_t> agreeing_items(std::size_t count, const std::vector<ItemVerdict>& verdicts, std::size_t most);
 
+/// The same, and of those that differ by rounding alone.
+std::vector<std::size_t> right_items(std::size_t count, const std::vector<ItemVerdict>& verdicts, std::size_t most);
+
 } // namespace lockstep

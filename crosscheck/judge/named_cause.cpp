@@ -39,6 +39,11 @@ class Evidence {
         const auto words = pass_.on_input().mistaken(pass_.input(), item, pass_.profile, made);
         return errs_ ? likeness_.are_near_gpus(item, words, rewritten_ulps) : likeness_.are_gpus(item, words);
     }
+    /// The same, or an item that is right and may be so.
+    [[nodiscard]] bool allows(const std::vector<Mistake>& made, std::size_t item) const {
+        return explains(made, item) ||
+               likeness_.may_be_gpus(item, pass_.on_input().mistaken(pass_.input(), item, pass_.profile, made));
+    }
     [[nodiscard]] std::vector<Mistake> made(const TriedCause& cause) const {
         std::vector<Mistake> all;
         for (const std::size_t mistake : cause.mistakes)
@@ -51,8 +56,14 @@ class Evidence {
             std::count_if(items.begin(), items.end(), [&](std::size_t item) { return explains(all, item); }));
     }
 
+    [[nodiscard]] std::uint64_t contradicted(const TriedCause& cause, const Items& right) const {
+        const std::vector<Mistake> all = made(cause);
+        return static_cast<std::uint64_t>(
+            std::count_if(right.begin(), right.end(), [&](std::size_t item) { return !allows(all, item); }));
+    }
+
     /// Counts, for each cause, the items it explains and contradicts.
-    void count(std::vector<TriedCause>& causes, const Items& divergent, const Items& agreeing) const {
+    void count(std::vector<TriedCause>& causes, const Items& divergent, const Items& right) const {
         Items telling; // what is near without any mistake says nothing about one
         std::copy_if(divergent.begin(), divergent.end(), std::back_inserter(telling),
                      [&](std::size_t item) { return !errs_ || !likeness_.is_off_by_rounding(item); });
@@ -61,7 +72,7 @@ class Evidence {
             const std::uint64_t found = explained(cause, telling);
             cause.explained += found;
             if (found > 0)
-                cause.contradicted += agreeing.size() - explained(cause, agreeing);
+                cause.contradicted += contradicted(cause, right);
         });
     }
 
@@ -97,10 +108,10 @@ void NamedCauses::add(const JudgedPass& pass, const std::vector<ItemVerdict>& ve
     const Items wrong = divergent_items(verdicts);
     if (wrong.empty() || named_.empty())
         return;
-    const Items equal = agreeing_items(pass.gpu.count(), verdicts, JointCauses::trial_items);
+    const Items right = right_items(pass.gpu.count(), verdicts, JointCauses::trial_items);
     const Evidence evidence(pass, named_);
     const auto count = [&](std::vector<TriedCause>& causes, const Items& items) {
-        evidence.count(causes, items, equal);
+        evidence.count(causes, items, right);
         for (TriedCause& cause : causes)
             if (elsewhere && cause.explained >= items.size() && cause.contradicted == 0) {
                 std::vector<const NamedMistake*> made;
@@ -122,7 +133,7 @@ void NamedCauses::add(const JudgedPass& pass, const std::vector<ItemVerdict>& ve
             Items telling = sample(rest, items);
             const Items others = sample(wrong, items);
             telling.insert(telling.end(), others.begin(), others.end());
-            evidence.count(causes, telling, sample(equal, items));
+            evidence.count(causes, telling, sample(right, items));
             causes = causes_.best_of(std::move(causes), kept);
             for (TriedCause& cause : causes) {
                 cause.explained = before;
@@ -139,7 +150,7 @@ void NamedCauses::add(const JudgedPass& pass, const std::vector<ItemVerdict>& ve
     Items singles = all;
     if (causes_.frames() < JointCauses::trial_frames) {
         Items some = sample(wrong, alone_sample);
-        const Items others = sample(equal, alone_sample);
+        const Items others = sample(right, alone_sample);
         some.insert(some.end(), others.begin(), others.end());
         std::vector<char> only_rounds(all.size());
         parallel_blocks(static_cast<std::ptrdiff_t>(all.size()), [&](std::ptrdiff_t m) {
@@ -151,11 +162,11 @@ void NamedCauses::add(const JudgedPass& pass, const std::vector<ItemVerdict>& ve
     causes_.hold_against(wrong, singles, {count, [&] { return best_few(causes_.pairs()); }, best_few});
     if (causes_.frames() > JointCauses::trial_frames)
         return;
-    const Items some = sample(equal, alone_sample);
+    const Items some = sample(right, alone_sample);
     std::vector<std::uint64_t> alone(all.size());
     parallel_blocks(static_cast<std::ptrdiff_t>(all.size()), [&](std::ptrdiff_t m) {
         const auto at = static_cast<std::size_t>(m);
-        alone[at] = some.size() - evidence.explained({{at}}, some);
+        alone[at] = evidence.contradicted({{at}}, some);
     });
     for (const std::size_t mistake : all)
         causes_.contradict_alone(mistake, alone[mistake]);

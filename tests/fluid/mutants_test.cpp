@@ -115,7 +115,7 @@ TEST_CASE("fluid mutants: some of each pass are found and named, and the shipped
     check_mutants("fluid",
                   {"back_of_sphere", "empty_not_skipped", "partner_kept", "cross_turned", "even_discs",
                    "refraction_left_out", "scene_depth_turned", "quadrants_rows_first", "narrow_empty_refused",
-                   "narrow_millimetre_nearer"},
+                   "narrow_millimetre_nearer", "disc_a_little_small", "thickness_left_out_here_and_there"},
                   run_of);
 }
 

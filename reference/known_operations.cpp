@@ -17,8 +17,10 @@ bool followed(const Profile& profile, std::initializer_list<std::string_view> na
 }
 
 /// Rows about what no operation rests on: of the first kind nothing does, of the second some passes, which say so
-/// themselves (reference/system/pass_by_driver.hpp).
-constexpr std::array told_only{std::string_view("transform feedback order"), std::string_view("image: ")};
+/// themselves (reference/system/pass_by_driver.hpp), on the third divisions by constants
+/// (Worlds::open_constant_divisors).
+constexpr std::array told_only{std::string_view("transform feedback order"), std::string_view("image: "),
+                               std::string_view("a/c, c constant")};
 
 constexpr std::array sums{std::string_view("mat4*vec4"), std::string_view("x*x+y*y+z*z"), std::string_view("a*b+c"),
                           std::string_view("x*a+x*b"), std::string_view("cross")};

@@ -10,6 +10,7 @@
 #include "crosscheck/scene/profile_text.hpp"
 #include "crosscheck/scene/profiles.hpp"
 #include "reference/known_operations.hpp"
+#include "tests/gpu/probe_rows.hpp"
 
 using namespace lockstep;
 
@@ -330,6 +331,35 @@ TEST_CASE("profiles: what the reference cannot follow is told, each by itself") 
         CHECK(profile.name == "generic");
         CHECK(profile.not_followed == std::vector<std::string>{name});
     }
+}
+
+TEST_CASE(
+    "profiles: every row of the probe takes away what it is about where it is not followed, and never everything") {
+    ProbeResult whole = llvmpipe();
+    const auto add = [&](std::string_view name, std::string_view finding) {
+        if (!whole.has(std::string(name)))
+            whole.rows.push_back(found(std::string(name), std::string(finding)));
+    };
+    for (const test::ExpectedRow& row : test::llvmpipe_rows)
+        add(row.name, row.finding);
+    for (const test::ProcessorRow& row : test::processor_rows)
+        add(row.name, row.fused);
+    std::size_t noted = 0;
+    const std::vector<ProbeRow> rows = whole.rows;
+    for (const ProbeRow& row : rows) {
+        INFO(row.name);
+        ProbeResult result = whole;
+        for (ProbeRow& other : result.rows)
+            if (other.name == row.name)
+                other.finding = none_known;
+        const Profile profile = profile_from(result);
+        if (std::ranges::find(profile.not_followed, row.name) == profile.not_followed.end())
+            continue;
+        ++noted;
+        const KnownOperations known = measured_operations(profile);
+        CHECK((known.sums || known.divide));
+    }
+    CHECK(noted > 40);
 }
 
 TEST_CASE("profiles: of a depth that is nothing known the closest is taken, and that is told") {

@@ -24,6 +24,13 @@ inline CheckReport run_system(const System& system, std::vector<GlPass> passes, 
     return check(system, side, options);
 }
 
+/// llvmpipe's, but that these rows of the probe are not followed.
+inline Profile not_following(std::vector<std::string> rows) {
+    Profile profile = named_profile("llvmpipe");
+    profile.not_followed = std::move(rows);
+    return profile;
+}
+
 /// The shaders of this machine's GL, of whose driver `told` tells otherwise.
 class OtherDriver final : public SystemSide {
   public:

@@ -18,11 +18,6 @@ namespace fluid = lockstep::fluid;
 
 namespace {
 
-Profile not_following(std::vector<std::string> rows) {
-    Profile profile = named_profile("llvmpipe");
-    profile.not_followed = std::move(rows);
-    return profile;
-}
 const Profile by_all_bits = not_following({}), aligned = not_following({fluid::plane_filter_row}),
               open_filter = not_following({fluid::plane_filter_row, fluid::aligned_plane_filter_row});
 

@@ -22,12 +22,6 @@ using Strings = std::vector<std::string>;
 const Strings as_gl_says{}, beside{fluid::dropped_outside_row},
     not_known{fluid::dropped_outside_row, fluid::drawn_beside_row};
 
-Profile not_following(Strings rows) {
-    Profile profile = named_profile("llvmpipe");
-    profile.not_followed = std::move(rows);
-    return profile;
-}
-
 /// Drops up to a hand before the camera: many a middle lies beside the image, its disc partly in it.
 fluid::Settings near_heap(const std::string& sprite) {
     fluid::Settings s = with(in_preset(heap(), "corrected"), {"sprite=" + sprite, "filter=off"});

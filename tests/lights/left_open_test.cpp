@@ -19,12 +19,6 @@ namespace lights = lockstep::lights;
 
 namespace {
 
-Profile not_following(std::vector<std::string> rows) {
-    Profile profile = named_profile("llvmpipe");
-    profile.not_followed = std::move(rows);
-    return profile;
-}
-
 /// Between what is legal of an item of a pass, in a run's first frame.
 std::vector<Interval> legal_of(const lights::Settings& settings, const std::string& pass, std::size_t item,
                                const Profile& profile) {

@@ -81,6 +81,22 @@ const NamedMistake* same_among(const std::vector<const NamedMistake*>& exact, co
     return only;
 }
 
+/// What an item becomes by what is made, of the input or of the state of the frame before.
+std::vector<std::uint32_t> words_of(const Hypothesis& hypothesis, const JudgedPass& p, std::size_t item) {
+    return hypothesis.host == Host::earlier_state
+               ? p.pass.mistaken({*p.earlier, p.frame}, item, p.profile, hypothesis.made)
+               : p.on_input().mistaken(p.input(), item, p.profile, hypothesis.made);
+}
+
+/// Whether these are the GPU's, or come as near as what is made asks for.
+bool fit(const Hypothesis& hypothesis, const ItemLikeness& likeness, std::size_t item,
+         const std::vector<std::uint32_t>& words) {
+    if (!hypothesis.rounds())
+        return likeness.are_gpus(item, words);
+    const bool is_sum = std::any_of(hypothesis.made.begin(), hypothesis.made.end(), sums);
+    return likeness.are_near_gpus(item, words, is_sum ? summed_ulps : rewritten_ulps);
+}
+
 } // namespace
 
 bool Hypothesis::rounds() const {
@@ -171,22 +187,14 @@ bool explains(const Hypothesis& hypothesis, const ItemLikeness& likeness, std::s
             return alike(made.value(from, item, c.component), p.gpu.value(c.field, item, c.component));
         });
     }
-    const std::vector<std::uint32_t> words =
-        hypothesis.host == Host::earlier_state
-            ? p.pass.mistaken({*p.earlier, p.frame}, item, p.profile, hypothesis.made)
-            : p.on_input().mistaken(p.input(), item, p.profile, hypothesis.made);
-    if (!hypothesis.rounds())
-        return likeness.are_gpus(item, words);
-    const bool is_sum = std::any_of(hypothesis.made.begin(), hypothesis.made.end(), sums);
-    return likeness.are_near_gpus(item, words, is_sum ? summed_ulps : rewritten_ulps);
+    return fit(hypothesis, likeness, item, words_of(hypothesis, p, item));
 }
 
 bool contradicts(const Hypothesis& hypothesis, const ItemLikeness& likeness, std::size_t item) {
-    if (explains(hypothesis, likeness, item))
-        return false;
-    const JudgedPass& p = likeness.pass();
-    return hypothesis.host != Host::none ||
-           !likeness.may_be_gpus(item, p.on_input().mistaken(p.input(), item, p.profile, hypothesis.made));
+    if (hypothesis.host != Host::none)
+        return !explains(hypothesis, likeness, item);
+    const std::vector<std::uint32_t> words = words_of(hypothesis, likeness.pass(), item);
+    return !fit(hypothesis, likeness, item, words) && !likeness.may_be_gpus(item, words);
 }
 
 } // namespace lockstep

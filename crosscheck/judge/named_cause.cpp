@@ -36,13 +36,12 @@ class Evidence {
                 (pass.profile.errors.length > 0 || pass.profile.errors.normalize > 0)) {}
 
     [[nodiscard]] bool explains(const std::vector<Mistake>& made, std::size_t item) const {
-        const auto words = pass_.on_input().mistaken(pass_.input(), item, pass_.profile, made);
-        return errs_ ? likeness_.are_near_gpus(item, words, rewritten_ulps) : likeness_.are_gpus(item, words);
+        return fit(item, words_of(made, item));
     }
     /// The same, or an item that is right and may be so.
     [[nodiscard]] bool allows(const std::vector<Mistake>& made, std::size_t item) const {
-        return explains(made, item) ||
-               likeness_.may_be_gpus(item, pass_.on_input().mistaken(pass_.input(), item, pass_.profile, made));
+        const Words words = words_of(made, item);
+        return fit(item, words) || likeness_.may_be_gpus(item, words);
     }
     [[nodiscard]] std::vector<Mistake> made(const TriedCause& cause) const {
         std::vector<Mistake> all;
@@ -84,7 +83,7 @@ class Evidence {
         const std::vector<Mistake> all = made({{mistake}});
         bool changes = false;
         for (const std::size_t item : items) {
-            const auto words = pass_.on_input().mistaken(pass_.input(), item, pass_.profile, all);
+            const Words words = words_of(all, item);
             if (!likeness_.are_near_references(item, words, rewritten_ulps))
                 return false;
             changes = changes || (!errs_ && !likeness_.are_references(item, words));
@@ -93,6 +92,15 @@ class Evidence {
     }
 
   private:
+    using Words = std::vector<std::uint32_t>;
+
+    [[nodiscard]] Words words_of(const std::vector<Mistake>& made, std::size_t item) const {
+        return pass_.on_input().mistaken(pass_.input(), item, pass_.profile, made);
+    }
+    [[nodiscard]] bool fit(std::size_t item, const Words& words) const {
+        return errs_ ? likeness_.are_near_gpus(item, words, rewritten_ulps) : likeness_.are_gpus(item, words);
+    }
+
     const JudgedPass& pass_;
     const std::vector<const NamedMistake*>& named_;
     ItemLikeness likeness_;

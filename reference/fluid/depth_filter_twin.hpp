@@ -18,7 +18,13 @@ struct DepthFilterTwin {
     /// What the filter's weight() gives; null: of another filter, or never read by lanes.
     std::shared_ptr<const KnownNarrowWeights> narrow_weights = {};
     std::shared_ptr<const std::vector<float>> mean_weights = {};
-    std::shared_ptr<const PixelPlaces> places = {};
+    std::shared_ptr<const FilteredImage> image = {};
+
+    [[nodiscard]] DepthFilterTwin at(const PassInput& /*in*/) const {
+        DepthFilterTwin made = *this;
+        made.image = filtered_image(*host, step.of_spheres ? field::depth : field::smooth_depth, reach());
+        return made;
+    }
 
     bool fast(const FastRun& run) const; // image_lanes.cpp
 
@@ -26,7 +32,7 @@ struct DepthFilterTwin {
         using Real = typename R::Real;
         const auto pixel = pixel_at(host->settings().width, item);
         const bool of_spheres = r.setting(site::reads_spheres, step.of_spheres);
-        const DepthMap<R> map(r, *host, in.before, of_spheres ? field::depth : field::smooth_depth, places.get());
+        const DepthMap<R> map(r, *host, in.before, of_spheres ? field::depth : field::smooth_depth, image.get());
         const Real centre = map.at(site::centre_depth, pixel.x, pixel.y);
         ItemWords<R> words;
         words.add(r.note(site::smooth_depth, filtered(r, map, pixel, centre)));
@@ -34,6 +40,16 @@ struct DepthFilterTwin {
     }
 
   private:
+    [[nodiscard]] int reach() const {
+        switch (host->switches().filter) {
+        case Filter::narrow_range:
+            return most_narrow_reach;
+        case Filter::curvature_flow:
+            return 1;
+        default:
+            return host->settings().filter_radius;
+        }
+    }
     template <class R, class At>
     typename R::Real filtered(R& r, const DepthMap<R>& map, const At& pixel, const typename R::Real& centre) const {
         using Real = typename R::Real;

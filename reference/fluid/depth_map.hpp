@@ -2,8 +2,8 @@
 #include <algorithm>
 
 #include "reference/fluid/depth_code.hpp"
+#include "reference/fluid/filtered_image.hpp"
 #include "reference/fluid/linear_fetch.hpp"
-#include "reference/fluid/pixel_places.hpp"
 #include "reference/model/fluid/schema.hpp"
 #include "reference/readings/decided.hpp"
 #include "reference/readings/exponential.hpp"
@@ -13,9 +13,10 @@
 namespace lockstep::fluid {
 
 /// The image that normals and shading take their depth from.
+inline FieldId last_depth(const Host& host) { return host.filter_steps().empty() ? field::depth : field::smooth_depth; }
 template <class R> FieldId last_depth(R& r, const Host& host) {
-    const bool filters = !host.filter_steps().empty() && r.setting(site::reads_filtered, true);
-    return filters ? field::smooth_depth : field::depth;
+    const FieldId last = last_depth(host);
+    return last != field::depth && !r.setting(site::reads_filtered, true) ? field::depth : last;
 }
 
 /// A depth image as a pass reads it. Twin of shaders/fluid/source.glsl.
@@ -24,9 +25,9 @@ template <class R> class DepthMap {
     using Index = IndexOf<R>;
 
   public:
-    /// `places`: pixel_places(host), by which lanes filter; null: they find the places themselves, as all others do.
-    DepthMap(R& r, const Host& host, const SystemView& state, FieldId from, const PixelPlaces* places = nullptr)
-        : r_(r), host_(host), state_(state), from_(from), places_(places), code_(r, host) {}
+    /// `filtered`: filtered_image(), which lanes read; null: they filter each texel themselves, as all others do.
+    DepthMap(R& r, const Host& host, const SystemView& state, FieldId from, const FilteredImage* filtered = nullptr)
+        : r_(r), host_(host), state_(state), from_(from), filtered_(filtered), code_(r, host) {}
 
     /// What is stored at a pixel, the nearest one of the image.
     [[nodiscard]] Real at(At place, const Index& x, int y) const {
@@ -34,7 +35,7 @@ template <class R> class DepthMap {
         // Lanes come here only where a middle's place is its texel (lanes_filter).
         const bool is_texel = HasLanes<R> && host_.linear_filter() == LinearFilter::aligned;
         if (host_.switches().depth_fetch == DepthFetch::linear && !is_texel)
-            return filtered(place, x, y);
+            return between_texels(place, x, y);
         if constexpr (!HasLanes<R>)
             if (!has(x, y) && !r_.setting(site::ends_at_edge, true))
                 return r_.note(place, Real(0.0F));
@@ -58,11 +59,11 @@ template <class R> class DepthMap {
     [[nodiscard]] const DepthCode<R>& code() const { return code_; }
 
   private:
-    [[nodiscard]] Real filtered(At place, const Index& x, int y) const {
+    [[nodiscard]] Real between_texels(At place, const Index& x, int y) const {
         const Settings& s = host_.settings();
         if constexpr (HasLanes<R>)
-            if (places_ != nullptr && is_amidst(*places_, x, y))
-                return linear_fetch(r_, x, y, *places_, state_[from_.resource].columns[from_.field]);
+            if (filtered_ != nullptr)
+                return filtered_->at(x.v[0], y);
         const auto along = [&](const auto& i, int size, At size_at) {
             return r_.divide(place, r_.real(i) + Real(0.5F), r_.uniform(size_at, static_cast<float>(size)));
         };
@@ -78,7 +79,7 @@ template <class R> class DepthMap {
     const Host& host_;
     const SystemView& state_;
     FieldId from_;
-    const PixelPlaces* places_;
+    const FilteredImage* filtered_;
     DepthCode<R> code_;
 };
 

@@ -27,7 +27,7 @@ template <class A> void add_weights(DepthFilterTwin& twin, A arithmetic) {
 } // namespace
 
 void add_filter_passes(const HostPtr& host, Passes& all) {
-    DepthFilterTwin twin{.host = host, .step = {}, .places = pixel_places(*host)};
+    DepthFilterTwin twin{.host = host, .step = {}};
     // Of the host's arithmetic; in the plain one for drivers without tables of roots.
     if (host->settings().arithmetic == ArithmeticSwitch::exact)
         add_weights(twin, Portable{});

@@ -1,12 +1,10 @@
 #pragma once
-#include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstddef>
 #include <cstring>
 
 #include "reference/fluid/linear_fetch.hpp"
-#include "reference/fluid/pixel_places.hpp"
 #include "reference/system/lane_items.hpp"
 #include "reference/vector_loops.hpp"
 
@@ -28,28 +26,6 @@ LOCKSTEP_INLINE FloatLanes mixed(const FloatLanes& from, const FloatLanes& to, c
 }
 
 } // namespace linear_lanes
-
-/// Pixels of a row, each with those beside it in the image: at least one on each side.
-inline bool is_amidst(const PixelPlaces& places, const LaneInt& x, int y) {
-    const int first = x.v[0], width = static_cast<int>(places.x.f.size()), height = static_cast<int>(places.y.f.size());
-    return first >= 1 && first + lane_count < width && y >= 0 && y < height && are_side_by_side(x.v);
-}
-
-/// linear_fetch at the middles of pixels that are amidst an image of floats.
-template <class F>
-LaneReal<F> linear_fetch(Lanes<F>& /*r*/, const LaneInt& x, int y, const PixelPlaces& places, const std::byte* texels) {
-    const int first = x.v[0], width = static_cast<int>(places.x.f.size()), height = static_cast<int>(places.y.f.size());
-    const FloatLanes f = lanes::loaded<FloatLanes>(&places.x.f[static_cast<std::size_t>(first)]);
-    const IntLanes is_before = lanes::loaded<IntLanes>(&places.x.base[static_cast<std::size_t>(first)]) < x.v;
-    const auto row = [&](int at) {
-        const std::byte* own = texels + static_cast<std::ptrdiff_t>(std::clamp(at, 0, height - 1) * width + first) * 4;
-        const FloatLanes before = lanes::loaded<FloatLanes>(own - 4), middle = lanes::loaded<FloatLanes>(own),
-                         behind = lanes::loaded<FloatLanes>(own + 4);
-        return linear_lanes::mixed(is_before ? before : middle, is_before ? middle : behind, f);
-    };
-    const std::int32_t base = places.y.base[static_cast<std::size_t>(y)];
-    return linear_lanes::mixed(row(base), row(base + 1), lanes::all(places.y.f[static_cast<std::size_t>(y)]));
-}
 
 /// linear_fetch with weights of all bits, lane by lane.
 template <class F, class Texel> LaneReal<F>

@@ -6,8 +6,7 @@ namespace lockstep::fluid {
 
 void add_normal_pass(const HostPtr& host, Passes& all) {
     all.push_back(by_filter(host, [](const HostPtr& by) {
-        return item_pass(options_of(*by, "normal_pass", normal_image, PassStage::compute),
-                         NormalTwin{by, pixel_places(*by)});
+        return item_pass(options_of(*by, "normal_pass", normal_image, PassStage::compute), NormalTwin{by});
     }));
 }
 

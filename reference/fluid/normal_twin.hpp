@@ -16,7 +16,11 @@ namespace lockstep::fluid {
 /// Normals from differences of depths. Twin of shaders/fluid/normal_pass.comp.
 struct NormalTwin {
     HostPtr host;
-    std::shared_ptr<const PixelPlaces> places = {};
+    std::shared_ptr<const FilteredImage> image = {};
+
+    [[nodiscard]] NormalTwin at(const PassInput& /*in*/) const {
+        return {host, filtered_image(*host, last_depth(*host), 1)};
+    }
 
     bool fast(const FastRun& run) const; // image_lanes.cpp
 
@@ -24,7 +28,7 @@ struct NormalTwin {
         using Real = typename R::Real;
         using Vec3 = typename R::Vec3;
         const auto p = pixel_at(host->settings().width, item);
-        const DepthMap<R> map(r, *host, in.before, last_depth(r, *host), places.get());
+        const DepthMap<R> map(r, *host, in.before, last_depth(r, *host), image.get());
         const Real stored = map.at(site::centre_depth, p.x, p.y);
         if (map.is_empty(site::centre_empty, stored))
             return words_of<R>(r.note(site::normal, typename R::Vec4{}));

@@ -2,7 +2,6 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
-#include <memory>
 #include <ranges>
 #include <vector>
 
@@ -33,14 +32,6 @@ struct PixelAxis {
 struct PixelPlaces {
     PixelAxis x, y;
 };
-
-/// Null where texels are fetched as they are.
-inline std::shared_ptr<const PixelPlaces> pixel_places(const Host& host) {
-    const Settings& s = host.settings();
-    if (host.switches().depth_fetch != DepthFetch::linear)
-        return nullptr;
-    return std::make_shared<const PixelPlaces>(PixelPlaces{PixelAxis(s.width), PixelAxis(s.height)});
-}
 
 /// Whether a unit that filters in fixed point gives each pixel its own texel at its middle: so it is up to some
 /// thousand pixels.

@@ -17,7 +17,6 @@ namespace {
 
 using BallNumbers = DrawnBalls::Numbers;
 using AllBalls = std::vector<std::optional<BallNumbers>>;
-constexpr std::size_t z_of_ball = 2;
 
 /// A sphere in a tile: what is the same in all of its rows.
 template <class R> struct TileBall {
@@ -60,14 +59,14 @@ template <class Twin, class A, class F, class Pass> void draw_spheres(const Twin
             std::optional<TileBall<R>> in_tile;
             if (!balls[i] || !pass.may_show(*balls[i], rows))
                 return in_tile;
-            const auto& [x, y, z, w, middle_x, middle_y, half] = *balls[i];
-            const Ball<R> ball{{x, y, z}, w, middle_x, middle_y, half};
+            const auto& [x, y, z, window, middle_x, middle_y, half] = *balls[i];
+            const Ball<R> ball{{x, y, z}, -z, middle_x, middle_y, half};
             const auto nx = sprite.from_middle_x(ball, from(first.x)), ny = sprite.from_middle_y(ball, from(first.y));
             const auto along_x = nx * nx;
             // Rounding keeps the order of sums: what lies beside the sprite in a column or a row is not covered.
             if (is_flat && everywhere(along_x > typename R::Real(1.0F)))
                 return in_tile;
-            in_tile = {ball, along_x, ny * ny, DepthCode<R>(reading, *twin.host).window(ball.centre.z)};
+            in_tile = {ball, along_x, ny * ny, window};
             return in_tile;
         },
         [&](Row& row, const TileBall<R>& in_tile, const LanePixel& place, const LaneMask& inside) {
@@ -105,19 +104,19 @@ template <class A> class NearestSpheres {
         float nearest = -HUGE_VALF;
         for (const std::uint32_t i : near)
             if (balls[i])
-                nearest = std::max(nearest, (*balls[i])[z_of_ball]);
+                nearest = std::max(nearest, balls[i]->z);
         const float front = nearest - 2.0F * radius_;
         order_.clear();
         behind_.clear();
         for (const std::uint32_t i : near)
             if (balls[i])
-                ((*balls[i])[z_of_ball] >= front ? order_ : behind_).push_back(i);
+                (balls[i]->z >= front ? order_ : behind_).push_back(i);
         order_.insert(order_.end(), behind_.begin(), behind_.end());
         return order_;
     }
     /// Also of the rows that draw() gets next: what lies nearer there than all of this sphere.
     template <class Rows> bool may_show(const BallNumbers& ball, const Rows& rows) {
-        least_key_ = least_key(ball[z_of_ball]);
+        least_key_ = least_key(ball.z);
         IntLanes may_be_nearer = lanes::all(0);
         for (const auto& row : rows)
             may_be_nearer |= row.made.key > least_key_;

@@ -160,6 +160,8 @@ template <class R> class SpriteTwin {
                 return r_.unspecified(site::addend, Real(0.0F), 0.0F, static_cast<float>(set.high));
         return addend;
     }
+    /// Of its centre.
+    [[nodiscard]] Real window_depth(const Ball<R>& ball) const { return DepthCode<R>(r_, host_).window(ball.centre.z); }
     /// How far the surface is before the middle, of the radius. Of pixels that are not covered 0.
     [[nodiscard]] Real height(const Real& squared) const {
         return r_.note(site::nz, r_.sqrt(site::nz, r_.max(Real(0.0F), Real(1.0F) - squared)));
@@ -235,7 +237,10 @@ template <class R> class SpriteTwin {
 /// The balls of one state in one arithmetic, made when they are first asked for, by all threads that ask.
 class DrawnBalls {
   public:
-    using Numbers = std::array<float, 7>; ///< of a ball, in its order
+    /// Of a ball: its centre in view space, that one's window depth, its middle, and half its side.
+    struct Numbers {
+        float x, y, z, window, middle_x, middle_y, half;
+    };
     explicit DrawnBalls(std::size_t count) : all_(count) {}
 
     template <class A> const std::vector<std::optional<Numbers>>& of(const A& arithmetic, const Host& host,
@@ -260,8 +265,10 @@ class DrawnBalls {
     template <class Sprite> void make(const Sprite& sprite, std::size_t i) {
         const auto number = [](const auto& x) { return static_cast<float>(x); };
         if (const auto ball = sprite.ball(static_cast<std::uint32_t>(i)))
-            all_[i] = {number(ball->centre.x), number(ball->centre.y), number(ball->centre.z), number(ball->w),
-                       number(ball->x),        number(ball->y),        number(ball->half)};
+            all_[i] = {number(ball->centre.x), number(ball->centre.y),
+                       number(ball->centre.z), number(sprite.window_depth(*ball)),
+                       number(ball->x),        number(ball->y),
+                       number(ball->half)};
     }
 
     std::vector<std::optional<Numbers>> all_;
@@ -283,7 +290,7 @@ template <class R> auto meeting(R& r, const Host& host, const PassInput& in, con
                                 const Ball<R>& ball, std::size_t item) {
     const Pixel pixel = Pixel::of(host.settings().width, item);
     return Meeting([pixel] { return pixel; }, [&sprite, &ball, pixel] { return sprite.squared(ball, pixel); },
-                   [&r, &host, &ball] { return DepthCode<R>(r, host).window(ball.centre.z); },
+                   [&sprite, &ball] { return sprite.window_depth(ball); },
                    [&r, &in, item] { return item_real(r, site::scene_depth_in, in.before, field::scene_depth, item); });
 }
 

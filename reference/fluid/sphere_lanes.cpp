@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
@@ -21,8 +22,8 @@ using AllBalls = std::vector<std::optional<BallNumbers>>;
 /// A sphere in a tile: what is the same in all of its rows.
 template <class R> struct TileBall {
     Ball<R> ball;
-    typename R::Real along_x, along_y; ///< of SpriteTwin::squared: of each column, and of each row
-    typename R::Real window;           ///< of its middle
+    typename R::Real along_x; ///< of SpriteTwin::squared: of each column
+    typename R::Real window;  ///< of its middle
 };
 
 /// A row of a tile, with what is made of it.
@@ -48,6 +49,7 @@ template <class Twin, class A, class F, class Pass> void draw_spheres(const Twin
         return LaneItems{behind > last ? lanes::all(last) : behind, lane_count};
     };
     const bool is_flat = twin.spheres().shape == Sphere::flat;
+    std::array<float, BoxesByTile::tile_height> along_ys{}; ///< SpriteTwin::squared of each row, of the sphere in hand
     draw_rows(
         twin.boxes, width, twin.host->settings().height, tiles,
         [&](std::span<const std::uint32_t> near) { return pass.ordered(balls, near); },
@@ -61,16 +63,19 @@ template <class Twin, class A, class F, class Pass> void draw_spheres(const Twin
                 return in_tile;
             const auto& [x, y, z, window, middle_x, middle_y, half] = *balls[i];
             const Ball<R> ball{{x, y, z}, -z, middle_x, middle_y, half};
-            const auto nx = sprite.from_middle_x(ball, from(first.x)), ny = sprite.from_middle_y(ball, from(first.y));
-            const auto along_x = nx * nx;
+            const auto nx = sprite.from_middle_x(ball, from(first.x)), along_x = nx * nx;
             // Rounding keeps the order of sums: what lies beside the sprite in a column or a row is not covered.
             if (is_flat && everywhere(along_x > typename R::Real(1.0F)))
                 return in_tile;
-            in_tile = {ball, along_x, ny * ny, window};
+            for (int row = 0; row < BoxesByTile::tile_height; row += lane_count) {
+                const auto ny = sprite.from_middle_y(ball, from(first.y + row)), along_y = ny * ny;
+                std::memcpy(&along_ys[static_cast<std::size_t>(row)], &along_y.v, sizeof along_y.v);
+            }
+            in_tile = {ball, along_x, window};
             return in_tile;
         },
         [&](Row& row, const TileBall<R>& in_tile, const LanePixel& place, const LaneMask& inside) {
-            const float along_y = in_tile.along_y.v[static_cast<unsigned>(place.y) % lane_count];
+            const float along_y = along_ys[static_cast<unsigned>(place.y) % BoxesByTile::tile_height];
             pass.draw(row.made, reading, sprite, in_tile.ball,
                       Meeting([&] { return place; }, [&] { return sprite.squared_of(in_tile.along_x, along_y); },
                               [&] { return in_tile.window; }, [&] { return row.scene; }),

@@ -13,11 +13,11 @@ bool is_empty(const PixelRect& box) { return box.x0 >= box.x1 || box.y0 >= box.y
 
 /// Calls `visit` with every tile that a box touches.
 template <class Visit> void for_each_tile(const PixelRect& box, std::size_t columns, const Visit& visit) {
-    constexpr int side = BoxesByTile::side;
+    constexpr int width = BoxesByTile::tile_width, height = BoxesByTile::tile_height;
     if (is_empty(box))
         return;
-    for (int y = box.y0 / side; y <= (box.y1 - 1) / side; ++y)
-        for (int x = box.x0 / side; x <= (box.x1 - 1) / side; ++x)
+    for (int y = box.y0 / height; y <= (box.y1 - 1) / height; ++y)
+        for (int x = box.x0 / width; x <= (box.x1 - 1) / width; ++x)
             visit(static_cast<std::size_t>(y) * columns + static_cast<std::size_t>(x));
 }
 
@@ -51,8 +51,8 @@ std::vector<PixelRect> triangle_boxes(const RoughWindow& window, const SystemVie
 
 BoxesByTile::BoxesByTile(std::vector<PixelRect> boxes, int width, int height)
     : boxes_(std::move(boxes)), width_(width), height_(height),
-      columns_(static_cast<std::size_t>((width + side - 1) / side)),
-      starts_(columns_ * static_cast<std::size_t>((height + side - 1) / side) + 1) {
+      columns_(static_cast<std::size_t>((width + tile_width - 1) / tile_width)),
+      starts_(columns_ * static_cast<std::size_t>((height + tile_height - 1) / tile_height) + 1) {
     // A counting sort by parts of the boxes: where each part's numbers of a tile begin depends on the boxes alone.
     constexpr std::size_t most_parts = 16, boxes_of_part = 4096;
     const std::size_t tiles = starts_.size() - 1,
@@ -77,11 +77,6 @@ BoxesByTile::BoxesByTile(std::vector<PixelRect> boxes, int width, int height)
     }
     numbers_.resize(total);
     for_each_part([&](std::size_t i, std::size_t& place) { numbers_[place++] = static_cast<std::uint32_t>(i); });
-}
-
-PixelRect BoxesByTile::tile(std::size_t tile) const {
-    const int x = static_cast<int>(tile % columns_) * side, y = static_cast<int>(tile / columns_) * side;
-    return {x, y, std::min(x + side, width_), std::min(y + side, height_)};
 }
 
 } // namespace lockstep

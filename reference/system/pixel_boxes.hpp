@@ -1,6 +1,4 @@
 #pragma once
-#include <algorithm>
-#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <span>
@@ -54,14 +52,15 @@ std::vector<PixelRect> triangle_boxes(const RoughWindow& window, const SystemVie
 /// Boxes by the pixels that they may have: what lies elsewhere is not tried.
 class BoxesByTile {
   public:
-    static constexpr int side = 8; ///< of a tile, pixels
+    static constexpr int tile_width = 8, tile_height = 16; ///< pixels
 
     BoxesByTile() = default;
     BoxesByTile(std::vector<PixelRect> boxes, int width, int height);
 
     /// Those that touch the pixel's tile, by number, ascending.
     [[nodiscard]] std::span<const std::uint32_t> near(const Pixel& pixel) const {
-        return of_tile(static_cast<std::size_t>(pixel.y / side) * columns_ + static_cast<std::size_t>(pixel.x / side));
+        return of_tile(static_cast<std::size_t>(pixel.y / tile_height) * columns_ +
+                       static_cast<std::size_t>(pixel.x / tile_width));
     }
     [[nodiscard]] std::size_t tiles() const { return starts_.empty() ? 0 : starts_.size() - 1; }
     [[nodiscard]] std::span<const std::uint32_t> of_tile(std::size_t tile) const {
@@ -70,34 +69,8 @@ class BoxesByTile {
     [[nodiscard]] const PixelRect& box(std::uint32_t i) const { return boxes_[i]; }
 
     [[nodiscard]] std::size_t rows() const { return columns_ == 0 ? 0 : tiles() / columns_; }
-    /// Draws what the boxes hold into one row of tiles: each texel, `empty` at first, is handed to
-    /// `draw(texel, drawn, pixel, item)` for every box that has its pixel, by number, `drawn` being what `make(i)`
-    /// found there; then to `done(texel, item)`.
-    template <class Texel, class Make, class Draw, class Done>
-    void draw(std::size_t row, const Texel& empty, const Make& make, const Draw& draw, const Done& done) const {
-        for (std::size_t k = row * columns_; k < (row + 1) * columns_; ++k) {
-            std::array<Texel, std::size_t{side} * side> texels;
-            texels.fill(empty);
-            const PixelRect area = tile(k);
-            const auto for_each = [&](const PixelRect& box, const auto& visit) {
-                for (int y = std::max(area.y0, box.y0); y < std::min(area.y1, box.y1); ++y)
-                    for (int x = std::max(area.x0, box.x0); x < std::min(area.x1, box.x1); ++x)
-                        visit(Pixel{x, y}, texels[static_cast<std::size_t>((y - area.y0) * side + x - area.x0)],
-                              static_cast<std::size_t>(y) * static_cast<std::size_t>(width_) +
-                                  static_cast<std::size_t>(x));
-            };
-            for (const std::uint32_t i : of_tile(k))
-                if (const auto drawn = make(i))
-                    for_each(boxes_[i], [&](const Pixel& pixel, Texel& texel, std::size_t item) {
-                        draw(texel, *drawn, pixel, item);
-                    });
-            for_each(area, [&](const Pixel&, const Texel& texel, std::size_t item) { done(texel, item); });
-        }
-    }
 
   private:
-    [[nodiscard]] PixelRect tile(std::size_t tile) const; ///< its pixels within the image
-
     std::vector<PixelRect> boxes_;
     int width_ = 0, height_ = 0;
     std::size_t columns_ = 0;

@@ -66,13 +66,13 @@ inline std::span<const std::uint32_t> in_their_order(std::span<const std::uint32
 template <class Order, class Begin, class Make, class Draw, class Done>
 void draw_rows(const BoxesByTile& boxes, int width, int height, std::size_t tiles, const Order& order,
                const Begin& begin, const Make& make, const Draw& draw, const Done& done) {
-    constexpr int side = BoxesByTile::side;
+    constexpr int tile_width = BoxesByTile::tile_width, tile_height = BoxesByTile::tile_height;
     using Row = std::remove_cvref_t<std::invoke_result_t<Begin, Pixel>>;
-    static_assert(side == lane_count);
-    const int y0 = static_cast<int>(tiles) * side, y1 = std::min(y0 + side, height);
-    for (int x0 = 0; x0 < width; x0 += side) {
-        const int x1 = std::min(x0 + side, width);
-        std::array<Row, side> rows;
+    static_assert(tile_width == lane_count);
+    const int y0 = static_cast<int>(tiles) * tile_height, y1 = std::min(y0 + tile_height, height);
+    for (int x0 = 0; x0 < width; x0 += tile_width) {
+        const int x1 = std::min(x0 + tile_width, width);
+        std::array<Row, tile_height> rows;
         for (int y = y0; y < y1; ++y)
             rows[static_cast<std::size_t>(y - y0)] = begin(Pixel{x0, y});
         for (const std::uint32_t i : order(boxes.near({x0, y0}))) {

@@ -59,6 +59,12 @@ void SystemSide::repeat_step(std::size_t /*pass*/, int /*frame*/) {
 
 std::vector<CapturedVertex> SystemSide::trace(std::size_t /*pass*/, int /*frame*/, std::size_t /*item*/) { return {}; }
 
+StageInput stage_input(const GlPass& pass, ArithmeticSwitch arithmetic) {
+    ShaderDefines defines = arithmetic_defines(arithmetic);
+    defines.insert(defines.end(), pass.defines.begin(), pass.defines.end());
+    return {defines, pass.texts};
+}
+
 std::string shader_name(std::string_view name) {
     std::string camel;
     bool upper = true;
@@ -147,11 +153,10 @@ const GlSystem::Parts::Linked* GlSystem::Parts::running(std::size_t pass, int fr
 
 std::vector<ShaderSource> GlSystem::Parts::sources(const GlPass& pass, std::span<const Stage> stages,
                                                    bool traced) const {
-    ShaderDefines defines = arithmetic_defines(arithmetic);
-    defines.insert(defines.end(), pass.defines.begin(), pass.defines.end());
+    StageInput input = stage_input(pass, arithmetic);
     if (traced)
-        defines.emplace_back("LOCKSTEP_TRACE", "1");
-    return load_stages(shader_folders(shaders, schema->system), pass.name, stages, defines, pass.texts);
+        input.defines.emplace_back("LOCKSTEP_TRACE", "1");
+    return load_stages(shader_folders(shaders, schema->system), pass.name, stages, input.defines, input.texts);
 }
 
 void GlSystem::upload(const SystemView& state) {

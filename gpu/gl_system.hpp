@@ -101,6 +101,9 @@ struct GlPass {
     [[nodiscard]] bool keeps() const { return invocations || indirect; }
 };
 
+/// With what its files are put together.
+StageInput stage_input(const GlPass& pass, ArithmeticSwitch arithmetic);
+
 /// How a vertex pass of instances is drawn with NAME.frag: over one colour, triangles in the order of the instances, by
 /// an indirect call a batch.
 struct GlPicture {

@@ -40,6 +40,13 @@ using ShaderDefines = std::vector<std::pair<std::string, std::string>>;
 /// Files that are in no folder, by their names.
 using ShaderTexts = std::map<std::string, std::string>;
 
+/// With what a pass's files are put together.
+struct StageInput {
+    ShaderDefines defines = {};
+    ShaderTexts texts = {};
+    bool operator==(const StageInput&) const = default;
+};
+
 /// A choice among named values: a number for each value and the one that is chosen, in upper case:
 /// BASE_TEXEL_TRUNCATE 0, BASE_TEXEL_FLOOR 1, BASE_TEXEL BASE_TEXEL_FLOOR.
 ShaderDefines choice_defines(std::string_view name, std::span<const std::string_view> values, std::size_t chosen);

@@ -9,6 +9,7 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include "gpu/taken_branches.hpp"
 #include "reference/model/error.hpp"
 #include "reference/model/near_name.hpp"
 
@@ -81,6 +82,19 @@ bool is_used(const ShaderUse& use, const fs::path& file) {
 
 bool is_module(const std::vector<ShaderSource>& stage) { return !stage.empty() && stage.front().module != nullptr; }
 
+/// What a stage takes of the user's folder besides its own file.
+void note_included(ShaderUse& use, const ShaderSource& stage, const fs::path& user, const ShaderFolders& shipped) {
+    const std::string inside = (user / "").string();
+    const std::vector<bool> taken = taken_files(stage);
+    for (std::size_t file = 0; file < taken.size(); ++file)
+        if (const std::string& read = stage.files[file];
+            taken[file] && read.starts_with(inside) && !is_used(use, read)) {
+            const std::string included = read.substr(inside.size());
+            use.files.push_back(
+                {included, read, shipped_file(shipped, included), is_copy(shipped, read, included), false});
+        }
+}
+
 void note_stage(ShaderUse& use, const PassStages& pass, Stage stage, const ShaderFolders& folders,
                 const fs::path& user) {
     const std::string name = fmt::format("{}{}", pass.name, extension(stage));
@@ -89,18 +103,16 @@ void note_stage(ShaderUse& use, const PassStages& pass, Stage stage, const Shade
         own += ".spv"; // a module
     const bool foreign = !own.empty() && fs::is_regular_file(own);
     const ShaderFolders shipped(folders.begin() + (user.empty() ? 0 : 1), folders.end());
-    const std::vector<ShaderSource> loaded = load_stages(folders, pass.name, std::span(&stage, 1));
+    const auto load = [&](const StageInput& input) {
+        return load_stages(folders, pass.name, std::span(&stage, 1), input.defines, input.texts);
+    };
+    const std::vector<ShaderSource> loaded = load(pass.inputs.front());
     use.files.push_back({name, foreign ? own : fs::path(), shipped_file(shipped, name),
                          foreign && is_copy(shipped, own, name), loaded.empty(), is_module(loaded)});
     if (loaded.empty() || user.empty())
         return;
-    const std::string inside = (user / "").string();
-    for (const std::string& read : loaded.front().files)
-        if (read.starts_with(inside) && !is_used(use, read)) {
-            const std::string included = read.substr(inside.size());
-            use.files.push_back(
-                {included, read, shipped_file(shipped, included), is_copy(shipped, read, included), false});
-        }
+    for (const StageInput& input : pass.inputs)
+        note_included(use, load(input).front(), user, shipped);
 }
 
 std::vector<std::string> stage_names(const ShaderUse& use) {

@@ -23,16 +23,19 @@ struct UsedShader {
 
 /// Whose shaders run.
 struct ShaderUse {
-    std::vector<UsedShader> files;   ///< every stage that runs, and what stages include from the user's folder
+    /// Every stage that runs, and what stages include from the user's folder where a branch is taken
+    /// (taken_branches.hpp).
+    std::vector<UsedShader> files;
     std::vector<std::string> unused; ///< shaders in the user's folder that do not, by name
     /// Of unused ones, what has them run: "step=compute" for collision_pass.comp.
     std::map<std::string, std::string> runs_with = {};
 };
 
-/// A pass by the name that its files begin with, and its stages.
+/// A pass by the name that its files begin with, its stages, and each way in which it is run.
 struct PassStages {
     std::string name;
     std::vector<Stage> stages;
+    std::vector<StageInput> inputs = {{}};
 };
 
 /// Which shaders run in `passes`, of `user` (--shaders DIR; empty: none) and the shipped ones of `system`. Throws Error

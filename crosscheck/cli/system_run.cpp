@@ -117,18 +117,25 @@ std::string SystemInput::command(const std::string& verb, const std::string& wor
 
 ShaderUse shaders_of(const SystemScene& scene, const RunOptions& run) {
     std::vector<PassStages> stages;
-    for (const GlPass& pass : scene.passes)
-        if (!pass.continues && std::none_of(stages.begin(), stages.end(),
-                                            [&](const PassStages& known) { return known.name == pass.name; })) {
-            stages.push_back({pass.name, {pass.stage}});
-            if (pass.draw && pass.draw->has_geometry)
-                stages.back().stages.push_back(Stage::geometry);
-            if (pass.draw)
-                stages.back().stages.push_back(Stage::fragment);
+    for (const GlPass& pass : scene.passes) {
+        if (pass.continues)
+            continue;
+        const StageInput input = stage_input(pass, scene.arithmetic);
+        const auto known = std::ranges::find(stages, pass.name, &PassStages::name);
+        if (known != stages.end()) {
+            if (std::ranges::find(known->inputs, input) == known->inputs.end())
+                known->inputs.push_back(input);
+            continue;
         }
+        stages.push_back({pass.name, {pass.stage}, {input}});
+        if (pass.draw && pass.draw->has_geometry)
+            stages.back().stages.push_back(Stage::geometry);
+        if (pass.draw)
+            stages.back().stages.push_back(Stage::fragment);
+    }
     if (scene.picture)
         for (const GlPass& pass : scene.picture(scene.system.start, 0).passes)
-            stages.push_back({pass.name, {pass.stage, Stage::fragment}});
+            stages.push_back({pass.name, {pass.stage, Stage::fragment}, {stage_input(pass, scene.arithmetic)}});
     ShaderUse use = shader_use(scene.system.schema.system, stages, run.shaders);
     check_shader_use(use, run.shaders, run.allow_unused);
     return use;

@@ -1,12 +1,15 @@
 #include "gpu/collision/collision_shaders.hpp"
 
+#include <algorithm>
 #include <array>
+#include <iterator>
 #include <string>
 #include <string_view>
 #include <utility>
 
 #include <fmt/format.h>
 
+#include "gpu/collision/host_depth.hpp"
 #include "reference/model/collision/layered_cdt.hpp"
 
 namespace lockstep {
@@ -83,6 +86,11 @@ std::vector<PassStages> collision_stages(const Scene& scene, bool rendered) {
     if (rendered)
         passes.insert(passes.end(),
                       {{"render_background", no_geometry}, {"render_obstacles", points}, {"render_pass", points}});
+    const StageInput symmetric{switch_defines(switches)};
+    StageInput from_zero = symmetric; // which of the two a run takes is its host's to say
+    std::ranges::copy(clip_depth_defines({0.0F, 1.0F}), std::back_inserter(from_zero.defines));
+    for (PassStages& pass : passes)
+        pass.inputs = {symmetric, from_zero};
     return passes;
 }
 

@@ -90,6 +90,21 @@ TEST_CASE("shader use: a folder of which nothing would run is status 2 with the 
     }
 }
 
+TEST_CASE("shader use: an include that no branch takes is status 2, as one that nobody includes") {
+    const test::TemporaryFolder shaders;
+    std::ifstream stream("shaders/fluid/narrow_range.glsl");
+    shaders.write("narrow_range.glsl", std::string{std::istreambuf_iterator<char>(stream), {}} + "#error mine\n");
+    const std::vector<std::string> check{"check",     "data/scenes/fluid/one_sphere.json",
+                                         "--frames",  "1",
+                                         "--gl",      test::software_gl(),
+                                         "--shaders", shaders.path(),
+                                         "--set",     "filter=bilateral"};
+    CHECK_THAT(refusal(run_lockstep(check)), Contains("narrow_range.glsl" + not_run));
+    std::vector<std::string> taken = check;
+    taken.back() = "filter=narrow_range";
+    CHECK_THAT(refusal(run_lockstep(taken)), Contains("mine"));
+}
+
 TEST_CASE("shader use: with step = compute the compute stage runs, and the vertex stage is told to be unused") {
     if (!test::have_software_gl())
         return;

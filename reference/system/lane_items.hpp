@@ -221,21 +221,21 @@ template <class Twin, class Make> bool fast_by_lanes(const Twin& twin, const Fas
 
 /// `make(twin, arithmetic, run, items)` of a twin, compiled for vectors.
 #define LOCKSTEP_MAKE_ITEMS(Twin)                                                                                      \
-    LOCKSTEP_VECTOR_CLONES void make(const Twin& twin, const PlainLanes& fp, const FastRun& run,                       \
+    LOCKSTEP_VECTOR_CLONES void make(const Twin& twin, PlainLanes fp, const FastRun& run,                              \
                                      std::span<const std::size_t> items) {                                             \
         make_items(twin, fp, run, items);                                                                              \
     }                                                                                                                  \
-    LOCKSTEP_VECTOR_CLONES void make(const Twin& twin, const PortableLanes& fp, const FastRun& run,                    \
+    LOCKSTEP_VECTOR_CLONES void make(const Twin& twin, PortableLanes fp, const FastRun& run,                           \
                                      std::span<const std::size_t> items) {                                             \
         make_items(twin, fp, run, items);                                                                              \
     }
 
 /// `make(twin, arithmetic, run)` of a twin, compiled for vectors.
 #define LOCKSTEP_MAKE_LANES(Twin)                                                                                      \
-    LOCKSTEP_VECTOR_CLONES void make(const Twin& twin, const PlainLanes& fp, const FastRun& run) {                     \
+    LOCKSTEP_VECTOR_CLONES void make(const Twin& twin, PlainLanes fp, const FastRun& run) {                            \
         make_lanes(twin, fp, run);                                                                                     \
     }                                                                                                                  \
-    LOCKSTEP_VECTOR_CLONES void make(const Twin& twin, const PortableLanes& fp, const FastRun& run) {                  \
+    LOCKSTEP_VECTOR_CLONES void make(const Twin& twin, PortableLanes fp, const FastRun& run) {                         \
         make_lanes(twin, fp, run);                                                                                     \
     }
 

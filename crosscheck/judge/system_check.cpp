@@ -18,6 +18,7 @@
 #include "crosscheck/judge/power.hpp"
 #include "crosscheck/judge/stopwatch.hpp"
 #include "crosscheck/judge/system_run.hpp"
+#include "crosscheck/judge/untried.hpp"
 #include "crosscheck/judge/unwritten.hpp"
 #include "crosscheck/judge/wrong_step.hpp"
 #include "gpu/system_side.hpp"
@@ -25,22 +26,6 @@
 
 namespace lockstep {
 namespace {
-
-/// The words that agree in a state of NaN prove nothing, nor does a run that made nothing but copies.
-std::vector<std::string> untried(const CheckReport& report, bool changed) {
-    std::vector<std::string> all;
-    if (!changed)
-        all.emplace_back("no pass changed anything");
-    std::uint64_t compared = 0, nan = 0;
-    for (const ResourceCount& resource : report.total.resources)
-        for (const FieldCount& field : resource.fields) {
-            compared += field.compared;
-            nan += field.nan;
-        }
-    if (nan > 0 && 2 * nan >= compared)
-        all.emplace_back(fmt::format("{} of {} values are NaN, of which any equals any other", nan, compared));
-    return all;
-}
 
 /// Goes on from what the GPU made of one buffer; `earlier` is what its pass started from.
 void go_on(SystemState& before, SystemState& now, SystemState& earlier, std::uint8_t made) {
@@ -224,7 +209,7 @@ class SystemChecker {
         if (!comparison.agree() || !judged_)
             note_difference(report_, frame_, comparison);
         report_.total.add(comparison);
-        changed_ = changed_ || !differing_items(from[r], made).empty();
+        untried_.note(r, from[r], made);
         return comparison;
     }
 
@@ -333,7 +318,7 @@ class SystemChecker {
         part();
         report_.verdict = verdict_on(report_);
         if (report_.verdict != Verdict::divergent && report_.verdict != Verdict::differ)
-            report_.untried = untried(report_, changed_);
+            report_.untried = untried_.texts(report_);
         report_.reference_hash = state_hash(reference_);
         report_.gpu_hash = state_hash(before_);
     }
@@ -381,7 +366,7 @@ class SystemChecker {
     std::set<std::uint8_t> inherited_; ///< buffers that are derived, and not the reference's
     /// Of these one state has what both are: judged, the GPU's; run free, the reference's.
     std::set<std::uint8_t> shared_;
-    bool changed_ = false; ///< anything, by any pass
+    UntriedParts untried_;
 
     int frame_ = 0;
     FrameTimes times_;         ///< of the frame

@@ -31,6 +31,18 @@ TEST_CASE("fluid passes: every pass of every preset agrees, or differs as GL all
     CHECK(report.untried.empty());
 }
 
+TEST_CASE("fluid passes: a run that draws no fluid says so") {
+    if (!gl())
+        return skip(gl().missing());
+    fluid::Settings s = in_preset(heap(), "corrected");
+    for (glm::vec3& particle : s.particles)
+        particle = s.camera.eye + (s.camera.eye - s.camera.target) + 0.01F * particle; // behind the camera
+    const CheckReport report = run_fluid(s, 2);
+    CHECK(report.verdict == Verdict::agree);
+    CHECK(report.untried == std::vector<std::string>{"all pixels are alike in the depth of the spheres, the filtered "
+                                                     "depth, the normals and the thickness"});
+}
+
 TEST_CASE("fluid passes: a point whose middle lies beside the image is not drawn, a quad is") {
     if (!gl())
         return skip(gl().missing());

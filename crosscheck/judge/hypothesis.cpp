@@ -91,6 +91,8 @@ std::vector<std::uint32_t> words_of(const Hypothesis& hypothesis, const JudgedPa
 /// Whether these are the GPU's, or come as near as what is made asks for.
 bool fit(const Hypothesis& hypothesis, const ItemLikeness& likeness, std::size_t item,
          const std::vector<std::uint32_t>& words) {
+    if (!hypothesis.named.empty() && likeness.are_within_leeway(item, words))
+        return true;
     if (!hypothesis.rounds())
         return likeness.are_gpus(item, words);
     const bool is_sum = std::any_of(hypothesis.made.begin(), hypothesis.made.end(), sums);

@@ -53,7 +53,7 @@ bool ItemCauseFinder::hold(Hypothesis& hypothesis, const Trial& trial, std::int6
         if (!explains(hypothesis, trial.likeness, item))
             continue;
         ++hypothesis.explained;
-        hypothesis.telling += trial.likeness.is_off_by_rounding(item) ? 0 : 1;
+        hypothesis.telling += trial.likeness.is_off_by_rounding(item) || !trial.likeness.is_off_by_more(item) ? 0 : 1;
         hypothesis.distinct += trial.described[item] != 0 ? 0 : 1;
     }
     if (!trial.divergent.empty() && hypothesis.explained == before)
@@ -200,7 +200,7 @@ void ItemCauseFinder::try_single(const JudgedPass& pass, const std::vector<ItemV
     const std::vector<std::size_t> items = spread(sample(divergent, most)),
                                    right = spread(right_items(pass.gpu.count(), verdicts,
                                                               later ? right_items_held / 4 : right_items_held));
-    const ItemLikeness likeness(pass);
+    const ItemLikeness likeness(pass, verdicts);
     std::vector<char> described(pass.gpu.count());
     const auto part = [&](std::size_t from, std::size_t to) {
         const auto of = [&](const std::vector<std::size_t>& all) {

@@ -28,6 +28,20 @@ std::optional<LegalFloats> widest_of(const ItemOutcome& outcome, const Resource&
     return widest;
 }
 
+/// The widths of the first outcome that has the reference's own numbers; none where all are points.
+std::vector<double> leeway_of(const std::vector<ItemOutcome>& outcomes, const JudgedPass& p, std::size_t item) {
+    const auto own =
+        std::ranges::find_if(outcomes, [&](const ItemOutcome& outcome) { return outcome.contains(p.reference, item); });
+    std::vector<double> widths;
+    if (own == outcomes.end() || own->undefined != Undefined::none)
+        return widths;
+    for (std::size_t c = 0; c < own->values.size(); ++c)
+        widths.push_back(LegalFloats{c, own->values[c]}.width());
+    if (std::ranges::all_of(widths, [](double width) { return width == 0.0; }))
+        widths.clear();
+    return widths;
+}
+
 } // namespace
 
 ItemVerdict judge_item(const JudgedPass& p, std::size_t item) {
@@ -57,6 +71,8 @@ ItemVerdict judge_item(const JudgedPass& p, std::size_t item) {
         if (kind == DifferenceClass::tie && !outcome.open.empty())
             verdict.tie = Tie{{outcome.open.front().site, outcome.open.front().unit}, outcome.open.front().margin};
     }
+    if (verdict.kind == DifferenceClass::divergent)
+        verdict.leeway = leeway_of(outcomes, p, item);
     return verdict;
 }
 

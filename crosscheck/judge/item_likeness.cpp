@@ -1,5 +1,6 @@
 #include "crosscheck/judge/item_likeness.hpp"
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 
@@ -73,9 +74,50 @@ bool ItemLikeness::may_be_gpus(std::size_t item, std::span<const std::uint32_t> 
             continue;
         if (gpu.scalar != Scalar::float32 ||
             !(std::abs(double{made.real()} - gpu.real()) <= as_near * std::abs(double{reference.real()} - gpu.real())))
+            return are_near_gpus(item, words, summed_ulps) && are_legal(item, words);
+    }
+    return true;
+}
+
+bool ItemLikeness::are_legal(std::size_t item, std::span<const std::uint32_t> words) const {
+    const std::lock_guard lock(mutex_);
+    const auto [known, is_new] = outcomes_.try_emplace(item);
+    if (is_new)
+        known->second = pass_.on_input().outcomes(pass_.input(), item, pass_.profile, pass_.known, nullptr);
+    return std::ranges::any_of(known->second,
+                               [&](const ItemOutcome& outcome) { return outcome.contains(words, pass_.gpu.about()); });
+}
+
+std::span<const double> ItemLikeness::leeway_of(std::size_t item) const {
+    const auto found = std::ranges::lower_bound(verdicts_, item, {}, &ItemVerdict::index);
+    return found != verdicts_.end() && found->index == item ? found->leeway : std::span<const double>();
+}
+
+bool ItemLikeness::are_within_leeway(std::size_t item, std::span<const std::uint32_t> words) const {
+    constexpr double as_near = 2.0; // what is wrong may be wider than what is right
+    const std::span<const double> leeway = leeway_of(item);
+    for (std::size_t w = 0; w < parts_.size(); ++w) {
+        const Value gpu = pass_.gpu.value(parts_[w].field, item, parts_[w].component), made{gpu.scalar, words[w]};
+        if (!alike(made, gpu) && (leeway.empty() || gpu.scalar != Scalar::float32 ||
+                                  !(std::abs(double{made.real()} - gpu.real()) <= as_near * leeway[w])))
             return false;
     }
     return true;
+}
+
+bool ItemLikeness::is_off_by_more(std::size_t item) const {
+    constexpr double much = 16.0;
+    const std::span<const double> leeway = leeway_of(item);
+    if (leeway.empty())
+        return true;
+    for (std::size_t w = 0; w < parts_.size(); ++w) {
+        const Value gpu = pass_.gpu.value(parts_[w].field, item, parts_[w].component),
+                    reference = pass_.reference.value(parts_[w].field, item, parts_[w].component);
+        if (gpu.scalar != Scalar::float32 ? !same_bits(gpu, reference)
+                                          : !(std::abs(double{gpu.real()} - reference.real()) <= much * leeway[w]))
+            return true;
+    }
+    return false;
 }
 
 bool ItemLikeness::are_references(std::size_t item, std::span<const std::uint32_t> words) const {

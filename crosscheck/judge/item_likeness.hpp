@@ -1,9 +1,12 @@
 #pragma once
 #include <cstddef>
 #include <cstdint>
+#include <map>
+#include <mutex>
 #include <span>
 #include <vector>
 
+#include "crosscheck/judge/item_verdict.hpp"
 #include "crosscheck/judge/system.hpp"
 
 namespace lockstep {
@@ -11,7 +14,9 @@ namespace lockstep {
 /// How the values of a pass's items that a mistake would make stand to those of the GPU.
 class ItemLikeness {
   public:
-    explicit ItemLikeness(const JudgedPass& pass) : pass_(pass), parts_(components(pass.gpu.about())) {}
+    /// `verdicts`: on items that differ, by index; these and the pass outlive this.
+    explicit ItemLikeness(const JudgedPass& pass, std::span<const ItemVerdict> verdicts = {})
+        : pass_(pass), verdicts_(verdicts), parts_(components(pass.gpu.about())) {}
 
     [[nodiscard]] const JudgedPass& pass() const { return pass_; }
     [[nodiscard]] const std::vector<Component>& parts() const { return parts_; }
@@ -20,10 +25,15 @@ class ItemLikeness {
     /// mistake was written down.
     [[nodiscard]] bool are_gpus(std::size_t item, std::span<const std::uint32_t> words) const;
     /// Whether they may be the GPU's of an item that is right: the same bits, or as near as the reference's are that
-    /// differ by what is legal.
+    /// differ by what is legal, or near and legal there themselves.
     [[nodiscard]] bool may_be_gpus(std::size_t item, std::span<const std::uint32_t> words) const;
     /// Whether they differ from the GPU's by rounding alone, in every field.
     [[nodiscard]] bool are_near_gpus(std::size_t item, std::span<const std::uint32_t> words, float ulps) const;
+    /// Whether they are as near the GPU's as a divergent item's legal sets are wide; the same bits where these are
+    /// points, and of integers.
+    [[nodiscard]] bool are_within_leeway(std::size_t item, std::span<const std::uint32_t> words) const;
+    /// Whether the GPU's are so much farther from the reference's that coming near them tells anything.
+    [[nodiscard]] bool is_off_by_more(std::size_t item) const;
     /// The same of the reference's own.
     [[nodiscard]] bool are_references(std::size_t item, std::span<const std::uint32_t> words) const;
     [[nodiscard]] bool are_near_references(std::size_t item, std::span<const std::uint32_t> words, float ulps) const;
@@ -31,9 +41,14 @@ class ItemLikeness {
     [[nodiscard]] bool is_off_by_rounding(std::size_t item) const;
 
   private:
+    [[nodiscard]] std::span<const double> leeway_of(std::size_t item) const;
+    [[nodiscard]] bool are_legal(std::size_t item, std::span<const std::uint32_t> words) const;
     [[nodiscard]] bool are(const View& side, std::size_t item, std::span<const std::uint32_t> words) const;
 
     const JudgedPass& pass_;
+    std::span<const ItemVerdict> verdicts_;
+    mutable std::mutex mutex_;
+    mutable std::map<std::size_t, std::vector<ItemOutcome>> outcomes_; ///< of items that were asked for
     std::vector<Component> parts_;
 };
 

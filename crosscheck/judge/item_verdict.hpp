@@ -3,6 +3,7 @@
 #include <cstddef>
 #include <optional>
 #include <string_view>
+#include <vector>
 
 #include "crosscheck/judge/lean.hpp"
 #include "crosscheck/judge/legal_widths.hpp"
@@ -27,7 +28,9 @@ struct ItemVerdict {
     std::optional<Tie> tie = std::nullopt;
     Undefined undefined = Undefined::none;
     std::optional<LegalFloats> widest = std::nullopt; ///< of its floats', where it is legal
-    bool follows_particle = false;                    ///< a texel that holds what the GPU's own particles leave there
+    /// Of a divergent one, how wide the sets are that the reference's own numbers lie in; empty: points.
+    std::vector<double> leeway = {};
+    bool follows_particle = false;           ///< a texel that holds what the GPU's own particles leave there
     std::optional<Lean> lean = std::nullopt; ///< of a texel that is a tie or divergent, where a shift would explain it
 };
 

@@ -30,8 +30,9 @@ std::vector<JointMistake> joint(const std::vector<const NamedMistake*>& named) {
 /// The named mistakes on one frame's items.
 class Evidence {
   public:
-    Evidence(const JudgedPass& pass, const std::vector<const NamedMistake*>& named)
-        : pass_(pass), named_(named), likeness_(pass),
+    Evidence(const JudgedPass& pass, const std::vector<const NamedMistake*>& named,
+             const std::vector<ItemVerdict>& verdicts)
+        : pass_(pass), named_(named), likeness_(pass, verdicts),
           errs_(pass.profile.roots == nullptr &&
                 (pass.profile.errors.length > 0 || pass.profile.errors.normalize > 0)) {}
 
@@ -63,15 +64,16 @@ class Evidence {
 
     /// Counts, for each cause, the items it explains and contradicts.
     void count(std::vector<TriedCause>& causes, const Items& divergent, const Items& right) const {
-        Items telling; // what is near without any mistake says nothing about one
-        std::copy_if(divergent.begin(), divergent.end(), std::back_inserter(telling),
-                     [&](std::size_t item) { return !errs_ || !likeness_.is_off_by_rounding(item); });
+        Items telling, others; // what is near without any mistake says nothing about one
+        for (const std::size_t item : divergent)
+            (is_telling(item) ? telling : others).push_back(item);
         parallel_blocks(static_cast<std::ptrdiff_t>(causes.size()), [&](std::ptrdiff_t c) {
             TriedCause& cause = causes[static_cast<std::size_t>(c)];
             const std::uint64_t found = explained(cause, telling);
-            cause.explained += found;
-            if (found > 0)
-                cause.contradicted += contradicted(cause, right);
+            if (found == 0)
+                return;
+            cause.explained += found + (errs_ ? 0 : explained(cause, others));
+            cause.contradicted += contradicted(cause, right);
         });
     }
 
@@ -98,7 +100,12 @@ class Evidence {
         return pass_.on_input().mistaken(pass_.input(), item, pass_.profile, made);
     }
     [[nodiscard]] bool fit(std::size_t item, const Words& words) const {
-        return errs_ ? likeness_.are_near_gpus(item, words, rewritten_ulps) : likeness_.are_gpus(item, words);
+        return errs_ ? likeness_.are_near_gpus(item, words, rewritten_ulps) : likeness_.are_within_leeway(item, words);
+    }
+    [[nodiscard]] bool is_telling(std::size_t item) const {
+        if (errs_)
+            return !likeness_.is_off_by_rounding(item);
+        return likeness_.is_off_by_more(item);
     }
 
     const JudgedPass& pass_;
@@ -117,7 +124,7 @@ void NamedCauses::add(const JudgedPass& pass, const std::vector<ItemVerdict>& ve
     if (wrong.empty() || named_.empty())
         return;
     const Items right = right_items(pass.gpu.count(), verdicts, JointCauses::trial_items);
-    const Evidence evidence(pass, named_);
+    const Evidence evidence(pass, named_, verdicts);
     const auto count = [&](std::vector<TriedCause>& causes, const Items& items) {
         evidence.count(causes, items, right);
         for (TriedCause& cause : causes)

@@ -49,11 +49,28 @@ bool may_be_given(std::string_view name) {
     return name.starts_with("GL_") || name.starts_with("__") || name.starts_with("LOCKSTEP_");
 }
 
-/// The value of what a condition says (GLSL 4.60, 3.3).
+/// Puts the texts of macros in their places, but for operands of `defined`; false where one is not known, or where they
+/// lead to more than anybody writes.
+bool expand(const Tokens& tokens, const Macros& macros, Tokens& to, int depth = 0) {
+    constexpr std::size_t most = 10'000;
+    for (std::size_t i = 0; i < tokens.size(); ++i) {
+        const auto macro = macros.find(tokens[i]);
+        const bool is_operand =
+            (i > 0 && tokens[i - 1] == "defined") || (i > 1 && tokens[i - 1] == "(" && tokens[i - 2] == "defined");
+        if (macro == macros.end() || is_operand)
+            to.push_back(tokens[i]);
+        else if (!macro->second || depth == deepest || !expand(*macro->second, macros, to, depth + 1))
+            return false;
+        if (to.size() > most)
+            return false;
+    }
+    return true;
+}
+
+/// The value of what a condition says (GLSL 4.60, 3.3), its macros expanded.
 class Condition {
   public:
-    Condition(const Tokens& tokens, const Macros& macros, int depth = 0)
-        : tokens_(tokens), macros_(macros), depth_(depth) {}
+    Condition(const Tokens& tokens, const Macros& macros) : tokens_(tokens), macros_(macros) {}
 
     Number value() {
         const Number found = chain(0);
@@ -160,16 +177,8 @@ class Condition {
         return may_be_given(name) ? Number() : Number(0);
     }
     Number operand(const std::string& token) {
-        if (is_word(token)) {
-            const auto macro = macros_.find(token);
-            if (macro == macros_.end())
-                return {};
-            if (!macro->second) { // its arguments
-                is_lost_ = true;
-                return {};
-            }
-            return Condition(*macro->second, macros_, depth_).value();
-        }
+        if (is_word(token))
+            return {};
         std::string_view digits = token;
         if (digits.ends_with('u') || digits.ends_with('U'))
             digits.remove_suffix(1);
@@ -184,7 +193,7 @@ class Condition {
 
     const Tokens& tokens_;
     const Macros& macros_;
-    int depth_;
+    int depth_ = 0;
     std::size_t at_ = 0;
     bool is_lost_ = false;
 };
@@ -231,8 +240,10 @@ class Branches {
         branch.may_be_next = branch.may_be_next && (!condition || *condition == 0);
     }
     [[nodiscard]] Number asked(const std::string& name, const Tokens& tokens) const {
-        if (name == "if")
-            return Condition(tokens, macros_).value();
+        if (name == "if") {
+            Tokens expanded;
+            return expand(tokens, macros_, expanded) ? Condition(expanded, macros_).value() : Number();
+        }
         if (tokens.empty())
             return {};
         const Number is_defined = Condition(Tokens{"defined", tokens[0]}, macros_).value();

@@ -19,6 +19,9 @@ constexpr const char* before = "#version 330 core\n"
                                "#define ZERO 0\n"
                                "#define ONE 1\n"
                                "#define TWO (ONE + ONE) /* of macros */\n"
+                               "#define SUM 1 + 1\n"
+                               "#define OF_SUM SUM * 2\n"
+                               "#define IS ==\n"
                                "#define EMPTY\n"
                                "#define GONE 1\n"
                                "#undef GONE\n";
@@ -62,7 +65,9 @@ TEST_CASE("taken branches: an included file is taken where the driver takes it")
         "#if FILTER == FILTER_FLOW" + include + "#endif", "#if FILTER != FILTER_FLOW" + include + "#endif",
         "#if FILTER == 1 || FILTER == 2" + include + "#endif", "#if TWO * 2 == 4" + include + "#endif",
         "#if (1 + 2 * 3 == 7) == ONE" + include + "#endif", "#if 7 / 2 == 3 && 7 % 4 == 3" + include + "#endif",
-        "#if (1 << 4) >> 2 == 4" + include + "#endif",
+        "#if SUM * 2 == 3" + include + "#endif", "#if 2 * SUM == 4" + include + "#endif",
+        "#if OF_SUM IS 3" + include + "#endif", "#if -SUM == 0 && defined(SUM)" + include + "#endif",
+        "#if EMPTY 1 EMPTY" + include + "#endif", "#if (1 << 4) >> 2 == 4" + include + "#endif",
         "#if (6 & 3) == 2 && (6 | 1) == 7 && (6 ^ 3) == 5" + include + "#endif",
         "#if -1 < 0 && !0 && ~0 == -1 && +1 > 0" + include + "#endif",
         "#if 0x10 == 16 && 010 == 8" + include + "#endif", "#if 3 <= 2 || 2 >= 3" + include + "#endif",
@@ -80,6 +85,7 @@ TEST_CASE("taken branches: both ways count where what a condition asks for is no
         GENERATE("#if __VERSION__ >= 130", "#ifdef GL_core_profile", "#ifndef GL_es_profile", "#ifdef LOCKSTEP_TRACE",
                  "#define OF(x) x\n#if OF(1)", "#if NOBODY_KNOWS", "#if 1 / 0", "#if 1 +", "#if", "#if (1", "#if 1 2",
                  "#if 99999999999", "#if 2147483647 + 1", "#define A B\n#define B A\n#if A",
+                 "#define D C C\n#define C B B\n#define B A A\n#define A A9 A9\n#define A9 D\n#if A",
                  "#ifdef GL_core_profile\n#define MAY_BE 1\n#endif\n#if MAY_BE == 1");
     CAPTURE(condition);
     CHECK(is_taken(stage_of(folder, condition + include + "#endif", "float taken;\n")));

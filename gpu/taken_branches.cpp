@@ -44,9 +44,9 @@ bool is_word(const std::string& token) {
     const char c = token.front();
     return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || c == '_';
 }
-/// GL's own (GL_core_profile, __VERSION__), and those of some builds of a pass (LOCKSTEP_TRACE).
+/// GL's own (GL_core_profile), and those of some builds of a pass (LOCKSTEP_TRACE). GL_ES is not: shaders are GLSL's.
 bool may_be_given(std::string_view name) {
-    return name.starts_with("GL_") || name.starts_with("__") || name.starts_with("LOCKSTEP_");
+    return (name.starts_with("GL_") && name != "GL_ES") || name.starts_with("__") || name.starts_with("LOCKSTEP_");
 }
 
 /// Puts the texts of macros in their places, but for operands of `defined`; false where one is not known, or where they
@@ -251,6 +251,8 @@ class Branches {
     }
     /// A macro that may or may not be so has no value that is known.
     void note(const std::string& name, const Tokens& rest, const std::string& line) {
+        if (name == "version")
+            macros_["__VERSION__"] = Tokens{rest[0]};
         if (name != "define" && name != "undef")
             return;
         const std::string& macro = rest[0];
@@ -267,21 +269,67 @@ class Branches {
     std::vector<Open> open_;
 };
 
-/// `text` without comments, as many lines.
-std::string without_comments(std::string text) {
-    for (std::size_t at = 0; at + 1 < text.size(); ++at) {
-        const bool line = text.compare(at, 2, "//") == 0;
-        if (!line && text.compare(at, 2, "/*") != 0)
-            continue;
-        const std::size_t end = line ? text.find('\n', at) : text.find("*/", at + 2);
-        const std::size_t last = end == std::string::npos ? text.size() : end + (line ? 0 : 2);
-        for (; at < last; ++at)
-            if (text[at] != '\n')
-                text[at] = ' ';
-        --at;
+/// A stage's lines as its preprocessor has them: a backslash at a line's end joins two, a comment over lines is a
+/// space.
+class LogicalLines {
+  public:
+    explicit LogicalLines(std::string_view text) : text_(text) {}
+
+    /// False at the end.
+    bool next() {
+        line_.clear();
+        parts_.clear();
+        bool in_line_comment = false, in_block_comment = false, began_in_comment = false;
+        for (; at_ < text_.size(); ++at_) {
+            const std::size_t joint = joint_length();
+            if (joint > 0 || text_[at_] == '\n') {
+                if (!began_in_comment)
+                    note();
+                ++physical_;
+                began_in_comment = in_block_comment || (in_line_comment && joint > 0);
+                if (joint > 0) {
+                    at_ += joint - 1;
+                } else if (!in_block_comment) {
+                    ++at_;
+                    return true;
+                }
+            } else if (in_block_comment) {
+                in_block_comment = !takes("*/");
+            } else if (!in_line_comment) {
+                note();
+                in_line_comment = takes("//");
+                in_block_comment = !in_line_comment && takes("/*");
+                line_ += in_line_comment || in_block_comment ? ' ' : text_[at_];
+            }
+        }
+        return !parts_.empty();
     }
-    return text;
-}
+    [[nodiscard]] const std::string& line() const { return line_; }
+    /// The lines of the text, from 0, that it comes of; not those within a comment.
+    [[nodiscard]] const std::vector<std::size_t>& parts() const { return parts_; }
+
+  private:
+    /// Of a backslash and the end of a line; 0: there is none.
+    [[nodiscard]] std::size_t joint_length() const {
+        const std::string_view rest = text_.substr(at_);
+        return rest.starts_with("\\\n") ? 2 : rest.starts_with("\\\r\n") ? 3 : 0;
+    }
+    bool takes(std::string_view sign) {
+        if (!text_.substr(at_).starts_with(sign))
+            return false;
+        ++at_; // the loop takes its second character
+        return true;
+    }
+    void note() {
+        if (parts_.empty() || parts_.back() != physical_)
+            parts_.push_back(physical_);
+    }
+
+    std::string_view text_;
+    std::size_t at_ = 0, physical_ = 0;
+    std::string line_;
+    std::vector<std::size_t> parts_;
+};
 
 } // namespace
 
@@ -291,24 +339,11 @@ std::vector<bool> taken_files(const ShaderSource& stage) {
         return taken;
     for (const ShaderSource::Origin& origin : stage.origins)
         taken[origin.file] = false;
-    const std::string text = without_comments(stage.text);
     Branches branches;
-    std::string logical; // lines that a backslash joins are one
-    std::size_t begin = 0;
-    for (const ShaderSource::Origin& origin : stage.origins) {
-        const std::size_t end = std::min(text.find('\n', begin), text.size());
-        logical += text.substr(begin, end - begin);
-        begin = end + 1;
-        if (logical.ends_with('\r'))
-            logical.pop_back();
-        if (logical.ends_with('\\')) {
-            logical.pop_back();
-            continue;
-        }
-        if (branches.take(logical))
-            taken[origin.file] = true;
-        logical.clear();
-    }
+    for (LogicalLines lines(stage.text); lines.next();)
+        if (branches.take(lines.line()))
+            for (const std::size_t part : lines.parts())
+                taken[stage.origins[part].file] = true;
     return taken;
 }
 

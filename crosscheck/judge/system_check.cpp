@@ -318,9 +318,16 @@ class SystemChecker {
         part();
         report_.verdict = verdict_on(report_);
         if (report_.verdict != Verdict::divergent && report_.verdict != Verdict::differ)
-            report_.untried = untried_.texts(report_);
+            report_.untried = untried();
         report_.reference_hash = state_hash(reference_);
         report_.gpu_hash = state_hash(before_);
+    }
+
+    std::vector<std::string> untried() {
+        for (std::size_t p = 0; p < has_run_.size(); ++p)
+            if (!has_run_[p])
+                untried_.note_idle(system_.passes[p]->name());
+        return untried_.texts(report_);
     }
 
     void conclude_verdicts() {

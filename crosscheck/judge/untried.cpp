@@ -42,12 +42,18 @@ std::vector<std::string> UntriedParts::texts(const CheckReport& report) const {
     std::vector<std::string> all;
     if (!changed_)
         all.emplace_back("no pass changed anything");
+    if (!idle_.empty())
+        all.push_back(fmt::format("{} did not run", listed({idle_.begin(), idle_.end()})));
     std::map<std::string, std::vector<std::string>> uniform; // by what their items are
+    std::size_t count = 0;
     for (const auto& [resource, is_uniform] : uniform_)
-        if (const Resource& about = report.schema.resources[resource]; is_uniform)
+        if (const Resource& about = report.schema.resources[resource]; is_uniform) {
             uniform[about.item].push_back(about.title);
-    for (const auto& [item, titles] : uniform)
-        if (changed_)
+            ++count;
+        }
+    // Of a few among many a scene has nothing: a background without obstacles.
+    if (changed_ && 3 * count >= uniform_.size())
+        for (const auto& [item, titles] : uniform)
             all.push_back(fmt::format("all {}s are alike in {}", item, listed(titles)));
     std::uint64_t compared = 0, nan = 0;
     for (const ResourceCount& resource : report.total.resources)

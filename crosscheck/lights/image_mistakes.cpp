@@ -157,6 +157,7 @@ std::vector<NamedMistake> of_glows() {
     static const Mistake lower_y = mistake_at(site::glow_y, Change::half_less);
     const Mistake beside = with(mistake_at(site::centre_x, Change::half_less), drawn);
     return {
+        {"glow_missing", "glows add nothing", "glow_pass", mistake_at(site::glow_colour, Change::zero)},
         {"glow_through_walls", "glows are seen through what is before them", "glow_pass",
          mistake_at(site::glow_nearer, Change::always)},
         {"glow_square",
@@ -192,7 +193,6 @@ std::vector<NamedMistake> of_glows() {
         {"glow_white", "glows are white", "glow_pass", mistake_at(site::colour_before, Change::one)},
         {"glow_turned", "red and blue of glows are swapped", "glow_pass",
          mistake_at(site::colour_before, Change::xz_swapped)},
-        {"glow_missing", "glows add nothing", "glow_pass", mistake_at(site::glow_colour, Change::zero)},
         {"glow_not_blended", "a glow replaces what is there", "glow_pass", mistake_at(site::blends, Change::never)},
         {"glow_adds_alpha", "a glow adds 1 to alpha", "glow_pass", mistake_at(site::keeps_alpha, Change::never)},
     };

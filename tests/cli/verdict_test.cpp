@@ -228,6 +228,16 @@ TEST_CASE("verdict: a run in which nothing collided says so, and fails where hit
     CHECK(json_of(setting.report)["untried"].empty());
 }
 
+TEST_CASE("verdict: a run says which passes it never came to") {
+    if (!test::have_software_gl())
+        return;
+    const std::vector<std::string> check{
+        "check", "data/scenes/dust/explode.json", "--gl", test::software_gl(), "--particles", "64", "--frames"};
+    CHECK_THAT(run_lockstep(test::joined(check, {"3"})).out,
+               Catch::Contains("verdict   AGREE, but explode and explode_count did not run: every bit"));
+    CHECK_THAT(run_lockstep(test::joined(check, {"100"})).out, !Catch::Contains("did not run"));
+}
+
 TEST_CASE("verdict: a run says which mistakes it would have shown, and fails where more is asked for") {
     if (!test::have_software_gl())
         return;

@@ -1,17 +1,16 @@
 #include "reference/fluid/filtered_image.hpp"
 
-#include <cmath>
 #include <cstdint>
 #include <cstring>
 #include <vector>
 
+#include "reference/fluid/linear_laws.hpp"
 #include "reference/vector_loops.hpp"
 
 namespace lockstep::fluid {
 namespace {
 
-/// fma(share, next - from, from)
-LOCKSTEP_INLINE float mixed(float from, float next, float share) { return std::fma(share, next - from, from); }
+using linear_laws::fused;
 
 /// A row of pixels and what lies beyond it, from two rows of texels: linear_laws::mixed, fused.
 struct FilteredRow {
@@ -29,16 +28,16 @@ LOCKSTEP_VECTOR_CLONES void make(const FilteredRow& row) {
     const float above = row.above;
     float* pixels = row.pixels;
     const auto pixel = [&](std::ptrdiff_t first, std::ptrdiff_t second, float share) {
-        return mixed(mixed(lower[first], lower[second], share), mixed(upper[first], upper[second], share), above);
+        return fused(fused(lower[first], lower[second], share), fused(upper[first], upper[second], share), above);
     };
     LOCKSTEP_VECTOR_LOOP
     for (std::ptrdiff_t i = 1; i < width - 1; ++i) {
         const bool is_before = base[i] < i;
         const auto along = [&](const float* texels) {
             const float before = texels[i - 1], own = texels[i], behind = texels[i + 1];
-            return mixed(is_before ? before : own, is_before ? own : behind, f[i]);
+            return fused(is_before ? before : own, is_before ? own : behind, f[i]);
         };
-        pixels[i] = mixed(along(lower), along(upper), above);
+        pixels[i] = fused(along(lower), along(upper), above);
     }
     const std::ptrdiff_t end = width - 1;
     for (const std::ptrdiff_t i : {std::ptrdiff_t{0}, end})

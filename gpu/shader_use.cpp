@@ -111,7 +111,8 @@ void note_stage(ShaderUse& use, const PassStages& pass, Stage stage, const Shade
                          foreign && is_copy(shipped, own, name), loaded.empty(), is_module(loaded)});
     if (loaded.empty() || user.empty())
         return;
-    for (const StageInput& input : pass.inputs)
+    note_included(use, loaded.front(), user, shipped);
+    for (const StageInput& input : std::span(pass.inputs).subspan(1))
         note_included(use, load(input).front(), user, shipped);
 }
 

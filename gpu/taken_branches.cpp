@@ -15,8 +15,13 @@ namespace lockstep {
 namespace {
 
 using Tokens = std::vector<std::string>;
-using Number = std::optional<std::int64_t>;                               ///< nothing: not known
-using Macros = std::map<std::string, std::optional<Tokens>, std::less<>>; ///< nothing: with parameters
+using Number = std::optional<std::int64_t>; ///< nothing: not known
+/// Without a text: it has parameters, or one that is not known.
+struct Macro {
+    std::optional<Tokens> text = {};
+    bool is_sure = true; ///< to be defined
+};
+using Macros = std::map<std::string, Macro, std::less<>>;
 
 constexpr int deepest = 100; // brackets and macros inside each other
 
@@ -59,7 +64,7 @@ bool expand(const Tokens& tokens, const Macros& macros, Tokens& to, int depth = 
             (i > 0 && tokens[i - 1] == "defined") || (i > 1 && tokens[i - 1] == "(" && tokens[i - 2] == "defined");
         if (macro == macros.end() || is_operand)
             to.push_back(tokens[i]);
-        else if (!macro->second || depth == deepest || !expand(*macro->second, macros, to, depth + 1))
+        else if (!macro->second.text || depth == deepest || !expand(*macro->second.text, macros, to, depth + 1))
             return false;
         if (to.size() > most)
             return false;
@@ -172,8 +177,8 @@ class Condition {
         const std::string& name = tokens_[at_++];
         if (brackets && !takes(")"))
             return lost();
-        if (macros_.contains(name))
-            return 1;
+        if (const auto macro = macros_.find(name); macro != macros_.end())
+            return macro->second.is_sure ? Number(1) : Number();
         return may_be_given(name) ? Number() : Number(0);
     }
     Number operand(const std::string& token) {
@@ -252,17 +257,24 @@ class Branches {
     /// A macro that may or may not be so has no value that is known.
     void note(const std::string& name, const Tokens& rest, const std::string& line) {
         if (name == "version")
-            macros_["__VERSION__"] = Tokens{rest[0]};
+            macros_["__VERSION__"] = {Tokens{rest[0]}};
         if (name != "define" && name != "undef")
             return;
         const std::string& macro = rest[0];
         const std::size_t behind = line.find(macro, line.find(name) + name.size()) + macro.size();
-        if (!is_sure() || (name == "define" && behind < line.size() && line[behind] == '('))
-            macros_[macro] = std::nullopt;
-        else if (name == "undef")
+        if (!is_sure()) {
+            const auto known = macros_.find(macro);
+            if (known != macros_.end())
+                known->second = {{}, known->second.is_sure && name == "define"};
+            else if (name == "define")
+                macros_[macro] = {{}, false};
+        } else if (name == "undef") {
             macros_.erase(macro);
-        else
-            macros_[macro] = Tokens(rest.begin() + 1, rest.end());
+        } else if (behind < line.size() && line[behind] == '(') {
+            macros_[macro] = {};
+        } else {
+            macros_[macro] = {Tokens(rest.begin() + 1, rest.end())};
+        }
     }
 
     Macros macros_;

@@ -92,7 +92,10 @@ TEST_CASE("taken branches: both ways count where what a condition asks for is no
                  "#define OF(x) x\n#if OF(1)", "#if NOBODY_KNOWS", "#if 1 / 0", "#if 1 +", "#if", "#if (1", "#if 1 2",
                  "#if 99999999999", "#if 2147483647 + 1", "#define A B\n#define B A\n#if A",
                  "#define D C C\n#define C B B\n#define B A A\n#define A A9 A9\n#define A9 D\n#if A",
-                 "#ifdef GL_core_profile\n#define MAY_BE 1\n#endif\n#if MAY_BE == 1");
+                 "#ifdef GL_core_profile\n#define MAY_BE 1\n#endif\n#if MAY_BE == 1",
+                 "#ifdef GL_core_profile\n#define MAY_BE 1\n#endif\n#ifdef MAY_BE",
+                 "#ifdef GL_core_profile\n#undef ONE\n#endif\n#ifdef ONE",
+                 "#ifdef GL_core_profile\n#undef ONE\n#endif\n#ifndef GL_x\n#define ONE 1\n#endif\n#if ONE");
     CAPTURE(condition);
     CHECK(is_taken(stage_of(folder, condition + include + "#endif", "float taken;\n")));
     CHECK(is_taken(stage_of(folder, condition + "\n#else" + include + "#endif", "float taken;\n")));

@@ -80,6 +80,7 @@ struct CheckReport {
     std::optional<Verdict> state_verdict;  ///< set: on all but what a frame draws, which made the verdict worse
     /// What such a run was to try and did not, as words after "but": "nothing collided".
     std::vector<std::string> untried;
+    std::vector<std::string> without_effect; ///< passes that left what was there, in all frames
 
     /// The run was stopped before its end; a verdict on the frames before that.
     [[nodiscard]] bool partial() const { return frames < frames_asked && verdict != Verdict::nondeterministic; }

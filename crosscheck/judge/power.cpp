@@ -92,6 +92,12 @@ bool PowerMeter::add(const JudgedPass& p, const std::vector<std::size_t>& tellin
     return std::find(is_further.begin(), is_further.end(), 1) != is_further.end();
 }
 
+void PowerMeter::note_idle(std::string_view pass) {
+    for (std::size_t m = 0; m < named_.size(); ++m)
+        if (named_[m].pass == pass)
+            tried_[m].is_idle = !tried_[m].passed;
+}
+
 bool PowerMeter::has_seen_all() const {
     const PowerSummary now = summary();
     return !now.mistakes.empty() && now.seen() == now.mistakes.size();
@@ -101,7 +107,7 @@ PowerSummary PowerMeter::summary() const {
     PowerSummary summary;
     for (std::size_t m = 0; m < named_.size(); ++m) {
         const Tried& tried = tried_[m];
-        if (!tried.passed)
+        if (!tried.passed && !tried.is_idle)
             continue;
         PowerSummary::Mistake& mistake = summary.mistakes.emplace_back();
         mistake.name = named_[m].name;
@@ -110,7 +116,9 @@ PowerSummary PowerMeter::summary() const {
         if (tried.first_frame >= 0)
             mistake.first_frame = tried.first_frame;
         mistake.changes = tried.changes;
-        if (!tried.reached)
+        if (tried.is_idle)
+            mistake.reasons.emplace_back("its pass did not run");
+        else if (!tried.reached)
             mistake.reasons.emplace_back("nothing that was tried came to where it is made");
     }
     return summary;

@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <set>
 #include <span>
+#include <string_view>
 #include <vector>
 
 #include "crosscheck/judge/power_summary.hpp"
@@ -27,16 +28,20 @@ class PowerMeter {
     /// showed.
     bool add(const JudgedPass& pass, const std::vector<std::size_t>& telling, std::size_t most = 0);
 
+    /// A pass that no frame of the run came to, whose mistakes could not show.
+    void note_idle(std::string_view pass);
+
     /// Whether all mistakes of the passes that were seen have shown: more frames tell nothing more of these.
     [[nodiscard]] bool has_seen_all() const;
 
-    /// Of the mistakes of passes that were seen, to be concluded.
+    /// Of the mistakes of passes that were seen or are idle, to be concluded.
     [[nodiscard]] PowerSummary summary() const;
 
   private:
     /// What became of a mistake.
     struct Tried {
         bool passed = false; ///< its pass was run
+        bool is_idle = false;
         bool reached = false, changes = false;
         int first_frame = -1;
     };

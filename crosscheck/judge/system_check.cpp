@@ -103,7 +103,7 @@ class SystemChecker {
         const bool holds = gpu_holds_made(p, from);
         if (!holds)
             read();
-        const Comparison comparison = compare_made(r, from, holds);
+        const Comparison comparison = compare_made(p, from, holds);
         if (judged_ && paces_[p].is_due())
             measure_power(p, from);
 
@@ -202,14 +202,16 @@ class SystemChecker {
         return gpu_.holds(shared_.contains(r) ? without_kept(made, from[r], gpu_, dispatch_) : made) == true;
     }
 
-    Comparison compare_made(std::uint8_t r, const SystemView& from, bool holds) {
+    Comparison compare_made(std::size_t p, const SystemView& from, bool holds) {
         const Stopwatch timing(times_.compare);
+        const ItemPass& pass = *system_.passes[p];
+        const std::uint8_t r = pass.resource();
         const View made = std::as_const(made_)[r];
         Comparison comparison = holds ? agreement(made) : compare(made, std::as_const(now_)[r]);
         if (!comparison.agree() || !judged_)
             note_difference(report_, frame_, comparison);
         report_.total.add(comparison);
-        untried_.note(r, from[r], made);
+        untried_.note(pass, from[r], made);
         return comparison;
     }
 
@@ -317,6 +319,7 @@ class SystemChecker {
             conclude_verdicts();
         part();
         report_.verdict = verdict_on(report_);
+        report_.without_effect = untried_.without_effect();
         if (report_.verdict != Verdict::divergent && report_.verdict != Verdict::differ)
             report_.untried = untried();
         report_.reference_hash = state_hash(reference_);
@@ -341,6 +344,9 @@ class SystemChecker {
         }
         report_.verdicts = std::move(summary_);
         report_.wider_rule = hint_.rule();
+        for (std::size_t p = 0; p < has_run_.size(); ++p)
+            if (!has_run_[p])
+                power_.note_idle(system_.passes[p]->name());
         report_.power = power_.summary();
         report_.power.conclude();
         note_refuting(report_.power, system_.mistakes);

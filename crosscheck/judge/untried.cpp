@@ -4,8 +4,6 @@
 
 #include <fmt/format.h>
 
-#include "crosscheck/judge/compare.hpp"
-
 namespace lockstep {
 namespace {
 
@@ -15,6 +13,19 @@ bool are_alike(const View& items) {
         const std::size_t bytes = static_cast<std::size_t>(items.fields()[f].components) * sizeof(std::uint32_t);
         if (items.count() > 1 &&
             std::memcmp(items.columns[f], items.columns[f] + bytes, (items.count() - 1) * bytes) != 0)
+            return false;
+    }
+    return true;
+}
+
+/// Whether they have the same items, to the last bit.
+bool are_same(const View& a, const View& b) {
+    if (a.count() != b.count())
+        return false;
+    for (std::size_t f = 0; f < a.columns.size(); ++f) {
+        const std::size_t bytes = static_cast<std::size_t>(a.fields()[f].components) * sizeof(std::uint32_t);
+        const bool is_given = a.columns[f] != nullptr && b.columns[f] != nullptr;
+        if (is_given && a.columns[f] != b.columns[f] && std::memcmp(a.columns[f], b.columns[f], a.count() * bytes) != 0)
             return false;
     }
     return true;
@@ -30,20 +41,37 @@ std::string listed(const std::vector<std::string>& words) {
 
 } // namespace
 
-void UntriedParts::note(std::uint8_t resource, const View& from, const View& made) {
-    changed_ = changed_ || !differing_items(from, made).empty();
-    if (made.about().dimensions < 2 || made.count() < 2)
+void UntriedParts::note(const ItemPass& pass, const View& from, const View& made) {
+    Effect& effect = effects_.try_emplace(std::string(pass.name()), Effect{.derived = pass.derived()}).first->second;
+    effect.changes = effect.changes || !are_same(from, made);
+    if (made.about().dimensions < 2)
         return;
-    const auto [known, is_first] = uniform_.emplace(resource, true);
+    const auto [known, is_first] = uniform_.emplace(pass.resource(), true);
     known->second = known->second && are_alike(made);
+}
+
+std::vector<std::string> UntriedParts::without_effect() const {
+    std::vector<std::string> passes;
+    for (const auto& [pass, effect] : effects_)
+        if (!effect.changes)
+            passes.push_back(pass);
+    return passes;
 }
 
 std::vector<std::string> UntriedParts::texts(const CheckReport& report) const {
     std::vector<std::string> all;
-    if (!changed_)
+    std::size_t passes = 0, in_vain = 0; // what is derived follows from another
+    for (const auto& [pass, effect] : effects_) {
+        passes += effect.derived ? 0 : 1;
+        in_vain += effect.derived || effect.changes ? 0 : 1;
+    }
+    const bool changes = without_effect().size() < effects_.size();
+    if (!changes)
         all.emplace_back("no pass changed anything");
     if (!idle_.empty())
         all.push_back(fmt::format("{} did not run", listed({idle_.begin(), idle_.end()})));
+    if (changes && in_vain > 0 && 2 * in_vain >= passes)
+        all.push_back(fmt::format("{} of {} passes changed nothing", in_vain, passes));
     std::map<std::string, std::vector<std::string>> uniform; // by what their items are
     std::size_t count = 0;
     for (const auto& [resource, is_uniform] : uniform_)
@@ -52,7 +80,7 @@ std::vector<std::string> UntriedParts::texts(const CheckReport& report) const {
             ++count;
         }
     // Of a few among many a scene has nothing: a background without obstacles.
-    if (changed_ && 3 * count >= uniform_.size())
+    if (changes && 3 * count >= uniform_.size())
         for (const auto& [item, titles] : uniform)
             all.push_back(fmt::format("all {}s are alike in {}", item, listed(titles)));
     std::uint64_t compared = 0, nan = 0;

@@ -317,6 +317,8 @@ std::string report_text(const CheckReport& r, const RunDescription& run) {
     if (r.rendered)
         for (const std::string& detail : render_details(*r.rendered))
             line("", detail);
+    if (!r.without_effect.empty())
+        line("no effect", fmt::format("in {}: {}", frames_text(r), fmt::join(r.without_effect, ", ")));
     for (const std::string& note : run.notes)
         line("note", note);
     line("verdict", verdict_line(r));
@@ -428,6 +430,7 @@ nlohmann::json report_json(const CheckReport& r, const RunDescription& run) {
                 {"power", power_json(r.power)},
                 {"legal_by", r.wider_rule ? json(legal_option_text(*r.wider_rule).substr(1)) : json()},
                 {"untried", r.untried},
+                {"without_effect", r.without_effect},
                 {"scene", run.scene},
                 {"mode", run.mode},
                 {"switches", run.settings},

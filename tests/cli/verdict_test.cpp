@@ -236,6 +236,27 @@ TEST_CASE("verdict: a run says which passes it never came to") {
     CHECK_THAT(run_lockstep(test::joined(check, {"3"})).out,
                Catch::Contains("verdict   AGREE, but explode and explode_count did not run: every bit"));
     CHECK_THAT(run_lockstep(test::joined(check, {"100"})).out, !Catch::Contains("did not run"));
+    const test::Outcome asked = run_lockstep(test::joined(check, {"3", "--power-at-least", "50%"}));
+    CHECK(asked.status == 1);
+    CHECK_THAT(asked.out, Catch::Contains("not: ") && Catch::Contains("its pass did not run"));
+}
+
+TEST_CASE("verdict: a run says which passes left all as it was") {
+    if (!test::have_software_gl())
+        return;
+    const test::TemporaryFolder folder;
+    std::ifstream shipped("data/scenes/dust/cone.json");
+    nlohmann::json scene = nlohmann::json::parse(shipped);
+    const auto check = [&] {
+        const std::string path = (folder.path() / "cone.json").string();
+        std::ofstream(path) << scene;
+        return run_lockstep({"check", path, "--gl", test::software_gl(), "--particles", "4096", "--frames", "3"}).out;
+    };
+    CHECK_THAT(check(),
+               Catch::Contains("no effect in 3 frames: populate_count") && Catch::Contains("AGREE: every bit"));
+    scene["dust"]["tools"][0]["force"] = 0.0;
+    CHECK_THAT(check(), Catch::Contains("no effect in 3 frames: populate_count, vacuum_up, vacuum_up_count") &&
+                            Catch::Contains("AGREE, but 1 of 2 passes changed nothing: every bit"));
 }
 
 TEST_CASE("verdict: a run says which mistakes it would have shown, and fails where more is asked for") {

@@ -39,8 +39,11 @@ TEST_CASE("fluid passes: a run that draws no fluid says so") {
         particle = s.camera.eye + (s.camera.eye - s.camera.target) + 0.01F * particle; // behind the camera
     const CheckReport report = run_fluid(s, 2);
     CHECK(report.verdict == Verdict::agree);
-    CHECK(report.untried == std::vector<std::string>{"all pixels are alike in the depth of the spheres, the filtered "
+    CHECK(report.untried == std::vector<std::string>{"4 of 8 passes changed nothing",
+                                                     "all pixels are alike in the depth of the spheres, the filtered "
                                                      "depth, the normals and the thickness"});
+    CHECK(report.without_effect ==
+          std::vector<std::string>{"depth_filter_pass", "normal_pass", "sphere_depth_pass", "thickness_pass"});
 }
 
 TEST_CASE("fluid passes: a point whose middle lies beside the image is not drawn, a quad is") {

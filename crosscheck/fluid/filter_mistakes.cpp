@@ -134,6 +134,10 @@ void of_flow(Of& of, const Host& host) {
         .add("flow_middle_once", "second derivatives take the middle once",
              mistake_at(site::takes_middle_twice, Change::never))
         .add("flow_mixed_not_quartered", "the mixed derivative is not quartered", spoiled_at(site::zxy, four_times))
+        .add("flow_mixed_halved", "the mixed derivative is halved, not quartered",
+             mistake_at(site::zxy, Change::doubled))
+        .add("curvature_not_halved", "the curvature is that of both axes together, not their mean",
+             mistake_at(site::curvature, Change::doubled))
         .add("flow_mixed_turned", "the mixed derivative is negated", mistake_at(site::zxy, Change::negated))
         .add("flow_without_depth", "the term of the depth itself is left out", spoiled_at(site::e0, without_depth_term))
         .add("flow_not_halved", "the derivatives of the root are not halved",

@@ -24,6 +24,7 @@ std::vector<NamedMistake> mistakes(const Host& host) {
         .add("motion_z_turned", "z of the positions is negated", mistake_at(site::position, Change::negated, 2));
     Of(all, "scene_pass")
         .add("check_left_out", "the scene has no check", mistake_at(site::check, Change::zero))
+        .add("check_inverted", "light and dark of the check are swapped", mistake_at(site::check, Change::opposite))
         .add("check_turned", "the check is turned", mistake_at(site::check, Change::half_less))
         .add("check_of_half", "the check is of half a metre", mistake_at(site::surface_point, Change::doubled))
         .add("check_of_two", "the check is of two metres", mistake_at(site::surface_point, Change::halved))

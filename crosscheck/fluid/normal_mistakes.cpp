@@ -42,6 +42,8 @@ void add_point_mistakes(Of of, const Host& host) {
 }
 
 void add_normal_mistakes(Of of, const Host& host) {
+    static const Mistake below_turned = mistake_at(site::step_up, Change::negated),
+                         above_turned = mistake_at(site::step_above, Change::negated);
     of.add("cross_turned", "the factors of the cross product are swapped", mistake_at(site::cross, Change::negated))
         .add("right_for_left", "the other side is taken along x", mistake_at(site::right_side, Change::inverted))
         .add("right_always", "the right side is taken everywhere", mistake_at(site::right_side, Change::always))
@@ -49,6 +51,19 @@ void add_normal_mistakes(Of of, const Host& host) {
         .add("up_for_down", "the other side is taken along y", mistake_at(site::upper_side, Change::inverted))
         .add("left_turned", "steps from the left are turned", mistake_at(site::step_left, Change::negated))
         .add("lower_turned", "steps from below are turned", mistake_at(site::step_up, Change::negated))
+        .add("steps_back_turned", "steps from the left and from below are turned",
+             with(mistake_at(site::step_left, Change::negated), below_turned))
+        .add("steps_on_turned", "steps to the right and upwards are turned",
+             with(mistake_at(site::step_right, Change::negated), above_turned))
+        .add("right_is_left", "the left neighbour is read for the right one",
+             mistake_at(site::right_is_right, Change::never))
+        .add("left_is_right", "the right neighbour is read for the left one",
+             mistake_at(site::left_is_left, Change::never))
+        .add("upper_is_lower", "the lower neighbour is read for the upper one",
+             mistake_at(site::upper_is_above, Change::never))
+        .add("lower_is_upper", "the upper neighbour is read for the lower one",
+             mistake_at(site::lower_is_below, Change::never))
+        .add("farther_picked", "of two neighbours the farther is taken", mistake_at(site::picks_nearer, Change::never))
         .add("facing_away", "where no side is the normal points away", mistake_at(site::facing, Change::negated))
         .add("normal_not_unit", "normals are as long as the cross product", mistake_at(site::normal, Change::not_done))
         .add("edges_not_facing", "what is beyond an edge is taken for a neighbour",

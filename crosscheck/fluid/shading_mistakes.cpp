@@ -65,8 +65,8 @@ void x_in_pixels(Words value, const CameBy& run) {
 }
 void y_in_pixels(Words value, const CameBy& run) { value[0] = first(run, site::pixel_y) + leaning(run, 1); }
 
-void bent_by_z(Words value, const CameBy& run) {
-    const float t = std::clamp((run.of(site::world)[2] - 0.1F) / (0.4F - 0.1F), 0.0F, 1.0F);
+template <std::size_t axis> void bent_by(Words value, const CameBy& run) {
+    const float t = std::clamp((run.of(site::world)[axis] - 0.1F) / (0.4F - 0.1F), 0.0F, 1.0F);
     value[0] = most_bend * (t * t * (3.0F - 2.0F * t));
 }
 
@@ -180,7 +180,9 @@ void of_refraction(Of& of) {
         .add("scene_not_filtered", "the scene is the nearest texel's", mistake_at(site::fraction, Change::zero))
         .add("refraction_in_pixels", "the scene behind is moved by pixels, not by shares of the image",
              with(formula_at(site::fetch_x, x_in_pixels), rows_in_pixels))
-        .add("bent_by_z", "light is bent by how far along z it comes from", formula_at(site::bend_of, bent_by_z))
+        .add("bent_by_x", "light is bent by how far along x it comes from", formula_at(site::bend_of, bent_by<0>))
+        .add("bend_turned", "light from low water is bent, not from high", mistake_at(site::bend_rises, Change::never))
+        .add("bent_by_z", "light is bent by how far along z it comes from", formula_at(site::bend_of, bent_by<2>))
         .add("scene_rows_by_half_a_texel", "the scene is fetched half a texel below",
              mistake_at(site::pixel_y, Change::half_less))
         .add("absorbed_without_colour", "fluid of any colour takes all colours alike",
@@ -197,6 +199,7 @@ void of_refraction(Of& of) {
 void of_lights(Of& of, const Host& host) {
     const auto constants = [](const glm::vec4& v) { return Constants{v.x, v.y, v.z}; };
     of.add("light_from_below", "the light comes from below", mistake_at(site::light, Change::negated))
+        .add("light_along_x", "the light comes along x", given(site::light, constants(host.view()[0])))
         .add("light_along_z", "the light comes along z", given(site::light, constants(host.view()[2])))
         .add("light_turned_back", "the light is turned from view space to the world",
              given(site::light, constants(host.inverse_view()[1])))
@@ -255,11 +258,14 @@ void add_shading_mistakes(Of of, const Host& host) {
         .add("light_not_turned", "the light's direction stays in world space", spoiled_at(site::light, light_of_world))
         .add("world_is_view", "the point in view space is taken for that in the world",
              instead_of(site::world, site::point))
+        .add("halfway_by_difference", "the halfway vector is a difference of directions, not their sum",
+             mistake_at(site::halfway_by_sum, Change::never))
         .add("halfway_not_unit", "the halfway vector is not normalised", mistake_at(site::halfway, Change::not_done))
         .add("shine_of_normal_and_eye", "the highlight is that of the eye's direction",
              instead_of(site::shine, site::cosine))
         .add("specular_not_raised", "the highlight is not raised to a power", instead_of(site::specular, site::shine))
-        .add("specular_left_out", "there is no highlight", spoiled_at(site::surface_light, without_specular))
+        .add_description("specular_left_out", "there is no highlight",
+                         spoiled_at(site::surface_light, without_specular))
         .add("refraction_left_out", "the scene behind is not moved", mistake_at(site::offset, Change::zero))
         .add("refraction_turned", "the scene behind is moved the other way", mistake_at(site::offset, Change::negated))
         .add("refraction_not_bent_by_height", "the scene behind is moved at any height",
@@ -276,8 +282,12 @@ void add_shading_mistakes(Of of, const Host& host) {
              mistake_at(site::floor_of_thickness, Change::zero))
         .add("spot_left_out", "light is the same everywhere", mistake_at(site::spot, Change::one))
         .add("not_wrapped", "light is not wrapped around", instead_of(site::wrapped, site::lambert))
+        .add("tint_turned", "red and blue of what has no light are swapped", mistake_at(site::tint, Change::xz_swapped))
+        .add("quarter_around", "from all around comes half as much light", mistake_at(site::half_light, Change::halved))
         .add("diffuse_left_out", "there is no diffuse light", mistake_at(site::diffuse, Change::zero))
         .add("fresnel_turned", "mirror and refraction are swapped", spoiled_at(site::surface, mirror_for_refraction))
+        .add("fresnel_opposite", "what is mirrored is let through, and the other way around",
+             mistake_at(site::fresnel, Change::opposite))
         .add("fresnel_not_raised", "the Fresnel term is linear", instead_of(site::raised, site::grazing))
         .add("fresnel_without_r0", "surfaces seen from above mirror nothing", mistake_at(site::r0, Change::zero))
         .add("fresnel_of_cosine", "the Fresnel term rises where it should fall",

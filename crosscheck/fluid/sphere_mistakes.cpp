@@ -8,6 +8,7 @@ namespace lockstep::fluid {
 namespace {
 
 void last_addend(Words value, const CameBy& run) { value[0] = first(run, site::addend); }
+void distance_on_disc(Words value, const CameBy& run) { value[0] = std::sqrt(first(run, site::magnitude)); }
 void distance_of_square(Words value, const CameBy& /*run*/) { value[0] = std::sqrt(value[0]); }
 /// A place on the window without the half that moves it from its middle to its edge.
 void from_middle_of_width(Words value, const CameBy& run) {
@@ -48,6 +49,8 @@ void of_sprites(Of& of, const Host& host) {
     of.add("size_is_half", "a sprite's size is taken for half of it", mistake_at(site::half, Change::doubled))
         .add("half_of_half", "half a sprite is halved again", mistake_at(site::half, Change::halved))
         .add("nz_not_rooted", "the height of the sphere is not a root", mistake_at(site::nz, Change::not_done))
+        .add("nz_of_rim", "the height of the sphere is the distance on the disc",
+             formula_at(site::nz, distance_on_disc))
         .add("sprite_in_corners", "sprites are measured from pixels' corners",
              mistake_at(site::pixel_x, Change::half_less))
         .add("near_plane_ignored", "spheres before the near plane are drawn", mistake_at(site::near, Change::zero))
@@ -146,6 +149,7 @@ void add_thickness_mistakes(Of of, const Host& host) {
         .add("thickness_rounded_down", "units are rounded down", mistake_at(site::half_unit, Change::zero))
         .add("last_sphere_left_out", "the last sphere is left out", mistake_at(site::takes_last_sphere, Change::never));
     of.add_description("no_thickness", "no sphere has a thickness", mistake_at(site::thickness, Change::zero));
+    of.add("thickness_doubled", "spheres are twice as thick", mistake_at(site::addend, Change::doubled));
     of.add("thickness_gaussian", "spheres are as thick as a Gaussian", formula_at(site::addend, gaussian))
         .add("first_sphere_alone", "the first sphere alone is counted", mistake_at(site::adds_all, Change::never))
         .add("scene_test_turned", "what lies before the scene is hidden",

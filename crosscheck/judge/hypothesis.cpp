@@ -192,6 +192,10 @@ bool explains(const Hypothesis& hypothesis, const ItemLikeness& likeness, std::s
     return fit(hypothesis, likeness, item, words_of(hypothesis, p, item));
 }
 
+bool has_bits(const Hypothesis& hypothesis, const ItemLikeness& likeness, std::size_t item) {
+    return hypothesis.host == Host::none && likeness.are_gpus(item, words_of(hypothesis, likeness.pass(), item));
+}
+
 bool contradicts(const Hypothesis& hypothesis, const ItemLikeness& likeness, std::size_t item) {
     if (hypothesis.host != Host::none)
         return !explains(hypothesis, likeness, item);

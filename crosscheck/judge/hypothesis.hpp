@@ -23,6 +23,7 @@ struct Hypothesis {
     std::uint64_t explained = 0, contradicted = 0; ///< divergent items; ones that agree, and would not
     std::uint64_t distinct = 0;                    ///< of those that it has right, which no description has
     std::uint64_t telling = 0;                     ///< of those explained, which are off by more than rounding
+    std::uint64_t equal = 0;                       ///< of those explained, which have the very bits
 
     /// Whether it need only come near: a formula may be written in other orders.
     [[nodiscard]] bool rounds() const;
@@ -44,6 +45,9 @@ std::vector<Hypothesis> hypotheses_of(const std::vector<const NamedMistake*>& na
 
 /// Whether an item that is right cannot be so if the hypothesis holds.
 bool contradicts(const Hypothesis& hypothesis, const ItemLikeness& likeness, std::size_t item);
+
+/// Whether an item came out as the hypothesis has it, to the last bit.
+bool has_bits(const Hypothesis& hypothesis, const ItemLikeness& likeness, std::size_t item);
 
 /// Whether an item came out as the hypothesis has it.
 bool explains(const Hypothesis& hypothesis, const ItemLikeness& likeness, std::size_t item);

@@ -54,6 +54,7 @@ bool ItemCauseFinder::hold(Hypothesis& hypothesis, const Trial& trial, std::int6
             continue;
         ++hypothesis.explained;
         hypothesis.telling += trial.likeness.is_off_by_rounding(item) || !trial.likeness.is_off_by_more(item) ? 0 : 1;
+        hypothesis.equal += hypothesis.rounds() && has_bits(hypothesis, trial.likeness, item) ? 1 : 0;
         hypothesis.distinct += trial.described[item] != 0 ? 0 : 1;
     }
     if (!trial.divergent.empty() && hypothesis.explained == before)
@@ -240,7 +241,8 @@ CauseFindings ItemCauseFinder::of_single(bool beside_description) const {
         if (hypothesis.explained != tried_.front().explained || hypothesis.contradicted != tried_.front().contradicted)
             break;
         // A formula that comes near must be seen where more than rounding shows.
-        if (hypothesis.telling == 0 || (hypothesis.rounds() && 2 * hypothesis.telling < hypothesis.explained))
+        const bool comes_near = hypothesis.rounds() && hypothesis.equal < hypothesis.explained;
+        if (hypothesis.telling == 0 || (comes_near && 2 * hypothesis.telling < hypothesis.explained))
             continue;
         // What has no item to show that the description lacks is another word for it, and fails where that does.
         if (hypothesis.distinct == 0 && !beside_description)

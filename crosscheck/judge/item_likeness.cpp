@@ -98,8 +98,13 @@ bool ItemLikeness::are_within_leeway(std::size_t item, std::span<const std::uint
     const std::span<const double> leeway = leeway_of(item);
     for (std::size_t w = 0; w < parts_.size(); ++w) {
         const Value gpu = pass_.gpu.value(parts_[w].field, item, parts_[w].component), made{gpu.scalar, words[w]};
-        if (!alike(made, gpu) && (leeway.empty() || gpu.scalar != Scalar::float32 ||
-                                  !(std::abs(double{made.real()} - gpu.real()) <= as_near * leeway[w])))
+        if (alike(made, gpu))
+            continue;
+        if (leeway.empty() || gpu.scalar != Scalar::float32)
+            return false;
+        const double right = std::abs(pass_.reference.value(parts_[w].field, item, parts_[w].component).real());
+        const double larger = right > 0.0 ? std::max(1.0, std::abs(double{gpu.real()}) / right) : 1.0;
+        if (!(std::abs(double{made.real()} - gpu.real()) <= as_near * larger * leeway[w]))
             return false;
     }
     return true;

@@ -255,6 +255,10 @@ std::vector<NamedMistake> made() {
     // Ribbons.
     in({"ribbon_distance"}, "distance_missing", "points have no distance", mistake_at(site::way_to_point, zero));
     in({"ribbon_distance"}, "distance_squared", "the distance is squared", mistake_at(site::way_to_point, squared));
+    in({"ribbon"}, "tangent_reversed", "the tangent points back along the ribbon",
+       mistake_at(site::tangent, Change::negated));
+    in({"ribbon"}, "segment_after_reversed", "the segment to the next point is taken from it",
+       mistake_at(site::segment_after, Change::negated));
     in({"ribbon"}, "tangent_one_sided", "the tangent is that of the segment behind",
        mistake_at(site::tangent, instead, -1, &site::segment_after));
     in({"ribbon"}, "mitre_missing", "corners are not mitred", mistake_at(site::is_mitred, never));

@@ -157,9 +157,13 @@ std::vector<NamedMistake> of_glows() {
     static const Mistake lower_y = mistake_at(site::glow_y, Change::half_less);
     const Mistake beside = with(mistake_at(site::centre_x, Change::half_less), drawn);
     return {
-        {"glow_missing", "glows add nothing", "glow_pass", mistake_at(site::glow_colour, Change::zero)},
-        {"glow_through_walls", "glows are seen through what is before them", "glow_pass",
-         mistake_at(site::glow_nearer, Change::always)},
+        {.name = "glow_missing",
+         .meaning = "glows add nothing",
+         .pass = "glow_pass",
+         .mistake = mistake_at(site::glow_colour, Change::zero),
+         .describes = true},
+        {"glow_through_walls", "glows are seen through what is before them: their depth is not tested, or too small",
+         "glow_pass", mistake_at(site::glow_nearer, Change::always)},
         {"glow_square",
          "glows are as large as what is drawn for them",
          "glow_pass",

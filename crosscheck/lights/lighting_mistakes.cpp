@@ -160,7 +160,8 @@ std::vector<NamedMistake> lighting_mistakes() {
             mistake_at(site::inv_voxel, Change::reciprocal));
         add("place_y_and_z_swapped", "a place's y is taken for its z", formula_at(site::grid_place, yz_swapped));
         add("place_x_and_z_swapped", "a place's x is taken for its z", formula_at(site::grid_place, xz_swapped));
-        add("lit_from_behind", "the direction is from the lights to the point",
+        add("lit_from_behind",
+            "surfaces are lit from behind: directions are from the lights to the point, or normals point inwards",
             mistake_at(site::sampled_direction, Change::negated));
         add("lit_from_both_sides", "light from behind lights as light from the front does",
             spoiled_at(site::lambert, of_both_sides));

@@ -34,7 +34,9 @@ struct NormalTwin {
             return words_of<R>(r.note(site::normal, typename R::Vec4{}));
         const Vec3 here = point_at(r, *host, p.x, p.y, map.code().unprojected(stored));
         const auto side = [&](int dx, int dy) { return neighbour(r, map, {p.x, p.y}, {dx, dy}); };
-        const auto right = side(1, 0), left = side(-1, 0), up = side(0, 1), down = side(0, -1);
+        const auto way = [&](At is_right, int right_way) { return r.setting(is_right, true) ? right_way : -right_way; };
+        const auto right = side(way(site::right_is_right, 1), 0), left = side(way(site::left_is_left, -1), 0),
+                   up = side(0, way(site::upper_is_above, 1)), down = side(0, way(site::lower_is_below, -1));
         Vec3 n = r.note(site::facing, Vec3{Real(0.0F), Real(0.0F), Real(1.0F)});
         if ((right.exists || left.exists) && (up.exists || down.exists)) {
             // The published code takes the left on equal steps, and the upper.
@@ -42,17 +44,19 @@ struct NormalTwin {
                 picks(right.exists, left.exists, [&] { return takes_right(r, here, right.point, left.point); });
             const auto upwards =
                 picks(up.exists, down.exists, [&] { return takes_upper(r, here, up.point, down.point); });
-            const auto step_from = [&](At at, const Vec3& before) { return r.note(at, here - before); };
-            const auto step = [&](const auto& on, const auto& after, At at, const auto& before) {
+            struct Step {
+                At on, back;
+            };
+            const auto step = [&](const auto& on, const auto& after, const Step& at, const auto& before) {
                 if constexpr (HasLanes<R>)
                     return choose(on, after.point - here, here - before.point);
                 else if (after.exists && before.exists && !r.setting(site::one_sided, true))
                     return after.point - before.point;
                 else
-                    return on ? after.point - here : step_from(at, before.point);
+                    return on ? r.note(at.on, after.point - here) : r.note(at.back, here - before.point);
             };
-            const Vec3 dx = r.note(site::step_x, step(to_right, right, site::step_left, left)),
-                       dy = r.note(site::step_y, step(upwards, up, site::step_up, down));
+            const Vec3 dx = r.note(site::step_x, step(to_right, right, {site::step_right, site::step_left}, left)),
+                       dy = r.note(site::step_y, step(upwards, up, {site::step_above, site::step_up}, down));
             const Vec3 cross = r.note(
                 site::cross, Vec3{dx.y * dy.z - dx.z * dy.y, dx.z * dy.x - dx.x * dy.z, dx.x * dy.y - dx.y * dy.x});
             if constexpr (requires(const Real& x) { x.legal(); })
@@ -127,14 +131,18 @@ struct NormalTwin {
     }
     template <class Pick> static Pick no_side() { return {}; }
     template <class R, class Vec3> auto takes_right(R& r, const Vec3& here, const Vec3& right, const Vec3& left) const {
+        const bool nearer = r.setting(site::picks_nearer, true);
         if (host->switches().difference_pick == DifferencePick::nearer)
-            return decided(r, site::right_side, right.z > left.z);
-        return decided(r, site::right_side, r.abs(right.z - here.z) < r.abs(here.z - left.z));
+            return decided(r, site::right_side, nearer ? right.z > left.z : right.z < left.z);
+        const auto ahead = r.abs(right.z - here.z), behind = r.abs(here.z - left.z);
+        return decided(r, site::right_side, nearer ? ahead < behind : behind < ahead);
     }
     template <class R, class Vec3> auto takes_upper(R& r, const Vec3& here, const Vec3& up, const Vec3& down) const {
+        const bool nearer = r.setting(site::picks_nearer, true);
         if (host->switches().difference_pick == DifferencePick::nearer)
-            return decided(r, site::upper_side, up.z > down.z);
-        return decided(r, site::upper_side, !(r.abs(here.z - down.z) < r.abs(up.z - here.z)));
+            return decided(r, site::upper_side, nearer ? up.z > down.z : up.z < down.z);
+        const auto behind = r.abs(here.z - down.z), ahead = r.abs(up.z - here.z);
+        return decided(r, site::upper_side, nearer ? !(behind < ahead) : !(ahead < behind));
     }
 };
 

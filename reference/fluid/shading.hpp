@@ -58,13 +58,17 @@ template <class R> struct Shading {
         return {along(0), along(1), along(2)};
     }
     [[nodiscard]] Real specular(const Vec3& light, const Vec3& n, const Vec3& to_eye) const {
-        const Vec3 h = r.note(site::halfway, r.normalize(site::halfway, to_eye + light));
+        const Vec3 h =
+            r.note(site::halfway,
+                   r.normalize(site::halfway, r.setting(site::halfway_by_sum, true) ? to_eye + light : to_eye - light));
         const Real shine = r.note(site::shine, r.max(Real(0.0F), r.dot(site::shine, n, h)));
         return r.note(site::specular, power_of(r, host, shine, 500));
     }
     /// The scene behind, as far aside as the normal leans.
     template <class Place> [[nodiscard]] Vec3 seen_through(const Place& pixel, const Vec3& n, const Vec3& world) const {
-        const Real bend = r.note(site::bend_of, Real(most_bend) * step(r, 0.1F, 0.4F, world.y));
+        const Real bend =
+            r.note(site::bend_of, Real(most_bend) * (r.setting(site::bend_rises, true) ? step(r, 0.1F, 0.4F, world.y)
+                                                                                       : step(r, 0.4F, 0.1F, world.y)));
         const Settings& s = host.settings();
         const auto place = [&](At at, At centre_at, const auto& i, const Real& offset, At size_at, int size) {
             const Real centre = r.note(centre_at, r.real(i) + Real(0.5F));
@@ -95,8 +99,8 @@ template <class R> struct Shading {
         const Vec3 down = r.note(site::down, r.normalize(site::down, world - Vec3{zero, Real(1000.0F), zero}));
         const Real spot = r.note(site::spot, r.max(step(r, 0.95F, 1.0F, r.abs(down.y)), Real(0.05F)));
         const Real facing = r.note(site::lambert, r.dot(site::lambert, light, n));
-        const Real share = r.note(site::wrapped, (facing * spot) * half + half);
-        const Vec3 dark{Real(0.29F), Real(0.379F), Real(0.59F)};
+        const Real share = r.note(site::wrapped, (facing * spot) * half + r.note(site::half_light, half));
+        const Vec3 dark = r.note(site::tint, Vec3{Real(0.29F), Real(0.379F), Real(0.59F)});
         return colour * mixed(dark, Vec3{one, one, one}, share);
     }
     /// Schlick's.

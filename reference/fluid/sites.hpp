@@ -73,7 +73,10 @@ inline constexpr Site flow_scale_x{"Cx"}, flow_scale_y{"Cy"}, flow_step{"u_FlowS
 // Normals.
 inline constexpr Site point{"point", {}, "m"}, neighbour_empty{"neighbour is empty"}, right_side{"right side taken"},
     upper_side{"upper side taken"}, faces_at_edges{"facing where no side is"}, step_left{"step from the left", {}, "m"},
-    step_up{"step from below", {}, "m"}, step_x{"step along x", {}, "m"}, step_y{"step along y", {}, "m"},
+    step_up{"step from below", {}, "m"}, step_right{"step to the right", {}, "m"}, step_above{"step upwards", {}, "m"},
+    picks_nearer{"nearer side is taken"}, right_is_right{"right neighbour is on the right"},
+    left_is_left{"left neighbour is on the left"}, upper_is_above{"upper neighbour is above"},
+    lower_is_below{"lower neighbour is below"}, step_x{"step along x", {}, "m"}, step_y{"step along y", {}, "m"},
     one_sided{"steps are to one side"}, on_own_ray{"neighbour is on its own ray"}, cross{"cross product"},
     has_no_length{"cross product is 0"}, normal{"normal", "normal"}, facing{"facing normal"};
 
@@ -83,9 +86,11 @@ inline constexpr Site is_cleared{"is cleared"}, gain{"u_ThicknessGain"}, addend{
     adds_all{"spheres are added up"}, thickness{"thickness", "thickness"};
 
 // Shading.
-inline constexpr Site to_eye{"direction to the eye"}, inverse_view{"u_InverseView"}, up_row{"y of u_InverseView"},
-    world{"world point", {}, "m"}, light{"direction to the light"}, halfway{"halfway vector"}, shine{"N.h"},
-    specular{"specular"}, share{"share of a step"}, bend_of{"bend"}, offset{"offset of the refracted scene"},
+inline constexpr Site to_eye{"direction to the eye"}, halfway_by_sum{"halfway is a sum"},
+    bend_rises{"high water bends"}, tint{"colour without light"}, half_light{"light from all around"},
+    inverse_view{"u_InverseView"}, up_row{"y of u_InverseView"}, world{"world point", {}, "m"},
+    light{"direction to the light"}, halfway{"halfway vector"}, shine{"N.h"}, specular{"specular"},
+    share{"share of a step"}, bend_of{"bend"}, offset{"offset of the refracted scene"},
     fetch_x{"refracted x", {}, "pixel"}, fetch_y{"refracted y", {}, "pixel"}, base{"base texel"}, fraction{"fraction"},
     scene_texel{"scene texel"}, filtered{"filtered"}, seen{"scene seen through"},
     thickness_in{"thickness at the pixel", {}, "m"}, floor_of_thickness{"u_ThicknessFloor", {}, "m"},

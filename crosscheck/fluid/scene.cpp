@@ -42,9 +42,12 @@ bool set_number(std::string_view setting, ShadingNumbers& numbers) {
             return;
         found = true;
         const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+        if (error == std::errc::result_out_of_range)
+            throw Error(
+                fmt::format("--set {}: {} is beyond what the number holds", name, plain_line(std::string(text))));
         if (error != std::errc() || end != text.data() + text.size())
             throw Error(
-                fmt::format("{}: '{}' is not {}", name, plain_line(std::string(text)),
+                fmt::format("--set {}: '{}' is not {}", name, plain_line(std::string(text)),
                             std::is_same_v<std::decay_t<decltype(value)>, int> ? "a whole number" : "a number"));
     });
     return found;
@@ -68,11 +71,11 @@ void read_switches_and_numbers(const JsonValue& json, const SceneOptions& option
 void read_fluid(const JsonValue& json, Settings& settings) {
     json.check_keys({"radius", "filter_radius", "flow_iterations", "flow_step", "tick"});
     read_field(json, "radius", settings.radius);
-    const auto up_to = [](int most) {
-        return [most](const JsonValue& v) { return static_cast<int>(v.integer(0, most)); };
+    const auto within = [](int least, int most) {
+        return [=](const JsonValue& v) { return static_cast<int>(v.integer(least, most)); };
     };
-    read_field(json, "filter_radius", settings.filter_radius, up_to(most_filter_radius));
-    read_field(json, "flow_iterations", settings.flow_iterations, up_to(most_flow_iterations));
+    read_field(json, "filter_radius", settings.filter_radius, within(0, most_filter_radius));
+    read_field(json, "flow_iterations", settings.flow_iterations, within(1, most_flow_iterations));
     read_field(json, "flow_step", settings.flow_step);
     read_field(json, "tick", settings.tick);
 }

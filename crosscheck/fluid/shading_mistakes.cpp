@@ -292,8 +292,9 @@ void add_shading_mistakes(Of of, const Host& host) {
         .add("fresnel_without_r0", "surfaces seen from above mirror nothing", mistake_at(site::r0, Change::zero))
         .add("fresnel_of_cosine", "the Fresnel term rises where it should fall",
              instead_of(site::grazing, site::cosine))
-        .add("mirror_of_eye", "the direction to the eye is mirrored",
-             mistake_at(site::mirrors_to_eye, Change::inverted))
+        .add("mirror_of_eye", "the direction to the eye is mirrored", mistake_at(site::mirrors_to_eye, Change::always))
+        .add("mirror_from_eye", "the direction from the eye is mirrored",
+             mistake_at(site::mirrors_to_eye, Change::never))
         .add("mirror_not_turned", "the mirrored direction stays in view space", spoiled_at(site::mirror_y, mirrored_y))
         .add("mirror_single", "N.I is taken once", mistake_at(site::along_normal, Change::halved))
         .add("sky_turned", "the sky is below", mistake_at(site::sky_share, Change::opposite))

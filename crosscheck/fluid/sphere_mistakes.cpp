@@ -148,7 +148,9 @@ void add_thickness_mistakes(Of of, const Host& host) {
         .add("not_blended", "the last sphere alone is stored", spoiled_at(site::thickness, last_addend))
         .add("thickness_rounded_down", "units are rounded down", mistake_at(site::half_unit, Change::zero))
         .add("last_sphere_left_out", "the last sphere is left out", mistake_at(site::takes_last_sphere, Change::never));
-    of.add_description("no_thickness", "no sphere has a thickness", mistake_at(site::thickness, Change::zero));
+    const bool is_fixed = host.switches().thickness_sum == ThicknessSum::fixed;
+    of.add_description("no_thickness", "no sphere has a thickness",
+                       mistake_at(is_fixed ? site::quantum : site::thickness, Change::zero));
     of.add("thickness_doubled", "spheres are twice as thick", mistake_at(site::addend, Change::doubled));
     of.add("thickness_gaussian", "spheres are as thick as a Gaussian", formula_at(site::addend, gaussian))
         .add("first_sphere_alone", "the first sphere alone is counted", mistake_at(site::adds_all, Change::never))

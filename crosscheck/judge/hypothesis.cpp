@@ -59,9 +59,11 @@ void add_hosts(std::vector<Hypothesis>& all, const JudgedPass& pass) {
     }
 }
 
-/// The named one that is this change; of a setting that is inverted the one that switches it, if one alone does.
+/// The named one that is this change; of a setting that is inverted the one that switches it, if one alone does. What
+/// is named is made where the setting is not so by itself.
 const NamedMistake* same_among(const std::vector<const NamedMistake*>& exact, const Mistake& mistake,
-                               const std::vector<SeenSite>& sites) {
+                               const std::vector<SeenSite>& sites, const JudgedPass& pass,
+                               const std::vector<std::size_t>& items) {
     const auto found = std::ranges::find(exact, mistake, &NamedMistake::mistake);
     if (found != exact.end())
         return *found;
@@ -70,6 +72,12 @@ const NamedMistake* same_among(const std::vector<const NamedMistake*>& exact, co
     });
     if (!is_setting || mistake.change != Change::inverted)
         return nullptr;
+    const auto is_same = [&](const Mistake& named) {
+        const auto words = [&](const Mistake& made, std::size_t item) {
+            return pass.on_input().mistaken(pass.input(), item, pass.profile, std::array{made});
+        };
+        return std::ranges::all_of(items, [&](std::size_t i) { return words(named, i) == words(mistake, i); });
+    };
     const NamedMistake* only = nullptr;
     for (const NamedMistake* one : exact)
         for (const Change change : {Change::always, Change::never})
@@ -78,7 +86,7 @@ const NamedMistake* same_among(const std::vector<const NamedMistake*>& exact, co
                     return nullptr;
                 only = one;
             }
-    return only;
+    return only != nullptr && is_same(only->mistake) ? only : nullptr;
 }
 
 /// What an item becomes by what is made, of the input or of the state of the frame before.
@@ -155,15 +163,17 @@ std::vector<Hypothesis> hypotheses_of(const std::vector<const NamedMistake*>& na
         add_named(all, *one, pass, items);
     add_hosts(all, pass);
     std::vector<SeenSite> sites;
-    for (const std::size_t item : sample(items, 16))
+    const std::vector<std::size_t> some = sample(items, 16);
+    for (const std::size_t item : some)
         for (const SeenSite& site : pass.on_input().sites(pass.input(), item, pass.profile))
             if (std::find(sites.begin(), sites.end(), site) == sites.end())
                 sites.push_back(site);
     for (const Mistake& mistake : mistakes_at(sites)) {
         if (std::any_of(all.begin(), all.end(), [&](const Hypothesis& h) { return h.made == std::vector{mistake}; }))
             continue;
-        all.push_back(
-            {.made = {mistake}, .alike = same_among(exact, mistake, sites), .text = mistake_text(mistake, sites)});
+        all.push_back({.made = {mistake},
+                       .alike = same_among(exact, mistake, sites, pass, some),
+                       .text = mistake_text(mistake, sites)});
     }
     return all;
 }

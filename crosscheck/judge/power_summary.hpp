@@ -48,7 +48,7 @@ struct PowerSummary {
         for (Mistake& mistake : mistakes)
             if (!mistake.first_frame)
                 mistake.why_not = mistake.changes           ? "what it changes is legal, too"
-                                  : mistake.reasons.empty() ? "it changes nothing in these states"
+                                  : mistake.reasons.empty() ? "it changes none of the items that were tried"
                                                             : mistake.reasons.front();
     }
 };

@@ -15,6 +15,7 @@
 #include "crosscheck/judge/item_cause.hpp"
 #include "crosscheck/judge/item_hint.hpp"
 #include "crosscheck/judge/item_judge.hpp"
+#include "crosscheck/judge/item_sample.hpp"
 #include "crosscheck/judge/power.hpp"
 #include "crosscheck/judge/stopwatch.hpp"
 #include "crosscheck/judge/system_run.hpp"
@@ -221,7 +222,7 @@ class SystemChecker {
         const View agreed = std::as_const(made_)[pass.resource()];
         JudgedPass tried{pass, profile_, known_, frame_, from, agreed, agreed};
         tried.prepare();
-        paces_[p].tried(power_.add(tried, {}));
+        paces_[p].tried(power_.add(tried, items_unlike_most(agreed)));
     }
 
     /// The pass once more, over a pattern in its buffer. Nothing where it cannot be laid: buffers that are changed in

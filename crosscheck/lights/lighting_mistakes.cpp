@@ -143,6 +143,8 @@ std::vector<NamedMistake> lighting_mistakes() {
             mistake_at(site::surface_normal, Change::instead, -1, &site::surface_point));
         add("half_texel_added", "half a texel is added, not taken away", mistake_at(site::half_texel, Change::negated));
         add("texel_cut", "texels before the first are taken for the first", spoiled_at(site::base, texel_cut));
+        add("nearest_by_corners", "the texel whose corner is nearest is taken, not the one around the place",
+            mistake_at(site::nearest_place, Change::half_more));
         add("texel_rounded", "the nearest texel is taken for the one before", spoiled_at(site::base, rounded));
         add("not_interpolated", "of the texels around a place the nearest is taken",
             mistake_at(site::interpolates, Change::never));

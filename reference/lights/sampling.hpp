@@ -50,8 +50,10 @@ template <class R> class SamplingTwin {
     [[nodiscard]] Sample<R> at(const Vec3& u) const {
         const Interpolation how = host_.switches().interpolation;
         switch (r_.setting(site::interpolates, true) ? how : Interpolation::nearest) {
-        case Interpolation::nearest:
-            return texel(whole(r_.floor(u.x)), whole(r_.floor(u.y)), whole(r_.floor(u.z)));
+        case Interpolation::nearest: {
+            const Vec3 place = r_.note(site::nearest_place, u);
+            return texel(whole(r_.floor(place.x)), whole(r_.floor(place.y)), whole(r_.floor(place.z)));
+        }
         case Interpolation::trilinear_hw:
             return filtered(u);
         case Interpolation::tricubic:

@@ -54,14 +54,14 @@ inline constexpr Site eye{"u_Eye"}, normal_sum{"cross product"}, normal_length{"
 // Sampling.
 inline constexpr Site grid_place{"place in the grid"}, inv_voxel{"u_InvVoxelSize"}, interpolates{"interpolates"},
     sample_offset{"offset of a sample"}, sample_place{"place of a sample"}, sample_mean{"1 / samples"},
-    half_texel{"half a texel"}, half_texel_of_four{"half a texel, before four"},
-    own_colour{"colours of their own texture"}, own_direction{"directions of their own texture"},
-    texel_place{"place among texels"}, base{"base texel"}, first_texel{"first texel of four"}, fraction{"fraction"},
-    fraction8{"fraction of 8 bits"}, fractions{"fractions"}, in_grid{"in the grid"}, texel_x{"texel's x"},
-    texel_y{"texel's y"}, texel_z{"texel's z"}, texel{"texel"}, sampled_colour{"sampled colour"},
-    sampled_direction{"sampled direction"}, sampled_count{"sampled count"}, sampled_weight{"sampled weight"},
-    weighed{"fraction of four weights"}, weight_before{"weight of the texel before"}, weights{"four weights"},
-    filtered{"filtered"}, not_below{"colour below 0"};
+    nearest_place{"place whose texel is taken"}, half_texel{"half a texel"},
+    half_texel_of_four{"half a texel, before four"}, own_colour{"colours of their own texture"},
+    own_direction{"directions of their own texture"}, texel_place{"place among texels"}, base{"base texel"},
+    first_texel{"first texel of four"}, fraction{"fraction"}, fraction8{"fraction of 8 bits"}, fractions{"fractions"},
+    in_grid{"in the grid"}, texel_x{"texel's x"}, texel_y{"texel's y"}, texel_z{"texel's z"}, texel{"texel"},
+    sampled_colour{"sampled colour"}, sampled_direction{"sampled direction"}, sampled_count{"sampled count"},
+    sampled_weight{"sampled weight"}, weighed{"fraction of four weights"}, weight_before{"weight of the texel before"},
+    weights{"four weights"}, filtered{"filtered"}, not_below{"colour below 0"};
 
 // Lighting.
 inline constexpr Site length2{"squared length of the direction"}, no_direction{"has no direction"},

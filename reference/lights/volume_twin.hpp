@@ -1,4 +1,5 @@
 #pragma once
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstring>
@@ -10,6 +11,7 @@
 #include "reference/half.hpp"
 #include "reference/lights/contribution.hpp"
 #include "reference/lights/light_order.hpp"
+#include "reference/readings/unspecified.hpp"
 #include "reference/system/item_reads.hpp"
 #include "reference/system/item_twin.hpp"
 #include "reference/system/item_words.hpp"
@@ -258,8 +260,22 @@ struct ScatterTwin {
         });
         Real sum = r.any_order_sum(site::sum, terms);
         if (host->switches().accumulate == Accumulate::racing)
-            sum = r.unspecified(site::sum, sum, -HUGE_VALF, HUGE_VALF);
+            sum = unspecified_within(r, site::sum, sum, of_any_terms(terms));
         return r.note(site::sum, sum);
+    }
+    /// Sums of some of the terms, in any order.
+    template <class Real> static Interval of_any_terms(const std::vector<Real>& terms) {
+        Interval sum;
+        for (const Real& term : terms) {
+            const Interval set = item_twin::set_of(term);
+            if (set.any)
+                return Interval::anything();
+            sum.low += std::min(set.low, 0.0);
+            sum.high += std::max(set.high, 0.0);
+        }
+        // Each addition is off by half an ULP of no more than all of them.
+        const double error = (sum.high - sum.low) * static_cast<double>(terms.size()) * 0x1p-23;
+        return {sum.low - error, sum.high + error};
     }
     template <class R> LegalWord counted(R& r, const PassInput& in, std::size_t item, const Voxel& v) const {
         std::uint32_t count = in.before.word(field::word, item);

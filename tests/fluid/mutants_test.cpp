@@ -75,6 +75,10 @@ fluid::Settings settings_of(const std::string& run) {
         on.filter = fluid::Filter::curvature_flow;
     } else if (run == "fixed") {
         on.thickness_sum = fluid::ThicknessSum::fixed;
+    } else if (run == "mirror") {
+        on.mirror = fluid::Mirror::as_published;
+    } else if (run == "relief_edges") {
+        on.edge_normal = fluid::EdgeNormal::published;
     } else if (run == "floor") {
         s.shading.thickness_floor = 0.3F;
     } else if (run == "near") {
@@ -115,7 +119,8 @@ TEST_CASE("fluid mutants: some of each pass are found and named, and the shipped
     check_mutants("fluid",
                   {"back_of_sphere", "empty_not_skipped", "partner_kept", "cross_turned", "even_discs",
                    "refraction_left_out", "scene_depth_turned", "quadrants_rows_first", "narrow_empty_refused",
-                   "narrow_millimetre_nearer", "disc_a_little_small", "thickness_left_out_here_and_there"},
+                   "narrow_millimetre_nearer", "disc_a_little_small", "thickness_left_out_here_and_there",
+                   "mirror_from_eye", "edges_facing_where_published", "no_thickness_fixed"},
                   run_of);
 }
 
@@ -131,9 +136,9 @@ TEST_CASE("fluid mutants: the shipped shaders agree in every run of the catalogu
     if (!gl())
         return skip(gl().missing());
     for (const std::string run :
-         {"plain",  "ray",       "ndc",    "d24",    "window",      "near_ndc", "builtin", "full2d",
-          "narrow", "quadrants", "flow",   "relief", "relief_flow", "near",     "behind",  "large",
-          "low",    "aside",     "beyond", "fixed",  "floor",       "moves",    "paper"}) {
+         {"plain",     "ray",   "ndc",    "d24",         "window", "near_ndc", "builtin", "full2d", "narrow",
+          "quadrants", "flow",  "relief", "relief_flow", "near",   "behind",   "large",   "low",    "aside",
+          "beyond",    "fixed", "floor",  "moves",       "paper",  "mirror",   "edges"}) {
         INFO(run);
         const std::string verdict = run_of("shaders/fluid", run).verdict;
         const bool leaves_open = run == "builtin" || run == "paper"; // exp and pow

@@ -103,7 +103,7 @@ TEST_CASE("fluid scenes: what is wrong in a scene is one line that names the pla
     CHECK_THAT(told("/fluid/radius", 1e20), Contains("right is above 0.000001, to 1000"));
     CHECK_THAT(told("/fluid/radius", "x"), Contains("/fluid/radius"));
     CHECK_THAT(told("/fluid/filter_radius", 32), Contains("/fluid/filter_radius: 32 is not an integer from 0 to 31"));
-    CHECK_THAT(told("/fluid/flow_iterations", 2000000), Contains("2000000 is not an integer from 0 to 1000"));
+    CHECK_THAT(told("/fluid/flow_iterations", 2000000), Contains("2000000 is not an integer from 1 to 1000"));
     CHECK_THAT(told("/fluid/rest_density", 1000), Contains("rest_density"));
     CHECK_THAT(told("/wave/period", 0), Contains("wave: period is 0 s; right is above 0"));
     CHECK_THAT(told("/render", nlohmann::json::array({800})), Contains("right is its width and height"));

@@ -39,6 +39,10 @@ lights::Settings settings_of(const std::string& run) {
     lights::Settings s = mutants_room();
     if (run == "fixed64" || run == "fixed32") {
         s.switches.accumulate = run == "fixed64" ? lights::Accumulate::fixed64 : lights::Accumulate::fixed32;
+    } else if (run == "nearest") {
+        s.switches.interpolation = lights::Interpolation::nearest;
+    } else if (run == "racing") {
+        s.switches.accumulate = lights::Accumulate::racing;
     } else if (run == "cubic") {
         s.switches.interpolation = lights::Interpolation::tricubic;
         s.switches.supersample = lights::Supersample::one;

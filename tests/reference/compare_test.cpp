@@ -2,8 +2,10 @@
 
 #include <cmath>
 #include <limits>
+#include <utility>
 
 #include "crosscheck/judge/compare.hpp"
+#include "crosscheck/judge/item_sample.hpp"
 #include "reference/model/collision/collision_state.hpp"
 #include "reference/model/ulp.hpp"
 
@@ -40,6 +42,16 @@ TEST_CASE("ulp: a sign flip and a NaN are far") {
     CHECK(ulp_distance(1.0F, -1.0F) == 2 * std::int64_t{0x3f800000});
     CHECK(ulp_distance(1.0F, quiet_nan) == INT64_MAX);
     CHECK(ulp_distance(quiet_nan, -quiet_nan) == 0);
+}
+
+TEST_CASE("item sample: what is unlike the background is found wherever it lies, and of items all unlike none") {
+    Particles background;
+    background.resize(3000);
+    background.position[17].x = 1.0F;
+    background.collide_time[2999] = -1.0F;
+    CHECK(items_unlike_most(view(std::as_const(background))) == std::vector<std::size_t>{17, 2999});
+    const Particles all_unlike = particles(3000);
+    CHECK(items_unlike_most(view(all_unlike)).empty());
 }
 
 TEST_CASE("compare: equal states agree, and everything was compared") {

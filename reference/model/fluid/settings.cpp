@@ -66,8 +66,8 @@ double nearest_surface(const Settings& s) {
 }
 
 void check_flow(const Settings& s) {
-    expect(s.flow_iterations >= 0 && s.flow_iterations <= most_flow_iterations,
-           "flow_iterations is {}; right is 0 to {}", s.flow_iterations, most_flow_iterations);
+    expect(s.flow_iterations >= 1 && s.flow_iterations <= most_flow_iterations,
+           "flow_iterations is {}; right is 1 to {}", s.flow_iterations, most_flow_iterations);
     expect(is_positive(s.flow_step), "flow_step is {}; right is above 0", s.flow_step);
     if (s.switches.filter != Filter::curvature_flow)
         return;

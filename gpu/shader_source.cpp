@@ -148,6 +148,12 @@ struct File {
     std::string text;
 };
 
+/// An error where the preprocessor comes to the line, and none where it does not.
+struct NotIncluded : Error {
+    NotIncluded(const std::string& where, const std::string& what) : Error(where + what), why(what) {}
+    std::string why;
+};
+
 /// `file` may be a SPIR-V module, with an ending more.
 File find(const ShaderFolders& folders, const ShaderTexts& texts, const std::string& file, const std::string& where) {
     if (const auto made = texts.find(file); made != texts.end())
@@ -164,7 +170,7 @@ File find(const ShaderFolders& folders, const ShaderTexts& texts, const std::str
             return {folder / file, std::move(*text)};
         tried += fmt::format("{}{}", tried.empty() ? "" : " or ", shown(folder));
     }
-    throw Error(fmt::format("{}no shader file {} in {}", where, file, tried));
+    throw NotIncluded(where, fmt::format("no shader file {} in {}", file, tried));
 }
 
 /// Of "NAME.vert.spv"; nothing for another file.
@@ -249,9 +255,16 @@ class Assembly {
         std::string line;
         for (int number = 1; std::getline(lines, line); ++number) {
             if (const auto included = directive(line, "include")) {
-                include(*included, fmt::format("shader {}:{}: ", shown(path), number));
+                try {
+                    include(*included, fmt::format("shader {}:{}: ", shown(path), number));
+                } catch (const NotIncluded& error) {
+                    if (conditions_ == 0)
+                        throw;
+                    append_line(fmt::format("#error {}", error.why), {file, number}); // the branch may not be taken
+                }
                 continue;
             }
+            note_condition(line);
             append_line(line, {file, number});
             if (const auto version = directive(line, "version"); version && !has_version_) {
                 check_version(*version, fmt::format("shader {}:{}: ", shown(path), number));
@@ -261,6 +274,12 @@ class Assembly {
             }
         }
         open_.pop_back();
+    }
+
+    void note_condition(std::string_view line) {
+        for (const std::string_view begin : {"if", "ifdef", "ifndef"})
+            conditions_ += directive(line, begin) ? 1 : 0;
+        conditions_ -= directive(line, "endif") && conditions_ > 0 ? 1 : 0;
     }
 
     void append_line(const std::string& line, ShaderSource::Origin origin) {
@@ -274,10 +293,10 @@ class Assembly {
     void include(std::string_view argument, const std::string& where) {
         const std::size_t end = argument.find('"', 1);
         if (!argument.starts_with('"') || end == std::string_view::npos || end == 1)
-            throw Error(fmt::format("{}#include needs a file name in double quotes", where));
+            throw NotIncluded(where, "#include needs a file name in double quotes");
         const auto [path, text] = find(folders_, texts_, std::string(argument.substr(1, end - 1)), where);
         if (std::find(open_.begin(), open_.end(), path) != open_.end())
-            throw Error(fmt::format("{}{} includes itself", where, shown(path)));
+            throw NotIncluded(where, fmt::format("{} includes itself", shown(path)));
         if (source_.bindings == nullptr) // a shipped stage with a file of the user's in it
             source_.bindings = bindings_beside(path);
         append(path, text);
@@ -289,6 +308,7 @@ class Assembly {
     ShaderSource source_;
     std::vector<fs::path> open_; ///< files being read, outermost first
     bool has_version_ = false;
+    int conditions_ = 0; ///< that the line lies in
 };
 
 std::string upper(std::string_view text) {

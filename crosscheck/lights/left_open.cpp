@@ -32,7 +32,7 @@ std::vector<std::string> left_open(const Switches& on, const Profile& profile) {
         lines.push_back(fmt::format("{}: floats are added in an order that nothing fixes, so legal is {}; "
                                     "accumulate=gather and fixed64 promise bits",
                                     on.accumulate == Accumulate::racing ? "accumulate=racing" : "float atomics",
-                                    on.accumulate == Accumulate::racing ? "any sum, some lights being lost"
+                                    on.accumulate == Accumulate::racing ? "the sum of any of the lights, and so is none"
                                                                         : "what any order gives"));
     return lines;
 }

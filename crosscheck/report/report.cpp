@@ -330,8 +330,8 @@ std::string report_text(const CheckReport& r, const RunDescription& run) {
     if (r.verdict == Verdict::divergent && r.wider_rule && !(r.verdicts && names_cause(*r.verdicts)))
         line("hint",
              fmt::format(
-                 "none of those that were tried is wrong by{}: a right shader that writes the same in another way "
-                 "rounds otherwise than what was measured",
+                 "none of those that were tried is wrong by{}: the shader may be right and write the same in another "
+                 "way, which rounds otherwise than what was measured, or be wrong by no more than that",
                  legal_option_text(*r.wider_rule)));
     if (r.verdicts)
         out += verdict_text(*r.verdicts, r.schema, extents(r));

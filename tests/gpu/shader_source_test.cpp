@@ -114,6 +114,24 @@ TEST_CASE("shader source: what is wrong with a file is told with file and line")
                       "shader " + where + "/y.glsl:2: " + where + "/x.glsl includes itself");
 }
 
+TEST_CASE("shader source: what a branch would include is the preprocessor's to ask for") {
+    const TemporaryFolder folder;
+    const ShaderFolders folders{folder.path()};
+    folder.write("a.vert", "#version 330\n#if 0\n#include \"gone.glsl\"\n#include <of_another.h>\n#include \"a.vert\"\n"
+                           "#endif\nvoid main() {}\n");
+    const ShaderSource source = load_stage(folders, "a", Stage::vertex);
+    CHECK(source.text ==
+          fmt::format("#version 330\n#if 0\n#error no shader file gone.glsl in {0}\n"
+                      "#error #include needs a file name in double quotes\n#error {0}/a.vert includes itself\n"
+                      "#endif\nvoid main() {{}}\n",
+                      folder.path().string()));
+    CHECK(source.origins.size() == 7);
+    folder.write("b.vert", "#version 330\n#ifndef B\n#define B\n#endif\n#include \"gone.glsl\"\n");
+    CHECK_THROWS_WITH(load_stage(folders, "b", Stage::vertex), "shader " + folder.path().string() +
+                                                                   "/b.vert:5: no shader file gone.glsl in " +
+                                                                   folder.path().string());
+}
+
 TEST_CASE("shader source: includes that grow without end are refused, soon") {
     const TemporaryFolder folder;
     const std::string file = folder.write("a.vert", "#version 330\n#include \"0.glsl\"\n").string();

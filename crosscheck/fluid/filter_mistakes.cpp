@@ -138,6 +138,7 @@ void of_flow(Of& of, const Host& host) {
              mistake_at(site::zxy, Change::doubled))
         .add("curvature_not_halved", "the curvature is that of both axes together, not their mean",
              mistake_at(site::curvature, Change::doubled))
+        .add("flow_step_doubled", "a step is twice as long", mistake_at(site::flow_step, Change::doubled))
         .add("flow_mixed_turned", "the mixed derivative is negated", mistake_at(site::zxy, Change::negated))
         .add("flow_without_depth", "the term of the depth itself is left out", spoiled_at(site::e0, without_depth_term))
         .add("flow_not_halved", "the derivatives of the root are not halved",

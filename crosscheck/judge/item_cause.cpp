@@ -272,11 +272,6 @@ CauseFindings ItemCauseFinder::of_single(bool beside_description) const {
 CauseFindings ItemCauseFinder::findings() const {
     CauseFindings found = joint_.findings();
     const bool one_name = found.explains_all() && found.best.front().mistakes.size() == 1;
-    const auto is_best = [&](const Hypothesis& description) {
-        return description.names() == found.best.front().mistakes;
-    };
-    if (one_name && std::any_of(describing_.begin(), describing_.end(), is_best))
-        return found; // names beside it are guesses
     const CauseFindings single = of_single(one_name);
     const auto is_told = [&](const Cause& cause) {
         return std::any_of(found.best.begin(), found.best.end(), [&](const Cause& told) {

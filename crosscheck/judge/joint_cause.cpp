@@ -172,9 +172,6 @@ CauseFindings JointCauses::findings() const {
     for (const TriedCause& cause : sorted) {
         if (cause.explained == 0 || (!found.best.empty() && better(sorted.front(), cause)))
             break;
-        // Beside what says all that is seen, others are guesses.
-        if (is_whole(sorted.front(), divergent_) && describes(sorted.front()) && !describes(cause))
-            break;
         found.best.push_back(as_cause(cause));
     }
     return found;

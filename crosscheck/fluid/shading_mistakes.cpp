@@ -282,7 +282,8 @@ void add_shading_mistakes(Of of, const Host& host) {
              mistake_at(site::floor_of_thickness, Change::zero))
         .add("spot_left_out", "light is the same everywhere", mistake_at(site::spot, Change::one))
         .add("not_wrapped", "light is not wrapped around", instead_of(site::wrapped, site::lambert))
-        .add("shade_turned", "red and blue of what has no light are swapped", mistake_at(site::tint, Change::xz_swapped))
+        .add("shade_turned", "red and blue of what has no light are swapped",
+             mistake_at(site::tint, Change::xz_swapped))
         .add("quarter_around", "from all around comes half as much light", mistake_at(site::half_light, Change::halved))
         .add("diffuse_left_out", "there is no diffuse light", mistake_at(site::diffuse, Change::zero))
         .add("fresnel_turned", "mirror and refraction are swapped", spoiled_at(site::surface, mirror_for_refraction))

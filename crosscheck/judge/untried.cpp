@@ -4,6 +4,8 @@
 
 #include <fmt/format.h>
 
+#include "crosscheck/judge/compare.hpp"
+
 namespace lockstep {
 namespace {
 
@@ -13,19 +15,6 @@ bool are_alike(const View& items) {
         const std::size_t bytes = static_cast<std::size_t>(items.fields()[f].components) * sizeof(std::uint32_t);
         if (items.count() > 1 &&
             std::memcmp(items.columns[f], items.columns[f] + bytes, (items.count() - 1) * bytes) != 0)
-            return false;
-    }
-    return true;
-}
-
-/// Whether they have the same items, to the last bit.
-bool are_same(const View& a, const View& b) {
-    if (a.count() != b.count())
-        return false;
-    for (std::size_t f = 0; f < a.columns.size(); ++f) {
-        const std::size_t bytes = static_cast<std::size_t>(a.fields()[f].components) * sizeof(std::uint32_t);
-        const bool is_given = a.columns[f] != nullptr && b.columns[f] != nullptr;
-        if (is_given && a.columns[f] != b.columns[f] && std::memcmp(a.columns[f], b.columns[f], a.count() * bytes) != 0)
             return false;
     }
     return true;
@@ -43,7 +32,7 @@ std::string listed(const std::vector<std::string>& words) {
 
 void UntriedParts::note(const ItemPass& pass, const View& from, const View& made) {
     Effect& effect = effects_.try_emplace(std::string(pass.name()), Effect{.derived = pass.derived()}).first->second;
-    effect.changes = effect.changes || !are_same(from, made);
+    effect.changes = effect.changes || from.count() != made.count() || !differing_items(from, made).empty();
     if (made.about().dimensions < 2)
         return;
     const auto [known, is_first] = uniform_.emplace(pass.resource(), true);

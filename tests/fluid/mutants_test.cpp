@@ -136,9 +136,9 @@ TEST_CASE("fluid mutants: the shipped shaders agree in every run of the catalogu
     if (!gl())
         return skip(gl().missing());
     for (const std::string run :
-         {"plain",     "ray",   "ndc",    "d24",         "window", "near_ndc", "builtin", "full2d", "narrow",
-          "quadrants", "flow",  "relief", "relief_flow", "near",   "behind",   "large",   "low",    "aside",
-          "beyond",    "fixed", "floor",  "moves",       "paper",  "mirror",   "edges"}) {
+         {"plain",     "ray",   "ndc",    "d24",         "window", "near_ndc", "builtin",     "full2d", "narrow",
+          "quadrants", "flow",  "relief", "relief_flow", "near",   "behind",   "large",       "low",    "aside",
+          "beyond",    "fixed", "floor",  "moves",       "paper",  "mirror",   "relief_edges"}) {
         INFO(run);
         const std::string verdict = run_of("shaders/fluid", run).verdict;
         const bool leaves_open = run == "builtin" || run == "paper"; // exp and pow

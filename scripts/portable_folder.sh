@@ -24,6 +24,9 @@ mv "$folder/bin/lockstep" "$folder/libexec/"
 cat >"$folder/bin/lockstep" <<'END'
 #!/bin/sh
 folder=$(dirname "$(dirname "$(readlink -f "$0")")")
+# The loader takes an empty entry for the current folder.
+LD_LIBRARY_PATH=$(printf %s "${LD_LIBRARY_PATH-}" | tr -s : | sed 's/^://; s/:$//')
+if [ -n "$LD_LIBRARY_PATH" ]; then export LD_LIBRARY_PATH; else unset LD_LIBRARY_PATH; fi
 "$folder/libexec/lockstep" --help >/dev/null 2>&1 ||
     export LD_LIBRARY_PATH="$folder/lib/runtime${LD_LIBRARY_PATH:+:$LD_LIBRARY_PATH}"
 exec "$folder/libexec/lockstep" "$@"

@@ -68,6 +68,17 @@ class Messages {
     int file_;
 };
 
+/// The program in the first folder of PATH that has it; empty: none has. Only absolute folders count: an empty entry
+/// would be the current folder.
+std::string gnuplot_program() {
+    const char* path = std::getenv("PATH");
+    std::istringstream folders(path == nullptr ? "/usr/bin:/bin" : path);
+    for (std::string folder; std::getline(folders, folder, ':');)
+        if (std::string program = folder + "/gnuplot"; folder.starts_with('/') && access(program.c_str(), X_OK) == 0)
+            return program;
+    return "";
+}
+
 /// gnuplot between two pipes: no shell, and no file.
 pid_t start_gnuplot(const Pipe& in, const Pipe& out, const Messages& messages) {
     posix_spawn_file_actions_t files;
@@ -82,10 +93,10 @@ pid_t start_gnuplot(const Pipe& in, const Pipe& out, const Messages& messages) {
     sigaddset(&ignored, SIGPIPE);
     posix_spawnattr_setsigdefault(&attributes, &ignored);
     posix_spawnattr_setflags(&attributes, POSIX_SPAWN_SETSIGDEF);
-    std::string program = "gnuplot";
-    std::array<char*, 2> arguments{program.data(), nullptr};
+    std::string name = "gnuplot";
+    std::array<char*, 2> arguments{name.data(), nullptr};
     pid_t child = -1;
-    const int failed = posix_spawnp(&child, "gnuplot", &files, &attributes, arguments.data(), environ);
+    const int failed = posix_spawn(&child, gnuplot_program().c_str(), &files, &attributes, arguments.data(), environ);
     posix_spawn_file_actions_destroy(&files);
     posix_spawnattr_destroy(&attributes);
     if (failed != 0)
@@ -121,14 +132,7 @@ std::string exchange(Pipe& in, Pipe& out, std::string_view text) {
 
 } // namespace
 
-bool have_gnuplot() {
-    const char* path = std::getenv("PATH");
-    std::istringstream folders(path == nullptr ? "/usr/bin:/bin" : path);
-    for (std::string folder; std::getline(folders, folder, ':');)
-        if (access(((folder.empty() ? "." : folder) + "/gnuplot").c_str(), X_OK) == 0)
-            return true;
-    return false;
-}
+bool have_gnuplot() { return !gnuplot_program().empty(); }
 
 std::string run_gnuplot(const std::string& script) {
     Pipe in, out;

@@ -60,6 +60,21 @@ TEST_CASE("study: a chart, or one line that says what is missing, before the run
     CHECK(test::names_in(output.path()).empty());
 }
 
+TEST_CASE("study: a gnuplot in the current folder is not run for an empty entry of PATH") {
+    const test::TemporaryFolder current;
+    const auto gnuplot = current.write("gnuplot", "#!/bin/sh\ntouch ran\n");
+    std::filesystem::permissions(gnuplot, std::filesystem::perms::owner_all);
+    test::Surroundings surroundings;
+    surroundings.folder = current.path().string();
+    for (const char* path : {"", ":", "/nowhere:", ".", "::/nowhere"}) {
+        CAPTURE(path);
+        surroundings.environment = {{"PATH", path}};
+        CHECK_THAT(refusal(run_lockstep({"study", scene(), "--frames", "2", "--chart", "a.svg"}, surroundings)),
+                   Catch::Contains("gnuplot is not installed"));
+        CHECK(test::names_in(current.path()) == std::vector<std::string>{"gnuplot"});
+    }
+}
+
 TEST_CASE("study: gnuplot is given the chart by a pipe, whatever the temporary folder is called") {
     const test::TemporaryFolder programs, output;
     const auto gnuplot = programs.write("gnuplot", "#!/bin/sh\ncat\n");

@@ -153,6 +153,11 @@ sed -i 's/a_Velocity + u_Gravity \* u_Tick/a_Velocity/' signal/signal_step.vert
 ends_with 1 signal/build/signal check --frames 5
 says 'explained by gravity_missing'
 
+# No program of these projects looks for libraries in the current folder.
+. "$source/tests/package/library_folders.sh"
+unfit_library_folders build signal >out.txt
+[ ! -s out.txt ] || fail "these look for libraries in the current folder"
+
 # The shaders are the package's.
 echo 'not GLSL' >>prefix/share/lockstep/shaders/collision/collision_pass.frag
 ends_with 8 ctest --test-dir build -V

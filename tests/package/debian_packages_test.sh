@@ -22,6 +22,8 @@ done
 dpkg-deb -f "$program" Depends | grep -q 'libegl1.*libc6' || fail "the program does not name the libraries that it needs"
 dpkg-deb -f "$library" Depends | grep -q 'lockstep (= .*libhdf5-dev' || fail "the library does not name its parts"
 
+. "$1/tests/package/library_folders.sh"
+[ -z "$(unfit_library_folders "$folder/root")" ] || fail "unpacked programs look for libraries in $(unfit_library_folders "$folder/root")"
 root=$folder/root/usr
 [ "$("$root/bin/lockstep" --version)" = "lockstep $(dpkg-deb -f "$program" Version)" ] || fail "another version runs"
 "$root/bin/lockstep" hash "$root/share/lockstep/scenes/lattice.json" --particles 100 --frames 2 >/dev/null ||

@@ -22,6 +22,17 @@ for library in libstdc++ libgcc_s libz; do
     ! grep -qF "$library.so" "$work/own.txt" || fail "$library is its own, not the machine's"
 done
 
+# Nothing of the current folder is loaded, whatever empty entries the search path has.
+. "$1/tests/package/library_folders.sh"
+[ -z "$(unfit_library_folders "$folder")" ] || fail "it looks for libraries in $(unfit_library_folders "$folder")"
+mkdir "$work/planted"
+plant_libraries "$folder/libexec/lockstep" "$work/planted"
+cd "$work/planted"
+for entries in : :: /nowhere: ::/nowhere; do
+    LD_LIBRARY_PATH=$entries "$work/lockstep" --version >"$work/out.txt" 2>&1 || fail "a library of the current folder is loaded with LD_LIBRARY_PATH=$entries"
+done
+cd /
+
 # A program that starts with the libraries brought along alone.
 cat >"$folder/libexec/lockstep" <<'END'
 #!/bin/sh

@@ -21,6 +21,7 @@ demo=(
     libedit-dev                                   # typed commands: editing, history, completion
     libseccomp-dev                                # the fence around the process that reads one
     libspirv-cross-c-shared-dev                   # shaders in SPIR-V: what they declare, and their GLSL
+    glslang-dev                                   # shaders' own texts, compiled to SPIR-V in process
     libgl-dev libegl-dev                          # GL headers; the libraries are opened at run time
     libegl1 libgl1-mesa-dri                       # contexts without a GPU
 )

@@ -22,7 +22,7 @@ bool starts_with_any(const std::string& text, const std::vector<std::string>& pr
 }
 
 /// The jobs of crosscheck/, each knowing those before it.
-const std::vector<std::string> jobs{"files", "scene", "judge", "report", "record", "command", "package", "cli"};
+const std::vector<std::string> jobs{"files", "scene", "text", "judge", "report", "record", "command", "package", "cli"};
 
 /// The place of a file's job among them; nothing of files that are no job's.
 std::optional<std::size_t> job_of(const std::string& file) {
@@ -33,7 +33,7 @@ std::optional<std::size_t> job_of(const std::string& file) {
 }
 
 /// What every system goes through: it knows none.
-const std::set<std::string> machinery_jobs{"files", "judge", "report", "record"};
+const std::set<std::string> machinery_jobs{"files", "text", "judge", "report", "record"};
 
 /// Whether a file does what verbs do on any system.
 bool runs_any_system(const std::string& file) {
@@ -44,7 +44,7 @@ bool runs_any_system(const std::string& file) {
 /// The system in whose folder a file of both sides lies; nothing of what is every system's.
 std::optional<std::string> system_of(const std::string& file) {
     static const std::regex folder("(?:reference/model|reference|gpu)/([a-z_]+)/.*");
-    static const std::set<std::string> machinery{"model", "readings", "system", "probe"};
+    static const std::set<std::string> machinery{"model", "readings", "system", "probe", "text"};
     std::smatch match;
     if (!std::regex_match(file, match, folder) || machinery.contains(match[1].str()))
         return {};

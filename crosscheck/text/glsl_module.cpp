@@ -1,0 +1,74 @@
+#include "crosscheck/text/glsl_module.hpp"
+
+#include <filesystem>
+#include <mutex>
+
+#include <fmt/format.h>
+#include <glslang/Public/ResourceLimits.h>
+#include <glslang/Public/ShaderLang.h>
+#include <glslang/SPIRV/GlslangToSpv.h>
+
+#include "gpu/shader_log.hpp"
+#include "gpu/spirv_module.hpp"
+#include "reference/model/error.hpp"
+
+namespace lockstep {
+namespace {
+
+EShLanguage language(Stage stage) {
+    switch (stage) {
+    case Stage::vertex:
+        return EShLangVertex;
+    case Stage::geometry:
+        return EShLangGeometry;
+    case Stage::fragment:
+        return EShLangFragment;
+    case Stage::compute:
+        break;
+    }
+    return EShLangCompute;
+}
+
+} // namespace
+
+std::vector<std::uint32_t> spirv_of(const ShaderSource& stage) {
+    if (stage.module != nullptr)
+        return stage.module->words;
+    static const bool is_ready = glslang::InitializeProcess();
+    static std::mutex mutex; // glslang's pools are a thread's own, its tables are not
+    const std::scoped_lock lock(mutex);
+    if (!is_ready)
+        throw Error("glslang does not start");
+    constexpr int gl_version = 450;
+    const EShLanguage in = language(stage.stage);
+    const auto messages = static_cast<EShMessages>(EShMsgSpvRules | EShMsgDebugInfo);
+    glslang::TShader shader(in);
+    const char* text = stage.text.c_str();
+    shader.setStrings(&text, 1);
+    shader.setEnvInput(glslang::EShSourceGlsl, in, glslang::EShClientOpenGL, 100);
+    shader.setEnvClient(glslang::EShClientOpenGL, glslang::EShTargetOpenGL_450);
+    shader.setEnvTarget(glslang::EShTargetSpv, glslang::EShTargetSpv_1_3);
+    shader.setAutoMapBindings(true);
+    shader.setAutoMapLocations(true);
+    if (!shader.parse(GetDefaultResources(), gl_version, false, messages))
+        throw Error(fmt::format("shader {}", first_compile_error(shader.getInfoLog(), stage)));
+    glslang::TProgram program;
+    program.addShader(&shader);
+    if (!program.link(messages) || !program.mapIO())
+        throw Error(fmt::format("shader {}: {}", stage.files.front(), first_link_error(program.getInfoLog())));
+    std::vector<std::uint32_t> words;
+    glslang::SpvOptions options;
+    options.generateDebugInfo = true;
+    options.disableOptimizer = true;
+    glslang::GlslangToSpv(*program.getIntermediate(in), words, &options);
+    return words;
+}
+
+std::string line_name(const ShaderSource& stage, std::uint32_t line) {
+    if (line == 0 || line > stage.origins.size())
+        return std::filesystem::path(stage.files.front()).filename().string();
+    const ShaderSource::Origin& origin = stage.origins[line - 1];
+    return fmt::format("{}:{}", std::filesystem::path(stage.files[origin.file]).filename().string(), origin.line);
+}
+
+} // namespace lockstep

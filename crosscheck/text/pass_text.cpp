@@ -1,0 +1,195 @@
+#include "crosscheck/text/pass_text.hpp"
+
+#include <algorithm>
+#include <cstring>
+#include <utility>
+
+#include <fmt/format.h>
+
+#include "crosscheck/text/glsl_module.hpp"
+#include "gpu/gl_system_blocks.hpp"
+#include "gpu/state_image.hpp"
+#include "reference/model/error.hpp"
+
+namespace lockstep {
+namespace {
+
+std::shared_ptr<const ShaderSource> source_of(const GlPass& pass, const ShaderFolders& folders,
+                                              ArithmeticSwitch arithmetic) {
+    const StageInput input = stage_input(pass, arithmetic);
+    const std::array stages{Stage::compute};
+    return std::make_shared<ShaderSource>(load_stages(folders, pass.name, stages, input.defines, input.texts).front());
+}
+
+text::Program program_of(const std::shared_ptr<const ShaderSource>& source) {
+    return text::decoded(
+        text::read_module(spirv_of(*source), [source](std::uint32_t line) { return line_name(*source, line); }));
+}
+
+std::vector<std::uint32_t> words_of(const UniformValue& value) {
+    return std::visit(
+        []<class T>(const T& v) {
+            std::vector<std::uint32_t> words(sizeof v / sizeof(std::uint32_t));
+            std::memcpy(words.data(), &v, sizeof v);
+            return words;
+        },
+        value);
+}
+
+/// The items of a view as records: the words of each component, one after the other.
+std::vector<std::uint32_t> records_of(const View& view, std::span<const Component> record) {
+    std::vector<std::uint32_t> words(view.count() * record.size());
+    for (std::size_t k = 0; k < record.size(); ++k)
+        for (std::size_t item = 0; item < view.count(); ++item)
+            words[item * record.size() + k] = view.value(record[k].field, item, record[k].component).bits;
+    return words;
+}
+
+void set_items(const WritableView& view, std::span<const Component> record, std::span<const std::uint32_t> words) {
+    for (std::size_t k = 0; k < record.size(); ++k) {
+        const auto components = static_cast<std::size_t>(view.fields()[record[k].field].components);
+        std::byte* const column = view.columns[record[k].field];
+        for (std::size_t item = 0; item < view.count(); ++item)
+            std::memcpy(column + (item * components + static_cast<std::size_t>(record[k].component)) * sizeof words[0],
+                        &words[item * record.size() + k], sizeof words[0]);
+    }
+}
+
+std::vector<Component> texel_record(const Resource& image) {
+    std::vector<Component> record;
+    for (int c = 0; c < image.fields.front().components; ++c)
+        record.push_back({0, c});
+    return record;
+}
+
+} // namespace
+
+PassText::PassText(const Schema& schema, GlPass pass, std::vector<std::uint8_t> written, const ShaderFolders& folders,
+                   ArithmeticSwitch arithmetic)
+    : schema_(schema), pass_(std::move(pass)), written_(std::move(written)),
+      source_(source_of(pass_, folders, arithmetic)), program_(program_of(source_)) {
+    if (source_->bindings != nullptr)
+        throw Error(fmt::format("{}: a shader with {} beside it is not interpreted", pass_.name, bindings_file));
+    for (const text::Block& block : program_.blocks)
+        blocks_.push_back(block_named(block.name));
+    for (const text::ImageUniform& image : program_.images)
+        images_.push_back(image_named(image.name));
+}
+
+bool PassText::writes(std::uint8_t resource) const {
+    return std::find(written_.begin(), written_.end(), resource) != written_.end();
+}
+
+PassText::Bound PassText::block_named(const std::string& name) const {
+    for (const SystemStorage& storage : storages_of(schema_)) {
+        Bound bound{.kind = Bound::Kind::after, .resource = storage.layout.resource};
+        if (storage.block.empty() && name == shader_name(storage.layout.about().name) + "Before")
+            bound.kind = Bound::Kind::before;
+        else if (name != written_block(schema_, storage))
+            continue;
+        for (const RecordLayout::Member& member : storage.layout.members)
+            for (int c = 0; c < storage.layout.field(member).components; ++c)
+                bound.record.push_back({member.field, c});
+        return bound;
+    }
+    if (!pass_.data.contains(name))
+        throw Error(fmt::format("{}: nothing is given for storage block {}", pass_.name, name));
+    return {.kind = Bound::Kind::data, .name = name};
+}
+
+PassText::Bound PassText::image_named(const std::string& name) const {
+    for (std::uint8_t r = 0; r < schema_.resources.size(); ++r) {
+        const std::string ours = "u_" + shader_name(schema_.resources[r].name);
+        if (schema_.resources[r].dimensions > 1 && (name == ours + "Before" || name == ours + "After"))
+            return {.kind = name == ours + "After" ? Bound::Kind::after : Bound::Kind::before,
+                    .resource = r,
+                    .record = texel_record(schema_.resources[r])};
+    }
+    throw Error(fmt::format("{}: nothing is given for image {}", pass_.name, name));
+}
+
+std::size_t PassText::items(const PassInput& in) const {
+    return pass_.invocations ? pass_.invocations(in.frame) : in.before[pass_.resource].count();
+}
+
+std::array<std::uint32_t, 3> PassText::groups(const PassInput& in) const {
+    constexpr std::uint32_t most_groups = 65535; // that every GL has (GlSystem)
+    const auto over = [](std::size_t items, std::size_t of) {
+        return static_cast<std::uint32_t>((items + of - 1) / of);
+    };
+    if (pass_.indirect) {
+        std::array<std::uint32_t, 3> counts{};
+        for (int c = 0; c < 3; ++c)
+            counts[static_cast<std::size_t>(c)] = in.before.word(pass_.indirect->field, pass_.indirect->item, c);
+        if (std::all_of(counts.begin(), counts.end(), [](std::uint32_t n) { return n <= most_groups; }))
+            return counts;
+    } else if (schema_.resources[pass_.resource].dimensions > 1 && !pass_.invocations) {
+        const Extent& extent = in.before[pass_.resource].extent;
+        return {over(extent.width, program_.group[0]), over(extent.height, program_.group[1]),
+                over(extent.depth, program_.group[2])};
+    }
+    return {over(items(in), program_.invocations()), 1, 1};
+}
+
+std::vector<std::vector<std::uint32_t>> PassText::uniforms(const PassInput& in) const {
+    Uniforms given = pass_.uniforms ? pass_.uniforms(in.frame) : Uniforms{};
+    given["u_ItemCount"] = static_cast<unsigned>(in.before[pass_.resource].count());
+    std::vector<std::vector<std::uint32_t>> all;
+    for (const text::PlainUniform& uniform : program_.uniforms) {
+        const auto found = given.find(uniform.name);
+        all.push_back(found == given.end() ? std::vector<std::uint32_t>{} : words_of(found->second));
+        if (found != given.end() && all.back().size() != uniform.cells)
+            throw Error(fmt::format("{}: uniform {} has {} words; {} are given", pass_.name, uniform.name,
+                                    uniform.cells, all.back().size()));
+    }
+    return all;
+}
+
+void PassText::run(const PassInput& in, const Profile& profile, SystemState& after, text::Findings& findings) const {
+    using Kind = Bound::Kind;
+    std::vector<std::vector<std::uint32_t>> words; // of blocks, then of images
+    for (const auto* const all : {&blocks_, &images_})
+        for (const Bound& bound : *all)
+            if (bound.kind == Kind::data) {
+                std::vector<float> floats = pass_.data.at(bound.name)(in.frame);
+                floats.resize(std::max<std::size_t>(floats.size(), 1));
+                words.emplace_back(floats.size());
+                std::memcpy(words.back().data(), floats.data(), floats.size() * sizeof(float));
+            } else {
+                words.push_back(records_of(in.before[bound.resource], bound.record));
+            }
+    text::Bindings bindings;
+    for (std::size_t b = 0; b < blocks_.size(); ++b)
+        bindings.blocks.emplace_back(words[b]);
+    for (std::size_t i = 0; i < images_.size(); ++i) {
+        const Extent& extent = in.before[images_[i].resource].extent;
+        const ImageFormat format = image_format(schema_.resources[images_[i].resource]);
+        using Code = text::TexelMemory::Code;
+        using Filter = text::TexelMemory::Filter;
+        const auto filter = pass_.filters.find(images_[i].resource);
+        bindings.images.push_back({program_.images[i].name,
+                                   {static_cast<std::uint32_t>(extent.width), static_cast<std::uint32_t>(extent.height),
+                                    static_cast<std::uint32_t>(extent.depth)},
+                                   static_cast<std::uint32_t>(format.components),
+                                   format.bytes == 1   ? Code::unorm8
+                                   : format.bytes == 2 ? Code::half
+                                                       : Code::number,
+                                   filter == pass_.filters.end()        ? Filter::nearest
+                                   : filter->second == GlFilter::linear ? Filter::linear
+                                                                        : Filter::linear_in_black,
+                                   words[blocks_.size() + i]});
+    }
+    bindings.uniforms = uniforms(in);
+    for (const auto& [resource, filter] : pass_.filters)
+        if (!profile.follows(schema_.resources[resource].dimensions == 2 ? "image: linear filter of a plane"
+                                                                         : "image: linear filter"))
+            throw Error(fmt::format("{}: this driver's linear filter is not followed", pass_.name));
+    text::run_dispatch(program_, {groups(in)}, bindings, profile, findings);
+    for (std::size_t k = 0; k < words.size(); ++k) {
+        const Bound& bound = k < blocks_.size() ? blocks_[k] : images_[k - blocks_.size()];
+        if (bound.kind == Kind::after && writes(bound.resource))
+            set_items(after[bound.resource], bound.record, words[k]);
+    }
+}
+
+} // namespace lockstep

@@ -1,0 +1,59 @@
+#pragma once
+#include <bit>
+#include <cmath>
+#include <cstdint>
+
+#include "reference/plain_arithmetic.hpp"
+#include "reference/readings/values.hpp"
+
+namespace lockstep::text {
+
+/// The reading of bits, with the words that a text has and twins have not.
+class TextValues : public Values<PlainArithmetic> {
+  public:
+    explicit TextValues(const Profile& profile)
+        : Values<PlainArithmetic>(PlainArithmetic(profile)), length_(profile.length_order()),
+          normalize_(profile.normalize_order()) {}
+
+    [[nodiscard]] Real inverse_sqrt(At, Real a) const { return fp_.inverse_sqrt(a); }
+    // The orders of sums of other than three products, which a text alone has.
+    [[nodiscard]] DotOrder dot_order() const { return fp_.dot_order(); }
+    [[nodiscard]] DotOrder length_order() const { return length_; }
+    [[nodiscard]] DotOrder normalize_order() const { return normalize_; }
+    /// A component of normalize, of a vector whose dot product with itself is known.
+    [[nodiscard]] Real part_of_unit(At, Real component, Real squared) const {
+        return fp_.direction_of({component, 0.0F, 0.0F}, squared).x;
+    }
+    static Real fma(At, Real a, Real b, Real c) { return std::fma(a, b, c); }
+    /// Not an unsigned conversion of negative numbers, which GLSL leaves undefined (GLSL 4.60, 5.4.1).
+    static std::uint32_t to_int(At, Real x) { return static_cast<std::uint32_t>(truncated(x)); }
+    static std::uint32_t to_uint(At, Real x) { return static_cast<std::uint32_t>(truncated(x)); }
+
+  private:
+    static std::int64_t truncated(float x) {
+        constexpr float most = 0x1p62F;
+        return x > -most && x < most ? static_cast<std::int64_t>(x) : 0;
+    }
+    DotOrder length_, normalize_;
+};
+
+/// One scalar of one invocation. Of bits alone a word is enough; other readings have a number of theirs beside it.
+template <class R> struct Cell {
+    typename R::Real x{};
+    std::uint32_t w = 0;
+
+    [[nodiscard]] const typename R::Real& real() const { return x; }
+    [[nodiscard]] std::uint32_t word() const { return w; }
+    void set(const typename R::Real& number) { x = number; }
+    void set(std::uint32_t word) { w = word; }
+};
+template <> struct Cell<TextValues> {
+    std::uint32_t w = 0;
+
+    [[nodiscard]] float real() const { return std::bit_cast<float>(w); }
+    [[nodiscard]] std::uint32_t word() const { return w; }
+    void set(float number) { w = std::bit_cast<std::uint32_t>(number); }
+    void set(std::uint32_t word) { w = word; }
+};
+
+} // namespace lockstep::text

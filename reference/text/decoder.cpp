@@ -1,0 +1,339 @@
+#include "reference/text/decoder.hpp"
+
+#include <algorithm>
+
+#include <fmt/format.h>
+
+#include "reference/model/error.hpp"
+
+namespace lockstep::text {
+
+void lay(const Module& module, std::uint32_t type, std::uint32_t word, MatrixLayout layout, std::vector<Leaf>& leaves) {
+    using enum Type::Kind;
+    const Type& t = module.types[type];
+    constexpr std::uint32_t bytes = 4;
+    switch (t.kind) {
+    case vector:
+        for (std::uint32_t c = 0; c < t.count; ++c)
+            lay(module, t.element, word + c, {}, leaves);
+        break;
+    case matrix:
+        for (std::uint32_t c = 0; c < t.count; ++c)
+            for (std::uint32_t r = 0; r < module.types[t.element].count; ++r) {
+                const std::uint32_t far = (layout.is_row_major ? r : c) * layout.stride / bytes;
+                leaves.push_back({word + far + (layout.is_row_major ? c : r), true});
+            }
+        break;
+    case array:
+        for (std::uint32_t c = 0; c < t.count; ++c)
+            lay(module, t.element, word + c * t.stride / bytes, layout, leaves);
+        break;
+    case structure:
+        for (const Type::Member& m : t.members)
+            lay(module, m.type, word + m.offset / bytes, {m.matrix_stride, m.is_row_major}, leaves);
+        break;
+    default:
+        leaves.push_back({word, t.kind == real});
+    }
+}
+
+std::vector<Leaf> packed_leaves(const Module& module, std::uint32_t type) {
+    using enum Type::Kind;
+    std::vector<Leaf> leaves;
+    const auto add = [&](const auto& self, std::uint32_t of) -> void {
+        const Type& t = module.types[of];
+        if (t.kind == structure) {
+            for (const Type::Member& m : t.members)
+                self(self, m.type);
+        } else if (t.kind == vector || t.kind == matrix || t.kind == array) {
+            for (std::uint32_t c = 0; c < t.count; ++c)
+                self(self, t.element);
+        } else {
+            leaves.push_back({static_cast<std::uint32_t>(leaves.size()), t.kind == real});
+        }
+    };
+    add(add, type);
+    return leaves;
+}
+
+Decoder::Decoder(const Module& module) : module_(module), cell_(module.ids.size(), none) {
+    if (module.stage != spv::ExecutionModelGLCompute)
+        throw Error(
+            fmt::format("shader {}: the stage is no compute stage, which alone is interpreted", module.line_name(1)));
+    p_.group = module.group;
+    p_.line_name = module.line_name;
+    // Cells that are zeroed for each invocation come first.
+    for (const Variable& v : module.variables)
+        if (v.storage == spv::StorageClassPrivate)
+            address_[v.id] = {.place = take_cells(type(v.type).cells), .type = v.type};
+    for (const Function& f : module.functions)
+        inner_variables(f);
+    p_.variables = p_.cells;
+    p_.scratch = take_cells(4);
+    constants();
+    outside_variables();
+    for (const Function& f : module.functions)
+        callee(f);
+    last_use_.resize(module.ids.size());
+    uses_.resize(module.ids.size());
+    for (const Function& f : module.functions)
+        function(f);
+    if (!step_of_.contains(module.entry))
+        throw Error("SPIR-V module without its entry point's function");
+    for (const Patch& patch : patches_) {
+        const auto to = step_of_.find(patch.label);
+        if (to == step_of_.end())
+            throw Error(fmt::format("SPIR-V module without block {}", patch.label));
+        (patch.field == nullptr ? p_.operands[patch.step] : p_.steps[patch.step].*patch.field) = to->second;
+    }
+    p_.entry = step_of_.at(module.entry);
+}
+
+std::uint32_t Decoder::take_cells(std::uint32_t count) {
+    constexpr std::uint32_t most = 1U << 20U;
+    const std::uint32_t first = p_.cells;
+    p_.cells += count;
+    if (p_.cells > most)
+        refuse(fmt::format("values of more than {} numbers are not interpreted", most));
+    return first;
+}
+
+std::uint32_t Decoder::word_cell(std::uint32_t word) {
+    const auto [found, is_new] = word_cells_.try_emplace(word);
+    if (is_new) {
+        found->second = take_cells(1);
+        p_.constants.push_back({found->second, word, false});
+    }
+    return found->second;
+}
+
+std::uint32_t Decoder::cell(std::uint32_t id) {
+    if (cell_[id] == none) // a value of a later block
+        cell_[id] = take_cells(module_.type_of(id).cells);
+    return cell_[id];
+}
+
+void Decoder::set_constant(std::uint32_t first, const Constant& from, std::vector<CellWord>& to) {
+    const std::vector<Leaf> leaves = packed_leaves(module_, from.type);
+    for (std::uint32_t c = 0; c < leaves.size(); ++c)
+        to.push_back({first + c, from.words[c], leaves[c].is_real});
+}
+
+void Decoder::constants() {
+    for (const Constant& one : module_.constants) {
+        cell_[one.id] = take_cells(static_cast<std::uint32_t>(one.words.size()));
+        set_constant(cell_[one.id], one, p_.constants);
+    }
+}
+
+void Decoder::outside_variables() {
+    for (const Variable& v : module_.variables) {
+        const IdInfo& about = module_.ids[v.id];
+        using enum Type::Kind;
+        switch (v.storage) {
+        case spv::StorageClassUniformConstant:
+            if (type(v.type).kind == image || type(v.type).kind == sampled_image) {
+                this->image(v);
+            } else {
+                address_[v.id] = {.place = take_cells(type(v.type).cells), .type = v.type};
+                plain_uniforms(v.type, address_[v.id].place, about.name);
+                if (const Constant* value = module_.constant(v.initializer))
+                    set_constant(address_[v.id].place, *value, p_.constants);
+            }
+            break;
+        case spv::StorageClassUniform:
+        case spv::StorageClassStorageBuffer:
+            block(v, v.storage == spv::StorageClassStorageBuffer || module_.ids[v.type].is_buffer_block);
+            break;
+        case spv::StorageClassWorkgroup:
+            address_[v.id] = {.space = Address::Space::shared, .offset = p_.shared, .type = v.type};
+            p_.shared += type(v.type).cells;
+            break;
+        case spv::StorageClassInput:
+            input(v);
+            break;
+        case spv::StorageClassPrivate:
+            if (const Constant* value = module_.constant(v.initializer))
+                set_constant(address_[v.id].place, *value, p_.initial);
+            break;
+        default:
+            refuse(fmt::format("variable {} of storage class {} is not interpreted", about.name,
+                               static_cast<unsigned>(v.storage)));
+        }
+    }
+}
+
+void Decoder::block(const Variable& variable, bool is_storage) {
+    const Type& of = type(variable.type);
+    if (of.kind != Type::Kind::structure)
+        refuse(fmt::format("an array of blocks, {}, is not interpreted", module_.ids[variable.id].name));
+    Block made{of.name, is_storage};
+    if (!of.members.empty())
+        if (const Type& last = type(of.members.back().type); last.kind == Type::Kind::array && last.count == 0) {
+            made.array_offset = of.members.back().offset;
+            made.array_stride = last.stride;
+        }
+    address_[variable.id] = {
+        .space = Address::Space::block, .place = static_cast<std::uint32_t>(p_.blocks.size()), .type = variable.type};
+    p_.blocks.push_back(std::move(made));
+}
+
+void Decoder::image(const Variable& variable) {
+    const Type& of = type(variable.type);
+    if (of.is_arrayed || (of.dimensions != spv::Dim2D && of.dimensions != spv::Dim3D && of.dimensions != spv::Dim1D))
+        refuse(fmt::format("image {} is not interpreted; expected one of 1, 2 or 3 dimensions",
+                           module_.ids[variable.id].name));
+    address_[variable.id] = {.place = word_cell(static_cast<std::uint32_t>(p_.images.size())), .type = variable.type};
+    const bool is_sampler = of.kind == Type::Kind::sampled_image;
+    p_.images.push_back({module_.ids[variable.id].name, !is_sampler && of.is_storage, of.dimensions, of.is_arrayed,
+                         is_real(of.element)});
+}
+
+void Decoder::plain_uniforms(std::uint32_t type_id, std::uint32_t first, const std::string& name) {
+    using enum Type::Kind;
+    const Type& of = type(type_id);
+    if (of.kind == structure) {
+        for (const Type::Member& m : of.members) {
+            plain_uniforms(m.type, first, name + "." + m.name);
+            first += type(m.type).cells;
+        }
+    } else if (of.kind == array && (type(of.element).kind == structure || type(of.element).kind == array)) {
+        for (std::uint32_t i = 0; i < of.count; ++i)
+            plain_uniforms(of.element, first + i * type(of.element).cells, fmt::format("{}[{}]", name, i));
+    } else {
+        const Type& scalar = module_.scalar_of(type_id);
+        if (scalar.kind == image || scalar.kind == sampled_image)
+            refuse(fmt::format("an array of images, {}, is not interpreted", name));
+        p_.uniforms.push_back({name, first, of.cells, scalar.kind == real, scalar.kind == boolean});
+    }
+}
+
+void Decoder::input(const Variable& variable) {
+    const IdInfo& about = module_.ids[variable.id];
+    if (!about.builtin)
+        refuse(fmt::format("input {} is not interpreted", about.name));
+    switch (*about.builtin) {
+    case spv::BuiltInGlobalInvocationId:
+    case spv::BuiltInLocalInvocationId:
+    case spv::BuiltInWorkgroupId:
+    case spv::BuiltInNumWorkgroups:
+    case spv::BuiltInLocalInvocationIndex:
+        break;
+    default:
+        refuse(fmt::format("built-in variable {} is not interpreted", about.name));
+    }
+    address_[variable.id] = {.place = take_cells(type(variable.type).cells), .type = variable.type};
+    p_.inputs.emplace_back(*about.builtin, address_[variable.id].place);
+}
+
+void Decoder::inner_variables(const Function& of) {
+    for (const Instruction& at : of.body)
+        if (at.op == spv::OpVariable) {
+            line_ = at.line;
+            const std::uint32_t pointed = type(at.words[0]).element;
+            address_[at.words[1]] = {.place = take_cells(type(pointed).cells), .type = pointed};
+        }
+}
+
+/// Parameters that are pointers are copied in, and back where the function stores to them: GLSL's inout (GLSL 4.60,
+/// 6.1.1).
+void Decoder::callee(const Function& of) {
+    Callee made;
+    made.result = take_cells(type(of.result).cells);
+    for (const std::uint32_t parameter : of.parameters) {
+        const Type& t = module_.type_of(parameter);
+        if (t.kind != Type::Kind::pointer) {
+            made.parameters.push_back(cell(parameter));
+            continue;
+        }
+        if (t.storage != spv::StorageClassFunction && t.storage != spv::StorageClassUniformConstant)
+            refuse(fmt::format("parameter {} is a pointer into storage class {}, which is not interpreted",
+                               module_.ids[parameter].name, static_cast<unsigned>(t.storage)));
+        const std::uint32_t first = take_cells(type(t.element).cells);
+        address_[parameter] = {.place = first, .type = t.element};
+        made.parameters.push_back(first);
+        for (const Instruction& at : of.body) {
+            const bool hands = at.op == spv::OpFunctionCall &&
+                               std::find(at.words.begin() + 3, at.words.end(), parameter) != at.words.end();
+            const bool writes =
+                (at.op == spv::OpStore && at.words[0] == parameter) ||
+                ((at.op == spv::OpAccessChain || at.op == spv::OpInBoundsAccessChain) && at.words[2] == parameter);
+            if (t.storage == spv::StorageClassFunction && (hands || writes)) {
+                made.written.push_back(static_cast<std::uint32_t>(made.parameters.size() - 1));
+                break;
+            }
+        }
+    }
+    callees_[of.id] = std::move(made);
+}
+
+Step& Decoder::add(std::uint16_t op) {
+    p_.steps.push_back({.op = op});
+    p_.lines.push_back(line_);
+    maker_ = none;
+    return p_.steps.back();
+}
+
+Step& Decoder::made(std::uint16_t op, Words w) {
+    const std::uint32_t out = cell(w[1]);
+    Step& step = add(op);
+    step.out = out;
+    step.n = static_cast<std::uint16_t>(type(w[0]).cells);
+    maker_ = w[1];
+    return step;
+}
+
+/// Counts uses, and finds the last: parts of a value that are named where it lies prolong it.
+void Decoder::note_uses(const Function& of) {
+    for (std::size_t i = of.body.size(); i-- > 0;) {
+        const Instruction& at = of.body[i];
+        if (at.op == spv::OpLabel)
+            has_phi_[at.words[0]] = i + 1 < of.body.size() && of.body[i + 1].op == spv::OpPhi;
+        const bool renames = at.op == spv::OpCompositeExtract || at.op == spv::OpCopyObject ||
+                             at.op == spv::OpVectorShuffle || at.op == spv::OpBitcast;
+        const std::size_t last = renames ? std::max(i, last_use_[at.words[1]]) : i;
+        for (const std::uint32_t word : at.words) // literals among them count too, which does no harm
+            if (word < last_use_.size()) {
+                last_use_[word] = std::max(last_use_[word], last);
+                ++uses_[word];
+            }
+    }
+}
+
+void Decoder::function(const Function& of) {
+    function_ = &of;
+    std::fill(last_use_.begin(), last_use_.end(), 0);
+    std::fill(uses_.begin(), uses_.end(), 0);
+    note_uses(of);
+    step_of_[of.id] = static_cast<std::uint32_t>(p_.steps.size());
+    maker_ = none;
+    for (std::size_t i = 0; i < of.body.size(); ++i)
+        instruction(of.body[i], i);
+}
+
+void Decoder::instruction(const Instruction& at, std::size_t number) {
+    line_ = at.line;
+    switch (at.op) {
+    case spv::OpNop:
+    case spv::OpNoLine:
+    case spv::OpLine:
+    case spv::OpVariable:
+    case spv::OpSelectionMerge:
+    case spv::OpLoopMerge:
+    case spv::OpUndef:
+        if (at.op == spv::OpVariable && at.words.size() > 3) {
+            const Address to = address_.at(at.words[1]);
+            store_to(to, cell(at.words[3]), to.type);
+        }
+        return;
+    default:
+        break;
+    }
+    if (!flow(at) && !(at.op == spv::OpFunctionCall ? (call(at.words, number), true) : memory(at, number)) &&
+        !image_operation(at) && !operation(at))
+        refuse(fmt::format("SPIR-V instruction {} is not interpreted", static_cast<unsigned>(at.op)));
+}
+
+Program decoded(const Module& module) { return Decoder(module).take(); }
+
+} // namespace lockstep::text

@@ -1,0 +1,23 @@
+#pragma once
+#include <array>
+#include <cstdint>
+#include <functional>
+
+#include "reference/model/profile.hpp"
+#include "reference/text/memory.hpp"
+
+namespace lockstep::text {
+
+/// A dispatch of a compute shader. `wants(group)`: whether a group runs; empty: all do.
+struct Dispatch {
+    std::array<std::uint32_t, 3> groups{1, 1, 1};
+    std::function<bool(const std::array<std::uint32_t, 3>& group)> wants = {};
+};
+
+/// Runs a dispatch in plain bits, group after group, with the arithmetic that was measured of a driver's compute stage.
+/// What blocks and images are bound to is read and written. Throws Error by FILE:LINE where invocations of a group do
+/// not all come to one barrier, or one does not end.
+void run_dispatch(const Program& program, const Dispatch& dispatch, const Bindings& bindings, const Profile& profile,
+                  Findings& findings);
+
+} // namespace lockstep::text

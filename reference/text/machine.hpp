@@ -1,0 +1,199 @@
+#pragma once
+#include <algorithm>
+#include <array>
+#include <cstdint>
+#include <span>
+#include <utility>
+#include <vector>
+
+#include <fmt/format.h>
+
+#include "reference/model/error.hpp"
+#include "reference/text/cell.hpp"
+#include "reference/text/memory.hpp"
+#include "reference/text/program.hpp"
+
+namespace lockstep::text {
+
+/// An invocation's place in its dispatch.
+struct Invocation {
+    std::array<std::uint32_t, 3> group{}, local{};
+    std::uint32_t number = 0; ///< group by group, local index after local index
+};
+
+/// Runs W invocations of a program at once in a reading. Those at one step take it together, each operation a loop over
+/// them; where branches part them, those at the earliest step go on first, so that they meet again where the text's
+/// blocks do.
+template <class R, int W> class Machine {
+  public:
+    using Real = typename R::Real;
+    using C = Cell<R>;
+
+    Machine(R& reading, const Program& program, Memory& memory, const Bindings& bindings,
+            std::array<std::uint32_t, 3> groups)
+        : r(reading), p_(program), memory_(memory), groups_(groups), cells_(std::size_t{program.cells} * W) {
+        for (const CellWord& one : program.constants)
+            fill(one.cell, one.word, one.is_real);
+        for (std::size_t u = 0; u < program.uniforms.size(); ++u)
+            for (std::uint32_t c = 0; c < program.uniforms[u].cells && c < bindings.uniforms[u].size(); ++c)
+                fill(program.uniforms[u].cell + c,
+                     program.uniforms[u].is_boolean ? (bindings.uniforms[u][c] != 0 ? 1U : 0U)
+                                                    : bindings.uniforms[u][c],
+                     program.uniforms[u].is_real);
+    }
+
+    /// At most W.
+    void start(std::span<const Invocation> invocations);
+    /// Until each has ended, or waits at a barrier.
+    void run();
+
+    [[nodiscard]] std::size_t size() const { return lanes_; }
+    [[nodiscard]] std::size_t waiting() const {
+        return static_cast<std::size_t>(std::count(state_.begin(), state_.begin() + lanes_, State::waiting));
+    }
+    /// The barrier at which lane l waits; null: it has ended.
+    [[nodiscard]] const Step* barrier(std::size_t l) const {
+        return state_[l] == State::waiting ? &p_.steps[pc_[l] - 1] : nullptr;
+    }
+    [[nodiscard]] const Invocation& invocation(std::size_t l) const { return invocations_[l]; }
+
+  private:
+    enum class State : std::uint8_t { running, waiting, ended };
+    using Lane = std::uint32_t;
+
+    C* cell(std::uint32_t number) { return cells_.data() + std::size_t{number} * W; }
+    void fill(std::uint32_t number, std::uint32_t word, bool is_real) {
+        for (int l = 0; l < W; ++l)
+            set_word(cell(number)[l], word, is_real);
+    }
+    static void set_word(C& to, std::uint32_t word, bool is_real) {
+        to.set(word);
+        if constexpr (!std::is_same_v<R, TextValues>)
+            if (is_real)
+                to.set(Real(std::bit_cast<float>(word)));
+    }
+
+    /// Calls f(l) for each lane at this step. Where no other lane will need its cells again, for all: a loop of a
+    /// known length, on vectors.
+    template <class F> void each(const F& f) {
+        if (together_) {
+#pragma GCC ivdep
+            for (int l = 0; l < W; ++l)
+                f(static_cast<Lane>(l));
+        } else {
+            active(f);
+        }
+    }
+    /// Calls f(l) for each lane at this step, in their order, and for no other.
+    template <class F> void active(const F& f) {
+        for (std::uint32_t i = 0; i < count_; ++i)
+            f(active_[i]);
+    }
+    [[nodiscard]] Toucher toucher(const Step& s, Lane l) const {
+        return {p_.lines[static_cast<std::size_t>(&s - p_.steps.data())], invocations_[l].number};
+    }
+
+    // Control: machine_flow.hpp.
+    void flow(const Step& s);
+    void gather();
+    void go_to(std::uint32_t step);
+    template <class To> void go_each(const To& to);
+    void take_from_blocks(const Step& s);
+
+    // Memory: machine_memory.hpp.
+    void memory(const Step& s);
+    void atomic(const Step& s);
+    std::uint32_t changed(const Step& s, std::uint32_t before, Lane l);
+    std::array<std::int32_t, 3> texel_place(std::uint32_t first, std::uint32_t count, Lane l);
+
+    // Values: machine_operations.hpp and glsl_functions.hpp.
+    void operation(const Step& s);
+    void integer_operation(const Step& s);
+    void vector_operation(const Step& s);
+    void multiply_matrix(const Step& s);
+    void extended(const Step& s);
+    void integer_function(const Step& s);
+    void geometric_function(const Step& s);
+    void packing_function(const Step& s);
+    void matrix_function(const Step& s);
+    /// out = f(operands), component by component.
+    template <class F> void real1(const Step& s, const F& f);
+    template <class F> void real2(const Step& s, const F& f);
+    template <class F> void real3(const Step& s, const F& f);
+    template <class F> void word1(const Step& s, const F& f);
+    template <class F> void word2(const Step& s, const F& f);
+    template <class F> void compare(const Step& s, const F& f);
+    /// The sum of n products, in the order that the driver was measured to take for dot, length or normalize.
+    Real sum_of_products(const Step& s, DotOrder order, std::uint32_t a, std::uint32_t b, std::uint32_t n, Lane l);
+    typename R::Vec3 vec3(std::uint32_t first, Lane l) {
+        return {cell(first)[l].real(), cell(first + 1)[l].real(), cell(first + 2)[l].real()};
+    }
+    [[noreturn]] void refuse(const Step& s, std::string_view what) const {
+        throw Error(fmt::format("shader {}: {}", p_.line_name(toucher(s, 0).line), what));
+    }
+
+    static constexpr std::uint32_t most_jumps = 50'000'000;
+
+    R& r;
+    const Program& p_;
+    Memory& memory_;
+    std::array<std::uint32_t, 3> groups_;
+    std::vector<C> cells_;
+    std::uint32_t lanes_ = 0, count_ = 0, at_ = 0, jumps_ = 0;
+    bool together_ = true; ///< the lanes at this step are all that run or wait
+    std::array<Lane, W> active_{};
+    std::array<State, W> state_{};
+    std::array<std::uint32_t, W> pc_{}, from_{}, depth_{};
+    std::array<Invocation, W> invocations_{};
+    std::vector<std::uint32_t> returns_; ///< of each depth, W
+    std::vector<C> moved_;
+};
+
+template <class R, int W> void Machine<R, W>::start(std::span<const Invocation> invocations) {
+    lanes_ = static_cast<std::uint32_t>(invocations.size());
+    std::copy(invocations.begin(), invocations.end(), invocations_.begin());
+    std::fill(cells_.begin(), cells_.begin() + static_cast<std::ptrdiff_t>(std::size_t{p_.variables} * W), C{});
+    for (const CellWord& one : p_.initial)
+        fill(one.cell, one.word, one.is_real);
+    for (const auto& [builtin, first] : p_.inputs)
+        for (std::uint32_t l = 0; l < lanes_; ++l) {
+            const Invocation& of = invocations_[l];
+            for (std::size_t c = 0; c < 3; ++c) {
+                if (builtin == spv::BuiltInLocalInvocationIndex && c > 0)
+                    break;
+                const std::uint32_t value = builtin == spv::BuiltInGlobalInvocationId
+                                                ? of.group[c] * p_.group[c] + of.local[c]
+                                            : builtin == spv::BuiltInLocalInvocationId ? of.local[c]
+                                            : builtin == spv::BuiltInWorkgroupId       ? of.group[c]
+                                            : builtin == spv::BuiltInNumWorkgroups
+                                                ? groups_[c]
+                                                : (of.local[2] * p_.group[1] + of.local[1]) * p_.group[0] + of.local[0];
+                cell(first + static_cast<std::uint32_t>(c))[l].set(value);
+            }
+        }
+    pc_.fill(p_.entry);
+    depth_.fill(0);
+    for (std::uint32_t l = 0; l < W; ++l)
+        state_[l] = l < lanes_ ? State::running : State::ended;
+    jumps_ = 0;
+}
+
+template <class R, int W> void Machine<R, W>::run() {
+    for (State& state : state_)
+        if (state == State::waiting)
+            state = State::running;
+    gather();
+    while (count_ > 0) {
+        const Step& s = p_.steps[at_++];
+        if (s.op < code::extended)
+            operation(s);
+        else if (s.op < code::own)
+            extended(s);
+        else if (s.op < code::jump)
+            memory(s);
+        else
+            flow(s);
+    }
+}
+
+} // namespace lockstep::text

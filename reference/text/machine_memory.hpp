@@ -1,0 +1,198 @@
+#pragma once
+#include "reference/text/machine.hpp"
+
+/// Copies, loads, stores, atomics and images of Machine.
+namespace lockstep::text {
+
+template <class R, int W>
+std::array<std::int32_t, 3> Machine<R, W>::texel_place(std::uint32_t first, std::uint32_t count, Lane l) {
+    std::array<std::int32_t, 3> at{};
+    for (std::uint32_t c = 0; c < count && c < 3; ++c)
+        at[c] = static_cast<std::int32_t>(cell(first + c)[l].word());
+    return at;
+}
+
+/// What an atomic operation leaves where `before` was (SPIR-V 3.42.18).
+template <class R, int W> std::uint32_t Machine<R, W>::changed(const Step& s, std::uint32_t before, Lane l) {
+    const std::uint32_t value = cell(s.c)[l].word();
+    const auto is_less = [&] { return static_cast<std::int32_t>(value) < static_cast<std::int32_t>(before); };
+    switch (s.n) {
+    case spv::OpAtomicLoad:
+        return before;
+    case spv::OpAtomicStore:
+    case spv::OpAtomicExchange:
+        return value;
+    case spv::OpAtomicCompareExchange:
+        return before == cell(s.d)[l].word() ? value : before;
+    case spv::OpAtomicIIncrement:
+        return before + 1;
+    case spv::OpAtomicIDecrement:
+        return before - 1;
+    case spv::OpAtomicIAdd:
+        return before + value;
+    case spv::OpAtomicISub:
+        return before - value;
+    case spv::OpAtomicSMin:
+        return is_less() ? value : before;
+    case spv::OpAtomicUMin:
+        return std::min(before, value);
+    case spv::OpAtomicSMax:
+        return is_less() ? before : value;
+    case spv::OpAtomicUMax:
+        return std::max(before, value);
+    case spv::OpAtomicAnd:
+        return before & value;
+    case spv::OpAtomicOr:
+        return before | value;
+    case spv::OpAtomicXor:
+        return before ^ value;
+    default:
+        refuse(s, fmt::format("SPIR-V instruction {} is not interpreted", s.n));
+    }
+}
+
+template <class R, int W> void Machine<R, W>::atomic(const Step& s) {
+    active([&](Lane l) {
+        const Toucher by = toucher(s, l);
+        const auto change = [&](std::uint32_t before) { return changed(s, before, l); };
+        const std::uint32_t before =
+            s.op == code::atomic_shared ? memory_.atomic_shared(cell(s.b)[l].word(), by, change)
+            : s.op == code::atomic_block
+                ? memory_.atomic_block(s.a, cell(s.b)[l].word(), by, change)
+                : memory_.atomic_texel(cell(s.a)[l].word(), texel_place(s.b, s.d, l), by, change);
+        cell(s.out)[l].set(before);
+    });
+}
+
+template <class R, int W> void Machine<R, W>::memory(const Step& s) {
+    switch (s.op) {
+    case code::copy:
+        for (std::uint32_t c = 0; c < s.n; ++c) {
+            C* const out = cell(s.out + c);
+            const C* const a = cell(s.a + c);
+            each([&](Lane l) { out[l] = a[l]; });
+        }
+        break;
+    case code::address: {
+        C* const out = cell(s.out);
+        each([&](Lane l) { out[l].set(s.c); });
+        for (std::uint32_t k = 0; k < s.n; ++k) {
+            const std::uint32_t* const term = &p_.operands[s.d + 3 * k];
+            const C* const index = cell(term[0]);
+            each([&](Lane l) { out[l].set(out[l].word() + index[l].word() * term[1]); });
+            if (term[2] != 0)
+                active([&](Lane l) {
+                    if (index[l].word() >= term[2]) {
+                        memory_.note_index(index[l].word(), term[2], toucher(s, l));
+                        out[l].set(out[l].word() - index[l].word() * term[1]);
+                    }
+                });
+        }
+        break;
+    }
+    case code::load_variable:
+        active([&](Lane l) {
+            for (std::uint32_t c = 0; c < s.n; ++c)
+                cell(s.out + c)[l] = cell(s.a + cell(s.b)[l].word() + c)[l];
+        });
+        break;
+    case code::store_variable:
+        active([&](Lane l) {
+            for (std::uint32_t c = 0; c < s.n; ++c)
+                cell(s.a + cell(s.b)[l].word() + c)[l] = cell(s.c + c)[l];
+        });
+        break;
+    case code::load_shared:
+        for (std::uint32_t c = 0; c < s.n; ++c) {
+            C* const out = cell(s.out + c);
+            active([&](Lane l) { out[l].set(memory_.load_shared(cell(s.b)[l].word() + c, toucher(s, l))); });
+        }
+        break;
+    case code::store_shared:
+        for (std::uint32_t c = 0; c < s.n; ++c) {
+            const C* const from = cell(s.c + c);
+            active([&](Lane l) { memory_.store_shared(cell(s.b)[l].word() + c, from[l].word(), toucher(s, l)); });
+        }
+        break;
+    case code::load_block:
+        for (std::uint32_t c = 0; c < s.n; ++c) {
+            C* const out = cell(s.out + c);
+            const Leaf leaf = p_.leaves[s.d + c];
+            active([&](Lane l) {
+                const std::uint32_t word = memory_.load_block(s.a, cell(s.b)[l].word() + leaf.word, toucher(s, l));
+                set_word(out[l], word, leaf.is_real);
+            });
+        }
+        break;
+    case code::store_block:
+        for (std::uint32_t c = 0; c < s.n; ++c) {
+            const C* const from = cell(s.c + c);
+            const Leaf leaf = p_.leaves[s.d + c];
+            active([&](Lane l) {
+                memory_.store_block(s.a, cell(s.b)[l].word() + leaf.word, from[l].word(), toucher(s, l));
+            });
+        }
+        break;
+    case code::atomic_shared:
+    case code::atomic_block:
+    case code::atomic_texel:
+        atomic(s);
+        break;
+    case code::array_length: {
+        C* const out = cell(s.out);
+        const std::uint32_t length = memory_.length(s.a);
+        each([&](Lane l) { out[l].set(length); });
+        break;
+    }
+    case code::image_size:
+        active([&](Lane l) {
+            for (std::uint32_t c = 0; c < s.n; ++c)
+                cell(s.out + c)[l].set(memory_.image(cell(s.a)[l].word()).size[c]);
+        });
+        break;
+    case code::query_levels: {
+        C* const out = cell(s.out);
+        each([&](Lane l) { out[l].set(1U); });
+        break;
+    }
+    case code::load_texel:
+    case code::fetch_texel:
+        active([&](Lane l) {
+            const Memory::Texel texel = memory_.load_texel(cell(s.a)[l].word(), texel_place(s.b, s.c, l),
+                                                           s.op == code::fetch_texel, toucher(s, l));
+            for (std::uint32_t c = 0; c < s.n; ++c)
+                cell(s.out + c)[l].set(texel[c]);
+        });
+        break;
+    case code::store_texel:
+        active([&](Lane l) {
+            Memory::Texel texel{};
+            for (std::uint32_t c = 0; c < s.n; ++c)
+                texel[c] = cell(s.c + c)[l].word();
+            memory_.store_texel(cell(s.a)[l].word(), texel_place(s.b, s.d, l), texel, toucher(s, l));
+        });
+        break;
+    case code::sample_texel:
+        active([&](Lane l) {
+            std::array<float, 3> place{};
+            for (std::uint32_t c = 0; c < s.c && c < place.size(); ++c)
+                place[c] = static_cast<float>(cell(s.b + c)[l].real());
+            const Memory::Texel texel = memory_.sample(cell(s.a)[l].word(), place, s.c);
+            for (std::uint32_t c = 0; c < s.n; ++c)
+                cell(s.out + c)[l].set(texel[c]);
+        });
+        break;
+    case code::real_bits:
+    case code::bits_as_real:
+        for (std::uint32_t c = 0; c < s.n; ++c) {
+            C* const out = cell(s.out + c);
+            const C* const a = cell(s.a + c);
+            each([&](Lane l) { out[l] = a[l]; });
+        }
+        break;
+    default:
+        refuse(s, fmt::format("step {} is not interpreted", s.op));
+    }
+}
+
+} // namespace lockstep::text

@@ -1,0 +1,138 @@
+#include "reference/text/memory.hpp"
+
+#include <bit>
+#include <cmath>
+
+#include <fmt/format.h>
+
+#include "reference/half.hpp"
+
+namespace lockstep::text {
+namespace {
+
+constexpr std::string_view bounds_rule = "access outside of a buffer (GLSL 4.60, 5.11)";
+constexpr std::uint32_t word_bytes = 4;
+
+bool is_inside(const TexelMemory& image, const std::array<std::int32_t, 3>& at) {
+    for (std::size_t c = 0; c < at.size(); ++c)
+        if (at[c] < 0 || static_cast<std::uint32_t>(at[c]) >= image.size[c])
+            return false;
+    return true;
+}
+
+std::size_t first_word(const TexelMemory& image, const std::array<std::int32_t, 3>& at) {
+    const std::size_t row = static_cast<std::size_t>(at[2]) * image.size[1] + static_cast<std::size_t>(at[1]);
+    return (row * image.size[0] + static_cast<std::size_t>(at[0])) * image.components;
+}
+
+/// The nearest code; ties go to the even one, as drivers measured do (GL 4.6, 2.3.5.2 leaves them open).
+std::uint32_t unorm8(float x) {
+    constexpr float most = 255.0F;
+    return x > 0.0F ? static_cast<std::uint32_t>(std::nearbyint(std::fmin(x, 1.0F) * most)) : 0U;
+}
+
+} // namespace
+
+std::uint32_t Memory::outside_block(std::uint32_t block, std::uint32_t word, Toucher by) {
+    findings_.add(
+        bounds_rule,
+        fmt::format("word {} of {}, which has {}", word, program_.blocks[block].name, bindings_.blocks[block].size()),
+        by.line, by.invocation);
+    return 0;
+}
+
+std::uint32_t Memory::outside_shared(Toucher by) {
+    findings_.add(bounds_rule, "a shared variable beyond its end", by.line, by.invocation);
+    return 0;
+}
+
+void Memory::note_index(std::uint32_t index, std::uint32_t count, Toucher by) {
+    findings_.add("index out of bounds (GLSL 4.60, 5.11)",
+                  fmt::format("index {} of {} elements", static_cast<std::int32_t>(index), count), by.line,
+                  by.invocation);
+}
+
+std::uint32_t Memory::length(std::uint32_t block) const {
+    const Block& about = program_.blocks[block];
+    const std::size_t bytes = bindings_.blocks[block].size() * word_bytes;
+    if (about.array_stride == 0 || bytes < about.array_offset)
+        return 0;
+    return static_cast<std::uint32_t>((bytes - about.array_offset) / about.array_stride);
+}
+
+Memory::Texel Memory::load_texel(std::uint32_t number, const std::array<std::int32_t, 3>& at, bool is_fetch,
+                                 Toucher by) {
+    const TexelMemory& image = bindings_.images[number];
+    if (!is_inside(image, at)) {
+        if (is_fetch)
+            findings_.add("texelFetch outside of the image (GL 4.6, 11.1.3.2)",
+                          fmt::format("texel ({}, {}, {}) of {}", at[0], at[1], at[2], image.name), by.line,
+                          by.invocation);
+        return {};
+    }
+    const bool is_real = program_.images[number].is_real;
+    Texel texel{0, 0, 0, is_real ? std::bit_cast<std::uint32_t>(1.0F) : 1U};
+    const std::size_t first = first_word(image, at);
+    for (std::uint32_t c = 0; c < image.components; ++c) {
+        texel[c] = image.words[first + c];
+        if (image.code == TexelMemory::Code::unorm8)
+            texel[c] = std::bit_cast<std::uint32_t>(static_cast<float>(texel[c]) / 255.0F);
+    }
+    return texel;
+}
+
+Memory::Texel Memory::texel_at_edge(std::uint32_t number, std::array<std::int32_t, 3> at) {
+    const TexelMemory& image = bindings_.images[number];
+    if (!is_inside(image, at) && image.filter == TexelMemory::Filter::linear_in_black)
+        return {};
+    for (std::size_t c = 0; c < at.size(); ++c)
+        at[c] = std::clamp(at[c], 0, static_cast<std::int32_t>(image.size[c]) - 1);
+    return load_texel(number, at, false, {});
+}
+
+Memory::Texel Memory::sample(std::uint32_t number, const std::array<float, 3>& place, std::uint32_t axes) {
+    const TexelMemory& image = bindings_.images[number];
+    const bool is_linear = image.filter != TexelMemory::Filter::nearest;
+    std::array<std::int32_t, 3> base{};
+    std::array<float, 3> behind{};
+    for (std::uint32_t axis = 0; axis < axes; ++axis) {
+        const auto size = static_cast<float>(image.size[axis]);
+        const float t = place[axis] * size - (is_linear ? 0.5F : 0.0F), whole = std::floor(t);
+        behind[axis] = t - whole;
+        base[axis] = std::isnan(whole) ? -1 : static_cast<std::int32_t>(std::clamp(whole, -1.0F, size));
+    }
+    if (!is_linear)
+        return texel_at_edge(number, base);
+    std::array<Texel, 8> cell{};
+    const std::uint32_t corners = 1U << axes;
+    for (std::uint32_t k = 0; k < corners; ++k) {
+        std::array<std::int32_t, 3> at = base;
+        for (std::uint32_t axis = 0; axis < axes; ++axis)
+            at[axis] += static_cast<std::int32_t>(k >> axis & 1U);
+        cell[k] = texel_at_edge(number, at);
+    }
+    for (std::uint32_t axis = 0, left = corners / 2; axis < axes; ++axis, left /= 2)
+        for (std::uint32_t k = 0; k < left; ++k)
+            for (std::size_t c = 0; c < cell[k].size(); ++c) {
+                const auto a = std::bit_cast<float>(cell[2 * k][c]), b = std::bit_cast<float>(cell[2 * k + 1][c]);
+                cell[k][c] = std::bit_cast<std::uint32_t>(std::fma(behind[axis], b - a, a));
+            }
+    return cell[0];
+}
+
+void Memory::store_texel(std::uint32_t number, const std::array<std::int32_t, 3>& at, const Texel& texel,
+                         Toucher /*by*/) {
+    const TexelMemory& image = bindings_.images[number];
+    if (!is_inside(image, at)) // no error, and no write (GL 4.6, 8.26)
+        return;
+    const std::size_t first = first_word(image, at);
+    for (std::uint32_t c = 0; c < image.components; ++c) {
+        const auto real = std::bit_cast<float>(texel[c]);
+        image.words[first + c] = image.code == TexelMemory::Code::unorm8 ? unorm8(real)
+                                 : image.code == TexelMemory::Code::half
+                                     ? std::bit_cast<std::uint32_t>(half_nearest(real))
+                                     : texel[c];
+    }
+}
+
+} // namespace lockstep::text

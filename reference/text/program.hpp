@@ -1,0 +1,118 @@
+#pragma once
+#include <array>
+#include <cstdint>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "reference/text/module.hpp"
+
+namespace lockstep::text {
+
+/// Codes of steps. Below `extended` they are SPIR-V's opcodes; from there on GLSL.std.450's instructions; from `own` on
+/// what SPIR-V has in another form.
+namespace code {
+inline constexpr std::uint16_t extended = 512;
+inline constexpr std::uint16_t own = 1024;
+enum Own : std::uint16_t {
+    copy = own,    ///< n cells from a to out
+    address,       ///< out = c + sum over n of (cell, stride, count) at d: an offset
+    load_variable, ///< n cells from cell (a + offset at b)
+    store_variable,
+    load_shared, ///< n cells from offset at b
+    store_shared,
+    load_block, ///< of block a, from offset at b; d: leaves
+    store_block,
+    atomic_shared, ///< SPIR-V opcode n on offset at b: operand c, comparator d; out: the value before
+    atomic_block,  ///< the same of block a
+    atomic_texel,  ///< the same of image a's texel at b
+    array_length,  ///< of block a
+    image_size,    ///< of the image in cell a
+    query_levels,
+    load_texel,  ///< n components of image in cell a at b, of c axes; by imageLoad
+    fetch_texel, ///< the same by texelFetch
+    store_texel, ///< n components from c into image in cell a at b, of d axes
+    sample_texel,
+    real_bits,    ///< n cells from a, floats to words
+    bits_as_real, ///< n cells from a, words to floats
+    jump,         ///< to a
+    branch,       ///< on cell a to b, else c
+    choose,       ///< OpSwitch on cell a; default b; n pairs of literal and step at d
+    from_block,   ///< OpPhi of n cells: a pairs of block and cell at d; b: how many follow it
+    leave_block,  ///< sets the block that lanes come from to a
+    call,         ///< goes on at a, returns to the next step
+    finish,       ///< returns, or ends the invocation
+    barrier
+};
+} // namespace code
+
+/// One operation on all components of its operands. Cells hold scalars; each result has cells of its own, since GLSL
+/// has no recursion (GLSL 4.60, 6.1).
+struct Step {
+    std::uint16_t op = 0;
+    std::uint16_t n = 0; ///< components
+    std::uint32_t out = 0, a = 0, b = 0, c = 0, d = 0;
+};
+
+/// A scalar of a value in a block.
+struct Leaf {
+    std::uint32_t word = 0; ///< from the value's first
+    bool is_real = false;
+};
+
+/// A storage or uniform block.
+struct Block {
+    std::string name; ///< of the block, not of its instance
+    bool is_storage = true;
+    std::uint32_t array_offset = 0,
+                  array_stride = 0; ///< of an array without a length at its end, bytes; stride 0: none
+};
+
+/// A plain uniform, or a member of one, by its name in GL: light.colour, weights[0].
+struct PlainUniform {
+    std::string name;
+    std::uint32_t cell = 0, cells = 0; ///< elements of an array of basic types together
+    bool is_real = true, is_boolean = false;
+};
+
+/// A uniform that is an image or a sampler. Its cell holds its number.
+struct ImageUniform {
+    std::string name;
+    bool is_storage = false;
+    spv::Dim dimensions = spv::Dim2D;
+    bool is_arrayed = false;
+    bool is_real = true; ///< components are floats
+};
+
+struct CellWord {
+    std::uint32_t cell = 0, word = 0;
+    bool is_real = false;
+};
+
+/// A decoded shader.
+struct Program {
+    std::vector<Step> steps;
+    std::vector<std::uint32_t> lines;    ///< of each step
+    std::vector<std::uint32_t> operands; ///< further ones of steps
+    std::vector<Leaf> leaves;
+    std::uint32_t cells = 0, shared = 0; ///< how many
+    std::uint32_t variables = 0;         ///< how many of the first cells are variables without a value at first
+    std::uint32_t scratch = 0;           ///< four cells that last for a step
+    std::vector<CellWord> constants;     ///< set once
+    std::vector<CellWord> initial;       ///< of variables outside functions, set for each invocation
+    std::vector<std::pair<spv::BuiltIn, std::uint32_t>> inputs; ///< built-in variables and their first cells
+    std::uint32_t entry = 0;                                    ///< first step
+    std::array<std::uint32_t, 3> group{1, 1, 1};
+    std::vector<Block> blocks;
+    std::vector<PlainUniform> uniforms;
+    std::vector<ImageUniform> images;
+    std::uint32_t barriers = 0;
+    LineName line_name;
+
+    [[nodiscard]] std::uint32_t invocations() const { return group[0] * group[1] * group[2]; }
+};
+
+/// A compute shader. Throws Error naming by FILE:LINE what is not interpreted.
+Program decoded(const Module& module);
+
+} // namespace lockstep::text

@@ -1,0 +1,79 @@
+#pragma once
+#include <algorithm>
+#include <array>
+#include <bit>
+#include <cstdint>
+#include <map>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "crosscheck/text/glsl_module.hpp"
+#include "reference/text/dispatch.hpp"
+
+namespace lockstep::test {
+
+inline std::vector<std::uint32_t> words_of(const std::vector<float>& floats) {
+    std::vector<std::uint32_t> words;
+    for (const float x : floats)
+        words.push_back(std::bit_cast<std::uint32_t>(x));
+    return words;
+}
+inline std::vector<float> floats_of(const std::vector<std::uint32_t>& words) {
+    std::vector<float> floats;
+    for (const std::uint32_t word : words)
+        floats.push_back(std::bit_cast<float>(word));
+    return floats;
+}
+
+/// A compute shader's text of its own, and what its blocks, uniforms and images hold, by name.
+struct TextKernel {
+    explicit TextKernel(const std::string& text) : program(text::decoded(module_of(text))) {}
+
+    static text::Module module_of(const std::string& text) {
+        auto source = std::make_shared<ShaderSource>();
+        source->stage = Stage::compute;
+        source->text = "#version 450 core\n" + text;
+        source->files = {"kernel.comp"};
+        for (int line = 0; line <= std::count(source->text.begin(), source->text.end(), '\n'); ++line)
+            source->origins.push_back({0, std::max(line, 1)}); // the text begins at line 1
+        return text::read_module(spirv_of(*source), [source](std::uint32_t line) { return line_name(*source, line); });
+    }
+    void run(std::array<std::uint32_t, 3> groups = {1, 1, 1}, const Profile& profile = named_profile("llvmpipe")) {
+        text::Bindings bindings;
+        for (const text::Block& block : program.blocks)
+            bindings.blocks.emplace_back(blocks.at(block.name));
+        for (const text::PlainUniform& uniform : program.uniforms)
+            bindings.uniforms.push_back(uniforms[uniform.name]);
+        for (const text::ImageUniform& image : program.images) {
+            text::TexelMemory texels = images.at(image.name).memory;
+            texels.name = image.name;
+            texels.words = images.at(image.name).words;
+            bindings.images.push_back(texels);
+        }
+        text::run_dispatch(program, {groups}, bindings, profile, findings);
+    }
+
+    struct TexelWords {
+        text::TexelMemory memory;
+        std::vector<std::uint32_t> words;
+    };
+    text::Program program;
+    std::map<std::string, std::vector<std::uint32_t>> blocks, uniforms;
+    std::map<std::string, TexelWords> images;
+    text::Findings findings;
+};
+
+/// What invocation 0 of `statements`, behind `declarations`, leaves in `float x[]`, of 16.
+inline std::vector<float> computed(const std::string& statements, const std::string& declarations = "",
+                                   const std::vector<float>& given = {}) {
+    TextKernel kernel("layout(local_size_x = 1) in;\nlayout(std430, binding = 0) buffer Out { float x[]; };\n" +
+                      declarations + "\nvoid main() {\n" + statements + "\n}\n");
+    std::vector<float> floats = given;
+    floats.resize(16);
+    kernel.blocks["Out"] = words_of(floats);
+    kernel.run();
+    return floats_of(kernel.blocks["Out"]);
+}
+
+} // namespace lockstep::test

@@ -145,7 +145,8 @@ std::vector<std::vector<std::uint32_t>> PassText::uniforms(const PassInput& in) 
     return all;
 }
 
-void PassText::run(const PassInput& in, const Profile& profile, SystemState& after, text::Findings& findings) const {
+void PassText::run(const PassInput& in, const Profile& profile, SystemState& after, text::Findings& findings,
+                   const How& how) const {
     using Kind = Bound::Kind;
     std::vector<std::vector<std::uint32_t>> words; // of blocks, then of images
     for (const auto* const all : {&blocks_, &images_})
@@ -184,7 +185,8 @@ void PassText::run(const PassInput& in, const Profile& profile, SystemState& aft
         if (!profile.follows(schema_.resources[resource].dimensions == 2 ? "image: linear filter of a plane"
                                                                          : "image: linear filter"))
             throw Error(fmt::format("{}: this driver's linear filter is not followed", pass_.name));
-    text::run_dispatch(program_, {groups(in)}, bindings, profile, findings);
+    text::run_dispatch(program_, {.groups = groups(in), .wants = how.wants, .is_watched = how.is_watched}, bindings,
+                       profile, findings);
     for (std::size_t k = 0; k < words.size(); ++k) {
         const Bound& bound = k < blocks_.size() ? blocks_[k] : images_[k - blocks_.size()];
         if (bound.kind == Kind::after && writes(bound.resource))

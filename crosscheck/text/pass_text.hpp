@@ -1,6 +1,7 @@
 #pragma once
 #include <array>
 #include <cstdint>
+#include <functional>
 #include <memory>
 #include <string>
 #include <vector>
@@ -24,8 +25,17 @@ class PassText {
     [[nodiscard]] const GlPass& pass() const { return pass_; }
     [[nodiscard]] std::size_t items(const PassInput& in) const; ///< that its dispatch has invocations for
 
-    /// The whole dispatch in plain bits. `after`: a state as before it; what the dispatch writes of it is set.
-    void run(const PassInput& in, const Profile& profile, SystemState& after, text::Findings& findings) const;
+    /// What is run of a dispatch, as text::Dispatch has it.
+    struct How {
+        std::function<bool(const std::array<std::uint32_t, 3>& group)> wants = {};
+        bool is_watched = false;
+    };
+    /// The dispatch in plain bits. `after`: a state as before it; what the dispatch writes of it is set.
+    void run(const PassInput& in, const Profile& profile, SystemState& after, text::Findings& findings,
+             const How& how) const;
+    void run(const PassInput& in, const Profile& profile, SystemState& after, text::Findings& findings) const {
+        run(in, profile, after, findings, {});
+    }
 
   private:
     struct Bound {

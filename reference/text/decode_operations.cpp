@@ -140,7 +140,7 @@ bool Decoder::operation(const Instruction& at) {
     }
     case spv::OpMemoryBarrier: {
         const Constant* semantics = module_.constant(w[1]);
-        add(op).a = semantics != nullptr ? semantics->words.front() : 0;
+        add(code::fence).a = semantics != nullptr ? semantics->words.front() : 0;
         return true;
     }
     default:

@@ -65,7 +65,7 @@ Decoder::Decoder(const Module& module) : module_(module), cell_(module.ids.size(
     // Cells that are zeroed for each invocation come first.
     for (const Variable& v : module.variables)
         if (v.storage == spv::StorageClassPrivate)
-            address_[v.id] = {.place = take_cells(type(v.type).cells), .type = v.type};
+            address_[v.id] = {.place = zeroed_cells(v.id, v.type), .type = v.type};
     for (const Function& f : module.functions)
         inner_variables(f);
     p_.variables = p_.cells;
@@ -98,6 +98,12 @@ std::uint32_t Decoder::take_cells(std::uint32_t count) {
     return first;
 }
 
+std::uint32_t Decoder::zeroed_cells(std::uint32_t variable, std::uint32_t type_id) {
+    const std::uint32_t first = take_cells(type(type_id).cells);
+    p_.names.push_back({module_.ids[variable].name, first, type(type_id).cells});
+    return first;
+}
+
 std::uint32_t Decoder::word_cell(std::uint32_t word) {
     const auto [found, is_new] = word_cells_.try_emplace(word);
     if (is_new) {
@@ -123,6 +129,8 @@ void Decoder::constants() {
     for (const Constant& one : module_.constants) {
         cell_[one.id] = take_cells(static_cast<std::uint32_t>(one.words.size()));
         set_constant(cell_[one.id], one, p_.constants);
+        for (std::uint32_t c = 0; one.is_undefined && c < one.words.size(); ++c)
+            p_.undefined.push_back(cell_[one.id] + c);
     }
 }
 
@@ -231,7 +239,7 @@ void Decoder::inner_variables(const Function& of) {
         if (at.op == spv::OpVariable) {
             line_ = at.line;
             const std::uint32_t pointed = type(at.words[0]).element;
-            address_[at.words[1]] = {.place = take_cells(type(pointed).cells), .type = pointed};
+            address_[at.words[1]] = {.place = zeroed_cells(at.words[1], pointed), .type = pointed};
         }
 }
 
@@ -332,6 +340,15 @@ void Decoder::instruction(const Instruction& at, std::size_t number) {
     if (!flow(at) && !(at.op == spv::OpFunctionCall ? (call(at.words, number), true) : memory(at, number)) &&
         !image_operation(at) && !operation(at))
         refuse(fmt::format("SPIR-V instruction {} is not interpreted", static_cast<unsigned>(at.op)));
+}
+
+std::string Program::variable_at(std::uint32_t cell) const {
+    const auto found = std::find_if(names.begin(), names.end(), [&](const NamedCells& one) {
+        return cell >= one.first && cell < one.first + one.count;
+    });
+    if (found != names.end())
+        return fmt::format("variable {}", found->name);
+    return cell < cells ? "a value without a name" : "a shared variable";
 }
 
 Program decoded(const Module& module) { return Decoder(module).take(); }

@@ -2,11 +2,11 @@
 
 #include <algorithm>
 #include <memory>
+#include <string_view>
 #include <vector>
 
 #include <fmt/format.h>
 
-#include "reference/model/error.hpp"
 #include "reference/subnormals.hpp"
 #include "reference/text/glsl_functions.hpp"
 #include "reference/text/machine_flow.hpp"
@@ -22,42 +22,63 @@ std::array<std::uint32_t, 3> place_in(std::uint32_t number, const std::array<std
     return {number % size[0], number / size[0] % size[1], number / size[0] / size[1]};
 }
 
-std::string line_of(const Program& program, const Step* step) {
-    return program.line_name(program.lines[static_cast<std::size_t>(step - program.steps.data())]);
-}
+/// What the invocations of a group do next.
+enum class GroupState : std::uint8_t { ended, waiting, stuck };
 
-/// All of a group have come to one barrier, or ended. Returns whether they ended.
-bool all_ended(const Program& program, std::span<const std::unique_ptr<Run>> parts) {
+/// Whether all of a group have come to one barrier, or ended; else a finding.
+GroupState state_of(const Program& program, std::span<const std::unique_ptr<Run>> parts, Findings& findings) {
+    constexpr std::string_view rule = "barrier that not all invocations of a group come to (GLSL 4.60, 8.16)";
+    const auto line = [&](const Step* step) {
+        return program.lines[static_cast<std::size_t>(step - program.steps.data())];
+    };
     const Step* first = nullptr;
+    Place place;
     std::size_t waiting = 0;
     for (const std::unique_ptr<Run>& part : parts)
         for (std::size_t l = 0; l < part->size(); ++l)
             if (const Step* barrier = part->barrier(l)) {
-                first = first == nullptr ? barrier : first;
                 ++waiting;
-                if (barrier != first)
-                    throw Error(fmt::format("shader {}: invocations of a group wait at this barrier and at that of {}; "
-                                            "expected all at one (GLSL 4.60, 8.16)",
-                                            line_of(program, first), line_of(program, barrier)));
+                if (first == nullptr) {
+                    first = barrier;
+                    place = {line(first), part->invocation(l).number};
+                } else if (barrier != first) {
+                    const Place other{line(barrier), part->invocation(l).number};
+                    findings.add(
+                        rule, place,
+                        [&] {
+                            return fmt::format("invocation {} waits here, invocation {} at another barrier",
+                                               place.invocation, other.invocation);
+                        },
+                        other);
+                    return GroupState::stuck;
+                }
             }
-    if (waiting != 0 && waiting != program.invocations())
-        throw Error(fmt::format("shader {}: {} of a group's {} invocations end before this barrier; expected all at "
-                                "one (GLSL 4.60, 8.16)",
-                                line_of(program, first), program.invocations() - waiting, program.invocations()));
-    return waiting == 0;
+    if (waiting == 0)
+        return GroupState::ended;
+    if (waiting == program.invocations())
+        return GroupState::waiting;
+    findings.add(rule, place, [&] {
+        return fmt::format("{} of {} invocations end before it", program.invocations() - waiting,
+                           program.invocations());
+    });
+    return GroupState::stuck;
 }
 
 /// The invocations of a group that has barriers or shared variables, from barrier to barrier.
 void run_group(const Program& program, Memory& memory, std::span<const std::unique_ptr<Run>> parts,
                std::span<const Invocation> invocations) {
-    memory.start_group();
+    memory.start_group(invocations.front().number / program.invocations());
     for (std::size_t part = 0; part < parts.size(); ++part)
         parts[part]->start(
             invocations.subspan(part * width, std::min<std::size_t>(width, invocations.size() - part * width)));
-    do {
+    for (;;) {
         for (const std::unique_ptr<Run>& part : parts)
             part->run();
-    } while (!all_ended(program, parts));
+        if (state_of(program, parts, memory.findings()) != GroupState::waiting)
+            return;
+        if (memory.races() != nullptr)
+            memory.races()->barrier(parts.front()->barrier(0)->a);
+    }
 }
 
 } // namespace
@@ -67,8 +88,10 @@ void run_dispatch(const Program& program, const Dispatch& dispatch, const Bindin
     const FlushSubnormals guard{profile.compute_flush_subnormals,
                                 profile.compute_flush_results.value_or(profile.compute_flush_subnormals)};
     TextValues values(profile);
-    Memory memory(program, bindings, findings);
-    const bool is_joint = program.barriers > 0 || program.shared > 0;
+    Races races(findings);
+    Memory memory(program, bindings, findings, dispatch.is_watched ? &races : nullptr);
+    // Groups that are watched are told apart.
+    const bool is_joint = program.barriers > 0 || program.shared > 0 || dispatch.is_watched;
     const std::uint32_t size = program.invocations();
     std::vector<std::unique_ptr<Run>> parts;
     for (std::uint32_t part = 0; part < (is_joint ? (size + width - 1) / width : 1); ++part)

@@ -1,30 +1,46 @@
 #pragma once
+#include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
 
 namespace lockstep::text {
 
+/// Where in a run something is done.
+struct Place {
+    std::uint32_t line = 0, invocation = 0; ///< of the text; its number in the dispatch
+    bool operator==(const Place&) const = default;
+};
+
 /// What a run of a text came by that GLSL does not allow, or gives no value.
 struct Finding {
-    std::string rule; ///< "index out of bounds (GLSL 4.60, 5.11)"
-    std::string what;
-    std::uint32_t line = 0;
-    std::uint32_t invocation = 0; ///< the first, by its number in the dispatch
+    std::string rule;                ///< "index out of bounds (GLSL 4.60, 5.11)"
+    std::string what;                ///< of the first time
+    Place place;                     ///< the first
+    std::optional<Place> other = {}; ///< of a race: who touched the memory before
     std::size_t times = 1;
 };
 
-/// Findings by rule and line, in the order in which they were first made.
+/// Findings by rule and lines, in the order in which they were first made.
 class Findings {
   public:
-    void add(std::string_view rule, std::string_view what, std::uint32_t line, std::uint32_t invocation) {
+    /// `what()`: words for the first time.
+    template <class What>
+    void add(std::string_view rule, Place place, const What& what, std::optional<Place> other = {}) {
+        const auto is_known = [&](const Finding& one) {
+            if (!other || !one.other)
+                return one.place.line == place.line;
+            return (one.place.line == place.line && one.other->line == other->line) ||
+                   (one.place.line == other->line && one.other->line == place.line);
+        };
         for (Finding& one : all_)
-            if (one.line == line && one.rule == rule) {
+            if (one.rule == rule && is_known(one)) {
                 ++one.times;
                 return;
             }
-        all_.push_back({std::string(rule), std::string(what), line, invocation});
+        all_.push_back({std::string(rule), what(), place, other});
     }
     [[nodiscard]] const std::vector<Finding>& all() const { return all_; }
 

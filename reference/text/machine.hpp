@@ -31,7 +31,10 @@ template <class R, int W> class Machine {
 
     Machine(R& reading, const Program& program, Memory& memory, const Bindings& bindings,
             std::array<std::uint32_t, 3> groups)
-        : r(reading), p_(program), memory_(memory), groups_(groups), cells_(std::size_t{program.cells} * W) {
+        : r(reading), p_(program), memory_(memory), groups_(groups), cells_(std::size_t{program.cells} * W),
+          unset_(memory.races() != nullptr ? cells_.size() : 0) {
+        for (const std::uint32_t one : program.undefined)
+            mark_unset(one);
         for (const CellWord& one : program.constants)
             fill(one.cell, one.word, one.is_real);
         for (std::size_t u = 0; u < program.uniforms.size(); ++u)
@@ -89,9 +92,24 @@ template <class R, int W> class Machine {
         for (std::uint32_t i = 0; i < count_; ++i)
             f(active_[i]);
     }
-    [[nodiscard]] Toucher toucher(const Step& s, Lane l) const {
+    [[nodiscard]] Place place(const Step& s, Lane l) const {
         return {p_.lines[static_cast<std::size_t>(&s - p_.steps.data())], invocations_[l].number};
     }
+
+    // What a watched run looks for: machine_checks.hpp.
+    struct Unset {
+        std::uint32_t cell = 0, line = 0; ///< where it comes from, from 1, and the first operation's that used it
+    };
+    static constexpr std::uint32_t shared_cell = 0xffffffffU;
+    [[nodiscard]] bool is_watched() const { return !unset_.empty(); }
+    Unset* unset(std::uint32_t number) { return unset_.data() + std::size_t{number} * W; }
+    void mark_unset(std::uint32_t number) {
+        if (is_watched())
+            std::fill_n(unset(number), W, Unset{number + 1, 0});
+    }
+    void need(const Step& s, std::uint32_t first, std::uint32_t n);
+    void follow(const Step& s);
+    void check(const Step& s);
 
     // Control: machine_flow.hpp.
     void flow(const Step& s);
@@ -129,7 +147,7 @@ template <class R, int W> class Machine {
         return {cell(first)[l].real(), cell(first + 1)[l].real(), cell(first + 2)[l].real()};
     }
     [[noreturn]] void refuse(const Step& s, std::string_view what) const {
-        throw Error(fmt::format("shader {}: {}", p_.line_name(toucher(s, 0).line), what));
+        throw Error(fmt::format("shader {}: {}", p_.line_name(place(s, 0).line), what));
     }
 
     static constexpr std::uint32_t most_jumps = 50'000'000;
@@ -139,6 +157,7 @@ template <class R, int W> class Machine {
     Memory& memory_;
     std::array<std::uint32_t, 3> groups_;
     std::vector<C> cells_;
+    std::vector<Unset> unset_; ///< as cells_; empty: nobody looks
     std::uint32_t lanes_ = 0, count_ = 0, at_ = 0, jumps_ = 0;
     bool together_ = true; ///< the lanes at this step are all that run or wait
     std::array<Lane, W> active_{};
@@ -147,14 +166,20 @@ template <class R, int W> class Machine {
     std::array<Invocation, W> invocations_{};
     std::vector<std::uint32_t> returns_; ///< of each depth, W
     std::vector<C> moved_;
+    std::vector<Unset> moved_unset_;
 };
 
 template <class R, int W> void Machine<R, W>::start(std::span<const Invocation> invocations) {
     lanes_ = static_cast<std::uint32_t>(invocations.size());
     std::copy(invocations.begin(), invocations.end(), invocations_.begin());
     std::fill(cells_.begin(), cells_.begin() + static_cast<std::ptrdiff_t>(std::size_t{p_.variables} * W), C{});
-    for (const CellWord& one : p_.initial)
+    for (std::uint32_t number = 0; is_watched() && number < p_.variables; ++number)
+        mark_unset(number);
+    for (const CellWord& one : p_.initial) {
         fill(one.cell, one.word, one.is_real);
+        if (is_watched())
+            std::fill_n(unset(one.cell), W, Unset{});
+    }
     for (const auto& [builtin, first] : p_.inputs)
         for (std::uint32_t l = 0; l < lanes_; ++l) {
             const Invocation& of = invocations_[l];
@@ -185,6 +210,10 @@ template <class R, int W> void Machine<R, W>::run() {
     gather();
     while (count_ > 0) {
         const Step& s = p_.steps[at_++];
+        if (is_watched()) {
+            follow(s);
+            check(s);
+        }
         if (s.op < code::extended)
             operation(s);
         else if (s.op < code::own)

@@ -53,20 +53,27 @@ template <class R, int W> template <class To> void Machine<R, W>::go_each(const 
 template <class R, int W> void Machine<R, W>::take_from_blocks(const Step& s) {
     const std::span<const Step> all(&s, s.b + 1U);
     moved_.clear();
+    moved_unset_.clear();
     active([&](Lane l) {
         for (const Step& phi : all)
             for (std::uint32_t k = 0; k < phi.a; ++k)
                 if (p_.operands[phi.d + 2 * k] == from_[l]) {
-                    for (std::uint32_t c = 0; c < phi.n; ++c)
+                    for (std::uint32_t c = 0; c < phi.n; ++c) {
                         moved_.push_back(cell(p_.operands[phi.d + 2 * k + 1] + c)[l]);
+                        if (is_watched())
+                            moved_unset_.push_back(unset(p_.operands[phi.d + 2 * k + 1] + c)[l]);
+                    }
                     break;
                 }
     });
     std::size_t next = 0;
     active([&](Lane l) {
         for (const Step& phi : all)
-            for (std::uint32_t c = 0; c < phi.n; ++c)
-                cell(phi.out + c)[l] = moved_[next++];
+            for (std::uint32_t c = 0; c < phi.n; ++c, ++next) {
+                cell(phi.out + c)[l] = moved_[next];
+                if (is_watched())
+                    unset(phi.out + c)[l] = moved_unset_[next];
+            }
     });
     at_ += s.b;
 }
@@ -123,6 +130,10 @@ template <class R, int W> void Machine<R, W>::flow(const Step& s) {
         }
         break;
     }
+    case code::fence:
+        if (memory_.races() != nullptr)
+            memory_.races()->fence(s.a);
+        break;
     default: // a barrier
         active([&](Lane l) {
             state_[l] = State::waiting;

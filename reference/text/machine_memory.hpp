@@ -1,5 +1,5 @@
 #pragma once
-#include "reference/text/machine.hpp"
+#include "reference/text/machine_checks.hpp"
 
 /// Copies, loads, stores, atomics and images of Machine.
 namespace lockstep::text {
@@ -53,7 +53,10 @@ template <class R, int W> std::uint32_t Machine<R, W>::changed(const Step& s, st
 
 template <class R, int W> void Machine<R, W>::atomic(const Step& s) {
     active([&](Lane l) {
-        const Toucher by = toucher(s, l);
+        const Place by = place(s, l);
+        if (is_watched() && s.op == code::atomic_shared && s.n != spv::OpAtomicExchange && s.n != spv::OpAtomicStore &&
+            memory_.is_unset(cell(s.b)[l].word()))
+            memory_.findings().add(unset_rule, by, [] { return "a shared variable"; });
         const auto change = [&](std::uint32_t before) { return changed(s, before, l); };
         const std::uint32_t before =
             s.op == code::atomic_shared ? memory_.atomic_shared(cell(s.b)[l].word(), by, change)
@@ -83,7 +86,7 @@ template <class R, int W> void Machine<R, W>::memory(const Step& s) {
             if (term[2] != 0)
                 active([&](Lane l) {
                     if (index[l].word() >= term[2]) {
-                        memory_.note_index(index[l].word(), term[2], toucher(s, l));
+                        memory_.note_index(index[l].word(), term[2], place(s, l));
                         out[l].set(out[l].word() - index[l].word() * term[1]);
                     }
                 });
@@ -105,13 +108,13 @@ template <class R, int W> void Machine<R, W>::memory(const Step& s) {
     case code::load_shared:
         for (std::uint32_t c = 0; c < s.n; ++c) {
             C* const out = cell(s.out + c);
-            active([&](Lane l) { out[l].set(memory_.load_shared(cell(s.b)[l].word() + c, toucher(s, l))); });
+            active([&](Lane l) { out[l].set(memory_.load_shared(cell(s.b)[l].word() + c, place(s, l))); });
         }
         break;
     case code::store_shared:
         for (std::uint32_t c = 0; c < s.n; ++c) {
             const C* const from = cell(s.c + c);
-            active([&](Lane l) { memory_.store_shared(cell(s.b)[l].word() + c, from[l].word(), toucher(s, l)); });
+            active([&](Lane l) { memory_.store_shared(cell(s.b)[l].word() + c, from[l].word(), place(s, l)); });
         }
         break;
     case code::load_block:
@@ -119,7 +122,7 @@ template <class R, int W> void Machine<R, W>::memory(const Step& s) {
             C* const out = cell(s.out + c);
             const Leaf leaf = p_.leaves[s.d + c];
             active([&](Lane l) {
-                const std::uint32_t word = memory_.load_block(s.a, cell(s.b)[l].word() + leaf.word, toucher(s, l));
+                const std::uint32_t word = memory_.load_block(s.a, cell(s.b)[l].word() + leaf.word, place(s, l));
                 set_word(out[l], word, leaf.is_real);
             });
         }
@@ -129,7 +132,7 @@ template <class R, int W> void Machine<R, W>::memory(const Step& s) {
             const C* const from = cell(s.c + c);
             const Leaf leaf = p_.leaves[s.d + c];
             active([&](Lane l) {
-                memory_.store_block(s.a, cell(s.b)[l].word() + leaf.word, from[l].word(), toucher(s, l));
+                memory_.store_block(s.a, cell(s.b)[l].word() + leaf.word, from[l].word(), place(s, l));
             });
         }
         break;
@@ -159,7 +162,7 @@ template <class R, int W> void Machine<R, W>::memory(const Step& s) {
     case code::fetch_texel:
         active([&](Lane l) {
             const Memory::Texel texel = memory_.load_texel(cell(s.a)[l].word(), texel_place(s.b, s.c, l),
-                                                           s.op == code::fetch_texel, toucher(s, l));
+                                                           s.op == code::fetch_texel, place(s, l));
             for (std::uint32_t c = 0; c < s.n; ++c)
                 cell(s.out + c)[l].set(texel[c]);
         });
@@ -169,7 +172,7 @@ template <class R, int W> void Machine<R, W>::memory(const Step& s) {
             Memory::Texel texel{};
             for (std::uint32_t c = 0; c < s.n; ++c)
                 texel[c] = cell(s.c + c)[l].word();
-            memory_.store_texel(cell(s.a)[l].word(), texel_place(s.b, s.d, l), texel, toucher(s, l));
+            memory_.store_texel(cell(s.a)[l].word(), texel_place(s.b, s.d, l), texel, place(s, l));
         });
         break;
     case code::sample_texel:

@@ -130,7 +130,7 @@ template <class R, int W> void Machine<R, W>::vector_operation(const Step& s) {
         active([&](Lane l) {
             std::uint32_t index = cell(inserts ? s.c : s.b)[l].word();
             if (index >= s.d) {
-                memory_.note_index(index, s.d, toucher(s, l));
+                memory_.note_index(index, s.d, place(s, l));
                 index = 0;
             }
             if (inserts) {

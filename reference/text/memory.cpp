@@ -33,23 +33,22 @@ std::uint32_t unorm8(float x) {
 
 } // namespace
 
-std::uint32_t Memory::outside_block(std::uint32_t block, std::uint32_t word, Toucher by) {
-    findings_.add(
-        bounds_rule,
-        fmt::format("word {} of {}, which has {}", word, program_.blocks[block].name, bindings_.blocks[block].size()),
-        by.line, by.invocation);
+std::uint32_t Memory::outside_block(std::uint32_t block, std::uint32_t word, Place by) {
+    findings_.add(bounds_rule, by, [&] {
+        return fmt::format("word {} of {}, which has {}", word, program_.blocks[block].name,
+                           bindings_.blocks[block].size());
+    });
     return 0;
 }
 
-std::uint32_t Memory::outside_shared(Toucher by) {
-    findings_.add(bounds_rule, "a shared variable beyond its end", by.line, by.invocation);
+std::uint32_t Memory::outside_shared(Place by) {
+    findings_.add(bounds_rule, by, [] { return "a shared variable beyond its end"; });
     return 0;
 }
 
-void Memory::note_index(std::uint32_t index, std::uint32_t count, Toucher by) {
-    findings_.add("index out of bounds (GLSL 4.60, 5.11)",
-                  fmt::format("index {} of {} elements", static_cast<std::int32_t>(index), count), by.line,
-                  by.invocation);
+void Memory::note_index(std::uint32_t index, std::uint32_t count, Place by) {
+    findings_.add("index out of bounds (GLSL 4.60, 5.11)", by,
+                  [&] { return fmt::format("index {} of {} elements", static_cast<std::int32_t>(index), count); });
 }
 
 std::uint32_t Memory::length(std::uint32_t block) const {
@@ -60,16 +59,17 @@ std::uint32_t Memory::length(std::uint32_t block) const {
     return static_cast<std::uint32_t>((bytes - about.array_offset) / about.array_stride);
 }
 
-Memory::Texel Memory::load_texel(std::uint32_t number, const std::array<std::int32_t, 3>& at, bool is_fetch,
-                                 Toucher by) {
+void Memory::touch_texel(std::uint32_t number, const std::array<std::int32_t, 3>& at, Races::How how, Place by) {
     const TexelMemory& image = bindings_.images[number];
-    if (!is_inside(image, at)) {
-        if (is_fetch)
-            findings_.add("texelFetch outside of the image (GL 4.6, 11.1.3.2)",
-                          fmt::format("texel ({}, {}, {}) of {}", at[0], at[1], at[2], image.name), by.line,
-                          by.invocation);
+    if (races_ != nullptr && program_.images[number].is_storage && is_inside(image, at))
+        races_->touch(Races::Space::image, number, static_cast<std::uint32_t>(first_word(image, at)), how, by,
+                      image.name);
+}
+
+Memory::Texel Memory::texel_words(std::uint32_t number, const std::array<std::int32_t, 3>& at) const {
+    const TexelMemory& image = bindings_.images[number];
+    if (!is_inside(image, at))
         return {};
-    }
     const bool is_real = program_.images[number].is_real;
     Texel texel{0, 0, 0, is_real ? std::bit_cast<std::uint32_t>(1.0F) : 1U};
     const std::size_t first = first_word(image, at);
@@ -81,13 +81,22 @@ Memory::Texel Memory::load_texel(std::uint32_t number, const std::array<std::int
     return texel;
 }
 
+Memory::Texel Memory::load_texel(std::uint32_t number, const std::array<std::int32_t, 3>& at, bool is_fetch, Place by) {
+    const TexelMemory& image = bindings_.images[number];
+    if (is_fetch && !is_inside(image, at))
+        findings_.add("texelFetch outside of the image (GL 4.6, 11.1.3.2)", by,
+                      [&] { return fmt::format("texel ({}, {}, {}) of {}", at[0], at[1], at[2], image.name); });
+    touch_texel(number, at, Races::How::read, by);
+    return texel_words(number, at);
+}
+
 Memory::Texel Memory::texel_at_edge(std::uint32_t number, std::array<std::int32_t, 3> at) {
     const TexelMemory& image = bindings_.images[number];
     if (!is_inside(image, at) && image.filter == TexelMemory::Filter::linear_in_black)
         return {};
     for (std::size_t c = 0; c < at.size(); ++c)
         at[c] = std::clamp(at[c], 0, static_cast<std::int32_t>(image.size[c]) - 1);
-    return load_texel(number, at, false, {});
+    return texel_words(number, at);
 }
 
 Memory::Texel Memory::sample(std::uint32_t number, const std::array<float, 3>& place, std::uint32_t axes) {
@@ -120,8 +129,7 @@ Memory::Texel Memory::sample(std::uint32_t number, const std::array<float, 3>& p
     return cell[0];
 }
 
-void Memory::store_texel(std::uint32_t number, const std::array<std::int32_t, 3>& at, const Texel& texel,
-                         Toucher /*by*/) {
+void Memory::put_texel(std::uint32_t number, const std::array<std::int32_t, 3>& at, const Texel& texel) {
     const TexelMemory& image = bindings_.images[number];
     if (!is_inside(image, at)) // no error, and no write (GL 4.6, 8.26)
         return;
@@ -133,6 +141,11 @@ void Memory::store_texel(std::uint32_t number, const std::array<std::int32_t, 3>
                                      ? std::bit_cast<std::uint32_t>(half_nearest(real))
                                      : texel[c];
     }
+}
+
+void Memory::store_texel(std::uint32_t number, const std::array<std::int32_t, 3>& at, const Texel& texel, Place by) {
+    touch_texel(number, at, Races::How::write, by);
+    put_texel(number, at, texel);
 }
 
 } // namespace lockstep::text

@@ -4,10 +4,12 @@
 #include <cstdint>
 #include <span>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "reference/text/findings.hpp"
 #include "reference/text/program.hpp"
+#include "reference/text/races.hpp"
 
 namespace lockstep::text {
 
@@ -36,51 +38,60 @@ struct Bindings {
     std::vector<std::vector<std::uint32_t>> uniforms; ///< words of each; fewer than it has are followed by zeros
 };
 
-/// Who touches memory, for findings.
-struct Toucher {
-    std::uint32_t line = 0, invocation = 0;
-};
-
 /// The memory of a dispatch: blocks and images, and the shared variables of the group that runs. What lies outside of
 /// it reads as 0 and is not written (GL 4.6, 6.4, with robust access), and is a finding.
 class Memory {
   public:
-    Memory(const Program& program, const Bindings& bindings, Findings& findings)
-        : program_(program), bindings_(bindings), findings_(findings), shared_(program.shared) {}
+    /// `races`: is shown all that is touched; null: nobody looks.
+    Memory(const Program& program, const Bindings& bindings, Findings& findings, Races* races)
+        : program_(program), bindings_(bindings), findings_(findings), races_(races), shared_(program.shared),
+          unset_(races != nullptr ? program.shared : 0) {}
 
-    void start_group() { std::fill(shared_.begin(), shared_.end(), 0U); }
+    void start_group(std::uint32_t number) {
+        std::fill(shared_.begin(), shared_.end(), 0U);
+        std::fill(unset_.begin(), unset_.end(), std::uint8_t{1});
+        if (races_ != nullptr)
+            races_->start_group(number);
+    }
+    /// Whether no invocation of the group has written a shared word. Known where races are looked for.
+    [[nodiscard]] bool is_unset(std::uint32_t word) const { return word < unset_.size() && unset_[word] != 0; }
+    [[nodiscard]] Findings& findings() { return findings_; }
+    [[nodiscard]] Races* races() { return races_; }
 
-    [[nodiscard]] std::uint32_t load_block(std::uint32_t block, std::uint32_t word, Toucher by) {
+    [[nodiscard]] std::uint32_t load_block(std::uint32_t block, std::uint32_t word, Place by) {
         const std::span<const std::uint32_t> words = bindings_.blocks[block];
+        touch_block(block, word, Races::How::read, by);
         return word < words.size() ? words[word] : outside_block(block, word, by);
     }
-    void store_block(std::uint32_t block, std::uint32_t word, std::uint32_t value, Toucher by) {
+    void store_block(std::uint32_t block, std::uint32_t word, std::uint32_t value, Place by) {
         const std::span<std::uint32_t> words = bindings_.blocks[block];
+        touch_block(block, word, Races::How::write, by);
         if (word < words.size())
             words[word] = value;
         else
             outside_block(block, word, by);
     }
-    [[nodiscard]] std::uint32_t load_shared(std::uint32_t word, Toucher by) {
+    [[nodiscard]] std::uint32_t load_shared(std::uint32_t word, Place by) {
+        touch_shared(word, Races::How::read, by);
         return word < shared_.size() ? shared_[word] : outside_shared(by);
     }
-    void store_shared(std::uint32_t word, std::uint32_t value, Toucher by) {
+    void store_shared(std::uint32_t word, std::uint32_t value, Place by) {
+        touch_shared(word, Races::How::write, by);
         if (word < shared_.size())
             shared_[word] = value;
         else
             outside_shared(by);
     }
     /// An index of a vector or array that has `count` elements.
-    void note_index(std::uint32_t index, std::uint32_t count, Toucher by);
+    void note_index(std::uint32_t index, std::uint32_t count, Place by);
     /// Elements of the array without a length at the block's end.
     [[nodiscard]] std::uint32_t length(std::uint32_t block) const;
 
     using Texel = std::array<std::uint32_t, 4>;
     /// The texel as the shader reads it: bits of floats, or integers. Beyond the image all are 0 (GL 4.6, 8.26);
     /// `is_fetch`: texelFetch gives that no value.
-    [[nodiscard]] Texel load_texel(std::uint32_t image, const std::array<std::int32_t, 3>& at, bool is_fetch,
-                                   Toucher by);
-    void store_texel(std::uint32_t image, const std::array<std::int32_t, 3>& at, const Texel& texel, Toucher by);
+    [[nodiscard]] Texel load_texel(std::uint32_t image, const std::array<std::int32_t, 3>& at, bool is_fetch, Place by);
+    void store_texel(std::uint32_t image, const std::array<std::int32_t, 3>& at, const Texel& texel, Place by);
     /// What texture() makes of a place, 0 to 1 along each axis: GL_LINEAR as drivers with weights of all bits do it,
     /// fma(f, b - a, a) along x, then y, then z (GL 4.6, 8.14.3).
     [[nodiscard]] Texel sample(std::uint32_t image, const std::array<float, 3>& place, std::uint32_t axes);
@@ -88,36 +99,54 @@ class Memory {
 
     /// `change(before)` takes the place of a word; returns the word before.
     template <class Change>
-    std::uint32_t atomic_block(std::uint32_t block, std::uint32_t word, Toucher by, const Change& change) {
-        const std::uint32_t before = load_block(block, word, by);
-        if (word < bindings_.blocks[block].size())
-            bindings_.blocks[block][word] = change(before);
-        return before;
+    std::uint32_t atomic_block(std::uint32_t block, std::uint32_t word, Place by, const Change& change) {
+        const std::span<std::uint32_t> words = bindings_.blocks[block];
+        touch_block(block, word, Races::How::atomic, by);
+        if (word >= words.size())
+            return outside_block(block, word, by);
+        return std::exchange(words[word], change(words[word]));
     }
-    template <class Change> std::uint32_t atomic_shared(std::uint32_t word, Toucher by, const Change& change) {
-        const std::uint32_t before = load_shared(word, by);
-        if (word < shared_.size())
-            shared_[word] = change(before);
-        return before;
+    template <class Change> std::uint32_t atomic_shared(std::uint32_t word, Place by, const Change& change) {
+        touch_shared(word, Races::How::atomic, by);
+        if (word >= shared_.size())
+            return outside_shared(by);
+        return std::exchange(shared_[word], change(shared_[word]));
     }
     template <class Change> std::uint32_t atomic_texel(std::uint32_t image, const std::array<std::int32_t, 3>& at,
-                                                       Toucher by, const Change& change) {
-        Texel texel = load_texel(image, at, false, by);
+                                                       Place by, const Change& change) {
+        Texel texel = texel_words(image, at);
         const std::uint32_t before = texel[0];
         texel[0] = change(before);
-        store_texel(image, at, texel, by);
+        put_texel(image, at, texel);
+        touch_texel(image, at, Races::How::atomic, by);
         return before;
     }
 
   private:
+    void touch_block(std::uint32_t block, std::uint32_t word, Races::How how, Place by) {
+        if (races_ != nullptr && program_.blocks[block].is_storage)
+            races_->touch(Races::Space::buffer, block, word, how, by, program_.blocks[block].name);
+    }
+    void touch_shared(std::uint32_t word, Races::How how, Place by) {
+        if (races_ == nullptr)
+            return;
+        races_->touch(Races::Space::shared, 0, word, how, by, "a shared variable");
+        if (how == Races::How::write && word < unset_.size())
+            unset_[word] = 0;
+    }
+    void touch_texel(std::uint32_t image, const std::array<std::int32_t, 3>& at, Races::How how, Place by);
+    [[nodiscard]] Texel texel_words(std::uint32_t image, const std::array<std::int32_t, 3>& at) const;
+    void put_texel(std::uint32_t image, const std::array<std::int32_t, 3>& at, const Texel& texel);
     [[nodiscard]] Texel texel_at_edge(std::uint32_t image, std::array<std::int32_t, 3> at);
-    std::uint32_t outside_block(std::uint32_t block, std::uint32_t word, Toucher by);
-    std::uint32_t outside_shared(Toucher by);
+    std::uint32_t outside_block(std::uint32_t block, std::uint32_t word, Place by);
+    std::uint32_t outside_shared(Place by);
 
     const Program& program_;
     const Bindings& bindings_;
     Findings& findings_;
+    Races* races_;
     std::vector<std::uint32_t> shared_;
+    std::vector<std::uint8_t> unset_; ///< of shared words
 };
 
 } // namespace lockstep::text

@@ -42,7 +42,8 @@ enum Own : std::uint16_t {
     leave_block,  ///< sets the block that lanes come from to a
     call,         ///< goes on at a, returns to the next step
     finish,       ///< returns, or ends the invocation
-    barrier
+    fence,        ///< a memory barrier of semantics a
+    barrier       ///< the same, for all of a group
 };
 } // namespace code
 
@@ -84,6 +85,12 @@ struct ImageUniform {
     bool is_real = true; ///< components are floats
 };
 
+/// A variable of the text.
+struct NamedCells {
+    std::string name;
+    std::uint32_t first = 0, count = 0;
+};
+
 struct CellWord {
     std::uint32_t cell = 0, word = 0;
     bool is_real = false;
@@ -95,11 +102,13 @@ struct Program {
     std::vector<std::uint32_t> lines;    ///< of each step
     std::vector<std::uint32_t> operands; ///< further ones of steps
     std::vector<Leaf> leaves;
-    std::uint32_t cells = 0, shared = 0; ///< how many
-    std::uint32_t variables = 0;         ///< how many of the first cells are variables without a value at first
-    std::uint32_t scratch = 0;           ///< four cells that last for a step
-    std::vector<CellWord> constants;     ///< set once
-    std::vector<CellWord> initial;       ///< of variables outside functions, set for each invocation
+    std::uint32_t cells = 0, shared = 0;  ///< how many
+    std::uint32_t variables = 0;          ///< how many of the first cells are variables without a value at first
+    std::uint32_t scratch = 0;            ///< four cells that last for a step
+    std::vector<NamedCells> names;        ///< of these
+    std::vector<std::uint32_t> undefined; ///< cells that OpUndef stands for
+    std::vector<CellWord> constants;      ///< set once
+    std::vector<CellWord> initial;        ///< of variables outside functions, set for each invocation
     std::vector<std::pair<spv::BuiltIn, std::uint32_t>> inputs; ///< built-in variables and their first cells
     std::uint32_t entry = 0;                                    ///< first step
     std::array<std::uint32_t, 3> group{1, 1, 1};
@@ -109,6 +118,8 @@ struct Program {
     std::uint32_t barriers = 0;
     LineName line_name;
 
+    /// "variable sum"; a cell beyond all is a shared variable's.
+    [[nodiscard]] std::string variable_at(std::uint32_t cell) const;
     [[nodiscard]] std::uint32_t invocations() const { return group[0] * group[1] * group[2]; }
 };
 

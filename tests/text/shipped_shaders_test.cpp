@@ -95,9 +95,11 @@ void compare_stages(const ShippedScene& shipped, int frames, StageTable& table) 
                                                       shader_folders("shaders/" + shipped.system), scene.arithmetic);
                 text::Findings findings;
                 row.text_seconds += seconds_of([&] { text->run({view, frame}, profile, by_text, findings); });
+                SystemState watched = before;
+                text->run({view, frame}, profile, watched, findings, {.is_watched = true});
                 for (const text::Finding& finding : findings.all())
-                    row.finding =
-                        fmt::format("{}: {}: {}", text->program().line_name(finding.line), finding.rule, finding.what);
+                    row.finding = fmt::format("{}: {}: {}", text->program().line_name(finding.place.line), finding.rule,
+                                              finding.what);
             } catch (const Error& error) {
                 row.refused = error.what();
             }

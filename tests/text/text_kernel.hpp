@@ -51,7 +51,7 @@ struct TextKernel {
             texels.words = images.at(image.name).words;
             bindings.images.push_back(texels);
         }
-        text::run_dispatch(program, {groups}, bindings, profile, findings);
+        text::run_dispatch(program, {.groups = groups, .is_watched = is_watched}, bindings, profile, findings);
     }
 
     struct TexelWords {
@@ -62,6 +62,7 @@ struct TextKernel {
     std::map<std::string, std::vector<std::uint32_t>> blocks, uniforms;
     std::map<std::string, TexelWords> images;
     text::Findings findings;
+    bool is_watched = false;
 };
 
 /// What invocation 0 of `statements`, behind `declarations`, leaves in `float x[]`, of 16.

@@ -22,6 +22,7 @@ Verb manual_command();
 Verb capsule_command();
 Verb graph_command();
 Verb function_command();
+Verb examine_command();
 Verb new_command();
 
 } // namespace lockstep

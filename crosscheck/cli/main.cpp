@@ -20,10 +20,10 @@ lockstep::Verb program() {
     using namespace lockstep;
     Verb program{"lockstep", "lockstep: runs an image-based particle system as plain C++ and as GLSL on OpenGL, and "
                              "compares every bit of every frame"};
-    program.verbs = {check_command(),    explain_command(), debug_command(),      render_command(), hash_command(),
-                     info_command(),     probe_command(),   bench_command(),      study_command(),  record_command(),
-                     trace_command(),    merge_command(),   capsule_command(),    report_command(), graph_command(),
-                     function_command(), new_command(),     completion_command(), manual_command()};
+    program.verbs = {check_command(),    explain_command(), debug_command(),   render_command(),     hash_command(),
+                     info_command(),     probe_command(),   bench_command(),   study_command(),      record_command(),
+                     trace_command(),    merge_command(),   capsule_command(), report_command(),     graph_command(),
+                     function_command(), examine_command(), new_command(),     completion_command(), manual_command()};
     program.version = LOCKSTEP_VERSION;
     program.footer = "lockstep VERB --help says more of each.\n"
                      "Example: lockstep check data/scenes/lattice.json --frames 100";

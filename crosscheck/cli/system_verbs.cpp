@@ -11,6 +11,7 @@
 #include <nlohmann/json.hpp>
 
 #include "crosscheck/cli/commands.hpp"
+#include "crosscheck/cli/shader_findings.hpp"
 #include "crosscheck/cli/system_run.hpp"
 #include "crosscheck/files/json_text.hpp"
 #include "crosscheck/files/plain_text.hpp"
@@ -232,6 +233,11 @@ int check_system(const RegisteredSystem& system, RunOptions run, const SystemChe
     input.describe(about);
     for (const std::vector<std::string>& some : {input.left_open(side.describe().profile), run_to_run_notes(two_runs)})
         about.notes.insert(about.notes.end(), some.begin(), some.end());
+    if (!input.is_recorded() && !run.shaders.empty()) {
+        const std::vector<std::string> found =
+            shader_findings(input.scene(), run.shaders, side.describe().profile, run.frames);
+        about.notes.insert(about.notes.end(), found.begin(), found.end());
+    }
     if (input.is_recorded() && run.frames < input.recorded_frames())
         about.notes.push_back(
             fmt::format("{} of the {} frames recorded were compared", run.frames, input.recorded_frames()));

@@ -155,6 +155,7 @@ void Decoder::outside_variables() {
             break;
         case spv::StorageClassWorkgroup:
             address_[v.id] = {.space = Address::Space::shared, .offset = p_.shared, .type = v.type};
+            p_.shared_names.push_back({about.name, p_.shared, type(v.type).cells});
             p_.shared += type(v.type).cells;
             break;
         case spv::StorageClassInput:
@@ -180,7 +181,10 @@ void Decoder::block(const Variable& variable, bool is_storage) {
         if (const Type& last = type(of.members.back().type); last.kind == Type::Kind::array && last.count == 0) {
             made.array_offset = of.members.back().offset;
             made.array_stride = last.stride;
+            const Type::Member& member = of.members.back();
+            lay(module_, last.element, 0, {member.matrix_stride, member.is_row_major}, made.element);
         }
+    lay(module_, variable.type, 0, {}, made.leaves);
     address_[variable.id] = {
         .space = Address::Space::block, .place = static_cast<std::uint32_t>(p_.blocks.size()), .type = variable.type};
     p_.blocks.push_back(std::move(made));
@@ -342,14 +346,31 @@ void Decoder::instruction(const Instruction& at, std::size_t number) {
         refuse(fmt::format("SPIR-V instruction {} is not interpreted", static_cast<unsigned>(at.op)));
 }
 
-std::string Program::variable_at(std::uint32_t cell) const {
+std::size_t Block::words(std::size_t count) const {
+    constexpr std::size_t word_bytes = 4;
+    std::size_t words = (array_offset + array_stride * count) / word_bytes;
+    for (const Leaf& leaf : leaves)
+        words = std::max<std::size_t>(words, leaf.word + 1U);
+    return words;
+}
+
+namespace {
+
+std::string_view name_at(const std::vector<NamedCells>& names, std::uint32_t cell) {
     const auto found = std::find_if(names.begin(), names.end(), [&](const NamedCells& one) {
         return cell >= one.first && cell < one.first + one.count;
     });
-    if (found != names.end())
-        return fmt::format("variable {}", found->name);
-    return cell < cells ? "a value without a name" : "a shared variable";
+    return found == names.end() ? "" : std::string_view(found->name);
 }
+
+} // namespace
+
+std::string Program::variable_at(std::uint32_t cell) const {
+    const std::string_view name = name_at(names, cell);
+    return name.empty() ? "a value without a name" : fmt::format("variable {}", name);
+}
+
+std::string_view Program::shared_at(std::uint32_t cell) const { return name_at(shared_names, cell); }
 
 Program decoded(const Module& module) { return Decoder(module).take(); }
 

@@ -122,6 +122,13 @@ void run_dispatch(const Program& program, const Dispatch& dispatch, const Bindin
             flush();
     }
     flush();
+    // What a race reads may be there or not: the race says it all.
+    const std::vector<Finding> all = findings.all();
+    findings.remove([&](const Finding& one) {
+        return one.rule == unset_rule && std::any_of(all.begin(), all.end(), [&](const Finding& race) {
+                   return race.other && (race.place.line == one.place.line || race.other->line == one.place.line);
+               });
+    });
 }
 
 } // namespace lockstep::text

@@ -42,6 +42,7 @@ class Findings {
             }
         all_.push_back({std::string(rule), what(), place, other});
     }
+    template <class Is> void remove(const Is& is) { std::erase_if(all_, is); }
     [[nodiscard]] const std::vector<Finding>& all() const { return all_; }
 
   private:

@@ -100,7 +100,6 @@ template <class R, int W> class Machine {
     struct Unset {
         std::uint32_t cell = 0, line = 0; ///< where it comes from, from 1, and the first operation's that used it
     };
-    static constexpr std::uint32_t shared_cell = 0xffffffffU;
     [[nodiscard]] bool is_watched() const { return !unset_.empty(); }
     Unset* unset(std::uint32_t number) { return unset_.data() + std::size_t{number} * W; }
     void mark_unset(std::uint32_t number) {
@@ -108,6 +107,7 @@ template <class R, int W> class Machine {
             std::fill_n(unset(number), W, Unset{number + 1, 0});
     }
     void need(const Step& s, std::uint32_t first, std::uint32_t n);
+    void need_shared(const Step& s, std::uint32_t word, Lane l);
     void follow(const Step& s);
     void check(const Step& s);
 

@@ -118,6 +118,10 @@ template <class R, int W> void Machine<R, W>::need(const Step& s, std::uint32_t 
     });
 }
 
+template <class R, int W> void Machine<R, W>::need_shared(const Step& s, std::uint32_t word, Lane l) {
+    memory_.findings().add(unset_rule, place(s, l), [&] { return fmt::format("shared {}", p_.shared_at(word)); });
+}
+
 /// Follows unset values through a step that is about to run.
 template <class R, int W> void Machine<R, W>::follow(const Step& s) {
     const auto read = [&](Unset from, Lane l) { // the line of the first operation that used it
@@ -159,10 +163,10 @@ template <class R, int W> void Machine<R, W>::follow(const Step& s) {
     case code::load_shared:
         active([&](Lane l) {
             for (std::uint32_t c = 0; c < s.n; ++c)
-                unset(s.out + c)[l] =
-                    memory_.is_unset(cell(s.b)[l].word() + c) ? Unset{shared_cell, place(s, l).line} : Unset{};
+                if (const std::uint32_t word = cell(s.b)[l].word() + c; memory_.is_unset(word))
+                    need_shared(s, word, l);
         });
-        return;
+        return forget(s.n);
     case code::store_shared:
     case code::store_block:
         return need(s, s.c, s.n);

@@ -56,7 +56,7 @@ template <class R, int W> void Machine<R, W>::atomic(const Step& s) {
         const Place by = place(s, l);
         if (is_watched() && s.op == code::atomic_shared && s.n != spv::OpAtomicExchange && s.n != spv::OpAtomicStore &&
             memory_.is_unset(cell(s.b)[l].word()))
-            memory_.findings().add(unset_rule, by, [] { return "a shared variable"; });
+            need_shared(s, cell(s.b)[l].word(), l);
         const auto change = [&](std::uint32_t before) { return changed(s, before, l); };
         const std::uint32_t before =
             s.op == code::atomic_shared ? memory_.atomic_shared(cell(s.b)[l].word(), by, change)

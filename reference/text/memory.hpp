@@ -130,7 +130,7 @@ class Memory {
     void touch_shared(std::uint32_t word, Races::How how, Place by) {
         if (races_ == nullptr)
             return;
-        races_->touch(Races::Space::shared, 0, word, how, by, "a shared variable");
+        races_->touch(Races::Space::shared, 0, word, how, by, program_.shared_at(word));
         if (how == Races::How::write && word < unset_.size())
             unset_[word] = 0;
     }

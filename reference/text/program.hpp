@@ -2,6 +2,7 @@
 #include <array>
 #include <cstdint>
 #include <string>
+#include <string_view>
 #include <utility>
 #include <vector>
 
@@ -65,8 +66,12 @@ struct Leaf {
 struct Block {
     std::string name; ///< of the block, not of its instance
     bool is_storage = true;
-    std::uint32_t array_offset = 0,
-                  array_stride = 0; ///< of an array without a length at its end, bytes; stride 0: none
+    /// Of an array without a length at its end, bytes; stride 0: there is none.
+    std::uint32_t array_offset = 0, array_stride = 0;
+    std::vector<Leaf> leaves = {}, element = {}; ///< scalars before that array, and of one of its elements
+
+    /// Words of the block whose array has `count` elements.
+    [[nodiscard]] std::size_t words(std::size_t count) const;
 };
 
 /// A plain uniform, or a member of one, by its name in GL: light.colour, weights[0].
@@ -102,13 +107,13 @@ struct Program {
     std::vector<std::uint32_t> lines;    ///< of each step
     std::vector<std::uint32_t> operands; ///< further ones of steps
     std::vector<Leaf> leaves;
-    std::uint32_t cells = 0, shared = 0;  ///< how many
-    std::uint32_t variables = 0;          ///< how many of the first cells are variables without a value at first
-    std::uint32_t scratch = 0;            ///< four cells that last for a step
-    std::vector<NamedCells> names;        ///< of these
-    std::vector<std::uint32_t> undefined; ///< cells that OpUndef stands for
-    std::vector<CellWord> constants;      ///< set once
-    std::vector<CellWord> initial;        ///< of variables outside functions, set for each invocation
+    std::uint32_t cells = 0, shared = 0;         ///< how many
+    std::uint32_t variables = 0;                 ///< how many of the first cells are variables without a value at first
+    std::uint32_t scratch = 0;                   ///< four cells that last for a step
+    std::vector<NamedCells> names, shared_names; ///< of these, and of shared variables
+    std::vector<std::uint32_t> undefined;        ///< cells that OpUndef stands for
+    std::vector<CellWord> constants;             ///< set once
+    std::vector<CellWord> initial;               ///< of variables outside functions, set for each invocation
     std::vector<std::pair<spv::BuiltIn, std::uint32_t>> inputs; ///< built-in variables and their first cells
     std::uint32_t entry = 0;                                    ///< first step
     std::array<std::uint32_t, 3> group{1, 1, 1};
@@ -118,8 +123,9 @@ struct Program {
     std::uint32_t barriers = 0;
     LineName line_name;
 
-    /// "variable sum"; a cell beyond all is a shared variable's.
+    /// "variable sum".
     [[nodiscard]] std::string variable_at(std::uint32_t cell) const;
+    [[nodiscard]] std::string_view shared_at(std::uint32_t cell) const; ///< the shared variable's name
     [[nodiscard]] std::uint32_t invocations() const { return group[0] * group[1] * group[2]; }
 };
 

@@ -86,7 +86,10 @@ void Races::found(const Touch& before, Space space, How how, Place place, std::s
         rules[static_cast<std::size_t>(space)], place,
         [&] {
             return fmt::format("invocation {} {} what invocation {} touched {}: {}", place.invocation, verb(how),
-                               before.place.invocation, in_group ? "with no barrier between" : "in another group",
+                               before.place.invocation,
+                               !in_group                ? "in another group"
+                               : space == Space::shared ? "with no barrier between"
+                                                        : "without a barrier and a memory barrier between",
                                name);
         },
         before.place);

@@ -196,7 +196,8 @@ x[0] = float(gl_LocalInvocationIndex);
     CHECK(race.place == text::Place{5, 1});
     CHECK(race.other == text::Place{5, 0});
     CHECK(race.times == 3);
-    CHECK(race.what == "invocation 1 writes what invocation 0 touched with no barrier between: Out");
+    CHECK(race.what ==
+          "invocation 1 writes what invocation 0 touched without a barrier and a memory barrier between: Out");
 }
 
 TEST_CASE("text findings: a barrier that not all of a group come to is found, with where the others are") {

@@ -1,0 +1,128 @@
+#include <algorithm>
+#include <array>
+#include <charconv>
+#include <filesystem>
+#include <memory>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+#include <fmt/format.h>
+
+#include "crosscheck/cli/commands.hpp"
+#include "crosscheck/command/option_values.hpp"
+#include "crosscheck/files/json_text.hpp"
+#include "crosscheck/files/output_files.hpp"
+#include "crosscheck/files/plain_text.hpp"
+#include "crosscheck/text/examine.hpp"
+#include "reference/model/error.hpp"
+
+namespace lockstep {
+namespace {
+
+struct ExamineRequest {
+    std::filesystem::path file, json;
+    std::string groups = "4";
+    std::vector<std::string> uniforms, sizes, defines;
+    std::size_t seed = 1;
+    bool quiet = false;
+};
+
+/// "NAME=VALUE", taken apart.
+std::pair<std::string, std::string> parts_of(std::string_view option, const std::string& text) {
+    const std::size_t sign = text.find('=');
+    if (sign == std::string::npos || sign == 0)
+        throw Error(fmt::format("{} {}: expected NAME=VALUE", option, plain_line(text)));
+    return {text.substr(0, sign), text.substr(sign + 1)};
+}
+
+/// "1,2,3"; nothing of what is no list of numbers.
+template <class Number> std::vector<Number> numbers_in(const std::string& text) {
+    std::vector<Number> numbers;
+    const char* at = text.data();
+    const char* const end = at + text.size();
+    for (;;) {
+        Number number{};
+        const auto [rest, status] = std::from_chars(at, end, number);
+        if (status != std::errc{} || (rest != end && *rest != ','))
+            return {};
+        numbers.push_back(number);
+        if (rest == end)
+            return numbers;
+        at = rest + 1;
+    }
+}
+
+/// "NAME=1,2,3".
+template <class Number>
+std::pair<std::string, std::vector<Number>> numbers_of(std::string_view option, const std::string& text) {
+    const auto [name, value] = parts_of(option, text);
+    std::vector<Number> numbers = numbers_in<Number>(value);
+    if (numbers.empty())
+        throw Error(fmt::format("{} {}: '{}' is no list of numbers; expected NAME=NUMBER, or NAME=1,2,3", option,
+                                plain_line(text), plain_line(value)));
+    return {name, std::move(numbers)};
+}
+
+std::array<std::uint32_t, 3> groups_of(const std::string& text) {
+    constexpr std::uint32_t most = 65535; // that every GL has
+    const std::vector<std::uint32_t> numbers = numbers_in<std::uint32_t>(text);
+    std::array<std::uint32_t, 3> groups{1, 1, 1};
+    const auto fits = [](std::uint32_t n) { return n > 0 && n <= most; };
+    if (numbers.empty() || numbers.size() > groups.size() || !std::all_of(numbers.begin(), numbers.end(), fits))
+        throw Error(fmt::format("--groups {}: expected one to three numbers from 1 to {}", plain_line(text), most));
+    std::copy(numbers.begin(), numbers.end(), groups.begin());
+    return groups;
+}
+
+int run_examine(const ExamineRequest& options) {
+    Examination of{.file = options.file};
+    of.groups = groups_of(options.groups);
+    for (const std::string& one : options.uniforms)
+        of.uniforms.insert(numbers_of<float>("--uniform", one));
+    for (const std::string& one : options.sizes) {
+        const auto [name, size] = numbers_of<std::uint32_t>("--size", one);
+        of.sizes[name] = size;
+    }
+    for (const std::string& one : options.defines)
+        of.defines.push_back(parts_of("--define", one));
+    of.seed = static_cast<std::uint32_t>(options.seed);
+    OutputFiles files;
+    files.protect(options.file);
+    if (!options.json.empty())
+        files.expect(options.json);
+    const ExaminationResult result = examine(of);
+    if (!options.quiet)
+        fmt::print("{}", plain_text(result.text(of)));
+    if (!options.json.empty())
+        files.write(options.json, json_text(result.json(of)));
+    files.commit();
+    return result.findings.empty() ? status_agree : status_differ;
+}
+
+} // namespace
+
+Verb examine_command() {
+    auto options = std::make_shared<ExamineRequest>();
+    Verb verb{"examine", "run a compute shader's text and report races, unset variables and undefined operands"};
+    verb.add(required(path_option("file", "FILE", options->file, "the shader: NAME.comp, or NAME.comp.spv")));
+    verb.add(otherwise(text_option("--groups", "X,Y,Z", options->groups, "groups along each axis"), "4"));
+    verb.add(settings_option("--uniform", "NAME=VALUE", options->uniforms,
+                             "a uniform's value: u_Kept=0.5, u_Gravity=0,-9.81,0; 0 without"));
+    verb.add(settings_option("--size", "NAME=N", options->sizes,
+                             "elements of the array at the end of a block, or texels along each axis of an image: "
+                             "Particles=100, u_Source=64,64; as many as invocations without"));
+    verb.add(settings_option("--define", "NAME=TEXT", options->defines, "a macro that the shader is compiled with"));
+    verb.add(otherwise(integer_option("--seed", "N", IntegerRange{0, 1'000'000}, options->seed,
+                                      "which random numbers blocks and images hold"),
+                       "1"));
+    verb.add(path_option("--json", "FILE", options->json, "write the findings as JSON"));
+    verb.add(flag("--quiet", options->quiet, "print nothing"));
+    verb.footer = "Exit status: 0 nothing was found, 1 something was, 2 could not run.\n"
+                  "Example: lockstep examine blur.comp --groups 4,4 --uniform u_Radius=3";
+    verb.run = [options](const Call&) { return run_examine(*options); };
+    return verb;
+}
+
+} // namespace lockstep

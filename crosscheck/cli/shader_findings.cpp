@@ -1,0 +1,76 @@
+#include "crosscheck/cli/shader_findings.hpp"
+
+#include <algorithm>
+#include <memory>
+
+#include <fmt/format.h>
+
+#include "crosscheck/judge/dispatch.hpp"
+#include "crosscheck/judge/system_run.hpp"
+#include "crosscheck/text/pass_text.hpp"
+#include "reference/model/error.hpp"
+
+namespace lockstep {
+namespace {
+
+constexpr int most_frames = 2;
+
+/// The first groups of a dispatch, where neighbours are, and few of the rest.
+bool is_sampled(const std::array<std::uint32_t, 3>& group) {
+    constexpr std::uint32_t first = 4, every = 61;
+    const std::uint32_t place = group[0] + 7 * group[1] + 13 * group[2];
+    return (group[0] < first && group[1] < 2 && group[2] < 2) || place % every == 0;
+}
+
+std::string line_of(const text::Program& program, const text::Finding& found) {
+    std::string line = fmt::format("{}: {}: {}", program.line_name(found.place.line), found.rule, found.what);
+    if (found.other && found.other->line != found.place.line)
+        line += fmt::format("; the other at {}", program.line_name(found.other->line));
+    return line;
+}
+
+/// One compute stage of a scene and what was found in it so far.
+struct WatchedText {
+    std::unique_ptr<PassText> text;
+    text::Findings findings;
+};
+
+} // namespace
+
+std::vector<std::string> shader_findings(const SystemScene& scene, const std::filesystem::path& shaders,
+                                         const Profile& profile, int frames) {
+    const System& system = scene.system;
+    const ShaderFolders folders = shader_folders(shaders, system.schema.system);
+    std::vector<WatchedText> texts(scene.passes.size());
+    std::vector<std::string> lines;
+    for (std::size_t p = 0; p < scene.passes.size(); ++p)
+        if (scene.passes[p].stage == Stage::compute && !scene.passes[p].continues)
+            try {
+                texts[p].text = std::make_unique<PassText>(system.schema, scene.passes[p], written_by(system, p),
+                                                           folders, scene.arithmetic);
+            } catch (const Error& error) {
+                lines.push_back(fmt::format("text of {}.comp not looked into: {}", scene.passes[p].name, error.what()));
+            }
+    if (std::none_of(texts.begin(), texts.end(), [](const WatchedText& one) { return one.text != nullptr; }))
+        return lines;
+    ReferenceRun run(system, profile);
+    for (int frame = 0; frame < std::min(frames, most_frames); ++frame)
+        for (std::size_t p = 0; p < scene.passes.size(); ++p) {
+            WatchedText& watched = texts[p];
+            if (watched.text != nullptr && system.passes[p]->runs(frame)) {
+                const SystemView view = run.state().view();
+                SystemState after = run.state();
+                watched.text->run({view, frame}, profile, after, watched.findings,
+                                  {.wants = is_sampled, .is_watched = true});
+            }
+            run.step_pass(p, frame);
+        }
+    for (const WatchedText& watched : texts)
+        for (const text::Finding& found : watched.findings.all())
+            lines.push_back(line_of(watched.text->program(), found));
+    std::sort(lines.begin(), lines.end());
+    lines.erase(std::unique(lines.begin(), lines.end()), lines.end());
+    return lines;
+}
+
+} // namespace lockstep

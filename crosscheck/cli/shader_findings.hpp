@@ -1,0 +1,16 @@
+#pragma once
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "crosscheck/judge/registered_system.hpp"
+#include "reference/model/profile.hpp"
+
+namespace lockstep {
+
+/// What watched runs of the texts of a scene's compute shaders find (docs/shader_text.md), on a sample of the groups of
+/// the first frames, from the reference's states: a line each. A text that is not interpreted is one of them.
+std::vector<std::string> shader_findings(const SystemScene& scene, const std::filesystem::path& shaders,
+                                         const Profile& profile, int frames);
+
+} // namespace lockstep

@@ -1,0 +1,215 @@
+#include "crosscheck/text/examine.hpp"
+
+#include <algorithm>
+#include <bit>
+#include <memory>
+#include <set>
+#include <string_view>
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include "crosscheck/files/plain_text.hpp"
+#include "crosscheck/text/glsl_module.hpp"
+#include "reference/model/error.hpp"
+#include "reference/model/near_name.hpp"
+#include "reference/model/profile.hpp"
+#include "reference/text/dispatch.hpp"
+
+namespace lockstep {
+namespace {
+
+/// Floats from 0 to 1 that look random, the same everywhere.
+class MadeUp {
+  public:
+    explicit MadeUp(std::uint32_t seed) : state_(seed * 747796405U + 2891336453U) {}
+
+    std::uint32_t word() {
+        state_ = state_ * 747796405U + 2891336453U;
+        const std::uint32_t mixed = ((state_ >> ((state_ >> 28U) + 4U)) ^ state_) * 277803737U;
+        const float x = static_cast<float>(((mixed >> 22U) ^ mixed) >> 8U) * 0x1p-24F;
+        return std::bit_cast<std::uint32_t>(x);
+    }
+
+  private:
+    std::uint32_t state_;
+};
+
+std::shared_ptr<const ShaderSource> source_of(const Examination& of) {
+    std::string name = of.file.filename().string();
+    for (const std::string_view end : {".spv", ".comp"})
+        if (name.ends_with(end))
+            name.resize(name.size() - end.size());
+    if (name == of.file.filename().string())
+        throw Error(
+            fmt::format("{}: expected a compute shader, NAME.comp or NAME.comp.spv", plain_line(of.file.string())));
+    if (!std::filesystem::exists(of.file))
+        throw Error(fmt::format("{}: no such file", plain_line(of.file.string())));
+    const std::filesystem::path folder = of.file.has_parent_path() ? of.file.parent_path() : ".";
+    return std::make_shared<ShaderSource>(load_stage(shader_folders(folder), name, Stage::compute, of.defines));
+}
+
+/// Throws Error for a name among those given that the shader does not have.
+template <class Given>
+void check_names(std::string_view option, const Given& given, const std::vector<std::string>& names) {
+    for (const auto& [name, value] : given)
+        if (std::find(names.begin(), names.end(), name) == names.end())
+            throw Error(fmt::format("{} {}: the shader has no such name; it has {}{}", option, plain_line(name),
+                                    names.empty() ? "none" : fmt::format("{}", fmt::join(names, ", ")),
+                                    did_you_mean(name, names)));
+}
+
+std::vector<std::uint32_t> uniform_words(const text::PlainUniform& uniform, const std::vector<float>& given) {
+    if (given.size() != uniform.cells)
+        throw Error(
+            fmt::format("--uniform {}: expected {} numbers, got {}", uniform.name, uniform.cells, given.size()));
+    std::vector<std::uint32_t> words;
+    for (const float x : given)
+        words.push_back(uniform.is_real ? std::bit_cast<std::uint32_t>(x)
+                                        : static_cast<std::uint32_t>(static_cast<std::int64_t>(x)));
+    return words;
+}
+
+std::vector<std::uint32_t> block_words(const text::Block& block, std::size_t count, MadeUp& made_up) {
+    constexpr std::size_t word_bytes = 4;
+    std::vector<std::uint32_t> words(block.words(count));
+    const auto fill = [&](std::size_t first, const std::vector<text::Leaf>& leaves) {
+        for (const text::Leaf& leaf : leaves)
+            if (leaf.is_real)
+                words.at(first + leaf.word) = made_up.word();
+    };
+    fill(0, block.leaves);
+    for (std::size_t i = 0; block.array_stride > 0 && i < count; ++i)
+        fill((block.array_offset + i * block.array_stride) / word_bytes, block.element);
+    return words;
+}
+
+/// What a program's names are bound to.
+struct MadeUpWorld {
+    std::vector<std::vector<std::uint32_t>> words;
+    text::Bindings bindings;
+};
+
+MadeUpWorld world_of(const Examination& of, const text::Program& program) {
+    constexpr std::size_t most_words = std::size_t{1} << 26U;
+    MadeUp made_up(of.seed);
+    MadeUpWorld world;
+    world.words.reserve(program.blocks.size() + program.images.size());
+    std::array<std::uint32_t, 3> invocations{};
+    for (std::size_t axis = 0; axis < 3; ++axis)
+        invocations[axis] = of.groups[axis] * program.group[axis];
+    const auto size_of = [&](const std::string& name) {
+        const auto found = of.sizes.find(name);
+        return found == of.sizes.end() ? std::vector<std::uint32_t>{} : found->second;
+    };
+    const auto check_size = [&](const std::string& name, std::size_t words) {
+        if (words > most_words)
+            throw Error(fmt::format("--size {}: {} words; at most {} are made up", name, words, most_words));
+    };
+    for (const text::Block& block : program.blocks) {
+        const std::vector<std::uint32_t> size = size_of(block.name);
+        if (!size.empty() && (block.array_stride == 0 || size.size() != 1))
+            throw Error(fmt::format("--size {}: expected one number, of a block that ends with an array without a "
+                                    "length",
+                                    block.name));
+        const std::size_t count =
+            size.empty() ? std::size_t{invocations[0]} * invocations[1] * invocations[2] : size[0];
+        check_size(block.name, block.words(count));
+        world.words.push_back(block_words(block, count, made_up));
+        world.bindings.blocks.emplace_back(world.words.back());
+    }
+    for (const text::ImageUniform& image : program.images) {
+        text::TexelMemory texels{.name = image.name};
+        const std::uint32_t axes = image.dimensions == spv::Dim1D ? 1 : image.dimensions == spv::Dim2D ? 2 : 3;
+        const std::vector<std::uint32_t> size = size_of(image.name);
+        if (!size.empty() && size.size() != axes)
+            throw Error(fmt::format("--size {}: expected {} numbers, texels along each axis", image.name, axes));
+        for (std::uint32_t axis = 0; axis < axes; ++axis)
+            texels.size[axis] = size.empty() ? invocations[axis] : size[axis];
+        const std::size_t words = std::size_t{texels.size[0]} * texels.size[1] * texels.size[2] * texels.components;
+        check_size(image.name, words);
+        std::vector<std::uint32_t>& all = world.words.emplace_back(words);
+        for (std::uint32_t& word : all)
+            word = image.is_real ? made_up.word() : 0U;
+        texels.words = all;
+        world.bindings.images.push_back(texels);
+    }
+    for (const text::PlainUniform& uniform : program.uniforms) {
+        const auto given = of.uniforms.find(uniform.name);
+        world.bindings.uniforms.push_back(given == of.uniforms.end() ? std::vector<std::uint32_t>{}
+                                                                     : uniform_words(uniform, given->second));
+    }
+    return world;
+}
+
+template <class All> std::vector<std::string> names_of(const All& all) {
+    std::vector<std::string> names;
+    for (const auto& one : all)
+        names.push_back(one.name);
+    return names;
+}
+
+} // namespace
+
+ExaminationResult examine(const Examination& of) {
+    const std::shared_ptr<const ShaderSource> source = source_of(of);
+    const text::Program program = text::decoded(
+        text::read_module(spirv_of(*source), [source](std::uint32_t line) { return line_name(*source, line); }));
+    check_names("--uniform", of.uniforms, names_of(program.uniforms));
+    std::vector<std::string> sized = names_of(program.blocks);
+    for (const std::string& name : names_of(program.images))
+        sized.push_back(name);
+    check_names("--size", of.sizes, sized);
+    MadeUpWorld world = world_of(of, program);
+    text::Findings findings;
+    text::run_dispatch(program, {.groups = of.groups, .is_watched = true}, world.bindings, named_profile("strict"),
+                       findings);
+    ExaminationResult result;
+    result.group_size = program.invocations();
+    for (const text::PlainUniform& uniform : program.uniforms)
+        if (!of.uniforms.contains(uniform.name))
+            result.not_given.push_back(uniform.name);
+    for (const text::Finding& found : findings.all())
+        result.findings.push_back({found, program.line_name(found.place.line),
+                                   found.other ? program.line_name(found.other->line) : std::string()});
+    return result;
+}
+
+std::string ExaminationResult::text(const Examination& of) const {
+    std::string all =
+        fmt::format("{}: {} finding{} in {} groups of {} invocations\n", of.file.filename().string(),
+                    findings.empty() ? "no" : std::to_string(findings.size()), findings.size() == 1 ? "" : "s",
+                    of.groups[0] * of.groups[1] * of.groups[2], group_size);
+    for (const NamedFinding& one : findings) {
+        all += fmt::format("{}: {}: {}", one.where, one.found.rule, one.found.what);
+        if (one.found.other && one.other != one.where)
+            all += fmt::format("; the other at {}", one.other);
+        else if (!one.found.other)
+            all += fmt::format("; invocation {}", one.found.place.invocation);
+        all += one.found.times > 1 ? fmt::format("; {} times\n", one.found.times) : "\n";
+    }
+    if (!not_given.empty())
+        all += fmt::format("0 for want of --uniform: {}\n", fmt::join(not_given, ", "));
+    return all;
+}
+
+nlohmann::json ExaminationResult::json(const Examination& of) const {
+    nlohmann::json all{{"file", of.file.filename().string()},
+                       {"groups", of.groups},
+                       {"group_size", group_size},
+                       {"uniforms_not_given", not_given},
+                       {"findings", nlohmann::json::array()}};
+    for (const NamedFinding& one : findings) {
+        nlohmann::json row{{"rule", one.found.rule},
+                           {"what", one.found.what},
+                           {"where", one.where},
+                           {"invocation", one.found.place.invocation},
+                           {"times", one.found.times}};
+        if (one.found.other)
+            row["other"] = {{"where", one.other}, {"invocation", one.found.other->invocation}};
+        all["findings"].push_back(std::move(row));
+    }
+    return all;
+}
+
+} // namespace lockstep

@@ -1,0 +1,91 @@
+#include <fstream>
+#include <iterator>
+#include <string>
+#include <vector>
+
+#include <catch2/catch.hpp>
+#include <nlohmann/json.hpp>
+
+#include "tests/cli/cli_checks.hpp"
+#include "tests/cli/run_program.hpp"
+
+using namespace lockstep;
+using namespace lockstep::test;
+using Catch::Contains;
+
+namespace {
+
+/// A sum of a group's numbers; `barrier` is between writing and reading.
+std::string sum(const std::string& barrier) {
+    return "#version 430 core\n"
+           "layout(local_size_x = 64) in;\n"
+           "buffer Numbers { float x[]; };\n"
+           "uniform float u_Kept;\n"
+           "shared float parts[64];\n"
+           "void main() {\n"
+           "    uint i = gl_LocalInvocationIndex;\n"
+           "    parts[i] = x[gl_GlobalInvocationID.x] * u_Kept;\n"
+           "    " +
+           barrier +
+           "\n"
+           "    x[gl_GlobalInvocationID.x] = parts[63u - i];\n"
+           "}\n";
+}
+
+} // namespace
+
+TEST_CASE("examine: a shader without a fault has no findings, one without its barrier a race with both lines") {
+    const TemporaryFolder folder;
+    const std::string right = folder.write("right.comp", sum("barrier();")).string();
+    const Outcome quiet = run_lockstep({"examine", right, "--uniform", "u_Kept=0.5"});
+    CHECK(quiet.status == 0);
+    CHECK(quiet.out == "right.comp: no findings in 4 groups of 64 invocations\n");
+    const std::string wrong = folder.write("wrong.comp", sum("")).string(),
+                      json = (folder.path() / "found.json").string();
+    const Outcome found = run_lockstep({"examine", wrong, "--groups", "2,1,1", "--json", json});
+    CHECK(found.status == 1);
+    CHECK_THAT(found.out, Contains("wrong.comp: 1 finding in 2 groups of 64 invocations\n"));
+    CHECK_THAT(found.out, Contains("wrong.comp:8: race on shared memory (GLSL 4.60, 8.16): invocation ") &&
+                              Contains("; the other at wrong.comp:10;") && Contains("0 for want of --uniform: u_Kept"));
+    const nlohmann::json all = nlohmann::json::parse(std::ifstream(json));
+    CHECK(all["findings"].size() == 1);
+    CHECK(all["findings"][0]["where"] == "wrong.comp:8");
+    CHECK(all["findings"][0]["other"]["where"] == "wrong.comp:10");
+}
+
+TEST_CASE("examine: what it cannot run is refused in one line") {
+    const TemporaryFolder folder;
+    const std::string shader = folder.write("right.comp", sum("barrier();")).string();
+    const auto refused = [&](std::vector<std::string> options, const std::string& file) {
+        options.insert(options.begin(), {"examine", file});
+        return refusal(run_lockstep(options));
+    };
+    CHECK_THAT(refused({"--uniform", "u_Keep=1"}, shader),
+               Contains("--uniform u_Keep: the shader has no such name") && Contains("u_Kept"));
+    CHECK_THAT(refused({"--uniform", "u_Kept=1,2"}, shader), Contains("expected 1 numbers, got 2"));
+    CHECK_THAT(refused({"--groups", "0"}, shader), Contains("--groups 0: expected one to three numbers from 1"));
+    CHECK_THAT(refused({"--size", "Number=4"}, shader), Contains("--size Number: the shader has no such name"));
+    CHECK_THAT(refused({}, (folder.path() / "missing.comp").string()), Contains("no such file"));
+    CHECK_THAT(refused({}, folder.write("slip.comp", "#version 430\nvoid main() {\n    float x = y;\n}\n").string()),
+               Contains("shader") && Contains("slip.comp:3: "));
+    CHECK_THAT(refused({}, folder.write("stage.vert", "#version 430\nvoid main() {}\n").string()),
+               Contains("expected a compute shader, NAME.comp"));
+}
+
+TEST_CASE("check: a report on shaders of one's own says what their texts show, whatever the driver made of it") {
+    if (!have_software_gl())
+        return skip("no software GL");
+    const TemporaryFolder shaders;
+    std::ifstream shipped("shaders/dust/update.comp");
+    std::string text{std::istreambuf_iterator<char>(shipped), {}};
+    const std::string set = "vec3 a = vec3(0.0);";
+    REQUIRE(text.find(set) != std::string::npos);
+    const auto check = [&] {
+        return run_lockstep({"check", "data/scenes/dust/spheres.json", "--particles", "100", "--frames", "1",
+                             "--shaders", shaders.path().string(), "--gl", software_gl()});
+    };
+    shaders.write("update.comp", text);
+    CHECK_THAT(check().out, !Contains("never set"));
+    shaders.write("update.comp", text.replace(text.find(set), set.size(), "vec3 a;"));
+    CHECK_THAT(check().out, Contains("use of a variable that was never set (GLSL 4.60, 5.8): variable a"));
+}

@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <tuple>
 
 #include <fmt/format.h>
 
@@ -93,24 +94,29 @@ bool Decoder::flow(const Instruction& at) {
     }
 }
 
+const Decoder::Address* Decoder::pointed(std::uint32_t id) const {
+    const auto at = address_.find(id);
+    return at == address_.end() ? nullptr : &at->second;
+}
+
+void Decoder::copy(std::uint32_t to, std::uint32_t from, std::uint32_t n) {
+    Step& step = add(code::copy);
+    step.out = to;
+    step.a = from;
+    step.n = static_cast<std::uint16_t>(n);
+}
+
 void Decoder::call(Words w, std::size_t number) {
     const auto found = callees_.find(w[2]);
     if (found == callees_.end())
         refuse(fmt::format("function {} has no body", module_.ids[w[2]].name));
     const Callee& callee = found->second;
-    const auto copy = [&](std::uint32_t to, std::uint32_t from, std::uint32_t n) {
-        Step& step = add(code::copy);
-        step.out = to;
-        step.a = from;
-        step.n = static_cast<std::uint16_t>(n);
-    };
+    constexpr std::size_t most_in_place = 1U << 18U;
+    if (callee.is_block && p_.steps.size() < most_in_place)
+        return in_place(w, number, callee);
     const Words arguments = w.subspan(3);
-    const auto pointed = [&](std::size_t i) -> const Address* {
-        const auto at = address_.find(arguments[i]);
-        return at == address_.end() ? nullptr : &at->second;
-    };
     for (std::size_t i = 0; i < arguments.size(); ++i) {
-        const Address* address = pointed(i);
+        const Address* address = pointed(arguments[i]);
         if (address != nullptr && (address->space != Address::Space::variable || address->dynamic != none))
             refuse(fmt::format("an argument of {} is a pointer, which is not interpreted", module_.ids[w[2]].name));
         for (std::size_t k = 0; address != nullptr && k < i; ++k)
@@ -121,18 +127,67 @@ void Decoder::call(Words w, std::size_t number) {
         else
             copy(callee.parameters[i], cell(arguments[i]), module_.type_of(arguments[i]).cells);
     }
+    if (std::find(called_.begin(), called_.end(), callee.function) == called_.end())
+        called_.push_back(callee.function);
     add(code::call);
     jump_to(static_cast<std::uint32_t>(p_.steps.size()) - 1, &Step::a, w[2]);
-    for (const std::uint32_t i : callee.written)
-        copy(pointed(i)->place + pointed(i)->offset, callee.parameters[i], type(pointed(i)->type).cells);
-    const std::uint32_t n = type(w[0]).cells;
-    if (n > 0 && lasts(w[1], number, callee.result, n)) {
-        cell_[w[1]] = callee.result;
-    } else if (n > 0) {
-        Step& step = made(code::copy, w);
-        step.a = callee.result;
+    for (const std::uint32_t i : callee.written) {
+        const Address& to = *pointed(arguments[i]);
+        copy(to.place + to.offset, callee.parameters[i], type(to.type).cells);
     }
-    maker_ = none;
+    take_result(w, number, callee.result, false);
+}
+
+/// A function of one block takes the place of its call. Its parameters are the arguments themselves.
+void Decoder::in_place(Words w, std::size_t number, const Callee& callee) {
+    const Function& of = *callee.function;
+    for (std::size_t i = 0; i < of.parameters.size(); ++i) {
+        const std::uint32_t parameter = of.parameters[i], argument = w[3 + i];
+        if (const Address* const at = pointed(argument)) {
+            address_[parameter] = Address(*at);
+            continue;
+        }
+        cell_[parameter] = cell(argument);
+        if (cell_[parameter] < p_.variables) { // it may be changed on the way
+            copy(callee.parameters[i], cell(argument), module_.type_of(argument).cells);
+            cell_[parameter] = callee.parameters[i];
+        }
+    }
+    for (const Instruction& at : of.body)
+        if (at.result != 0 && at.op != spv::OpVariable)
+            cell_[at.result] = none;
+    const auto [function, block, line, own] = std::tuple(function_, block_, line_, p_.cells);
+    function_ = &of;
+    std::uint32_t returned = none;
+    for (std::size_t i = 0; i < of.body.size(); ++i) {
+        const Instruction& at = of.body[i];
+        if (at.op == spv::OpReturnValue)
+            returned = cell(at.words[0]);
+        else if (at.op != spv::OpLabel && at.op != spv::OpReturn && at.op != spv::OpUnreachable)
+            instruction(at, i);
+    }
+    function_ = function;
+    block_ = block;
+    line_ = line;
+    if (returned != none)
+        take_result(w, number, returned, returned >= own);
+}
+
+/// A call's result, which lies from `first` on; `stays`: for good, in cells of its own.
+void Decoder::take_result(Words w, std::size_t number, std::uint32_t first, bool stays) {
+    const std::uint32_t n = type(w[0]).cells;
+    if (n == 0)
+        return;
+    if (stays || lasts(w[1], number, first, n)) {
+        cell_[w[1]] = first;
+    } else {
+        Step& step = made(code::copy, w);
+        step.a = first;
+    }
+    if (!stays)
+        maker_ = none;
+    else if (maker_ != none && cell_[maker_] == first) // the last step made it, and a store may still go there
+        maker_ = w[1];
 }
 
 } // namespace lockstep::text

@@ -27,12 +27,6 @@ std::pair<std::uint32_t, std::uint32_t> Decoder::part(std::uint32_t type_id, Wor
 /// Values put together and taken apart (SPIR-V 3.42.12).
 void Decoder::composite(const Instruction& at) {
     const Words w = at.words;
-    const auto copy = [&](std::uint32_t to, std::uint32_t from, std::uint32_t n) {
-        Step& step = add(code::copy);
-        step.out = to;
-        step.a = from;
-        step.n = static_cast<std::uint16_t>(n);
-    };
     switch (at.op) {
     case spv::OpCompositeConstruct: {
         std::uint32_t to = cell(w[1]);

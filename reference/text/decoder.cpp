@@ -76,8 +76,13 @@ Decoder::Decoder(const Module& module) : module_(module), cell_(module.ids.size(
         callee(f);
     last_use_.resize(module.ids.size());
     uses_.resize(module.ids.size());
-    for (const Function& f : module.functions)
-        function(f);
+    for (const Function& f : module.functions) {
+        note_uses(f);
+        if (f.id == module.entry)
+            called_.push_back(&f);
+    }
+    for (std::size_t k = 0; k < called_.size(); ++k) // calls add to them
+        function(*called_[k]);
     if (!step_of_.contains(module.entry))
         throw Error("SPIR-V module without its entry point's function");
     for (const Patch& patch : patches_) {
@@ -276,6 +281,9 @@ void Decoder::callee(const Function& of) {
             }
         }
     }
+    made.function = &of;
+    made.is_block =
+        std::count_if(of.body.begin(), of.body.end(), [](const Instruction& at) { return at.op == spv::OpLabel; }) == 1;
     callees_[of.id] = std::move(made);
 }
 
@@ -314,9 +322,6 @@ void Decoder::note_uses(const Function& of) {
 
 void Decoder::function(const Function& of) {
     function_ = &of;
-    std::fill(last_use_.begin(), last_use_.end(), 0);
-    std::fill(uses_.begin(), uses_.end(), 0);
-    note_uses(of);
     step_of_[of.id] = static_cast<std::uint32_t>(p_.steps.size());
     maker_ = none;
     for (std::size_t i = 0; i < of.body.size(); ++i)

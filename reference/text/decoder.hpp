@@ -52,6 +52,8 @@ class Decoder {
         std::uint32_t result = 0;              ///< first cell
         std::vector<std::uint32_t> parameters; ///< first cells
         std::vector<std::uint32_t> written;    ///< parameters that are pointers: stored to by it
+        const Function* function = nullptr;
+        bool is_block = false; ///< one block alone: takes the place of its calls
     };
 
     [[noreturn]] void refuse(const std::string& what) const { module_.refuse(line_, what); }
@@ -78,6 +80,10 @@ class Decoder {
     Step& made(std::uint16_t op, Words w); ///< with a result of its own
     void function(const Function& function);
     void note_uses(const Function& function);
+    void in_place(Words w, std::size_t number, const Callee& callee);
+    void take_result(Words w, std::size_t number, std::uint32_t first, bool stays);
+    void copy(std::uint32_t to, std::uint32_t from, std::uint32_t n);
+    const Address* pointed(std::uint32_t id) const;
     void instruction(const Instruction& at, std::size_t number);
     bool flow(const Instruction& at);
     bool memory(const Instruction& at, std::size_t number);
@@ -113,6 +119,7 @@ class Decoder {
     std::unordered_map<std::uint32_t, bool> has_phi_;            ///< of labels
     std::vector<std::pair<std::uint32_t, std::uint32_t>> begun_; ///< of a function's variables: cell, initial value
     std::vector<Patch> patches_;
+    std::vector<const Function*> called_; ///< functions that steps are made of, in the order of their first calls
     const Function* function_ = nullptr;
     std::uint32_t line_ = 0, block_ = 0, maker_ = none; ///< maker_: id that the last step made
 };

@@ -121,9 +121,12 @@ template <class R, int W> void Machine<R, W>::memory(const Step& s) {
         for (std::uint32_t c = 0; c < s.n; ++c) {
             C* const out = cell(s.out + c);
             const Leaf leaf = p_.leaves[s.d + c];
+            const C* const offset = cell(s.b);
+            const std::span<const std::uint32_t> words = is_watched() ? std::span<std::uint32_t>() : memory_.words(s.a);
             active([&](Lane l) {
-                const std::uint32_t word = memory_.load_block(s.a, cell(s.b)[l].word() + leaf.word, place(s, l));
-                set_word(out[l], word, leaf.is_real);
+                const std::uint32_t at = offset[l].word() + leaf.word;
+                set_word(out[l], at < words.size() ? words[at] : memory_.load_block(s.a, at, place(s, l)),
+                         leaf.is_real);
             });
         }
         break;
@@ -131,8 +134,14 @@ template <class R, int W> void Machine<R, W>::memory(const Step& s) {
         for (std::uint32_t c = 0; c < s.n; ++c) {
             const C* const from = cell(s.c + c);
             const Leaf leaf = p_.leaves[s.d + c];
+            const C* const offset = cell(s.b);
+            const std::span<std::uint32_t> words = is_watched() ? std::span<std::uint32_t>() : memory_.words(s.a);
             active([&](Lane l) {
-                memory_.store_block(s.a, cell(s.b)[l].word() + leaf.word, from[l].word(), place(s, l));
+                const std::uint32_t at = offset[l].word() + leaf.word;
+                if (at < words.size())
+                    words[at] = from[l].word();
+                else
+                    memory_.store_block(s.a, at, from[l].word(), place(s, l));
             });
         }
         break;

@@ -58,6 +58,8 @@ class Memory {
     [[nodiscard]] Findings& findings() { return findings_; }
     [[nodiscard]] Races* races() { return races_; }
 
+    /// A block's words, for who looks at what it touches by itself.
+    [[nodiscard]] std::span<std::uint32_t> words(std::uint32_t block) const { return bindings_.blocks[block]; }
     [[nodiscard]] std::uint32_t load_block(std::uint32_t block, std::uint32_t word, Place by) {
         const std::span<const std::uint32_t> words = bindings_.blocks[block];
         touch_block(block, word, Races::How::read, by);

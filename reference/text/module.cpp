@@ -90,7 +90,7 @@ class ModuleReader {
             spv::HasResultAndType(op, &has_result, &has_type);
             if (has_result && has_type)
                 made_.ids[checked_id(w[1])].type = checked_id(w[0]);
-            made_.functions.back().body.push_back({op, line_, w});
+            made_.functions.back().body.push_back({op, line_, has_result && has_type ? w[1] : 0, w});
         } else {
             annotate(op, w);
             declare(op, w);

@@ -77,7 +77,7 @@ struct Variable {
 
 struct Instruction {
     spv::Op op = spv::OpNop;
-    std::uint32_t line = 0;
+    std::uint32_t line = 0, result = 0;   ///< result: id of a value that it makes; 0: it makes none
     std::span<const std::uint32_t> words; ///< operands
 };
 

@@ -103,8 +103,9 @@ bool fit(const Hypothesis& hypothesis, const ItemLikeness& likeness, std::size_t
         return true;
     if (!hypothesis.rounds())
         return likeness.are_gpus(item, words);
+    constexpr double summed_ulps = 64.0 * rewritten_ulps; // terms of a sum over a window may cancel
     const bool is_sum = std::any_of(hypothesis.made.begin(), hypothesis.made.end(), sums);
-    return likeness.are_near_gpus(item, words, is_sum ? summed_ulps : rewritten_ulps);
+    return likeness.ulps_from_gpus(item, words) <= (is_sum ? summed_ulps : rewritten_ulps);
 }
 
 } // namespace

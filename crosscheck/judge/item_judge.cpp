@@ -5,6 +5,7 @@
 
 #include "crosscheck/judge/append_judge.hpp"
 #include "crosscheck/judge/compare.hpp"
+#include "crosscheck/judge/legal_widths.hpp"
 #include "reference/parallel_blocks.hpp"
 
 namespace lockstep {
@@ -17,29 +18,15 @@ bool same_item(const View& a, const View& b, std::size_t item) {
 
 namespace {
 
-std::optional<LegalFloats> widest_of(const ItemOutcome& outcome, const Resource& about) {
-    std::optional<LegalFloats> widest;
-    const std::vector<Component> parts = components(about);
-    for (std::size_t c = 0; c < parts.size(); ++c) {
-        const LegalFloats one{c, outcome.values[c]};
-        if (about.fields[parts[c].field].scalar == Scalar::float32 && (!widest || one.width() > widest->width()))
-            widest = one;
-    }
-    return widest;
-}
-
-/// The widths of the first outcome that has the reference's own numbers; none where all are points.
-std::vector<double> leeway_of(const std::vector<ItemOutcome>& outcomes, const JudgedPass& p, std::size_t item) {
+/// The sets of the first outcome that has the reference's own numbers; none where all are points.
+std::vector<Interval> sets_of_reference(const std::vector<ItemOutcome>& outcomes, const JudgedPass& p,
+                                        std::size_t item) {
     const auto own =
         std::ranges::find_if(outcomes, [&](const ItemOutcome& outcome) { return outcome.contains(p.reference, item); });
-    std::vector<double> widths;
-    if (own == outcomes.end() || own->undefined != Undefined::none)
-        return widths;
-    for (std::size_t c = 0; c < own->values.size(); ++c)
-        widths.push_back(LegalFloats{c, own->values[c]}.width());
-    if (std::ranges::all_of(widths, [](double width) { return width == 0.0; }))
-        widths.clear();
-    return widths;
+    if (own == outcomes.end() || own->undefined != Undefined::none ||
+        std::ranges::all_of(own->values, [](const Interval& set) { return width_of(set) == 0.0; }))
+        return {};
+    return own->values;
 }
 
 } // namespace
@@ -66,13 +53,13 @@ ItemVerdict judge_item(const JudgedPass& p, std::size_t item) {
             continue;
         verdict.kind = kind;
         verdict.undefined = outcome.undefined;
-        verdict.widest = kind == DifferenceClass::undefined ? std::nullopt : widest_of(outcome, p.gpu.about());
+        verdict.sets = kind == DifferenceClass::undefined ? std::vector<Interval>() : outcome.values;
         verdict.tie = std::nullopt;
         if (kind == DifferenceClass::tie && !outcome.open.empty())
             verdict.tie = Tie{{outcome.open.front().site, outcome.open.front().unit}, outcome.open.front().margin};
     }
     if (verdict.kind == DifferenceClass::divergent)
-        verdict.leeway = leeway_of(outcomes, p, item);
+        verdict.sets = sets_of_reference(outcomes, p, item);
     return verdict;
 }
 

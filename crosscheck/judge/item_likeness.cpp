@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 
+#include "crosscheck/judge/legal_widths.hpp"
 #include "crosscheck/judge/rounding_only.hpp"
 
 namespace lockstep {
@@ -19,30 +20,31 @@ auto values_of(std::span<const std::uint32_t> words, const View& like) {
     };
 }
 
-/// Whether the values of an item differ by rounding alone, in every field; `a` and `b`: of a component and its word.
-bool are_near(const ItemLikeness& likeness, std::size_t item, const auto& a, const auto& b, float ulps) {
+/// The most that the values of an item are apart, over its fields; `a` and `b`: of a component and its word. Integers
+/// are the same or infinitely far apart.
+double apart(const ItemLikeness& likeness, std::size_t item, const auto& a, const auto& b) {
     const JudgedPass& pass = likeness.pass();
     const std::span<const Component> parts = likeness.parts();
     const View& before = pass.before[pass.pass.resource()];
     std::array<std::array<float, 4>, 3> field{};
+    double most = 0.0;
     for (std::size_t from = 0, to = 0; from < parts.size(); from = to) {
         std::size_t n = 0;
         for (to = from; to < parts.size() && parts[to].field == parts[from].field && n < 4; ++to) {
             const Value x = a(parts[to], to), y = b(parts[to], to);
             if (x.scalar != Scalar::float32) {
                 if (!same_bits(x, y))
-                    return false;
+                    return HUGE_VAL;
                 continue;
             }
             field[0][n] = x.real();
             field[1][n] = y.real();
             field[2][n++] = before.value(parts[to].field, item, parts[to].component).real();
         }
-        if (!differ_by_rounding(std::span(field[0].data(), n), std::span(field[1].data(), n),
-                                std::span(field[2].data(), n), ulps))
-            return false;
+        most = std::max(most, ulps_apart(std::span(field[0].data(), n), std::span(field[1].data(), n),
+                                         std::span(field[2].data(), n)));
     }
-    return true;
+    return most;
 }
 
 } // namespace
@@ -65,7 +67,8 @@ bool ItemLikeness::are_gpus(std::size_t item, std::span<const std::uint32_t> wor
 }
 
 bool ItemLikeness::may_be_gpus(std::size_t item, std::span<const std::uint32_t> words) const {
-    constexpr double as_near = 4.0; // what else leads there may err as well
+    constexpr double as_near = 4.0;     // what else leads there may err as well
+    constexpr double far_ulps = 1024.0; // legal sets are not looked at beyond
     for (std::size_t w = 0; w < parts_.size(); ++w) {
         const Value gpu = pass_.gpu.value(parts_[w].field, item, parts_[w].component),
                     reference = pass_.reference.value(parts_[w].field, item, parts_[w].component),
@@ -74,7 +77,7 @@ bool ItemLikeness::may_be_gpus(std::size_t item, std::span<const std::uint32_t> 
             continue;
         if (gpu.scalar != Scalar::float32 ||
             !(std::abs(double{made.real()} - gpu.real()) <= as_near * std::abs(double{reference.real()} - gpu.real())))
-            return are_near_gpus(item, words, summed_ulps) && are_legal(item, words);
+            return ulps_from_gpus(item, words) <= far_ulps && are_legal(item, words);
     }
     return true;
 }
@@ -88,23 +91,24 @@ bool ItemLikeness::are_legal(std::size_t item, std::span<const std::uint32_t> wo
                                [&](const ItemOutcome& outcome) { return outcome.contains(words, pass_.gpu.about()); });
 }
 
-std::span<const double> ItemLikeness::leeway_of(std::size_t item) const {
+std::span<const Interval> ItemLikeness::sets_of(std::size_t item) const {
     const auto found = std::ranges::lower_bound(verdicts_, item, {}, &ItemVerdict::index);
-    return found != verdicts_.end() && found->index == item ? found->leeway : std::span<const double>();
+    const bool diverges = found != verdicts_.end() && found->index == item && found->kind == DifferenceClass::divergent;
+    return diverges ? found->sets : std::span<const Interval>();
 }
 
 bool ItemLikeness::are_within_leeway(std::size_t item, std::span<const std::uint32_t> words) const {
     constexpr double as_near = 2.0; // what is wrong may be wider than what is right
-    const std::span<const double> leeway = leeway_of(item);
+    const std::span<const Interval> sets = sets_of(item);
     for (std::size_t w = 0; w < parts_.size(); ++w) {
         const Value gpu = pass_.gpu.value(parts_[w].field, item, parts_[w].component), made{gpu.scalar, words[w]};
         if (alike(made, gpu))
             continue;
-        if (leeway.empty() || gpu.scalar != Scalar::float32)
+        if (sets.empty() || gpu.scalar != Scalar::float32)
             return false;
         const double right = std::abs(pass_.reference.value(parts_[w].field, item, parts_[w].component).real());
         const double larger = right > 0.0 ? std::max(1.0, std::abs(double{gpu.real()}) / right) : 1.0;
-        if (!(std::abs(double{made.real()} - gpu.real()) <= as_near * larger * leeway[w]))
+        if (!(std::abs(double{made.real()} - gpu.real()) <= as_near * larger * width_of(sets[w])))
             return false;
     }
     return true;
@@ -112,14 +116,15 @@ bool ItemLikeness::are_within_leeway(std::size_t item, std::span<const std::uint
 
 bool ItemLikeness::is_off_by_more(std::size_t item) const {
     constexpr double much = 16.0;
-    const std::span<const double> leeway = leeway_of(item);
-    if (leeway.empty())
+    const std::span<const Interval> sets = sets_of(item);
+    if (sets.empty())
         return true;
     for (std::size_t w = 0; w < parts_.size(); ++w) {
         const Value gpu = pass_.gpu.value(parts_[w].field, item, parts_[w].component),
                     reference = pass_.reference.value(parts_[w].field, item, parts_[w].component);
-        if (gpu.scalar != Scalar::float32 ? !same_bits(gpu, reference)
-                                          : !(std::abs(double{gpu.real()} - reference.real()) <= much * leeway[w]))
+        if (gpu.scalar != Scalar::float32
+                ? !same_bits(gpu, reference)
+                : !(std::abs(double{gpu.real()} - reference.real()) <= much * width_of(sets[w])))
             return true;
     }
     return false;
@@ -129,16 +134,16 @@ bool ItemLikeness::are_references(std::size_t item, std::span<const std::uint32_
     return are(pass_.reference, item, words);
 }
 
-bool ItemLikeness::are_near_gpus(std::size_t item, std::span<const std::uint32_t> words, float ulps) const {
-    return are_near(*this, item, values_of(words, pass_.gpu), values_of(pass_.gpu, item), ulps);
+double ItemLikeness::ulps_from_gpus(std::size_t item, std::span<const std::uint32_t> words) const {
+    return apart(*this, item, values_of(words, pass_.gpu), values_of(pass_.gpu, item));
 }
 
-bool ItemLikeness::are_near_references(std::size_t item, std::span<const std::uint32_t> words, float ulps) const {
-    return are_near(*this, item, values_of(words, pass_.reference), values_of(pass_.reference, item), ulps);
+bool ItemLikeness::are_near_references(std::size_t item, std::span<const std::uint32_t> words) const {
+    return apart(*this, item, values_of(words, pass_.reference), values_of(pass_.reference, item)) <= rewritten_ulps;
 }
 
 bool ItemLikeness::is_off_by_rounding(std::size_t item) const {
-    return are_near(*this, item, values_of(pass_.gpu, item), values_of(pass_.reference, item), rewritten_ulps);
+    return apart(*this, item, values_of(pass_.gpu, item), values_of(pass_.reference, item)) <= rewritten_ulps;
 }
 
 } // namespace lockstep

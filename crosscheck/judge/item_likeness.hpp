@@ -27,8 +27,8 @@ class ItemLikeness {
     /// Whether they may be the GPU's of an item that is right: the same bits, or as near as the reference's are that
     /// differ by what is legal, or near and legal there themselves.
     [[nodiscard]] bool may_be_gpus(std::size_t item, std::span<const std::uint32_t> words) const;
-    /// Whether they differ from the GPU's by rounding alone, in every field.
-    [[nodiscard]] bool are_near_gpus(std::size_t item, std::span<const std::uint32_t> words, float ulps) const;
+    /// How far they are from the GPU's, in ULP of a vector's greatest component (ulps_apart): the most of all fields.
+    [[nodiscard]] double ulps_from_gpus(std::size_t item, std::span<const std::uint32_t> words) const;
     /// Whether they are as near the GPU's as a divergent item's legal sets are wide; the same bits where these are
     /// points, and of integers.
     [[nodiscard]] bool are_within_leeway(std::size_t item, std::span<const std::uint32_t> words) const;
@@ -36,12 +36,13 @@ class ItemLikeness {
     [[nodiscard]] bool is_off_by_more(std::size_t item) const;
     /// The same of the reference's own.
     [[nodiscard]] bool are_references(std::size_t item, std::span<const std::uint32_t> words) const;
-    [[nodiscard]] bool are_near_references(std::size_t item, std::span<const std::uint32_t> words, float ulps) const;
+    [[nodiscard]] bool are_near_references(std::size_t item, std::span<const std::uint32_t> words) const;
     /// Whether the reference differs from the GPU by rounding alone.
     [[nodiscard]] bool is_off_by_rounding(std::size_t item) const;
 
   private:
-    [[nodiscard]] std::span<const double> leeway_of(std::size_t item) const;
+    /// The legal sets of a divergent item; empty: points.
+    [[nodiscard]] std::span<const Interval> sets_of(std::size_t item) const;
     [[nodiscard]] bool are_legal(std::size_t item, std::span<const std::uint32_t> words) const;
     [[nodiscard]] bool are(const View& side, std::size_t item, std::span<const std::uint32_t> words) const;
 

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "crosscheck/judge/lean.hpp"
-#include "crosscheck/judge/legal_widths.hpp"
+#include "reference/interval.hpp"
 #include "reference/tie.hpp"
 #include "reference/undefined.hpp"
 
@@ -27,9 +27,9 @@ struct ItemVerdict {
     std::size_t outcomes = 1; ///< legal ones
     std::optional<Tie> tie = std::nullopt;
     Undefined undefined = Undefined::none;
-    std::optional<LegalFloats> widest = std::nullopt; ///< of its floats', where it is legal
-    /// Of a divergent one, how wide the sets are that the reference's own numbers lie in; empty: points.
-    std::vector<double> leeway = {};
+    /// A legal set for each component of its resource: those that the GPU's values lie in; of a divergent item those
+    /// that the reference's own lie in. Empty: not known, or points in which the reference alone lies.
+    std::vector<Interval> sets = {};
     bool follows_particle = false;           ///< a texel that holds what the GPU's own particles leave there
     std::optional<Lean> lean = std::nullopt; ///< of a texel that is a tie or divergent, where a shift would explain it
 };

@@ -3,6 +3,10 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <stdexcept>
+#include <utility>
+
+#include "reference/model/state_view.hpp"
 
 namespace lockstep {
 namespace {
@@ -23,15 +27,37 @@ double bound_of(int step) {
 
 } // namespace
 
-double LegalFloats::width() const {
+double width_of(const Interval& set) {
     const double width = set.any ? HUGE_VAL : set.high - set.low;
     return std::isnan(width) ? 0.0 : width;
 }
 
-void LegalWidths::add(const Place& place, const LegalFloats& floats) {
-    ++counts_[step_of(floats.width())];
-    if (!widest_ || floats.width() > widest_->floats.width())
-        widest_ = {place, floats};
+LegalWidths::LegalWidths(const Schema& schema, std::uint8_t resource) {
+    for (const Component& c : components(schema.resources[resource])) {
+        const FieldId field{resource, c.field};
+        parts_.push_back({field, c.component, schema[field].scalar == Scalar::float32});
+    }
+}
+
+LegalWidths::LegalWidths(const Schema& schema, std::uint8_t resource, Counts counts,
+                         const std::optional<Widest>& widest)
+    : LegalWidths(schema, resource) {
+    counts_ = std::move(counts);
+    widest_ = widest;
+}
+
+void LegalWidths::add(int frame, std::size_t index, std::span<const Interval> sets) {
+    if (sets.size() != parts_.size())
+        throw std::logic_error("an item has as many legal sets as components");
+    std::optional<LegalFloats> widest;
+    for (std::size_t c = 0; c < sets.size(); ++c)
+        if (parts_[c].is_float && (!widest || width_of(sets[c]) > widest->width()))
+            widest = LegalFloats{parts_[c].field, parts_[c].component, sets[c]};
+    if (!widest)
+        return;
+    ++counts_[step_of(widest->width())];
+    if (!widest_ || widest->width() > widest_->floats.width())
+        widest_ = {frame, index, *widest};
 }
 
 void LegalWidths::join(const LegalWidths& next) {

@@ -86,7 +86,7 @@ class Evidence {
         bool changes = false;
         for (const std::size_t item : items) {
             const Words words = words_of(all, item);
-            if (!likeness_.are_near_references(item, words, rewritten_ulps))
+            if (!likeness_.are_near_references(item, words))
                 return false;
             changes = changes || (!errs_ && !likeness_.are_references(item, words));
         }
@@ -100,7 +100,8 @@ class Evidence {
         return pass_.on_input().mistaken(pass_.input(), item, pass_.profile, made);
     }
     [[nodiscard]] bool fit(std::size_t item, const Words& words) const {
-        return errs_ ? likeness_.are_near_gpus(item, words, rewritten_ulps) : likeness_.are_within_leeway(item, words);
+        return errs_ ? likeness_.ulps_from_gpus(item, words) <= rewritten_ulps
+                     : likeness_.are_within_leeway(item, words);
     }
     [[nodiscard]] bool is_telling(std::size_t item) const {
         if (errs_)

@@ -18,6 +18,12 @@ void note_tie(std::map<TieKind, TieCount>& ties, const Tie& tie, const Place& pl
 
 } // namespace
 
+VerdictSummary::VerdictSummary(const Schema& schema)
+    : classes(schema.resources.size()), causes(schema.resources.size()) {
+    for (std::size_t r = 0; r < schema.resources.size(); ++r)
+        widths.emplace_back(schema, static_cast<std::uint8_t>(r));
+}
+
 bool is_tie_beyond_rounding(const ItemVerdict& verdict) {
     return verdict.kind == DifferenceClass::tie && verdict.lean && verdict.lean->beyond_rounding;
 }
@@ -26,8 +32,8 @@ void VerdictSummary::add(int frame, std::uint8_t resource, std::span<const ItemV
     for (const ItemVerdict& verdict : verdicts) {
         ++classes[resource][static_cast<std::size_t>(verdict.kind)];
         ++set_sizes[verdict.outcomes];
-        if (verdict.widest)
-            widths[resource].add({frame, resource, verdict.index}, *verdict.widest);
+        if (verdict.kind < DifferenceClass::undefined && !verdict.sets.empty())
+            widths[resource].add(frame, verdict.index, verdict.sets);
         if (verdict.tie)
             note_tie(ties, *verdict.tie, {frame, resource, verdict.index});
         if (verdict.lean) {

@@ -70,8 +70,7 @@ struct VerdictSummary {
     std::vector<CauseFindings> causes;    ///< likewise
 
     VerdictSummary() = default;
-    explicit VerdictSummary(const Schema& schema)
-        : classes(schema.resources.size()), widths(schema.resources.size()), causes(schema.resources.size()) {}
+    explicit VerdictSummary(const Schema& schema);
 
     /// The name of the shift that ties alone convict; empty: none.
     [[nodiscard]] std::string convicted_shift() const;

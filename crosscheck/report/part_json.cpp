@@ -221,12 +221,46 @@ Lean read_lean(const JsonValue& value) {
         {(flags & 3) - 1, (flags >> 2 & 3) - 1}, (flags & 16) != 0, (flags & 32) != 0, (flags & 64) != 0, word(at[0])};
 }
 
+json widths_json(const LegalWidths& widths) {
+    if (!widths.widest())
+        return {};
+    const auto& [frame, index, floats] = *widths.widest();
+    return {{"counts", rows(widths.counts(),
+                            [](const auto& e) {
+                                return json{e.first, e.second};
+                            })},
+            {"widest",
+             {frame, index, floats.field.field, floats.component, bits(floats.set.low), bits(floats.set.high),
+              floats.set.any ? 1 : 0}}};
+}
+
+LegalWidths read_widths(const JsonValue& value, const Schema& schema, std::uint8_t resource) {
+    if (value.is_null())
+        return {schema, resource};
+    value.check_keys({"counts", "widest"});
+    LegalWidths::Counts counts;
+    for (const JsonValue& one : value.at("counts").items()) {
+        const auto at = row(one, 2);
+        counts[static_cast<int>(at[0].integer(INT32_MIN, INT32_MAX))] = count(at[1]);
+    }
+    const auto at = row(value.at("widest"), 7);
+    const FieldId field{resource, static_cast<std::uint8_t>(at[2].integer(
+                                      0, static_cast<std::int64_t>(schema.resources[resource].fields.size()) - 1))};
+    Interval set(real(at[4]), real(at[5]));
+    set.any = truth(at[6]);
+    return {schema, resource, std::move(counts),
+            LegalWidths::Widest{frame(at[0]),
+                                static_cast<std::size_t>(count(at[1])),
+                                {field, static_cast<int>(at[3].integer(0, schema[field].components - 1)), set}}};
+}
+
 json verdicts_json(const VerdictSummary& s) {
     return {{"classes", s.classes},
             {"set_sizes", rows(s.set_sizes,
                                [](const auto& e) {
                                    return json{e.first, e.second};
                                })},
+            {"widths", rows(s.widths, widths_json)},
             {"ties", rows(s.ties,
                           [](const auto& e) {
                               const TieCount& tie = e.second;
@@ -248,8 +282,8 @@ json verdicts_json(const VerdictSummary& s) {
 }
 
 VerdictSummary read_verdicts(const JsonValue& value, const Schema& schema) {
-    value.check_keys({"classes", "set_sizes", "ties", "undefined", "leans", "judges_leans", "ties_beyond_rounding",
-                      "first_beyond_rounding", "first", "divergent_frames", "causes"});
+    value.check_keys({"classes", "set_sizes", "widths", "ties", "undefined", "leans", "judges_leans",
+                      "ties_beyond_rounding", "first_beyond_rounding", "first", "divergent_frames", "causes"});
     VerdictSummary s(schema);
     const auto classes = row(value.at("classes"), schema.resources.size());
     for (std::size_t r = 0; r < classes.size(); ++r) {
@@ -261,6 +295,9 @@ VerdictSummary read_verdicts(const JsonValue& value, const Schema& schema) {
         const auto at = row(size, 2);
         s.set_sizes[static_cast<std::size_t>(count(at[0]))] = count(at[1]);
     }
+    const auto widths = row(value.at("widths"), schema.resources.size());
+    for (std::size_t r = 0; r < widths.size(); ++r)
+        s.widths[r] = read_widths(widths[r], schema, static_cast<std::uint8_t>(r));
     for (const JsonValue& tie : value.at("ties").items()) {
         tie.check_keys({"name", "unit", "count", "smallest", "largest", "closest"});
         s.ties[{lasting(tie.at("name").text()), lasting(tie.at("unit").text())}] = {
@@ -387,7 +424,7 @@ CheckReport read_part(const JsonValue& value, const Schema& schema) {
     const bool is_open = verdicts.total(DifferenceClass::divergent) + verdicts.total(DifferenceClass::undefined) > 0;
     if (r.total.agree() == r.first_frame.has_value() || is_open != verdicts.first.has_value() ||
         (verdicts.total(DifferenceClass::divergent) == 0) != verdicts.divergent_frames.empty() ||
-        (verdicts.ties_beyond_rounding > 0 && !verdicts.first_beyond_rounding))
+        (verdicts.judges_leans && verdicts.ties_beyond_rounding > 0 && !verdicts.first_beyond_rounding))
         value.fail("its counts contradict what it says came first");
     int later = r.first;
     for (const int divergent : verdicts.divergent_frames) {

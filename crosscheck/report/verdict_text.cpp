@@ -130,17 +130,19 @@ std::string width_text(double width, const std::string& unit) {
     return fmt::format("{:.3g}{}{}", width, unit.empty() ? "" : " ", unit);
 }
 
+/// The place of the widest set. Its resource is the field's.
+Place place_of(const LegalWidths::Widest& widest) { return {widest.frame, widest.floats.field.resource, widest.index}; }
+
 /// "the normals: 1.2e-07 for half of the pixels that differ, 0.0041 at most: normal.x 0.9 to 0.9041, frame 0 pixel (3,
 /// 4)".
 std::string leeway_text(const LegalWidths& widths, const Shape& shape) {
-    const auto& [place, floats] = *widths.widest();
-    const Resource& about = shape.schema.resources[place.resource];
-    const Component part = components(about)[floats.component];
-    const Field& field = about.fields[part.field];
+    const LegalFloats& floats = widths.widest()->floats;
+    const Resource& about = shape.schema.resources[floats.field.resource];
+    const Field& field = shape.schema[floats.field];
     return fmt::format("{}: {} for half of the {}s that differ, {} at most: {} {}, {}", about.title,
                        width_text(widths.half(), about.fields.size() == 1 ? field.unit : ""), about.item,
-                       width_text(floats.width(), field.unit), component_name(field, part.component),
-                       legal_text(floats.set, Scalar::float32), place_text(place, shape));
+                       width_text(floats.width(), field.unit), component_name(field, floats.component),
+                       legal_text(floats.set, Scalar::float32), place_text(place_of(*widths.widest()), shape));
 }
 
 /// "7 left, 305 right, 1 down, 0 up".
@@ -185,13 +187,11 @@ nlohmann::json leeway_json(const LegalWidths& widths, const Shape& shape) {
     if (!widths.widest())
         return nullptr;
     const LegalFloats& floats = widths.widest()->floats;
-    const Resource& about = shape.schema.resources[widths.widest()->place.resource];
-    const Component part = components(about)[floats.component];
     return {{"half_at_most", width_json(widths.half())},
             {"widest", width_json(floats.width())},
-            {"field", about.fields[part.field].name},
-            {"component", part.component},
-            {"place", place_json(widths.widest()->place, shape)}};
+            {"field", shape.schema[floats.field].name},
+            {"component", floats.component},
+            {"place", place_json(place_of(*widths.widest()), shape)}};
 }
 
 nlohmann::json cause_json(const CauseFindings& found) {

@@ -2,10 +2,11 @@
 
 #include <algorithm>
 #include <optional>
+#include <utility>
+#include <vector>
 
 #include "crosscheck/judge/compare.hpp"
 #include "crosscheck/judge/item_judge.hpp"
-#include "reference/collision/legal_texels.hpp"
 #include "reference/model/collision/layered_cdt.hpp"
 #include "reference/model/same_bits.hpp"
 
@@ -38,18 +39,25 @@ ItemVerdict judge_wall(const JudgedFrame& frame, std::size_t texel, int camera) 
     const std::size_t wanted[] = {texel % plane_texels};
     const LegalTexel legal =
         legal_texels(frame.obstacles, Particles(), Particles(), seen, frame.profile, frame.known, wanted).front();
+    return judge_texel(texel, legal, frame.gpu_cdt.texels[texel]);
+}
+
+} // namespace
+
+ItemVerdict judge_texel(std::size_t texel, const LegalTexel& legal, glm::vec4 gpu) {
     ItemVerdict verdict{.index = texel, .outcomes = legal.owners.size()};
-    const TexelOwner* owner = legal.owner_of(frame.gpu_cdt.texels[texel]);
+    const TexelOwner* owner = legal.owner_of(gpu);
     if (owner == nullptr)
         return verdict;
     const std::vector<Tie> ties = legal.ties(*owner);
     verdict.kind = ties.empty() ? DifferenceClass::rounding : DifferenceClass::tie;
     if (!ties.empty())
         verdict.tie = ties.front();
+    const auto [low, high] = owner->code_range.value_or(std::pair(owner->code, owner->code));
+    for (int c = 0; c < 4; ++c)
+        verdict.sets.emplace_back(static_cast<double>(low[c]), static_cast<double>(high[c]));
     return verdict;
 }
-
-} // namespace
 
 FrameVerdicts judge_by_twin(const JudgedFrame& frame) {
     FrameVerdicts verdicts{with_step_pass(frame, judge_items), {}};

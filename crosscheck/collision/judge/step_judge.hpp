@@ -7,6 +7,7 @@
 #include "crosscheck/judge/item_verdict.hpp"
 #include "crosscheck/judge/system.hpp"
 #include "crosscheck/judge/verdict_summary.hpp"
+#include "reference/collision/legal_texels.hpp"
 #include "reference/collision/step_pass.hpp"
 #include "reference/model/collision/collision_state.hpp"
 
@@ -25,6 +26,9 @@ template <class Work> auto with_step_pass(const JudgedFrame& frame, const FrameI
 template <class Work> auto with_step_pass(const JudgedFrame& frame, const Work& work) {
     return with_step_pass(frame, nullptr, work);
 }
+
+/// The verdict on a differing texel by its legal owners.
+ItemVerdict judge_texel(std::size_t texel, const LegalTexel& legal, glm::vec4 gpu);
 
 /// Verdicts on a frame whose particles search otherwise than the listing's. A texel holds what is drawn there of the
 /// GPU's own particles, as far as it is known how the driver computes where that is.

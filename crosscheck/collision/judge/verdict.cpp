@@ -1,17 +1,20 @@
 #include "crosscheck/collision/judge/verdict.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <map>
 #include <optional>
 #include <set>
 #include <unordered_map>
+#include <utility>
 
 #include <glm/common.hpp>
 
 #include "crosscheck/collision/judge/step_judge.hpp"
 #include "crosscheck/judge/compare.hpp"
 #include "crosscheck/judge/item_judge.hpp"
+#include "reference/collision/collision_code.hpp"
 #include "reference/collision/collision_pass_fast.hpp"
 #include "reference/collision/layered_collision_pass.hpp"
 #include "reference/collision/legal_texels.hpp"
@@ -23,48 +26,85 @@
 namespace lockstep {
 namespace {
 
-/// The classes of differing particles, by the texels they are drawn to on either side.
-class ClassesByTexel {
+/// The legal sets of a texel that stores a particle's position, from the particle's own. Empty: those are not known.
+std::vector<Interval> sets_of_texel(const JudgedFrame& frame, const ItemVerdict& particle) {
+    if (particle.sets.empty())
+        return {};
+    const std::vector<Component> parts = components(collision_schema().resources[collision::particles]);
+    std::array<Interval, 3> position;
+    glm::vec3 low, high;
+    for (std::size_t c = 0; c < parts.size(); ++c)
+        if (parts[c].field == collision::position.field) {
+            const int at = parts[c].component;
+            position[static_cast<std::size_t>(at)] = particle.sets[c];
+            low[at] = static_cast<float>(particle.sets[c].low);
+            high[at] = static_cast<float>(particle.sets[c].high);
+        }
+    const CollisionCode code(frame.params);
+    const auto [from, to] =
+        frame.known.converts.particles ? code.driver_codes(low, high) : std::pair(code.encode(low), code.encode(high));
+    std::vector<Interval> sets;
+    for (int c = 0; c < 4; ++c)
+        sets.push_back(c < 3 && position[static_cast<std::size_t>(c)].any
+                           ? Interval::anything()
+                           : Interval(static_cast<double>(from[c]), static_cast<double>(to[c])));
+    return sets;
+}
+
+/// The differing particles, by the texels they are drawn to on either side.
+class ParticlesByTexel {
   public:
-    ClassesByTexel(const JudgedFrame& frame, const std::vector<ItemVerdict>& particles) : frame_(frame) {
+    struct Drawn {
+        const ItemVerdict* worst = nullptr;  ///< by its class
+        const ItemVerdict* stored = nullptr; ///< its position is what the GPU has in the texel; null: another's is
+    };
+
+    ParticlesByTexel(const JudgedFrame& frame, const std::vector<ItemVerdict>& particles) : frame_(frame) {
         const bool updated = frame.params.switches.raster_position == RasterPosition::updated;
+        const CollisionCode code(frame.params);
         for (const ItemVerdict& verdict : particles) {
             const std::size_t i = verdict.index;
-            note(updated ? frame.gpu.position[i] : frame.before.position[i], verdict);
+            Drawn* const at = note(updated ? frame.gpu.position[i] : frame.before.position[i], verdict);
+            if (at != nullptr && same_bits(code.encode(frame.gpu.position[i]), frame.gpu_cdt.texels[texel_]))
+                at->stored = &verdict;
             if (updated)
                 note(frame.reference.position[i], verdict);
         }
     }
 
-    /// The worst; null where none is drawn.
-    [[nodiscard]] const ItemVerdict* worst(std::size_t texel) const {
-        const auto found = worst_.find(texel);
-        return found == worst_.end() ? nullptr : found->second;
+    /// Null where none is drawn.
+    [[nodiscard]] const Drawn* at(std::size_t texel) const {
+        const auto found = drawn_.find(texel);
+        return found == drawn_.end() ? nullptr : &found->second;
     }
 
   private:
-    void note(glm::vec3 position, const ItemVerdict& verdict) {
+    Drawn* note(glm::vec3 position, const ItemVerdict& verdict) {
         const PointFragment point = point_fragment(position, frame_.params, frame_.profile);
         if (point.x < 0)
-            return;
-        const ItemVerdict*& known = worst_[frame_.gpu_cdt.index(point.x, point.y)];
-        if (known == nullptr || known->kind < verdict.kind)
-            known = &verdict;
+            return nullptr;
+        texel_ = frame_.gpu_cdt.index(point.x, point.y);
+        Drawn& drawn = drawn_[texel_];
+        if (drawn.worst == nullptr || drawn.worst->kind < verdict.kind)
+            drawn.worst = &verdict;
+        return &drawn;
     }
 
     const JudgedFrame& frame_;
-    std::unordered_map<std::size_t, const ItemVerdict*> worst_;
+    std::size_t texel_ = 0;
+    std::unordered_map<std::size_t, Drawn> drawn_;
 };
 
-ItemVerdict judge_texel(std::size_t texel, const LegalTexel& legal, glm::vec4 gpu) {
-    ItemVerdict verdict{.index = texel, .outcomes = legal.owners.size()};
-    const TexelOwner* owner = legal.owner_of(gpu);
-    if (owner == nullptr)
-        return verdict;
-    const std::vector<Tie> ties = legal.ties(*owner);
-    verdict.kind = ties.empty() ? DifferenceClass::rounding : DifferenceClass::tie;
-    if (!ties.empty())
-        verdict.tie = ties.front();
+/// The verdict on a texel that holds what the GPU's own particles leave there: its class is the worst of theirs. What
+/// is of a particle's components stays with it.
+ItemVerdict followed(const JudgedFrame& frame, std::size_t texel, const ParticlesByTexel::Drawn& drawn) {
+    ItemVerdict verdict{.index = texel,
+                        .kind = drawn.worst->kind,
+                        .tie = drawn.worst->tie,
+                        .undefined = drawn.worst->undefined,
+                        .follows_particle = true};
+    if (verdict.kind < DifferenceClass::undefined && drawn.stored != nullptr)
+        verdict.sets = sets_of_texel(frame, *drawn.stored);
     return verdict;
 }
 
@@ -140,6 +180,7 @@ void convict_lost_points(const JudgedFrame& frame, const DrawnFrame& drawn, cons
             for (const std::size_t i : wanderer.differs) {
                 verdicts[i].kind = DifferenceClass::divergent;
                 verdicts[i].tie = std::nullopt;
+                verdicts[i].sets.clear();
             }
 }
 
@@ -212,21 +253,17 @@ std::vector<ItemVerdict> judge_texels(const JudgedFrame& frame, const std::vecto
     if (differing.empty())
         return verdicts;
     std::optional<CollisionImage> expected; // where no particle differs there is nothing to inherit
-    const ClassesByTexel classes(frame, particles);
+    const ParticlesByTexel drawn_particles(frame, particles);
     std::vector<std::size_t> unexplained;
     for (const std::size_t texel : differing) {
-        const ItemVerdict* cause = classes.worst(texel);
-        if (cause != nullptr && !expected)
+        const ParticlesByTexel::Drawn* const particle = drawn_particles.at(texel);
+        if (particle != nullptr && !expected)
             expected = redraw(frame);
-        if (cause == nullptr || !same_bits(expected->texels[texel], frame.gpu_cdt.texels[texel])) {
+        if (particle == nullptr || !same_bits(expected->texels[texel], frame.gpu_cdt.texels[texel])) {
             unexplained.push_back(texel);
             continue;
         }
-        ItemVerdict inherited = *cause;
-        inherited.index = texel;
-        inherited.outcomes = 1;
-        inherited.follows_particle = true;
-        verdicts.push_back(inherited);
+        verdicts.push_back(followed(frame, texel, *particle));
     }
     const DrawnFrame drawn(frame.obstacles, frame.before, frame.gpu, frame.params, frame.profile,
                            frame.texels_of_points);

@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 #include <glm/vec2.hpp>
 
+#include "reference/model/collision/layered_cdt.hpp"
 #include "reference/model/error.hpp"
 
 namespace lockstep {
@@ -40,7 +41,7 @@ std::size_t particle_named(std::string_view text, const Scene& scene) {
 }
 
 std::size_t texel_named(std::string_view text, const Scene& scene) {
-    return place_named(text, {scene.width, scene.height}, "texel", "CDT");
+    return place_named(text, {scene.width, cdt_height(scene)}, "texel", "CDT");
 }
 
 std::size_t pixel_named(std::string_view text, const Scene& scene) {

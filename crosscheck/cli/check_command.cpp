@@ -133,10 +133,15 @@ PassRules rules_of_part(PassRules rules) {
     return rules;
 }
 
+/// "frames 4 to 7 of 12, by TEST_SHARD_INDEX=1 of TEST_TOTAL_SHARDS=3".
+std::string part_text(const CheckRequest& options, int whole) {
+    return fmt::format("frames {} to {} of {}{}{}", options.frames.first, options.frames.end - 1, whole,
+                       options.shard.is_asked() ? ", by " : "", options.shard.asked);
+}
+
 std::vector<std::string> part_notes(const CheckRequest& options, int whole) {
-    std::vector<std::string> notes{fmt::format(
-        "part of a run: frames {} to {} of {}{}{}; lockstep merge joins the parts' JSON", options.frames.first,
-        options.frames.end - 1, whole, options.shard.is_asked() ? ", by " : "", options.shard.asked)};
+    std::vector<std::string> notes{
+        fmt::format("part of a run: {}; lockstep merge joins the parts' JSON", part_text(options, whole))};
     if (const PassRules& rules = options.rules; rules.require_hits || rules.power_at_least > 0.0)
         notes.push_back(fmt::format("lockstep merge judges{}, which the run as a whole has to pass",
                                     pass_options_text({false, rules.require_hits, rules.power_at_least})));
@@ -238,6 +243,8 @@ int check_and_tell(const CheckRequest& options, OutputFiles& files, const Checke
     if (checked.part != nullptr)
         checked.part->report = report;
     conclude(report);
+    if (checked.part != nullptr)
+        report.part = part_text(options, checked.part->of);
     const PassRules rules = checked.part == nullptr ? options.rules : rules_of_part(options.rules);
     ask_power(report, rules.power_at_least);
     ask_hits(report, rules);

@@ -100,6 +100,7 @@ int check_stress(const StressOptions& options) {
     report.asked = fmt::format("{}{}{} on {}", command_line("check", options.run, options.run.frames),
                                legal_option_text(options.legal), pass_options_text(options.rules), renderer);
     report.power_at_least = options.rules.power_at_least;
+    report.part_by = options.shard.asked;
     {
         const InterruptHandler handler;
         bool failed = false;

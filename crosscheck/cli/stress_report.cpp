@@ -36,9 +36,11 @@ PowerSummary StressReport::power() const {
     return all;
 }
 
+bool StressReport::has_enough_power() const { return !is_whole() || power().share() >= power_at_least; }
+
 bool StressReport::passes() const {
-    const bool enough = !is_whole() || power().share() >= power_at_least;
-    return enough && std::all_of(scenes.begin(), scenes.end(), [](const StressScene& scene) { return scene.passes; });
+    return has_enough_power() &&
+           std::all_of(scenes.begin(), scenes.end(), [](const StressScene& scene) { return scene.passes; });
 }
 
 std::string stress_head() {
@@ -54,16 +56,18 @@ std::string stress_line(const StressScene& scene, bool is_first_failure) {
 std::string stress_end(const StressReport& report, bool lists_power) {
     const PowerSummary power = report.power();
     std::string text = fmt::format("\ntogether  {}\n", power_line(power));
-    if (report.is_whole() && power.share() < report.power_at_least)
-        text += fmt::format("          {:.1f} %; asked for are {:.4g} %\n", 100.0 * power.share(),
-                            100.0 * report.power_at_least);
     const auto failed = std::count_if(report.scenes.begin(), report.scenes.end(),
                                       [](const StressScene& scene) { return !scene.passes; });
     if (!report.is_whole())
-        text += fmt::format("part      {} of {} scenes; lockstep merge joins the parts' JSON\n", report.scenes.size(),
-                            report.of);
-    text += failed == 0 ? fmt::format("verdict   all {} scenes pass\n", report.scenes.size())
-                        : fmt::format("verdict   {} of {} scenes do not pass\n", failed, report.scenes.size());
+        text += fmt::format("part      {} of {} scenes{}{}; lockstep merge joins the parts' JSON\n",
+                            report.scenes.size(), report.of, report.part_by.empty() ? "" : ", by ", report.part_by);
+    text += "verdict   ";
+    if (!report.has_enough_power())
+        text += fmt::format("FAILED: the scenes would have shown {} of {} known mistakes ({:.1f} %), expected at least "
+                            "{:.4g} %; ",
+                            power.seen(), power.mistakes.size(), 100.0 * power.share(), 100.0 * report.power_at_least);
+    const std::string all = fmt::format("{} scenes{}", report.scenes.size(), report.is_whole() ? "" : " of this part");
+    text += failed == 0 ? fmt::format("all {} pass\n", all) : fmt::format("{} of {} do not pass\n", failed, all);
     return text + (lists_power ? power_text(power) : std::string());
 }
 

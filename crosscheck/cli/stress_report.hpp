@@ -28,11 +28,13 @@ struct StressReport {
     std::size_t of = 0;          ///< scenes there are
     std::string asked;           ///< renderer, options: the same in all parts of a run
     double power_at_least = 0.0; ///< of all scenes together
+    std::string part_by;         ///< what asked for some of the scenes: "--shard 2/3"; empty: unknown, or nothing did
     std::vector<StressScene> scenes;
 
     [[nodiscard]] bool is_whole() const { return scenes.size() == of; }
     [[nodiscard]] PowerSummary power() const;
-    /// Of a part without the power that all scenes together have to have.
+    /// Whether all scenes together have the power that is asked for; of a part that is not asked.
+    [[nodiscard]] bool has_enough_power() const;
     [[nodiscard]] bool passes() const;
 };
 

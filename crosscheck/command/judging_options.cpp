@@ -1,7 +1,5 @@
 #include "crosscheck/command/judging_options.hpp"
 
-#include <algorithm>
-
 #include "crosscheck/command/option_values.hpp"
 
 namespace lockstep {
@@ -18,12 +16,6 @@ void add_pass_options(Verb& verb, PassRules& rules) {
     verb.add(flag("--require-hits", rules.require_hits, "fail where nothing collided, so that little was tried"));
     verb.add(share_option("--power-at-least", rules.power_at_least,
                           "fail where the run would have shown fewer of the mistakes with names: 95%, 0.95"));
-}
-
-void ask_hits(CheckReport& report, const PassRules& rules) {
-    const auto reason = std::find(report.untried.begin(), report.untried.end(), "nothing collided");
-    if (rules.require_hits && report.hits == 0 && reason != report.untried.end())
-        *reason += " (--require-hits asks for a hit)";
 }
 
 } // namespace lockstep

@@ -10,7 +10,4 @@ void add_legal_option(Verb& verb, Legal& legal);
 /// --allow-undefined, --require-hits and --power-at-least.
 void add_pass_options(Verb& verb, PassRules& rules);
 
-/// Where the rules ask for a hit and there was none, the verdict's words name the option.
-void ask_hits(CheckReport& report, const PassRules& rules);
-
 } // namespace lockstep

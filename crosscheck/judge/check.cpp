@@ -62,11 +62,16 @@ void ask_power(CheckReport& report, double at_least) {
     if (at_least <= 0.0 || report.verdict == Verdict::nondeterministic)
         return;
     if (!report.verdicts)
-        throw Error("power: only steps that are judged can show mistakes; right is mode resync");
+        throw Error("power: only steps that are judged can show mistakes; use mode resync");
     if (report.power.share() < at_least && report.verdict != Verdict::divergent)
-        report.untried.emplace_back(fmt::format("{} of {} mistakes would have shown ({:.1f} %; asked for are {:.4g} %)",
-                                                report.power.seen(), report.power.mistakes.size(),
-                                                100.0 * report.power.share(), 100.0 * at_least));
+        report.failures.push_back(fmt::format(
+            "this run would have shown {} of {} known mistakes ({:.1f} %), expected at least {:.4g} %",
+            report.power.seen(), report.power.mistakes.size(), 100.0 * report.power.share(), 100.0 * at_least));
+}
+
+void ask_hits(CheckReport& report, const PassRules& rules) {
+    if (rules.require_hits && report.hits == 0 && std::erase(report.untried, no_hits) > 0)
+        report.failures.push_back(fmt::format("{}, expected a hit", no_hits));
 }
 
 void add_rendered(CheckReport& report, RenderVerdict rendered) {

@@ -4,6 +4,7 @@
 #include <functional>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "crosscheck/judge/compare.hpp"
@@ -53,6 +54,9 @@ struct FrameTimes {
     double power = 0.0; ///< trying which mistakes would have shown
 };
 
+/// Of CheckReport::untried.
+inline constexpr std::string_view no_hits = "nothing collided";
+
 struct CheckReport {
     Schema schema; ///< what was compared
     Verdict verdict = Verdict::agree;
@@ -80,6 +84,10 @@ struct CheckReport {
     std::optional<Verdict> state_verdict;  ///< set: on all but what a frame draws, which made the verdict worse
     /// What such a run was to try and did not, as words after "but": "nothing collided".
     std::vector<std::string> untried;
+    /// What was asked of the run (PassRules) and does not hold, whatever its verdict.
+    std::vector<std::string> failures;
+    /// Which part of a run this is, and what asked for that; empty: the whole run.
+    std::string part;
     std::vector<std::string> without_effect; ///< passes that left what was there, in all frames
 
     /// The run was stopped before its end; a verdict on the frames before that.
@@ -111,9 +119,12 @@ void number_frame(CheckReport& report, int frame);
 /// What the counts of a run come to.
 [[nodiscard]] Verdict verdict_on(const CheckReport& report);
 
-/// Where the run shows a smaller share of the mistakes than is asked for, its verdict says so. Throws Error in free
-/// mode, which judges no step.
+/// A run that would have shown a smaller share of the known mistakes fails. Throws Error in free mode, which judges no
+/// step.
 void ask_power(CheckReport& report, double at_least);
+
+/// Where hits are required, a run in which nothing collided fails.
+void ask_hits(CheckReport& report, const PassRules& rules);
 
 /// Takes up the verdict on a rendered frame of the run: the run's is the worse of both.
 void add_rendered(CheckReport& report, RenderVerdict rendered);

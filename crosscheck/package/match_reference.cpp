@@ -105,6 +105,7 @@ MatchResult match_reference(GpuSide& gpu, const Scene& scene, const MatchOptions
     CheckReport report = check(scene, side.profile, gpu, check_options);
 
     ask_power(report, options.power_at_least);
+    ask_hits(report, rules(options));
     const CommandLines commands(scene, side, options);
     RunDescription run{fmt::format("{} ({})", scene.name, scene.origin.empty() ? "made in code" : scene.origin),
                        side.name,

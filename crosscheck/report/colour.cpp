@@ -14,8 +14,9 @@ namespace {
 
 /// The escape sequence before a word; empty: it has no colour.
 std::string_view color_of(std::string_view word) {
-    static constexpr std::array<std::pair<std::string_view, std::string_view>, 6> all{
+    static constexpr std::array<std::pair<std::string_view, std::string_view>, 7> all{
         {{"AGREE", "\033[32m"},
+         {"FAILED", "\033[31m"},
          {"LEGAL", "\033[33m"},
          {"UNDEFINED", "\033[31m"},
          {"DIVERGENT", "\033[31m"},

@@ -273,7 +273,12 @@ std::string pass_options_text(const PassRules& rules) {
 }
 
 std::string verdict_words(const CheckReport& r) {
-    std::string words(verdict_name(r.verdict));
+    std::string words;
+    for (const std::string& failure : r.failures)
+        words += fmt::format("{}{}", words.empty() ? "FAILED: " : "; ", failure);
+    words += fmt::format("{}{}", words.empty() ? "" : "; ", verdict_name(r.verdict));
+    if (!r.part.empty())
+        words += fmt::format(" (part: {})", r.part);
     if (r.partial())
         words += fmt::format(" (partial: stopped after {} of {} frames{}{})", r.frames, r.frames_asked,
                              r.ended_by.empty() ? "" : ": ", r.ended_by);
@@ -430,6 +435,8 @@ nlohmann::json report_json(const CheckReport& r, const RunDescription& run) {
                 {"power", power_json(r.power)},
                 {"legal_by", r.wider_rule ? json(legal_option_text(*r.wider_rule).substr(1)) : json()},
                 {"untried", r.untried},
+                {"failures", r.failures},
+                {"part", r.part.empty() ? json() : json(r.part)},
                 {"without_effect", r.without_effect},
                 {"scene", run.scene},
                 {"mode", run.mode},

@@ -35,8 +35,8 @@ std::string_view verdict_name(Verdict verdict);
 /// The options that set these rules as they are typed, each after a space.
 std::string pass_options_text(const PassRules& rules);
 
-/// The verdict with what stands against taking it for more: "AGREE (partial: stopped after 3 of 60 frames), but nothing
-/// collided".
+/// The verdict with what limits it: "AGREE (partial: stopped after 3 of 60 frames), but nothing collided"; "FAILED:
+/// nothing collided, expected a hit; AGREE".
 std::string verdict_words(const CheckReport& report);
 
 /// Whose shaders ran, or why that is not known.

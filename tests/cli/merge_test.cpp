@@ -283,6 +283,8 @@ TEST_CASE("check: a shard may be asked for by the environment, of which half is 
     const Variables test{{"TEST_SHARD_INDEX", "1"}, {"TEST_TOTAL_SHARDS", "3"}},
         mpi{{"OMPI_COMM_WORLD_RANK", "0"}, {"OMPI_COMM_WORLD_SIZE", "2"}};
     CHECK_THAT(part(test).out, Contains("frames 4 to 7 of 12, by TEST_SHARD_INDEX=1 of TEST_TOTAL_SHARDS=3"));
+    CHECK_THAT(part(test).out, Contains("verdict   AGREE (part: frames 4 to 7 of 12, by TEST_SHARD_INDEX=1 of "
+                                        "TEST_TOTAL_SHARDS=3)"));
     CHECK_THAT(part(mpi).out, Contains("frames 0 to 5 of 12, by OMPI_COMM_WORLD_RANK=0"));
     CHECK_THAT(part({test[0], test[1], mpi[0], mpi[1]}).out, Contains("frames 4 to 7 of 12"));
     CHECK_THAT(part(test, {"--shard", "1/12"}).out, Contains("frames 0 to 0 of 12, by --shard 1/12"));
@@ -309,7 +311,7 @@ TEST_CASE("merge: what is asked of a run as a whole no part has to have") {
     for (const std::string& file : setting.shards(frames, rules))
         CHECK(nlohmann::json::parse(content(file)).at("verdict") == "AGREE");
     CHECK(setting.check(joined({"--shard", "1/12"}, rules)).status == 0);
-    CHECK_THAT(setting.expect_whole(setting.shards(2, rules), rules), Contains("asked for are 99 %"));
+    CHECK_THAT(setting.expect_whole(setting.shards(2, rules), rules), Contains("expected at least 99 %"));
     CHECK(run_lockstep(joined({"merge", "--quiet"}, setting.shards(2, rules))).status == 1);
 }
 

@@ -218,7 +218,7 @@ TEST_CASE("verdict: a run in which nothing collided says so, and fails where hit
     const std::string junit = (setting.folder.path() / "junit.xml").string();
     outcome = setting.check({"--frames", "3", "--particles", "1", "--require-hits", "--junit", junit});
     CHECK(outcome.status == 1);
-    const std::string why = "AGREE, but nothing collided (--require-hits asks for a hit)";
+    const std::string why = "FAILED: nothing collided, expected a hit; AGREE";
     CHECK_THAT(outcome.out, Catch::Contains("verdict   " + why + ": every bit of 1 particle and"));
     std::ifstream failure(junit);
     CHECK_THAT(std::string(std::istreambuf_iterator<char>(failure), {}),
@@ -278,7 +278,11 @@ TEST_CASE("verdict: a run says which mistakes it would have shown, and fails whe
     CHECK(setting.check({"--frames", "6", "--power-at-least", "50%"}).status == 0);
     outcome = setting.check({"--frames", "6", "--power-at-least", "0.999"});
     CHECK(outcome.status == 1);
-    CHECK_THAT(outcome.out, Catch::Contains("verdict   AGREE, but ") && Catch::Contains("asked for are 99.9 %"));
+    CHECK_THAT(outcome.out, Catch::Contains("verdict   FAILED: this run would have shown ") &&
+                                Catch::Contains(" known mistakes (") &&
+                                Catch::Contains(" %), expected at least 99.9 %; AGREE: every bit of"));
+    CHECK(json_of(setting.report)["verdict"] == "AGREE");
+    CHECK(json_of(setting.report)["failures"].size() == 1);
     outcome = setting.check({"--frames", "6", "--power-at-least", "95"});
     CHECK(outcome.status == 2);
     CHECK_THAT(outcome.err, Catch::Contains("'95' is not a share, as 95% or 0.95"));
@@ -298,6 +302,22 @@ TEST_CASE("verdict: the stress scenes together show 99 of 100 mistakes, and each
     CHECK_THAT(outcome.out, Catch::Contains("verdict   all 6 scenes pass"));
     CHECK(json_of(json)["scenes"].size() == 6);
     CHECK(run_lockstep({"check", "--stress", "--trace", "run.h5"}).status == 2);
+}
+
+TEST_CASE("verdict: stress scenes that show too few mistakes fail, and a part says what asked for it") {
+    if (!test::have_software_gl())
+        return;
+    const std::vector<std::string> stress{"check", "--stress", "--gl", test::software_gl(), "--frames", "1"};
+    const test::Outcome weak = run_lockstep(test::joined(stress, {"--power-at-least", "100%"}));
+    CHECK(weak.status == 1);
+    CHECK_THAT(weak.out, Catch::Contains("verdict   FAILED: the scenes would have shown ") &&
+                             Catch::Contains(" %), expected at least 100 %; all 6 scenes pass\n"));
+    const test::Outcome part =
+        run_lockstep(stress, {.environment = {{"TEST_SHARD_INDEX", "0"}, {"TEST_TOTAL_SHARDS", "6"}}});
+    CHECK(part.status == 0);
+    CHECK_THAT(part.out,
+               Catch::Contains("part      1 of 6 scenes, by TEST_SHARD_INDEX=0 of TEST_TOTAL_SHARDS=6; lockstep") &&
+                   Catch::Contains("verdict   all 1 scenes of this part pass\n"));
 }
 
 TEST_CASE("verdict: a run that draws nothing says so") {
@@ -342,7 +362,7 @@ TEST_CASE("verdict: bench has check's words and status") {
                                 !Catch::Contains("particles^"));
     outcome = bench({"--counts", "1", "--require-hits"});
     CHECK(outcome.status == 1);
-    CHECK_THAT(outcome.out, Catch::Contains(" AGREE, but nothing collided (--require-hits asks for a hit)\n"));
+    CHECK_THAT(outcome.out, Catch::Contains(" FAILED: nothing collided, expected a hit; AGREE\n"));
     outcome = bench({"--counts", "300", "--set", "search=octree"});
     CHECK_THAT(outcome.out, Catch::Contains(" AGREE\n"));
     test::plant(setting.shaders, "collision_pass.vert", "ls_flush(a_CollideTime) - u_Tick;",

@@ -82,7 +82,9 @@ TEST_CASE("match_reference: where nothing collides, requiring hits fails") {
     const Scene scene = streams();
     ReferenceEngine engine(scene), again(scene);
     CHECK(match_reference(engine, scene, {.frames = 4}).passed());
-    CHECK_FALSE(match_reference(again, scene, {.frames = 4, .require_hits = true}).passed());
+    const MatchResult hit = match_reference(again, scene, {.frames = 4, .require_hits = true});
+    CHECK_FALSE(hit.passed());
+    CHECK_THAT(hit.text(), Contains("verdict   FAILED: nothing collided, expected a hit; AGREE: every bit"));
 }
 
 TEST_CASE("match_reference: where too few mistakes would have shown, a test that asks for more fails") {
@@ -91,7 +93,7 @@ TEST_CASE("match_reference: where too few mistakes would have shown, a test that
     CHECK(match_reference(engine, scene, {.frames = 4, .power_at_least = 0.2}).passed());
     const MatchResult result = match_reference(again, scene, {.frames = 4, .power_at_least = 0.95});
     CHECK_FALSE(result.passed());
-    CHECK_THAT(result.text(), Contains("last_found_instead_of_nearest") && Contains("asked for are 95 %"));
+    CHECK_THAT(result.text(), Contains("last_found_instead_of_nearest") && Contains("expected at least 95 %; AGREE"));
 }
 
 TEST_CASE("match_reference: what would prove nothing is an error") {

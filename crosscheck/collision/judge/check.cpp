@@ -214,7 +214,7 @@ class RunJudge {
 std::vector<std::string> untried(const CheckReport& report) {
     std::vector<std::string> all;
     if (report.hits == 0)
-        all.emplace_back("nothing collided");
+        all.emplace_back(no_hits);
     if (report.drawn_texels == 0 && report.expects_texels)
         all.emplace_back("nothing was drawn into the CDT");
     const FieldCount position = report.total[collision::position];

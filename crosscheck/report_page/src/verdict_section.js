@@ -55,6 +55,8 @@ function differences(head) {
 function limits(head) {
   const { report } = head;
   const told = [];
+  for (const what of report.failures ?? []) told.push(`Failed: ${what}.`);
+  if (report.part) told.push(`A part of the run: ${report.part}.`);
   if (report.partial) told.push(`Partial: the run was stopped after ${report.frames} of ${counted(report.frames_asked, "frame")}.`);
   for (const what of report.untried) told.push(`But ${what}.`);
   if (!report.judged && report.verdict !== "NONDETERMINISTIC") told.push("Compared, not judged.");

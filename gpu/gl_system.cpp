@@ -241,6 +241,7 @@ void GlSystem::Parts::run(const Linked& linked, int frame) {
 
 void GlSystem::Parts::step(std::size_t pass, int frame, bool keeps) {
     const Linked* linked = running(pass, frame);
+    ran_over.reset();
     if (linked == nullptr)
         return;
     kept = keeps ? std::optional(pass) : std::nullopt;
@@ -268,6 +269,8 @@ void GlSystem::repeat_step(std::size_t pass, int frame) {
         parts_->current[r] = 1 - parts_->current[r];
     parts_->step(pass, frame, true);
 }
+
+std::optional<std::uint64_t> GlSystem::ran_over() const { return parts_->ran_over; }
 
 void GlSystem::lay_canary(std::size_t pass) {
     parts_->canary_laid = pass;

@@ -137,6 +137,7 @@ class GlSystem final : public SystemSide {
     [[nodiscard]] std::optional<bool> holds(const View& state) const override; ///< of buffers
     [[nodiscard]] std::optional<bool> left(const View& before) const override; ///< of buffers
     [[nodiscard]] bool reaches(std::size_t pass, FieldId field) const override;
+    [[nodiscard]] std::optional<std::uint64_t> ran_over() const override;
 
     [[nodiscard]] bool repeats() const override { return true; }
     void lay_canary(std::size_t pass) override;

@@ -9,7 +9,8 @@ namespace lockstep {
 
 /// Binds the buffer with the counts and returns their place in it; nothing where they are beyond what GL can dispatch:
 /// then as many groups run as the items take.
-std::optional<GLintptr> GlSystem::Parts::group_counts(const GroupCounts& of) {
+std::optional<GLintptr> GlSystem::Parts::group_counts(const Linked& linked) {
+    const GroupCounts& of = *linked.pass.indirect;
     constexpr std::uint32_t most_groups = 65535; // that every GL has
     for (std::size_t s = 0; s < storages.size(); ++s) {
         if (storages[s].layout.resource != of.field.resource)
@@ -22,6 +23,8 @@ std::optional<GLintptr> GlSystem::Parts::group_counts(const GroupCounts& of) {
                 const std::array<std::uint32_t, 3> counts = from(s).three_words(place);
                 gl::BindBuffer(GL_DISPATCH_INDIRECT_BUFFER, from(s).id());
                 const bool fits = std::all_of(counts.begin(), counts.end(), [](auto n) { return n <= most_groups; });
+                if (fits)
+                    ran_over = std::uint64_t{counts[0]} * counts[1] * counts[2] * linked.invocations;
                 return fits ? std::optional(static_cast<GLintptr>(place)) : std::nullopt;
             }
             words += static_cast<std::size_t>(field.components);
@@ -72,8 +75,9 @@ void GlSystem::Parts::dispatch(const Linked& linked, int frame) {
     linked.by_member.fill(read, written);
     const std::size_t items =
         linked.pass.invocations ? linked.pass.invocations(frame) : this->items(linked.pass.resource);
+    ran_over = items;
     // Negative: as many groups as the items take.
-    const GLintptr place = linked.pass.indirect ? group_counts(*linked.pass.indirect).value_or(-1) : -1;
+    const GLintptr place = linked.pass.indirect ? group_counts(linked).value_or(-1) : -1;
     linked.program.use();
     timed([&] {
         if (place >= 0)

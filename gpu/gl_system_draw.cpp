@@ -1,4 +1,6 @@
+#include <algorithm>
 #include <array>
+#include <cstdint>
 #include <optional>
 #include <variant>
 #include <vector>
@@ -106,6 +108,8 @@ void GlSystem::Parts::draw(const Linked& linked) {
     gl::BindVertexArray(vertices.id());
     const GLenum primitive = how.primitive == GlDraw::Primitive::points ? GL_POINTS : GL_TRIANGLES;
     const auto items = static_cast<GLsizei>(how.once ? 1 : buffer.size());
+    ran_over = static_cast<std::uint64_t>(items) * std::max<std::size_t>(how.vertices, 1) *
+               std::max<std::size_t>(how.instances, 1);
     timed([&] {
         if (how.instances > 0)
             gl::DrawArraysInstanced(primitive, 0, items, static_cast<GLsizei>(how.instances));
@@ -125,6 +129,7 @@ void GlSystem::Parts::capture(const Linked& linked) {
     if (instances == 0 || vertices % instances != 0)
         throw Error(fmt::format("{}: {} {} are no even share of {} instances", pass.name, vertices,
                                 schema->resources[pass.resource].name, instances));
+    ran_over = vertices;
     const GlVertexArray inputs_of = inputs(pass, linked.program);
     linked.program.check_interface();
     const GlQuery written;

@@ -72,6 +72,7 @@ struct GlSystem::Parts {
     std::optional<std::size_t> canary_laid = {}; ///< in what this pass will write: its next step keeps what it read
     std::optional<std::size_t> kept = {};        ///< the pass of the last step, where that is there to be repeated from
     std::array<GlSampler, 2> samplers = {};      ///< by GlFilter
+    std::optional<std::uint64_t> ran_over = {};  ///< vertices or invocations of the last step
     bool takes_times = false;
     bool says_precise = true;       ///< each stage that computes, of something
     bool says_precise_once = false; ///< one of them does
@@ -99,7 +100,7 @@ struct GlSystem::Parts {
     /// Runs `work`, a draw or a dispatch, and takes its time.
     template <class Work> void timed(const Work& work);
     void dispatch(const Linked& linked, int frame);
-    std::optional<GLintptr> group_counts(const GroupCounts& of);
+    std::optional<GLintptr> group_counts(const Linked& linked);
     [[nodiscard]] std::vector<ShaderSource> sources(const GlPass& pass, std::span<const Stage> stages,
                                                     bool traced) const;
     /// What a program of the pass reads: an item a vertex, or an instance.

@@ -29,6 +29,9 @@ class SystemSide {
     /// The state after the last pass; `state` has the extents of what was uploaded.
     virtual void read(SystemState& state) const = 0;
 
+    /// How many vertices or invocations the last pass ran over. Nothing: that is not known.
+    [[nodiscard]] virtual std::optional<std::uint64_t> ran_over() const { return {}; }
+
     /// Whether a buffer or image is after the last pass what `state` says, to the last bit, and has no NaN. Nothing:
     /// that is known by reading it alone. Fields whose columns are null are not asked for: those that no pass
     /// reaches().

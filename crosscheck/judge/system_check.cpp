@@ -42,10 +42,10 @@ class SystemChecker {
     SystemChecker(const System& system, SystemSide& gpu, const CheckOptions& options, const CheckWatch& watch)
         : system_(system), gpu_(gpu), options_(options), watch_(watch), profile_(gpu.describe().profile),
           known_(options.known.value_or(measured_operations(profile_))), judged_(options.mode == CheckMode::resync),
-          summary_(system.schema), has_run_(system.passes.size()), has_cause_(system.passes.size()),
-          unwritten_(system.passes.size()), append_causes_(system.passes.size()), power_(system.mistakes),
-          paces_(system.passes.size()), earlier_(system.passes.size()), before_(system.start), now_(system.start),
-          reference_(system.start), made_(system.start) {
+          summary_(system.schema), has_run_(system.passes.size()), is_exercised_(system.passes.size()),
+          has_cause_(system.passes.size()), unwritten_(system.passes.size()), append_causes_(system.passes.size()),
+          power_(system.mistakes), paces_(system.passes.size()), earlier_(system.passes.size()), before_(system.start),
+          now_(system.start), reference_(system.start), made_(system.start) {
         for (const auto& pass : system.passes)
             causes_.emplace_back(system.mistakes, pass->name());
         report_.schema = system.schema;
@@ -98,6 +98,7 @@ class SystemChecker {
         const std::uint8_t r = pass.resource();
         if (!pass.continues() && !dispatch(p))
             return false;
+        is_exercised_[p] = is_exercised_[p] || !ran_over_nothing_;
         const SystemState& start = judged_ ? before_ : reference_;
         const SystemView from = start.view();
         run_twin(p, start);
@@ -135,12 +136,15 @@ class SystemChecker {
             const Stopwatch timing(times_.gpu);
             gpu_.step(p, frame_);
         }
-        const auto left = [&](std::uint8_t r) {
-            return std::as_const(!judged_ && shared_.contains(r) ? reference_ : before_)[r];
-        };
-        if (repeats || !holds_others(gpu_, system_, p, left))
+        ran_over_nothing_ = gpu_.ran_over() == std::uint64_t{0};
+        if (repeats || !holds_others(gpu_, system_, p, [&](std::uint8_t r) { return left(r); }))
             read();
         return !repeats || repeat(p);
+    }
+
+    /// The GPU's own state of a buffer or image before the dispatch.
+    [[nodiscard]] View left(std::uint8_t r) const {
+        return std::as_const(!judged_ && shared_.contains(r) ? reference_ : before_)[r];
     }
 
     /// What the GPU left, where that was not read yet.
@@ -212,7 +216,8 @@ class SystemChecker {
         if (!comparison.agree() || !judged_)
             note_difference(report_, frame_, comparison);
         report_.total.add(comparison);
-        untried_.note(pass, from[r], made);
+        const View by_gpu = holds ? made : std::as_const(now_)[r], from_gpu = left(r);
+        untried_.note(pass, {from[r], made}, {from_gpu, by_gpu});
         return comparison;
     }
 
@@ -331,6 +336,8 @@ class SystemChecker {
         for (std::size_t p = 0; p < has_run_.size(); ++p)
             if (!has_run_[p])
                 untried_.note_idle(system_.passes[p]->name());
+            else if (!is_exercised_[p])
+                untried_.note_empty(*system_.passes[p]);
         return untried_.texts(report_);
     }
 
@@ -365,6 +372,7 @@ class SystemChecker {
     CheckReport report_;
     VerdictSummary summary_;
     std::vector<bool> has_run_;            ///< each pass, at least once
+    std::vector<bool> is_exercised_;       ///< the same, over one vertex or invocation at least
     std::vector<ItemCauseFinder> causes_;  ///< of each pass, as those that follow
     std::vector<bool> has_cause_;          ///< one was looked for
     std::vector<CauseFindings> unwritten_; ///< of what diverges first
@@ -386,6 +394,7 @@ class SystemChecker {
     FrameTimes times_;         ///< of the frame
     std::size_t dispatch_ = 0; ///< its first pass
     bool is_read_ = false;     ///< `now_` is what the GPU left
+    bool ran_over_nothing_ = false;
 };
 
 } // namespace

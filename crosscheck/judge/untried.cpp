@@ -1,5 +1,6 @@
 #include "crosscheck/judge/untried.hpp"
 
+#include <algorithm>
 #include <cstring>
 
 #include <fmt/format.h>
@@ -30,9 +31,20 @@ std::string listed(const std::vector<std::string>& words) {
 
 } // namespace
 
-void UntriedParts::note(const ItemPass& pass, const View& from, const View& made) {
-    Effect& effect = effects_.try_emplace(std::string(pass.name()), Effect{.derived = pass.derived()}).first->second;
-    effect.changes = effect.changes || from.count() != made.count() || !differing_items(from, made).empty();
+std::size_t UntriedParts::Step::changed() const {
+    const std::size_t most = std::max(from.count(), made.count()), both = std::min(from.count(), made.count());
+    return most - both + differing_items(from, made).size();
+}
+
+void UntriedParts::note(const ItemPass& pass, const Step& reference, const Step& gpu) {
+    const View& made = reference.made;
+    Effect& effect =
+        effects_.try_emplace(std::string(pass.name()), Effect{.derived = pass.derived(), .item = made.about().item})
+            .first->second;
+    if (!effect.changes) {
+        effect.changes = gpu.changed() > 0;
+        effect.missed += effect.changes ? 0 : reference.changed();
+    }
     if (made.about().dimensions < 2)
         return;
     const auto [known, is_first] = uniform_.emplace(pass.resource(), true);
@@ -59,6 +71,12 @@ std::vector<std::string> UntriedParts::texts(const CheckReport& report) const {
         all.emplace_back("no pass changed anything");
     if (!idle_.empty())
         all.push_back(fmt::format("{} did not run", listed({idle_.begin(), idle_.end()})));
+    for (const auto& [pass, stage] : empty_)
+        all.push_back(fmt::format("{} ran over 0 {}", pass, stage == PassStage::compute ? "invocations" : "vertices"));
+    for (const auto& [pass, effect] : effects_)
+        if (!effect.changes && effect.missed > 0)
+            all.push_back(fmt::format("{} changed nothing on the GPU, where the reference changed {} {}{}", pass,
+                                      effect.missed, effect.item, effect.missed == 1 ? "" : "s"));
     if (changes && in_vain > 0 && 2 * in_vain >= passes)
         all.push_back(fmt::format("{} of {} passes changed nothing", in_vain, passes));
     std::map<std::string, std::vector<std::string>> uniform; // by what their items are

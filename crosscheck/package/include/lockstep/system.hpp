@@ -32,6 +32,7 @@ class GlSystemSide final : public SystemSide {
     [[nodiscard]] std::optional<bool> holds(const View& state) const override { return system_.holds(state); }
     [[nodiscard]] std::optional<bool> left(const View& before) const override { return system_.left(before); }
     [[nodiscard]] bool reaches(std::size_t pass, FieldId field) const override { return system_.reaches(pass, field); }
+    [[nodiscard]] std::optional<std::uint64_t> ran_over() const override { return system_.ran_over(); }
     [[nodiscard]] bool repeats() const override { return true; }
     void lay_canary(std::size_t pass) override { system_.lay_canary(pass); }
     void repeat_step(std::size_t pass, int frame) override { system_.repeat_step(pass, frame); }

@@ -121,6 +121,7 @@ class ItemTable {
             fields_.emplace(pass.pass.output(about, static_cast<std::uint8_t>(f)), field_label(about.fields[f]));
         is_shown_.resize(about.fields.size());
         for (const ToldValue& value : told) {
+            captures_steps_ = captures_steps_ || !fields_.contains(value.output);
             if (value.turn >= 0)
                 told_turns_[value.turn].values.emplace(value.output, value.values);
         }
@@ -166,14 +167,17 @@ class ItemTable {
         return fmt::format("({}:{})", std::filesystem::path(row.where.file_name()).filename().string(),
                            row.where.line());
     }
-    static std::string follows_text(std::string_view what, const ReadingRow& row) {
-        return fmt::format("{} follows from the GPU's own values above {}", what, line_of(row));
+    std::string follows_text(std::string_view what, const ReadingRow& row) const {
+        return captures_steps_
+                   ? fmt::format("{} follows from the GPU's own values above {}", what, line_of(row))
+                   : fmt::format("expected {} {}; the GPU's intermediate values were not captured", what, line_of(row));
     }
-    static std::string legal_text(const ReadingRow& row, std::size_t c) {
+    std::string legal_text(const ReadingRow& row, std::size_t c) const {
         const Interval& legal = row.legal[c];
-        return legal.low == legal.high
-                   ? follows_text(fmt::format("{:.9g}", legal.low), row)
-                   : fmt::format("{:.9g} to {:.9g} would be legal {}", legal.low, legal.high, line_of(row));
+        if (legal.low == legal.high)
+            return follows_text(fmt::format("{:.9g}", legal.low), row);
+        return captures_steps_ ? fmt::format("{:.9g} to {:.9g} would be legal {}", legal.low, legal.high, line_of(row))
+                               : follows_text(fmt::format("{:.9g} to {:.9g}", legal.low, legal.high), row);
     }
 
     /// Of a field its name, of anything else the site's.
@@ -492,6 +496,7 @@ class ItemTable {
     FollowedStep followed_;
     std::map<std::string_view, std::string> fields_; ///< names, by output
     std::map<int, ToldTurn> told_turns_;
+    bool captures_steps_ = false; ///< the GPU's values in between are there, not its fields alone
     bool tells_steps_ = false;    ///< sites have outputs besides the fields'
     std::string_view key_output_; ///< by which the GPU tells of a turn's key
     Counter counter_;

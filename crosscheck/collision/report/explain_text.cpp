@@ -128,7 +128,7 @@ std::string particle_head(const StepTable& table, NumberFormat format) {
     if (!table.warning.empty())
         text += fmt::format("  warning {}\n", table.warning);
     if (table.gpu.vertex.outputs.empty())
-        text += "  note    the vertex stage has no trace_* outputs, so the steps between are the reference's alone\n";
+        text += "  note    the vertex stage has no trace_* outputs, so intermediate values are the reference's alone\n";
     return text;
 }
 

@@ -9,7 +9,7 @@ export function renderedSection({ rendered }) {
   return section(
     "rendered",
     "The rendered frame",
-    h("p", { class: "muted" }, `What a viewer sees in frame ${grouped(rendered.frame)}, each side's own particles. The difference is black where both have one colour.`),
+    h("p", { class: "muted" }, `What a viewer sees in frame ${grouped(rendered.frame)}, each side's own particles. In the difference, pixels that differ are red; the others are the reference, dimmed.`),
     h("div", { class: "pictures" }, rendered.pictures.map(figure)),
   );
 }

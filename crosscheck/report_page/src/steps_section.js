@@ -98,7 +98,7 @@ function particlePart(item, particle, all, profile) {
     whyAllSame(item, particle, all),
     particle.warning ? h("p", { class: "warning" }, particle.warning) : null,
     h("p", {}, `Particle ${particle.particle} before: ${before.map(({ name, values }) => `${fieldName(name)} ${valueText(values)}`).join(", ")}.`),
-    particle.untraced ? h("p", { class: "muted" }, "The GPU's steps between were not traced, so there the reference's stand alone.") : null,
+    particle.untraced ? h("p", { class: "muted" }, "The GPU's intermediate values were not captured; only the reference's are shown.") : null,
     h("div", { class: "beside" }, scrolling(`steps of particle ${particle.particle}`, rowsTable(`Particle ${particle.particle}, step by step`, particle.rows, profile)), neighbourhood(particle.neighbourhood)),
     h("details", {}, h("summary", {}, "Why this verdict: every legal outcome"), h("pre", { tabindex: "0" }, particle.why)),
   ];

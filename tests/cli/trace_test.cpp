@@ -177,8 +177,8 @@ TEST_CASE("explain trace: the first divergence step by step, the GPU's values wh
             arguments.push_back(word);
         const test::Outcome told = run_lockstep(arguments);
         CHECK(told.status == 0);
-        CHECK_THAT(told.out,
-                   Contains("GL        recorded: llvmpipe") && Contains("intermediate values are the reference's alone"));
+        CHECK_THAT(told.out, Contains("GL        recorded: llvmpipe") &&
+                                 Contains("intermediate values are the reference's alone"));
         CHECK_THAT(lines(told.out, {"> speed "}), Catch::EndsWith("DIVERGENT\n"));
         CHECK_THAT(lines(told.out, {"> "}), Catch::StartsWith("> speed "));
         CHECK_THAT(lines(told.out, {"  owner of texel"}), Contains("particle"));

@@ -4,6 +4,7 @@
 #include <array>
 #include <bit>
 #include <cstring>
+#include <functional>
 #include <set>
 #include <utility>
 
@@ -11,8 +12,12 @@
 #include <spirv_glsl.hpp>
 #include <spirv_parser.hpp>
 
+#include "gpu/child_process.hpp"
+#include "gpu/driver_call.hpp"
 #include "gpu/glsl_type.hpp"
 #include "gpu/shader_source.hpp"
+#include "gpu/spirv_check.hpp"
+#include "gpu/spirv_module_bytes.hpp"
 #include "reference/model/error.hpp"
 
 namespace lockstep {
@@ -21,6 +26,17 @@ namespace {
 using spirv_cross::SPIRType;
 
 constexpr std::size_t header_words = 5;
+
+/// spirv-cross trusts what it reads, and so do validators up to a point.
+constexpr ChildRules reader{"spirv-cross", 20, true};
+
+/// In a process of its own; where the system starts none, in this one.
+std::string apart(const std::function<std::string()>& work) try {
+    return in_child(reader, work);
+} catch (const NoChildProcess&) {
+    const DriverCall call("spirv-cross");
+    return work();
+}
 
 spv::ExecutionModel execution_model(Stage stage) {
     switch (stage) {
@@ -358,6 +374,68 @@ std::vector<std::uint32_t> module_words(std::string_view content) {
     return words;
 }
 
+/// What a module of whole words declares. Nothing says that it is a right one.
+SpirvModule declared_by(const std::string& file, std::string_view content, Stage stage) {
+    const auto fail = [&](const std::string& what) { throw Error(fmt::format("shader {}: {}", file, what)); };
+    SpirvModule made;
+    made.file = file;
+    made.words = module_words(content);
+    if (const std::string fault = spirv_fault(made.words); !fault.empty())
+        fail(fmt::format("is no SPIR-V module that can be read: {}", fault));
+    try {
+        spirv_cross::Parser parser(made.words);
+        parser.parse();
+        spirv_cross::Compiler module(parser.get_parsed_ir());
+        std::string others;
+        for (const spirv_cross::EntryPoint& entry : module.get_entry_points_and_stages())
+            if (entry.execution_model == execution_model(stage) && made.entry_point.empty())
+                made.entry_point = entry.name;
+            else if (entry.execution_model == execution_model(stage))
+                fail(fmt::format("has two entry points of this stage, {} and {}; right is one", made.entry_point,
+                                 entry.name));
+        if (made.entry_point.empty())
+            fail(fmt::format("has no entry point of a {} stage; {}", stage_word(stage), remedy(stage)));
+        module.set_entry_point(made.entry_point, execution_model(stage));
+        module.update_active_builtins();
+        ModuleReader(module, parser.get_parsed_ir(), stage, made).read();
+    } catch (const spirv_cross::CompilerError& error) {
+        fail(fmt::format("is no SPIR-V module that can be read: {}", error.what()));
+    }
+    std::uint32_t functions = 0; // the set that GLSL's have
+    for_each_instruction(made.words, [&](spv::Op op, std::span<const std::uint32_t> words) {
+        if (op == spv::OpExtInstImport && words.size() > 3 && words[2] == 0x4c534c47U && words[3] == 0x6474732eU)
+            functions = words[1]; // "GLSL", ".std"
+        const auto calls = [&](std::uint32_t function) {
+            return op == spv::OpExtInst && words.size() > 4 && words[3] == functions && words[4] == function;
+        };
+        made.calls_normalize = made.calls_normalize || calls(GLSLstd450Normalize);
+        made.calls_inverse_sqrt = made.calls_inverse_sqrt || calls(GLSLstd450InverseSqrt);
+        made.says_precise = made.says_precise || (op == spv::OpDecorate && words[2] == spv::DecorationNoContraction);
+    });
+    return made;
+}
+
+std::string translated(const SpirvModule& module, bool located) {
+    try {
+        spirv_cross::CompilerGLSL compiler(module.words);
+        spirv_cross::CompilerGLSL::Options options = compiler.get_common_options();
+        options.version = 450;
+        options.enable_420pack_extension = false;
+        compiler.set_common_options(options);
+        const spirv_cross::ShaderResources resources = compiler.get_shader_resources();
+        const spv::ExecutionModel model = compiler.get_execution_model();
+        if (!located && model != spv::ExecutionModelVertex)
+            for (const spirv_cross::Resource& one : resources.stage_inputs)
+                compiler.unset_decoration(one.id, spv::DecorationLocation);
+        if (!located && model != spv::ExecutionModelFragment)
+            for (const spirv_cross::Resource& one : resources.stage_outputs)
+                compiler.unset_decoration(one.id, spv::DecorationLocation);
+        return compiler.compile();
+    } catch (const spirv_cross::CompilerError& error) {
+        throw Error(fmt::format("shader {}: cannot be translated to GLSL: {}", module.file, error.what()));
+    }
+}
+
 } // namespace
 
 const SpirvModule::Variable* SpirvModule::output(std::string_view name) const {
@@ -393,40 +471,11 @@ SpirvModule read_spirv(const std::string& file, std::string_view content, Stage 
         fail(fmt::format("does not begin as a SPIR-V module does; {}", remedy(stage)));
     if (content.size() % sizeof(std::uint32_t) != 0)
         fail(fmt::format("{} bytes are no whole number of words; the file was cut short", content.size()));
-    SpirvModule made;
-    made.file = file;
-    made.words = module_words(content);
     try {
-        spirv_cross::Parser parser(made.words);
-        parser.parse();
-        spirv_cross::Compiler module(parser.get_parsed_ir());
-        std::string others;
-        for (const spirv_cross::EntryPoint& entry : module.get_entry_points_and_stages())
-            if (entry.execution_model == execution_model(stage) && made.entry_point.empty())
-                made.entry_point = entry.name;
-            else if (entry.execution_model == execution_model(stage))
-                fail(fmt::format("has two entry points of this stage, {} and {}; right is one", made.entry_point,
-                                 entry.name));
-        if (made.entry_point.empty())
-            fail(fmt::format("has no entry point of a {} stage; {}", stage_word(stage), remedy(stage)));
-        module.set_entry_point(made.entry_point, execution_model(stage));
-        module.update_active_builtins();
-        ModuleReader(module, parser.get_parsed_ir(), stage, made).read();
-    } catch (const spirv_cross::CompilerError& error) {
-        fail(fmt::format("is no SPIR-V module that can be read: {}", error.what()));
+        return module_of_bytes(apart([&] { return module_bytes(declared_by(file, content, stage)); }));
+    } catch (const ChildFailed& failed) {
+        throw Error(fmt::format("shader {}: is no SPIR-V module that can be read: {}", file, failed.what()));
     }
-    std::uint32_t functions = 0; // the set that GLSL's have
-    for_each_instruction(made.words, [&](spv::Op op, std::span<const std::uint32_t> words) {
-        if (op == spv::OpExtInstImport && words.size() > 3 && words[2] == 0x4c534c47U && words[3] == 0x6474732eU)
-            functions = words[1]; // "GLSL", ".std"
-        const auto calls = [&](std::uint32_t function) {
-            return op == spv::OpExtInst && words.size() > 4 && words[3] == functions && words[4] == function;
-        };
-        made.calls_normalize = made.calls_normalize || calls(GLSLstd450Normalize);
-        made.calls_inverse_sqrt = made.calls_inverse_sqrt || calls(GLSLstd450InverseSqrt);
-        made.says_precise = made.says_precise || (op == spv::OpDecorate && words[2] == spv::DecorationNoContraction);
-    });
-    return made;
 }
 
 std::vector<std::uint32_t> capturing(const SpirvModule& module, std::span<const SpirvModule::Variable> outputs) {
@@ -471,25 +520,10 @@ std::vector<std::uint32_t> capturing(const SpirvModule& module, std::span<const 
     return words;
 }
 
-std::string glsl_of(const SpirvModule& module, bool located) {
-    try {
-        spirv_cross::CompilerGLSL compiler(module.words);
-        spirv_cross::CompilerGLSL::Options options = compiler.get_common_options();
-        options.version = 450;
-        options.enable_420pack_extension = false;
-        compiler.set_common_options(options);
-        const spirv_cross::ShaderResources resources = compiler.get_shader_resources();
-        const spv::ExecutionModel model = compiler.get_execution_model();
-        if (!located && model != spv::ExecutionModelVertex)
-            for (const spirv_cross::Resource& one : resources.stage_inputs)
-                compiler.unset_decoration(one.id, spv::DecorationLocation);
-        if (!located && model != spv::ExecutionModelFragment)
-            for (const spirv_cross::Resource& one : resources.stage_outputs)
-                compiler.unset_decoration(one.id, spv::DecorationLocation);
-        return compiler.compile();
-    } catch (const spirv_cross::CompilerError& error) {
-        throw Error(fmt::format("shader {}: cannot be translated to GLSL: {}", module.file, error.what()));
-    }
+std::string glsl_of(const SpirvModule& module, bool located) try {
+    return apart([&] { return translated(module, located); });
+} catch (const ChildFailed& failed) {
+    throw Error(fmt::format("shader {}: cannot be translated to GLSL: {}", module.file, failed.what()));
 }
 
 } // namespace lockstep

@@ -20,7 +20,7 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
-#include "crosscheck/record/syscall_fence.hpp"
+#include "gpu/syscall_fence.hpp"
 #include "reference/model/error.hpp"
 
 namespace lockstep {

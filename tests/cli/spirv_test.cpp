@@ -1,13 +1,18 @@
 #include <catch2/catch.hpp>
 
+#include <algorithm>
+#include <array>
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
 #include <iterator>
+#include <random>
 #include <string>
 #include <utility>
 #include <vector>
 
+#include "gpu/shader_source.hpp"
+#include "gpu/spirv_module.hpp"
 #include "tests/cli/cli_checks.hpp"
 #include "tests/temporary_folder.hpp"
 
@@ -193,4 +198,59 @@ TEST_CASE("SPIR-V: a driver without GL_ARB_gl_spirv is named, with the translato
         std::string(vertex_stage) +
             "this GL takes no SPIR-V (GL_ARB_gl_spirv); `spirv-cross FOLDER/collision_pass.vert.spv --version 450 "
             "--no-420pack-extension --output FOLDER/collision_pass.vert` translates it to GLSL (docs/translators.md)");
+}
+
+namespace {
+
+/// A module with some of its words changed, left out or doubled.
+std::string damaged(const std::string& module, std::mt19937& random) {
+    std::string bytes = module;
+    const auto upto = [&](std::size_t most) { return std::uniform_int_distribution<std::size_t>(0, most)(random); };
+    const std::size_t kind = upto(3);
+    for (std::size_t left = upto(2) + 1; left > 0; --left) {
+        const std::size_t at = 4 * (3 + upto(bytes.size() / 4 - 8)), count = 4 * (1 + upto(3));
+        if (kind == 0)
+            bytes[at + upto(3)] ^= static_cast<char>(1U << upto(7));
+        else if (kind == 1)
+            bytes.replace(at, 4,
+                          std::array<std::string, 3>{std::string(4, '\xff'), std::string(4, '\0'),
+                                                     std::string("\1\0\0\0", 4)}[upto(2)]);
+        else if (kind == 2)
+            bytes.erase(at, count);
+        else
+            bytes.insert(at, bytes.substr(at, count));
+    }
+    return bytes;
+}
+
+} // namespace
+
+TEST_CASE("SPIR-V: a damaged module is refused in one line, or runs; it crashes nothing") {
+    const Modules modules;
+    const std::string good = content(modules.vertex());
+    std::mt19937 random(11);
+    std::vector<std::string> readable;
+    std::string zero_bound = good;
+    zero_bound.replace(12, 4, std::string("\1\0\0\0", 4));
+    for (int i = 0; i < 100; ++i) {
+        const std::string module = i == 0 ? zero_bound : damaged(good, random);
+        try {
+            const SpirvModule read = read_spirv("a.vert.spv", module, Stage::vertex);
+            readable.push_back(module);
+            CHECK_FALSE(glsl_of(read, true).empty());
+        } catch (const Error& error) {
+            CHECK_THAT(error.what(), Catch::StartsWith("shader a.vert.spv: "));
+        }
+    }
+    CHECK(readable.size() < 50);
+    if (!test::have_software_gl())
+        return;
+    readable.resize(std::min<std::size_t>(readable.size(), 6)); // what the driver's translator makes of them
+    for (const std::string& module : readable) {
+        std::ofstream(modules.vertex(), std::ios::binary) << module;
+        const test::Outcome outcome = modules.check({}, "100", "1");
+        CAPTURE(outcome.err);
+        CHECK(outcome.signal == 0);
+        CHECK((outcome.status != 2 || !test::refusal(outcome).empty()));
+    }
 }

@@ -13,7 +13,7 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
-#include "crosscheck/record/syscall_fence.hpp"
+#include "gpu/syscall_fence.hpp"
 #include "tests/temporary_folder.hpp"
 
 using namespace lockstep;

@@ -1,4 +1,4 @@
-#include "crosscheck/record/syscall_fence.hpp"
+#include "gpu/syscall_fence.hpp"
 
 #include <cerrno>
 #include <cstring>

@@ -4,6 +4,7 @@
 
 #include <fmt/format.h>
 
+#include "gpu/environment.hpp"
 #include "reference/model/error.hpp"
 
 namespace lockstep {
@@ -52,7 +53,8 @@ void check_gl(std::string_view what) {
     // Every error flag is cleared, so that the next check speaks of its own calls. A lost context never ends.
     for (int i = 0; i < 16 && gl::GetError() != GL_NO_ERROR; ++i) {
     }
-    throw Error(fmt::format("{}: {}", what, error_name(first)));
+    const std::string limits = first == GL_OUT_OF_MEMORY ? tight_limits() : "";
+    throw Error(fmt::format("{}: {}{}{}", what, error_name(first), limits.empty() ? "" : "; ", limits));
 }
 
 void check_framebuffer(GLenum target, std::string_view what) {

@@ -1,90 +1,42 @@
-#include <csignal>
-#include <cstdlib>
-
-#include <fcntl.h>
-#include <poll.h>
-#include <sys/resource.h>
-#include <sys/wait.h>
-#include <unistd.h>
-
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
-#include "gpu/context.hpp"
+#include "gpu/child_process.hpp"
 #include "gpu/context_backend.hpp"
+#include "gpu/context_trial.hpp"
+#include "gpu/environment.hpp"
+#include "gpu/object.hpp"
 #include "reference/model/error.hpp"
 
 namespace lockstep {
 namespace {
 
-constexpr int probe_milliseconds = 20000;
+constexpr ChildRules driver{"the driver"};
+bool trial = false;
 
-/// Everything the child wrote before it ended, or before the time was up.
-std::string read_all(int file, bool& in_time) {
-    std::string text;
-    char chunk[4096];
-    for (;;) {
-        pollfd ready{file, POLLIN, 0};
-        in_time = poll(&ready, 1, probe_milliseconds) > 0;
-        const ssize_t count = in_time ? read(file, chunk, sizeof chunk) : 0;
-        if (count <= 0)
-            return text;
-        text.append(chunk, static_cast<std::size_t>(count));
-    }
+/// As the Error of a context of one kind begins.
+std::string no_context(const ContextRequest& request) {
+    return fmt::format("no GL context: {}: ", context_request_text(request));
 }
 
-/// Runs `work` in a child process and returns the JSON it gives. Throws Error if the child dies or hangs.
-template <class Work> nlohmann::json in_child(const Work& work) {
-    int ends[2];
-    if (pipe(ends) != 0)
-        throw Error("cannot make a pipe for a child process");
-    const pid_t child = fork();
-    if (child < 0)
-        throw Error("cannot start a child process");
-    if (child == 0) {
-        const rlimit no_core{0, 0};
-        setrlimit(RLIMIT_CORE, &no_core);
-        // Drivers print to the terminal what the Error says anyway.
-        if (const int null = ::open("/dev/null", O_WRONLY); null >= 0) {
-            dup2(null, STDOUT_FILENO);
-            dup2(null, STDERR_FILENO);
-        }
-        const std::string text = work().dump(-1, ' ', false, nlohmann::json::error_handler_t::replace);
-        const bool written = write(ends[1], text.data(), text.size()) == static_cast<ssize_t>(text.size());
-        _exit(written ? 0 : 1);
-    }
-    close(ends[1]);
-    bool in_time = true;
-    const std::string text = read_all(ends[0], in_time);
-    close(ends[0]);
-    if (!in_time)
-        kill(child, SIGKILL);
-    int status = 0;
-    waitpid(child, &status, 0);
-    if (!in_time)
-        throw Error(fmt::format("the driver did not answer within {} s", probe_milliseconds / 1000));
-    if (WIFSIGNALED(status))
-        throw Error(fmt::format("the driver crashed with signal {}", WTERMSIG(status)));
-    const nlohmann::json answer = nlohmann::json::parse(text, nullptr, false);
-    if (answer.is_discarded())
-        throw Error("the driver ended the process");
-    return answer;
+/// Clears one texel and reads it back, which a rasteriser's threads do.
+void draw_a_texel() {
+    const GlTexture texture;
+    gl::BindTexture(GL_TEXTURE_2D, texture.id());
+    gl::TexImage2D(GL_TEXTURE_2D, 0, GL_RGBA8, 1, 1, 0, GL_RGBA, GL_UNSIGNED_BYTE, nullptr);
+    const GlFramebuffer framebuffer;
+    gl::BindFramebuffer(GL_FRAMEBUFFER, framebuffer.id());
+    gl::FramebufferTexture2D(GL_FRAMEBUFFER, GL_COLOR_ATTACHMENT0, GL_TEXTURE_2D, texture.id(), 0);
+    const float value[4] = {1.0F, 1.0F, 1.0F, 1.0F};
+    gl::ClearBufferfv(GL_COLOR, 0, value);
+    unsigned char read[4] = {};
+    gl::ReadPixels(0, 0, 1, 1, GL_RGBA, GL_UNSIGNED_BYTE, read);
 }
 
 ContextProbe probe(const ContextRequest& request) {
     ContextProbe result{request, {}, {}};
     try {
-        const nlohmann::json answer = in_child([&]() -> nlohmann::json {
-            try {
-                return Context(request).describe();
-            } catch (const std::exception& error) {
-                return std::string(error.what());
-            }
-        });
-        if (answer.is_string())
-            result.error = answer.get<std::string>();
-        else
-            result.info = answer.get<ContextInfo>();
+        result.info = try_context(request);
     } catch (const Error& error) {
         result.error = fmt::format("{}: {}", context_request_text(request), error.what());
     }
@@ -93,12 +45,30 @@ ContextProbe probe(const ContextRequest& request) {
 
 } // namespace
 
+ContextInfo try_context(const ContextRequest& request) {
+    const std::string answer = in_child(driver, [&] {
+        trial = true;
+        try {
+            const Context context(request);
+            draw_a_texel();
+            return nlohmann::json(context.describe()).dump(-1, ' ', false, nlohmann::json::error_handler_t::replace);
+        } catch (const Error& error) {
+            const std::string reason = error.what(), prefix = no_context(request);
+            throw Error(reason.substr(reason.starts_with(prefix) ? prefix.size() : 0));
+        }
+    });
+    return nlohmann::json::parse(answer).get<ContextInfo>();
+}
+
+bool is_trial() { return trial; }
+
 std::vector<ContextProbe> available_contexts() {
     using Backend = ContextRequest::Backend;
+    prepare_for_driver();
     std::vector<ContextProbe> probes{probe({Backend::osmesa, 0}), probe({Backend::egl, 0})};
     int devices = 0;
     try {
-        devices = in_child([]() -> nlohmann::json { return egl_device_count(); }).get<int>();
+        devices = std::stoi(in_child(driver, [] { return std::to_string(egl_device_count()); }));
     } catch (const Error& error) {
         probes.push_back({{Backend::egl_device, 0}, {}, fmt::format("EGL devices: {}", error.what())});
     }

@@ -2,9 +2,38 @@
 
 #include <fmt/format.h>
 
+#include "gpu/driver_call.hpp"
 #include "reference/model/error.hpp"
 
 namespace lockstep::gl {
+namespace {
+
+/// A function of the driver's, which is a DriverCall while it runs. `Name` makes it one of its own.
+template <class Name, class Function> struct Called;
+template <class Name, class Result, class... Arguments> struct Called<Name, Result (*)(Arguments...)> {
+    static inline Result (*driver)(Arguments...) = nullptr;
+    static Result call(Arguments... arguments) {
+        const DriverCall running(Name::text);
+        return driver(arguments...);
+    }
+};
+
+/// What is called for the driver's `address`; null for null.
+template <class Name, class Function> Function called(void* address) {
+    using Call = Called<Name, Function>;
+    Call::driver = reinterpret_cast<Function>(address);
+    return address != nullptr ? &Call::call : nullptr;
+}
+
+#define LOCKSTEP_GL_NAME(name, ...)                                                                                    \
+    struct name##Name {                                                                                                \
+        static constexpr const char* text = "gl" #name;                                                                \
+    };
+LOCKSTEP_GL_CORE(LOCKSTEP_GL_NAME)
+LOCKSTEP_GL_OPTIONAL(LOCKSTEP_GL_NAME)
+#undef LOCKSTEP_GL_NAME
+
+} // namespace
 
 #define LOCKSTEP_GL_DEFINE(name, ...) decltype(&::gl##name) name = nullptr;
 LOCKSTEP_GL_CORE(LOCKSTEP_GL_DEFINE)
@@ -32,18 +61,16 @@ bool has_extension(std::string_view extension) {
 
 void load(const Resolver& resolve) {
     unload();
-    const auto core = [&]<class Function>(Function& function, const char* name) {
-        function = reinterpret_cast<Function>(resolve(name));
-        if (function == nullptr)
-            throw Error(fmt::format("the GL library lacks {}, which GL 3.3 core has", name));
-    };
-#define LOCKSTEP_GL_LOAD(name) core(name, "gl" #name);
+#define LOCKSTEP_GL_LOAD(function)                                                                                     \
+    function = called<function##Name, decltype(function)>(resolve(function##Name::text));                              \
+    if (function == nullptr)                                                                                           \
+        throw Error(fmt::format("the GL library lacks {}, which GL 3.3 core has", function##Name::text));
     LOCKSTEP_GL_CORE(LOCKSTEP_GL_LOAD)
 #undef LOCKSTEP_GL_LOAD
     // A resolver may hand out a stub for any name, so what the context offers decides.
-#define LOCKSTEP_GL_LOAD(name, major, minor, extension)                                                                \
+#define LOCKSTEP_GL_LOAD(function, major, minor, extension)                                                            \
     if (offers(major, minor, extension))                                                                               \
-        name = reinterpret_cast<decltype(name)>(resolve("gl" #name));
+        function = called<function##Name, decltype(function)>(resolve(function##Name::text));
     LOCKSTEP_GL_OPTIONAL(LOCKSTEP_GL_LOAD)
 #undef LOCKSTEP_GL_LOAD
 }

@@ -11,7 +11,7 @@ namespace lockstep {
 namespace {
 
 std::string reason(const ContextProbe& probe) {
-    const std::string prefix = fmt::format("no GL context: {}: ", context_request_text(probe.request));
+    const std::string prefix = fmt::format("{}: ", context_request_text(probe.request));
     return probe.error.substr(probe.error.starts_with(prefix) ? prefix.size() : 0);
 }
 

@@ -5,7 +5,9 @@ namespace lockstep {
 
 /// The program's alone, first thing in main. A signal that ends the program, and a library that calls exit(), take the
 /// temporary files along (temporary.hpp); the status is then `status_of_exit`. Nobody reading a pipe and a limit on the
-/// size of files are no signals but errors of the write. Signals that were ignored stay so.
+/// size of files are no signals but errors of the write. Signals that were ignored stay so. A crash in the driver, and
+/// under a tight limit (environment.hpp) any crash, want of memory, and a driver that waits for ever, end it with one
+/// line that names the limit and with `status_of_exit`.
 void own_signals(int status_of_exit);
 
 /// Last thing in main: what calls exit() from now on is main itself.

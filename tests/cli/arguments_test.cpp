@@ -353,6 +353,6 @@ TEST_CASE("arguments: more particles than fit into memory are refused in one lin
     test::Surroundings small;
     small.memory = std::size_t{1} << 30U;
     CHECK(refusal(run_lockstep({"hash", scene, "--particles", "100000000"}, small)) ==
-          "not enough memory; fewer particles (--particles) or a smaller image need less");
+          "not enough memory; memory is limited to 1048576 KiB (ulimit -v)");
 }
 #endif

@@ -10,6 +10,7 @@
 #include <thread>
 
 #include <fcntl.h>
+#include <grp.h>
 #include <poll.h>
 #include <pty.h>
 #include <sys/ioctl.h>
@@ -50,6 +51,18 @@ void enter(const Surroundings& surroundings) {
         const rlimit limit{*surroundings.stack, *surroundings.stack};
         setrlimit(RLIMIT_STACK, &limit);
     }
+    if (surroundings.processes) {
+        constexpr uid_t without_processes = 61234;
+        if (getuid() == 0 &&
+            (setgroups(0, nullptr) != 0 || setgid(without_processes) != 0 || setuid(without_processes) != 0))
+            _exit(127);
+        const rlimit limit{*surroundings.processes, *surroundings.processes};
+        setrlimit(RLIMIT_NPROC, &limit);
+    }
+    if (surroundings.files) {
+        const rlimit limit{*surroundings.files, *surroundings.files};
+        setrlimit(RLIMIT_NOFILE, &limit);
+    }
     if (surroundings.standard_input) {
         int in[2];
         if (pipe(in) != 0)
@@ -71,6 +84,8 @@ void enter(const Surroundings& surroundings) {
         close(STDOUT_FILENO);
     else if (surroundings.standard_output)
         dup2(open(surroundings.standard_output->c_str(), O_WRONLY), STDOUT_FILENO);
+    for (const int stream : surroundings.closed)
+        close(stream);
 }
 
 /// Appends what can be read; false at the end. A terminal whose other side has closed ends with EIO.

@@ -23,6 +23,9 @@ struct Surroundings {
     bool nobody_reads = false;                       ///< standard output is a pipe whose other end is closed
     std::optional<std::size_t> memory = {};          ///< bytes of address space
     std::optional<std::size_t> stack = {};           ///< bytes
+    std::optional<std::size_t> processes = {};       ///< with their threads; root becomes a user who has none yet
+    std::optional<std::size_t> files = {};           ///< that can be open
+    std::vector<int> closed = {};                    ///< of the standard streams
     std::string folder = {};                         ///< to run in; empty: the test's
     std::optional<std::string> standard_input = {};  ///< through a pipe; at most what one holds, 64 KiB
 };

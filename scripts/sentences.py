@@ -20,6 +20,11 @@ instead = {
     r"\bplease\b": "no please: say what would be right",
     r"\binvalid\b": "what it is, and what would be right",
     r"\bunexpected error\b": "what went wrong",
+    # A line of help stands alone.
+    r"^judge it\b": "judge the last rendered frame",
+    r"\bKth of N\b": "part K of N",
+    r"\bopens in any browser\b": "self-contained",
+    r"^begin something\b": "create a project skeleton",
 }
 
 token = re.compile(

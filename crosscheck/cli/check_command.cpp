@@ -454,9 +454,9 @@ Verb check_command() {
     verb.add(path_option("--images", "DIR", options->images,
                          "write CDT and rendered frame of both sides, and their difference, as PNG"));
     verb.add(path_option("--report", "DIR", options->report,
-                         "write report.html, a page that opens in any browser; with what study.json there says"));
+                         "write a self-contained report.html to DIR (includes DIR/study.json if present)"));
     verb.add(flag("--no-render", options->no_render, "do not judge the rendered frame, the last one's picture"));
-    verb.add(flag("--render", options->render, "judge it, and say so if it shows no particle"));
+    verb.add(flag("--render", options->render, "judge the last rendered frame; warn if it shows no particle"));
     verb.add(flag("--power", options->power, "list which mistakes the run would have shown, and why not the others"));
     verb.add(flag("--stress", options->stress,
                   "instead of a scene: all of data/scenes/stress, small ones in which mistakes show"));

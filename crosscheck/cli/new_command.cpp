@@ -98,7 +98,7 @@ Verb new_command() {
     system.add(path_option("-o,--output", "DIR", options->folder, "the folder to make; without it NAME"));
     system.footer = "Exit status: 0 written, 2 could not be.\nExample: lockstep new system sparks";
     system.run = [options](const Call&) { return make(*options); };
-    Verb verb{"new", "begin something of your own"};
+    Verb verb{"new", "create a project skeleton"};
     verb.verbs = {system};
     verb.footer = "Example: lockstep new system sparks";
     return verb;

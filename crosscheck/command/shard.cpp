@@ -52,11 +52,7 @@ Option shard_option(Shard& target) {
         target = {*part, *of, fmt::format("--shard {}", text)};
         return std::string();
     };
-    return {
-        "--shard", "K/N",
-        "only the Kth of N parts, from 1/N to N/N; else what TEST_SHARD_INDEX, from 0, and TEST_TOTAL_SHARDS say, or "
-        "mpirun",
-        keep};
+    return {"--shard", "K/N", "check part K of N (1/N to N/N)", keep};
 }
 
 Shard shard_of_environment() {

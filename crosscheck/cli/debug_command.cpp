@@ -40,10 +40,13 @@ int debug_scene(const DebugRequest& options) {
         changed.set.insert(changed.set.end(), changes.begin(), changes.end());
         return load(changed);
     };
-    static_cast<void>(shaders_to_run(options.run, load_with({})));
+    const Scene scene = load_with({});
+    static_cast<void>(shaders_to_run(options.run, scene));
     const Context context(parse_context_request(options.run.gl));
     const Profile profile = measured_profile(context, options.run.shaders);
     DebugSetup setup = setup_of(options);
+    setup.heading = run_heading(scene.name, options.run.scene.string(), settings_text(options.run, scene),
+                                summary(context.describe()), profile);
     setup.start = [&](const std::vector<std::string>& changes) {
         return std::make_unique<CollisionDebugRun>(std::make_unique<FrameRun>(
             load_with(changes), profile, known_operations(options.legal, profile), options.run.shaders));
@@ -58,6 +61,8 @@ int debug_trace(const DebugRequest& options) {
     DebugSetup setup = setup_of(options);
     setup.recorded = trace.info().frames;
     setup.unchangeable = recorded_is_fixed;
+    setup.heading = run_heading(trace.info().scene.name, trace.info().file, trace.info().settings,
+                                "recorded: " + trace.info().renderer, followed_profile(trace.info()));
     setup.start = [&](const std::vector<std::string>&) {
         return std::make_unique<CollisionDebugRun>(
             std::make_unique<FrameRun>(trace.info().scene, followed_profile(trace.info()),
@@ -89,7 +94,7 @@ Verb debug_command() {
     verb.add(hex_option(options->hexadecimal));
     verb.footer = "Commands: frame, particle, texel or pass, item; show, step, back,\n"
                   "next fetch|difference|divergence|nan, why, print, history, break, continue,\n"
-                  "set NAME=VALUE, list divergent, help, quit; # starts a comment.\n"
+                  "set NAME=VALUE, list divergent, source FILE, help, quit; # starts a comment.\n"
                   "Exit status: 0 reported, 2 could not run, or a command of a script could not be done.\n"
                   "Example: printf 'next difference\\nwhy\\n' | lockstep debug data/scenes/lattice.json --shaders mine";
     verb.run = [options](const Call& call) { return run(*options, call); };

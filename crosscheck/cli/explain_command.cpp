@@ -18,10 +18,10 @@
 #include "crosscheck/command/option_values.hpp"
 #include "crosscheck/files/plain_text.hpp"
 #include "crosscheck/files/threads.hpp"
+#include "crosscheck/package/item_verbs.hpp"
 #include "crosscheck/report/colour.hpp"
 #include "crosscheck/report/progress.hpp"
 #include "crosscheck/report/shader_diff.hpp"
-#include "crosscheck/scene/profile_text.hpp"
 #include "crosscheck/scene/profiles.hpp"
 #include "gpu/context.hpp"
 #include "reference/model/error.hpp"
@@ -62,8 +62,7 @@ void tell(const ExplainRequest& options, FrameRun& frames, const std::string& fi
         frames.go_to(options.frame, [&](int done) { progress.show(done); });
     }
     const NumberFormat format = options.hexadecimal ? NumberFormat::hexadecimal : NumberFormat::decimal;
-    fmt::print("scene     {} ({})\nswitches  {}\nGL        {}\nprofile   {}\n\n", scene.name, plain_line(file),
-               settings, plain_line(renderer), describe(frames.profile()));
+    fmt::print("{}\n", run_heading(scene.name, file, settings, renderer, frames.profile()));
     fmt::print("{}", colored(plain_text(text_of(options, frames, item, format))));
 }
 

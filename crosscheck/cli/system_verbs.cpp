@@ -335,6 +335,14 @@ int cut_system(const RegisteredSystem& system, const RunOptions& run, const Syst
     return status_agree;
 }
 
+namespace {
+
+std::string heading_of(const ReadScene& read, const std::string& gl, const Profile& profile) {
+    return run_heading(read.scene.system.name, read.file, read.scene.system.settings, gl, profile);
+}
+
+} // namespace
+
 int debug_system(const RegisteredSystem& system, const RunOptions& run, Legal legal, DebugSetup setup,
                  const std::filesystem::path& trace) {
     if (!trace.empty()) {
@@ -342,6 +350,7 @@ int debug_system(const RegisteredSystem& system, const RunOptions& run, Legal le
         SystemSide& side = input->open();
         setup.recorded = input->recorded_frames();
         setup.unchangeable = recorded_is_fixed;
+        setup.heading = heading_of(input->read(), side.describe().name, side.describe().profile);
         setup.start = [&](const std::vector<std::string>&) {
             return std::make_unique<SystemDebugRun>(std::shared_ptr<const System>(input, &input->system()),
                                                     std::shared_ptr<SystemSide>(input, &side),
@@ -349,8 +358,10 @@ int debug_system(const RegisteredSystem& system, const RunOptions& run, Legal le
         };
         return debug_run(std::move(setup));
     }
-    static_cast<void>(shaders_of(read_scene(system, run).scene, run));
+    const ReadScene first = read_scene(system, run);
+    static_cast<void>(shaders_of(first.scene, run));
     const Gl gl = open_gl(run);
+    setup.heading = heading_of(first, gl.name(), gl.profile(run.shaders));
     setup.start = [&](const std::vector<std::string>& changes) {
         RunOptions changed = run;
         changed.set.insert(changed.set.end(), changes.begin(), changes.end());

@@ -15,27 +15,27 @@
 namespace lockstep {
 namespace {
 
-/// An error's text would end at a character 0.
-std::string obeyed(const Session& session, const std::string& line) {
-    return colored(plain_text(session.obey(line.find('\0') == line.npos ? line : plain_line(line))));
-}
-
 void obey_terminal(const Session& session) {
+    print_lines(session.opening);
     LineEditor editor("(lockstep) ", session.complete);
     while (!session.ended()) {
         const std::optional<std::string> line = editor.line();
         if (!line)
             return;
         try {
-            fmt::print("{}", obeyed(session, *line));
+            print_lines(session.obey(*line));
         } catch (const Error& error) {
-            fmt::print("{}\n", plain_line(error.what()));
+            print_lines(fmt::format("{}\n", plain_line(error.what())));
         }
-        std::fflush(stdout);
     }
 }
 
 } // namespace
+
+void print_lines(const std::string& lines) {
+    fmt::print("{}", colored(plain_text(lines)));
+    std::fflush(stdout);
+}
 
 void obey_input(const Session& session) {
     if (isatty(STDIN_FILENO) == 1 && isatty(STDOUT_FILENO) == 1)
@@ -43,8 +43,7 @@ void obey_input(const Session& session) {
     std::string line;
     for (int number = 1; !session.ended() && std::getline(std::cin, line); ++number) {
         try {
-            fmt::print("{}", obeyed(session, line));
-            std::fflush(stdout);
+            print_lines(session.obey(line));
         } catch (const Error& error) {
             throw Error(fmt::format("line {}: {}", number, error.what()));
         }

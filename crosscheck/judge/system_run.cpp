@@ -1,6 +1,7 @@
 #include "crosscheck/judge/system_run.hpp"
 
 #include <algorithm>
+#include <exception>
 #include <utility>
 
 #include <fmt/format.h>
@@ -21,6 +22,13 @@ SystemState left_by(const System& system, std::size_t pass, const SystemState& b
     for (std::size_t p = pass + 1; p < end_of_dispatch(system, pass); ++p)
         left.take(system.passes[p]->resource(), before);
     return left;
+}
+
+std::optional<std::size_t> first_pass(const System& system, int frame) {
+    for (std::size_t p = 0; p < system.passes.size(); ++p)
+        if (system.passes[p]->runs(frame))
+            return p;
+    return {};
 }
 
 } // namespace
@@ -81,12 +89,13 @@ void SystemRun::step(int frame, std::size_t pass) {
         wrong_.insert(r);
 }
 
+/// What `on_frame` throws is thrown where the run stands in a frame again, the next but one at most.
 void SystemRun::go_to(int frame, std::size_t pass, const std::function<void(int)>& on_frame) {
     if (pass >= system_.passes.size())
         throw Error(fmt::format("{} has no pass {}; it has 0 to {}", system_.name, pass, system_.passes.size() - 1));
-    const ItemPass& made = *system_.passes[pass];
-    if (!made.runs(frame))
-        throw Error(fmt::format("{}: pass {} does not run in frame {}", system_.name, made.name(), frame));
+    if (!system_.passes[pass]->runs(frame))
+        throw Error(
+            fmt::format("{}: pass {} does not run in frame {}", system_.name, system_.passes[pass]->name(), frame));
     if (std::pair(frame, pass) == std::pair(frame_, pass_))
         return;
     int f = frame_;
@@ -96,9 +105,19 @@ void SystemRun::go_to(int frame, std::size_t pass, const std::function<void(int)
         f = 0;
         p = 0;
     }
+    std::exception_ptr thrown;
     for (; f <= frame; ++f, p = 0) {
-        if (on_frame)
-            on_frame(f);
+        try {
+            if (on_frame && !thrown)
+                on_frame(f);
+        } catch (...) {
+            thrown = std::current_exception();
+        }
+        // In the frame after: what a pass started from in the frame before is kept.
+        if (const auto first = first_pass(system_, f + 1); thrown && first && f + 1 < frame) {
+            frame = f + 1;
+            pass = *first;
+        }
         for (; p < system_.passes.size() && !(f == frame && p > pass); ++p) {
             if (!system_.passes[p]->runs(f))
                 continue;
@@ -115,12 +134,15 @@ void SystemRun::go_to(int frame, std::size_t pass, const std::function<void(int)
     }
     frame_ = frame;
     pass_ = pass;
+    const ItemPass& made = *system_.passes[pass];
     before_view_ = before_.view();
     earlier_view_ = earlier_ ? earlier_->view() : SystemView();
     reference_ = before_;
     run_pass(made, before_, frame, profile_, reference_);
     reference_view_ = std::as_const(reference_)[made.resource()];
     gpu_view_ = std::as_const(now_)[made.resource()];
+    if (thrown)
+        std::rethrow_exception(thrown);
 }
 
 JudgedPass SystemRun::judged() const {

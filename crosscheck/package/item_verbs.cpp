@@ -41,9 +41,7 @@ std::size_t asked_pass(const SystemItem& item, const System& system) {
 }
 
 std::string heading(const System& system, const std::string& file, const std::string& gl, const Profile& profile) {
-    return fmt::format("scene     {}{}\nswitches  {}\nGL        {}\nprofile   {}\n\n", system.name,
-                       file.empty() ? "" : fmt::format(" ({})", plain_line(file)),
-                       system.settings.empty() ? "none" : system.settings, plain_line(gl), describe(profile));
+    return run_heading(system.name, file, system.settings, gl, profile) + "\n";
 }
 
 void go_to(SystemRun& run, const SystemItem& item, std::size_t pass) {
@@ -65,6 +63,13 @@ Option pass_option(std::string& pass) {
 
 Option hex_option(bool& hexadecimal) {
     return flag("--hex", hexadecimal, "hexadecimal floats instead of decimal ones");
+}
+
+std::string run_heading(const std::string& scene, const std::string& file, const std::string& settings,
+                        const std::string& gl, const Profile& profile) {
+    return fmt::format("scene     {}{}\nswitches  {}\nGL        {}\nprofile   {}\n", scene,
+                       file.empty() ? "" : fmt::format(" ({})", plain_line(file)), settings.empty() ? "none" : settings,
+                       plain_line(gl), describe(profile));
 }
 
 ItemPlace place_of(const SystemItem& item, const System& system) {
@@ -244,8 +249,10 @@ std::string recording_text(const System& system, SystemSide& side, const SystemR
 
 int debug_run(DebugSetup setup) {
     setup.stop = [] { return interrupted.load(); };
+    setup.say = print_lines;
     DebugSession session(std::move(setup));
-    obey_input({.obey = [&](const std::string& line) { return session.obey(line); },
+    obey_input({.opening = session.opening(),
+                .obey = [&](const std::string& line) { return session.obey(line); },
                 .ended = [&] { return session.ended(); },
                 .complete = [&](const std::string& line) { return session.completions(line); }});
     return status_agree;

@@ -49,6 +49,10 @@ struct ItemPlace {
 /// Throws Error where there is no such pass or item, with those there are.
 ItemPlace place_of(const SystemItem& item, const System& system);
 
+/// The lines scene, switches, GL and profile. `file`: the scene's; empty: it has none.
+std::string run_heading(const std::string& scene, const std::string& file, const std::string& settings,
+                        const std::string& gl, const Profile& profile);
+
 /// The run of both sides to that frame, and what `explain` prints of the item. `file`: the scene's; empty: it has none.
 std::string explain_text(const System& system, SystemSide& side, const SystemItem& item, const std::string& file);
 

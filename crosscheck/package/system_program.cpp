@@ -191,6 +191,8 @@ int debug_verb(const OwnProgram& program, const Options& options) {
         setup.recorded = gpu.recording()->frames();
         setup.unchangeable = recorded_is_fixed;
     }
+    const SideDescription about = gpu->describe();
+    setup.heading = run_heading(program.system.name, "", program.system.settings, about.name, about.profile);
     // They outlive the session.
     const std::shared_ptr<const System> system(std::shared_ptr<void>(), &program.system);
     const std::shared_ptr<SystemSide> side(std::shared_ptr<void>(), &*gpu);
@@ -272,7 +274,7 @@ Verb verbs_of(const std::string& name, const OwnProgram& program, const std::sha
     check.add(flag("--power", options->power, "list which mistakes the run would have shown, and why not the others"));
     check.add(path_option("--json", "FILE", options->json, "write the report as JSON"));
     check.add(path_option("--hashes", "FILE", options->hashes, "write both sides' state hash of every frame"));
-    check.add(path_option("--report", "DIR", options->report, "write report.html, a page that opens in any browser"));
+    check.add(path_option("--report", "DIR", options->report, "write a self-contained report.html to DIR"));
     check.add(path_option("--capsule", "FILE", options->capsule, "keep the first item that is divergent"));
     check.add(hex_option(options->item.hexadecimal));
     check.add(flag("--quiet", options->quiet, "no report, only the exit status"));

@@ -1,8 +1,10 @@
 #pragma once
 #include <compare>
 #include <cstddef>
+#include <functional>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include "crosscheck/judge/item_verdict.hpp"
@@ -23,15 +25,21 @@ struct DebugSelector {
     std::string_view name, argument, meaning;
 };
 
+/// Thrown by a run that was asked to stop (DebugRun::stop_when); it stands in frame(), on the way to where it was sent.
+struct Stopped {};
+
 /// Both sides of a run in resync, one frame at a time, as a debugging session walks through it. What is judged together
 /// is a group of items: the particles, the texels, or what one pass wrote. Every function throws Error where the run
-/// cannot be made.
+/// cannot be made, and those that run frames throw Stopped.
 class DebugRun {
   public:
     DebugRun() = default;
     virtual ~DebugRun() = default;
     DebugRun(const DebugRun&) = delete;
     DebugRun& operator=(const DebugRun&) = delete;
+
+    /// What takes long ends, with Stopped, once `stop` is true. Without: never.
+    void stop_when(std::function<bool()> stop) { stop_ = std::move(stop); }
 
     /// Runs to the end of frame `frame`, counted from 0; back ones from the start again.
     virtual void go_to(int frame) = 0;
@@ -62,6 +70,16 @@ class DebugRun {
     /// What both sides made of a group in this frame; of no items where it does not make it. Views end with the next
     /// call.
     [[nodiscard]] virtual States states(std::size_t group) = 0;
+
+  protected:
+    /// Called in between by what takes long.
+    void go_on() const {
+        if (stop_ && stop_())
+            throw Stopped();
+    }
+
+  private:
+    std::function<bool()> stop_;
 };
 
 } // namespace lockstep

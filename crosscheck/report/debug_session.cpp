@@ -3,11 +3,15 @@
 #include <algorithm>
 #include <array>
 #include <charconv>
+#include <cstdint>
+#include <sstream>
 #include <utility>
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include "crosscheck/files/opened_file.hpp"
+#include "crosscheck/files/plain_text.hpp"
 #include "crosscheck/report/row_text.hpp"
 #include "crosscheck/report/verdict_text.hpp"
 #include "reference/model/error.hpp"
@@ -17,6 +21,8 @@ namespace lockstep {
 namespace {
 
 constexpr int most_frames = 100'000'000;
+constexpr int most_sourced = 16;
+constexpr std::uint64_t most_bytes_of_commands = 1'000'000;
 
 int number_in(std::string_view command, const std::string& text, int least, int most,
               std::optional<int> otherwise = {}) {
@@ -38,6 +44,18 @@ std::vector<std::string> beginning(const std::string& word, const std::vector<st
             found.push_back(one);
     return found;
 }
+
+/// Counts what lasts as long as it does.
+class Counted {
+  public:
+    explicit Counted(int& count) : count_(count) { ++count_; }
+    ~Counted() { --count_; }
+    Counted(const Counted&) = delete;
+    Counted& operator=(const Counted&) = delete;
+
+  private:
+    int& count_;
+};
 
 std::vector<std::string> words_of(std::string_view choices) {
     std::vector<std::string> words(1);
@@ -70,6 +88,7 @@ const std::vector<DebugSession::Command>& DebugSession::commands() {
         {"continue", "c", "", "on to the next frame in which a `break` holds", &DebugSession::go_on},
         {"set", "", "NAME=VALUE", "change a switch or constant and run again to this frame", &DebugSession::set},
         {"list", "l", "divergent|undefined|tie|rounding", "what differs in this frame", &DebugSession::list},
+        {"source", "", "FILE", "obey the commands in FILE, one a line", &DebugSession::source},
         {"help", "h", "", "these lines", &DebugSession::help},
         {"quit", "q", "", "end; so does the end of the input", &DebugSession::quit},
     };
@@ -79,15 +98,36 @@ const std::vector<DebugSession::Command>& DebugSession::commands() {
 DebugSession::DebugSession(DebugSetup setup) : setup_(std::move(setup)), run_(setup_.start({})) {
     run_->go_to(0);
     look_at(item_);
+    run_->stop_when(setup_.stop);
+}
+
+std::string DebugSession::opening() const {
+    std::string selectors;
+    for (const DebugSelector& selector : run_->selectors())
+        selectors += fmt::format("`{} {}`, ", selector.name, selector.argument);
+    return fmt::format("{}at        {}\n"
+                       "type      `next divergence` to find the first fault; `frame F`, {}`show` to look at a step;\n"
+                       "          `help` for all commands; `quit` to end\n",
+                       setup_.heading, place(), selectors);
 }
 
 std::string DebugSession::obey(const std::string& line) {
-    const std::string text = trimmed(line.substr(0, line.find('#')));
+    std::string text = trimmed(line.substr(0, line.find('#')));
     if (text.empty())
         return "";
+    if (text.find('\0') != std::string::npos) // where an error's text would end
+        text = plain_line(text);
     const std::size_t end = text.find_first_of(" \t");
     const std::string name = text.substr(0, end);
-    const std::string argument = end == std::string::npos ? "" : trimmed(text.substr(end));
+    try {
+        return answer(name, end == std::string::npos ? "" : trimmed(text.substr(end)));
+    } catch (const Stopped&) {
+        look_at(item_);
+        throw Error(fmt::format("stopped in frame {}", run_->frame()));
+    }
+}
+
+std::string DebugSession::answer(const std::string& name, const std::string& argument) {
     for (const Command& command : commands())
         if (command.name == name || (!command.letter.empty() && command.letter == name)) {
             if (command.argument.empty() && !argument.empty())
@@ -162,8 +202,10 @@ std::string DebugSession::frame_summary() {
         if (run_->states(g).gpu.columns.empty())
             continue;
         std::array<std::size_t, class_names.size()> of{};
-        for (const ItemVerdict& item : run_->verdicts(g))
+        for (const ItemVerdict& item : verdicts(g))
             ++of[static_cast<std::size_t>(item.kind)];
+        if (g == item_.group)
+            look_at(item_); // on the way: a group that lies behind takes the run from its start
         std::string counts;
         for (std::size_t k = 0; k < of.size(); ++k)
             if (of[k] > 0)
@@ -175,9 +217,8 @@ std::string DebugSession::frame_summary() {
 
 std::string DebugSession::frame(const std::string& argument) {
     run_to(number_in("frame", argument, 0, most_frames));
-    std::string summary = frame_summary();
-    look_at(item_);
-    return summary;
+    item_ = run_->nearest(item_);
+    return frame_summary();
 }
 
 std::string DebugSession::show(const std::string&) { return run_->show(item_, setup_.format); }
@@ -237,6 +278,7 @@ std::string DebugSession::find(const std::string& what, const Wanted& wanted,
     const auto in_this_frame = [&](const std::function<bool(DebugItem)>& after) -> std::string {
         for (const DebugItem item : items())
             if (after(item)) {
+                go_on();
                 look_at(item);
                 if (find_row(wanted))
                     return place() + "\n" + row_text(rows_[*row_], setup_.format);
@@ -257,27 +299,33 @@ std::string DebugSession::find_frame(const std::string& what, const std::functio
     const int start_frame = run_->frame();
     const std::optional<std::size_t> start_row = row_;
     const int frames = std::min(setup_.frames, setup_.recorded.value_or(setup_.frames));
-    while (run_->frame() + 1 < frames) {
-        if (setup_.stop && setup_.stop())
-            break;
-        run_->go_to(run_->frame() + 1);
-        if (std::string found = work(); !found.empty())
-            return found;
+    try {
+        while (run_->frame() + 1 < frames) {
+            go_on();
+            run_->go_to(run_->frame() + 1);
+            if (std::string found = work(); !found.empty())
+                return found;
+        }
+        run_->go_to(start_frame);
+    } catch (const Stopped&) {
+        look_at(start);
+        throw Error(fmt::format("stopped in frame {}; no further {} up to there", run_->frame(), what));
     }
-    const int reached = run_->frame();
-    run_->go_to(start_frame);
     look_at(start);
     row_ = start_row;
-    if (setup_.stop && setup_.stop())
-        throw Error(fmt::format("{}: stopped in frame {}; no further {} up to there", place(), reached, what));
     throw Error(fmt::format("{}: no further {} up to frame {}; --frames sets how far is looked", place(), what,
                             std::max(frames - 1, start_frame)));
+}
+
+std::vector<ItemVerdict> DebugSession::verdicts(std::size_t group) {
+    go_on();
+    return run_->verdicts(group);
 }
 
 std::vector<DebugItem> DebugSession::of_class(DifferenceClass least) {
     std::vector<DebugItem> items;
     for (std::size_t g = 0; g < run_->groups().size(); ++g)
-        for (const ItemVerdict& verdict : run_->verdicts(g))
+        for (const ItemVerdict& verdict : verdicts(g))
             if (verdict.kind >= least)
                 items.push_back({g, verdict.index});
     return items;
@@ -286,6 +334,7 @@ std::vector<DebugItem> DebugSession::of_class(DifferenceClass least) {
 std::vector<DebugItem> DebugSession::with_nan() {
     std::vector<DebugItem> items;
     for (std::size_t g = 0; g < run_->groups().size(); ++g) {
+        go_on();
         const DebugRun::States states = run_->states(g);
         if (states.gpu.columns.empty())
             continue;
@@ -335,8 +384,10 @@ std::string DebugSession::history(const std::string& argument) {
     const int last = run_->frame();
     std::string text = fmt::format("{}: the GPU's values, and the reference's where they differ\n", run_->name(item_));
     for (int frame = 0; frame <= last; ++frame) {
-        if (setup_.stop && setup_.stop())
-            break;
+        if (stopped()) {
+            look_at(item_);
+            return text + fmt::format("stopped in frame {}\n", run_->frame());
+        }
         run_->go_to(frame);
         const DebugRun::States states = run_->states(item_.group);
         if (states.gpu.columns.empty() || item_.index >= states.gpu.count())
@@ -351,7 +402,6 @@ std::string DebugSession::history(const std::string& argument) {
         }
         text += fmt::format("{:6}{}\n", frame, line);
     }
-    run_->go_to(last);
     look_at(item_);
     return text;
 }
@@ -397,12 +447,16 @@ std::string DebugSession::set(const std::string& argument) {
     std::vector<std::string> changes = changes_;
     changes.push_back(argument);
     std::unique_ptr<DebugRun> run = setup_.start(changes);
-    run->go_to(run_->frame());
+    run->stop_when(setup_.stop);
+    try {
+        run->go_to(run_->frame());
+    } catch (const Stopped&) {
+        throw Error(fmt::format("set: stopped; {} is not changed", argument.substr(0, argument.find('='))));
+    }
     run_ = std::move(run);
     changes_ = std::move(changes);
-    std::string summary = frame_summary();
-    look_at(item_);
-    return summary;
+    item_ = run_->nearest(item_);
+    return frame_summary();
 }
 
 std::string DebugSession::list(const std::string& argument) {
@@ -413,12 +467,36 @@ std::string DebugSession::list(const std::string& argument) {
     std::string text;
     std::size_t count = 0;
     for (std::size_t g = 0; g < run_->groups().size(); ++g)
-        for (const ItemVerdict& verdict : run_->verdicts(g))
+        for (const ItemVerdict& verdict : verdicts(g))
             if (class_names[static_cast<std::size_t>(verdict.kind)] == argument && ++count <= most)
                 text += run_->name({g, verdict.index}) + "\n";
     if (count > most)
         text += fmt::format("and {} more\n", grouped(count - most));
     return count == 0 ? fmt::format("nothing {} in frame {}\n", argument, run_->frame()) : text;
+}
+
+std::string DebugSession::source(const std::string& argument) {
+    if (argument.empty())
+        throw Error("source: the name of a file of commands is missing");
+    if (sourced_ == most_sourced)
+        throw Error(fmt::format("source: {}: more than {} files, one within the other", argument, most_sourced));
+    const OpenedFile file(argument, "file of commands");
+    if (file.size() > most_bytes_of_commands)
+        throw Error(fmt::format("source: {}: {} bytes; expected at most {}", argument, grouped(file.size()),
+                                grouped(most_bytes_of_commands)));
+    std::istringstream lines(file.text());
+    const Counted within(sourced_);
+    std::string line, text;
+    for (int number = 1; !ended_ && std::getline(lines, line); ++number)
+        try {
+            go_on();
+            text += obey(line);
+            if (setup_.say)
+                setup_.say(std::exchange(text, ""));
+        } catch (const Error& error) {
+            throw Error(fmt::format("{}:{}: {}", argument, number, error.what()));
+        }
+    return text;
 }
 
 std::string DebugSession::help(const std::string&) {

@@ -23,13 +23,20 @@ struct DebugSetup {
     NumberFormat format = NumberFormat::decimal;
     /// Whether to stop what takes long: Ctrl-C. May be empty.
     std::function<bool()> stop = {};
+    std::string heading = {}; ///< scene, switches and driver, whole lines
+    /// Gets what each command of a file says, as soon as it is done. Empty: they say it together.
+    std::function<void(const std::string& lines)> say = {};
 };
 
 /// Both sides of one item at a time, walked through by commands (docs/explain.md). A command that cannot be done throws
-/// Error and leaves the session where it was.
+/// Error and leaves the session where it was; one that is stopped throws it, too, and leaves the session in the frame
+/// that was reached.
 class DebugSession {
   public:
     explicit DebugSession(DebugSetup setup);
+
+    /// What runs, where the session begins and what can be typed.
+    [[nodiscard]] std::string opening() const;
 
     /// Obeys one line; gives what it has to say, whole lines.
     std::string obey(const std::string& line);
@@ -58,11 +65,18 @@ class DebugSession {
     std::string go_on(const std::string& argument);
     std::string set(const std::string& argument);
     std::string list(const std::string& argument);
+    std::string source(const std::string& argument);
     std::string help(const std::string& argument);
     std::string quit(const std::string& argument);
 
     using Wanted = std::function<bool(const StepRow&)>;
 
+    [[nodiscard]] std::string answer(const std::string& name, const std::string& argument);
+    [[nodiscard]] bool stopped() const { return setup_.stop && setup_.stop(); }
+    void go_on() const {
+        if (stopped())
+            throw Stopped();
+    }
     void run_to(int frame);
     void look_at(DebugItem item);
     [[nodiscard]] std::vector<std::string> names() const;
@@ -76,6 +90,8 @@ class DebugSession {
                      const std::function<std::vector<DebugItem>()>& items);
     /// Works on what is told anew in each frame after this one until it gives a text; without one the session stays.
     std::string find_frame(const std::string& what, const std::function<std::string()>& work);
+    /// DebugRun::verdicts, unless the session is to stop.
+    [[nodiscard]] std::vector<ItemVerdict> verdicts(std::size_t group);
     [[nodiscard]] std::vector<DebugItem> of_class(DifferenceClass least);
     [[nodiscard]] std::vector<DebugItem> with_nan();
 
@@ -86,6 +102,7 @@ class DebugSession {
     DebugItem item_;
     std::vector<StepRow> rows_;
     std::optional<std::size_t> row_; ///< the row the session stands at; none: before the first
+    int sourced_ = 0;                ///< how many files of commands are being obeyed, one from within the other
     bool ended_ = false;
 };
 

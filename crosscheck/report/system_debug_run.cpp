@@ -19,6 +19,24 @@ SystemDebugRun::SystemDebugRun(std::shared_ptr<const System> system, std::shared
                                const KnownOperations& known)
     : system_(std::move(system)), gpu_(std::move(gpu)), run_(*system_, *gpu_, known) {}
 
+void SystemDebugRun::go_to(int frame) {
+    frame_ = frame;
+    if (run_.judged().frame == frame)
+        return;
+    for (std::size_t pass = 0; pass < system_->passes.size(); ++pass)
+        if (runs(pass))
+            return come_to(pass);
+}
+
+void SystemDebugRun::come_to(std::size_t pass) {
+    try {
+        run_.go_to(frame_, pass, [this](int) { go_on(); });
+    } catch (const Stopped&) {
+        frame_ = run_.judged().frame;
+        throw;
+    }
+}
+
 Extent SystemDebugRun::extent(std::size_t pass) const {
     return system_->start.extent(system_->passes[pass]->resource());
 }
@@ -67,7 +85,7 @@ std::string SystemDebugRun::head(DebugItem item, NumberFormat) {
 }
 
 std::string SystemDebugRun::show(DebugItem item, NumberFormat format) {
-    run_.go_to(frame_, item.group);
+    come_to(item.group);
     return explain_item(run_, item.index, format);
 }
 
@@ -77,21 +95,21 @@ std::string SystemDebugRun::why(DebugItem item, NumberFormat) {
 }
 
 std::vector<StepRow> SystemDebugRun::rows(DebugItem item) {
-    run_.go_to(frame_, item.group);
+    come_to(item.group);
     return item_rows(run_.judged(), item.index, run_.told(item.index));
 }
 
 std::vector<ItemVerdict> SystemDebugRun::verdicts(std::size_t group) {
     if (!runs(group))
         return {};
-    run_.go_to(frame_, group);
+    come_to(group);
     return judge_items(run_.judged());
 }
 
 DebugRun::States SystemDebugRun::states(std::size_t group) {
     if (!runs(group))
         return {};
-    run_.go_to(frame_, group);
+    come_to(group);
     const JudgedPass judged = run_.judged();
     return {judged.reference, judged.gpu};
 }

@@ -11,7 +11,7 @@ class SystemDebugRun final : public DebugRun {
   public:
     SystemDebugRun(std::shared_ptr<const System> system, std::shared_ptr<SystemSide> gpu, const KnownOperations& known);
 
-    void go_to(int frame) override { frame_ = frame; }
+    void go_to(int frame) override;
     [[nodiscard]] int frame() const override { return frame_; }
     [[nodiscard]] std::vector<std::string> groups() const override;
     [[nodiscard]] std::vector<DebugSelector> selectors() const override;
@@ -26,6 +26,8 @@ class SystemDebugRun final : public DebugRun {
     [[nodiscard]] States states(std::size_t group) override;
 
   private:
+    /// To a pass of this frame.
+    void come_to(std::size_t pass);
     [[nodiscard]] bool runs(std::size_t pass) const { return system_->passes[pass]->runs(frame_); }
     [[nodiscard]] Extent extent(std::size_t pass) const;
 

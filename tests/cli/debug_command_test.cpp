@@ -149,10 +149,10 @@ TEST_CASE("debug_command: help names every command; quit, and the end of the inp
         return;
     const Setting setting;
     const std::string help = setting.told("help\n");
-    for (const char* command :
-         {"frame, f F ", "particle I ", "texel X,Y ", "show ", "step, s [N] ", "back [N] ",
-          "next, n fetch|difference|divergence|nan ", "why, w ", "print, p NAME ", "history [NAME] ",
-          "break, b [NAME < NUMBER] ", "continue, c ", "set NAME=VALUE ", "list, l divergent|", "help, h ", "quit, q "})
+    for (const char* command : {"frame, f F ", "particle I ", "texel X,Y ", "show ", "step, s [N] ", "back [N] ",
+                                "next, n fetch|difference|divergence|nan ", "why, w ", "print, p NAME ",
+                                "history [NAME] ", "break, b [NAME < NUMBER] ", "continue, c ", "set NAME=VALUE ",
+                                "list, l divergent|", "source FILE ", "help, h ", "quit, q "})
         CHECK_THAT(help, Catch::Contains(command));
     CHECK(setting.told("# a comment\n\n  \nquit # the end\nnonsense\n").empty());
     CHECK(setting.told("").empty());
@@ -164,7 +164,7 @@ TEST_CASE("debug_command: what cannot be done is told with the line of the scrip
     const Setting setting;
     CHECK(setting.error("\n# first\nnonsense\n") ==
           "line 3: unknown command 'nonsense'; the commands are frame, particle, texel, show, step, back, next, why, "
-          "print, history, break, continue, set, list, help, quit");
+          "print, history, break, continue, set, list, source, help, quit");
     CHECK_THAT(setting.error("fram 2\n"), Catch::EndsWith("; did you mean frame?"));
     CHECK_THAT(setting.error(std::string("fra\0me 2\n", 9)),
                Catch::StartsWith("line 1: unknown command 'fra\\x00me'; the commands are frame, "));
@@ -286,6 +286,86 @@ TEST_CASE("debug_command: on a terminal there is a prompt, and an error does not
                           Catch::Contains("frame 1: particles: none differ"));
 }
 
+TEST_CASE("debug_command: on a terminal it opens with scene, driver, place and what to type") {
+    if (!test::have_software_gl() || !test::have_terminal())
+        return;
+    const Setting setting;
+    const auto opening = [](const std::vector<std::string>& command) {
+        const std::string shown = run_lockstep_on_terminal(command, "(lockstep) ", "quit\n").out;
+        return shown.substr(0, shown.find("(lockstep) "));
+    };
+    CHECK_THAT(opening(setting.command()),
+               Catch::StartsWith("scene     scene (") && Catch::Contains("scene.json)\r\nswitches  ") &&
+                   Catch::Contains("\nGL        llvmpipe") &&
+                   Catch::Contains("\nat        frame 0 particle 0\r\ntype      `next divergence` ") &&
+                   Catch::Contains("`particle I`, `texel X,Y`, ") && Catch::Contains("`help` for all commands"));
+    CHECK_THAT(opening({"debug", "data/scenes/dust/physics.json", "--particles", "50", "--gl", test::software_gl()}),
+               Catch::Contains("scene     ") && Catch::Contains("(data/scenes/dust/physics.json)") &&
+                   Catch::Contains("\nGL        llvmpipe") && Catch::Contains("\nat        frame 0 ") &&
+                   Catch::Contains(", grain 0\r\n") && Catch::Contains("`pass NAME`, `item I|X,Y`, "));
+}
+
+TEST_CASE("debug_command: source obeys a file of commands, to its first error") {
+    if (!test::have_software_gl())
+        return;
+    const Setting setting;
+    const std::string inner = setting.folder.write("inner.txt", "particle 17\n# a comment\nstep\n").string();
+    const std::string outer =
+        setting.folder.write("outer.txt", "frame 2\r\nsource " + inner + "\nback 3\nstep\n").string();
+    CHECK(setting.told("frame 2\nparticle 17\nstep\n") == setting.told("frame 2\nsource " + inner + "\n"));
+    const test::Outcome wrong = setting.obey("# first\nsource " + outer + "\nframe 1\n");
+    CHECK(wrong.status == 2);
+    CHECK(wrong.out == setting.told("frame 2\nsource " + inner + "\n"));
+    CHECK_THAT(wrong.err, Catch::StartsWith("lockstep: line 2: " + outer + ":3: frame 2 particle 17: "));
+    CHECK(setting.told("source " + setting.folder.write("end.txt", "quit\nnonsense\n").string() + "\nnonsense\n")
+              .empty());
+    CHECK(setting.error("source\n") == "line 1: source: the name of a file of commands is missing");
+    CHECK_THAT(setting.error("source nowhere.txt\n"), Catch::StartsWith("line 1: ") && Catch::Contains("nowhere.txt"));
+    CHECK_THAT(setting.error("source " + setting.folder.path().string() + "\n"), Catch::Contains("file of commands"));
+    const std::string again = (setting.folder.path() / "again.txt").string();
+    static_cast<void>(setting.folder.write("again.txt", "source " + again + "\n"));
+    CHECK_THAT(setting.error("source " + again + "\n"), Catch::EndsWith("more than 16 files, one within the other"));
+}
+
+TEST_CASE("debug_command: Ctrl-C stops every command that takes long, and the session goes on where it came to") {
+    if (!test::have_software_gl() || !test::have_terminal())
+        return;
+    const std::string prompt = "(lockstep) ", ctrl_c = "\x03";
+    // What is typed, and stopped.
+    const auto stopped = [&](const std::vector<std::string>& command, const std::vector<std::string>& lines) {
+        std::vector<test::Typed> typed;
+        for (const std::string& line : lines) {
+            if (line == "continue")
+                typed.push_back({prompt, "break speed < -1\n"});
+            typed.push_back({prompt, line + "\n"});
+            typed.push_back({line + "\r\n", ctrl_c});
+            typed.push_back({"stopped", ""});
+        }
+        typed.push_back({prompt, "frame 1\nquit\n"});
+        const test::Outcome outcome = run_lockstep_on_terminal(command, typed);
+        CHECK(outcome.status == 0);
+        CHECK_THAT(outcome.out, Catch::Contains("\nframe 1: ") && !Catch::Contains("silent for too long"));
+        return outcome.out;
+    };
+    SECTION("of the collision system") {
+        const Setting setting;
+        const std::string shown = stopped(setting.command({"--frames", "100000000"}),
+                                          {"frame 90000000", "next divergence", "next nan", "continue"});
+        CHECK_THAT(shown, Catch::Contains("stopped in frame ") && Catch::Contains("; no further break up to there"));
+    }
+    SECTION("of another system") {
+        stopped({"debug", "data/scenes/dust/physics.json", "--particles", "50", "--frames", "100000000", "--gl",
+                 test::software_gl()},
+                {"frame 90000000", "next difference", "next nan"});
+    }
+    SECTION("in a file of commands") {
+        const Setting setting;
+        const std::string file = setting.folder.write("far.txt", "frame 1\nframe 90000000\nnonsense\n").string();
+        CHECK_THAT(stopped(setting.command(), {"source " + file}),
+                   Catch::Contains(": stopped in frame ") && !Catch::Contains("unknown command"));
+    }
+}
+
 TEST_CASE("debug_command: at the prompt Tab completes, arrows repeat, Ctrl-C stops a command and not the session") {
     if (!test::have_software_gl() || !test::have_terminal())
         return;
@@ -303,7 +383,7 @@ TEST_CASE("debug_command: at the prompt Tab completes, arrows repeat, Ctrl-C sto
                                                                            {"stopped in frame ", ""},
                                                                            {prompt, "frame 1\nquit\n"}})
             .out;
-    CHECK_THAT(shown, Catch::Contains("frame 2 particle 0: stopped in frame "));
+    CHECK_THAT(shown, Catch::Contains("stopped in frame "));
     CHECK_THAT(shown, Catch::Contains("frame 1: particles: none differ"));
     CHECK_THAT(shown, !Catch::Contains("unknown command"));
 }

@@ -1,5 +1,6 @@
 #include "crosscheck/collision/judge/frame_run.hpp"
 
+#include <exception>
 #include <utility>
 
 #include "crosscheck/collision/judge/side_state.hpp"
@@ -32,6 +33,7 @@ void FrameRun::step(int frame) {
     frame_ = frame;
 }
 
+/// What `on_frame` throws is thrown where the run stands in a frame again, three on.
 void FrameRun::go_to(int frame, const std::function<void(int)>& on_frame) {
     if (frame == frame_)
         return;
@@ -43,10 +45,16 @@ void FrameRun::go_to(int frame, const std::function<void(int)>& on_frame) {
         frame_ = -1;
     }
     // A step from a state that was read takes the two states before it.
+    std::exception_ptr thrown;
     for (int earlier = frame_ + 1; earlier < frame - 2; ++earlier) {
         gpu_.step(frame_params(scene_, earlier));
-        if (on_frame)
-            on_frame(earlier + 1);
+        try {
+            if (on_frame)
+                on_frame(earlier + 1);
+        } catch (...) {
+            thrown = std::current_exception();
+            frame = earlier + 3;
+        }
     }
     if (frame - 2 > frame_) {
         params_ = frame_params(scene_, frame - 2);
@@ -61,6 +69,8 @@ void FrameRun::go_to(int frame, const std::function<void(int)>& on_frame) {
     verdicts_.reset();
     redrawn_.reset();
     obstacle_depth_.reset();
+    if (thrown)
+        std::rethrow_exception(thrown);
 }
 
 StepCapture FrameRun::capture(std::size_t particle) {

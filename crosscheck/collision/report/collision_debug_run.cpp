@@ -19,8 +19,8 @@ constexpr std::size_t particles = 0, texels = 1;
 CollisionDebugRun::CollisionDebugRun(std::unique_ptr<FrameRun> run) : run_(std::move(run)) {}
 
 void CollisionDebugRun::go_to(int frame) {
-    run_->go_to(frame);
     table_.reset();
+    run_->go_to(frame, [this](int) { go_on(); });
 }
 
 std::vector<std::string> CollisionDebugRun::groups() const { return {"particles", "texels"}; }

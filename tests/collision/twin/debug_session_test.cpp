@@ -51,7 +51,7 @@ TEST_CASE("debug_session: a command that cannot be done says why and changes not
     const std::pair<const char*, const char*> wrong[] = {
         {"nonsense",
          "unknown command 'nonsense'; the commands are frame, particle, texel, show, step, back, next, why, "
-         "print, history, break, continue, set, list, help, quit"},
+         "print, history, break, continue, set, list, source, help, quit"},
         {"frame", "frame: '' is not an integer from 0 to 100000000"},
         {"frame -1", "frame: '-1' is not an integer from 0 to 100000000"},
         {"frame 1.5", "frame: '1.5' is not an integer from 0 to 100000000"},
@@ -76,6 +76,7 @@ TEST_CASE("debug_session: a command that cannot be done says why and changes not
         {"list", "list: '' is not one of rounding, tie, undefined, divergent"},
         {"list all", "list: 'all' is not one of rounding, tie, undefined, divergent"},
         {"help me", "help: takes no argument, not 'me'"},
+        {"source", "source: the name of a file of commands is missing"},
         {"quit now", "quit: takes no argument, not 'now'"},
     };
     CHECK(error_of(session, "back") == "frame 0 particle 0: no row yet to go back from");

@@ -5,6 +5,7 @@
 #include <cstring>
 #include <filesystem>
 #include <iterator>
+#include <map>
 #include <set>
 
 #include <fmt/format.h>
@@ -18,6 +19,7 @@
 #include "gpu/shader_object.hpp"
 #include "gpu/spirv_module.hpp"
 #include "gpu/stage_texts.hpp"
+#include "gpu/stages_run.hpp"
 #include "reference/model/error.hpp"
 
 namespace lockstep {
@@ -101,6 +103,12 @@ void check_capture_type(GLuint program, GLuint index, const Capture& capture, st
                                 declared_type(type, size), declared_type(capture.type, capture.size)));
 }
 
+/// The files of each linked program.
+std::map<GLuint, std::vector<std::string>>& files_of_programs() {
+    static std::map<GLuint, std::vector<std::string>> all;
+    return all;
+}
+
 } // namespace
 
 void check_nothing_lost(std::span<const ShaderSource> given, std::span<const Capture> by_our_names) {
@@ -163,6 +171,10 @@ Program::Program(std::string name, std::span<const ShaderSource> given, std::spa
     const Bindings* const bindings = bindings_.get();
     const std::vector<Capture> outputs = by_their_names(captured, bindings);
     id_ = gl::CreateProgram();
+    std::vector<std::string>& files = files_of_programs()[id_];
+    files.clear();
+    for (const ShaderSource& stage : given)
+        files.insert(files.end(), stage.files.begin(), stage.files.end());
     try {
         if (stages.front().module != nullptr)
             link_modules(stages, outputs, storage_buffers);
@@ -229,6 +241,8 @@ void Program::check_interface() const {
     if (!unknown.empty())
         throw Error(fmt::format("shader {}", fmt::join(unknown, "; ")));
     uniforms_->bind();
+    const std::vector<std::string>& files = files_of_programs()[id_];
+    shaders_run().insert(files.begin(), files.end()); // a draw or dispatch comes next
 }
 
 void Program::set_words(std::string_view uniform, GLenum type, std::span<const std::uint32_t> words) const {

@@ -355,6 +355,12 @@ bool asks_length(const ShaderSource& stage) {
 ShadersReadOnce::ShadersReadOnce() { seen = std::make_unique<Seen>(); }
 ShadersReadOnce::~ShadersReadOnce() { seen.reset(); }
 
+std::vector<std::pair<fs::path, std::optional<std::string>>> shaders_read() {
+    if (!seen)
+        return {};
+    return {seen->files.begin(), seen->files.end()};
+}
+
 ShaderFolders shader_folders(const fs::path& user, std::string_view system) {
     ShaderFolders folders;
     if (!user.empty()) {

@@ -87,8 +87,8 @@ void note_included(ShaderUse& use, const ShaderSource& stage, const fs::path& us
     const std::string inside = (user / "").string();
     const std::vector<bool> taken = taken_files(stage);
     for (std::size_t file = 0; file < taken.size(); ++file)
-        if (const std::string& read = stage.files[file];
-            taken[file] && read.starts_with(inside) && !is_used(use, read)) {
+        if (const std::string& read = stage.files[file]; // a shipped one may begin like a folder named shaders
+            taken[file] && read.starts_with(inside) && fs::is_regular_file(read) && !is_used(use, read)) {
             const std::string included = read.substr(inside.size());
             use.files.push_back(
                 {included, read, shipped_file(shipped, included), is_copy(shipped, read, included), false});

@@ -1,4 +1,9 @@
 #pragma once
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
 
 namespace lockstep {
 
@@ -11,5 +16,9 @@ class ShadersReadOnce {
     ShadersReadOnce(const ShadersReadOnce&) = delete;
     ShadersReadOnce& operator=(const ShadersReadOnce&) = delete;
 };
+
+/// What it has read so far, with bindings.json and what stages include; no text: a file that was looked for and is
+/// absent. Empty where none lives.
+std::vector<std::pair<std::filesystem::path, std::optional<std::string>>> shaders_read();
 
 } // namespace lockstep

@@ -28,6 +28,7 @@
 #include "crosscheck/files/json_text.hpp"
 #include "crosscheck/files/output_files.hpp"
 #include "crosscheck/files/plain_text.hpp"
+#include "crosscheck/files/run_inputs.hpp"
 #include "crosscheck/files/shell_words.hpp"
 #include "crosscheck/files/signals.hpp"
 #include "crosscheck/files/threads.hpp"
@@ -41,8 +42,10 @@
 #include "crosscheck/scene/profile_text.hpp"
 #include "crosscheck/scene/profiles.hpp"
 #include "crosscheck/scene/run_text.hpp"
+#include "gpu/collision/collision_shaders.hpp"
 #include "gpu/collision/simulation.hpp"
 #include "gpu/context.hpp"
+#include "gpu/stages_run.hpp"
 #include "reference/model/collision/collision_state.hpp"
 #include "reference/model/collision/layered_cdt.hpp"
 #include "reference/model/error.hpp"
@@ -252,6 +255,11 @@ int check_and_tell(const CheckRequest& options, OutputFiles& files, const Checke
     if (render)
         judge_last(options, checked, earlier, report);
     RunDescription run = description(options, checked.run, report);
+    InputDigests inputs;
+    if (run.shaders) {
+        note_what_ran(*run.shaders);
+        inputs = input_digests();
+    }
     if (checked.part != nullptr)
         run.notes.insert(run.notes.end(), checked.part->own_notes.begin(), checked.part->own_notes.end());
     tell(options, report, run);
@@ -279,12 +287,14 @@ int check_and_tell(const CheckRequest& options, OutputFiles& files, const Checke
     const bool pass = passes(report, rules);
     if (!options.json.empty()) {
         nlohmann::json json = report_json(report, run);
+        if (!inputs.empty())
+            json["inputs"] = inputs_json(inputs);
         if (checked.part != nullptr)
             json["part"] = part_file_json(*checked.part);
         files.write(options.json, json_text(json));
     }
     if (!options.junit.empty())
-        files.write(options.junit, junit_text(report, run, pass));
+        files.write(options.junit, junit_text(report, run, pass, inputs));
     if (!options.hashes.empty())
         files.write(options.hashes, hashes.text());
     if (!options.images.empty())
@@ -301,10 +311,12 @@ int run_scene(const CheckRequest& options) {
     if (options.frames.is_part)
         expect_part(options);
     const Scene scene = load(options.run);
+    ShaderUse shaders = shaders_to_run(options.run, scene, is_rendered(options));
     OutputFiles files;
     expect_files(options, files);
-    ShaderUse shaders = shaders_to_run(options.run, scene, is_rendered(options));
     const Context context(parse_context_request(options.run.gl));
+    if (!is_rendered(options))
+        compile_unrendered(scene, options.run.shaders);
     const Profile profile = measured_profile(context, options.run.shaders);
     GpuSimulation gpu(scene, options.run.shaders);
     return check_and_tell(options, files,

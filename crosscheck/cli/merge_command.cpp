@@ -16,6 +16,7 @@
 #include "crosscheck/files/json_text.hpp"
 #include "crosscheck/files/output_files.hpp"
 #include "crosscheck/files/plain_text.hpp"
+#include "crosscheck/files/run_inputs.hpp"
 #include "crosscheck/files/threads.hpp"
 #include "crosscheck/judge/joined_parts.hpp"
 #include "crosscheck/report/junit.hpp"
@@ -94,15 +95,25 @@ std::vector<RunPart> parts_of_run(const std::vector<PartFile>& files) {
     return parts;
 }
 
+/// What was another in one of two parts; empty: nothing.
+std::string stress_difference(const StressReport& one, const StressReport& other) {
+    if (one.asked != other.asked)
+        return fmt::format("{}, there {}", plain_line(one.asked), plain_line(other.asked));
+    if (const std::string input = input_difference(one.inputs, other.inputs); !input.empty())
+        return input;
+    if (one.profile != other.profile)
+        return "the driver was measured to compute otherwise (lockstep probe)";
+    return one.of != other.of ? fmt::format("{} scenes, there {}", one.of, other.of) : std::string();
+}
+
 /// The stress scenes of all parts, each once.
 StressReport join_stress(const std::vector<PartFile>& files) {
     StressReport all = *files.front().stress;
     all.scenes.clear();
     std::vector<const PartFile*> from(all.of, nullptr);
     for (const PartFile& part : files) {
-        if (part.stress->of != all.of || part.stress->asked != all.asked)
-            throw Error(fmt::format("{}: not of the same run as {}: {}, there {}", part.file, files.front().file,
-                                    plain_line(part.stress->asked), plain_line(all.asked)));
+        if (const std::string other = stress_difference(*part.stress, all); !other.empty())
+            throw Error(fmt::format("{}: not of the same run as {}: {}", part.file, files.front().file, other));
         for (const StressScene& scene : part.stress->scenes) {
             if (from[scene.index] != nullptr)
                 throw Error(fmt::format("{}: scene {} is in {}, too; right are all parts of the run, each once",
@@ -182,11 +193,9 @@ std::vector<PartFile> read_parts(const std::vector<std::string>& files) {
 int merge(const MergeRequest& asked) {
     const std::vector<PartFile> read = read_parts(asked.parts);
     OutputFiles files;
-    for (const PartFile& part : read) {
-        files.protect(part.file);
+    for (const PartFile& part : read)
         if (part.run)
             files.protect(part.run->request.trace);
-    }
     files.protect(asked.trace);
     for (const std::filesystem::path& file : {asked.json, asked.junit})
         if (!file.empty())

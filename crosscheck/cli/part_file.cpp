@@ -15,7 +15,7 @@ namespace {
 
 using nlohmann::json;
 
-constexpr int part_version = 1;
+constexpr int part_version = 2;
 constexpr int most_width = 1 << 20;
 constexpr const char* program = "lockstep " LOCKSTEP_VERSION;
 

@@ -63,10 +63,10 @@ TraceInfo info_of(const RecordRequest& options, Scene scene, const Context& cont
 
 int run(const RecordRequest& options) {
     Scene scene = load(options.run);
+    const ShaderUse shaders = shaders_to_run(options.run, scene);
     OutputFiles files;
     protect_inputs(options.run, files);
     files.expect(options.output);
-    const ShaderUse shaders = shaders_to_run(options.run, scene);
     const Context context(parse_context_request(options.run.gl));
     GpuSimulation gpu(scene, options.run.shaders);
     const TraceInfo info = info_of(options, std::move(scene), context, shaders);

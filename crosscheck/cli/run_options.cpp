@@ -15,6 +15,7 @@
 #include "crosscheck/scene/scene_file.hpp"
 #include "gpu/collision/collision_shaders.hpp"
 #include "gpu/data_folder.hpp"
+#include "gpu/stages_run.hpp"
 #include "reference/model/error.hpp"
 #include "reference/model/near_name.hpp"
 
@@ -142,9 +143,11 @@ void protect_inputs(const RunOptions& options, OutputFiles& files) {
 }
 
 ShaderUse shaders_to_run(const RunOptions& options, const Scene& scene, bool rendered) {
+    const ShaderUse whole = shader_use(scene, options.shaders, true);
     ShaderUse use = shader_use(scene, options.shaders, rendered);
-    use.unused = shader_use(scene, options.shaders, true).unused; // what draws the picture is not misspelt
+    use.unused = whole.unused; // what draws the picture is not misspelt
     check_shader_use(use, options.shaders, options.allow_unused);
+    add_compiled(use, whole);
     return use;
 }
 

@@ -14,15 +14,19 @@
 #include "crosscheck/files/json_text.hpp"
 #include "crosscheck/files/output_files.hpp"
 #include "crosscheck/files/plain_text.hpp"
+#include "crosscheck/files/run_inputs.hpp"
 #include "crosscheck/files/signals.hpp"
 #include "crosscheck/report/places.hpp"
 #include "crosscheck/report/report.hpp"
+#include "crosscheck/scene/profile_json.hpp"
 #include "crosscheck/scene/profile_text.hpp"
 #include "crosscheck/scene/profiles.hpp"
 #include "crosscheck/scene/run_text.hpp"
+#include "gpu/collision/collision_shaders.hpp"
 #include "gpu/collision/simulation.hpp"
 #include "gpu/context.hpp"
 #include "gpu/data_folder.hpp"
+#include "gpu/stages_run.hpp"
 #include "reference/model/collision/collision_state.hpp"
 #include "reference/model/error.hpp"
 
@@ -38,10 +42,31 @@ std::vector<std::filesystem::path> stress_scenes() {
     return files;
 }
 
-StressScene run_scene(const StressOptions& options, const RunOptions& run, const Profile& profile,
+/// One scene, read with the shaders that it runs.
+struct ReadStress {
+    RunOptions run;
+    Scene scene;
+    ShaderUse shaders;
+};
+
+/// All scenes: each part of a run rests on what all of them read, and is joined with parts that read the same.
+std::vector<ReadStress> read_scenes(const RunOptions& options) {
+    std::vector<ReadStress> all;
+    for (const std::filesystem::path& file : stress_scenes()) {
+        RunOptions run = options;
+        run.scene = file;
+        Scene scene = load(run);
+        ShaderUse shaders = shaders_to_run(run, scene);
+        all.push_back({std::move(run), std::move(scene), std::move(shaders)});
+    }
+    return all;
+}
+
+StressScene run_scene(const StressOptions& options, const ReadStress& read, const Profile& profile,
                       const std::string& context) {
-    const Scene scene = load(run);
-    const ShaderUse shaders = shaders_to_run(run, scene);
+    const auto& [run, scene, shaders] = read;
+    forget_shaders_run();
+    compile_unrendered(scene, run.shaders);
     GpuSimulation gpu(scene, run.shaders);
     CheckOptions check_options;
     check_options.frames = run.frames;
@@ -57,7 +82,7 @@ StressScene run_scene(const StressOptions& options, const RunOptions& run, const
     about.settings = settings_text(run, scene);
     about.mode = "resync";
     about.notes = conversion_notes(profile, scene.switches);
-    about.shaders = shaders;
+    note_what_ran(about.shaders.emplace(shaders));
     about.timed = false;
     const int frames = report.first_frame ? *report.first_frame + 1 : report.frames;
     about.repeat = command_line("check", run, frames) + legal_option_text(options.legal) + pass_options_text(rules);
@@ -79,11 +104,11 @@ StressScene run_scene(const StressOptions& options, const RunOptions& run, const
 } // namespace
 
 int check_stress(const StressOptions& options) {
+    const std::vector<ReadStress> scenes = read_scenes(options.run);
     OutputFiles files;
     files.protect(options.run.shaders);
     if (!options.json.empty())
         files.expect(options.json);
-    const std::vector<std::filesystem::path> scenes = stress_scenes();
     if (options.shard.part > scenes.size())
         throw Error(fmt::format("{}: {} scenes make {} parts at most, and none may be empty", options.shard.asked,
                                 scenes.size(), scenes.size()));
@@ -99,6 +124,8 @@ int check_stress(const StressOptions& options) {
     report.of = scenes.size();
     report.asked = fmt::format("{}{}{} on {}", command_line("check", options.run, options.run.frames),
                                legal_option_text(options.legal), pass_options_text(options.rules), renderer);
+    report.profile = profile_json(profile).dump();
+    report.inputs = input_digests();
     report.power_at_least = options.rules.power_at_least;
     report.part_by = options.shard.asked;
     {
@@ -108,9 +135,7 @@ int check_stress(const StressOptions& options) {
         for (std::size_t index = 0; index < scenes.size(); ++index) {
             if (!options.shard.has(index))
                 continue;
-            RunOptions run = options.run;
-            run.scene = scenes[index];
-            StressScene& scene = report.scenes.emplace_back(run_scene(options, run, profile, renderer));
+            StressScene& scene = report.scenes.emplace_back(run_scene(options, scenes[index], profile, renderer));
             scene.index = index;
             say(stress_line(scene, !scene.passes && !failed && !interrupted));
             if (interrupted)

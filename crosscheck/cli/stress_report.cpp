@@ -75,6 +75,7 @@ json stress_json(const StressReport& report) {
     json all{{"scenes", json::array()}, {"power", power_json(report.power())}};
     for (const StressScene& scene : report.scenes)
         all["scenes"].push_back(scene.report);
+    all["inputs"] = inputs_json(report.inputs);
     return all;
 }
 
@@ -101,15 +102,21 @@ json stress_part_json(const StressReport& report) {
     }
     return {{"of", report.of},
             {"asked", report.asked},
+            {"profile", report.profile},
+            {"inputs", report.inputs},
             {"power_at_least", fmt::format("{}", report.power_at_least)},
             {"scenes", scenes}};
 }
 
 StressReport read_stress_part(const JsonValue& value, const json& document) {
-    value.check_keys({"of", "asked", "power_at_least", "scenes"});
+    value.check_keys({"of", "asked", "profile", "inputs", "power_at_least", "scenes"});
     StressReport report;
     report.of = static_cast<std::size_t>(value.at("of").integer(1, 1'000'000));
     report.asked = value.at("asked").text();
+    report.profile = value.at("profile").text();
+    const JsonValue inputs = value.at("inputs");
+    for (const std::string& name : inputs.keys())
+        report.inputs[name] = inputs.at(name).text();
     const std::string share = value.at("power_at_least").text();
     if (const std::string problem = share_option("", report.power_at_least, "").keep({&share, 1}); !problem.empty())
         value.at("power_at_least").fail(problem);

@@ -7,6 +7,7 @@
 #include <nlohmann/json.hpp>
 
 #include "crosscheck/files/json_reader.hpp"
+#include "crosscheck/files/run_inputs.hpp"
 #include "crosscheck/judge/power_summary.hpp"
 
 namespace lockstep {
@@ -26,7 +27,9 @@ struct StressScene {
 /// The scenes of a check --stress, or those of one of its parts.
 struct StressReport {
     std::size_t of = 0;          ///< scenes there are
-    std::string asked;           ///< renderer, options: the same in all parts of a run
+    std::string asked;           ///< renderer, options: the same in all parts of a run, as the next two
+    std::string profile;         ///< that the reference follows, JSON
+    InputDigests inputs;         ///< of all scenes
     double power_at_least = 0.0; ///< of all scenes together
     std::string part_by;         ///< what asked for some of the scenes: "--shard 2/3"; empty: unknown, or nothing did
     std::vector<StressScene> scenes;

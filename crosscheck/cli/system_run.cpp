@@ -13,6 +13,7 @@
 #include "crosscheck/files/threads.hpp"
 #include "crosscheck/judge/system_run.hpp"
 #include "crosscheck/report/overlay.hpp"
+#include "gpu/stages_run.hpp"
 #include "reference/model/error.hpp"
 
 namespace lockstep {
@@ -69,14 +70,26 @@ ReadScene read_recorded(const RegisteredSystem& system, const SystemRecording& r
                           recording.file());
 }
 
+/// What draws a frame's picture, with all its stages.
+std::vector<PassStages> drawn_passes(const SystemScene& scene) {
+    std::vector<PassStages> passes;
+    if (scene.picture)
+        for (const GlPass& pass : scene.picture(scene.system.start, 0).passes)
+            passes.push_back({pass.name, {pass.stage, Stage::fragment}, {stage_input(pass, scene.arithmetic)}});
+    return passes;
+}
+
 } // namespace
 
-SystemInput::SystemInput(const RegisteredSystem& system, const RunOptions& run, std::filesystem::path trace)
-    : run_(run), trace_(std::move(trace)),
+SystemInput::SystemInput(const RegisteredSystem& system, const RunOptions& run, std::filesystem::path trace,
+                         DrawnStages drawn)
+    : run_(run), drawn_(drawn), trace_(std::move(trace)),
       recording_(trace_.empty() ? nullptr : std::make_unique<SystemRecording>(trace_, std::string(system.name))),
       read_(recording_ ? read_recorded(system, *recording_) : read_scene(system, run)) {
     if (recording_)
         start_threads(run.threads);
+    else
+        shaders_ = shaders_of(scene(), run, drawn);
 }
 
 void SystemInput::protect(OutputFiles& files) const {
@@ -91,8 +104,9 @@ SystemSide& SystemInput::open() {
         side_ = std::make_unique<RecordedSide>(*recording_, system());
         return *side_;
     }
-    shaders_ = shaders_of(scene(), run_);
     gl_.emplace(open_gl(run_));
+    if (drawn_ != DrawnStages::all)
+        compile_alone(system().schema.system, drawn_passes(scene()), run_.shaders);
     side_ = std::make_unique<GlSystemSide>(*gl_, system(), scene().passes, run_.shaders.string(), scene().arithmetic);
     return *side_;
 }
@@ -115,7 +129,7 @@ std::string SystemInput::command(const std::string& verb, const std::string& wor
                       : command_line(verb, run_, words);
 }
 
-ShaderUse shaders_of(const SystemScene& scene, const RunOptions& run) {
+ShaderUse shaders_of(const SystemScene& scene, const RunOptions& run, DrawnStages drawn) {
     std::vector<PassStages> stages;
     for (const GlPass& pass : scene.passes) {
         if (pass.continues)
@@ -133,11 +147,18 @@ ShaderUse shaders_of(const SystemScene& scene, const RunOptions& run) {
         if (pass.draw)
             stages.back().stages.push_back(Stage::fragment);
     }
-    if (scene.picture)
-        for (const GlPass& pass : scene.picture(scene.system.start, 0).passes)
-            stages.push_back({pass.name, {pass.stage, Stage::fragment}, {stage_input(pass, scene.arithmetic)}});
-    ShaderUse use = shader_use(scene.system.schema.system, stages, run.shaders);
+    std::vector<PassStages> run_here = stages;
+    for (PassStages& pass : drawn_passes(scene)) {
+        stages.push_back(pass);
+        pass.stages.resize(static_cast<std::size_t>(drawn));
+        run_here.push_back(std::move(pass));
+    }
+    const std::string& system = scene.system.schema.system;
+    const ShaderUse whole = shader_use(system, stages, run.shaders);
+    ShaderUse use = shader_use(system, run_here, run.shaders);
+    use.unused = whole.unused;
     check_shader_use(use, run.shaders, run.allow_unused);
+    add_compiled(use, whole);
     return use;
 }
 

@@ -1,4 +1,5 @@
 #pragma once
+#include <cstdint>
 #include <filesystem>
 #include <memory>
 #include <optional>
@@ -36,8 +37,11 @@ ReadScene read_scene(const RegisteredSystem& system, const RunOptions& run);
 ReadScene recorded_scene(const RegisteredSystem& system, const nlohmann::json& scene, const nlohmann::json& options,
                          const std::string& name, const std::string& file);
 
+/// How much of a frame's picture runs: nothing, what its vertex stage computes, or all of it.
+enum class DrawnStages : std::uint8_t { none, vertex, all };
+
 /// Whose shaders will run. Throws Error like check_shader_use.
-ShaderUse shaders_of(const SystemScene& scene, const RunOptions& run);
+ShaderUse shaders_of(const SystemScene& scene, const RunOptions& run, DrawnStages drawn = DrawnStages::all);
 
 /// Throws Error where the GL that was asked for is not there.
 Gl open_gl(const RunOptions& run);
@@ -45,8 +49,9 @@ Gl open_gl(const RunOptions& run);
 /// What a verb looks into: a scene that runs here, or a recording of one.
 class SystemInput {
   public:
-    /// Reads it. `trace`: the recording, instead of run.scene; may be empty.
-    SystemInput(const RegisteredSystem& system, const RunOptions& run, std::filesystem::path trace);
+    /// Reads it, with the shaders. `trace`: the recording, instead of run.scene; may be empty.
+    SystemInput(const RegisteredSystem& system, const RunOptions& run, std::filesystem::path trace,
+                DrawnStages drawn = DrawnStages::none);
     SystemInput(const SystemInput&) = delete;
     SystemInput& operator=(const SystemInput&) = delete;
 
@@ -72,6 +77,7 @@ class SystemInput {
 
   private:
     const RunOptions& run_;
+    DrawnStages drawn_;
     std::filesystem::path trace_;
     std::unique_ptr<SystemRecording> recording_;
     ReadScene read_;

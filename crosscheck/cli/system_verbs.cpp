@@ -16,6 +16,7 @@
 #include "crosscheck/files/json_text.hpp"
 #include "crosscheck/files/plain_text.hpp"
 #include "crosscheck/files/png.hpp"
+#include "crosscheck/files/run_inputs.hpp"
 #include "crosscheck/files/shell_words.hpp"
 #include "crosscheck/judge/dispatch.hpp"
 #include "crosscheck/judge/system_check.hpp"
@@ -29,6 +30,7 @@
 #include "crosscheck/report/power_text.hpp"
 #include "crosscheck/report/run_to_run.hpp"
 #include "crosscheck/report/system_debug_run.hpp"
+#include "gpu/stages_run.hpp"
 #include "reference/model/error.hpp"
 
 namespace lockstep {
@@ -189,7 +191,7 @@ std::span<const std::string_view> system_check_options() {
 }
 
 int check_system(const RegisteredSystem& system, RunOptions run, const SystemCheck& asked) {
-    SystemInput input(system, run, asked.trace);
+    SystemInput input(system, run, asked.trace, asked.render ? DrawnStages::vertex : DrawnStages::none);
     const System& twins = input.system();
     if (!asked.images.empty() && !input.scene().has_pictures())
         throw Error(fmt::format("check: --images: scenes of system {} have no pictures", system.name));
@@ -226,11 +228,14 @@ int check_system(const RegisteredSystem& system, RunOptions run, const SystemChe
         };
     CheckReport report = check_shown(twins, side, options, asked.quiet, watch);
     ask_power(report, asked.rules.power_at_least);
+    DrawnFrame drawn = asked.render && !report.partial() ? judge_drawn(input, side, run, asked, report) : DrawnFrame{};
 
     RunDescription about =
         describe_run(twins, side.describe(), options, check_line(input, asked, frames_to_repeat(report)));
     about.numbers = number_format(asked.hexadecimal);
     input.describe(about);
+    if (about.shaders)
+        note_what_ran(*about.shaders);
     for (const std::vector<std::string>& some : {input.left_open(side.describe().profile), run_to_run_notes(two_runs)})
         about.notes.insert(about.notes.end(), some.begin(), some.end());
     if (!input.is_recorded() && !run.shaders.empty()) {
@@ -246,7 +251,6 @@ int check_system(const RegisteredSystem& system, RunOptions run, const SystemChe
     };
     if (const auto words = first_item_words(twins, report); !words.empty())
         about.explain = explain_line(words);
-    DrawnFrame drawn = asked.render && !report.partial() ? judge_drawn(input, side, run, asked, report) : DrawnFrame{};
     if (!drawn.first.empty())
         drawn.about.explain = explain_line(drawn.first);
     if (drawn.report && passes(report, asked.rules) && !passes(*drawn.report, drawn_rules(asked.rules)))
@@ -277,6 +281,8 @@ int check_system(const RegisteredSystem& system, RunOptions run, const SystemChe
     });
     if (!asked.json.empty()) {
         json document = report_json(report, about);
+        if (about.shaders)
+            document["inputs"] = inputs_json(input_digests());
         if (!two_runs.empty())
             document["run_to_run"] = two_runs;
         if (drawn.report)
@@ -297,7 +303,7 @@ int check_system(const RegisteredSystem& system, RunOptions run, const SystemChe
 
 int explain_system(const RegisteredSystem& system, const RunOptions& run, const SystemItem& item,
                    const std::filesystem::path& trace) {
-    SystemInput input(system, run, trace);
+    SystemInput input(system, run, trace, DrawnStages::vertex);
     if (is_drawn(input, item.pass)) {
         fmt::print("{}", explain_drawn(input, run, item));
         return status_agree;

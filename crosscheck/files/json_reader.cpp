@@ -18,6 +18,7 @@
 #include <unistd.h>
 
 #include "crosscheck/files/plain_text.hpp"
+#include "crosscheck/files/read_files.hpp"
 #include "reference/model/error.hpp"
 #include "reference/model/near_name.hpp"
 
@@ -144,6 +145,7 @@ std::string read_text(const std::filesystem::path& file) {
         if (text.size() > json_limits::bytes)
             fail(too_long());
     }
+    note_read(file, text);
     return text;
 }
 

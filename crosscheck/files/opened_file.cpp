@@ -7,6 +7,7 @@
 #include <fmt/format.h>
 #include <unistd.h>
 
+#include "crosscheck/files/read_files.hpp"
 #include "reference/model/error.hpp"
 
 namespace lockstep {
@@ -25,8 +26,10 @@ OpenedFile::OpenedFile(const std::filesystem::path& path, std::string_view kind)
     descriptor_ = open(path.c_str(), O_RDONLY | O_CLOEXEC | O_NOCTTY | O_NONBLOCK);
     if (descriptor_ < 0)
         fail(path, fmt::format("cannot be opened: {}", std::strerror(errno)));
-    if (fstat(descriptor_, &opened_) == 0 && S_ISREG(opened_.st_mode))
+    if (fstat(descriptor_, &opened_) == 0 && S_ISREG(opened_.st_mode)) {
+        note_opened(path);
         return;
+    }
     close(descriptor_);
     fail(path, fmt::format("{}, not a {}", S_ISDIR(opened_.st_mode) ? "a folder" : "a pipe or a device", kind));
 }
@@ -55,6 +58,7 @@ std::size_t OpenedFile::read(std::uint64_t offset, std::span<std::byte> into) co
 std::string OpenedFile::text() const {
     std::string text(size(), '\0');
     text.resize(read(0, std::as_writable_bytes(std::span(text))));
+    note_read(path_, text);
     return text;
 }
 

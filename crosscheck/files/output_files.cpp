@@ -7,6 +7,7 @@
 #include <fmt/format.h>
 
 #include "crosscheck/files/plain_text.hpp"
+#include "crosscheck/files/run_inputs.hpp"
 #include "crosscheck/files/signals.hpp"
 #include "reference/model/error.hpp"
 
@@ -24,6 +25,24 @@ std::vector<fs::path> missing_folders(const fs::path& folder) {
          !path.empty() && !fs::exists(fs::symlink_status(path, error)); path = path.parent_path())
         missing.insert(missing.begin(), path);
     return missing;
+}
+
+[[noreturn]] void refuse(const fs::path& file, const std::string& reason) {
+    throw Error(fmt::format("{}: cannot be written: {}", file.string(), reason));
+}
+
+using Identities = std::map<FileIdentity, fs::path>;
+
+/// Throws Error where an output is one of `inputs`, or a file that the program has read so far.
+void expect_no_inputs(Identities inputs, const Identities& outputs) {
+    std::error_code error;
+    for (const fs::path& input : files_read())
+        if (fs::is_regular_file(input, error))
+            inputs.emplace(identity_of(input), input);
+    for (const auto& [identity, file] : outputs)
+        if (const auto input = inputs.find(identity); input != inputs.end())
+            refuse(file, input->second == file ? "the run reads it"
+                                               : fmt::format("it is {}, which the run reads", input->second.string()));
 }
 
 } // namespace
@@ -52,17 +71,12 @@ void OutputFiles::protect(const fs::path& input) {
 AtomicFile& OutputFiles::add(const fs::path& file) {
     AtomicFile proof(file);
     const FileIdentity identity = proof.identity();
-    const auto refuse = [&](const std::string& reason) {
-        throw Error(fmt::format("{}: cannot be written: {}", file.string(), reason));
-    };
-    if (const auto input = inputs_.find(identity); input != inputs_.end())
-        refuse(input->second == file ? "the run reads it"
-                                     : fmt::format("it is {}, which the run reads", input->second.string()));
     const auto [other, is_new] = outputs_.emplace(identity, file);
     if (!is_new && !proof.in_place())
-        refuse(other->second.lexically_normal() == file.lexically_normal()
-                   ? "two outputs have this name"
-                   : fmt::format("it is {}, another output", other->second.string()));
+        refuse(file, other->second.lexically_normal() == file.lexically_normal()
+                         ? "two outputs have this name"
+                         : fmt::format("it is {}, another output", other->second.string()));
+    expect_no_inputs(inputs_, outputs_);
     return files_.emplace(file, std::move(proof)).first->second;
 }
 
@@ -114,6 +128,7 @@ void OutputFiles::write(const fs::path& file, std::string content) {
 }
 
 void OutputFiles::commit() {
+    expect_no_inputs(inputs_, outputs_); // what was read since they were named
     // What cannot be undone comes first; a pipe may have to be waited for.
     const auto whole = std::stable_partition(written_.begin(), written_.end(),
                                              [&](const fs::path& file) { return files_.at(file).in_place(); });

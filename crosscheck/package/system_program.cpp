@@ -20,6 +20,7 @@
 #include "crosscheck/package/item_verbs.hpp"
 #include "crosscheck/report/colour.hpp"
 #include "crosscheck/report/system_debug_run.hpp"
+#include "gpu/shaders_read_once.hpp"
 
 namespace lockstep {
 namespace {
@@ -113,6 +114,7 @@ void keep_capsule(const OwnProgram& program, const Options& options, const Check
 }
 
 int check_verb(const OwnProgram& program, const Options& options) {
+    OpenSide gpu(program, options);
     OutputFiles files;
     files.protect(options.shaders);
     files.protect(options.trace);
@@ -121,7 +123,6 @@ int check_verb(const OwnProgram& program, const Options& options) {
             files.expect(output);
     CheckFiles outputs(options.report, options.hashes);
     outputs.expect(files);
-    OpenSide gpu(program, options);
     CheckOptions check;
     check.mode = options.mode;
     check.frames = frames_of(options, gpu);
@@ -204,10 +205,10 @@ int debug_verb(const OwnProgram& program, const Options& options) {
 }
 
 int record_verb(const OwnProgram& program, const Options& options) {
+    OpenSide gpu(program, options);
     OutputFiles files;
     files.protect(options.shaders);
     files.expect(options.output);
-    OpenSide gpu(program, options);
     const RunDescription about = describe_run(program.system, gpu->describe(), {}, "");
     return record_run(program.system, *gpu,
                       {.name = program.system.name, .shaders = about.shaders_untold, .frames = options.frames},
@@ -222,11 +223,11 @@ int trace_verb(const OwnProgram& program, const Options& options) {
 
 int cut_verb(const OwnProgram& program, const Options& options) {
     static_cast<void>(place_of(options.item, program.system));
+    OpenSide gpu(program, options);
     OutputFiles files;
     files.protect(options.shaders);
     files.protect(options.trace);
     files.expect(options.capsule);
-    OpenSide gpu(program, options);
     const ItemCapsule capsule = cut_item(program.system, *gpu, options.item);
     files.write(options.capsule, item_capsule_file(capsule, program.system));
     files.commit();
@@ -368,6 +369,7 @@ int run_system_program(int argc, char** argv, const System& system, const std::v
                        const std::string& shaders) {
     const std::string name = name_of(argc, argv);
     return telling(name, [&] {
+        const ShadersReadOnce one_text_a_run;
         const OwnProgram program{system, passes, {argv + std::min(argc, 1), argv + argc}};
         const auto options = std::make_shared<Options>();
         options->shaders = shaders;

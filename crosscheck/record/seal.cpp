@@ -9,11 +9,10 @@
 #include <vector>
 
 #include <fmt/format.h>
-#include <fmt/ranges.h>
-#include <nettle/sha2.h>
 #include <xxhash.h>
 
 #include "crosscheck/files/plain_text.hpp"
+#include "crosscheck/files/sha256.hpp"
 #include "reference/model/error.hpp"
 
 namespace lockstep {
@@ -21,22 +20,6 @@ namespace {
 
 constexpr std::string_view first_line = "lockstep trace 1\n", of_systems = "lockstep recording 1\n";
 constexpr std::size_t longest_name = 100;
-
-class Sha256 {
-  public:
-    Sha256() { sha256_init(&context_); }
-    void add(std::span<const std::byte> bytes) {
-        sha256_update(&context_, bytes.size(), reinterpret_cast<const std::uint8_t*>(bytes.data()));
-    }
-    std::string digits() {
-        std::array<std::uint8_t, SHA256_DIGEST_SIZE> digest{};
-        sha256_digest(&context_, digest.size(), digest.data());
-        return fmt::format("{:02x}", fmt::join(digest, ""));
-    }
-
-  private:
-    sha256_ctx context_{};
-};
 
 class Xxh128 {
   public:

@@ -31,7 +31,7 @@ std::string escaped(const std::string& text) {
 
 } // namespace
 
-std::string junit_text(const CheckReport& report, const RunDescription& run, bool passes) {
+std::string junit_text(const CheckReport& report, const RunDescription& run, bool passes, const InputDigests& inputs) {
     const int failures = passes ? 0 : 1;
     std::string xml = fmt::format("<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n"
                                   "<testsuites tests=\"1\" failures=\"{0}\">\n"
@@ -42,9 +42,11 @@ std::string junit_text(const CheckReport& report, const RunDescription& run, boo
     const std::pair<const char*, std::string> properties[] = {{"renderer", run.context},
                                                               {"profile", run.profile},
                                                               {"shaders", shaders_line(run)},
+                                                              {"inputs", inputs.empty() ? "" : inputs_text(inputs)},
                                                               {"verdict", verdict_words(report)}};
     for (const auto& [name, value] : properties)
-        xml += fmt::format("      <property name=\"{}\" value=\"{}\"/>\n", name, escaped(value));
+        if (!value.empty())
+            xml += fmt::format("      <property name=\"{}\" value=\"{}\"/>\n", name, escaped(value));
     xml += fmt::format("    </properties>\n    <testcase classname=\"lockstep.check\" name=\"{}\"", escaped(run.scene));
     if (passes)
         xml += "/>\n";

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <iterator>
+#include <span>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -10,6 +11,7 @@
 #include <fmt/format.h>
 
 #include "gpu/collision/host_depth.hpp"
+#include "gpu/stages_run.hpp"
 #include "reference/model/collision/layered_cdt.hpp"
 
 namespace lockstep {
@@ -100,6 +102,11 @@ ShaderUse shader_use(const Scene& scene, const std::filesystem::path& user, bool
         if (const std::string setting = setting_that_runs(file, scene.switches); !setting.empty())
             use.runs_with[file] = setting;
     return use;
+}
+
+void compile_unrendered(const Scene& scene, const std::filesystem::path& user) {
+    const std::vector<PassStages> all = collision_stages(scene, true);
+    compile_alone("collision", std::span(all).subspan(collision_stages(scene, false).size()), user);
 }
 
 } // namespace lockstep

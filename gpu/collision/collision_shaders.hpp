@@ -20,4 +20,8 @@ std::vector<PassStages> collision_stages(const Scene& scene, bool rendered = fal
 /// Which shaders run in a scene, of `user` (empty: none) and the shipped ones. Throws Error like load_stages.
 ShaderUse shader_use(const Scene& scene, const std::filesystem::path& user, bool rendered = false);
 
+/// Links those of the user's shaders that draw the rendered frame, for a run that draws none. Throws Error like
+/// Program.
+void compile_unrendered(const Scene& scene, const std::filesystem::path& user);
+
 } // namespace lockstep

@@ -193,6 +193,51 @@ TEST_CASE("merge: parts that are missing, there twice, or of another run are ref
     CHECK_THAT(refusal(run_lockstep({"merge"})), Contains("PART is missing: "));
 }
 
+TEST_CASE("merge: parts of --stress join only where every input was the same") {
+    if (!test::have_software_gl())
+        return;
+    const test::TemporaryFolder folder, shaders;
+    const auto path = [&](const char* name) { return (folder.path() / name).string(); };
+    const auto part = [&](const char* which, const char* name, const std::vector<std::string>& options = {}) {
+        CHECK(run_lockstep(joined({"check", "--stress", "--frames", "3", "--gl", test::software_gl(), "--shard", which,
+                                   "--json", path(name), "--quiet"},
+                                  options))
+                  .status == 0);
+        return path(name);
+    };
+    const auto whole = [](const std::vector<std::string>& parts) { return run_lockstep(joined({"merge"}, parts)); };
+    const std::vector<std::string> own{"--shaders", shaders.path().string()};
+    test::plant(shaders, "collision_pass.vert", "void main() {", "// Mine.\nvoid main() {");
+    const std::string first = part("1/2", "first.json", own), second = part("2/2", "second.json", own);
+    CHECK(whole({first, second}).status == 0);
+
+    const std::string vertex = (shaders.path() / "collision_pass.vert").string();
+    SECTION("another text of a shader") {
+        test::plant(shaders, "collision_pass.vert", "// Mine.", "// Mine, later.");
+        CHECK_THAT(refusal(whole({first, part("2/2", "later.json", own)})),
+                   Contains("later.json: not of the same run as ") && Contains(vertex + " is ") &&
+                       Contains("..., there it is "));
+    }
+    SECTION("a file more beside it, or one that it includes") {
+        shaders.write("collision_pass.geom", content("shaders/collision/collision_pass.geom"));
+        CHECK_THAT(refusal(whole({first, part("2/2", "later.json", own)})),
+                   Contains("collision_pass.geom is ") && Contains("..., there it is absent"));
+        std::filesystem::remove(shaders.path() / "collision_pass.geom");
+        shaders.write("clip_volume.glsl", content("shaders/collision/clip_volume.glsl"));
+        CHECK_THAT(refusal(whole({first, part("2/2", "later.json", own)})), Contains("clip_volume.glsl is "));
+    }
+    SECTION("a file bindings.json") {
+        shaders.write("bindings.json", "{}");
+        CHECK_THAT(refusal(whole({first, part("2/2", "later.json", own)})), Contains("bindings.json is "));
+    }
+    SECTION("another profile, in a part that was forged") {
+        nlohmann::json forged = nlohmann::json::parse(content(second));
+        forged["part"]["stress"]["profile"] = "{}";
+        std::ofstream(second) << forged;
+        CHECK_THAT(refusal(whole({first, second})), Contains("the driver was measured to compute otherwise"));
+    }
+}
+
 TEST_CASE("merge: parts that are cut off or forged are refused in one line") {
     if (!test::have_software_gl())
         return;
@@ -216,7 +261,7 @@ TEST_CASE("merge: parts that are cut off or forged are refused in one line") {
         refused(forged.dump());
     };
     forge("", 3);
-    forge("/version", 2);
+    forge("/version", 1);
     forge("/of", 0);
     forge("/report", nlohmann::json::object());
     forge("/report/first", -1);

@@ -104,6 +104,78 @@ TEST_CASE("output_files: what cannot be written is told before the run") {
           way + "/frame.png: cannot be written: Not a directory");
 }
 
+TEST_CASE("output_files: no file that the run read is an output, wherever it lies") {
+    if (!test::have_software_gl())
+        return;
+    const Setting setting;
+    const std::string helper = "float helper(float x) { return x; }\n";
+    const auto refused = [&](const fs::path& file, const std::vector<std::string>& arguments) {
+        const std::string before = text_of(file);
+        CAPTURE(file.string(), arguments);
+        const test::Outcome outcome = run_lockstep(arguments);
+        CHECK(outcome.status == 2);
+        CHECK_THAT(outcome.err, Catch::Contains(": cannot be written: ") && Catch::Contains("the run reads"));
+        CHECK(text_of(file) == before);
+    };
+    SECTION("what a function includes") {
+        const fs::path included = setting.input.write("inc.glsl", helper);
+        const fs::path link = setting.input.path() / "link.json", hard = setting.input.path() / "hard.json";
+        fs::create_symlink(included, link);
+        fs::create_hard_link(included, hard);
+        const std::string file =
+            setting.input.write("g.glsl", "#include \"inc.glsl\"\nfloat f(float x) { return helper(x); }\n").string();
+        const std::string table = setting.input.write("t.csv", "x,result\n1,1\n").string();
+        for (const fs::path& output : {included, link, hard, fs::path(table), fs::path(file)})
+            refused(included,
+                    {"function", file, "f", "--table", table, "--gl", test::software_gl(), "--json", output.string()});
+    }
+    SECTION("what a stage includes, deeper and beside the folder") {
+        const std::string vertex = text_of("shaders/collision/collision_pass.vert");
+        for (const char* place : {"sub/mine.glsl", "../beside.glsl"}) {
+            const std::string include = place;
+            const fs::path folder = setting.input.path() / "m";
+            fs::create_directories(folder / "sub");
+            std::string text = vertex;
+            text.insert(text.find("void main()"), "#include \"" + include + "\"\n");
+            const fs::path included = folder / include;
+            std::ofstream(included) << helper;
+            std::ofstream(folder / "collision_pass.vert") << text;
+            const std::string shaders = folder.string(), output = included.string();
+            const std::vector<std::string> run{setting.scene, "--gl", test::software_gl(), "--shaders", shaders};
+            refused(included, test::joined(test::joined({"check"}, run), {"--frames", "2", "--json", output}));
+            refused(included, test::joined(test::joined({"check"}, run), {"--frames", "2", "--hashes", output}));
+            refused(included, test::joined(test::joined({"record"}, run), {"--frames", "2", "-o", output}));
+            refused(included, test::joined(test::joined({"render"}, run), {"--side", "gpu", "-o", output}));
+            refused(included, test::joined(test::joined({"capsule", "cut"}, run),
+                                           {"--frame", "1", "--particle", "1", "-o", output}));
+        }
+    }
+    SECTION("of the other systems, and of lockstep itself") {
+        const fs::path mesh = setting.input.write("a.obj", "v 0 0 0\nv 1 0 0\nv 0 1 1\nf 1 2 3\n");
+        const std::string scene =
+            setting.input
+                .write("mesh.json", test::small_scene.substr(0, test::small_scene.rfind("\"obstacles\"")) +
+                                        "\"obstacles\": [{\"shape\": \"mesh\", \"file\": \"a.obj\", \"height\": 1}]}")
+                .string();
+        refused(mesh, {"check", scene, "--gl", test::software_gl(), "--frames", "2", "--json", mesh.string()});
+        const fs::path folder = setting.input.path() / "dust";
+        fs::create_directories(folder / "sub");
+        std::string text = text_of("shaders/dust/draw.vert");
+        text.insert(text.find("void main()"), "#include \"sub/mine.glsl\"\n");
+        std::ofstream(folder / "sub/mine.glsl") << helper;
+        std::ofstream(folder / "draw.vert") << text;
+        const fs::path included = folder / "sub/mine.glsl";
+        const std::vector<std::string> run{"data/scenes/dust/free_fall.json",
+                                           "--particles",
+                                           "100",
+                                           "--gl",
+                                           test::software_gl(),
+                                           "--shaders",
+                                           folder.string()};
+        refused(included, test::joined(test::joined({"check"}, run), {"--frames", "2", "--json", included.string()}));
+    }
+}
+
 TEST_CASE("output_files: on a full disk there is the verdict, one line of error, and no file") {
     if (!test::have_software_gl())
         return;

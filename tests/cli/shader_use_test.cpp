@@ -183,3 +183,71 @@ TEST_CASE("shader use: the rendered frame is compared, and the report says where
                    Contains("verdict   DIVERGENT in the rendered frame: 1 of 1,200 pixels, which no legal "
                             "run explains; the state itself AGREE: "));
 }
+
+TEST_CASE("shader use: what draws a picture is compiled where it is not judged, in every system") {
+    if (!test::have_software_gl())
+        return;
+    const test::TemporaryFolder shaders;
+    const auto check = [&](const std::string& scene, const std::vector<std::string>& options) {
+        return run_lockstep(test::joined({"check", "data/scenes/" + scene + ".json", "--particles", "300", "--frames",
+                                          "3", "--gl", test::software_gl(), "--shaders", shaders.path().string()},
+                                         options));
+    };
+    const std::vector<std::string> no_render{"--no-render"};
+    const auto own = [&](const std::string& file, const std::string& shipped) {
+        std::ifstream stream("shaders/" + shipped);
+        shaders.write(file, std::string{std::istreambuf_iterator<char>(stream), {}} + "// Mine.\n");
+    };
+    struct Case {
+        std::string scene, folder, step, vertex, fragment;
+    };
+    for (const Case& c : {Case{"dust/free_fall", "dust/", "update.comp", "draw.vert", "draw.frag"},
+                          {"lifecycle/embers", "lifecycle/", "move.comp", "draw.vert", "draw.frag"},
+                          {"lattice", "collision/", "collision_pass.vert", "render_pass.vert", "render_pass.frag"}}) {
+        DYNAMIC_SECTION(c.scene) {
+            const std::string broken = "#version 430 core\n#error this does not compile\n";
+            for (const std::string& file : {c.vertex, c.fragment}) {
+                INFO(file);
+                shaders.write(file, broken);
+                for (const std::vector<std::string>& options : {std::vector<std::string>{}, no_render})
+                    CHECK(check(c.scene, options).status == 2);
+                own(c.step, c.folder + c.step); // now something of the folder runs
+                for (const std::vector<std::string>& options : {std::vector<std::string>{}, no_render})
+                    CHECK_THAT(refusal(check(c.scene, options)), Contains(file + ":2: ") || Contains(file + ":"));
+                own(file, c.folder + file);
+                const test::Outcome outcome = check(c.scene, no_render);
+                INFO(outcome.err);
+                CHECK(outcome.status == 0);
+                CHECK_THAT(outcome.out, Contains("foreign: " + (shaders.path() / c.step).string() + "; ") &&
+                                            Contains("; not run: " + file + " (compiled)\n"));
+                std::filesystem::remove(shaders.path() / file);
+                std::filesystem::remove(shaders.path() / c.step);
+            }
+            if (c.folder != "collision/") {
+                own(c.vertex, c.folder + c.vertex);
+                own(c.fragment, c.folder + c.fragment);
+                CHECK_THAT(check(c.scene, {}).out,
+                           Contains("foreign: " + (shaders.path() / c.vertex).string() + "; ") &&
+                               Contains("; not run: " + c.fragment + " (compiled)\n"));
+            }
+        }
+    }
+}
+
+TEST_CASE("shader use: a folder named as the shipped one has foreign files alone") {
+    if (!test::have_software_gl())
+        return;
+    const test::TemporaryFolder folder;
+    std::filesystem::create_directory(folder.path() / "shaders");
+    std::ifstream stream("shaders/collision/collision_pass.vert");
+    folder.write("shaders/collision_pass.vert", std::string{std::istreambuf_iterator<char>(stream), {}} + "// Mine.\n");
+    const std::string scene = folder.write("scene.json", test::small_scene).string();
+    test::Surroundings there;
+    there.folder = folder.path().string();
+    there.environment = {{"LOCKSTEP_DATA", std::filesystem::current_path().string()}};
+    const test::Outcome outcome =
+        run_lockstep({"check", scene, "--frames", "2", "--gl", test::software_gl(), "--shaders", "shaders"}, there);
+    INFO(outcome.err);
+    CHECK(outcome.status == 0);
+    CHECK_THAT(outcome.out, Contains("\nshaders   foreign: shaders/collision_pass.vert; shipped: "));
+}

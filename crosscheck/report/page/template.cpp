@@ -8,6 +8,7 @@
 
 #include <fmt/format.h>
 
+#include "crosscheck/files/read_files.hpp"
 #include "gpu/data_folder.hpp"
 #include "reference/model/error.hpp"
 
@@ -38,6 +39,7 @@ std::string report_page_template() {
         if (text.str().find(page_data_marker) == std::string::npos)
             throw Error(
                 fmt::format("report: {} has no place for data; run scripts/build_report_page.sh again", path.string()));
+        note_opened(path);
         return text.str();
     }
     throw Error(fmt::format("report: the page is not built, there is no {}; run scripts/build_report_page.sh",

@@ -3,7 +3,6 @@
 #include <cmath>
 #include <cstdlib>
 #include <memory>
-#include <sstream>
 #include <string>
 #include <string_view>
 
@@ -15,6 +14,7 @@
 #include <meshoptimizer.h>
 
 #include "crosscheck/files/opened_file.hpp"
+#include "crosscheck/scene/ply_counts.hpp"
 #include "reference/model/error.hpp"
 
 namespace lockstep {
@@ -26,48 +26,6 @@ namespace {
 
 constexpr std::uint64_t largest_file = std::uint64_t{1} << 30U; // bytes
 constexpr unsigned most_corners = 1024;                         // of a polygon: triangulating takes their square
-
-/// What a PLY file's header promises.
-struct PlyHeader {
-    bool ascii = false;
-    std::size_t faces = 0;
-    std::size_t elements = 0; ///< of all kinds; in ASCII each is a line
-};
-
-/// Assimp does not return from a header without an end. `stream` is left after it.
-PlyHeader read_ply_header(std::istream& stream, const std::filesystem::path& file) {
-    PlyHeader header;
-    for (std::string line; std::getline(stream, line);) {
-        std::istringstream words(line);
-        std::string word, kind;
-        std::size_t count = 0;
-        words >> word >> kind;
-        if (word == "end_header")
-            return header;
-        header.ascii = header.ascii || (word == "format" && kind == "ascii");
-        if (word == "element" && words >> count) {
-            header.faces += kind == "face" ? count : 0;
-            header.elements += count;
-        }
-    }
-    fail_on(file, "not a readable mesh: the PLY header has no end_header");
-}
-
-/// Assimp fills up what a file lacks with copies of its last line, or leaves it out. Gives the faces it has to find.
-std::size_t promised_faces(const std::string& ply, const std::filesystem::path& file) {
-    std::istringstream stream(ply);
-    const PlyHeader header = read_ply_header(stream, file);
-    if (header.elements > ply.size())
-        fail_on(file,
-                fmt::format("cut off: its header promises {} elements, in {} bytes", header.elements, ply.size()));
-    std::size_t lines = 0;
-    for (std::string line; header.ascii && lines < header.elements && std::getline(stream, line);)
-        lines += line.find_first_not_of(" \t\r") == std::string::npos ? 0 : 1;
-    if (header.ascii && lines < header.elements)
-        fail_on(file,
-                fmt::format("cut off: {} of the {} lines that its header promises are here", lines, header.elements));
-    return header.faces;
-}
 
 /// A mesh is one file: materials that it names, which may be pipes and devices, are not looked for.
 class NoOtherFiles : public Assimp::IOSystem {
@@ -98,7 +56,7 @@ void check(const aiMesh& part, const std::filesystem::path& file) {
 
 /// All triangles, each vertex as often as the importer has it.
 Surface read_surface(const std::string& bytes, bool is_ply, const std::filesystem::path& file) {
-    const std::size_t promised = is_ply ? promised_faces(bytes, file) : 0;
+    const std::size_t promised = is_ply ? ply_faces(bytes, file) : 0;
     Assimp::Importer importer;
     importer.SetIOHandler(std::make_unique<NoOtherFiles>().release()); // the importer deletes it
     const aiScene* scene = importer.ReadFileFromMemory(bytes.data(), bytes.size(), 0, is_ply ? "ply" : "obj");

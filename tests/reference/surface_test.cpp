@@ -156,6 +156,51 @@ TEST_CASE("surface: a PLY that is cut off is refused wherever it was cut") {
         CHECK_THROWS_AS(load_surface(folder.write("cut.ply", binary.substr(0, kept))), Error);
 }
 
+TEST_CASE("surface: a PLY has every element that it declares, in each format") {
+    const TemporaryFolder folder;
+    const std::string kinds[] = {"ascii", "binary_little_endian", "binary_big_endian"};
+    for (const std::string& kind : kinds) {
+        const auto put = [&](auto value) {
+            std::string bytes(reinterpret_cast<const char*>(&value), sizeof value);
+            if (kind == kinds[2])
+                std::reverse(bytes.begin(), bytes.end());
+            return kind == "ascii" ? fmt::format("{} ", static_cast<double>(value)) : bytes;
+        };
+        const auto end = [&] { return kind == "ascii" ? std::string("\n") : std::string(); };
+        constexpr int vertices = 1500, faces = 2900;
+        std::string ply = fmt::format("ply\nformat {} 1.0\ncomment cut\nelement vertex {}\nproperty float x\n"
+                                      "property float y\nproperty float z\nproperty uchar red\nelement face {}\n"
+                                      "property list uchar int vertex_indices\nproperty list uchar float texcoord\n"
+                                      "element note 1\nproperty double time\nend_header\n",
+                                      kind, vertices, faces);
+        for (int v = 0; v < vertices; ++v)
+            ply += put(float(v)) + put(float(v % 7)) + put(float(v % 11)) + put(static_cast<unsigned char>(v)) + end();
+        std::vector<std::size_t> ends;
+        for (int f = 0; f < faces; ++f) {
+            ply += put(static_cast<unsigned char>(3));
+            for (int k = 0; k < 3; ++k)
+                ply += put(std::int32_t((f + k) % vertices));
+            ply += put(static_cast<unsigned char>(1)) + put(0.5F) + end();
+            ends.push_back(ply.size());
+        }
+        ply += put(1.5) + end();
+        CAPTURE(kind);
+        CHECK(load_surface(folder.write("whole.ply", ply)).indices.size() == 3 * std::size_t{faces});
+        for (const std::size_t kept : {ends[899], ends[899] - 3, ends[2899], ends[1] / 2})
+            CHECK_THROWS_WITH(load_surface(folder.write("cut.ply", ply.substr(0, kept))),
+                              Catch::Contains("cut.ply: cut off: "));
+        CHECK_THROWS_WITH(load_surface(folder.write("cut.ply", ply.substr(0, ends[899]))),
+                          Catch::Contains(kind == "ascii"
+                                              ? "2400 of the 4401 lines that its header promises are here"
+                                              : "900 of the 2900 elements 'face' that its header promises are here"));
+    }
+    CHECK_THROWS_WITH(load_surface(folder.write("a.ply", "ply\nformat ascii 1.0\nelement vertex 3\nproperty float x\n"
+                                                         "property float y\nproperty float z\nelement face 1\n"
+                                                         "property list uchar int vertex_indices\nend_header\n"
+                                                         "0 0 0\n1 0\n1 1 0\n3 0 1 2\n")),
+                      Catch::Contains("a.ply: element 1 of 'vertex' has fewer numbers than its header promises: 1 0"));
+}
+
 TEST_CASE("surface: a polygon with hundreds of thousands of corners is refused at once") {
     const TemporaryFolder folder;
     std::string obj, face = "f";

@@ -1,0 +1,12 @@
+#pragma once
+#include <cstddef>
+#include <filesystem>
+#include <string>
+
+namespace lockstep {
+
+/// The number of faces that a PLY file's header declares, after its body was found to hold every element that is
+/// declared: Assimp fills up what a file lacks, or leaves it out. Throws Error naming the file.
+std::size_t ply_faces(const std::string& ply, const std::filesystem::path& file);
+
+} // namespace lockstep

@@ -2,6 +2,7 @@
 #include <charconv>
 #include <filesystem>
 #include <memory>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -10,6 +11,7 @@
 #include <fmt/ranges.h>
 
 #include "crosscheck/cli/commands.hpp"
+#include "crosscheck/cli/function_findings.hpp"
 #include "crosscheck/cli/system_run.hpp"
 #include "crosscheck/command/option_values.hpp"
 #include "crosscheck/files/json_text.hpp"
@@ -163,19 +165,32 @@ int run_function(const FunctionRequest& options) {
     const Gl gl = open_gl(run);
     MatchOptions how;
     how.repeat = command_of(options);
-    const MatchResult result =
-        options.like.empty()
-            ? match_function(gl, function, rows, how)
-            : match_function(gl, function, rows,
-                             function_of(options, options.like,
-                                         options.like_name.empty() ? options.name : options.like_name, true),
-                             how);
+    const std::vector<UndefinedRow> undefined = undefined_rows(function, rows);
+    const FunctionRows judged = undefined.empty() ? rows : without(rows, undefined);
+    std::optional<MatchResult> result;
+    if (judged.count() > 0)
+        result = options.like.empty()
+                     ? match_function(gl, function, judged, how)
+                     : match_function(gl, function, judged,
+                                      function_of(options, options.like,
+                                                  options.like_name.empty() ? options.name : options.like_name, true),
+                                      how);
+    const bool agrees = !result || result->passed();
+    const std::string open =
+        undefined.empty() ? std::string() : undefined_text(rows, undefined, agrees ? judged.count() : 0);
     if (!options.quiet)
-        fmt::print("{}", colored(plain_text(result.text())));
-    if (!options.json.empty())
-        files.write(options.json, json_text(report_json(result.report(), result.run())));
+        fmt::print("{}{}", agrees && !undefined.empty() ? std::string() : colored(plain_text(result->text())),
+                   colored(plain_text(open)));
+    if (!options.json.empty()) {
+        nlohmann::json document =
+            result ? report_json(result->report(), result->run()) : nlohmann::json{{"verdict", "UNDEFINED"}};
+        for (const UndefinedRow& one : undefined)
+            document["undefined_rows"].push_back(
+                {{"row", one.row}, {"where", one.where}, {"rule", one.rule}, {"what", one.what}});
+        files.write(options.json, json_text(document));
+    }
     files.commit();
-    return result.passed() ? status_agree : status_differ;
+    return agrees && undefined.empty() ? status_agree : status_differ;
 }
 
 } // namespace

@@ -26,16 +26,6 @@ text::Program program_of(const std::shared_ptr<const ShaderSource>& source) {
         text::read_module(spirv_of(*source), [source](std::uint32_t line) { return line_name(*source, line); }));
 }
 
-std::vector<std::uint32_t> words_of(const UniformValue& value) {
-    return std::visit(
-        []<class T>(const T& v) {
-            std::vector<std::uint32_t> words(sizeof v / sizeof(std::uint32_t));
-            std::memcpy(words.data(), &v, sizeof v);
-            return words;
-        },
-        value);
-}
-
 /// The items of a view as records: the words of each component, one after the other.
 std::vector<std::uint32_t> records_of(const View& view, std::span<const Component> record) {
     std::vector<std::uint32_t> words(view.count() * record.size());
@@ -63,6 +53,16 @@ std::vector<Component> texel_record(const Resource& image) {
 }
 
 } // namespace
+
+std::vector<std::uint32_t> words_of(const UniformValue& value) {
+    return std::visit(
+        []<class T>(const T& v) {
+            std::vector<std::uint32_t> words(sizeof v / sizeof(std::uint32_t));
+            std::memcpy(words.data(), &v, sizeof v);
+            return words;
+        },
+        value);
+}
 
 PassText::PassText(const Schema& schema, GlPass pass, std::vector<std::uint8_t> written, const ShaderFolders& folders,
                    ArithmeticSwitch arithmetic)

@@ -13,6 +13,9 @@
 
 namespace lockstep {
 
+/// The words of a uniform's value.
+std::vector<std::uint32_t> words_of(const UniformValue& value);
+
 /// The shader of a compute pass as a text, with what GlSystem binds to it.
 class PassText {
   public:

@@ -233,3 +233,37 @@ TEST_CASE("function: a macro needs a name") {
                    Contains("is no name of a macro; right is NAME=TEXT"));
     }
 }
+
+TEST_CASE("function: a row that rests on an operand without a result is UNDEFINED with its rule, whatever came out") {
+    if (!have_software_gl())
+        return;
+    const Setting setting;
+    const std::string shader = setting.file("open.glsl", "float power(float x, float y) { return pow(x, y); }\n"
+                                                         "uint kept(int n) { return 7u << n; }\n"
+                                                         "float unset(float x) {\n"
+                                                         "    float y;\n"
+                                                         "    if (x > 0.0) y = 1.0;\n"
+                                                         "    return y + x;\n"
+                                                         "}\n");
+    const auto run = [&](const std::string& name, const std::string& table) {
+        return run_lockstep(
+            {"function", shader, name, "--table", setting.file(name + ".csv", table), "--gl", software_gl()});
+    };
+    const Outcome power = run("power", "x, y, result\n2, 2, 4\n-2, 3, -8\n0, 0, 1\n");
+    CHECK(power.status == 1);
+    CHECK_THAT(
+        power.out,
+        Contains(
+            "verdict   UNDEFINED: 2 of 3 rows rest on an operation for which GLSL defines no result; every bit of the "
+            "other 1 agrees\n") &&
+            Contains("row 1     power.csv:3: open.glsl:1: pow of a negative base") && Contains("pow(-2, 3)"));
+    const Outcome shift = run("kept", "n, result\n32, 7\n");
+    CHECK(shift.status == 1);
+    CHECK_THAT(shift.out, Contains("row 0     kept.csv:2: open.glsl:2: shift by a negative count, or by 32 or more"));
+    CHECK(run("kept", "n, result\n2, 28\n").status == 0);
+    CHECK_THAT(run("unset", "x, result\n-1, -1\n2, 3\n").out,
+               Contains("open.glsl:6: use of a variable that was never set (GLSL 4.60, 5.8): variable y"));
+    const Outcome both = run("kept", "n, result\n32, 7\n1, 15\n");
+    CHECK(both.status == 1);
+    CHECK_THAT(both.out, Contains("DIVERGENT") && Contains("UNDEFINED: 1 of 2 rows"));
+}

@@ -9,6 +9,7 @@
 #include <fmt/ranges.h>
 #include <nlohmann/json.hpp>
 
+#include "reference/model/bounded_json.hpp"
 #include "reference/model/error.hpp"
 #include "reference/model/near_name.hpp"
 
@@ -28,7 +29,7 @@ class Reader {
     }
 
     Bindings read(const std::string& text) {
-        const json document = parsed(text);
+        const json document = parse_json(text, made_.file);
         check_object("", document);
         for (const auto& [name, value] : document.items()) {
             const std::string path = "/" + name;
@@ -59,39 +60,6 @@ class Reader {
         throw Error(fmt::format("{}: {}{}{}", made_.file, path, path.empty() ? "" : ": ", what));
     }
 
-    json parsed(const std::string& text) const {
-        struct Open {
-            std::set<std::string> names;
-            std::string last = {};
-        };
-        std::vector<Open> open; // objects, each in the one before
-        const auto check_twice = [&](int, json::parse_event_t event, const json& value) {
-            if (event == json::parse_event_t::object_start)
-                open.emplace_back();
-            else if (event == json::parse_event_t::object_end)
-                open.pop_back();
-            else if (event == json::parse_event_t::key) {
-                std::string path;
-                for (std::size_t i = 0; i + 1 < open.size(); ++i)
-                    path += "/" + open[i].last;
-                open.back().last = value.get<std::string>();
-                if (!open.back().names.insert(open.back().last).second)
-                    fail(path, fmt::format("the name {} stands twice in one object", open.back().last));
-            }
-            return true;
-        };
-        if (text.find('\0') != std::string::npos) // where the parser stops without a word
-            fail("", "has a NUL byte, which no JSON has");
-        try {
-            return json::parse(text, check_twice);
-        } catch (const json::parse_error& error) {
-            const std::string before = text.substr(0, error.byte == 0 ? 0 : error.byte - 1);
-            throw Error(fmt::format("{}:{}:{}: is no JSON from here on", made_.file,
-                                    1 + std::count(before.begin(), before.end(), '\n'),
-                                    before.size() - (before.rfind('\n') + 1) + 1));
-        }
-    }
-
     void check_object(const std::string& path, const json& value) const {
         if (!value.is_object())
             fail(path, "is no object of names; right is { \"name in the shader\": \"name here\" }");
@@ -99,7 +67,7 @@ class Reader {
 
     /// The shaders beside the file have the name.
     void check_word(const std::string& path, const std::string& name) const {
-        if (std::find(words_.begin(), words_.end(), name) == words_.end())
+        if (!std::binary_search(words_.begin(), words_.end(), name))
             fail(path, fmt::format("no shader beside it has the name {}{}", name, did_you_mean(name, words_)));
     }
 

@@ -51,33 +51,6 @@ bool is_vector(GLenum type) {
     return components > 0 && components <= 4 && type != GL_FLOAT_MAT2;
 }
 
-Scalar scalar_of(GLenum type) {
-    if (is_float_type(type))
-        return Scalar::float32;
-    return type == GL_UNSIGNED_INT || type == GL_UNSIGNED_INT_VEC2 || type == GL_UNSIGNED_INT_VEC3 ||
-                   type == GL_UNSIGNED_INT_VEC4
-               ? Scalar::uint32
-               : Scalar::int32;
-}
-
-/// Nothing for a number that the type does not hold.
-std::optional<std::uint32_t> constant_bits(double number, GLenum type) {
-    const bool whole = number == std::nearbyint(number);
-    switch (scalar_of(type)) {
-    case Scalar::float32:
-        return std::bit_cast<std::uint32_t>(static_cast<float>(number));
-    case Scalar::uint32:
-        if (!whole || number < 0.0 || number > 4294967295.0)
-            return std::nullopt;
-        return static_cast<std::uint32_t>(number);
-    case Scalar::int32:
-        break;
-    }
-    if (!whole || number < -2147483648.0 || number > 2147483647.0)
-        return std::nullopt;
-    return static_cast<std::uint32_t>(static_cast<std::int32_t>(number));
-}
-
 std::vector<std::uint32_t> buffer_words(GLuint buffer, std::size_t count) {
     std::vector<std::uint32_t> all(count);
     gl::BindBuffer(GL_COPY_READ_BUFFER, buffer);
@@ -191,7 +164,7 @@ void BoundStorage::add_words(Member& member, const MemberBinding& binding) {
             continue;
         }
         const double number = std::get<double>(value);
-        const std::optional<std::uint32_t> bits = constant_bits(number, member.type);
+        const std::optional<std::uint32_t> bits = word_of(number, member.type);
         if (!bits)
             fail(fmt::format("{} is no value of {}, which is {}; right is a whole number that it holds", number,
                              member.name, type_name(member.type)));

@@ -1,6 +1,8 @@
 #include "gpu/glsl_type.hpp"
 
 #include <algorithm>
+#include <bit>
+#include <cmath>
 #include <iterator>
 
 #include <fmt/format.h>
@@ -120,6 +122,32 @@ int output_components(GLenum type) {
 bool is_float_type(GLenum type) {
     const GlslType* known = find(type);
     return known != nullptr && known->is_float;
+}
+
+Scalar scalar_of(GLenum type) {
+    if (is_float_type(type))
+        return Scalar::float32;
+    return type == GL_UNSIGNED_INT || type == GL_UNSIGNED_INT_VEC2 || type == GL_UNSIGNED_INT_VEC3 ||
+                   type == GL_UNSIGNED_INT_VEC4
+               ? Scalar::uint32
+               : Scalar::int32;
+}
+
+std::optional<std::uint32_t> word_of(double number, GLenum type) {
+    const bool whole = number == std::nearbyint(number);
+    switch (scalar_of(type)) {
+    case Scalar::float32:
+        return std::bit_cast<std::uint32_t>(static_cast<float>(number));
+    case Scalar::uint32:
+        if (!whole || number < 0.0 || number > 4294967295.0)
+            return std::nullopt;
+        return static_cast<std::uint32_t>(number);
+    case Scalar::int32:
+        break;
+    }
+    if (!whole || number < -2147483648.0 || number > 2147483647.0)
+        return std::nullopt;
+    return static_cast<std::uint32_t>(static_cast<std::int32_t>(number));
 }
 
 } // namespace lockstep

@@ -1,8 +1,11 @@
 #pragma once
+#include <cstdint>
+#include <optional>
 #include <string>
 #include <string_view>
 
 #include "gpu/gl.hpp"
+#include "reference/model/schema.hpp"
 
 namespace lockstep {
 
@@ -21,5 +24,11 @@ int output_components(GLenum type);
 
 /// Whether its components are floats; integers otherwise.
 bool is_float_type(GLenum type);
+
+/// What its components are: integers with or without sign, truths and units among the first, or floats.
+Scalar scalar_of(GLenum type);
+
+/// A number as a component of the type; nothing for one that it does not hold.
+std::optional<std::uint32_t> word_of(double number, GLenum type);
 
 } // namespace lockstep

@@ -148,6 +148,14 @@ bool has_value(GLenum type) {
     return (components > 0 && components <= 4 && type != GL_FLOAT_MAT2) || type == GL_FLOAT_MAT4;
 }
 
+/// Throws Error for a number of bindings.json that a component of the variable does not hold.
+void check_number(double number, const ProgramVariable& variable, const UniformBinding& binding,
+                  const std::string& file) {
+    if (!word_of(number, variable.type))
+        throw Error(fmt::format("{}: {}: {} is no value of {}, which is {}; expected a whole number that it holds",
+                                file, binding.path, number, variable.name, type_name(variable.type)));
+}
+
 /// Where the first uniform block that nothing is given for begins.
 std::string block_place(std::span<const ShaderSource> stages, const std::string& block) {
     for (const ShaderSource& stage : stages) {
@@ -174,7 +182,8 @@ UniformValues::UniformValues(GLuint program, std::span<const ShaderSource> stage
     }
     gl::UseProgram(program);
     for (const auto& [component, number] : constants_)
-        set_component(component, GL_FLOAT, std::bit_cast<std::uint32_t>(static_cast<float>(number)));
+        set_component(component, interface_[component.variable].type,
+                      *word_of(number, interface_[component.variable].type));
     gl::UseProgram(0);
 }
 
@@ -294,8 +303,10 @@ void UniformValues::add(ProgramVariable variable, const Bindings* bindings) {
     if (!by_component)
         return interface_.add(std::move(variable), *name);
     for (std::size_t c = 0; c < binding.values.size(); ++c)
-        if (const auto* number = std::get_if<double>(&binding.values[c]))
+        if (const auto* number = std::get_if<double>(&binding.values[c])) {
+            check_number(*number, variable, binding, bindings->file);
             constants_.push_back({{interface_.size(), static_cast<int>(c)}, *number});
+        }
     interface_.add(std::move(variable), binding, bindings->file);
 }
 
@@ -308,6 +319,7 @@ void UniformValues::fill(ProgramVariable& variable, const UniformBinding& bindin
     if (*number != 0.0 && (!has_value(variable.type) || components > 4))
         throw Error(fmt::format("{}: {}: {} is {}; the number for it is 0", file, binding.path, variable.name,
                                 type_name(variable.type)));
+    check_number(*number, variable, binding, file);
     for (int c = 0; *number != 0.0 && c < components; ++c)
         constants_.push_back({{interface_.size(), c}, *number});
     variable.declared.is_initialised = true;

@@ -436,9 +436,9 @@ std::optional<int> show_system(const std::filesystem::path& file, bool hexadecim
     const RegisteredSystem* system = system_of_scene(value.at("scene"));
     if (system == nullptr)
         value.at("scene").fail(fmt::format("is of system {}, whose capsules are others", default_system));
-    const SystemScene scene =
-        recorded_scene(*system, document.at("scene"), document.at("options"), value.at("name").label(), file.string())
-            .scene;
+    const SystemScene scene = recorded_scene(*system, value.at("scene").raw(), value.at("options").raw(),
+                                             value.at("name").label(), file.string())
+                                  .scene;
     const ItemCapsule capsule = read_item_capsule(value.at("capsule"), scene.system);
     fmt::print("{}", colored(shown_text(capsule, scene.system, number_format(hexadecimal))));
     return status_of(capsule, scene.system);

@@ -2,6 +2,7 @@
 #include <cstdint>
 #include <filesystem>
 #include <initializer_list>
+#include <limits>
 #include <optional>
 #include <span>
 #include <string>
@@ -10,6 +11,8 @@
 
 #include <glm/vec3.hpp>
 #include <nlohmann/json.hpp>
+
+#include "reference/model/bounded_json.hpp"
 
 namespace lockstep {
 
@@ -21,9 +24,10 @@ struct NumberRule {
 };
 
 namespace number {
-inline constexpr NumberRule finite{-3.4e38, 3.4e38, "a finite number"};
-inline constexpr NumberRule positive{1.2e-38, 3.4e38, "a number above 0"};
-inline constexpr NumberRule not_negative{0.0, 3.4e38, "a number from 0 up"};
+inline constexpr double most = std::numeric_limits<float>::max();
+inline constexpr NumberRule finite{-most, most, "a finite number"};
+inline constexpr NumberRule positive{std::numeric_limits<float>::min(), most, "a number above 0"};
+inline constexpr NumberRule not_negative{0.0, most, "a number from 0 up"};
 } // namespace number
 
 /// A value of a JSON file that knows where it stands. Every getter throws Error as
@@ -49,7 +53,8 @@ class JsonValue {
     [[nodiscard]] float number(const NumberRule& rule = number::finite) const;
     [[nodiscard]] std::int64_t integer(std::int64_t min, std::int64_t max) const;
     [[nodiscard]] glm::vec3 vector() const;
-    [[nodiscard]] const std::string& file() const { return file_; } ///< as messages name it
+    [[nodiscard]] const nlohmann::json& raw() const { return *value_; } ///< for what is read by another reader
+    [[nodiscard]] const std::string& file() const { return file_; }     ///< as messages name it
     [[nodiscard]] bool is_null() const { return value_->is_null(); }
     [[nodiscard]] bool is_text() const { return value_->is_string(); }
     [[nodiscard]] bool is_object() const { return value_->is_object(); }
@@ -73,18 +78,7 @@ class JsonValue {
     std::string path_;
 };
 
-/// What a JSON text may ask for: far more than anything read here needs.
-namespace json_limits {
-inline constexpr std::size_t bytes = std::size_t{64} << 20U;
-inline constexpr std::size_t depth = 64; ///< arrays and objects within each other
-inline constexpr std::size_t values = 4'000'000;
-} // namespace json_limits
-
-/// All JSON from elsewhere is read here. Throws Error, `NAME:LINE:COLUMN: ...`, where the text is malformed, has a key
-/// twice in one object, or is beyond the limits.
-nlohmann::json parse_json(std::string_view text, const std::string& name);
-
-/// The same of a file.
+/// The value of a file, as parse_json reads it.
 nlohmann::json read_json(const std::filesystem::path& file);
 
 } // namespace lockstep

@@ -1,5 +1,8 @@
 #include <catch2/catch.hpp>
 
+#include <filesystem>
+#include <fstream>
+#include <iterator>
 #include <string>
 
 #include "tests/cli/cli_checks.hpp"
@@ -48,4 +51,35 @@ TEST_CASE("hostile json: and in a debug session, which goes on from there") {
     CHECK(outcome.status == 2);
     CHECK(outcome.signal == 0);
     CHECK_THAT(outcome.err, Contains("40006 characters; a setting has at most 200"));
+}
+
+TEST_CASE("hostile json: bindings.json is read within the same limits") {
+    if (!test::have_software_gl())
+        return;
+    const test::TemporaryFolder folder;
+    const std::string scene = folder.write("scene.json", test::small_scene).string();
+    std::filesystem::create_directory(folder.path() / "own");
+    std::ifstream shipped("shaders/collision/collision_pass.vert");
+    folder.write("own/collision_pass.vert", std::string(std::istreambuf_iterator<char>(shipped), {}));
+    const auto with = [&](const std::string& bindings) {
+        folder.write("own/bindings.json", bindings);
+        return refusal(run_lockstep(
+            {"check", scene, "--frames", "1", "--shaders", folder.path() / "own", "--gl", test::software_gl()}));
+    };
+    std::string objects;
+    for (int depth = 0; depth < 60'000; ++depth)
+        objects += R"({"a":)";
+    CHECK_THAT(with(objects), Contains("bindings.json: " + too_deep));
+    CHECK_THAT(with(R"({"uniforms": )" + nested(20'000) + "}"), Contains("bindings.json: " + too_deep));
+    CHECK_THAT(with(R"({"uniforms": {"u_Tick": 1e999}})"),
+               Contains("bindings.json:1:") && Contains("malformed JSON") && !Contains("json.exception"));
+}
+
+TEST_CASE("hostile json: a capsule without its scene's options names what is missing") {
+    const test::TemporaryFolder folder;
+    const std::string file = folder
+                                 .write("capsule.json", R"({"lockstep_system_capsule": 1, "name": "a", "capsule": {},
+                                                            "scene": {"system": "dust"}})")
+                                 .string();
+    CHECK(refusal(run_lockstep({"capsule", "show", file})) == file + ": /: the key \"options\" is missing");
 }

@@ -142,7 +142,7 @@ TEST_CASE("shader names: those of a test count before the file's, and end with i
         const NamedShaders bound(folder.path(), names());
         LOCKSTEP_CHECK(match(folder));
     }
-    CHECK_THROWS_WITH(match(folder), Contains("bindings.json:1:") && Contains("is no JSON from here on"));
+    CHECK_THROWS_WITH(match(folder), Contains("bindings.json:1:") && Contains("malformed JSON"));
 }
 
 TEST_CASE("shader names: what does not fit names the folder and the place") {

@@ -1,5 +1,6 @@
 #include <catch2/catch.hpp>
 
+#include <limits>
 #include <string>
 
 #include "crosscheck/files/json_reader.hpp"
@@ -57,6 +58,28 @@ TEST_CASE("json reader: a number above 0 that no float holds is told as that") {
     const nlohmann::json tiny = 1e-45;
     CHECK_THROWS_WITH(JsonValue(tiny, "a").number(number::positive),
                       "a: /: 1e-45 is not a normal float, which is 1.2e-38 or more");
+}
+
+TEST_CASE("json reader: a number is rounded to a float once") {
+    // The first lies above the middle of 1 and the next float by less than half an ULP of a double, so that the double
+    // nearest to it is the middle; the second is the middle; the third lies below one.
+    const auto of = [](const std::string& text) {
+        const nlohmann::json number = parse_json(text, "a");
+        return JsonValue(number, "a").number();
+    };
+    CHECK(of("1.00000005960464477539062500001") == 0x1.000002p0F);
+    CHECK(of("1.000000059604644775390625") == 1.0F);
+    CHECK(of("1.00000017881393432617187499999") == 0x1.000002p0F);
+    CHECK(of("-1.00000005960464477539062500001e0") == -0x1.000002p0F);
+    CHECK(of("9007199791611905") == 0x1.000002p53F); // an integer, 2^53 + 2^29 + 1
+    CHECK(of("3.4028234663852886e38") == std::numeric_limits<float>::max());
+    const nlohmann::json list = parse_json("[0.5, 1.00000005960464477539062500001, 0.25, {\"a\": "
+                                           "1.00000017881393432617187499999}]",
+                                           "a");
+    CHECK(list[0] == 0.5);
+    CHECK(nearest_float(list[1]) == 0x1.000002p0F);
+    CHECK(list[2] == 0.25);
+    CHECK(nearest_float(list[3]["a"]) == 0x1.000002p0F);
 }
 
 TEST_CASE("json reader: an error does not quote a million digits") {

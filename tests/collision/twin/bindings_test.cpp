@@ -245,9 +245,9 @@ TEST_CASE("bindings: what does not fit is told with the file, the place in it an
         foreign.bindings = replaced(foreign.bindings, what, by);
         return error_of(foreign);
     };
-    CHECK_THAT(with(plain, "{ \"uniforms\"", "{ uniforms"), Contains("bindings.json:1:3: is no JSON from here on"));
+    CHECK_THAT(with(plain, "{ \"uniforms\"", "{ uniforms"), Contains("bindings.json:1:3: malformed JSON"));
     CHECK_THAT(with(plain, "\"viewProj\"", "\"viewProj\": 1, \"viewProj\""),
-               Contains("bindings.json: /uniforms: the name viewProj stands twice in one object"));
+               Contains("bindings.json: /uniforms: the key \"viewProj\" stands twice in one object"));
     CHECK_THAT(with(plain, "\"uniforms\"", "\"uniform\""),
                Contains("bindings.json: /uniform: is none of uniforms, uniform_blocks, storage_blocks, attributes, "
                         "outputs; did you mean "

@@ -136,7 +136,9 @@ void read_particles(const JsonValue& json, const SceneOptions& options, Settings
     }
     for (const JsonValue& one : emitters_of->items())
         one.check_keys({"shape", "count", "min", "max", "thickness"});
-    std::vector<Emitter> emitters = read_emitters(*emitters_of);
+    std::vector<Emitter> emitters = read_emitters(*emitters_of, most_particles);
+    if (options.particles && *options.particles > most_particles)
+        emitters_of->fail(fmt::format("{} particles; right is 1 to {}", *options.particles, most_particles));
     if (options.particles)
         scale_counts(emitters, *options.particles);
     settings.particles = std::move(emit(emitters, settings.seed).position);

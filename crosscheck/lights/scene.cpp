@@ -4,6 +4,7 @@
 #include <cmath>
 #include <string_view>
 
+#include <fmt/format.h>
 #include <glm/geometric.hpp>
 #include <glm/vec3.hpp>
 
@@ -100,7 +101,7 @@ void add_group(const LightGroup& group, std::size_t count, Settings& settings) {
     }
 }
 
-/// Of `count` lights in all each group gets its share.
+/// Of `count` lights in all each group gets its share. Throws Error before a light is made where they are too many.
 void add_lights(const JsonValue& json, const std::optional<std::size_t>& count, Settings& settings) {
     std::vector<LightGroup> groups;
     for (const JsonValue& one : json.items())
@@ -108,6 +109,8 @@ void add_lights(const JsonValue& json, const std::optional<std::size_t>& count, 
     std::size_t all = 0;
     for (const LightGroup& group : groups)
         all += group.count;
+    if (const std::size_t made = count.value_or(all); made > most_lights)
+        json.fail(fmt::format("{} lights; right is 1 to {}", made, most_lights));
     std::size_t before = 0, given = 0;
     for (const LightGroup& group : groups) {
         before += group.count;

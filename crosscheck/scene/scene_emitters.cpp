@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 #include <glm/geometric.hpp>
 
-#include "crosscheck/scene/scene_file.hpp"
 #include "crosscheck/scene/scene_settings.hpp"
 
 namespace lockstep {
@@ -44,14 +43,14 @@ Emitter read_emitter(const JsonValue& json) {
 
 } // namespace
 
-std::vector<Emitter> read_emitters(const JsonValue& json) {
+std::vector<Emitter> read_emitters(const JsonValue& json, std::size_t most) {
     std::vector<Emitter> emitters;
     std::size_t total = 0;
     for (const JsonValue& item : json.items()) {
         emitters.push_back(read_emitter(item));
         total += emitters.back().count;
-        if (total > most_particles)
-            item.fail(fmt::format("{} particles up to here; a scene has at most {}", total, most_particles));
+        if (total > most)
+            item.fail(fmt::format("{} particles up to here; a scene has at most {}", total, most));
     }
     if (emitters.empty())
         json.fail("no emitters, so no particles; a scene has at least one");

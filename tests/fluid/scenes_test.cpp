@@ -83,6 +83,18 @@ TEST_CASE("fluid scenes: both sides have the kept hash of the waves and of the r
     }
 }
 
+TEST_CASE("fluid scenes: too many particles are refused before one is made") {
+    nlohmann::json scene = read_json(folder + "wave.json");
+    nlohmann::json emitter{{"shape", "box"}, {"count", 2'000'000}, {"min", {0, 0, 0}}, {"max", {1, 1, 1}}};
+    scene.erase("particles");
+    scene["emitters"] = std::vector(49, emitter); // 3 GB
+    CHECK_THROWS_WITH(fluid::read_scene(JsonValue(scene, "x.json")),
+                      "x.json: /emitters/1: 4000000 particles up to here; a scene has at most 2097152");
+    scene["emitters"] = std::vector(1, emitter);
+    CHECK_THROWS_WITH(fluid::read_scene(JsonValue(scene, "x.json"), {.particles = 100'000'000}),
+                      "x.json: /emitters: 100000000 particles; right is 1 to 2097152");
+}
+
 TEST_CASE("fluid scenes: what is wrong in a scene is one line that names the place") {
     const nlohmann::json right = read_json(folder + "wave.json");
     const auto told = [&](const std::string& pointer, const nlohmann::json& wrong, const SceneOptions& options = {}) {

@@ -95,6 +95,26 @@ TEST_CASE("lifecycle scenes: hashes to keep", "[.][golden]") {
     std::ofstream("data/golden/lifecycle/exact.json") << file.dump(2) << "\n";
 }
 
+TEST_CASE("lifecycle scenes: the particles of all emitters are counted before one is made") {
+    lifecycle::Settings settings;
+    settings.emitters.resize(2);
+    for (lifecycle::Emitter& emitter : settings.emitters)
+        emitter.capacity = lifecycle::most_particles_of_emitter;
+    CHECK_THROWS_WITH(lifecycle::Host(settings),
+                      "emitter 1: 33553920 particles up to here; a scene has at most 16776960");
+}
+
+TEST_CASE("lifecycle scenes: the host's time does not grow with the square of the bursts") {
+    lifecycle::Settings settings;
+    settings.switches.overflow = lifecycle::Overflow::replace_oldest;
+    lifecycle::Emitter& emitter = settings.emitters.front();
+    emitter.capacity = 100;
+    emitter.rate = 0.0;
+    for (int frame = 0; frame < 500'000; ++frame)
+        emitter.bursts.emplace_back(frame / 2, 3U);
+    CHECK(lifecycle::Host(settings).slots() == 100 + 2 * 3 + 1);
+}
+
 TEST_CASE("lifecycle scenes: what is wrong with a file is said in one line, with its place") {
     const auto error_of = [](const std::string& emitter, const std::string& rest = "") -> std::string {
         const std::string text = R"({"system": "lifecycle", )" + rest + R"("emitters": [{)" + emitter + "}]}";

@@ -79,6 +79,18 @@ TEST_CASE("lights scenes: both sides have the kept hash of the hall") {
     CHECK(hash_text(report.gpu_hash) == golden().at("hall"));
 }
 
+TEST_CASE("lights scenes: too many lights are refused before one is made") {
+    nlohmann::json scene = read_json(folder + "one_light.json");
+    nlohmann::json group = scene["lights"][0];
+    group["count"] = lights::most_lights;
+    scene["lights"] = std::vector(1000, group); // 98 GB
+    CHECK_THROWS_WITH(lights::read_scene(JsonValue(scene, "x.json")),
+                      "x.json: /lights: 2097152000 lights; right is 1 to 2097152");
+    scene["lights"] = std::vector(1, group);
+    CHECK_THROWS_WITH(lights::read_scene(JsonValue(scene, "x.json"), {.particles = 100'000'000}),
+                      "x.json: /lights: 100000000 lights; right is 1 to 2097152");
+}
+
 TEST_CASE("lights scenes: what is wrong in a scene is one line that names the place") {
     const nlohmann::json right = read_json(folder + "one_light.json");
     const auto told = [&](const std::string& pointer, const nlohmann::json& wrong) {

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <bit>
 #include <cmath>
+#include <map>
 #include <utility>
 
 #include <fmt/format.h>
@@ -111,12 +112,9 @@ std::uint32_t HostEmitter::request(int frame) const {
 
 std::uint32_t HostEmitter::largest_request() const {
     std::uint64_t most = 0;
-    for (const auto& one : settings_.bursts) {
-        std::uint64_t sum = 0;
-        for (const auto& [when, count] : settings_.bursts)
-            sum += when == one.first ? count : 0;
-        most = std::max(most, sum);
-    }
+    std::map<int, std::uint64_t> of_frames;
+    for (const auto& [frame, count] : settings_.bursts)
+        most = std::max(most, of_frames[frame] += count);
     const auto rate = static_cast<std::uint64_t>(settings_.rate * tick_) + 1;
     return static_cast<std::uint32_t>(std::min<std::uint64_t>(most + rate, 1U << 24U));
 }
@@ -190,6 +188,9 @@ Host::Host(Settings settings) : settings_(std::move(settings)) {
         one.first_in_ring = in_ring;
         one.first_key = key;
         base += one.slots;
+        if (base > most_particles_of_emitter)
+            throw Error(fmt::format("emitter {}: {} particles up to here; a scene has at most {}", e, base,
+                                    most_particles_of_emitter));
         block += one.blocks;
         key += one.keys;
         in_ring += std::max<std::size_t>(one.window, 1);

@@ -1,9 +1,13 @@
 #include <algorithm>
 #include <array>
 #include <optional>
+#include <string_view>
 #include <vector>
 
+#include <fmt/format.h>
+
 #include "gpu/gl_system_parts.hpp"
+#include "reference/model/error.hpp"
 
 namespace lockstep {
 
@@ -32,6 +36,22 @@ std::optional<GLintptr> GlSystem::Parts::group_counts(const Linked& linked) {
     }
     return {};
 }
+
+namespace {
+
+/// Groups of `size` invocations that make `count` along an axis. Throws Error where this context takes fewer.
+GLuint groups(std::string_view pass, std::size_t count, std::size_t size, GLuint axis) {
+    GLint most = 0;
+    gl::GetIntegeri_v(GL_MAX_COMPUTE_WORK_GROUP_COUNT, axis, &most);
+    const std::size_t needed = (count + size - 1) / size;
+    if (needed > static_cast<std::size_t>(most))
+        throw Error(fmt::format("{}: {} invocations along {} are more than this context takes; expected at most {}, {} "
+                                "groups of {}",
+                                pass, count, "xyz"[axis], size * static_cast<std::size_t>(most), most, size));
+    return static_cast<GLuint>(needed);
+}
+
+} // namespace
 
 void GlSystem::Parts::dispatch(const Linked& linked, int frame) {
     using Kind = BoundBlock::Kind;
@@ -85,7 +105,7 @@ void GlSystem::Parts::dispatch(const Linked& linked, int frame) {
         else if (is_image(linked.pass.resource) && !linked.pass.invocations)
             dispatch_image(linked);
         else
-            gl::DispatchCompute(static_cast<GLuint>((items + linked.invocations - 1) / linked.invocations), 1, 1);
+            gl::DispatchCompute(groups(linked.pass.name, items, linked.invocations, 0), 1, 1);
     });
     linked.by_member.collect(written);
     gl::BindBuffer(GL_DISPATCH_INDIRECT_BUFFER, 0);
@@ -97,11 +117,9 @@ void GlSystem::Parts::dispatch(const Linked& linked, int frame) {
 
 void GlSystem::Parts::dispatch_image(const Linked& linked) {
     const Extent& extent = image_to(linked.pass.resource).extent();
-    const auto groups = [&](std::size_t texels, int axis) {
-        const std::size_t of = linked.group[static_cast<std::size_t>(axis)];
-        return static_cast<GLuint>((texels + of - 1) / of);
-    };
-    gl::DispatchCompute(groups(extent.width, 0), groups(extent.height, 1), groups(extent.depth, 2));
+    gl::DispatchCompute(groups(linked.pass.name, extent.width, linked.group[0], 0),
+                        groups(linked.pass.name, extent.height, linked.group[1], 1),
+                        groups(linked.pass.name, extent.depth, linked.group[2], 2));
 }
 
 } // namespace lockstep

@@ -83,7 +83,7 @@ class Reader {
             static_cast<void>(description->label());
         read_ids();
         find_stage();
-        constants_.emplace(graph_.nodes.size());
+        constants_.emplace(graph_);
         for (std::size_t n = 0; n < graph_.nodes.size(); ++n)
             read_values(n);
         for (std::size_t n = 0; n < graph_.nodes.size(); ++n)
@@ -288,7 +288,8 @@ class Reader {
             read_[n].json.fail(fmt::format("more than {} nodes behind each other", deepest_graph));
         if (read_[n].type->kind > GraphKind::input && read_[n].type->kind != GraphKind::random)
             fit(n);
-        constants_->add(graph_, n);
+        if (const std::string undefined = constants_->add(n); !undefined.empty())
+            fail_undefined(n, undefined);
         read_[n].depth = behind + 1;
         read_[n].resolved = true;
         open_.pop_back();
@@ -423,25 +424,20 @@ class Reader {
                                                      : shared;
         if (node.kind == GraphKind::compose)
             compose(n);
-        if (node.kind == GraphKind::divide || node.kind == GraphKind::smoothstep)
-            check_divisor(n);
     }
 
-    [[nodiscard]] std::optional<float> constant(std::size_t n, std::size_t port, std::size_t component) const {
-        return constants_->at(graph_, graph_.nodes[n].inputs[port], component);
-    }
-
-    /// Compilers fold a quotient by a constant 0 to what they like, llvmpipe's to 0.
-    void check_divisor(std::size_t n) const {
+    /// Compilers fold what GLSL leaves undefined to what they like, llvmpipe's a quotient by 0 to 0.
+    [[noreturn]] void fail_undefined(std::size_t n, const std::string& what) const {
         const GraphNode& node = graph_.nodes[n];
-        for (std::size_t c = 0; c < graph_components(node.takes); ++c) {
-            if (node.kind == GraphKind::divide && constant(n, 1, c) == 0.0F)
-                read_[n].json.fail(fmt::format("'{}' divides by 0: its port b", node.id));
-            const auto low = constant(n, 0, c);
-            if (node.kind == GraphKind::smoothstep && low && low == constant(n, 1, c))
+        if (node.kind == GraphKind::divide)
+            read_[n].json.fail(fmt::format("'{}' divides by 0: its port b", node.id));
+        for (std::size_t c = 0; c < graph_components(node.takes) && node.kind == GraphKind::smoothstep; ++c)
+            if (const Interval low = constants_->at(node.inputs[0], c), high = constants_->at(node.inputs[1], c);
+                low.is_point() && high.is_point() && low.low == high.low)
                 read_[n].json.fail(fmt::format("'{}' rises from {} to {}: right are a low and a high that differ",
-                                               node.id, *low, *low));
-        }
+                                               node.id, low.as_float(), low.as_float()));
+        read_[n].json.fail(
+            fmt::format("'{}' {} at every input that it comes to, which GLSL leaves open", node.id, what));
     }
 
     void compose(std::size_t n) {

@@ -2,6 +2,7 @@
 #include <array>
 #include <cstdint>
 #include <optional>
+#include <set>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -81,6 +82,15 @@ template <class R> class GraphRun {
                 serial_ = input(i).whole;
         for (const std::size_t n : graph_.order)
             values_[n] = noted(n, graph_.nodes[n].kind == GraphKind::input ? input(graph_.nodes[n].of_stage) : made(n));
+    }
+    /// What node `n`, which is no input, makes of what `given(m)` says that each node m before it made.
+    template <class Given> Number evaluated(std::size_t n, const Given& given) {
+        values_.assign(graph_.nodes.size(), {});
+        std::set<std::size_t> before;
+        for (const GraphSource& source : graph_.nodes[n].inputs)
+            if (source.node && before.insert(*source.node).second)
+                values_[*source.node] = given(*source.node);
+        return noted(n, made(n));
     }
     [[nodiscard]] Number output(const Graph::Output& output) const {
         const GraphType type = graph_.stage->outputs[output.of_stage].type;

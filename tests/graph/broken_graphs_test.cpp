@@ -191,6 +191,27 @@ std::vector<std::pair<std::string, std::string>> broken_graphs() {
     folded(node("zero", "compose", {{"x", 1}, {"y", "parts.x"}, {"z", 0}}), "zero");
     folded(node("zero", "subtract", {{"a", "parts.y"}, {"b", "parts.z"}}), "zero");
     folded(node("zero", "mix", {{"a", 0}, {"b", "two"}, {"t", 0}}), "zero");
+    folded(node("zero", "length", {{"a", json::array({0, 0, 0})}}), "zero");
+    folded(node("zero", "dot", {{"a", json::array({1, 0, 0})}, {"b", json::array({0, 1, 0})}}), "zero");
+    folded(node("zero", "cross", {{"a", json::array({1, 0, 0})}, {"b", json::array({2, 0, 0})}}), "zero");
+    folded(node("zero", "normalize", {{"a", json::array({1, 0, 0})}}), "zero");
+    folded(node("zero", "select", {{"condition", true}, {"a", 0}, {"b", 1}}), "zero");
+    folded(node("zero", "sin_turns", {{"a", 0}}), "zero");
+    folded(node("zero", "smoothstep", {{"low", 0}, {"high", 1}, {"a", -1}}), "zero");
+    folded(node("zero", "drag", {{"velocity", json::array({0, 0, 0})}, {"k", 1}}), "zero");
+    folded(node("zero", "multiply", {{"a", "v"}, {"b", 0}}), "zero");
+    folded(node("zero", "dot", {{"a", "v"}, {"b", 0}}), "zero");
+    json flat = node("zero", "curve", {{"t", 0.5}});
+    flat["keys"] = {{0, 0}};
+    folded(flat, "zero");
+    // Other operations that GLSL leaves undefined.
+    with(node("k", "sqrt", {{"a", -1}}), "'k' takes the square root of a number below 0");
+    with(node("k", "normalize", {{"a", json::array({0, 0, 0})}}), "'k' normalizes a vector of length 0");
+    with(node("k", "vortex", {{"position", "v"}, {"axis", json::array({0, 0, 0})}}),
+         "'k' normalizes a vector of length 0");
+    with(node("k", "vortex", {{"position", "v"}, {"axis", json::array({0, 1, 0})}, {"radius", 0}}),
+         "'k' divides by 0 at every input that it comes to");
+    with(node("k", "sphere", {{"u", json::array({2, 0, 0})}}), "'k' takes the square root of a number below 0");
     with({{"id", "k"}, {"type", "parameter"}, {"value", 5}, {"range", {9, 4}}}, "right is the least first");
     with({{"id", "k"}, {"type", "parameter"}, {"value", 5}, {"range", {9}}}, "right is the least and the greatest");
     with({{"id", "k"}, {"type", "parameter"}, {"value", {1, 2}}}, "a parameter is a float");
@@ -341,6 +362,16 @@ TEST_CASE("graphs: what is wrong ends the verb with status 2 and one line") {
     CHECK_THAT(refusal(run_lockstep({"graph", "eval", folder.path()})), Contains("cannot be read"));
 }
 
+TEST_CASE("graphs: more items than a dispatch has are refused by the largest number") {
+    if (!test::have_software_gl())
+        return;
+    const test::TemporaryFolder folder;
+    const std::string file = folder.write("graph.json", small_graph().dump()).string();
+    CHECK_THAT(refusal(run_lockstep({"graph", "check", file, "--items", "4194304", "--gl", test::software_gl()})),
+               Contains("graph: 4194304 invocations along x are more than this context takes; expected at most "
+                        "4194240, 65535 groups of 64"));
+}
+
 TEST_CASE("graphs: a whole graph is right, and what no output needs is checked, not compiled") {
     CHECK(error_of(small_graph()).empty());
     CHECK(error_of(shipped("fire")).empty());
@@ -353,6 +384,25 @@ TEST_CASE("graphs: a whole graph is right, and what no output needs is checked, 
     CHECK(read.order == std::vector<std::size_t>{0, 1});
     graph["nodes"][2]["inputs"]["a"] = "nobody";
     CHECK_THAT(error_of(graph), Contains("/nodes/2/inputs/a: 'nobody' is no node"));
+}
+
+TEST_CASE("graphs: a divisor that is 0 at some inputs alone is divided by") {
+    const auto divided_by = [](json divisor) {
+        json graph = small_graph();
+        graph["nodes"].push_back(node("less", "less", {{"a", 1}, {"b", "speed"}}));
+        graph["nodes"].push_back(node("speed", "length", {{"a", "v"}}));
+        graph["nodes"].push_back(std::move(divisor));
+        graph["nodes"].push_back(node("k", "divide", {{"a", "v"}, {"b", "d"}}));
+        return error_of(graph);
+    };
+    CHECK(divided_by(node("d", "select", {{"condition", "less"}, {"a", 0}, {"b", 1}})).empty());
+    CHECK(divided_by(node("d", "step", {{"edge", 100}, {"a", "speed"}})).empty());
+    CHECK(divided_by(node("d", "smoothstep", {{"low", 0}, {"high", 1}, {"a", "speed"}})).empty());
+    CHECK(divided_by(node("d", "noise", {{"at", "v"}})).empty());
+    CHECK(divided_by(node("d", "max", {{"a", "speed"}, {"b", 0}})).empty());
+    json bump = node("d", "curve", {{"t", "speed"}});
+    bump["keys"] = {{0, 0}, {3, 0}, {3.5, 1}, {4, 0}};
+    CHECK(divided_by(bump).empty());
 }
 
 TEST_CASE("graphs: the verb prints the shader and what each node makes") {

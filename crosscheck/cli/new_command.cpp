@@ -51,17 +51,70 @@ std::string text_of(std::string_view file) {
         fmt::format("{} has no skeleton/{}.in; the installation is not whole", plain_line(data.string()), file));
 }
 
+/// Targets of CMake's generators, of CTest and CPack.
+constexpr std::array<std::string_view, 21> targets{"all",
+                                                   "clean",
+                                                   "cmake_check_build_system",
+                                                   "cmake_force",
+                                                   "codegen",
+                                                   "continuous",
+                                                   "default_target",
+                                                   "depend",
+                                                   "edit_cache",
+                                                   "experimental",
+                                                   "help",
+                                                   "install",
+                                                   "list_install_components",
+                                                   "nightly",
+                                                   "nothing",
+                                                   "package",
+                                                   "package_source",
+                                                   "preinstall",
+                                                   "rebuild_cache",
+                                                   "run_tests",
+                                                   "test"};
+
+/// Keywords of C++20 and alternative tokens, in the standard's order, and what no program may open or define.
+constexpr auto words = std::to_array<std::string_view>(
+    {"alignas",       "alignof",     "asm",       "auto",      "bool",         "break",
+     "case",          "catch",       "char",      "char8_t",   "char16_t",     "char32_t",
+     "class",         "concept",     "const",     "consteval", "constexpr",    "constinit",
+     "const_cast",    "continue",    "co_await",  "co_return", "co_yield",     "decltype",
+     "default",       "delete",      "do",        "double",    "dynamic_cast", "else",
+     "enum",          "explicit",    "export",    "extern",    "false",        "float",
+     "for",           "friend",      "goto",      "if",        "inline",       "int",
+     "long",          "mutable",     "namespace", "new",       "noexcept",     "nullptr",
+     "operator",      "private",     "protected", "public",    "register",     "reinterpret_cast",
+     "requires",      "return",      "short",     "signed",    "sizeof",       "static",
+     "static_assert", "static_cast", "struct",    "switch",    "template",     "this",
+     "thread_local",  "throw",       "true",      "try",       "typedef",      "typeid",
+     "typename",      "union",       "unsigned",  "using",     "virtual",      "void",
+     "volatile",      "wchar_t",     "while",     "and",       "and_eq",       "bitand",
+     "bitor",         "compl",       "not",       "not_eq",    "or",           "or_eq",
+     "xor",           "xor_eq",      "main",      "posix",     "std"});
+
 void check_name(const std::string& name) {
     const auto is_small = [](char c) { return c >= 'a' && c <= 'z'; };
     const bool fits = !name.empty() && name.size() <= 40 && is_small(name.front()) &&
                       std::all_of(name.begin(), name.end(),
                                   [&](char c) { return is_small(c) || (c >= '0' && c <= '9') || c == '_'; });
-    constexpr std::array<std::string_view, 8> taken{"lockstep", "all",     "clean",   "edit_cache",
-                                                    "help",     "install", "package", "test"};
-    if (!fits || std::find(taken.begin(), taken.end(), name) != taken.end())
-        throw Error(fmt::format("new system: '{}' cannot be its name; right is a word of at most 40 small letters, "
-                                "digits and _, as sparks or heat_map; lockstep and CMake's own targets are taken",
+    if (!fits)
+        throw Error(fmt::format("new system: '{}' cannot be its name; expected a word of at most 40 small letters, "
+                                "digits and _, as sparks or heat_map",
                                 plain_line(name)));
+    if (std::find(targets.begin(), targets.end(), name) != targets.end())
+        throw Error(fmt::format("new system: '{}' cannot be its name: CMake has a target of that name; expected "
+                                "another, as {}_system",
+                                name, name));
+    if (std::find(words.begin(), words.end(), name) != words.end())
+        throw Error(fmt::format("new system: '{}' cannot be its name: it is a word of C++; expected another, as "
+                                "{}_system",
+                                name, name));
+    std::error_code ignored;
+    if (name == "lockstep" || fs::is_directory(built_in_shaders() / name, ignored))
+        throw Error(fmt::format("new system: '{}' cannot be its name: lockstep has shaders of that name; expected "
+                                "another, as my_{}",
+                                name, name));
 }
 
 int make(const NewRequest& options) {

@@ -326,6 +326,27 @@ TEST_CASE("arguments: help keeps to 80 columns, and says what holds without an o
                Catch::Contains("\n  thesis ") && !Catch::Contains("--recall-table"));
 }
 
+TEST_CASE("arguments: a new system takes no name that its project cannot have") {
+    const test::TemporaryFolder folder;
+    const auto refused = [&](const std::string& name) {
+        const std::string made = (folder.path() / "made").string();
+        const std::string error = refusal(run_lockstep({"new", "system", name, "-o", made}));
+        CHECK(!std::filesystem::exists(made));
+        return error;
+    };
+    for (const char* const name : {"preinstall", "all", "test", "install", "clean", "help", "edit_cache", "package",
+                                   "rebuild_cache", "depend", "list_install_components", "package_source"})
+        CHECK_THAT(refused(name), Catch::Contains("CMake has a target of that name; expected another, as " +
+                                                  std::string(name) + "_system"));
+    for (const char* const name : {"int", "class", "std", "co_await", "char8_t", "main"})
+        CHECK_THAT(refused(name), Catch::Contains("it is a word of C++; expected another"));
+    for (const char* const name : {"lockstep", "dust", "collision", "graph"})
+        CHECK_THAT(refused(name), Catch::Contains("lockstep has shaders of that name; expected another, as my_"));
+    for (const char* const name : {"Sparks", "2d", "heat-map", "", "a/b"})
+        CHECK_THAT(refused(name), Catch::Contains("expected a word of at most 40 small letters"));
+    CHECK(run_lockstep({"new", "system", "tests", "-o", folder.path() / "made"}).status == 0);
+}
+
 TEST_CASE("arguments: a full disk behind standard output is no success") {
     test::Surroundings full;
     full.standard_output = "/dev/full";

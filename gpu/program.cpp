@@ -15,6 +15,7 @@
 #include "gpu/bindings.hpp"
 #include "gpu/check.hpp"
 #include "gpu/glsl_type.hpp"
+#include "gpu/nothing_given.hpp"
 #include "gpu/program_linking.hpp"
 #include "gpu/shader_object.hpp"
 #include "gpu/spirv_module.hpp"
@@ -234,12 +235,14 @@ void Program::use() const { gl::UseProgram(id_); }
 
 void Program::check_interface() const {
     std::vector<std::string> unknown = uniforms_->unknown();
-    if (!unknown.empty())
-        unknown.back() += fmt::format(
-            "; {} beside the shader binds a uniform to a name or a number (docs/own_shader.md)", bindings_file);
+    const std::string advice = unknown.empty()
+                                   ? ""
+                                   : fmt::format("; {} beside the shader binds a uniform to a name or a number "
+                                                 "(docs/own_shader.md)",
+                                                 bindings_file);
     std::ranges::move(attributes_.unknown(), std::back_inserter(unknown));
     if (!unknown.empty())
-        throw Error(fmt::format("shader {}", fmt::join(unknown, "; ")));
+        throw NothingGiven(fmt::format("{}", fmt::join(unknown, "; ")), advice);
     uniforms_->bind();
     const std::vector<std::string>& files = files_of_programs()[id_];
     shaders_run().insert(files.begin(), files.end()); // a draw or dispatch comes next

@@ -1,8 +1,10 @@
 #include <algorithm>
-#include <charconv>
+#include <array>
+#include <cstring>
 #include <filesystem>
 #include <memory>
 #include <optional>
+#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -13,8 +15,10 @@
 #include "crosscheck/cli/commands.hpp"
 #include "crosscheck/cli/function_findings.hpp"
 #include "crosscheck/cli/system_run.hpp"
+#include "crosscheck/command/judging_options.hpp"
 #include "crosscheck/command/option_values.hpp"
 #include "crosscheck/files/json_text.hpp"
+#include "crosscheck/files/number_table.hpp"
 #include "crosscheck/files/output_files.hpp"
 #include "crosscheck/files/plain_text.hpp"
 #include "crosscheck/files/shell_words.hpp"
@@ -47,76 +51,90 @@ bool is_macro_name(std::string_view name) {
            std::all_of(name.begin(), name.end(), [&](char c) { return is_letter(c) || (c >= '0' && c <= '9'); });
 }
 
-std::vector<float> numbers_in(const std::string& text) {
-    std::vector<float> numbers;
-    const char* at = text.data();
-    const char* const end = at + text.size();
-    while (true) {
-        float number = 0.0F;
-        const auto [rest, status] = std::from_chars(at, end, number);
-        if (status != std::errc{} || (rest != end && *rest != ','))
+/// The bits of numbers between commas; nothing where they are not `count`, or one is none of the type.
+std::optional<std::vector<std::uint32_t>> words_in(std::string_view text, Scalar scalar, std::size_t count) {
+    const TableColumn column{.name = {}, .scalar = scalar};
+    std::vector<std::uint32_t> words;
+    for (bool more = true; more;) {
+        const std::size_t comma = text.find(',');
+        more = comma != std::string_view::npos;
+        const std::optional<std::uint32_t> word = number_bits(text.substr(0, comma), column);
+        if (!word)
             return {};
-        numbers.push_back(number);
-        if (rest == end)
-            return numbers;
-        at = rest + 1;
+        words.push_back(*word);
+        text.remove_prefix(more ? comma + 1 : text.size());
     }
+    return words.size() == count ? std::optional(std::move(words)) : std::nullopt;
 }
 
-/// A uniform's value of the type that the shader declares; nothing where the numbers are not as many, or no integers.
-std::optional<UniformValue> value_of(const std::string& type, const std::vector<float>& n) {
-    const bool integers = std::all_of(n.begin(), n.end(), [](float x) {
-        return x >= -16777216.0F && x <= 16777216.0F && x == static_cast<float>(static_cast<int>(x));
-    });
-    const auto whole = [&](std::size_t i) { return static_cast<int>(n[i]); };
-    if (type == "float" && n.size() == 1)
-        return n[0];
-    if (type == "int" && n.size() == 1 && integers)
-        return whole(0);
-    if (type == "uint" && n.size() == 1 && integers && n[0] >= 0.0F)
-        return static_cast<unsigned>(whole(0));
-    if (type == "vec2" && n.size() == 2)
-        return glm::vec2(n[0], n[1]);
-    if (type == "vec3" && n.size() == 3)
-        return glm::vec3(n[0], n[1], n[2]);
-    if (type == "vec4" && n.size() == 4)
-        return glm::vec4(n[0], n[1], n[2], n[3]);
-    if (type == "ivec2" && n.size() == 2 && integers)
-        return glm::ivec2(whole(0), whole(1));
-    if (type == "ivec3" && n.size() == 3 && integers)
-        return glm::ivec3(whole(0), whole(1), whole(2));
-    if (type == "mat4" && n.size() == 16) {
-        glm::mat4 matrix;
-        for (std::size_t i = 0; i < n.size(); ++i)
-            matrix[static_cast<int>(i / 4)][static_cast<int>(i % 4)] = n[i];
-        return matrix;
-    }
-    return {};
+/// A value whose bits are these.
+template <class Value> Value value_of(const std::vector<std::uint32_t>& words) {
+    static_assert(std::is_trivially_copyable_v<Value> && sizeof(Value) % sizeof(std::uint32_t) == 0);
+    Value value{};
+    std::memcpy(static_cast<void*>(&value), words.data(), sizeof value);
+    return value;
 }
 
-/// Those of `given` that `file` declares. `any`: whether it is fine to declare none of a name.
-Uniforms uniforms_of(const std::string& file, const std::vector<std::string>& given, bool any) {
-    const std::string text = read_shader_file(file);
-    Uniforms uniforms;
+struct UniformType {
+    std::string_view name;
+    Scalar scalar;
+    std::size_t components;
+    UniformValue (*value)(const std::vector<std::uint32_t>& words);
+};
+
+template <class Value> constexpr UniformType uniform_type(std::string_view name, Scalar scalar) {
+    return {name, scalar, sizeof(Value) / sizeof(std::uint32_t),
+            [](const std::vector<std::uint32_t>& words) { return UniformValue(value_of<Value>(words)); }};
+}
+
+constexpr std::array uniform_table{
+    uniform_type<float>("float", Scalar::float32),    uniform_type<int>("int", Scalar::int32),
+    uniform_type<unsigned>("uint", Scalar::uint32),   uniform_type<glm::vec2>("vec2", Scalar::float32),
+    uniform_type<glm::vec3>("vec3", Scalar::float32), uniform_type<glm::vec4>("vec4", Scalar::float32),
+    uniform_type<glm::ivec2>("ivec2", Scalar::int32), uniform_type<glm::ivec3>("ivec3", Scalar::int32),
+    uniform_type<glm::mat4>("mat4", Scalar::float32)};
+
+/// A uniform's value of the type that the shader declares. `option`: what gives it, for messages.
+UniformValue value_of(const std::string& option, const std::string& type, const std::string& value) {
+    const auto known = std::find_if(uniform_table.begin(), uniform_table.end(),
+                                    [&](const UniformType& one) { return one.name == type; });
+    if (known == uniform_table.end()) {
+        std::vector<std::string_view> names;
+        for (const UniformType& one : uniform_table)
+            names.push_back(one.name);
+        throw Error(fmt::format("--uniform {}: it is a {}; types that get a value are {}", option, type,
+                                fmt::join(names, ", ")));
+    }
+    const auto words = words_in(value, known->scalar, known->components);
+    if (!words)
+        throw Error(fmt::format("--uniform {}: '{}' is no {}; right is NAME=NUMBER, of a vector NAME=1,2,3", option,
+                                plain_line(value), type));
+    return known->value(*words);
+}
+
+/// Gives each function what its file declares of `given`. Throws Error for what no file declares.
+void give_uniforms(const std::vector<std::string>& given, std::span<GlslFunction> functions) {
     for (const std::string& one : given) {
         const auto [name, value] = parts_of(one);
-        const std::string type = function_twin::uniform_type(text, name);
-        if (type.empty() && any)
-            continue;
-        if (type.empty())
-            throw Error(fmt::format("--uniform {}: {} declares no uniform {}{}", plain_line(one), plain_line(file),
-                                    plain_line(name), did_you_mean(name, function_twin::uniform_names(text))));
-        const auto read = value_of(type, numbers_in(value));
-        if (!read)
-            throw Error(fmt::format("--uniform {}: '{}' is no {}; right is NAME=NUMBER, of a vector NAME=1,2,3",
-                                    plain_line(one), plain_line(value), type));
-        uniforms[name] = *read;
+        std::vector<std::string> declared, files;
+        bool found = false;
+        for (GlslFunction& function : functions) {
+            files.push_back(plain_line(function.file));
+            for (const function_twin::Parameter& uniform : function_twin::uniforms_of(function)) {
+                declared.push_back(uniform.name);
+                if (uniform.name != name)
+                    continue;
+                function.uniforms[name] = value_of(plain_line(one), uniform.type, value);
+                found = true;
+            }
+        }
+        if (!found)
+            throw Error(fmt::format("--uniform {}: {} declares no uniform {}{}", plain_line(one),
+                                    fmt::join(files, ", or "), plain_line(name), did_you_mean(name, declared)));
     }
-    return uniforms;
 }
 
-GlslFunction function_of(const FunctionRequest& options, const std::filesystem::path& file, const std::string& name,
-                         bool any_uniform) {
+GlslFunction function_of(const FunctionRequest& options, const std::filesystem::path& file, const std::string& name) {
     ShaderDefines defines;
     for (const std::string& define : options.defines) {
         defines.push_back(parts_of(define));
@@ -124,7 +142,7 @@ GlslFunction function_of(const FunctionRequest& options, const std::filesystem::
             throw Error(fmt::format("--define {}: '{}' is no name of a macro; right is NAME=TEXT", plain_line(define),
                                     plain_line(defines.back().first)));
     }
-    return {file.string(), name, uniforms_of(file.string(), options.uniforms, any_uniform), std::move(defines)};
+    return {file.string(), name, {}, std::move(defines)};
 }
 
 std::string command_of(const FunctionRequest& options) {
@@ -141,11 +159,16 @@ std::string command_of(const FunctionRequest& options) {
     for (const std::string& define : options.defines)
         add("--define", define);
     add("--gl", options.gl == "auto" ? "" : options.gl);
-    return line;
+    return line + werror_option_text();
 }
 
 int run_function(const FunctionRequest& options) {
-    const GlslFunction function = function_of(options, options.file, options.name, false);
+    std::vector<GlslFunction> functions{function_of(options, options.file, options.name)};
+    if (!options.like.empty())
+        functions.push_back(
+            function_of(options, options.like, options.like_name.empty() ? options.name : options.like_name));
+    give_uniforms(options.uniforms, functions);
+    const GlslFunction& function = functions.front();
     const FunctionRows rows = read_function_rows(function, options.table);
     if (options.like.empty() && !options.like_name.empty())
         throw Error("function: --like-name goes with --like");
@@ -163,18 +186,13 @@ int run_function(const FunctionRequest& options) {
     RunOptions run;
     run.gl = options.gl;
     const Gl gl = open_gl(run);
-    MatchOptions how;
-    how.repeat = command_of(options);
+    const FunctionMatchOptions how{.repeat = command_of(options)};
     const std::vector<UndefinedRow> undefined = undefined_rows(function, rows);
     const FunctionRows judged = undefined.empty() ? rows : without(rows, undefined);
     std::optional<MatchResult> result;
     if (judged.count() > 0)
-        result = options.like.empty()
-                     ? match_function(gl, function, judged, how)
-                     : match_function(gl, function, judged,
-                                      function_of(options, options.like,
-                                                  options.like_name.empty() ? options.name : options.like_name, true),
-                                      how);
+        result = functions.size() == 1 ? match_function(gl, function, judged, how)
+                                       : match_function(gl, function, judged, functions.back(), how);
     const bool agrees = !result || result->passed();
     const std::string open =
         undefined.empty() ? std::string() : undefined_text(rows, undefined, agrees ? judged.count() : 0);
@@ -212,6 +230,7 @@ Verb function_command() {
     verb.add(settings_option("--define", "NAME=TEXT", options->defines, "a macro that the shader is compiled with"));
     verb.add(text_option("--gl", "auto|osmesa|egl|egl-device:N", options->gl, "which GL to open"));
     verb.add(path_option("--json", "FILE", options->json, "write the report as JSON"));
+    add_werror_option(verb);
     verb.add(flag("--quiet", options->quiet, "print nothing"));
     verb.footer = "Exit status: 0 every bit agrees, 1 one does not, 2 could not run.\n"
                   "Example: lockstep function shaders/wall.glsl bounce --table walls.csv --uniform u_Kept=0.5";

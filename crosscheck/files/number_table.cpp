@@ -48,8 +48,9 @@ std::optional<Number> number_in(std::string_view digits, const Format&... format
     return status == std::errc{} && rest == end ? std::optional(number) : std::nullopt;
 }
 
-/// The bits of a number as it is written; nothing where it is none.
-std::optional<std::uint32_t> bits_of(std::string_view text, const TableColumn& column) {
+} // namespace
+
+std::optional<std::uint32_t> number_bits(std::string_view text, const TableColumn& column) {
     if (column.is_bool) {
         const bool is_true = text == "1" || text == "true";
         return is_true || text == "0" || text == "false" ? std::optional(is_true ? 1U : 0U) : std::nullopt;
@@ -75,6 +76,8 @@ std::optional<std::uint32_t> bits_of(std::string_view text, const TableColumn& c
         number = static_cast<float>(*tiny);
     return number ? std::optional(std::bit_cast<std::uint32_t>(minus ? -*number : *number)) : std::nullopt;
 }
+
+namespace {
 
 std::string_view right_number(const TableColumn& column) {
     if (column.is_bool)
@@ -172,7 +175,7 @@ void read_csv(const std::filesystem::path& path, const std::vector<TableColumn>&
         for (std::size_t c = 0; c < places.size(); ++c)
             for (std::size_t k = 0; k < places[c].size(); ++k) {
                 const std::string_view value = line.values[places[c][k]];
-                const std::optional<std::uint32_t> bits = bits_of(value, columns[c]);
+                const std::optional<std::uint32_t> bits = number_bits(value, columns[c]);
                 if (!bits)
                     throw Error(fmt::format("{}:{}: column {}: '{}' is {}", table.file, line.number,
                                             component_name(columns[c], static_cast<int>(k)), plain_line(value),
@@ -184,7 +187,7 @@ void read_csv(const std::filesystem::path& path, const std::vector<TableColumn>&
 
 std::uint32_t word_of(const JsonValue& value, const TableColumn& column) {
     if (value.is_text()) {
-        const std::optional<std::uint32_t> bits = bits_of(value.text(), column);
+        const std::optional<std::uint32_t> bits = number_bits(value.text(), column);
         if (!bits)
             value.fail(fmt::format("'{}' is {}", value.label(), right_number(column)));
         return *bits;

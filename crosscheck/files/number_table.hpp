@@ -2,7 +2,9 @@
 #include <cstddef>
 #include <cstdint>
 #include <filesystem>
+#include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "reference/model/schema.hpp"
@@ -25,6 +27,9 @@ struct NumberTable {
     std::vector<std::vector<std::uint32_t>> words; ///< of each column row after row, as bits; none where it is left out
     std::vector<std::size_t> lines;                ///< where each row stands, from 1; of JSON none
 };
+
+/// The bits of a number as a table writes it, rounded once; nothing for a text that is none of the column's.
+std::optional<std::uint32_t> number_bits(std::string_view text, const TableColumn& column);
 
 /// Reads FILE.json, an array of objects by the columns' names, or a CSV file with a heading, a component a column
 /// (`velocity.x`); a line that begins with # is left out. A number is the float nearest to it; `inf`, `nan` and

@@ -1,6 +1,7 @@
 #include "lockstep/function.hpp"
 
 #include <algorithm>
+#include <array>
 #include <filesystem>
 #include <optional>
 #include <set>
@@ -12,9 +13,12 @@
 #include "crosscheck/package/function_signature.hpp"
 #include "gpu/gl_system.hpp"
 #include "gpu/shader_source.hpp"
+#include "reference/model/near_name.hpp"
 
 namespace lockstep::function_twin {
 namespace {
+
+constexpr std::string_view system_name = "function";
 
 /// The table's columns by the parameters' names, where these can be names of a state's.
 std::vector<std::string> field_names(const Signature& signature) {
@@ -62,7 +66,48 @@ std::pair<std::string, std::string> without_version(const std::string& text) {
     return {rest, version};
 }
 
+/// Where files that it includes are looked for.
+std::string folder_of(const GlslFunction& function) {
+    const std::string folder = std::filesystem::path(function.file).parent_path().string();
+    return folder.empty() ? "." : folder;
+}
+
+/// A vertex stage of that name: the function's file, whose main goes by another name, and `end` behind it.
+ShaderTexts stage_of(const GlslFunction& function, std::string_view name, const std::string& end) {
+    const auto [body, version] = without_version(read_shader_file(function.file));
+    const std::string file = std::filesystem::path(function.file).filename().string();
+    return {{fmt::format("{}.vert", name),
+             fmt::format("#version{}\n#define main ls_main_of_the_file\n#include \"{}\"\n#undef main\n{}", version,
+                         file, end)},
+            {file, body}};
+}
+
+/// Throws Error for a value of a uniform that is not there.
+void check_uniforms(const GlslFunction& function) {
+    if (function.uniforms.empty())
+        return;
+    std::vector<std::string> declared;
+    for (const Parameter& one : uniforms_of(function))
+        declared.push_back(one.name);
+    for (const auto& [name, value] : function.uniforms)
+        if (std::find(declared.begin(), declared.end(), name.substr(0, name.find_first_of("[."))) == declared.end())
+            throw Error(fmt::format("shader {}: declares no uniform {}{}{}", plain_line(function.file),
+                                    plain_line(name),
+                                    declared.empty() ? "" : fmt::format("; it has {}", fmt::join(declared, ", ")),
+                                    did_you_mean(name, declared)));
+}
+
 } // namespace
+
+std::string whole_text(const GlslFunction& function) {
+    constexpr std::string_view name = "file";
+    return load_stages(shader_folders(folder_of(function), system_name), name, std::array{Stage::vertex},
+                       function.defines, stage_of(function, name, ""))
+        .front()
+        .text;
+}
+
+std::vector<Parameter> uniforms_of(const GlslFunction& function) { return uniforms_in(whole_text(function)); }
 
 Called called(const GlslFunction& function, const std::vector<Column>& columns) {
     const std::string text = read_shader_file(function.file);
@@ -80,7 +125,7 @@ Called called(const GlslFunction& function, const std::vector<Column>& columns) 
                  fmt::format("column {} of the table is {}, argument {} is {}", p + 1, type_of(columns[p]), p + 1,
                              signature.parameters[p].type));
 
-    const auto [body, version] = without_version(text);
+    check_uniforms(function);
     const std::vector<std::string> names = field_names(signature);
     std::vector<Field> fields;
     std::string declared, copied;
@@ -93,26 +138,35 @@ Called called(const GlslFunction& function, const std::vector<Column>& columns) 
         arguments.push_back(columns[p].is_bool ? fmt::format("bool(a_{})", word) : "a_" + word);
     }
     fields.push_back({"result", result->scalar, result->components});
-    const std::string file = std::filesystem::path(function.file).filename().string();
-    const std::string stage =
-        fmt::format("#version{}\n#define main ls_main_of_the_file\n#include \"{}\"\n#undef main\n{}{} out_Result;\n"
-                    "void main() {{\n{}    out_Result = {}({}({}));\n}}\n",
-                    version, file, declared, output_type(*result), copied, result->is_bool ? "int" : "", function.name,
-                    fmt::join(arguments, ", "));
+    const std::string end = fmt::format("{}{} out_Result;\nvoid main() {{\n{}    out_Result = {}({}({}));\n}}\n",
+                                        declared, output_type(*result), copied, result->is_bool ? "int" : "",
+                                        function.name, fmt::join(arguments, ", "));
     Called made{
-        checked({"function", {{.name = "rows", .item = "row", .title = "the table", .fields = fields}}}), {}, {}};
+        checked({std::string(system_name), {{.name = "rows", .item = "row", .title = "the table", .fields = fields}}}),
+        {},
+        {}};
     GlPass pass;
     pass.name = pass_name;
     pass.stage = Stage::vertex;
     if (!function.uniforms.empty())
         pass.uniforms = [uniforms = function.uniforms](int) { return uniforms; };
     pass.defines = function.defines;
-    pass.texts = {{fmt::format("{}.vert", pass_name), stage}, {file, body}};
+    pass.texts = stage_of(function, pass_name, end);
     made.passes.push_back(std::move(pass));
-    made.folder = std::filesystem::path(function.file).parent_path().string();
-    if (made.folder.empty())
-        made.folder = ".";
+    made.folder = folder_of(function);
     return made;
+}
+
+MatchResult match_rows(const Gl& gl, const Called& called, const System& system, const FunctionMatchOptions& options) {
+    return with_advice([&] {
+        GlSystemSide gpu(gl, system, called.passes, called.folder);
+        return match_system(gpu, system,
+                            {.frames = 1,
+                             .legal = options.legal,
+                             .allow_undefined = options.allow_undefined,
+                             .power_at_least = options.power_at_least,
+                             .repeat = options.repeat});
+    });
 }
 
 } // namespace lockstep::function_twin

@@ -70,35 +70,6 @@ std::vector<std::pair<std::string, Signature>> definitions_in(const std::string&
     return found;
 }
 
-/// Each uniform outside of blocks: its type and name.
-std::vector<Parameter> uniforms_in(const std::string& text) {
-    const std::vector<Word> words = words_of(text);
-    std::vector<Parameter> found;
-    for (std::size_t w = 0; w + 2 < words.size(); ++w) {
-        if (words[w].text != "uniform")
-            continue;
-        std::size_t at = w + 1;
-        while (at + 1 < words.size() && qualifiers.contains(words[at].text))
-            ++at;
-        const std::string type = words[at].text;
-        int depth = 0;
-        bool named = false; // of a declarator, what comes after its name is its array and its value
-        for (++at; at < words.size() && words[at].text != ";"; ++at) {
-            const std::string& word = words[at].text;
-            if (word == "{" && !named)
-                break; // a block: its members go by it
-            depth += word == "(" || word == "[" ? 1 : word == ")" || word == "]" ? -1 : 0;
-            if (word == "," && depth == 0)
-                named = false;
-            else if (!named) {
-                found.push_back({type, word});
-                named = true;
-            }
-        }
-    }
-    return found;
-}
-
 } // namespace
 
 std::string type_of(const Column& column) {
@@ -146,18 +117,32 @@ std::string shown(const std::string& name, const Signature& signature) {
     return fmt::format("{} {}({})", signature.result, name, fmt::join(types, ", "));
 }
 
-std::string uniform_type(const std::string& text, const std::string& name) {
-    for (const Parameter& one : uniforms_in(text))
-        if (one.name == name)
-            return one.type;
-    return "";
-}
-
-std::vector<std::string> uniform_names(const std::string& text) {
-    std::vector<std::string> names;
-    for (const Parameter& one : uniforms_in(text))
-        names.push_back(one.name);
-    return names;
+std::vector<Parameter> uniforms_in(const std::string& text) {
+    const std::vector<Word> words = words_of(text);
+    std::vector<Parameter> found;
+    for (std::size_t w = 0; w + 2 < words.size(); ++w) {
+        if (words[w].text != "uniform")
+            continue;
+        std::size_t at = w + 1;
+        while (at + 1 < words.size() && qualifiers.contains(words[at].text))
+            ++at;
+        const std::string type = words[at].text;
+        int depth = 0;
+        bool named = false; // of a declarator, what comes after its name is its array and its value
+        for (++at; at < words.size() && words[at].text != ";"; ++at) {
+            const std::string& word = words[at].text;
+            if (word == "{" && !named)
+                break; // a block: its members go by it
+            depth += word == "(" || word == "[" ? 1 : word == ")" || word == "]" ? -1 : 0;
+            if (word == "," && depth == 0)
+                named = false;
+            else if (!named) {
+                found.push_back({type, word});
+                named = true;
+            }
+        }
+    }
+    return found;
 }
 
 void fail(const GlslFunction& function, const Signature& signature, const std::string& what) {

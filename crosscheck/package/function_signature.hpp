@@ -5,6 +5,7 @@
 #include <string_view>
 #include <vector>
 
+#include "gpu/nothing_given.hpp"
 #include "lockstep/function.hpp"
 
 namespace lockstep::function_twin {
@@ -34,10 +35,24 @@ std::string type_of(const Column& column);
 /// Nothing for a type that no column has.
 std::optional<Column> column_of(const std::string& type);
 
-/// The type of a uniform that the text declares outside of blocks; empty: it declares none of that name.
-std::string uniform_type(const std::string& text, const std::string& name);
-/// The names of all of them.
-std::vector<std::string> uniform_names(const std::string& text);
+/// Each uniform that the text declares outside of blocks.
+std::vector<Parameter> uniforms_in(const std::string& text);
+
+/// Those of the function's file and of what it includes.
+std::vector<Parameter> uniforms_of(const GlslFunction& function);
+
+/// The function's file with what it includes, compiled with the function's definitions.
+std::string whole_text(const GlslFunction& function);
+
+/// Runs `run`, and says how a function's uniforms get values where one has none.
+template <class Run> auto with_advice(const Run& run) {
+    try {
+        return run();
+    } catch (const NothingGiven& missing) {
+        throw Error("shader " + missing.names +
+                    "; --uniform NAME=VALUE gives it, in a test the uniforms of GlslFunction (docs/functions.md)");
+    }
+}
 
 /// Throws Error: "shader FILE:LINE: vec3 bounce(vec3, float): what".
 [[noreturn]] void fail(const GlslFunction& function, const Signature& signature, const std::string& what);

@@ -1,10 +1,12 @@
 #include "lockstep/function_table.hpp"
 
 #include <bit>
+#include <cmath>
 
 #include <fmt/format.h>
 
 #include "crosscheck/files/plain_text.hpp"
+#include "crosscheck/package/function_signature.hpp"
 #include "crosscheck/report/value_text.hpp"
 #include "reference/model/error.hpp"
 #include "reference/system/item_words.hpp"
@@ -19,6 +21,14 @@ constexpr Site expected{"expected"};
 LegalWord exact(const Value& whole) {
     const auto value = static_cast<double>(whole.integer());
     return {whole.bits, {value, value}};
+}
+
+bool is_subnormal(std::uint32_t word) { return (word & 0x7f800000U) == 0 && (word & 0x007fffffU) != 0; }
+
+/// A float that a reading may take for 0, and this thread, too, while it flushes: a result of 0 is another.
+LegalWord exact_subnormal(std::uint32_t word) {
+    const double value = std::ldexp(static_cast<double>(word & 0x007fffffU), -149) * ((word >> 31U) != 0 ? -1.0 : 1.0);
+    return {word, {value, value}};
 }
 
 /// Leaves the arguments as they are and returns the result that is expected of the row.
@@ -39,7 +49,15 @@ struct ExpectedResult {
         const auto components = static_cast<std::size_t>(columns.back().components);
         const std::uint32_t* const words = results.data() + item * components;
         const auto at = [&](std::size_t c) { return r.uniform(site::expected, std::bit_cast<float>(words[c])); };
-        const auto add = [&](const auto&... numbers) { (row.add(numbers), ...); };
+        std::size_t added = 0;
+        const auto add_one = [&](const auto& number) {
+            const std::uint32_t word = words[added++];
+            if (is_subnormal(word))
+                row.add(exact_subnormal(word));
+            else
+                row.add(number);
+        };
+        const auto add = [&](const auto&... numbers) { (add_one(numbers), ...); };
         const Site& noted = function_twin::site::result;
         if (columns.back().scalar != Scalar::float32) {
             for (std::size_t c = 0; c < components; ++c)
@@ -114,11 +132,13 @@ System system_of(const GlslFunction& function, const function_twin::Called& call
 std::vector<std::uint32_t> returned(const Gl& gl, const GlslFunction& function, const FunctionRows& rows) {
     const function_twin::Called called = function_twin::called(function, rows.columns);
     const System system = system_of(function, called, rows, {});
-    GlSystemSide gpu(gl, system, called.passes, called.folder);
-    gpu.upload(system.start.view());
-    gpu.step(0, 0);
     SystemState after = system.start;
-    gpu.read(after);
+    function_twin::with_advice([&] {
+        GlSystemSide gpu(gl, system, called.passes, called.folder);
+        gpu.upload(system.start.view());
+        gpu.step(0, 0);
+        gpu.read(after);
+    });
     const FieldId result{0, static_cast<std::uint8_t>(rows.columns.size())};
     std::vector<std::uint32_t> words;
     const SystemView view = after.view();
@@ -126,6 +146,12 @@ std::vector<std::uint32_t> returned(const Gl& gl, const GlslFunction& function, 
         for (int c = 0; c < called.schema[result].components; ++c)
             words.push_back(view.word(result, row, c));
     return words;
+}
+
+/// Whether two functions are one.
+bool is_same(const GlslFunction& a, const GlslFunction& b) {
+    return a.name == b.name && a.uniforms == b.uniforms && a.defines == b.defines &&
+           function_twin::whole_text(a) == function_twin::whole_text(b);
 }
 
 /// "row 7 (walls.csv:9): velocity (1, -2, 0), n (0, 1, 0)"
@@ -145,7 +171,8 @@ std::string row_text(const FunctionRows& rows, std::size_t row) {
 }
 
 MatchResult match_results(const Gl& gl, const GlslFunction& function, const FunctionRows& rows,
-                          std::vector<std::uint32_t> results, const std::string& expected, MatchOptions options) {
+                          std::vector<std::uint32_t> results, const std::string& expected,
+                          const FunctionMatchOptions& options) {
     const function_twin::Called called = function_twin::called(function, rows.columns);
     constexpr std::size_t most = ItemWords<Values<PlainArithmetic>>::most;
     if (words_of(all_columns(called.schema)) > most)
@@ -153,9 +180,7 @@ MatchResult match_results(const Gl& gl, const GlslFunction& function, const Func
                                 function.name, most));
     System system = system_of(function, called, rows, std::move(results));
     system.settings = expected;
-    GlSystemSide gpu(gl, system, called.passes, called.folder);
-    options.frames = 1;
-    const MatchResult result = match_system(gpu, system, options);
+    const MatchResult result = function_twin::match_rows(gl, called, system, options);
     RunDescription about = result.run();
     about.scene = fmt::format("{} ({}, {})", function.name, plain_line(function.file), rows.file);
     if (const auto& verdicts = result.report().verdicts; verdicts && verdicts->first)
@@ -165,14 +190,19 @@ MatchResult match_results(const Gl& gl, const GlslFunction& function, const Func
 
 } // namespace
 
-MatchResult match_function(const Gl& gl, const GlslFunction& function, const FunctionRows& rows, MatchOptions options) {
+MatchResult match_function(const Gl& gl, const GlslFunction& function, const FunctionRows& rows,
+                           const FunctionMatchOptions& options) {
     if (!rows.results)
         throw Error(fmt::format("{}: no column result, so nothing is expected of {}", rows.file, function.name));
-    return match_results(gl, function, rows, *rows.results, "results of the table", std::move(options));
+    return match_results(gl, function, rows, *rows.results, "results of the table", options);
 }
 
 MatchResult match_function(const Gl& gl, const GlslFunction& function, const FunctionRows& rows,
-                           const GlslFunction& like, MatchOptions options) {
+                           const GlslFunction& like, const FunctionMatchOptions& options) {
+    if (is_same(function, like))
+        throw Error(fmt::format("function: {} of {} is compared with itself: {} has the same text; expected another "
+                                "function",
+                                function.name, plain_line(function.file), plain_line(like.file)));
     const function_twin::Called one = function_twin::called(function, rows.columns);
     const function_twin::Called other = function_twin::called(like, rows.columns);
     const Field& wanted = one.schema.resources.front().fields.back();
@@ -181,7 +211,7 @@ MatchResult match_function(const Gl& gl, const GlslFunction& function, const Fun
         throw Error(fmt::format("{}: {} returns another type than {} of {}", plain_line(like.file), like.name,
                                 function.name, plain_line(function.file)));
     return match_results(gl, function, rows, returned(gl, like, rows),
-                         fmt::format("results of {} ({})", like.name, plain_line(like.file)), std::move(options));
+                         fmt::format("results of {} ({})", like.name, plain_line(like.file)), options);
 }
 
 } // namespace lockstep

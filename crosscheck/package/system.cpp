@@ -54,7 +54,7 @@ SideDescription GlSystemSide::describe() const {
             {}};
 }
 
-MatchResult match_system(SystemSide& gpu, const System& system, const MatchOptions& options) {
+MatchResult match_system(SystemSide& gpu, const System& system, const SystemMatchOptions& options) {
     const SideDescription side = gpu.describe();
     CheckOptions check_options;
     check_options.mode = options.mode;

@@ -1,6 +1,9 @@
 #include <cmath>
 #include <cstdint>
+#include <filesystem>
 #include <fstream>
+#include <iterator>
+#include <sstream>
 #include <string>
 #include <vector>
 
@@ -232,6 +235,153 @@ TEST_CASE("function: a macro needs a name") {
         CHECK_THAT(refusal(setting.run(table, {"--define", define})),
                    Contains("is no name of a macro; right is NAME=TEXT"));
     }
+}
+
+TEST_CASE("function: a uniform of integers keeps every bit, and is read as a table's number is") {
+    if (!have_software_gl())
+        return;
+    const Setting setting;
+    const std::string shader =
+        setting.file("whole.glsl", "uniform int u_N;\nuniform uint u_U;\nuniform ivec2 u_V;\nuniform float u_F;\n"
+                                   "int plus(int x) { return x + u_N; }\n"
+                                   "uint plus_u(uint x) { return x + u_U; }\n"
+                                   "int plus_v(int x) { return x + u_V.x - u_V.y; }\n"
+                                   "float scaled(float x) { return x * u_F; }\n");
+    const auto run = [&](const std::string& name, const std::string& rows, const std::string& uniform) {
+        return run_lockstep({"function", shader, name, "--table", setting.file(name + ".csv", "x, result\n" + rows),
+                             "--uniform", uniform, "--gl", software_gl()});
+    };
+    CHECK(run("plus", "0, 16777217\n", "u_N=16777217").status == 0);
+    CHECK(run("plus", "0, 16777216\n", "u_N=16777217").status == 1);
+    CHECK(run("plus", "0, -2147483648\n", "u_N=-2147483648").status == 0);
+    CHECK(run("plus_u", "0, 4294967295\n", "u_U=4294967295").status == 0);
+    CHECK(run("plus_u", "0, 255\n", "u_U=0xff").status == 0);
+    CHECK(run("plus_v", "0, -3\n", "u_V=33554433,33554436").status == 0);
+    CHECK(run("scaled", "8, 1\n", "u_F=0x1p-3").status == 0);
+    CHECK(run("scaled", "1, 1.0000001192092896\n", "u_F=1.00000005960464477539062500001").status == 0);
+    CHECK_THAT(refusal(run("plus", "0, 0\n", "u_N=2147483648")), Contains("'2147483648' is no int; right is"));
+    CHECK_THAT(refusal(run("plus", "0, 0\n", "u_N=0.5")), Contains("'0.5' is no int; right is NAME=NUMBER"));
+}
+
+TEST_CASE("function: a row of JSON is rounded once, too") {
+    if (!have_software_gl())
+        return;
+    const Setting setting;
+    const std::string shader = setting.file("same.glsl", "float same(float x) { return x; }\n");
+    for (const char* const row : {R"({"x": 1.00000005960464477539062500001, "result": 1.0000001192092896})",
+                                  R"({"x": 9007199791611905, "result": 9007200328482816})",
+                                  R"({"x": 3.4028234663852886e38, "result": "0x1.fffffep127"})"}) {
+        const Outcome outcome =
+            run_lockstep({"function", shader, "same", "--table",
+                          setting.file("rows.json", "[" + std::string(row) + "]"), "--gl", software_gl()});
+        INFO(outcome.out << outcome.err);
+        CHECK(outcome.status == 0);
+    }
+}
+
+TEST_CASE("function: a row that expects a subnormal is not met by 0") {
+    if (!have_software_gl())
+        return;
+    const Setting setting;
+    const std::string shader = setting.file("zero.glsl", "float zero(float x) { return 0.0; }\n"
+                                                         "vec2 zeros(float x) { return vec2(0.0); }\n");
+    for (const char* const expected : {"1e-40", "1.1754942e-38", "-1e-39", "1e-45"}) {
+        INFO(expected);
+        const auto run = [&](const std::string& name, const std::string& rows) {
+            return run_lockstep(
+                {"function", shader, name, "--table", setting.file("rows.csv", rows), "--gl", software_gl()});
+        };
+        const Outcome one = run("zero", fmt::format("x, result\n1, {}\n", expected));
+        CHECK(one.status == 1);
+        CHECK_THAT(one.out, Contains("DIVERGENT"));
+        CHECK(run("zeros", fmt::format("x, result.x, result.y\n1, 0, {}\n", expected)).status == 1);
+    }
+}
+
+TEST_CASE("function: one that is compared with itself is refused") {
+    if (!have_software_gl())
+        return;
+    const Setting setting;
+    const std::string table = setting.file("rows.csv", "velocity.x,velocity.y,velocity.z,n.x,n.y,n.z\n1,-2,0,0,1,0\n");
+    const auto like = [&](const std::vector<std::string>& options) { return setting.run(table, options); };
+    const std::string copy = setting.file("copy.glsl", wall);
+    for (const std::string& other : {setting.shader, copy})
+        CHECK_THAT(refusal(like({"--like", other})), Contains("bounce of ") && Contains("is compared with itself: ") &&
+                                                         Contains("expected another function"));
+    const std::string renamed = setting.file("renamed.glsl", replaced(wall, "bounce(", "reflected("));
+    CHECK(like({"--like", renamed, "--like-name", "reflected"}).status == 0);
+}
+
+TEST_CASE("function: uniforms of included files and of the other shader count") {
+    if (!have_software_gl())
+        return;
+    const Setting setting;
+    setting.folder.write("kept.glsl", "uniform float u_Share;\n");
+    const std::string shader = setting.file("with.glsl", "#include \"kept.glsl\"\n"
+                                                         "float scaled(float x) { return x * u_Share; }\n");
+    const std::string other = setting.file("other.glsl", "uniform float u_Part;\n"
+                                                         "float scaled(float x) { return x * u_Part; }\n");
+    const std::string table = setting.file("rows.csv", "x\n4\n");
+    const auto run = [&](const std::vector<std::string>& uniforms) {
+        std::vector<std::string> command{"function", shader, "scaled", "--table",    table,
+                                         "--like",   other,  "--gl",   software_gl()};
+        for (const std::string& uniform : uniforms)
+            command.insert(command.end(), {"--uniform", uniform});
+        return run_lockstep(command);
+    };
+    CHECK(run({"u_Share=0.5", "u_Part=0.5"}).status == 0);
+    CHECK(run({"u_Share=0.5", "u_Part=0.25"}).status == 1);
+    CHECK_THAT(refusal(run({"u_Share=0.5", "u_Prt=0.5"})), Contains("declares no uniform u_Prt; did you mean u_Part?"));
+    const std::string missing = refusal(run({"u_Part=0.5"}));
+    CHECK_THAT(missing, Contains("kept.glsl:1: nothing is given for uniform u_Share; --uniform NAME=VALUE gives it"));
+    CHECK_THAT(missing, !Contains("bindings.json"));
+}
+
+TEST_CASE("function: each command of its page works as printed") {
+    if (!have_software_gl())
+        return;
+    std::ifstream stream("docs/functions.md");
+    const std::string page{std::istreambuf_iterator<char>(stream), {}};
+    // The next indented block behind some words, without its indent.
+    const auto block_behind = [&](const std::string& words) {
+        std::istringstream lines(page.substr(page.find(words)));
+        std::string text;
+        for (std::string line; std::getline(lines, line);)
+            if (line.starts_with("    "))
+                text += line.substr(4) + "\n";
+            else if (!text.empty())
+                break;
+        return text;
+    };
+    const TemporaryFolder folder;
+    std::filesystem::create_directory(folder.path() / "shaders");
+    folder.write("shaders/wall.glsl", block_behind("`shaders/wall.glsl` holds the function"));
+    folder.write("walls.csv", block_behind("`walls.csv`:"));
+    folder.write("walls.json", block_behind("The same as JSON"));
+    folder.write("plain.glsl", block_behind("`plain.glsl`:"));
+    folder.write("rows.csv", block_behind("`rows.csv`:"));
+    int commands = 0;
+    const auto run = [&](std::vector<std::string> command) {
+        command.insert(command.end(), {"--gl", software_gl()});
+        const Outcome outcome =
+            run_lockstep(command, {.environment = {{"LOCKSTEP_DATA", std::filesystem::current_path().string()}},
+                                   .folder = folder.path().string()});
+        INFO(outcome.out << outcome.err);
+        CHECK(outcome.status == 0);
+        CHECK_THAT(outcome.out, Contains("AGREE: every bit of "));
+        ++commands;
+    };
+    std::istringstream lines(page);
+    for (std::string line; std::getline(lines, line);) {
+        std::istringstream words(line);
+        std::vector<std::string> command{std::istream_iterator<std::string>(words), {}};
+        if (!line.starts_with("    lockstep function "))
+            continue;
+        command.erase(command.begin());
+        run(command);
+    }
+    CHECK(commands == 2);
+    run({"function", "shaders/wall.glsl", "bounce", "--table", "walls.json", "--uniform", "u_Kept=0.5"});
 }
 
 TEST_CASE("function: a row that rests on an operand without a result is UNDEFINED with its rule, whatever came out") {

@@ -1,6 +1,7 @@
 #include <fstream>
 #include <sstream>
 #include <string>
+#include <type_traits>
 
 #include <catch2/catch.hpp>
 #include <lockstep/catch.hpp>
@@ -226,3 +227,26 @@ TEST_CASE("function: what cannot be run says where and what would be right") {
         error_of(replaced(replaced(bounce_text, "u_Kept;", "u_Kept, u_More;"), "1.0 + u_Kept", "u_More + u_Kept")),
         Contains("nothing is given for uniform u_More"));
 }
+
+TEST_CASE("function: a value for a uniform that no file declares is an error that names those there are") {
+    if (!gl())
+        return skip(gl().missing());
+    const TemporaryFolder folder;
+    const std::string file = folder.write("wall.glsl", bounce_text).string();
+    CHECK_THROWS_WITH(match_function(gl(), {file, "bounce", {{"u_Kept", 0.5F}, {"u_Kep", 0.5F}}}, walls(1), bounce),
+                      Contains("wall.glsl: declares no uniform u_Kep; it has u_Kept; did you mean u_Kept?"));
+    CHECK_THROWS_WITH(match_function(gl(), {file, "bounce"}, walls(1), bounce),
+                      Contains("nothing is given for uniform u_Kept") && Contains("the uniforms of GlslFunction") &&
+                          !Contains("bindings.json"));
+}
+
+// What no system and no function has is no option of theirs.
+template <class Options> constexpr bool has_render = requires(Options o) { o.render; };
+template <class Options> constexpr bool has_hits = requires(Options o) { o.require_hits; };
+template <class Options> constexpr bool has_frames = requires(Options o) { o.frames; };
+static_assert(has_render<MatchOptions> && has_hits<MatchOptions>);
+static_assert(!has_render<SystemMatchOptions> && !has_hits<SystemMatchOptions> && has_frames<SystemMatchOptions>);
+static_assert(!has_render<FunctionMatchOptions> && !has_hits<FunctionMatchOptions> &&
+              !has_frames<FunctionMatchOptions>);
+static_assert(std::is_invocable_v<decltype(match_system), SystemSide&, const System&, const SystemMatchOptions&> &&
+              !std::is_invocable_v<decltype(match_system), SystemSide&, const System&, const MatchOptions&>);

@@ -28,8 +28,16 @@ namespace lockstep {
 struct GlslFunction {
     std::string file; ///< that defines it: functions alone, or a whole stage, whose main is then left out
     std::string name;
-    Uniforms uniforms = {};     ///< that it reads
+    Uniforms uniforms = {};     ///< that its file declares, or a file that it includes
     ShaderDefines defines = {}; ///< what its file is compiled with
+};
+
+/// How a function's results are compared; as SystemMatchOptions.
+struct FunctionMatchOptions {
+    Legal legal = Legal::measured;
+    bool allow_undefined = false;
+    double power_at_least = 0.0;
+    std::string repeat = {};
 };
 
 /// A table of arguments of the function's own types: float, int, std::uint32_t, bool, or a vector of GLM's of the first
@@ -75,8 +83,12 @@ struct Called {
     std::string folder;
 };
 
-/// Throws Error with FILE:LINE where there is no such function, or where it takes or returns something else.
+/// Throws Error with FILE:LINE where there is no such function, where it takes or returns something else, and for a
+/// uniform that is not declared.
 Called called(const GlslFunction& function, const std::vector<Column>& columns);
+
+/// Runs the function on the rows that the system starts from. Throws Error where it reads a uniform without a value.
+MatchResult match_rows(const Gl& gl, const Called& called, const System& system, const FunctionMatchOptions& options);
 
 namespace site {
 inline constexpr Site argument{"argument"}, result{"result", "result"};
@@ -155,9 +167,9 @@ template <class Argument> void put(SystemState& state, FieldId field, std::size_
 
 /// Runs both on every row. `twin(r, arguments...)`: the function in the words of a twin (docs/own_system.md), a generic
 /// lambda; it returns a number or vector of the reading's. Throws Error where the function cannot be run so.
-template <class... Arguments, class Twin> MatchResult match_function(const Gl& gl, const GlslFunction& function,
-                                                                     const FunctionTable<Arguments...>& table,
-                                                                     Twin twin, MatchOptions options = {}) {
+template <class... Arguments, class Twin>
+MatchResult match_function(const Gl& gl, const GlslFunction& function, const FunctionTable<Arguments...>& table,
+                           Twin twin, const FunctionMatchOptions& options = {}) {
     const function_twin::Called called = function_twin::called(function, {function_twin::column_of<Arguments>()...});
     System system{.name = function.name,
                   .schema = called.schema,
@@ -174,9 +186,7 @@ template <class... Arguments, class Twin> MatchResult match_function(const Gl& g
              ...);
         }
     (std::index_sequence_for<Arguments...>{});
-    GlSystemSide gpu(gl, system, called.passes, called.folder);
-    options.frames = 1;
-    return match_system(gpu, system, options);
+    return function_twin::match_rows(gl, called, system, options);
 }
 
 } // namespace lockstep

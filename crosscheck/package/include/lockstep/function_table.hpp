@@ -37,10 +37,11 @@ FunctionRows read_function_rows(const GlslFunction& function, const std::filesys
 /// Runs the function on every row and holds what it returns against the results of the rows; another bit is divergent.
 /// Throws Error where the rows have none.
 MatchResult match_function(const Gl& gl, const GlslFunction& function, const FunctionRows& rows,
-                           MatchOptions options = {});
+                           const FunctionMatchOptions& options = {});
 
-/// The same against what another function with the same arguments returns on the same GL.
+/// The same against what another function with the same arguments returns on the same GL. Throws Error where both are
+/// one: the same text, definitions and uniforms.
 MatchResult match_function(const Gl& gl, const GlslFunction& function, const FunctionRows& rows,
-                           const GlslFunction& like, MatchOptions options = {});
+                           const GlslFunction& like, const FunctionMatchOptions& options = {});
 
 } // namespace lockstep

@@ -50,7 +50,17 @@ class GlSystemSide final : public SystemSide {
     GlSystem system_;
 };
 
+/// How a side is compared with a system's twins; as the options of `lockstep check` of the same names.
+struct SystemMatchOptions {
+    int frames = 60; ///< from the system's start
+    CheckMode mode = CheckMode::resync;
+    Legal legal = Legal::measured;
+    bool allow_undefined = false; ///< pass what rests on what GL leaves open
+    double power_at_least = 0.0;  ///< fail a run that would have shown a smaller share of the mistakes with names
+    std::string repeat = {};      ///< the command that repeats it; empty: this program's own command line
+};
+
 /// Runs both sides for `frames` frames; what check() found, with the heading of a report.
-MatchResult match_system(SystemSide& gpu, const System& system, const MatchOptions& options = {});
+MatchResult match_system(SystemSide& gpu, const System& system, const SystemMatchOptions& options = {});
 
 } // namespace lockstep

@@ -265,6 +265,10 @@ class Assembly {
                 continue;
             }
             note_condition(line);
+            if (const auto renumbered = directive(line, "line")) {
+                append_line(without_renumbering(line, *renumbered), {file, number});
+                continue;
+            }
             append_line(line, {file, number});
             if (const auto version = directive(line, "version"); version && !has_version_) {
                 check_version(*version, fmt::format("shader {}:{}: ", shown(path), number));
@@ -274,6 +278,13 @@ class Assembly {
             }
         }
         open_.pop_back();
+    }
+
+    /// A `#line` is left out, since errors are reported by the lines of the files. One with a file's name is refused as
+    /// GL does, where the preprocessor comes to it.
+    static std::string without_renumbering(const std::string& line, std::string_view argument) {
+        return argument.find('"') == std::string_view::npos ? "//" + line
+                                                            : "#error in GLSL #line takes numbers alone, no file name";
     }
 
     void note_condition(std::string_view line) {

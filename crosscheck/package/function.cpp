@@ -13,6 +13,7 @@
 #include "crosscheck/package/function_signature.hpp"
 #include "gpu/gl_system.hpp"
 #include "gpu/shader_source.hpp"
+#include "gpu/shader_words.hpp"
 #include "reference/model/near_name.hpp"
 
 namespace lockstep::function_twin {
@@ -47,23 +48,12 @@ std::string output_type(const Column& column) {
     return fmt::format("{}out {}", column.scalar == Scalar::float32 ? "" : "flat ", stored_type(column));
 }
 
-/// The text without its line #version, and what that line asks for.
-std::pair<std::string, std::string> without_version(const std::string& text) {
-    std::string rest, version = " 400 core";
-    std::size_t from = 0;
-    while (from < text.size()) {
-        const std::size_t end = std::min(text.find('\n', from), text.size());
-        const std::string line = text.substr(from, end - from);
-        const std::size_t word = line.find_first_not_of(" \t");
-        if (word != std::string::npos && line[word] == '#' && line.find("version", word) != std::string::npos &&
-            line.find_first_not_of(" \t", word + 1) == line.find("version", word))
-            version = line.substr(line.find("version", word) + 7);
-        else
-            rest += line;
-        rest += '\n';
-        from = end + 1;
-    }
-    return {rest, version};
+bool has_version(const std::string& text) {
+    std::string_view last;
+    for (ShaderWords words(text); words.next(); last = words.token())
+        if (last == "#" && words.token() == "version")
+            return true;
+    return false;
 }
 
 /// Where files that it includes are looked for.
@@ -72,14 +62,20 @@ std::string folder_of(const GlslFunction& function) {
     return folder.empty() ? "." : folder;
 }
 
-/// A vertex stage of that name: the function's file, whose main goes by another name, and `end` behind it.
+/// A vertex stage of that name: the function's file, whose main goes by another name (defines_of), and `end` behind it.
 ShaderTexts stage_of(const GlslFunction& function, std::string_view name, const std::string& end) {
-    const auto [body, version] = without_version(read_shader_file(function.file));
+    const std::string text = read_shader_file(function.file);
     const std::string file = std::filesystem::path(function.file).filename().string();
-    return {{fmt::format("{}.vert", name),
-             fmt::format("#version{}\n#define main ls_main_of_the_file\n#include \"{}\"\n#undef main\n{}", version,
-                         file, end)},
-            {file, body}};
+    return {{fmt::format("{}.vert", name), fmt::format("{}#include \"{}\"\n#undef main\n{}",
+                                                       has_version(text) ? "" : "#version 400 core\n", file, end)},
+            {file, text}};
+}
+
+/// The function's, and one behind #version, which may be the file's own, that gives the file's main another name.
+auto defines_of(const GlslFunction& function) {
+    auto defines = function.defines;
+    defines.emplace_back("main", "ls_main_of_the_file");
+    return defines;
 }
 
 /// Throws Error for a value of a uniform that is not there.
@@ -102,7 +98,7 @@ void check_uniforms(const GlslFunction& function) {
 std::string whole_text(const GlslFunction& function) {
     constexpr std::string_view name = "file";
     return load_stages(shader_folders(folder_of(function), system_name), name, std::array{Stage::vertex},
-                       function.defines, stage_of(function, name, ""))
+                       defines_of(function), stage_of(function, name, ""))
         .front()
         .text;
 }
@@ -150,7 +146,7 @@ Called called(const GlslFunction& function, const std::vector<Column>& columns) 
     pass.stage = Stage::vertex;
     if (!function.uniforms.empty())
         pass.uniforms = [uniforms = function.uniforms](int) { return uniforms; };
-    pass.defines = function.defines;
+    pass.defines = defines_of(function);
     pass.texts = stage_of(function, pass_name, end);
     made.passes.push_back(std::move(pass));
     made.folder = folder_of(function);

@@ -93,7 +93,7 @@ Capture linked_capture(GLuint program, GLuint index) {
 
 void check_capture_type(GLuint program, GLuint index, const Capture& capture, std::span<const ShaderSource> stages) {
     const auto [name, type, size] = linked_capture(program, index);
-    if (name != capture.name)
+    if (!is_same_output(name, capture.name))
         throw Error(fmt::format("shader {}: a layout(xfb_...) of its own has {} captured in the place of {}",
                                 last_vertex_stage_file(stages), name, capture.name));
     const ShaderSource* last = last_vertex_stage(stages);
@@ -158,8 +158,12 @@ std::vector<Capture> outputs_with(std::string_view prefix, std::span<const Shade
         gl::AttachShader(program, shader.id());
     std::vector<Capture> outputs;
     for (const std::string& word : words_with(prefix, last->text))
-        if (const Capture candidate{word}; link(program, {&candidate, 1}))
-            outputs.push_back(linked_capture(program, 0));
+        for (const std::string& name : spellings(last->text, word))
+            if (const Capture candidate{name}; link(program, {&candidate, 1})) {
+                outputs.push_back(linked_capture(program, 0));
+                outputs.back().name = word;
+                break;
+            }
     gl::DeleteProgram(program);
     check_gl("outputs");
     return outputs;
@@ -194,7 +198,7 @@ void Program::link_texts(std::span<const ShaderSource> stages, std::span<const C
     std::vector<ShaderObject> shaders;
     for (const ShaderSource& stage : stages)
         gl::AttachShader(id_, shaders.emplace_back(stage).id());
-    if (!link(id_, outputs)) {
+    if (!link(id_, outputs) && accepted_spellings(id_, stages, outputs).empty()) {
         check_geometry_inputs(stages);
         throw Error(fmt::format("{}: {}", name_, link_failure(id_, stages, outputs)));
     }

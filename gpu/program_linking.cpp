@@ -35,6 +35,25 @@ bool link(GLuint program, std::span<const Capture> captured) {
     return linked == GL_TRUE;
 }
 
+std::vector<Capture> accepted_spellings(GLuint program, std::span<const ShaderSource> stages,
+                                        std::span<const Capture> captured) {
+    const ShaderSource* const last = last_vertex_stage(stages);
+    const auto names = [&](const Capture& capture) { return spellings(last->text, capture.name); };
+    if (last == nullptr || std::ranges::all_of(captured, [&](const Capture& one) { return names(one).size() == 1; }))
+        return {};
+    std::vector<Capture> accepted;
+    for (const Capture& capture : captured)
+        for (const std::string& name : names(capture))
+            if (const Capture one{name, capture.type, capture.size}; link(program, {&one, 1})) {
+                accepted.push_back(one);
+                break;
+            }
+    if (accepted.size() == captured.size() && link(program, accepted))
+        return accepted;
+    link(program, captured); // its log is what is reported
+    return {};
+}
+
 std::string link_failure(GLuint program, std::span<const ShaderSource> stages, std::span<const Capture> captured) {
     const std::string reason = first_link_error(link_log(program));
     if (const std::string flat = missing_flat(stages); !flat.empty())

@@ -1,6 +1,7 @@
 #pragma once
 #include <span>
 #include <string>
+#include <vector>
 
 #include "gpu/program.hpp"
 
@@ -10,6 +11,11 @@ namespace lockstep {
 
 /// False where it does not link. `captured` is what transform feedback captures; modules say it themselves.
 bool link(GLuint program, std::span<const Capture> captured);
+
+/// The names of which the driver takes one each for the outputs: its own, or one with the block that it lies in
+/// (spellings). Empty where it takes none for one of them; the program is then linked as before.
+std::vector<Capture> accepted_spellings(GLuint program, std::span<const ShaderSource> stages,
+                                        std::span<const Capture> captured);
 
 /// Why a program that failed to link did: a driver's own message need not name the output that is missing, so each is
 /// tried by itself.

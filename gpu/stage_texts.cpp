@@ -96,6 +96,50 @@ bool goes_by_location(const ShaderSource& stage) {
     return false;
 }
 
+std::vector<std::string> spellings(std::string_view text, const std::string& output) {
+    const std::string own = output.substr(output.rfind('.') + 1);
+    std::vector<std::string> names{output};
+    const auto add = [&](const std::string& name) {
+        if (std::find(names.begin(), names.end(), name) == names.end())
+            names.push_back(name);
+    };
+    std::string block, last, open; // the words before, and the block that is read
+    bool is_open = false, has_member = false, is_closed = false;
+    for (ShaderWords words(text); words.next();) {
+        const std::string word(words.token());
+        if (is_closed) { // an instance, or the end
+            if (has_member && word != ";")
+                add(word + "." + own);
+            is_closed = has_member = false;
+        } else if (is_open) {
+            has_member = has_member || ((word == ";" || word == "[" || word == ",") && last == own);
+            if (word == "}") {
+                if (has_member) {
+                    add(open + "." + own);
+                    add(own);
+                }
+                is_open = false;
+                is_closed = true;
+            }
+        } else if (word == "{" && block == "out") {
+            is_open = true;
+            open = last;
+        }
+        block = std::exchange(last, word);
+    }
+    return names;
+}
+
+bool is_same_output(std::string_view one, std::string_view other) {
+    const auto own = [](std::string_view name) {
+        if (name.ends_with("[0]"))
+            name.remove_suffix(3);
+        return name.substr(name.rfind('.') + 1);
+    };
+    const auto has_block = [](std::string_view name) { return name.find('.') != std::string_view::npos; };
+    return one == other || (own(one) == own(other) && (has_block(one) || has_block(other)));
+}
+
 std::string missing_flat(std::span<const ShaderSource> stages) {
     const ShaderSource* last = last_vertex_stage(stages);
     const auto fragment =

@@ -3,6 +3,7 @@
 #include <span>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "gpu/gl.hpp"
 #include "gpu/shader_source.hpp"
@@ -21,6 +22,13 @@ std::set<std::string> words_with(std::string_view prefix, std::string_view text)
 
 /// Whether what goes between a GLSL stage and its neighbours does by location.
 bool goes_by_location(const ShaderSource& stage);
+
+/// The names that an output of a stage may go by. GL: its own; of a block that has an instance, BLOCK.NAME. Drivers
+/// may ask for the block's name, or the instance's, where GL does not. The one that is asked for comes first.
+std::vector<std::string> spellings(std::string_view text, const std::string& output);
+
+/// Whether a driver's name of an output, with or without its block, is that of another spelling.
+bool is_same_output(std::string_view one, std::string_view other);
 
 /// An output that is interpolated, and read `flat`, in one sentence; empty: there is none. Before GLSL 4.40 both sides
 /// of the border say `flat`, or neither.

@@ -91,7 +91,8 @@ class Syntax : public nlohmann::json_sax<json> {
         std::string text;
         for (const Level& level : std::span(open_).first(open_.size() - 1)) {
             const std::string quoted = dumped(level.place);
-            text += "/" + (level.is_array ? std::to_string(level.index - 1) : quoted.substr(1, quoted.size() - 2));
+            text += '/';
+            text += level.is_array ? std::to_string(level.index - 1) : quoted.substr(1, quoted.size() - 2);
         }
         return text.empty() ? "/" : shortened(std::move(text), 200);
     }

@@ -2,11 +2,15 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <string_view>
 
+#include <glm/common.hpp>
 #include <glm/vec3.hpp>
 
 #include "reference/interval.hpp"
 #include "reference/model/clip_space.hpp"
+#include "reference/model/window_accuracy.hpp"
+#include "reference/triangle_interpolation.hpp"
 
 namespace lockstep {
 
@@ -67,6 +71,37 @@ inline LegalFragment legal_fragment(const std::array<std::array<Interval, 4>, 3>
     if (depth.reversed())
         fragment.depth = negate(fragment.depth);
     return fragment;
+}
+
+/// The row that a profile does not follow where a fragment stage takes what the driver interpolates over a triangle,
+/// which no probe measures: it depends on the triangle.
+inline constexpr std::string_view driver_interpolates_row = "triangles: interpolation";
+
+/// By how much more may differ what the driver interpolates: each component, and the window depth.
+struct DriverInterpolation {
+    glm::vec3 position{0.0F};
+    double depth = 0.0;
+};
+
+/// GL gives the equations (4.5, 14.6.1) and for operations of fixed function 1 part in 10^5 (2.3.4.1), here of the
+/// largest corner; and the driver may evaluate them over corners that its grid has moved by `step` pixels.
+template <class A> DriverInterpolation driver_interpolation(A fp, const TriangleInterpolation<A>& at,
+                                                            const std::array<glm::vec3, 3>& corners, int x, int y,
+                                                            double step) {
+    DriverInterpolation most;
+    const auto weights = at.weights(x, y);
+    const glm::vec3 here = at.mix(fp, corners, weights);
+    constexpr std::array<std::array<int, 2>, 4> beside{{{-1, 0}, {1, 0}, {0, -1}, {0, 1}}};
+    for (const auto& [dx, dy] : beside) {
+        const auto there = at.weights(x + dx, y + dy);
+        most.position = glm::max(most.position, glm::abs(at.mix(fp, corners, there) - here));
+        most.depth = std::max(most.depth, std::abs(double{at.depth(there)} - double{at.depth(weights)}));
+    }
+    const glm::vec3 largest = glm::max(glm::max(glm::abs(corners[0]), glm::abs(corners[1])), glm::abs(corners[2]));
+    const auto steps = static_cast<float>(2.0 * step); // along x and along y
+    most.position = steps * most.position + static_cast<float>(gl_window_accuracy.ndc) * largest;
+    most.depth = 2.0 * step * most.depth + gl_window_accuracy.ndc;
+    return most;
 }
 
 } // namespace lockstep

@@ -20,7 +20,7 @@
 #include "crosscheck/files/threads.hpp"
 #include "crosscheck/report/colour.hpp"
 #include "crosscheck/report/progress.hpp"
-#include "crosscheck/scene/profiles.hpp"
+#include "crosscheck/scene/fragment_stages.hpp"
 #include "gpu/context.hpp"
 #include "reference/model/error.hpp"
 
@@ -81,7 +81,7 @@ CutCapsule cut_live(const CapsuleRequest& options) {
     static_cast<void>(shaders_to_run(options.run, scene, options.pixel.has_value()));
     const std::size_t pixel = options.pixel ? pixel_named(*options.pixel, scene) : 0;
     const Context context(parse_context_request(options.run.gl));
-    const Profile profile = measured_profile(context, options.run.shaders);
+    const Profile profile = measured_profile(context, scene, options.run.shaders);
     FrameRun run(scene, profile, known_operations(options.legal, profile), options.run.shaders);
     const std::string renderer = summary(context.describe()), settings = settings_text(options.run, scene);
     if (!options.pixel)

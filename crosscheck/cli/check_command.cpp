@@ -39,8 +39,8 @@
 #include "crosscheck/report/power_text.hpp"
 #include "crosscheck/report/progress.hpp"
 #include "crosscheck/report/report.hpp"
+#include "crosscheck/scene/fragment_stages.hpp"
 #include "crosscheck/scene/profile_text.hpp"
-#include "crosscheck/scene/profiles.hpp"
 #include "crosscheck/scene/run_text.hpp"
 #include "gpu/collision/collision_shaders.hpp"
 #include "gpu/collision/simulation.hpp"
@@ -317,7 +317,7 @@ int run_scene(const CheckRequest& options) {
     const Context context(parse_context_request(options.run.gl));
     if (!is_rendered(options))
         compile_unrendered(scene, options.run.shaders);
-    const Profile profile = measured_profile(context, options.run.shaders);
+    const Profile profile = measured_profile(context, scene, options.run.shaders);
     GpuSimulation gpu(scene, options.run.shaders);
     return check_and_tell(options, files,
                           {scene,

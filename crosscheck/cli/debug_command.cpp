@@ -12,6 +12,7 @@
 #include "crosscheck/command/judging_options.hpp"
 #include "crosscheck/command/option_values.hpp"
 #include "crosscheck/files/threads.hpp"
+#include "crosscheck/scene/fragment_stages.hpp"
 #include "crosscheck/scene/profiles.hpp"
 #include "crosscheck/scene/scene_settings.hpp"
 #include "gpu/context.hpp"
@@ -48,8 +49,10 @@ int debug_scene(const DebugRequest& options) {
     setup.heading = run_heading(scene.name, options.run.scene.string(), settings_text(options.run, scene),
                                 summary(context.describe()), profile);
     setup.start = [&](const std::vector<std::string>& changes) {
+        const Scene scene = load_with(changes);
+        const Profile of_scene = with_written_codes(profile, scene, options.run.shaders);
         return std::make_unique<CollisionDebugRun>(std::make_unique<FrameRun>(
-            load_with(changes), profile, known_operations(options.legal, profile), options.run.shaders));
+            scene, of_scene, known_operations(options.legal, of_scene), options.run.shaders));
     };
     return debug_run(std::move(setup));
 }

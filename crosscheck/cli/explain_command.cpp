@@ -22,6 +22,8 @@
 #include "crosscheck/report/colour.hpp"
 #include "crosscheck/report/progress.hpp"
 #include "crosscheck/report/shader_diff.hpp"
+#include "crosscheck/scene/fragment_stages.hpp"
+#include "crosscheck/scene/profile_text.hpp"
 #include "crosscheck/scene/profiles.hpp"
 #include "gpu/context.hpp"
 #include "reference/model/error.hpp"
@@ -71,7 +73,7 @@ void explain_scene(const ExplainRequest& options) {
     const ShaderUse shaders = shaders_to_run(options.run, scene, options.pixel.has_value());
     item_of(options, scene);
     const Context context(parse_context_request(options.run.gl));
-    const Profile profile = measured_profile(context, options.run.shaders);
+    const Profile profile = measured_profile(context, scene, options.run.shaders);
     FrameRun frames(scene, profile, known_operations(options.legal, profile), options.run.shaders);
     tell(options, frames, options.run.scene.string(), settings_text(options.run, scene), summary(context.describe()));
     fmt::print("{}", plain_text(shader_diff_text(shaders)));

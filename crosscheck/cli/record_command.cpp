@@ -14,6 +14,7 @@
 #include "crosscheck/judge/compare.hpp"
 #include "crosscheck/report/progress.hpp"
 #include "crosscheck/report/verdict_text.hpp"
+#include "crosscheck/scene/fragment_stages.hpp"
 #include "crosscheck/scene/profiles.hpp"
 #include "gpu/collision/simulation.hpp"
 #include "gpu/context.hpp"
@@ -49,7 +50,7 @@ void prove(GpuSimulation& gpu, const FrameParams& params, const Particles& parti
 TraceInfo info_of(const RecordRequest& options, Scene scene, const Context& context, const ShaderUse& shaders) {
     const ProbeResult probed = probe(context);
     TraceInfo info;
-    info.profile = measured_profile(probed, options.run.shaders);
+    info.profile = with_written_codes(measured_profile(probed, options.run.shaders), scene, options.run.shaders);
     info.renderer = summary(context.describe());
     info.settings = settings_text(options.run, scene);
     info.shaders = shaders_text(shaders);

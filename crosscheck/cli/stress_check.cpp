@@ -18,6 +18,7 @@
 #include "crosscheck/files/signals.hpp"
 #include "crosscheck/report/places.hpp"
 #include "crosscheck/report/report.hpp"
+#include "crosscheck/scene/fragment_stages.hpp"
 #include "crosscheck/scene/profile_json.hpp"
 #include "crosscheck/scene/profile_text.hpp"
 #include "crosscheck/scene/profiles.hpp"
@@ -62,11 +63,12 @@ std::vector<ReadStress> read_scenes(const RunOptions& options) {
     return all;
 }
 
-StressScene run_scene(const StressOptions& options, const ReadStress& read, const Profile& profile,
+StressScene run_scene(const StressOptions& options, const ReadStress& read, const Profile& measured,
                       const std::string& context) {
     const auto& [run, scene, shaders] = read;
     forget_shaders_run();
     compile_unrendered(scene, run.shaders);
+    const Profile profile = with_written_codes(measured, scene, run.shaders);
     GpuSimulation gpu(scene, run.shaders);
     CheckOptions check_options;
     check_options.frames = run.frames;

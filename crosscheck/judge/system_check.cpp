@@ -24,6 +24,7 @@
 #include "crosscheck/judge/wrong_step.hpp"
 #include "gpu/system_side.hpp"
 #include "reference/model/error.hpp"
+#include "reference/system/stored_pass.hpp"
 
 namespace lockstep {
 namespace {
@@ -42,10 +43,11 @@ class SystemChecker {
     SystemChecker(const System& system, SystemSide& gpu, const CheckOptions& options, const CheckWatch& watch)
         : system_(system), gpu_(gpu), options_(options), watch_(watch), profile_(gpu.describe().profile),
           known_(options.known.value_or(measured_operations(profile_))), judged_(options.mode == CheckMode::resync),
-          summary_(system.schema), has_run_(system.passes.size()), is_exercised_(system.passes.size()),
-          has_cause_(system.passes.size()), unwritten_(system.passes.size()), append_causes_(system.passes.size()),
-          power_(system.mistakes), paces_(system.passes.size()), earlier_(system.passes.size()), before_(system.start),
-          now_(system.start), reference_(system.start), made_(system.start) {
+          passes_(stored_passes(system.passes, system.schema)), summary_(system.schema), has_run_(system.passes.size()),
+          is_exercised_(system.passes.size()), has_cause_(system.passes.size()), unwritten_(system.passes.size()),
+          append_causes_(system.passes.size()), power_(system.mistakes), paces_(system.passes.size()),
+          earlier_(system.passes.size()), before_(system.start), now_(system.start), reference_(system.start),
+          made_(system.start) {
         for (const auto& pass : system.passes)
             causes_.emplace_back(system.mistakes, pass->name());
         report_.schema = system.schema;
@@ -94,7 +96,7 @@ class SystemChecker {
     }
 
     bool run_pass_of_frame(std::size_t p) {
-        const ItemPass& pass = *system_.passes[p];
+        const ItemPass& pass = *passes_[p];
         const std::uint8_t r = pass.resource();
         if (!pass.continues() && !dispatch(p))
             return false;
@@ -158,7 +160,7 @@ class SystemChecker {
     }
 
     bool repeat(std::size_t p) {
-        const ItemPass& pass = *system_.passes[p];
+        const ItemPass& pass = *passes_[p];
         const std::uint8_t r = pass.resource();
         find_canary(pass, now_, frame_);
         expect_left(gpu_, system_, p, before_, now_, frame_);
@@ -182,7 +184,7 @@ class SystemChecker {
 
     /// The first run of a pass shows whether its twin keeps what it says.
     void run_twin(std::size_t p, const SystemState& start) {
-        const ItemPass& pass = *system_.passes[p];
+        const ItemPass& pass = *passes_[p];
         const std::uint8_t r = pass.resource();
         try {
             const Stopwatch timing(times_.reference);
@@ -209,7 +211,7 @@ class SystemChecker {
 
     Comparison compare_made(std::size_t p, const SystemView& from, bool holds) {
         const Stopwatch timing(times_.compare);
-        const ItemPass& pass = *system_.passes[p];
+        const ItemPass& pass = *passes_[p];
         const std::uint8_t r = pass.resource();
         const View made = std::as_const(made_)[r];
         Comparison comparison = holds ? agreement(made) : compare(made, std::as_const(now_)[r]);
@@ -223,7 +225,7 @@ class SystemChecker {
 
     void measure_power(std::size_t p, const SystemView& from) {
         const Stopwatch timing(times_.power);
-        const ItemPass& pass = *system_.passes[p];
+        const ItemPass& pass = *passes_[p];
         const View agreed = std::as_const(made_)[pass.resource()];
         JudgedPass tried{pass, profile_, known_, frame_, from, agreed, agreed};
         tried.prepare();
@@ -295,7 +297,7 @@ class SystemChecker {
     }
 
     void keep_made(std::size_t p, bool holds) {
-        const ItemPass& pass = *system_.passes[p];
+        const ItemPass& pass = *passes_[p];
         const std::uint8_t r = pass.resource();
         if (holds)
             shared_.insert(r);
@@ -367,7 +369,8 @@ class SystemChecker {
     const CheckWatch& watch_;
     const Profile profile_;
     const KnownOperations known_;
-    const bool judged_; ///< each pass by itself, not two runs side by side
+    const bool judged_;                                         ///< each pass by itself, not two runs side by side
+    const std::vector<std::shared_ptr<const ItemPass>> passes_; ///< the system's, as images store what they make
 
     CheckReport report_;
     VerdictSummary summary_;

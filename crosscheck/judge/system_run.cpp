@@ -12,6 +12,7 @@
 #include "gpu/system_side.hpp"
 #include "reference/model/error.hpp"
 #include "reference/model/state_hash.hpp"
+#include "reference/system/stored_pass.hpp"
 
 namespace lockstep {
 namespace {
@@ -55,8 +56,9 @@ std::vector<ToldValue> told_of(SystemSide& gpu, std::size_t pass, const JudgedPa
 }
 
 SystemRun::SystemRun(const System& system, SystemSide& gpu, const KnownOperations& known)
-    : system_(system), gpu_(gpu), profile_(gpu.describe().profile), known_(known), before_(system.start),
-      reference_(system.start), now_(system.start), right_(system.start), started_(system.passes.size()) {
+    : system_(system), gpu_(gpu), passes_(stored_passes(system.passes, system.schema)),
+      profile_(gpu.describe().profile), known_(known), before_(system.start), reference_(system.start),
+      now_(system.start), right_(system.start), started_(system.passes.size()) {
     check_system(system);
 }
 
@@ -75,7 +77,7 @@ void SystemRun::start_again() {
 }
 
 void SystemRun::step(int frame, std::size_t pass) {
-    const ItemPass& one = *system_.passes[pass];
+    const ItemPass& one = *passes_[pass];
     before_ = pass > 0 ? left_by(system_, pass - 1, before_, now_) : now_;
     if (!one.continues())
         put_right(gpu_, before_, right_, wrong_);
@@ -93,9 +95,9 @@ void SystemRun::step(int frame, std::size_t pass) {
 void SystemRun::go_to(int frame, std::size_t pass, const std::function<void(int)>& on_frame) {
     if (pass >= system_.passes.size())
         throw Error(fmt::format("{} has no pass {}; it has 0 to {}", system_.name, pass, system_.passes.size() - 1));
-    if (!system_.passes[pass]->runs(frame))
-        throw Error(
-            fmt::format("{}: pass {} does not run in frame {}", system_.name, system_.passes[pass]->name(), frame));
+    const ItemPass& made = *passes_[pass];
+    if (!made.runs(frame))
+        throw Error(fmt::format("{}: pass {} does not run in frame {}", system_.name, made.name(), frame));
     if (std::pair(frame, pass) == std::pair(frame_, pass_))
         return;
     int f = frame_;
@@ -146,14 +148,15 @@ void SystemRun::go_to(int frame, std::size_t pass, const std::function<void(int)
 }
 
 JudgedPass SystemRun::judged() const {
-    return {*system_.passes[pass_], profile_,        known_,    frame_,
-            before_view_,           reference_view_, gpu_view_, earlier_ ? &earlier_view_ : nullptr};
+    return {*passes_[pass_], profile_,        known_,    frame_,
+            before_view_,    reference_view_, gpu_view_, earlier_ ? &earlier_view_ : nullptr};
 }
 
 std::vector<ToldValue> SystemRun::told(std::size_t item) { return told_of(gpu_, pass_, judged(), item); }
 
 ReferenceRun::ReferenceRun(const System& system, Profile profile)
-    : system_(system), profile_(std::move(profile)), state_(system.start), next_(system.start) {
+    : system_(system), passes_(stored_passes(system.passes, system.schema)), profile_(std::move(profile)),
+      state_(system.start), next_(system.start) {
     check_system(system);
 }
 
@@ -163,7 +166,7 @@ void ReferenceRun::step(int frame) {
 }
 
 void ReferenceRun::step_pass(std::size_t pass, int frame) {
-    const ItemPass& one = *system_.passes[pass];
+    const ItemPass& one = *passes_[pass];
     if (!one.runs(frame))
         return;
     const SystemView before = state_.view();

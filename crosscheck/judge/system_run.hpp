@@ -2,6 +2,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <functional>
+#include <memory>
 #include <optional>
 #include <set>
 #include <vector>
@@ -33,6 +34,7 @@ class ReferenceRun {
 
   private:
     const System& system_;
+    std::vector<std::shared_ptr<const ItemPass>> passes_; ///< the system's, as images store what they make
     Profile profile_;
     SystemState state_, next_;
 };
@@ -63,6 +65,7 @@ class SystemRun {
 
     const System& system_;
     SystemSide& gpu_;
+    std::vector<std::shared_ptr<const ItemPass>> passes_; ///< as in ReferenceRun
     Profile profile_;
     KnownOperations known_;
     int frame_ = -1; ///< -1: nothing has run

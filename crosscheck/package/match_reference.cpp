@@ -10,6 +10,7 @@
 #include "crosscheck/files/threads.hpp"
 #include "crosscheck/package/folded_text.hpp"
 #include "crosscheck/report/places.hpp"
+#include "crosscheck/scene/fragment_stages.hpp"
 #include "crosscheck/scene/profile_text.hpp"
 #include "crosscheck/scene/run_text.hpp"
 #include "lockstep/lockstep.hpp"
@@ -97,7 +98,9 @@ MatchResult match_reference(GpuSide& gpu, const Scene& scene, const MatchOptions
         throw Error("render: an engine of its own draws no frame that could be compared; UserShaders do");
     if (!(options.power_at_least >= 0.0 && options.power_at_least <= 1.0))
         throw Error(fmt::format("power_at_least({}): a share is from 0 to 1, as 0.95", options.power_at_least));
-    const SideDescription side = gpu.describe();
+    SideDescription side = gpu.describe();
+    if (shaders != nullptr)
+        side.profile = with_written_codes(side.profile, scene, shaders->folder());
     CheckOptions check_options;
     check_options.mode = options.mode;
     check_options.frames = options.frames;

@@ -19,6 +19,7 @@
 #include "crosscheck/report/item_text.hpp"
 #include "crosscheck/scene/profile_json.hpp"
 #include "reference/model/error.hpp"
+#include "reference/system/stored_pass.hpp"
 
 namespace lockstep {
 namespace {
@@ -44,7 +45,9 @@ std::vector<Extent> extents_of(const SystemState& state) {
 
 /// Calls `work` with the capsule's step as a judged pass.
 template <class Work> auto with_judged(const ItemCapsule& capsule, const System& system, const Work& work) {
-    const ItemPass& pass = *system.passes[pass_named(capsule.pass, system, capsule.frame, "pass")];
+    const auto stored =
+        stored_pass(*system.passes[pass_named(capsule.pass, system, capsule.frame, "pass")], system.schema);
+    const ItemPass& pass = *stored;
     const SystemView before = capsule.before.view();
     SystemState reference = capsule.before;
     pass.run({before, capsule.frame}, capsule.profile, capsule.item, capsule.item + 1, reference[pass.resource()]);

@@ -9,6 +9,8 @@
 #include <fmt/ranges.h>
 
 #include "reference/known_operations.hpp"
+#include "reference/legal_interpolation.hpp"
+#include "reference/paired_rows.hpp"
 
 namespace lockstep {
 namespace {
@@ -84,20 +86,38 @@ std::string describe(const Profile& profile) {
 }
 
 std::vector<std::string> conversion_notes(const Profile& profile, const Switches& switches) {
-    if (switches.cdt_format == CdtFormat::rgba32f)
-        return {};
-    const bool of_triangles = switches.obstacles_in_cdt == ObstaclesInCdt::triangles && profile.converts.triangles;
-    const bool of_vertices = switches.obstacles_in_cdt == ObstaclesInCdt::vertices && profile.converts.vertices;
-    const std::pair<bool, const char*> stages[] = {{profile.converts.particles, "collision_pass.frag"},
-                                                   {of_triangles, "obstacle_pass.frag"},
-                                                   {of_vertices, "obstacle_vertices.frag"}};
     std::vector<std::string> notes;
+    const bool has_triangles = switches.obstacles_in_cdt == ObstaclesInCdt::triangles;
+    if (has_triangles && !profile.follows(driver_interpolates_row))
+        notes.emplace_back("obstacle_pass.frag takes what the driver interpolates, to which GL gives no accuracy: "
+                           "positions within 1 part in 10^5 are right, and of a larger difference lockstep cannot say "
+                           "whose it is; interpolate of triangle_interpolation.glsl leaves nothing open");
+    if (switches.cdt_format == CdtFormat::rgba32f)
+        return notes;
+    const bool halves = switches.cdt_format == CdtFormat::rgba16f;
+    const bool of_triangles = has_triangles && profile.converts.triangles;
+    const bool of_vertices = switches.obstacles_in_cdt == ObstaclesInCdt::vertices && profile.converts.vertices;
+    const bool in_compute = switches.step == Step::compute;
+    const std::pair<bool, const char*> stages[] = {
+        {profile.converts.particles, in_compute ? "collision_texels.frag" : "collision_pass.frag"},
+        {of_triangles, "obstacle_pass.frag"},
+        {of_vertices, "obstacle_vertices.frag"}};
+    const auto right = [&] {
+        switch (measured_of(profile, halves ? drawn_half_rows : drawn_unorm8_rows)) {
+        case OfPair::first:
+            return "the nearest code is right, and of two as near either";
+        case OfPair::second:
+            return "the code toward zero, which it was measured to take, is right, too";
+        case OfPair::open:
+            break;
+        }
+        return "either of two neighbouring codes is right";
+    };
     for (const auto& [converts, file] : stages)
         if (converts)
-            notes.push_back(
-                fmt::format("{} leaves the rounding to {} to the driver, so either of two neighbouring codes "
-                            "is right; encode_position of collision_code.glsl leaves nothing open",
-                            file, switches.cdt_format == CdtFormat::rgba8 ? "rgba8" : "rgba16f"));
+            notes.push_back(fmt::format("{} leaves the rounding to {} to the driver, so {}; encode_position of "
+                                        "collision_code.glsl leaves nothing open",
+                                        file, halves ? "rgba16f" : "rgba8", right()));
     return notes;
 }
 

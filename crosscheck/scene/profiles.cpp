@@ -9,11 +9,14 @@
 
 #include <fmt/format.h>
 
+#include "crosscheck/scene/fragment_stages.hpp"
 #include "gpu/collision/collision_shaders.hpp"
 #include "gpu/probe/root_tables.hpp"
 #include "gpu/shader_source.hpp"
 #include "gpu/shader_words.hpp"
 #include "gpu/spirv_module.hpp"
+#include "reference/legal_interpolation.hpp"
+#include "reference/paired_rows.hpp"
 
 namespace lockstep {
 namespace {
@@ -255,22 +258,6 @@ bool has_geometry_stage(const std::filesystem::path& shaders) {
     return !load_stages(collision_shaders(shaders), "collision_pass", stages).empty();
 }
 
-/// Whether the fragment stage of a pass calls the encoder (collision_code.glsl), so that a driver has nothing to round.
-bool encodes(const std::filesystem::path& shaders, std::string_view pass) {
-    if (shaders.empty())
-        return true;
-    const ShaderSource stage = load_stage(collision_shaders(shaders), pass, Stage::fragment);
-    ShaderWords words(stage.text);
-    while (words.next()) {
-        const std::size_t file = stage.origins.at(words.line() - 1).file;
-        const bool is_call =
-            words.token() == "encode_position" || words.token() == "half_round" || words.token() == "unorm8_code";
-        if (is_call && std::filesystem::path(stage.files.at(file)).filename() != "collision_code.glsl")
-            return true;
-    }
-    return false;
-}
-
 /// A pass that computes particles, in the first of its stages.
 struct Computing {
     std::string_view pass;
@@ -331,6 +318,48 @@ bool fuses_without_precise(const ProbeResult& result) {
     return is_fused("a*b+c") || is_fused("cross");
 }
 
+/// Findings that differ in the rounding of what lies halfway between two codes alone.
+constexpr std::array<std::string_view, 3> unorm8_nearest{"nearest", "rint(x*255)", "floor(x*255+0.5)"};
+
+/// Rules out the ways that the probe did not find, of those of which a driver has one (reference/paired_rows.hpp). A
+/// row that an older probe has not rules out nothing.
+void note_pairs(Translation& rows, const ProbeResult& result) {
+    struct Found {
+        const char* row;
+        std::string_view finding;
+    };
+    const auto note = [&](const PairedRows& pair, std::initializer_list<Found> first,
+                          std::initializer_list<Found> second) {
+        if (!std::ranges::all_of(first, [&](const Found& one) { return result.has(one.row); }))
+            return;
+        for (const auto& [name, all] : {std::pair{pair.first, first}, {pair.second, second}})
+            if (!std::ranges::all_of(all, [&](const Found& one) { return result.row(one.row).finding == one.finding; }))
+                rows.note(name.data());
+    };
+    note(drawn_half_rows,
+         {{"float to half", "nearest even"},
+          {"float to subnormal half", "nearest even"},
+          {"float above the largest half", "infinite"}},
+         {{"float to half", "truncate"},
+          {"float to subnormal half", "truncate"},
+          {"float above the largest half", "largest"}});
+    note(stored_half_rows,
+         {{"image: store to half", "nearest even"},
+          {"image: store to subnormal half", "nearest even"},
+          {"image: store above the largest half", "infinite"}},
+         {{"image: store to half", "truncate"},
+          {"image: store to subnormal half", "truncate"},
+          {"image: store above the largest half", "largest"}});
+    const char* const unorm8 = "float to unorm8";
+    const bool is_nearest = result.has(unorm8) && std::ranges::any_of(unorm8_nearest, [&](std::string_view finding) {
+                                return result.row(unorm8).finding == finding;
+                            });
+    note(drawn_unorm8_rows, {{unorm8, is_nearest ? std::string_view(result.row(unorm8).finding) : unorm8_nearest[0]}},
+         {{unorm8, "truncate"}});
+    note(brink_rows, {{brink_rows.first.data(), "all, as GL says"}},
+         {{brink_rows.second.data(), "where the grid puts them"}});
+}
+
 /// Rows on which passes of some systems rest, with the findings that their twins follow. A result of an older probe
 /// has none of them.
 void note_images(Translation& rows, const ProbeResult& result) {
@@ -362,6 +391,7 @@ void note_images(Translation& rows, const ProbeResult& result) {
     follow(dropped, {"all, as GL says"});
     if (rows.is_noted(dropped))
         follow("image: points beside the image, drawn", {"all whose depth is within the volume"});
+    note_pairs(rows, result);
 }
 
 } // namespace
@@ -446,8 +476,11 @@ Profile measured_profile(const ProbeResult& result, const std::filesystem::path&
 }
 
 Profile with_shaders(Profile profile, const ProbeResult& result, const std::filesystem::path& shaders) {
-    profile.converts = {!encodes(shaders, "collision_pass"), !encodes(shaders, "obstacle_pass"),
-                        !encodes(shaders, "obstacle_vertices")};
+    const FragmentStage obstacles = fragment_stage(shaders, "obstacle_pass");
+    profile.converts = {!fragment_stage(shaders, "collision_pass").encodes, !obstacles.encodes,
+                        !fragment_stage(shaders, "obstacle_vertices").encodes};
+    if (obstacles.interpolates && profile.follows(driver_interpolates_row))
+        profile.not_followed.emplace_back(driver_interpolates_row);
     profile.any_order = fuses_without_precise(result) && lacks_precise(shaders);
     profile.open_corners = fuses_without_precise(result) && leaves_corners_open(shaders);
     if (const Modules modules = computing_modules(shaders); !modules.empty())

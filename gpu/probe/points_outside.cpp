@@ -55,6 +55,43 @@ void append_square(const Outside& point, Floats& covered) {
             covered.push_back(is_within(x, point.middle.x) && is_within(y, point.middle.y) ? 1.0F : 0.0F);
 }
 
+/// Points one pixel wide, one for each row and column of the image at each of its borders, their centres `beyond` it.
+std::vector<RasterVertex> points_on_borders(float beyond, float w) {
+    std::vector<RasterVertex> all;
+    for (int k = 1; k < square_side - 1; ++k) {
+        const float along = static_cast<float>(k) + 0.5F;
+        for (const glm::vec2 centre : {glm::vec2(-beyond, along), glm::vec2(square_side + beyond, along),
+                                       glm::vec2(along, -beyond), glm::vec2(along, square_side + beyond)}) {
+            all.push_back(vertex_of({centre, 0.25F, 1.0F}, w));
+            all.back().id = static_cast<float>(all.size());
+        }
+    }
+    return all;
+}
+
+/// Nearer to the border than any sub-pixel grid resolves: what is drawn has its place on the border itself.
+void measure_points_just_outside(Rows& rows) {
+    constexpr float beyond = 0x1p-14F; // pixels
+    const RasterStage stage(Primitive::points, false);
+    const IdImage image(square_side, square_side);
+    gl::Disable(GL_DEPTH_TEST);
+    const auto drawn = [&](float by, float w) {
+        image.clear();
+        stage.draw(points_on_borders(by, w));
+        return image.ids();
+    };
+    Floats found, on_border;
+    for (const float w : {1.0F, 0.375F, 40.0F}) {
+        const Floats outside = drawn(beyond, w), inside = drawn(0.0F, w);
+        found.insert(found.end(), outside.begin(), outside.end());
+        on_border.insert(on_border.end(), inside.begin(), inside.end());
+    }
+    gl::BindFramebuffer(GL_FRAMEBUFFER, 0);
+    rows.push_back(
+        judge("image: points just outside, dropped", found, {{"all, as GL says", Floats(found.size(), -1.0F)}}));
+    rows.push_back(judge("image: points just outside, drawn", found, {{"where the grid puts them", on_border}}));
+}
+
 } // namespace
 
 void measure_points_outside(Rows& rows) {
@@ -87,6 +124,7 @@ void measure_points_outside(Rows& rows) {
     rows.push_back(judge("image: points outside, dropped", found, {{"all, as GL says", Floats(found.size(), 0.0F)}}));
     rows.push_back(judge("image: points beside the image, drawn", found,
                          {{"all whose depth is within the volume", drawn_beside}}));
+    measure_points_just_outside(rows);
 }
 
 } // namespace lockstep::probing

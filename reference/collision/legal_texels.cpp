@@ -10,10 +10,12 @@
 
 #include "reference/collision/collision_code.hpp"
 #include "reference/collision/collision_pass_fast.hpp"
+#include "reference/collision/measured_codes.hpp"
 #include "reference/collision/step_stage.hpp"
 #include "reference/legal_interpolation.hpp"
 #include "reference/legal_triangles.hpp"
 #include "reference/model/same_bits.hpp"
+#include "reference/paired_rows.hpp"
 #include "reference/parallel_blocks.hpp"
 #include "reference/pixel_set.hpp"
 #include "reference/subnormal_mode.hpp"
@@ -89,14 +91,13 @@ PixelRange pixels_of(Interval window, const KnownRaster& known, const RasterRule
 
 enum class InVolume { no, maybe, yes };
 
-InVolume in_clip_volume(const std::array<Interval, 4>& clip, const ClipDepth& depth) {
+/// Of coordinates `first` and up: 0 for all three, 2 for the depth alone.
+InVolume in_clip_volume(const std::array<Interval, 4>& clip, const ClipDepth& depth, std::size_t first = 0) {
     const Interval w = clip[3];
-    if (w.any || !(w.high > 0.0))
+    if (w.any || !(w.high > 0.0) || clip[0].any || clip[1].any || clip[2].any)
         return InVolume::no;
     InVolume result = w.low > 0.0 ? InVolume::yes : InVolume::maybe;
-    for (std::size_t c = 0; c < 3; ++c) {
-        if (clip[c].any)
-            return InVolume::no;
+    for (std::size_t c = first; c < 3; ++c) {
         const double least = clip[c].contains_zero() ? 0.0 : std::min(std::abs(clip[c].low), std::abs(clip[c].high));
         const double most = std::max(std::abs(clip[c].low), std::abs(clip[c].high));
         if (least > w.high)
@@ -118,7 +119,9 @@ template <class A> class Candidates {
     Candidates(A fp, const FrameParams& params, const Profile& profile, const KnownOperations& known,
                std::span<const std::size_t> texels)
         : fp_(fp), params_(params), drawn_(drawn_by_rasteriser(params)), profile_(profile), converts_(known.converts),
-          code_(params), arithmetic_(fp, known, profile.other_orders),
+          drops_outside_(measured_of(profile, brink_rows) == OfPair::first),
+          by_driver_(!profile.follows(driver_interpolates_row)), code_(params),
+          arithmetic_(fp, known, profile.other_orders),
           placing_(fp, known_in_step(params.switches, known, profile), profile.other_orders),
           corners_(fp, of_corners(known, profile), profile.other_orders), wanted_(params.width, params.height, texels),
           candidates_(texels.size()) {}
@@ -147,8 +150,9 @@ template <class A> class Candidates {
         TexelOwner owner{.kind = kind, .index = index, .code = code_.encode(stored)};
         owner.reference_depth = reference.depth;
         if (kind == TexelOwner::Kind::particle ? converts_.particles : converts_.vertices)
-            owner.code_range = code_.driver_codes(stored, stored);
-        if (known().points || known().raster.points()) {
+            owner.code_range = measured_codes(params_, stored, stored, profile_);
+        const bool all_known = known().points || known().raster.points();
+        if (all_known && (drawn || drops_outside_)) {
             owner.is_reference = true;
             owner.depth = reference.depth;
             if (drawn)
@@ -157,7 +161,8 @@ template <class A> class Candidates {
         }
         const auto clip = arithmetic_.transform(params_.collision_proj_view, arithmetic_.read(drawn_at));
         const InVolume inside = in_clip_volume(clip, params_.clip_depth);
-        if (inside == InVolume::no || clip[3].contains_zero())
+        const bool is_outside = inside == InVolume::no && !drops_outside_ && beside_volume(clip, owner);
+        if ((inside == InVolume::no && !is_outside) || (all_known && !is_outside) || clip[3].contains_zero())
             return;
         const bool clip_known = clip[0].is_point() && clip[1].is_point() && clip[2].is_point() && clip[3].is_point();
         const bool window_known = known().raster.point_window && clip_known;
@@ -187,6 +192,21 @@ template <class A> class Candidates {
         add_range(owner, columns, rows, reference, found);
     }
 
+    /// Whether a point lies beside the view volume, and by less than half a pixel, within its depths; then says how
+    /// far.
+    [[nodiscard]] bool beside_volume(const std::array<Interval, 4>& clip, TexelOwner& owner) const {
+        if (in_clip_volume(clip, params_.clip_depth, 2) == InVolume::no || clip[3].contains_zero())
+            return false;
+        const auto beyond = [&](const Interval& coordinate, int size) {
+            return (std::abs(interval::middle(coordinate)) / interval::middle(clip[3]) - 1.0) * 0.5 * size;
+        };
+        const double pixels = std::max(beyond(clip[0], params_.width), beyond(clip[1], params_.height));
+        if (!(pixels < 0.5))
+            return false;
+        owner.outside = 256.0 * std::max(pixels, 0.0);
+        return true;
+    }
+
     /// A point whose texel and depth the pass finds by itself (placed_point of collision_pass.cpp).
     void add_placed_point(std::size_t index, glm::vec3 drawn_at, glm::vec3 stored, Found& found) const {
         const PointFragment reference = point_fragment(drawn_at, params_, profile_);
@@ -207,6 +227,8 @@ template <class A> class Candidates {
             return;
         TexelOwner owner{.kind = TexelOwner::Kind::particle, .index = index, .code = code_.encode(stored)};
         owner.reference_depth = reference.depth;
+        if (converts_.particles)
+            owner.code_range = measured_codes(params_, stored, stored, profile_);
         owner.depth = depth.is_point()                ? Interval(reference.depth)
                       : params_.clip_depth.reversed() ? interval::negate(depth)
                                                       : depth;
@@ -299,19 +321,23 @@ template <class A> class Candidates {
                                    positions, x, y, params_.width, params_.height, params_.clip_depth);
         owner.depth = legal.depth;
         glm::vec3 low = position, high = position;
-        if (corners_open() || !known().interpolation) {
+        if (corners_open() || !known().interpolation || by_driver_) {
+            DriverInterpolation driver;
+            if (by_driver_)
+                driver = driver_interpolation(fp_, interpolation, positions, x, y, grid_of_corners());
             for (int k = 0; k < 3; ++k) {
                 const Interval& place = legal.position[static_cast<std::size_t>(k)];
-                const float bound = interpolation_bound(positions[0][k], positions[1][k], positions[2][k]);
+                const float bound =
+                    interpolation_bound(positions[0][k], positions[1][k], positions[2][k]) + driver.position[k];
                 low[k] = static_cast<float>(place.low) - bound;
                 high[k] = static_cast<float>(place.high) + bound;
             }
             owner.code_range = {code_.encode(low), code_.encode(high)};
-            const double error = depth_bound(corners, params_.clip_depth);
+            const double error = depth_bound(corners, params_.clip_depth) + driver.depth;
             owner.depth = {legal.depth.low - error, legal.depth.high + error};
         }
         if (converts_.triangles)
-            owner.code_range = code_.driver_codes(low, high);
+            owner.code_range = measured_codes(params_, low, high, profile_);
         if (params_.switches.search == Search::depth)
             store_depth(owner);
         owner.is_reference = covered && rules == profile_.raster;
@@ -342,6 +368,12 @@ template <class A> class Candidates {
         return corners_.transform(params_.collision_proj_view, corners_.read(position));
     }
 
+    /// By how much the driver's grid moves a corner, pixels.
+    [[nodiscard]] double grid_of_corners() const {
+        return known().points || known().raster.triangle_grid ? std::ldexp(1.0, -profile_.raster.subpixel_bits)
+                                                              : grid_step(known().raster);
+    }
+
     [[nodiscard]] const KnownOperations& known() const { return arithmetic_.known(); }
 
     A fp_;
@@ -349,6 +381,8 @@ template <class A> class Candidates {
     FrameParams drawn_; ///< as points are drawn that the rasteriser places
     const Profile& profile_;
     DriverConverts converts_;
+    bool drops_outside_; ///< points whose centre lies outside the view volume, as GL says
+    bool by_driver_;     ///< obstacles' positions are interpolated
     CollisionCode code_;
     LegalArithmetic<A> arithmetic_, placing_; ///< placing_: in the stage that finds the texels of points
     LegalArithmetic<A> corners_;
@@ -414,6 +448,10 @@ std::vector<Tie> LegalTexel::ties(const TexelOwner& owner) const {
     std::vector<Tie> ties;
     if (owner.is_reference)
         return ties;
+    if (owner.outside) {
+        ties.push_back({outside_tie, *owner.outside});
+        return ties;
+    }
     const auto reference =
         std::find_if(owners.begin(), owners.end(), [](const TexelOwner& other) { return other.is_reference; });
     double edge = owner.sure ? HUGE_VAL : owner.edge_margin;

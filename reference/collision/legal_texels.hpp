@@ -14,9 +14,14 @@
 #include "reference/model/image.hpp"
 #include "reference/model/mesh.hpp"
 #include "reference/model/profile.hpp"
+#include "reference/tie.hpp"
 #include "reference/window.hpp"
 
 namespace lockstep {
+
+/// A driver draws a point whose centre lies outside the view volume, which departs from GL (4.5, 13.5); the shader is
+/// right. Margin: how far outside it lies.
+inline constexpr TieKind outside_tie{"the driver draws points outside the view volume", "/256 pixel"};
 
 /// Who may have been drawn to a texel last.
 struct TexelOwner {
@@ -43,6 +48,9 @@ struct TexelOwner {
     std::uint64_t place = 0;         ///< the same for the same window position of a point, or texel of a triangle
     PixelRect reach = {};            ///< of a point: the pixels it may land on, the image's and those beside it
     bool may_be_clipped = false;     ///< of a point: it may lie outside the clip volume
+    /// Of a point that GL drops for certain and a driver may draw all the same: 1/256 pixel from its centre to the view
+    /// volume.
+    std::optional<double> outside = std::nullopt;
 
     [[nodiscard]] bool stores(glm::vec4 texel) const;
 };
@@ -101,7 +109,8 @@ class DrawnFrame {
 /// Each rule that is known (KnownRaster) is the reference's. Of the others: a window coordinate is what operations give
 /// that are accurate to 1 part in 10^5 (GL 4.5, 2.3.4.1), or as GLSL's are where that was measured; a grid that is not
 /// known moves it by up to one step, which is at most 1/16 pixel (SUBPIXEL_BITS, table 23.53); what lies on a pixel's
-/// edge may belong to either side.
+/// edge may belong to either side. A point whose centre lies beside the view volume may be drawn where the grid puts
+/// it, unless the probe found that such points are dropped (brink_rows).
 std::vector<LegalTexel> legal_texels(const DrawnFrame& frame, const KnownOperations& known,
                                      std::span<const std::size_t> texels);
 std::vector<LegalTexel> legal_texels(const Mesh& obstacles, const Particles& before, const Particles& after,

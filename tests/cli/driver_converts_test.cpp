@@ -81,3 +81,58 @@ TEST_CASE("driver converts: components swapped, codes two off or an encoder of o
         divergent("rgba16f", stage, "encode_position(" + p + " * 1.001)");
     }
 }
+
+TEST_CASE(
+    "driver converts: a stage that cuts to codes itself is DIVERGENT, whatever the driver does with plain floats") {
+    if (!test::have_software_gl())
+        return;
+    for (const Stage& stage : stages) {
+        const std::string p = stage.position;
+        const std::string place = "(" + p + " - u_CdtBoxMin) / u_CdtBoxStep";
+        for (const auto& [format, stored] :
+             {std::pair<const char*, std::string>{"rgba8", "vec4(floor(" + place + ") / 255.0, 1.0)"},
+              {"rgba16f", "vec4(uintBitsToFloat(floatBitsToUint(" + p + ") & 0xffffe000u), 1.0)"}}) {
+            INFO(stage.file << " " << format);
+            const test::Outcome outcome = checked(format, stage.obstacles, stage.file, stage.encoded, stored);
+            INFO(outcome.out << outcome.err);
+            CHECK(outcome.status == 1);
+            CHECK_THAT(outcome.out, Catch::Contains("DIVERGENT"));
+            if (std::string(format) == "rgba16f")
+                CHECK_THAT(outcome.out, !Catch::Contains("leaves the rounding"));
+        }
+    }
+}
+
+TEST_CASE("driver converts: a stage that rounds to the nearest code in its own way, or packs, is not DIVERGENT") {
+    if (!test::have_software_gl())
+        return;
+    for (const Stage& stage : stages) {
+        const std::string p = stage.position;
+        const std::string place = "(" + p + " - u_CdtBoxMin) / u_CdtBoxStep";
+        for (const auto& [format, stored] :
+             {std::pair<const char*, std::string>{"rgba8", "vec4(floor(" + place + " + 0.5) / 255.0, 1.0)"},
+              {"rgba8", "vec4(round(" + place + ") / 255.0, 1.0)"},
+              {"rgba16f", "vec4(unpackHalf2x16(packHalf2x16(" + p + ".xy)), unpackHalf2x16(packHalf2x16(" + p +
+                              ".zz)).x, 1.0)"}}) {
+            INFO(stage.file << " " << format << " " << stored);
+            const test::Outcome outcome = checked(format, stage.obstacles, stage.file, stage.encoded, stored);
+            INFO(outcome.out << outcome.err);
+            CHECK(outcome.status == 0);
+        }
+    }
+}
+
+TEST_CASE("driver converts: the fragment stage of the compute step may leave its floats to the driver, too") {
+    if (!test::have_software_gl())
+        return;
+    for (const auto& [stored, status] :
+         {std::pair{"vec4(after[particle].position, 1.0)", 0}, {"vec4(after[particle].position.yxz, 1.0)", 1}}) {
+        const test::TemporaryFolder shaders;
+        test::plant(shaders, "collision_texels.frag", "encode_position(after[particle].position)", stored);
+        const test::Outcome outcome = test::run_lockstep(
+            {"check", "data/scenes/lattice.json", "--particles", "500", "--frames", "4", "--gl", test::software_gl(),
+             "--set", "cdt_format=rgba16f", "--set", "step=compute", "--shaders", shaders.path().string()});
+        INFO(stored << outcome.out << outcome.err);
+        CHECK(outcome.status == status);
+    }
+}

@@ -105,6 +105,8 @@ inline constexpr ExpectedRow llvmpipe_rows[] = {
     {"image: gl_PointCoord, cut size", "none known"},
     {"image: points outside, dropped", "all, as GL says"},
     {"image: points beside the image, drawn", "none known"},
+    {"image: points just outside, dropped", "all, as GL says"},
+    {"image: points just outside, drawn", "none known"},
     {"image: float atomics", "offered"},
     {"transform feedback order", "as drawn"},
     {"points: edge in x", "lower pixel"},

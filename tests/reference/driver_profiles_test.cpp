@@ -15,6 +15,7 @@
 #include "reference/collision/legal_texels.hpp"
 #include "reference/collision/octree_pass.hpp"
 #include "reference/known_operations.hpp"
+#include "reference/paired_rows.hpp"
 #include "reference/with_arithmetic.hpp"
 #include "tests/collision/collision_scenes.hpp"
 #include "tests/temporary_folder.hpp"
@@ -92,7 +93,10 @@ TEST_CASE("drivers: the reference follows the rows with precise, which the shipp
         CHECK(profile.other_orders.dot == std::vector{DotOrder::right_to_left});
         CHECK(profile.other_orders.length == std::vector{DotOrder::right_to_left});
         CHECK(profile.other_orders.normalize == std::vector{DotOrder::right_to_left});
-        CHECK(profile.not_followed.empty());
+        // Of the ways to store a half and a code, those that were not found.
+        CHECK(profile.not_followed ==
+              std::vector<std::string>{std::string(drawn_half_rows.first), std::string(drawn_unorm8_rows.second)});
+        CHECK(measured_of(profile, stored_half_rows) == OfPair::open); // its probe had no such row
         CHECK(measured_operations(profile).points);
         CHECK_THAT(describe(profile), Catch::StartsWith("generic: dot (x + y) + z, also x + (y + z), "));
     }

@@ -196,7 +196,7 @@ glm::ivec2 signs(glm::dvec2 shift, bool is_side) {
 /// What a shift would have to be, to leave `gpu` in a texel by the widest of GL's rules.
 std::optional<Lean> lean_of(const LegalTexel& widest, glm::vec4 gpu) {
     const TexelOwner* owner = widest.owner_of(gpu);
-    if (owner == nullptr || owner->is_reference)
+    if (owner == nullptr || owner->is_reference || owner->outside)
         return {};
     const auto reference = std::find_if(widest.owners.begin(), widest.owners.end(),
                                         [](const TexelOwner& other) { return other.is_reference; });

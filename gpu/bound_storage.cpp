@@ -62,10 +62,18 @@ std::vector<std::uint32_t> buffer_words(const RecordBuffer& buffer) {
     return buffer_words(buffer.id(), buffer.size() * buffer.layout().bytes() / word_bytes);
 }
 
+/// The invocations of a compute stage's group.
+std::size_t group_of(const Program& program) {
+    std::array<GLint, 3> size{1, 1, 1};
+    gl::GetProgramiv(program.id(), GL_COMPUTE_WORK_GROUP_SIZE, size.data());
+    return static_cast<std::size_t>(size[0]) * static_cast<std::size_t>(size[1]) * static_cast<std::size_t>(size[2]);
+}
+
 } // namespace
 
 BoundStorage::BoundStorage(const Program& program, std::vector<RecordBlocks> ours)
-    : bindings_(program.bindings()), ours_(std::move(ours)) {
+    : bindings_(program.bindings()), writer_(fmt::format("{} ({})", program.name(), program.file())),
+      group_(group_of(program)), ours_(std::move(ours)) {
     if (bindings_ == nullptr)
         return;
     for (std::size_t o = 0; o < ours_.size(); ++o)
@@ -73,7 +81,7 @@ BoundStorage::BoundStorage(const Program& program, std::vector<RecordBlocks> our
     for (const InterfaceBlock& block : program.storage_blocks()) {
         const auto bound = bindings_->storage_blocks.find(block.name);
         if (bound != bindings_->storage_blocks.end() && bound->second.ours.empty())
-            add_block(block, bound->second);
+            add_block(block, bound->second, program.asks_length(block));
     }
     check_written();
 }
@@ -100,12 +108,13 @@ void BoundStorage::add_names(std::size_t ours) {
     }
 }
 
-void BoundStorage::add_block(const InterfaceBlock& block, const StorageBlockBinding& binding) {
+void BoundStorage::add_block(const InterfaceBlock& block, const StorageBlockBinding& binding, bool ends_with_last) {
     const auto fail = [&](const std::string& path, const std::string& what) {
         throw Error(fmt::format("{}: {}: {}", bindings_->file, path, what));
     };
     const std::string& name = block.name;
-    Block made{name, static_cast<GLuint>(block.binding), static_cast<std::size_t>(block.bytes) / word_bytes};
+    Block made{name, static_cast<GLuint>(block.binding), static_cast<std::size_t>(block.bytes) / word_bytes,
+               ends_with_last};
     std::vector<std::string> names;
     std::map<std::string, std::string> taken; // the member by the file's name
     for (const BlockMember& variable : block.members) {
@@ -299,6 +308,37 @@ std::size_t BoundStorage::words_of(const Block& block, std::size_t items) const 
     return words;
 }
 
+std::size_t BoundStorage::margin_words(const Block& block) const {
+    std::size_t widest = 4;
+    for (const Member& member : block.members)
+        widest = std::max(widest, member.stride);
+    return group_ * widest;
+}
+
+/// Words of `block` behind the last item, of members that have a state, and behind the block.
+void BoundStorage::check_end(const Block& block, const std::vector<std::uint32_t>& words,
+                             std::span<const RecordBuffer* const> buffers, std::string_view when) const {
+    const std::size_t items = items_of(block, buffers), end = words_of(block, items);
+    std::string_view item_name = "item";
+    const auto fail = [&](const std::string& what, std::size_t count) {
+        throw Error(fmt::format("{}{} wrote past the end of {} ({} {}{}); expected no write from item {} on", when,
+                                writer_, what, count, item_name, count == 1 ? "" : "s", count));
+    };
+    for (const Member& member : block.members)
+        for (const Word& one : member.words) {
+            if (one.kind == Word::Kind::constant || one.kind == Word::Kind::count)
+                continue;
+            const RecordBuffer& of = *buffers[one.ours];
+            item_name = of.layout().about().item;
+            for (std::size_t item = of.size(); item < std::max(items, member.elements); ++item)
+                if (words[member.offset + item * member.stride + one.at] != margin_word)
+                    fail(fmt::format("{}, {}", block.name, member.name), of.size());
+        }
+    if (std::any_of(words.begin() + static_cast<std::ptrdiff_t>(end), words.end(),
+                    [](std::uint32_t one) { return one != margin_word; }))
+        fail(block.name, items);
+}
+
 void BoundStorage::fill(std::span<const RecordBuffer* const> before, std::span<const RecordBuffer* const> after) const {
     std::vector<std::vector<std::uint32_t>> from(ours_.size()), to(ours_.size());
     for (const std::size_t o : reads_)
@@ -313,11 +353,13 @@ void BoundStorage::fill(std::span<const RecordBuffer* const> before, std::span<c
             return one.as_float ? std::bit_cast<std::uint32_t>(static_cast<float>(size))
                                 : static_cast<std::uint32_t>(size);
         const std::size_t each = ours_[one.ours].layout->bytes() / word_bytes;
-        return item < size ? (one.kind == Word::Kind::after ? to : from)[one.ours][item * each + one.place] : 0;
+        return item < size ? (one.kind == Word::Kind::after ? to : from)[one.ours][item * each + one.place]
+                           : margin_word;
     };
     for (const Block& block : blocks_) {
-        const std::size_t items = items_of(block, before);
-        std::vector<std::uint32_t> words(words_of(block, items));
+        const std::size_t items = items_of(block, before), end = words_of(block, items);
+        std::vector<std::uint32_t> words(end);
+        words.resize(end + margin_words(block), margin_word);
         for (const Member& member : block.members)
             for (std::size_t item = 0; item < (member.stride == 0 ? 1 : std::max(items, member.elements)); ++item)
                 for (const Word& one : member.words)
@@ -325,29 +367,29 @@ void BoundStorage::fill(std::span<const RecordBuffer* const> before, std::span<c
         gl::BindBuffer(GL_SHADER_STORAGE_BUFFER, block.buffer.id());
         gl::BufferData(GL_SHADER_STORAGE_BUFFER, static_cast<GLsizeiptr>(words.size() * word_bytes), words.data(),
                        GL_DYNAMIC_COPY);
-        gl::BindBufferBase(GL_SHADER_STORAGE_BUFFER, block.binding, block.buffer.id());
+        const StorageRange range{block.name, "", 1, end * word_bytes, {block.buffer.id(), 0, 0}};
+        range.bind(block.binding, block.ends_with_last);
     }
 }
 
-void BoundStorage::collect(std::span<const RecordBuffer* const> after) const {
-    if (writes_.empty())
+void BoundStorage::collect(std::span<const RecordBuffer* const> after, std::string_view when) const {
+    if (blocks_.empty())
         return;
     gl::MemoryBarrier(GL_BUFFER_UPDATE_BARRIER_BIT);
     std::vector<std::vector<std::uint32_t>> records(ours_.size());
     for (const std::size_t o : writes_)
         records[o].resize(after[o]->size() * ours_[o].layout->bytes() / word_bytes);
     for (const Block& block : blocks_) {
-        std::optional<std::vector<std::uint32_t>> words;
+        const std::vector<std::uint32_t> words =
+            buffer_words(block.buffer.id(), words_of(block, items_of(block, after)) + margin_words(block));
+        check_end(block, words, after, when);
         for (const Member& member : block.members)
             for (const Word& one : member.words) {
                 if (one.kind != Word::Kind::after && one.kind != Word::Kind::in_place)
                     continue;
-                if (!words)
-                    words = buffer_words(block.buffer.id(), words_of(block, items_of(block, after)));
                 const std::size_t each = ours_[one.ours].layout->bytes() / word_bytes;
                 for (std::size_t item = 0; item < after[one.ours]->size(); ++item)
-                    records[one.ours][item * each + one.place] =
-                        (*words)[member.offset + item * member.stride + one.at];
+                    records[one.ours][item * each + one.place] = words[member.offset + item * member.stride + one.at];
             }
     }
     for (const std::size_t o : writes_) {
@@ -355,6 +397,14 @@ void BoundStorage::collect(std::span<const RecordBuffer* const> after) const {
         gl::BufferSubData(GL_COPY_WRITE_BUFFER, 0, static_cast<GLsizeiptr>(records[o].size() * word_bytes),
                           records[o].data());
     }
+}
+
+std::vector<bool> lengths_asked(const Program& program, std::size_t points) {
+    std::vector<bool> asked(points);
+    for (const InterfaceBlock& block : program.storage_blocks())
+        if (static_cast<std::size_t>(block.binding) < points)
+            asked[static_cast<std::size_t>(block.binding)] = program.asks_length(block);
+    return asked;
 }
 
 std::vector<StorageBlock> storage_blocks(const Program& program, std::span<const std::string> ours) {

@@ -42,8 +42,9 @@ class BoundStorage {
 
     /// Fills the blocks from our buffers, one each of `ours`, and binds each to the binding point of its own.
     void fill(std::span<const RecordBuffer* const> before, std::span<const RecordBuffer* const> after) const;
-    /// What the blocks hold now, into our buffers.
-    void collect(std::span<const RecordBuffer* const> after) const;
+    /// What the blocks hold now, into our buffers. Throws Error, its text after `when`, where the program wrote behind
+    /// the items of a block.
+    void collect(std::span<const RecordBuffer* const> after, std::string_view when = "") const;
 
   private:
     /// Where a word of each item comes from, and goes to.
@@ -67,7 +68,8 @@ class BoundStorage {
     struct Block {
         std::string name;
         GLuint binding = 0;
-        std::size_t least = 0; ///< words that GL asks for
+        std::size_t least = 0;       ///< words that GL asks for
+        bool ends_with_last = false; ///< the length() of an array of it is asked for
         std::vector<Member> members = {};
         GlBuffer buffer = {};
     };
@@ -83,15 +85,20 @@ class BoundStorage {
     };
 
     void add_names(std::size_t ours);
-    void add_block(const InterfaceBlock& block, const StorageBlockBinding& binding);
+    void add_block(const InterfaceBlock& block, const StorageBlockBinding& binding, bool ends_with_last);
     void add_words(Member& member, const MemberBinding& binding);
     void add_name(Member& member, const std::string& path, const std::string& name);
     void settle_counts(Block& block, const std::string& path) const;
     void check_written() const;
     [[nodiscard]] static std::size_t items_of(const Block& block, std::span<const RecordBuffer* const> buffers);
     [[nodiscard]] std::size_t words_of(const Block& block, std::size_t items) const;
+    [[nodiscard]] std::size_t margin_words(const Block& block) const;
+    void check_end(const Block& block, const std::vector<std::uint32_t>& words,
+                   std::span<const RecordBuffer* const> buffers, std::string_view when) const;
 
     std::shared_ptr<const Bindings> bindings_;
+    std::string writer_;    ///< the program and its file
+    std::size_t group_ = 1; ///< invocations
     std::vector<RecordBlocks> ours_;
     std::vector<Name> names_;
     std::vector<Block> blocks_;
@@ -104,6 +111,9 @@ struct StorageBlock {
     std::string ours; ///< empty: bound by member; the same name where the bindings do not have it
     bool bound;       ///< the bindings have it
 };
+
+/// Whether a program asks the length() of an array of its block, by binding points 0 to `points` - 1.
+std::vector<bool> lengths_asked(const Program& program, std::size_t points);
 
 /// Those of a program, in GL's order. Throws Error with the file and the path in it for one that is bound to what is
 /// none of `ours`.

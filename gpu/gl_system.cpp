@@ -107,7 +107,6 @@ GlSystem::GlSystem(const Schema& schema, std::vector<GlPass> passes, std::filesy
             used.push_back(Stage::fragment);
         const std::vector<ShaderSource> stages = parts_->sources(pass, used, false);
         const bool says = lockstep::says_precise(stages.front());
-        const bool asks_length = lockstep::asks_length(stages.front());
         parts_->says_precise = parts_->says_precise && says;
         parts_->says_precise_once = parts_->says_precise_once || says;
         const std::vector<Capture> captures =
@@ -117,10 +116,12 @@ GlSystem::GlSystem(const Schema& schema, std::vector<GlPass> passes, std::filesy
         if (!compute)
             check_nothing_lost(stages, captures);
         std::vector<BoundBlock> bound;
+        std::vector<bool> ends_with_last;
         BoundStorage by_member;
         std::array<GLint, 3> group{1, 1, 1};
         if (compute) {
             bound = bind_blocks(program, schema, parts_->storages, pass);
+            ends_with_last = lengths_asked(program, bound.size());
             by_member = BoundStorage(program, blocks_of_records(schema, parts_->storages));
             gl::GetProgramiv(program.id(), GL_COMPUTE_WORK_GROUP_SIZE, group.data());
         }
@@ -134,7 +135,7 @@ GlSystem::GlSystem(const Schema& schema, std::vector<GlPass> passes, std::filesy
                                                   {resource},
                                                   sizes,
                                                   sizes[0] * sizes[1] * sizes[2],
-                                                  asks_length});
+                                                  std::move(ends_with_last)});
         last = &*parts_->passes.back();
     }
 }
@@ -179,7 +180,6 @@ void GlSystem::upload(const SystemView& state) {
         std::vector<RecordBuffer>& two = parts_->buffers.emplace_back();
         for (int i = 0; i < 2; ++i) {
             two.emplace_back(storage.layout, state[r].count(), spare);
-            two.back().fill_spare(canary_word);
         }
         two[0].upload(state[r]);
     }
@@ -226,17 +226,15 @@ void GlSystem::Parts::run(const Linked& linked, int frame) {
     gl::UseProgram(0);
     gl::Finish();
     check_gl(linked.pass.name);
-    if (takes_times) // a buffer that is read may be moved to where kernels are slow
-        return;
-    for (std::size_t s = 0; s < storages.size(); ++s) {
-        if (!linked.may_write(storages[s]))
-            continue;
-        for (const RecordBuffer& buffer : buffers[s])
-            if (!buffer.spare_holds(canary_word))
-                throw Error(fmt::format("frame {}: {} wrote behind the {} {}s of {}; right is no write from item {} on",
-                                        frame, linked.pass.name, buffer.size(), storages[s].layout.about().item,
-                                        written_block(*schema, storages[s]), buffer.size()));
-    }
+    if (!takes_times)
+        check_ends(linked, fmt::format("frame {}: ", frame));
+}
+
+void GlSystem::Parts::check_ends(const Linked& linked, const std::string& when) {
+    for (std::size_t s = 0; s < storages.size(); ++s)
+        if (linked.may_write(storages[s]) || linked.binds(s))
+            for (const RecordBuffer* const buffer : {&from(s), &to(s)})
+                check_margin(linked.program, buffer->range(block_of(*schema, storages[s], buffer == &to(s))), when);
 }
 
 void GlSystem::Parts::step(std::size_t pass, int frame, bool keeps) {

@@ -37,8 +37,8 @@ std::map<std::string, BoundBlock> our_blocks(const Schema& schema, const std::ve
 
 } // namespace
 
-std::string written_block(const Schema& schema, const SystemStorage& storage) {
-    return storage.block.empty() ? block_name(schema.resources[storage.layout.resource], true) : storage.block;
+std::string block_of(const Schema& schema, const SystemStorage& storage, bool after) {
+    return storage.block.empty() ? block_name(schema.resources[storage.layout.resource], after) : storage.block;
 }
 
 std::vector<SystemStorage> storages_of(const Schema& schema) {

@@ -20,8 +20,8 @@ struct SystemStorage {
 /// The storages of a schema, buffer by buffer.
 std::vector<SystemStorage> storages_of(const Schema& schema);
 
-/// The storage block that a pass writes it through.
-std::string written_block(const Schema& schema, const SystemStorage& storage);
+/// The storage block through which a pass reads it, or writes it.
+std::string block_of(const Schema& schema, const SystemStorage& storage, bool after);
 
 /// A storage block of a program, at the binding point of its place among them.
 struct BoundBlock {

@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <array>
 #include <optional>
+#include <string>
 #include <string_view>
 #include <vector>
 
@@ -61,29 +62,23 @@ void GlSystem::Parts::dispatch(const Linked& linked, int frame) {
         if ((!storages[s].block.empty() || linked.pass.keeps()) && is_copied(storages[s].layout.resource) &&
             std::count(linked.resources.begin(), linked.resources.end(), storages[s].layout.resource) > 0)
             to(s).copy(from(s));
-    std::vector<GlBuffer> given; // lives until the dispatch is done
+    std::vector<StorageBuffer> given; // lives until the dispatch is done
     for (std::size_t b = 0; b < linked.bound.size(); ++b) {
         const BoundBlock& bound = linked.bound[b];
         const auto point = static_cast<GLuint>(b);
         if (bound.kind == Kind::data) {
             std::vector<float> floats = linked.pass.data.at(bound.name)(frame);
             floats.resize(std::max<std::size_t>(floats.size(), 1));
-            const GLuint buffer = given.emplace_back().id();
-            gl::BindBuffer(GL_COPY_READ_BUFFER, buffer);
-            gl::BufferData(GL_COPY_READ_BUFFER, static_cast<GLsizeiptr>(floats.size() * sizeof(float)), floats.data(),
-                           GL_STREAM_DRAW);
-            gl::BindBufferBase(GL_SHADER_STORAGE_BUFFER, point, buffer);
+            StorageBuffer& buffer = given.emplace_back();
+            buffer.allocate({bound.name, "float", floats.size(), sizeof(float), {}}, 4 * linked.invocations,
+                            floats.data(), GL_STREAM_DRAW);
+            buffer.range().bind(point, linked.ends_with_last[b]);
         } else {
             const std::uint8_t resource = storages[bound.storage].layout.resource;
             const bool written = std::count(linked.resources.begin(), linked.resources.end(), resource) > 0;
             const bool after =
                 bound.kind == Kind::after || (bound.kind == Kind::in_place && written && is_copied(resource));
-            const RecordBuffer& buffer = after ? to(bound.storage) : from(bound.storage);
-            if (linked.asks_length)
-                gl::BindBufferRange(GL_SHADER_STORAGE_BUFFER, point, buffer.id(), 0,
-                                    static_cast<GLsizeiptr>(buffer.size() * buffer.layout().bytes()));
-            else
-                gl::BindBufferBase(GL_SHADER_STORAGE_BUFFER, point, buffer.id());
+            (after ? to(bound.storage) : from(bound.storage)).range("").bind(point, linked.ends_with_last[b]);
         }
     }
     std::vector<const RecordBuffer*> read, written;
@@ -107,7 +102,13 @@ void GlSystem::Parts::dispatch(const Linked& linked, int frame) {
         else
             gl::DispatchCompute(groups(linked.pass.name, items, linked.invocations, 0), 1, 1);
     });
-    linked.by_member.collect(written);
+    const std::string when = fmt::format("frame {}: ", frame);
+    linked.by_member.collect(written, when);
+    if (!takes_times && !given.empty()) {
+        gl::MemoryBarrier(GL_BUFFER_UPDATE_BARRIER_BIT);
+        for (const StorageBuffer& buffer : given)
+            check_margin(linked.program, buffer.range(), when);
+    }
     gl::BindBuffer(GL_DISPATCH_INDIRECT_BUFFER, 0);
     gl::MemoryBarrier(GL_COMMAND_BARRIER_BIT | GL_BUFFER_UPDATE_BARRIER_BIT | GL_CLIENT_MAPPED_BUFFER_BARRIER_BIT |
                       GL_VERTEX_ATTRIB_ARRAY_BARRIER_BIT | GL_SHADER_STORAGE_BARRIER_BIT |

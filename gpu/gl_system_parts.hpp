@@ -51,12 +51,17 @@ struct GlSystem::Parts {
         std::vector<std::uint8_t> resources;          ///< that it writes
         std::array<std::size_t, 3> group = {1, 1, 1}; ///< invocations along each axis
         std::size_t invocations = 1;                  ///< of a group
-        bool asks_length = false;                     ///< of an array: a block then ends with the last record
+        std::vector<bool> ends_with_last = {};        ///< each of `bound`: the length() of its array is asked for
         std::optional<std::vector<VertexCapture>> traced = {};
 
         [[nodiscard]] bool may_write(const SystemStorage& storage) const {
             return !storage.block.empty() ||
                    std::find(resources.begin(), resources.end(), storage.layout.resource) != resources.end();
+        }
+        [[nodiscard]] bool binds(std::size_t storage) const {
+            return std::any_of(bound.begin(), bound.end(), [&](const BoundBlock& block) {
+                return block.kind != BoundBlock::Kind::data && block.storage == storage;
+            });
         }
     };
     const Schema* schema;
@@ -100,6 +105,7 @@ struct GlSystem::Parts {
     /// Runs `work`, a draw or a dispatch, and takes its time.
     template <class Work> void timed(const Work& work);
     void dispatch(const Linked& linked, int frame);
+    void check_ends(const Linked& linked, const std::string& when);
     std::optional<GLintptr> group_counts(const Linked& linked);
     [[nodiscard]] std::vector<ShaderSource> sources(const GlPass& pass, std::span<const Stage> stages,
                                                     bool traced) const;

@@ -171,8 +171,10 @@ std::vector<Capture> outputs_with(std::string_view prefix, std::span<const Shade
 
 Program::Program(std::string name, std::span<const ShaderSource> given, std::span<const Capture> captured,
                  std::span<const std::string_view> storage_buffers)
-    : name_(std::move(name)), bindings_(bindings_of(given)) {
+    : name_(std::move(name)), file_(given.front().files.front()), bindings_(bindings_of(given)) {
     const std::vector<ShaderSource> stages = as_gl_takes(given);
+    for (const ShaderSource& stage : stages)
+        lengths_asked_.merge(lengths_asked(stage));
     const Bindings* const bindings = bindings_.get();
     const std::vector<Capture> outputs = by_their_names(captured, bindings);
     id_ = gl::CreateProgram();
@@ -202,6 +204,7 @@ void Program::link_texts(std::span<const ShaderSource> stages, std::span<const C
         check_geometry_inputs(stages);
         throw Error(fmt::format("{}: {}", name_, link_failure(id_, stages, outputs)));
     }
+    note_link_warnings(id_, stages);
     if (!outputs.empty())
         check_geometry_stage(id_, stages);
     for (std::size_t i = 0; i < outputs.size(); ++i)
@@ -216,12 +219,15 @@ void Program::link_texts(std::span<const ShaderSource> stages, std::span<const C
 }
 
 Program::Program(Program&& other) noexcept
-    : name_(std::move(other.name_)), id_(std::exchange(other.id_, 0)), bindings_(std::move(other.bindings_)),
+    : name_(std::move(other.name_)), file_(std::move(other.file_)), lengths_asked_(std::move(other.lengths_asked_)),
+      id_(std::exchange(other.id_, 0)), bindings_(std::move(other.bindings_)),
       module_blocks_(std::move(other.module_blocks_)), uniforms_(std::move(other.uniforms_)),
       attributes_(std::move(other.attributes_)) {}
 
 Program& Program::operator=(Program&& other) noexcept {
     std::swap(name_, other.name_);
+    std::swap(file_, other.file_);
+    std::swap(lengths_asked_, other.lengths_asked_);
     std::swap(id_, other.id_);
     std::swap(bindings_, other.bindings_);
     std::swap(module_blocks_, other.module_blocks_);
@@ -303,6 +309,15 @@ void Program::set(std::string_view uniform, const glm::mat4& value) const {
 
 void Program::set_unit(std::string_view uniform, int unit, GLenum type) const {
     set_words(uniform, type, words_of<1>(&unit));
+}
+
+bool Program::asks_length(const InterfaceBlock& block) const {
+    return lengths_asked_.contains("") || std::ranges::any_of(block.members, [&](const BlockMember& member) {
+               std::string_view array = member.name;
+               if (array.starts_with(block.name + "."))
+                   array.remove_prefix(block.name.size() + 1);
+               return lengths_asked_.contains(std::string(array.substr(0, array.find_first_of("[."))));
+           });
 }
 
 bool Program::uses_storage(GLuint binding) const {

@@ -2,6 +2,7 @@
 #include <cstdint>
 #include <memory>
 #include <optional>
+#include <set>
 #include <span>
 #include <string>
 #include <string_view>
@@ -78,6 +79,11 @@ class Program {
     /// Its active storage blocks, in GL's order. Needs GL 4.3.
     [[nodiscard]] std::vector<InterfaceBlock> storage_blocks() const;
 
+    /// The file of its first stage, as messages name it.
+    [[nodiscard]] const std::string& file() const { return file_; }
+    /// Whether a stage asks the length() of an array of the block.
+    [[nodiscard]] bool asks_length(const InterfaceBlock& block) const;
+
     /// What lies beside its stages; null: nothing.
     [[nodiscard]] const std::shared_ptr<const Bindings>& bindings() const { return bindings_; }
 
@@ -91,7 +97,8 @@ class Program {
                       std::span<const std::string_view> storage_buffers);
     void set_words(std::string_view uniform, GLenum type, std::span<const std::uint32_t> words) const;
 
-    std::string name_;
+    std::string name_, file_;
+    std::set<std::string> lengths_asked_; ///< by its stages
     GLuint id_ = 0;
     std::shared_ptr<const Bindings> bindings_;
     std::vector<InterfaceBlock> module_blocks_; ///< of SPIR-V, in GL's order

@@ -35,6 +35,10 @@ bool link(GLuint program, std::span<const Capture> captured) {
     return linked == GL_TRUE;
 }
 
+void note_link_warnings(GLuint program, std::span<const ShaderSource> stages) {
+    note_shader_warnings(link_warnings(link_log(program), stages));
+}
+
 std::vector<Capture> accepted_spellings(GLuint program, std::span<const ShaderSource> stages,
                                         std::span<const Capture> captured) {
     const ShaderSource* const last = last_vertex_stage(stages);

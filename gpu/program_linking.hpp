@@ -9,6 +9,9 @@ namespace lockstep {
 
 // What a program of GLSL texts and one of SPIR-V modules share when they are linked.
 
+/// Takes up what the driver warns of in a program that links.
+void note_link_warnings(GLuint program, std::span<const ShaderSource> stages);
+
 /// False where it does not link. `captured` is what transform feedback captures; modules say it themselves.
 bool link(GLuint program, std::span<const Capture> captured);
 

@@ -277,6 +277,8 @@ RecordBuffer::RecordBuffer(const RecordLayout& layout, std::size_t count, std::s
     gl::BufferData(GL_COPY_READ_BUFFER, static_cast<GLsizeiptr>((count + spare) * layout.bytes()), nullptr,
                    GL_DYNAMIC_COPY);
     check_gl(fmt::format("buffer of {} {}s", count, layout.about().item));
+    if (spare > 0)
+        lay(range("").margin);
 }
 
 void RecordBuffer::upload(const View& state) {
@@ -388,21 +390,9 @@ void RecordBuffer::copy(const RecordBuffer& other) {
                           static_cast<GLsizeiptr>(count_ * layout_->bytes()));
 }
 
-void RecordBuffer::fill_spare(std::uint32_t pattern) {
-    const std::vector<std::uint32_t> words(spare_ * layout_->bytes() / word, pattern);
-    gl::BindBuffer(GL_COPY_READ_BUFFER, id());
-    gl::BufferSubData(GL_COPY_READ_BUFFER, static_cast<GLintptr>(count_ * layout_->bytes()),
-                      static_cast<GLsizeiptr>(words.size() * word), words.data());
-}
-
-bool RecordBuffer::spare_holds(std::uint32_t pattern) const {
-    if (spare_ == 0)
-        return true;
-    gl::BindBuffer(GL_COPY_READ_BUFFER, id());
-    std::vector<std::uint32_t> words(spare_ * layout_->bytes() / word);
-    gl::GetBufferSubData(GL_COPY_READ_BUFFER, static_cast<GLintptr>(count_ * layout_->bytes()),
-                         static_cast<GLsizeiptr>(words.size() * word), words.data());
-    return std::all_of(words.begin(), words.end(), [&](std::uint32_t one) { return one == pattern; });
+StorageRange RecordBuffer::range(std::string block) const {
+    const std::size_t bytes = layout_->bytes();
+    return {std::move(block), layout_->about().item, count_, bytes, {id(), count_ * bytes, spare_ * bytes}};
 }
 
 std::array<std::uint32_t, 3> RecordBuffer::three_words(std::size_t place) const {

@@ -9,6 +9,7 @@
 
 #include "gpu/object.hpp"
 #include "gpu/program.hpp"
+#include "gpu/storage_range.hpp"
 #include "reference/model/schema.hpp"
 #include "reference/model/state_view.hpp"
 
@@ -41,8 +42,7 @@ struct StagedSlices; ///< the host's memory that a large buffer is read through
 /// `count` records in GL memory; record i at byte i * layout.bytes(). Contents are undefined at first.
 class RecordBuffer {
   public:
-    /// `layout` outlives this. `spare` records more lie behind, for what is written there in error. Throws Error if GL
-    /// has not the memory.
+    /// `layout` outlives this. `spare` records more lie behind, a margin. Throws Error if GL has not the memory.
     RecordBuffer(const RecordLayout& layout, std::size_t count, std::size_t spare = 0);
     RecordBuffer(RecordBuffer&&) noexcept;
     RecordBuffer& operator=(RecordBuffer&&) noexcept;
@@ -65,9 +65,8 @@ class RecordBuffer {
     /// The same records as `other`, of its layout and size. The spare ones stay.
     void copy(const RecordBuffer& other);
 
-    /// Every word of the spare records becomes `word`, and whether they all still are.
-    void fill_spare(std::uint32_t word);
-    [[nodiscard]] bool spare_holds(std::uint32_t word) const;
+    /// As a storage block of this name; its margin is the spare records.
+    [[nodiscard]] StorageRange range(std::string block) const;
 
     /// Three words from byte `place` on.
     [[nodiscard]] std::array<std::uint32_t, 3> three_words(std::size_t place) const;

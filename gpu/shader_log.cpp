@@ -1,11 +1,13 @@
 #include "gpu/shader_log.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cctype>
 #include <charconv>
 #include <optional>
 #include <sstream>
 #include <string_view>
+#include <utility>
 
 #include <fmt/format.h>
 
@@ -61,34 +63,68 @@ class Rest {
     std::string_view text_;
 };
 
-/// How a compiler begins the line of an error: gives its line number and leaves the message; nothing for another line.
-using Form = std::optional<std::size_t> (*)(Rest&);
+/// A line of a compiler's log about a line of the text.
+struct About {
+    bool is_warning = false;
+    std::size_t line = 0;
+};
 
-/// `0:12(3): error: MESSAGE`, `0:12(3): preprocessor error: MESSAGE`
-std::optional<std::size_t> mesa(Rest& rest) {
+/// How a compiler begins such a line: leaves the message; nothing for another line.
+using Form = std::optional<About> (*)(Rest&);
+
+/// `0:12(3): error: MESSAGE`, `0:12(3): preprocessor error: MESSAGE`, `0:12(3): warning: MESSAGE`
+std::optional<About> mesa(Rest& rest) {
     if (!rest.number() || !rest.take(":"))
         return {};
     const auto line = rest.number();
     if (!line || !rest.take("(") || !rest.number() || !rest.take("): "))
         return {};
     rest.take("preprocessor ");
-    return rest.take("error: ") ? line : std::nullopt;
+    const bool is_warning = rest.take("warning: ");
+    return is_warning || rest.take("error: ") ? std::optional(About{is_warning, *line}) : std::nullopt;
 }
 
-/// `0(12) : error C1234: MESSAGE`
-std::optional<std::size_t> nvidia(Rest& rest) {
+/// `0(12) : error C1234: MESSAGE`, `0(12) : warning C7050: MESSAGE`
+std::optional<About> nvidia(Rest& rest) {
     if (!rest.number() || !rest.take("("))
         return {};
     const auto line = rest.number();
-    return line && rest.take(") : error ") ? line : std::nullopt;
+    if (!line || !rest.take(") : "))
+        return {};
+    const bool is_warning = rest.take("warning ");
+    return is_warning || rest.take("error ") ? std::optional(About{is_warning, *line}) : std::nullopt;
 }
 
-/// `ERROR: 0:12: MESSAGE`
-std::optional<std::size_t> others(Rest& rest) {
-    if (!rest.take("ERROR: ") || !rest.number() || !rest.take(":"))
+/// `ERROR: 0:12: MESSAGE`, `WARNING: 0:12: MESSAGE`
+std::optional<About> others(Rest& rest) {
+    const bool is_warning = rest.take("WARNING: ");
+    if ((!is_warning && !rest.take("ERROR: ")) || !rest.number() || !rest.take(":"))
         return {};
     const auto line = rest.number();
-    return line && rest.take(": ") ? line : std::nullopt;
+    return line && rest.take(": ") ? std::optional(About{is_warning, *line}) : std::nullopt;
+}
+
+/// `FILE:LINE` of a line of a stage's text; nothing where it has no such line.
+std::optional<std::string> place(const ShaderSource& source, std::size_t line) {
+    if (line < 1 || line > source.origins.size())
+        return {};
+    const ShaderSource::Origin& origin = source.origins[line - 1];
+    return fmt::format("{}:{}", source.files[origin.file], origin.line);
+}
+
+std::optional<ShaderWarning> warning_in(const std::string& line, const ShaderSource& source) {
+    for (const Form form : {mesa, nvidia, others}) {
+        Rest rest(line);
+        if (const std::optional<About> about = form(rest))
+            return about->is_warning
+                       ? std::optional(ShaderWarning{place(source, about->line).value_or(source.files.front()),
+                                                     shortened(rest.text())})
+                       : std::nullopt;
+    }
+    Rest rest(line); // of the whole program
+    if (rest.take("warning: ") || rest.take("WARNING: "))
+        return ShaderWarning{source.files.front(), shortened(rest.text())};
+    return {};
 }
 
 } // namespace
@@ -108,16 +144,45 @@ std::string first_link_error(const std::string& log) {
     return shortened(found.empty() ? first : found);
 }
 
+std::vector<ShaderWarning> compile_warnings(const std::string& log, const ShaderSource& source) {
+    std::vector<ShaderWarning> found;
+    find_line(log, [&](const std::string& line) {
+        if (std::optional<ShaderWarning> warning = warning_in(line, source))
+            found.push_back(std::move(*warning));
+        return false;
+    });
+    return found;
+}
+
+std::vector<ShaderWarning> link_warnings(const std::string& log, std::span<const ShaderSource> stages) {
+    constexpr std::array<std::pair<std::string_view, Stage>, 4> paragraphs{{{"Vertex info", Stage::vertex},
+                                                                            {"Geometry info", Stage::geometry},
+                                                                            {"Fragment info", Stage::fragment},
+                                                                            {"Compute info", Stage::compute}}};
+    std::vector<ShaderWarning> found;
+    const ShaderSource* of = &stages.front();
+    find_line(log, [&](const std::string& line) {
+        for (const auto& [heading, stage] : paragraphs)
+            for (const ShaderSource& source : stages)
+                if (line.starts_with(heading) && source.stage == stage)
+                    of = &source;
+        if (std::optional<ShaderWarning> warning = warning_in(line, *of))
+            found.push_back(std::move(*warning));
+        return false;
+    });
+    return found;
+}
+
 std::string first_compile_error(const std::string& log, const ShaderSource& source) {
     std::string result;
     find_line(log, [&](const std::string& line) {
         for (const Form form : {mesa, nvidia, others}) {
             Rest rest(line);
-            const std::optional<std::size_t> number = form(rest);
-            if (!number || *number < 1 || *number > source.origins.size())
+            const std::optional<About> about = form(rest);
+            if (!about || about->is_warning)
                 continue;
-            const ShaderSource::Origin& origin = source.origins[*number - 1];
-            result = fmt::format("{}:{}: {}", source.files[origin.file], origin.line, shortened(rest.text()));
+            if (const std::optional<std::string> where = place(source, about->line))
+                result = fmt::format("{}: {}", *where, shortened(rest.text()));
         }
         return !result.empty();
     });

@@ -24,6 +24,13 @@ GLenum gl_stage(Stage stage) {
     return GL_COMPUTE_SHADER;
 }
 
+[[noreturn]] void fail(const std::string& log, const ShaderSource& source) {
+    if (source.module != nullptr)
+        throw Error(
+            fmt::format("shader {}: the driver refuses the module: {}", source.files.front(), first_link_error(log)));
+    throw Error(fmt::format("shader {}", first_compile_error(log, source)));
+}
+
 } // namespace
 
 bool takes_spirv() { return gl::ShaderBinary != nullptr && gl::SpecializeShader != nullptr; }
@@ -42,19 +49,19 @@ ShaderObject::ShaderObject(const ShaderSource& source, std::span<const SpirvModu
         gl::ShaderSource(id_, 1, &text, nullptr);
         gl::CompileShader(id_);
     }
-    GLint compiled = GL_FALSE;
+    GLint compiled = GL_FALSE, length = 0;
     gl::GetShaderiv(id_, GL_COMPILE_STATUS, &compiled);
-    if (compiled == GL_TRUE)
-        return;
-    GLint length = 0;
     gl::GetShaderiv(id_, GL_INFO_LOG_LENGTH, &length);
     std::string log(static_cast<std::size_t>(length), '\0');
     gl::GetShaderInfoLog(id_, length, nullptr, log.data());
-    gl::DeleteShader(id_);
-    if (source.module != nullptr)
-        throw Error(
-            fmt::format("shader {}: the driver refuses the module: {}", source.files.front(), first_link_error(log)));
-    throw Error(fmt::format("shader {}", first_compile_error(log, source)));
+    try {
+        if (compiled != GL_TRUE)
+            fail(log, source);
+        note_shader_warnings(compile_warnings(log, source));
+    } catch (...) {
+        gl::DeleteShader(id_);
+        throw;
+    }
 }
 
 ShaderObject::ShaderObject(ShaderObject&& other) noexcept : id_(std::exchange(other.id_, 0)) {}

@@ -1,8 +1,10 @@
 #pragma once
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "gpu/shader_use.hpp"
+#include "gpu/shader_warnings.hpp"
 #include "reference/model/profile.hpp"
 
 namespace lockstep {
@@ -13,7 +15,8 @@ struct SideDescription {
     Profile profile;                           ///< its driver's arithmetic, which the reference follows
     /// The options with which `lockstep check` runs it again ("--shaders mine"); not set: the program cannot.
     std::optional<std::string> arguments;
-    std::optional<ShaderUse> shaders; ///< whose shaders it runs; not set: not lockstep's and not told
+    std::optional<ShaderUse> shaders;         ///< whose shaders it runs; not set: not lockstep's and not told
+    std::vector<ShaderWarning> warnings = {}; ///< of the driver, about them
 };
 
 } // namespace lockstep

@@ -410,6 +410,7 @@ SpirvModule declared_by(const std::string& file, std::string_view content, Stage
         };
         made.calls_normalize = made.calls_normalize || calls(GLSLstd450Normalize);
         made.calls_inverse_sqrt = made.calls_inverse_sqrt || calls(GLSLstd450InverseSqrt);
+        made.asks_length = made.asks_length || op == spv::OpArrayLength;
         made.says_precise = made.says_precise || (op == spv::OpDecorate && words[2] == spv::DecorationNoContraction);
     });
     return made;

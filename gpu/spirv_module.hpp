@@ -29,6 +29,7 @@ struct SpirvModule {
     std::vector<std::uint32_t> words;
     std::string entry_point;
     bool says_precise = false; ///< NoContraction, of something
+    bool asks_length = false;  ///< of an array without a size (OpArrayLength)
     bool calls_normalize = false;
     bool calls_inverse_sqrt = false;
     std::vector<Variable> inputs, outputs, uniforms;

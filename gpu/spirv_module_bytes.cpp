@@ -9,7 +9,8 @@ NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(BlockMember, name, type, offset, size, array_
                                    top_level_size, top_level_stride)
 NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(InterfaceBlock, name, binding, bytes, members)
 NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(SpirvModule, file, words, entry_point, says_precise, calls_normalize,
-                                   calls_inverse_sqrt, inputs, outputs, uniforms, uniform_blocks, storage_blocks)
+                                   calls_inverse_sqrt, asks_length, inputs, outputs, uniforms, uniform_blocks,
+                                   storage_blocks)
 
 std::string module_bytes(const SpirvModule& module) {
     std::string bytes;

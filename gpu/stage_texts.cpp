@@ -9,6 +9,7 @@
 #include <fmt/format.h>
 
 #include "gpu/shader_words.hpp"
+#include "gpu/spirv_module.hpp"
 #include "reference/model/error.hpp"
 
 namespace lockstep {
@@ -138,6 +139,29 @@ bool is_same_output(std::string_view one, std::string_view other) {
     };
     const auto has_block = [](std::string_view name) { return name.find('.') != std::string_view::npos; };
     return one == other || (own(one) == own(other) && (has_block(one) || has_block(other)));
+}
+
+std::set<std::string> lengths_asked(const ShaderSource& stage) {
+    if (stage.module != nullptr)
+        return stage.module->asks_length ? std::set<std::string>{""} : std::set<std::string>{};
+    std::set<std::string> asked, macros;
+    std::string name, last;   // the words before
+    std::size_t defining = 0; // the line that a #define ends with
+    for (ShaderWords words(stage.text); words.next();) {
+        const std::string_view word = words.token();
+        if (name == "#" && last == "define") {
+            macros.emplace(word);
+            defining = words.line();
+        }
+        if (word == "\\" && words.line() == defining)
+            ++defining;
+        if (last == "." && word == "length")
+            asked.insert(words.line() == defining ? "" : name);
+        name = std::exchange(last, std::string(word));
+    }
+    if (std::ranges::any_of(asked, [&](const std::string& one) { return macros.contains(one); }))
+        asked.insert("");
+    return asked;
 }
 
 std::string missing_flat(std::span<const ShaderSource> stages) {

@@ -30,6 +30,9 @@ std::vector<std::string> spellings(std::string_view text, const std::string& out
 /// Whether a driver's name of an output, with or without its block, is that of another spelling.
 bool is_same_output(std::string_view one, std::string_view other);
 
+/// The names of which a stage asks length(). An empty one: of any array, as a module or a macro may.
+std::set<std::string> lengths_asked(const ShaderSource& stage);
+
 /// An output that is interpolated, and read `flat`, in one sentence; empty: there is none. Before GLSL 4.40 both sides
 /// of the border say `flat`, or neither.
 std::string missing_flat(std::span<const ShaderSource> stages);

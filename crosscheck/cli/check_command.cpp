@@ -39,6 +39,7 @@
 #include "crosscheck/report/power_text.hpp"
 #include "crosscheck/report/progress.hpp"
 #include "crosscheck/report/report.hpp"
+#include "crosscheck/report/shader_notes.hpp"
 #include "crosscheck/scene/fragment_stages.hpp"
 #include "crosscheck/scene/profile_text.hpp"
 #include "crosscheck/scene/run_text.hpp"
@@ -91,7 +92,8 @@ struct Checked {
     GpuSide& gpu;
     KnownOperations known;
     CheckedRun run;
-    RunPart* part = nullptr; ///< to be filled in; null: the whole run is checked
+    RunPart* part = nullptr;                              ///< to be filled in; null: the whole run is checked
+    const std::vector<ShaderWarning>* warnings = nullptr; ///< so far; null: no shaders run here
 };
 
 /// The first divergent particle's step, for a file.
@@ -254,12 +256,17 @@ int check_and_tell(const CheckRequest& options, OutputFiles& files, const Checke
 
     if (render)
         judge_last(options, checked, earlier, report);
+    const std::vector<ShaderWarning> warnings =
+        checked.warnings == nullptr ? std::vector<ShaderWarning>() : *checked.warnings;
+    note_unset_variables(report, warnings);
     RunDescription run = description(options, checked.run, report);
     InputDigests inputs;
     if (run.shaders) {
         note_what_ran(*run.shaders);
         inputs = input_digests();
     }
+    for (std::string& note : warning_notes(warnings))
+        run.notes.push_back(std::move(note));
     if (checked.part != nullptr)
         run.notes.insert(run.notes.end(), checked.part->own_notes.begin(), checked.part->own_notes.end());
     tell(options, report, run);
@@ -318,6 +325,8 @@ int run_scene(const CheckRequest& options) {
     if (!is_rendered(options))
         compile_unrendered(scene, options.run.shaders);
     const Profile profile = measured_profile(context, scene, options.run.shaders);
+    std::vector<ShaderWarning> warnings;
+    const ShaderWarnings collected(warnings);
     GpuSimulation gpu(scene, options.run.shaders);
     return check_and_tell(options, files,
                           {scene,
@@ -332,7 +341,9 @@ int run_scene(const CheckRequest& options) {
                             conversion_notes(profile, scene.switches),
                             std::move(shaders),
                             {},
-                            scene.width}});
+                            scene.width},
+                           nullptr,
+                           &warnings});
 }
 
 /// The frames that this run is to compare, of all of them.
@@ -408,10 +419,10 @@ void check_stress_options(const Call& call, const CheckRequest& options) {
         throw Error(fmt::format("check: --frames {}: --stress checks its scenes from their start; right is a number of "
                                 "frames, or --shard for some of the scenes",
                                 options.frames.text()));
-    static constexpr std::array<std::string_view, 17> allowed{
+    static constexpr std::array<std::string_view, 18> allowed{
         "--shard",   "--stress",       "--frames", "--preset",          "--set",          "--threads",        "--gl",
         "--shaders", "--allow-unused", "--legal",  "--allow-undefined", "--require-hits", "--power-at-least", "--power",
-        "--json",    "--quiet",        "--help"};
+        "--json",    "--quiet",        "--help",   "--werror-shaders"};
     if (!options.run.scene.empty())
         throw Error("check: a scene does not go with --stress, which brings its own");
     check_options(call, "--stress", allowed);

@@ -49,10 +49,10 @@ int debug_scene(const DebugRequest& options) {
     setup.heading = run_heading(scene.name, options.run.scene.string(), settings_text(options.run, scene),
                                 summary(context.describe()), profile);
     setup.start = [&](const std::vector<std::string>& changes) {
-        const Scene scene = load_with(changes);
-        const Profile of_scene = with_written_codes(profile, scene, options.run.shaders);
+        const Scene changed = load_with(changes);
+        const Profile of_scene = with_written_codes(profile, changed, options.run.shaders);
         return std::make_unique<CollisionDebugRun>(std::make_unique<FrameRun>(
-            scene, of_scene, known_operations(options.legal, of_scene), options.run.shaders));
+            changed, of_scene, known_operations(options.legal, of_scene), options.run.shaders));
     };
     return debug_run(std::move(setup));
 }

@@ -12,6 +12,7 @@
 #include "crosscheck/files/shell_words.hpp"
 #include "crosscheck/judge/graph_system.hpp"
 #include "crosscheck/report/colour.hpp"
+#include "crosscheck/report/shader_notes.hpp"
 #include "crosscheck/scene/graph_catalogue.hpp"
 #include "crosscheck/scene/graph_file.hpp"
 #include "crosscheck/scene/profiles.hpp"
@@ -43,12 +44,13 @@ int check_graph(const GraphRequest& options) {
     CheckOptions how;
     how.frames = 1;
     how.known = known_operations(options.legal, side.describe().profile);
-    const CheckReport report = check(scene.system, side, how);
+    CheckReport report = check(scene.system, side, how);
+    note_unset_variables(report, side.describe().warnings);
     if (!options.quiet) {
         RunDescription about = describe_run(scene.system, side.describe(), how,
-                                            fmt::format("lockstep graph check {} --items {} --seed {}{}",
+                                            fmt::format("lockstep graph check {} --items {} --seed {}{}{}",
                                                         shell_word(options.file.string()), options.items, options.seed,
-                                                        options.exact ? " --exact" : ""));
+                                                        options.exact ? " --exact" : "", werror_option_text()));
         about.scene = fmt::format("{} ({})", scene.system.name, plain_line(options.file.string()));
         fmt::print("{}", colored(plain_text(report_text(report, about))));
     }
@@ -103,6 +105,7 @@ Verb graph_command() {
     check_verb.add(flag("--exact", options->exact, "with arithmetic that has the same bits everywhere"));
     check_verb.add(text_option("--gl", "auto|osmesa|egl|egl-device:N", options->gl, "which GL to open"));
     add_legal_option(check_verb, options->legal);
+    add_werror_option(check_verb);
     check_verb.add(flag("--quiet", options->quiet, "print nothing"));
     Verb eval = of_graph("eval", "print what each node makes, in hexadecimal; needs no GL", options, print_values);
     eval.add(integer_option("--item", "I", {0, (1 << 22) - 1}, options->item, "which of the invocations of a check"));

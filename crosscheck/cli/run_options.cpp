@@ -7,6 +7,7 @@
 #include <fmt/format.h>
 
 #include "crosscheck/cli/systems.hpp"
+#include "crosscheck/command/judging_options.hpp"
 #include "crosscheck/command/option_values.hpp"
 #include "crosscheck/files/json_reader.hpp"
 #include "crosscheck/files/shell_words.hpp"
@@ -75,6 +76,7 @@ void add_gl_options(Verb& verb, RunOptions& options) {
     verb.add(text_option("--gl", "auto|osmesa|egl|egl-device:N", options.gl, "which GL to open"));
     verb.add(path_option("--shaders", "DIR", options.shaders, "take shader files from here first"));
     verb.add(flag("--allow-unused", options.allow_unused, "let shaders that do not run here lie beside those that do"));
+    add_werror_option(verb);
 }
 
 void add_profile_option(Verb& verb, std::string& profile) {
@@ -95,7 +97,7 @@ void check_scene_or_trace(const Call& call, const RunOptions& options, const std
     if (!options.scene.empty())
         throw Error(fmt::format("{}: a scene does not go with --trace, which brings its own", call.verb.name));
     for (const char* name : {"--particles", "--preset", "--set", "--gl", "--shaders", "--allow-unused", "--images",
-                             "--render", "--no-render"})
+                             "--render", "--no-render", "--werror-shaders"})
         if (call.has(name))
             throw Error(
                 fmt::format("{}: {} goes with a scene that is run here, not with --trace", call.verb.name, name));
@@ -172,7 +174,7 @@ std::string command_line(const std::string& verb, const RunOptions& options, con
         line += fmt::format(" --shaders {}", shell_path(options.shaders));
     if (options.allow_unused)
         line += " --allow-unused";
-    return line;
+    return line + werror_option_text();
 }
 
 std::string settings_text(const RunOptions& options, const Scene& scene) {

@@ -18,6 +18,7 @@
 #include "crosscheck/files/signals.hpp"
 #include "crosscheck/report/places.hpp"
 #include "crosscheck/report/report.hpp"
+#include "crosscheck/report/shader_notes.hpp"
 #include "crosscheck/scene/fragment_stages.hpp"
 #include "crosscheck/scene/profile_json.hpp"
 #include "crosscheck/scene/profile_text.hpp"
@@ -69,6 +70,8 @@ StressScene run_scene(const StressOptions& options, const ReadStress& read, cons
     forget_shaders_run();
     compile_unrendered(scene, run.shaders);
     const Profile profile = with_written_codes(measured, scene, run.shaders);
+    std::vector<ShaderWarning> warnings;
+    const ShaderWarnings collected(warnings);
     GpuSimulation gpu(scene, run.shaders);
     CheckOptions check_options;
     check_options.frames = run.frames;
@@ -77,6 +80,7 @@ StressScene run_scene(const StressOptions& options, const ReadStress& read, cons
     CheckReport report = check(scene, profile, gpu, check_options);
     const PassRules rules{options.rules.allow_undefined, options.rules.require_hits};
     ask_hits(report, rules);
+    note_unset_variables(report, warnings);
     RunDescription about;
     about.scene = fmt::format("{} ({})", scene.name, plain_line(run.scene.string()));
     about.context = context;
@@ -85,6 +89,8 @@ StressScene run_scene(const StressOptions& options, const ReadStress& read, cons
     about.mode = "resync";
     about.notes = conversion_notes(profile, scene.switches);
     note_what_ran(about.shaders.emplace(shaders));
+    for (std::string& note : warning_notes(warnings))
+        about.notes.push_back(std::move(note));
     about.timed = false;
     const int frames = report.first_frame ? *report.first_frame + 1 : report.frames;
     about.repeat = command_line("check", run, frames) + legal_option_text(options.legal) + pass_options_text(rules);

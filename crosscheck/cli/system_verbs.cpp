@@ -29,6 +29,7 @@
 #include "crosscheck/report/places.hpp"
 #include "crosscheck/report/power_text.hpp"
 #include "crosscheck/report/run_to_run.hpp"
+#include "crosscheck/report/shader_notes.hpp"
 #include "crosscheck/report/system_debug_run.hpp"
 #include "gpu/stages_run.hpp"
 #include "reference/model/error.hpp"
@@ -77,6 +78,7 @@ DrawnFrame judge_drawn(const SystemInput& input, const SystemSide& side, const R
     DrawnFrame judged{check(picture.system, drawn, options), std::move(about), frame,
                       picture.system.start.extent(made).count(), picture.system.schema.resources[made].item};
     number_frame(*judged.report, frame);
+    note_unset_variables(*judged.report, drawn.describe().warnings);
     judged.first = first_item_words(picture.system, *judged.report);
     return judged;
 }
@@ -180,13 +182,13 @@ std::string explain_drawn(SystemInput& input, const RunOptions& run, const Syste
 } // namespace
 
 std::span<const std::string_view> system_check_options() {
-    static constexpr std::array<std::string_view, 22> options{
+    static constexpr std::array<std::string_view, 23> options{
         "--trace",        "--power",     "--power-at-least", "--json",
         "scene",          "--particles", "--preset",         "--set",
         "--threads",      "--gl",        "--shaders",        "--frames",
         "--allow-unused", "--mode",      "--legal",          "--quiet",
         "--no-render",    "--hashes",    "--images",         "--allow-undefined",
-        "--report",       "--hex"};
+        "--report",       "--hex",       "--werror-shaders"};
     return options;
 }
 
@@ -228,6 +230,7 @@ int check_system(const RegisteredSystem& system, RunOptions run, const SystemChe
         };
     CheckReport report = check_shown(twins, side, options, asked.quiet, watch);
     ask_power(report, asked.rules.power_at_least);
+    note_unset_variables(report, side.describe().warnings);
     DrawnFrame drawn = asked.render && !report.partial() ? judge_drawn(input, side, run, asked, report) : DrawnFrame{};
 
     RunDescription about =

@@ -1,6 +1,7 @@
 #include "crosscheck/command/judging_options.hpp"
 
 #include "crosscheck/command/option_values.hpp"
+#include "gpu/shader_warnings.hpp"
 
 namespace lockstep {
 
@@ -17,5 +18,12 @@ void add_pass_options(Verb& verb, PassRules& rules) {
     verb.add(share_option("--power-at-least", rules.power_at_least,
                           "fail where the run would have shown fewer of the mistakes with names: 95%, 0.95"));
 }
+
+void add_werror_option(Verb& verb) {
+    verb.add(flag("--werror-shaders", shader_warnings_are_errors(),
+                  "stop where the driver warns of a shader, as of a variable that is never set"));
+}
+
+std::string werror_option_text() { return shader_warnings_are_errors() ? " --werror-shaders" : ""; }
 
 } // namespace lockstep

@@ -9,6 +9,7 @@
 #include "crosscheck/judge/append_judge.hpp"
 #include "crosscheck/judge/check.hpp"
 #include "crosscheck/judge/item_place.hpp"
+#include "gpu/storage_range.hpp"
 #include "gpu/system_side.hpp"
 #include "reference/model/error.hpp"
 
@@ -87,6 +88,9 @@ void find_canary(const ItemPass& pass, const SystemState& now, int frame) {
     if (const std::size_t item = find_word(view, canary_word); item < view.count())
         throw Error(fmt::format("frame {}: {} did not write {}: its record still holds what was laid there before",
                                 frame, pass.name(), item_name(view.about(), view.extent, item)));
+    if (const std::size_t item = find_word(view, margin_word); item < view.count())
+        throw Error(fmt::format("frame {}: {} read past the end of a buffer, and wrote what lies there into {}", frame,
+                                pass.name(), item_name(view.about(), view.extent, item)));
 }
 
 void expect_left(const SystemSide& gpu, const System& system, std::size_t first, const SystemState& before,

@@ -95,9 +95,8 @@ void SystemRun::step(int frame, std::size_t pass) {
 void SystemRun::go_to(int frame, std::size_t pass, const std::function<void(int)>& on_frame) {
     if (pass >= system_.passes.size())
         throw Error(fmt::format("{} has no pass {}; it has 0 to {}", system_.name, pass, system_.passes.size() - 1));
-    const ItemPass& made = *passes_[pass];
-    if (!made.runs(frame))
-        throw Error(fmt::format("{}: pass {} does not run in frame {}", system_.name, made.name(), frame));
+    if (!passes_[pass]->runs(frame))
+        throw Error(fmt::format("{}: pass {} does not run in frame {}", system_.name, passes_[pass]->name(), frame));
     if (std::pair(frame, pass) == std::pair(frame_, pass_))
         return;
     int f = frame_;
@@ -136,7 +135,7 @@ void SystemRun::go_to(int frame, std::size_t pass, const std::function<void(int)
     }
     frame_ = frame;
     pass_ = pass;
-    const ItemPass& made = *system_.passes[pass];
+    const ItemPass& made = *passes_[pass];
     before_view_ = before_.view();
     earlier_view_ = earlier_ ? earlier_->view() : SystemView();
     reference_ = before_;

@@ -10,6 +10,7 @@
 #include "crosscheck/files/threads.hpp"
 #include "crosscheck/package/folded_text.hpp"
 #include "crosscheck/report/places.hpp"
+#include "crosscheck/report/shader_notes.hpp"
 #include "crosscheck/scene/fragment_stages.hpp"
 #include "crosscheck/scene/profile_text.hpp"
 #include "crosscheck/scene/run_text.hpp"
@@ -109,6 +110,7 @@ MatchResult match_reference(GpuSide& gpu, const Scene& scene, const MatchOptions
 
     ask_power(report, options.power_at_least);
     ask_hits(report, rules(options));
+    note_unset_variables(report, side.warnings);
     const CommandLines commands(scene, side, options);
     RunDescription run{fmt::format("{} ({})", scene.name, scene.origin.empty() ? "made in code" : scene.origin),
                        side.name,
@@ -119,6 +121,8 @@ MatchResult match_reference(GpuSide& gpu, const Scene& scene, const MatchOptions
                        commands.explain(report),
                        conversion_notes(side.profile, scene.switches),
                        side.shaders};
+    for (std::string& note : warning_notes(side.warnings))
+        run.notes.push_back(std::move(note));
     if (options.render) {
         Particles last;
         read_side(gpu, scene, last);

@@ -4,6 +4,7 @@
 
 #include <fmt/format.h>
 
+#include "crosscheck/report/shader_notes.hpp"
 #include "crosscheck/scene/profiles.hpp"
 
 namespace lockstep {
@@ -40,18 +41,26 @@ std::vector<GlPass> of_twins(std::vector<GlPass> passes, const System& system) {
     return passes;
 }
 
+/// `warnings`: what the driver says of its shaders.
+GlSystem made(std::vector<ShaderWarning>& warnings, const Schema& schema, std::vector<GlPass> passes,
+              const std::string& shaders, ArithmeticSwitch arithmetic) {
+    const ShaderWarnings collected(warnings);
+    return {schema, std::move(passes), shaders, arithmetic};
+}
+
 } // namespace
 
 GlSystemSide::GlSystemSide(const Gl& gl, const System& system, std::vector<GlPass> passes, const std::string& shaders,
                            ArithmeticSwitch arithmetic)
-    : gl_(gl), system_((gl ? system : throw Error(gl.missing())).schema, of_twins(std::move(passes), system), shaders,
-                       arithmetic) {}
+    : gl_(gl), system_(made(warnings_, (gl ? system : throw Error(gl.missing())).schema,
+                            of_twins(std::move(passes), system), shaders, arithmetic)) {}
 
 SideDescription GlSystemSide::describe() const {
     return {gl_.name(),
             system_.says_precise() ? gl_.profile() : gl_.profile_without_precise(system_.says_precise_once()),
             {},
-            {}};
+            {},
+            warnings_};
 }
 
 MatchResult match_system(SystemSide& gpu, const System& system, const SystemMatchOptions& options) {
@@ -61,6 +70,7 @@ MatchResult match_system(SystemSide& gpu, const System& system, const SystemMatc
     check_options.frames = options.frames;
     check_options.known = known_operations(options.legal, side.profile);
     CheckReport report = check(system, gpu, check_options);
+    note_unset_variables(report, side.warnings);
     RunDescription run =
         describe_run(system, side, check_options, options.repeat.empty() ? this_program({}) : options.repeat);
     ask_power(report, options.power_at_least);

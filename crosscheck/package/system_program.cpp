@@ -19,6 +19,7 @@
 #include "crosscheck/judge/item_place.hpp"
 #include "crosscheck/package/item_verbs.hpp"
 #include "crosscheck/report/colour.hpp"
+#include "crosscheck/report/shader_notes.hpp"
 #include "crosscheck/report/system_debug_run.hpp"
 #include "gpu/shaders_read_once.hpp"
 
@@ -51,6 +52,7 @@ struct Options {
 void add_gl_options(Verb& verb, Options& options) {
     verb.add(text_option("--gl", "auto|osmesa|egl|egl-device:N", options.gl, "which GL to open"));
     verb.add(path_option("--shaders", "DIR", options.shaders, "take the shaders from here instead"));
+    add_werror_option(verb);
 }
 
 void add_item_options(Verb& verb, SystemItem& item) {
@@ -130,6 +132,7 @@ int check_verb(const OwnProgram& program, const Options& options) {
     CheckReport report =
         check_shown(program.system, *gpu, check, options.quiet, outputs.watch(program.system, *gpu, check.frames));
     ask_power(report, options.rules.power_at_least);
+    note_unset_variables(report, gpu->describe().warnings);
     RunDescription run = describe_run(program.system, gpu->describe(), check, this_program(program.words));
     run.numbers = number_format(options.item.hexadecimal);
     if (gpu.recording() != nullptr) {
@@ -251,7 +254,7 @@ Verb verbs_of(const std::string& name, const OwnProgram& program, const std::sha
     const auto running = [&program, options](int (*run)(const OwnProgram&, const Options&)) {
         return [&program, options, run](const Call& call) {
             if (!options->trace.empty())
-                for (const char* option : {"--gl", "--shaders"})
+                for (const char* option : {"--gl", "--shaders", "--werror-shaders"})
                     if (call.has(option))
                         throw Error(fmt::format("{}: {} goes with shaders that run here, not with --trace",
                                                 call.verb.name, option));

@@ -13,6 +13,7 @@ UserShaders::UserShaders(const Gl& gl, const Scene& scene, const std::filesystem
         throw Error(gl.missing());
     use_ = shader_use(scene, folder);
     check_shader_use(use_, folder, unused == UnusedShaders::allowed);
+    const ShaderWarnings collected(warnings_);
     simulation_ = std::make_unique<GpuSimulation>(scene, folder);
 }
 
@@ -27,7 +28,7 @@ SideDescription UserShaders::describe() const {
             fmt::format(" --shaders {}", shell_word(std::filesystem::absolute(folder_).lexically_normal().string()));
     if (unused_ == UnusedShaders::allowed)
         arguments += " --allow-unused";
-    return {gl_.name(), gl_.profile(folder_), arguments, use_};
+    return {gl_.name(), gl_.profile(folder_), arguments, use_, warnings_};
 }
 
 void UserShaders::upload(const Particles& particles, const CollisionImage& cdt) { simulation_->upload(particles, cdt); }

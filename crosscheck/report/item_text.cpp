@@ -13,6 +13,7 @@
 #include "crosscheck/judge/item_place.hpp"
 #include "crosscheck/judge/item_table.hpp"
 #include "crosscheck/report/row_text.hpp"
+#include "crosscheck/report/shader_notes.hpp"
 #include "crosscheck/scene/profile_text.hpp"
 #include "reference/model/error.hpp"
 #include "reference/model/ulp.hpp"
@@ -90,6 +91,7 @@ RunDescription describe_run(const System& system, const SideDescription& side, c
     run.draws = false;
     run.repeat = repeat;
     run.shaders = side.shaders;
+    run.notes = warning_notes(side.warnings);
     std::string passes;
     for (const auto& pass : system.passes)
         passes += fmt::format("{}{}", passes.empty() ? "" : ", ", pass->name());

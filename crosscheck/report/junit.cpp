@@ -1,6 +1,7 @@
 #include "crosscheck/report/junit.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include "crosscheck/files/plain_text.hpp"
 
@@ -48,11 +49,14 @@ std::string junit_text(const CheckReport& report, const RunDescription& run, boo
         if (!value.empty())
             xml += fmt::format("      <property name=\"{}\" value=\"{}\"/>\n", name, escaped(value));
     xml += fmt::format("    </properties>\n    <testcase classname=\"lockstep.check\" name=\"{}\"", escaped(run.scene));
-    if (passes)
-        xml += "/>\n";
-    else
-        xml += fmt::format(">\n      <failure message=\"{}\">{}</failure>\n    </testcase>\n",
-                           escaped(verdict_words(report)), escaped(report_text(report, run)));
+    std::string inside;
+    if (!passes)
+        inside = fmt::format("      <failure message=\"{}\">{}</failure>\n", escaped(verdict_words(report)),
+                             escaped(report_text(report, run)));
+    if (!run.notes.empty())
+        inside +=
+            fmt::format("      <system-out>{}</system-out>\n", escaped(fmt::format("{}", fmt::join(run.notes, "\n"))));
+    xml += inside.empty() ? "/>\n" : fmt::format(">\n{}    </testcase>\n", inside);
     return xml + "  </testsuite>\n</testsuites>\n";
 }
 

@@ -13,6 +13,7 @@
 #include "gpu/collision/written_texels.hpp"
 #include "gpu/shader_source.hpp"
 #include "gpu/shader_words.hpp"
+#include "reference/model/collision/layered_cdt.hpp"
 #include "reference/model/error.hpp"
 #include "reference/paired_rows.hpp"
 

@@ -85,7 +85,7 @@ PassText::Bound PassText::block_named(const std::string& name) const {
         Bound bound{.kind = Bound::Kind::after, .resource = storage.layout.resource};
         if (storage.block.empty() && name == shader_name(storage.layout.about().name) + "Before")
             bound.kind = Bound::Kind::before;
-        else if (name != written_block(schema_, storage))
+        else if (name != block_of(schema_, storage, true))
             continue;
         for (const RecordLayout::Member& member : storage.layout.members)
             for (int c = 0; c < storage.layout.field(member).components; ++c)

@@ -49,12 +49,6 @@ Program link_draw(const Scene& scene, const std::filesystem::path& shaders) {
             buffers};
 }
 
-void allocate(const GlBuffer& buffer, std::size_t words) {
-    gl::BindBuffer(GL_SHADER_STORAGE_BUFFER, buffer.id());
-    gl::BufferData(GL_SHADER_STORAGE_BUFFER, static_cast<GLsizeiptr>(std::max<std::size_t>(words, 2) * sizeof(GLuint)),
-                   nullptr, GL_DYNAMIC_COPY);
-}
-
 void dispatch(const Program& program, std::size_t invocations, std::size_t group) {
     dispatch_particles(program, invocations, group);
     gl::MemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT);
@@ -70,30 +64,36 @@ BoundStorage bind_particles(const Program& program) {
 ComputeCollisionPass::ComputeCollisionPass(const Scene& scene, const std::filesystem::path& shaders)
     : clear_(link_compute(scene, shaders, "clear_nearest")), step_(link_compute(scene, shaders, "collision_pass")),
       nearest_(link_compute(scene, shaders, "nearest_particle")), draw_(link_draw(scene, shaders)),
-      bound_(bind_particles(step_)), nearest_bound_(bind_particles(nearest_)),
+      bound_(bind_particles(step_.program)), nearest_bound_(bind_particles(nearest_.program)),
       texels_(static_cast<std::size_t>(scene.width) * static_cast<std::size_t>(scene.height)),
-      clear_group_(group_size(clear_, texels_)), step_group_(group_size(step_, scene.start.size())),
-      nearest_group_(group_size(nearest_, scene.start.size())), has_offers_(step_.uses_storage(offers_binding)) {
-    if (bound_.only_reads() && !step_.uses_storage(after_binding))
+      clear_group_(group_size(clear_.program, texels_)), step_group_(group_size(step_.program, scene.start.size())),
+      nearest_group_(group_size(nearest_.program, scene.start.size())),
+      has_offers_(step_.program.uses_storage(offers_binding)) {
+    if (bound_.only_reads() && !step_.program.uses_storage(after_binding))
         throw Error(fmt::format("{}: /storage_blocks: no block has the state after the pass; right is After, or its "
                                 "fields by member, After.position, ...",
-                                step_.bindings()->file));
-    allocate(nearest_particles_, 2 * texels_);
+                                step_.program.bindings()->file));
+    step_.ends_with_last = lengths_asked(step_.program, trace_binding); // at the points that were given
+    nearest_.ends_with_last = lengths_asked(nearest_.program, trace_binding);
+    constexpr std::size_t pair = 2 * sizeof(GLuint);
+    nearest_particles_.allocate({"Nearest", "texel", texels_, pair, {}}, largest_group(), nullptr, GL_DYNAMIC_COPY);
     if (has_offers_)
-        allocate(offers_, 2 * scene.start.size());
+        offers_.allocate({"Offers", "particle", scene.start.size(), pair, {}}, largest_group(), nullptr,
+                         GL_DYNAMIC_COPY);
     check_gl("collision_pass");
 }
 
 void ComputeCollisionPass::run(const FrameParams& params, const ParticleBuffer& from, ParticleBuffer& to,
                                const CollisionTexture& cdt, CollisionTexture& target, PassTimer& timer) {
-    gl::BindBufferBase(GL_SHADER_STORAGE_BUFFER, before_binding, from.id());
-    gl::BindBufferBase(GL_SHADER_STORAGE_BUFFER, after_binding, to.id());
-    gl::BindBufferBase(GL_SHADER_STORAGE_BUFFER, nearest_binding, nearest_particles_.id());
-    gl::BindBufferBase(GL_SHADER_STORAGE_BUFFER, offers_binding, has_offers_ ? offers_.id() : 0);
-    dispatch(clear_, texels_, clear_group_);
+    const std::vector<StorageRange> all = ranges(from, to);
+    bind(clear_, all);
+    dispatch(clear_.program, texels_, clear_group_);
+    check_stage(clear_, all);
     timer.mark("clear_nearest");
     step(params, from, to, cdt, timer);
+    bind(draw_, all);
     draw(params, from.size(), target);
+    check_stage(draw_, all);
     timer.mark("collision_texels");
     gl::MemoryBarrier(GL_BUFFER_UPDATE_BARRIER_BIT | GL_CLIENT_MAPPED_BUFFER_BARRIER_BIT |
                       GL_VERTEX_ATTRIB_ARRAY_BARRIER_BIT | GL_SHADER_STORAGE_BARRIER_BIT);
@@ -101,34 +101,74 @@ void ComputeCollisionPass::run(const FrameParams& params, const ParticleBuffer& 
     check_gl("collision_pass");
 }
 
+std::vector<StorageRange> ComputeCollisionPass::ranges(const ParticleBuffer& from, const ParticleBuffer& to) const {
+    std::vector<StorageRange> all{from.range("Before"), to.range("After"), nearest_particles_.range()};
+    if (has_offers_)
+        all.push_back(offers_.range());
+    return all;
+}
+
+void ComputeCollisionPass::bind(const Linked& stage, const std::vector<StorageRange>& all) const {
+    for (GLuint point = 0; point < static_cast<GLuint>(all.size()); ++point)
+        all[point].bind(point, stage.ends_with_last[point]);
+    if (!has_offers_)
+        gl::BindBufferBase(GL_SHADER_STORAGE_BUFFER, offers_binding, 0);
+}
+
+void ComputeCollisionPass::check_stage(const Linked& stage, const std::vector<StorageRange>& all) const {
+    if (!checks_each_)
+        return;
+    gl::MemoryBarrier(GL_BUFFER_UPDATE_BARRIER_BIT);
+    for (const StorageRange& range : all)
+        check_margin(stage.program, range);
+}
+
+void ComputeCollisionPass::check_ends(const FrameParams& params, const ParticleBuffer& from, ParticleBuffer& to,
+                                      const CollisionTexture& cdt, CollisionTexture& target) {
+    const std::vector<StorageRange> all = ranges(from, to);
+    if (std::none_of(all.begin(), all.end(), [](const StorageRange& one) { return first_written(one.margin); }))
+        return;
+    for (const StorageRange& range : all)
+        lay(range.margin);
+    checks_each_ = true; // once more, to say which of them it is
+    PassTimer timer;
+    run(params, from, to, cdt, target, timer);
+    throw Error("collision_pass: a stage wrote past the end of a storage buffer, and not when it ran again");
+}
+
 void ComputeCollisionPass::step(const FrameParams& params, const ParticleBuffer& from, const ParticleBuffer& to,
                                 const CollisionTexture& cdt, PassTimer& timer) {
-    step_.set("u_ParticleCount", static_cast<unsigned>(from.size()));
-    set_collision_uniforms(step_, params);
-    step_.check_interface();
+    step_.program.set("u_ParticleCount", static_cast<unsigned>(from.size()));
+    set_collision_uniforms(step_.program, params);
+    step_.program.check_interface();
     cdt.bind_texture(0);
+    const std::vector<StorageRange> all = ranges(from, to);
+    bind(step_, all);
     const RecordBuffer* const before[] = {&from};
     const RecordBuffer* const after[] = {&to};
     bound_.fill(before, after);
-    dispatch(step_, from.size(), step_group_);
+    dispatch(step_.program, from.size(), step_group_);
     bound_.collect(after);
+    check_stage(step_, all);
     timer.mark("collision_pass");
     if (!has_offers_)
         return;
-    nearest_.set("u_ParticleCount", static_cast<unsigned>(from.size()));
-    nearest_.check_interface();
+    nearest_.program.set("u_ParticleCount", static_cast<unsigned>(from.size()));
+    nearest_.program.check_interface();
+    bind(nearest_, all);
     nearest_bound_.fill(before, after);
-    dispatch(nearest_, from.size(), nearest_group_);
+    dispatch(nearest_.program, from.size(), nearest_group_);
     nearest_bound_.collect(after);
+    check_stage(nearest_, all);
     timer.mark("nearest_particle");
 }
 
 void ComputeCollisionPass::draw(const FrameParams& params, std::size_t particles, CollisionTexture& target) {
-    draw_.set("u_ParticleCount", static_cast<unsigned>(particles));
-    draw_.set("u_ClientWidth", params.width);
-    draw_.set("u_ClientHeight", params.height);
-    set_collision_code(draw_, params);
-    draw_.check_interface();
+    draw_.program.set("u_ParticleCount", static_cast<unsigned>(particles));
+    draw_.program.set("u_ClientWidth", params.width);
+    draw_.program.set("u_ClientHeight", params.height);
+    set_collision_code(draw_.program, params);
+    draw_.program.check_interface();
     target.bind_target();
     gl::Enable(GL_DEPTH_TEST);
     gl::DepthFunc(GL_LESS);

@@ -1,5 +1,7 @@
 #pragma once
 #include <filesystem>
+#include <utility>
+#include <vector>
 
 #include "gpu/bound_storage.hpp"
 #include "gpu/collision/collision_texture.hpp"
@@ -37,17 +39,34 @@ class ComputeCollisionPass {
     void run(const FrameParams& params, const ParticleBuffer& from, ParticleBuffer& to, const CollisionTexture& cdt,
              CollisionTexture& target, PassTimer& timer);
 
+    /// Throws Error if a stage of the last run, which had the same arguments, wrote behind the end of a storage buffer.
+    void check_ends(const FrameParams& params, const ParticleBuffer& from, ParticleBuffer& to,
+                    const CollisionTexture& cdt, CollisionTexture& target);
+
   private:
+    /// A program, and of which of its blocks it asks a length(), by binding point.
+    struct Linked {
+        explicit Linked(Program linked)
+            : program(std::move(linked)), ends_with_last(lengths_asked(program, trace_binding)) {}
+        Program program;
+        std::vector<bool> ends_with_last;
+    };
+    /// Those that the stages have now, by binding point.
+    [[nodiscard]] std::vector<StorageRange> ranges(const ParticleBuffer& from, const ParticleBuffer& to) const;
+    void bind(const Linked& stage, const std::vector<StorageRange>& all) const;
+    /// Where stages are looked at one by one.
+    void check_stage(const Linked& stage, const std::vector<StorageRange>& all) const;
     void step(const FrameParams& params, const ParticleBuffer& from, const ParticleBuffer& to,
               const CollisionTexture& cdt, PassTimer& timer);
     void draw(const FrameParams& params, std::size_t particles, CollisionTexture& target);
 
-    Program clear_, step_, nearest_, draw_;
+    Linked clear_, step_, nearest_, draw_;
     BoundStorage bound_, nearest_bound_;
     std::size_t texels_;
     std::size_t clear_group_, step_group_, nearest_group_; ///< invocations
     bool has_offers_;                                      ///< step_ leaves the lowest index to nearest_
-    GlBuffer nearest_particles_, offers_;
+    bool checks_each_ = false;                             ///< whether a stage wrote behind an end, before the next
+    StorageBuffer nearest_particles_, offers_;
     GlVertexArray no_attributes_;
 };
 

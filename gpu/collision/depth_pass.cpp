@@ -43,7 +43,12 @@ void set_depth_uniforms(const Program& program, const FrameParams& params) {
 
 DepthPass::DepthPass(const Scene& scene, const std::filesystem::path& shaders)
     : program_(link_depth(scene, shaders)), bound_(bind_depth(program_)),
-      group_(group_size(program_, scene.start.size())) {}
+      group_(group_size(program_, scene.start.size())), ends_with_last_(lengths_asked(program_, 2)) {}
+
+void DepthPass::check_ends(const ParticleBuffer& from, const ParticleBuffer& to) const {
+    check_margin(program_, to.range("After"));
+    check_margin(program_, from.range("Before"));
+}
 
 void DepthPass::run(const FrameParams& params, const ParticleBuffer& from, ParticleBuffer& to,
                     const CollisionTexture& depth) {
@@ -51,8 +56,8 @@ void DepthPass::run(const FrameParams& params, const ParticleBuffer& from, Parti
     set_depth_uniforms(program_, params);
     program_.check_interface();
     depth.bind_texture(0);
-    gl::BindBufferBase(GL_SHADER_STORAGE_BUFFER, depth_before_binding, from.id());
-    gl::BindBufferBase(GL_SHADER_STORAGE_BUFFER, depth_after_binding, to.id());
+    from.range("Before").bind(depth_before_binding, ends_with_last_[depth_before_binding]);
+    to.range("After").bind(depth_after_binding, ends_with_last_[depth_after_binding]);
     const RecordBuffer* const read[] = {&from};
     const RecordBuffer* const written[] = {&to};
     bound_.fill(read, written);

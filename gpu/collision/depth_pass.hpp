@@ -1,6 +1,7 @@
 #pragma once
 #include <cstddef>
 #include <filesystem>
+#include <vector>
 
 #include "gpu/bound_storage.hpp"
 #include "gpu/collision/collision_texture.hpp"
@@ -23,10 +24,14 @@ class DepthPass {
 
     void run(const FrameParams& params, const ParticleBuffer& from, ParticleBuffer& to, const CollisionTexture& depth);
 
+    /// Throws Error if the last run wrote behind the particles of either.
+    void check_ends(const ParticleBuffer& from, const ParticleBuffer& to) const;
+
   private:
     Program program_;
     BoundStorage bound_;
-    std::size_t group_; ///< invocations
+    std::size_t group_;                ///< invocations
+    std::vector<bool> ends_with_last_; ///< by binding point
 };
 
 } // namespace lockstep

@@ -46,11 +46,11 @@ std::vector<glm::vec3> taking_part(const Scene& scene) {
 }
 
 /// A buffer is never empty: binding one that is would be an error.
-template <class Element> void upload(GLuint buffer, std::span<const Element> elements, GLenum usage) {
-    gl::BindBuffer(GL_SHADER_STORAGE_BUFFER, buffer);
-    gl::BufferData(GL_SHADER_STORAGE_BUFFER,
-                   static_cast<GLsizeiptr>(std::max(elements.size_bytes(), sizeof(OctreeNode))), nullptr, usage);
-    gl::BufferSubData(GL_SHADER_STORAGE_BUFFER, 0, static_cast<GLsizeiptr>(elements.size_bytes()), elements.data());
+template <class Element> void upload(StorageBuffer& buffer, std::string block, std::string item,
+                                     std::span<const Element> elements, std::size_t spare, GLenum usage) {
+    const Element none{};
+    buffer.allocate({std::move(block), std::move(item), std::max<std::size_t>(1, elements.size()), sizeof(Element), {}},
+                    spare, elements.empty() ? &none : elements.data(), usage);
 }
 
 void upload_node_texture(GLuint texture) {
@@ -64,18 +64,27 @@ void upload_node_texture(GLuint texture) {
 
 OctreePass::OctreePass(const Scene& scene, const std::filesystem::path& shaders)
     : program_(link(scene, shaders)), bound_(bind(program_)), group_(group_size(program_, scene.start.size())),
-      octree_(scene.constants.octree_size), obstacles_(taking_part(scene)) {
+      ends_with_last_(lengths_asked(program_, Binding::order + 1)), octree_(scene.constants.octree_size),
+      obstacles_(taking_part(scene)) {
     upload_node_texture(node_texture_.id());
-    upload(obstacle_vertices_.id(), std::span<const glm::vec3>(obstacles_), GL_STATIC_DRAW);
+    upload(obstacle_vertices_, "ObstacleVertices", "position", std::span<const glm::vec3>(obstacles_), group_,
+           GL_STATIC_DRAW);
     check_gl("octree_pass");
+}
+
+void OctreePass::check_ends(const ParticleBuffer& from, const ParticleBuffer& to) const {
+    check_margin(program_, to.range("After"));
+    check_margin(program_, from.range("Before"));
+    for (const StorageBuffer* const buffer : {&nodes_, &indices_, &order_, &obstacle_vertices_})
+        check_margin(program_, buffer->range());
 }
 
 void OctreePass::refresh(const ParticleBuffer& particles) {
     particles.read(read_back_);
     octree_.refresh(read_back_.position, obstacles_);
-    upload(nodes_.id(), octree_.nodes(), GL_STREAM_DRAW);
-    upload(indices_.id(), octree_.indices(), GL_STREAM_DRAW);
-    upload(order_.id(), octree_.order(), GL_STREAM_DRAW);
+    upload(nodes_, "Nodes", "node", octree_.nodes(), group_, GL_STREAM_DRAW);
+    upload(indices_, "Indices", "number", octree_.indices(), group_, GL_STREAM_DRAW);
+    upload(order_, "Order", "number", octree_.order(), group_, GL_STREAM_DRAW);
     check_gl("octree_pass, refresh");
 }
 
@@ -86,12 +95,12 @@ void OctreePass::run(const FrameParams& params, const ParticleBuffer& from, Part
     program_.check_interface();
     gl::ActiveTexture(GL_TEXTURE0);
     gl::BindTexture(GL_TEXTURE_2D, node_texture_.id());
-    gl::BindBufferBase(GL_SHADER_STORAGE_BUFFER, Binding::before, from.id());
-    gl::BindBufferBase(GL_SHADER_STORAGE_BUFFER, Binding::after, to.id());
-    gl::BindBufferBase(GL_SHADER_STORAGE_BUFFER, Binding::nodes, nodes_.id());
-    gl::BindBufferBase(GL_SHADER_STORAGE_BUFFER, Binding::indices, indices_.id());
-    gl::BindBufferBase(GL_SHADER_STORAGE_BUFFER, Binding::obstacle_vertices, obstacle_vertices_.id());
-    gl::BindBufferBase(GL_SHADER_STORAGE_BUFFER, Binding::order, order_.id());
+    from.range("").bind(Binding::before, ends_with_last_[Binding::before]);
+    to.range("").bind(Binding::after, ends_with_last_[Binding::after]);
+    nodes_.range().bind(Binding::nodes, ends_with_last_[Binding::nodes]);
+    indices_.range().bind(Binding::indices, ends_with_last_[Binding::indices]);
+    obstacle_vertices_.range().bind(Binding::obstacle_vertices, ends_with_last_[Binding::obstacle_vertices]);
+    order_.range().bind(Binding::order, ends_with_last_[Binding::order]);
     const RecordBuffer* const read[] = {&from};
     const RecordBuffer* const written[] = {&to};
     bound_.fill(read, written);

@@ -27,15 +27,19 @@ class OctreePass {
     /// The thesis's particle pass: steps `from`, which the tree was refreshed from, into `to`.
     void run(const FrameParams& params, const ParticleBuffer& from, ParticleBuffer& to);
 
+    /// Throws Error if the last run wrote behind the end of a storage buffer.
+    void check_ends(const ParticleBuffer& from, const ParticleBuffer& to) const;
+
   private:
     Program program_;
     BoundStorage bound_;
-    std::size_t group_; ///< invocations
+    std::size_t group_;                ///< invocations
+    std::vector<bool> ends_with_last_; ///< by binding point
     Octree octree_;
     std::vector<glm::vec3> obstacles_; ///< vertices that take part
     Particles read_back_;
     GlTexture node_texture_;
-    GlBuffer nodes_, indices_, order_, obstacle_vertices_;
+    StorageBuffer nodes_, indices_, order_, obstacle_vertices_;
 };
 
 } // namespace lockstep

@@ -13,7 +13,8 @@ const RecordLayout& particle_records();
 /// `count` particles in GL memory; particle i at byte 32 i.
 class ParticleBuffer : public RecordBuffer {
   public:
-    explicit ParticleBuffer(std::size_t count) : RecordBuffer(particle_records(), count) {}
+    explicit ParticleBuffer(std::size_t count, std::size_t spare = 0)
+        : RecordBuffer(particle_records(), count, spare) {}
 
     /// As RecordBuffer has them, of size() particles.
     void upload(const Particles& particles);

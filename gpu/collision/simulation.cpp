@@ -48,8 +48,8 @@ void check_clip_depth(const Scene& scene) {
 
 GpuSimulation::GpuSimulation(const Scene& scene, const std::filesystem::path& shaders)
     : switches_(scene.switches), shaders_(shaders), obstacles_(scene.obstacles),
-      obstacle_pass_(scene.switches, shaders), particles_{ParticleBuffer(scene.start.size()),
-                                                          ParticleBuffer(scene.start.size())},
+      obstacle_pass_(scene.switches, shaders), particles_{ParticleBuffer(scene.start.size(), largest_group()),
+                                                          ParticleBuffer(scene.start.size(), largest_group())},
       cdts_{CollisionTexture(scene.width, scene.height, scene.switches.cdt_format),
             CollisionTexture(scene.width, scene.height, scene.switches.cdt_format)},
       layered_(layered(scene, shaders)) {
@@ -86,7 +86,7 @@ void GpuSimulation::upload(const Particles& particles, const CollisionImage& cdt
 void GpuSimulation::step(const FrameParams& params) {
     if (!std::exchange(begun_, false))
         begin_frame(params, current_, 1 - current_);
-    end_frame();
+    end_frame(params, current_, 1 - current_);
     current_ = 1 - current_;
 }
 
@@ -98,7 +98,7 @@ void GpuSimulation::begin_step(const FrameParams& params) {
 
 void GpuSimulation::repeat_step(const FrameParams& params) {
     begin_frame(params, 1 - current_, current_);
-    end_frame();
+    end_frame(params, 1 - current_, current_);
 }
 
 void GpuSimulation::begin_frame(const FrameParams& params, std::size_t from, std::size_t to) {
@@ -108,10 +108,16 @@ void GpuSimulation::begin_frame(const FrameParams& params, std::size_t from, std
     run_passes(params, from, to);
 }
 
-void GpuSimulation::end_frame() {
+void GpuSimulation::end_frame(const FrameParams& params, std::size_t from, std::size_t to) {
     gl::Finish();
     frame_seconds_ = seconds_of(timer_);
     verify_written();
+    if (octree_pass_)
+        octree_pass_->check_ends(particles_[from], particles_[to]);
+    if (depth_pass_)
+        depth_pass_->check_ends(particles_[from], particles_[to]);
+    if (compute_pass_)
+        compute_pass_->check_ends(params, particles_[from], particles_[to], cdts_[from], cdts_[to]);
 }
 
 void GpuSimulation::run_passes(const FrameParams& params, std::size_t from, std::size_t to) {
@@ -201,6 +207,10 @@ void GpuSimulation::find_canary(const Particles& particles, const CollisionImage
     if (const std::size_t i = find_word(view(particles), canary_word); i < particles.size())
         throw Error(fmt::format("frame {}: the GPU did not write particle {}: its record still holds what was laid "
                                 "there before the draw",
+                                frame, i));
+    if (const std::size_t i = find_word(view(particles), margin_word); i < particles.size())
+        throw Error(fmt::format("frame {}: the GPU read past the end of a buffer, and wrote what lies there into "
+                                "particle {}",
                                 frame, i));
     const glm::vec4 unwritten = canary_texel(switches_.cdt_format);
     for (int y = 0; y < cdt.height; ++y)

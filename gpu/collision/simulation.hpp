@@ -73,7 +73,7 @@ class GpuSimulation final : public GpuSide {
     static std::optional<Layered> layered(const Scene& scene, const std::filesystem::path& shaders);
 
     void begin_frame(const FrameParams& params, std::size_t from, std::size_t to);
-    void end_frame();
+    void end_frame(const FrameParams& params, std::size_t from, std::size_t to);
     void run_passes(const FrameParams& params, std::size_t from, std::size_t to);
     void run_layered(const FrameParams& params, std::size_t from, std::size_t to);
     void verify_written() const;

@@ -14,7 +14,7 @@ namespace lockstep {
 namespace {
 
 /// By up to 2^-9 of itself and of a unit.
-void move(std::span<glm::vec3> positions) {
+void displace(std::span<glm::vec3> positions) {
     Random random(1, 0);
     const auto little = [&] { return static_cast<float>(random.symmetric() * 0x1p-9); };
     for (glm::vec3& position : positions)
@@ -37,7 +37,7 @@ template <class Draw> CollisionImage drawn_into_floats(const Scene& scene, const
 
 CollisionImage written_obstacles(const Scene& scene, const std::filesystem::path& shaders) {
     Mesh moved = scene.obstacles;
-    move(moved.positions);
+    displace(moved.positions);
     return drawn_into_floats(scene, [&](const FrameParams& params, CollisionTexture& /*target*/) {
         ObstaclePass(scene.switches, shaders).run(MeshBuffer(moved), params);
     });
@@ -48,7 +48,7 @@ CollisionImage written_particles(const Scene& scene, const std::filesystem::path
     moved.resize(std::min(scene.start.size(), std::size_t{4096}));
     for (std::size_t i = 0; i < moved.size(); ++i)
         moved.set(i, scene.start[i]);
-    move(moved.position);
+    displace(moved.position);
     return drawn_into_floats(scene, [&](const FrameParams& params, CollisionTexture& target) {
         ParticleBuffer from(moved.size()), to(moved.size());
         from.upload(moved);

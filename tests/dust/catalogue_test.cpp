@@ -438,7 +438,7 @@ TEST_CASE("dust catalogue tail_threads: threads without a grain write nothing, a
             CHECK(run_dust(s, 2, CheckMode::resync, unguarded.path()).verdict == Verdict::agree);
         else
             CHECK_THROWS_WITH(run_dust(s, 2, CheckMode::resync, unguarded.path()),
-                              Catch::Contains("populate wrote behind the"));
+                              Catch::Contains("populate.comp) wrote past the end of "));
     }
 }
 

@@ -82,8 +82,49 @@ TEST_CASE("guard: a compute shader that returns behind the last item agrees, by 
 TEST_CASE("guard: one that writes behind the last item is an error that says where to return") {
     if (!gl())
         return skip(gl().missing());
-    const char* said =
-        "frame 0: halve wrote behind the 100 numbers of NumbersAfter; right is no write from item 100 on";
+    const auto said = Catch::StartsWith("frame 0: halve (") &&
+                      Catch::EndsWith("halve.comp) wrote past the end of NumbersAfter (100 numbers), at item 100; "
+                                      "expected no write from item 100 on");
     CHECK_THROWS_WITH(run(""), said);
-    CHECK_THROWS_WITH(run("    if (i > u_ItemCount) return;\n"), said);
+    CHECK_THROWS_WITH(run("    if (i > u_ItemCount) return;\n"), Catch::Contains("wrote past the end of NumbersAfter"));
+    CHECK_THROWS_WITH(run("    const float some[2] = float[2](1.0, 2.0);\n    if (some.length() == 3) return;\n"),
+                      said);
+}
+
+TEST_CASE("guard: a value that was read past the end of a buffer is known as one") {
+    if (!gl())
+        return skip(gl().missing());
+    CHECK_THROWS_WITH(
+        run("    if (i >= u_ItemCount) return;\n    if (i == 7u) { after[i] = before[i + 100u]; return; }\n"),
+        "frame 0: halve read past the end of a buffer, and wrote what lies there into number 7");
+}
+
+TEST_CASE("guard: blocks that bindings.json binds by member are watched, in an array without a size and in one") {
+    if (!gl())
+        return skip(gl().missing());
+    for (const std::string size : {"", "128"})
+        for (const std::string guard : {"if (i >= u_ItemCount) return;", ""}) {
+            const TemporaryFolder folder;
+            folder.write("halve.comp", "#version 430 core\n"
+                                       "layout(local_size_x = 64) in;\n"
+                                       "uniform uint u_ItemCount;\n"
+                                       "layout(std430) readonly buffer Old { float old_ones[" +
+                                           size + "]; };\nlayout(std430) writeonly buffer New { float new_ones[" +
+                                           size +
+                                           "]; };\n"
+                                           "void main() {\n"
+                                           "    uint i = gl_GlobalInvocationID.x;\n    " +
+                                           guard + "\n    new_ones[i] = old_ones[i] * 0.5;\n}\n");
+            folder.write("bindings.json", R"({"storage_blocks": {"Old": {"old_ones": "NumbersBefore.number"},
+                                                                "New": {"new_ones": "NumbersAfter.number"}}})");
+            const System system = halves();
+            GlSystemSide side(gl(), system, {{.name = "halve", .stage = Stage::compute}}, folder.path().string());
+            CheckOptions options;
+            options.frames = 1;
+            if (guard.empty())
+                CHECK_THROWS_WITH(check(system, side, options), Catch::StartsWith("frame 0: halve (") &&
+                                                                    Catch::Contains("wrote past the end of New"));
+            else
+                CHECK(check(system, side, options).verdict == Verdict::agree);
+        }
 }

@@ -104,6 +104,7 @@ class UserShaders : public GpuSide {
     std::filesystem::path folder_;
     UnusedShaders unused_;
     ShaderUse use_;
+    std::vector<ShaderWarning> warnings_;
     std::unique_ptr<GpuSimulation> simulation_;
 };
 

@@ -47,6 +47,7 @@ class GlSystemSide final : public SystemSide {
 
   private:
     const Gl& gl_;
+    std::vector<ShaderWarning> warnings_;
     GlSystem system_;
 };
 

@@ -239,7 +239,7 @@ void main() {
     START_TRACE();
     Particle a = load(self);
     ivec2 texel_base;
-    vec3 away;
+    vec3 away = vec3(0.0);
     bool visible = base_texel(position_in_texel(ls_transform(u_ProjView, a.position)), texel_base);
     TRACE(traced.trace_clip, last_clip);
     TRACE(traced.trace_ndc, last_ndc);

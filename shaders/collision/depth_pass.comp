@@ -203,7 +203,7 @@ void main() {
         return;
     START_TRACE();
     Particle a = before[self];
-    vec3 normal;
+    vec3 normal = vec3(0.0);
     if (ls_flush(a.collide_time) < 0.0 && surface_hit(a.position, normal))
         after[self] = collide(a, normal);
     else

@@ -33,7 +33,7 @@ void main() {
     v_Position = ls_flush3(a_Position);
     v_Velocity = vec4(ls_flush3(velocity), ls_flush(a_CollideTime) < 0.0 ? 1.0 : 0.0);
     v_Key = ivec2(floatBitsToInt(depth), gl_VertexID);
-    ivec2 texel;
+    ivec2 texel = ivec2(0);
     if (u_Layer > 0 && base_texel(image_position(clip), texel) && stored_before(texel, v_Key))
         gl_Position = vec4(0.0, 0.0, 2.0, 1.0); // outside
 }

@@ -152,7 +152,7 @@ void main() {
         return;
     uint self = order[gl_GlobalInvocationID.x];
     Particle a = before[self];
-    vec3 away;
+    vec3 away = vec3(0.0);
     if (ls_flush(a.collide_time) < 0.0 && nearest_collision(self, a.position, away))
         after[self] = collide(a, away);
     else

@@ -127,8 +127,8 @@ TEST_CASE("program: what the shader uses and nobody gives is told with the name 
     };
     give("u_Tack", "a_Sped");
     CHECK_THROWS_WITH(program.check_interface(),
-                      "shader " + file + ":4: nothing is given for uniform u_Tick; did you mean float u_Tack?; " + file +
-                          ":3: nothing is given for attribute a_Speed; did you mean float a_Sped?" + remedy);
+                      "shader " + file + ":4: nothing is given for uniform u_Tick; did you mean float u_Tack?; " +
+                          file + ":3: nothing is given for attribute a_Speed; did you mean float a_Sped?" + remedy);
     give("u_Tick", "a_Sped");
     CHECK_THROWS_WITH(program.check_interface(),
                       "shader " + file + ":3: nothing is given for attribute a_Speed; did you mean float a_Sped?");

@@ -4,10 +4,12 @@
 
 namespace lockstep::test {
 
-/// The folder of the shipped shader `file`: the collision system's, or the one that systems share.
+/// The folder of the shipped shader `file`: the collision system's, the one that systems share, or another system's.
 inline std::filesystem::path shipped_shaders(const std::string& file) {
-    const std::filesystem::path own = "shaders/collision";
-    return std::filesystem::exists(own / file) ? own : own.parent_path();
+    for (const char* folder : {"shaders/collision", "shaders", "shaders/dust", "shaders/lifecycle", "shaders/lights"})
+        if (std::filesystem::exists(std::filesystem::path(folder) / file))
+            return folder;
+    return "shaders/fluid";
 }
 
 } // namespace lockstep::test

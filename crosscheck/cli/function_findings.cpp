@@ -6,6 +6,8 @@
 #include <memory>
 #include <optional>
 #include <span>
+#include <string>
+#include <string_view>
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -13,6 +15,7 @@
 #include "crosscheck/package/function_signature.hpp"
 #include "crosscheck/text/glsl_module.hpp"
 #include "crosscheck/text/pass_text.hpp"
+#include "gpu/shader_words.hpp"
 #include "reference/model/error.hpp"
 
 namespace lockstep {
@@ -46,7 +49,21 @@ std::string stores(const Column& result) {
     return all;
 }
 
-/// A compute shader that calls the function on one row.
+/// The text, its line #version empty: a stage has one, and its own stands first.
+std::string without_version(std::string text) {
+    std::string_view last;
+    for (ShaderWords words(text); words.next(); last = words.token())
+        if (last == "#" && words.token() == "version") {
+            std::size_t begin = 0;
+            for (std::size_t line = 1; line < words.line(); ++line)
+                begin = text.find('\n', begin) + 1;
+            const std::size_t end = std::min(text.find('\n', begin), text.size());
+            return text.erase(begin, end - begin);
+        }
+    return text;
+}
+
+/// A compute stage that calls the function with the words of a row, and stores its result.
 std::shared_ptr<const ShaderSource> caller_of(const GlslFunction& function, const FunctionRows& rows) {
     const function_twin::Called called = function_twin::called(function, rows.columns);
     const std::string text = read_shader_file(function.file);
@@ -57,14 +74,15 @@ std::shared_ptr<const ShaderSource> caller_of(const GlslFunction& function, cons
         arguments.push_back(argument(column, first));
         first += static_cast<std::size_t>(column.components);
     }
+    const std::string file = std::filesystem::path(function.file).filename().string();
     ShaderTexts texts = called.passes.front().texts;
-    texts[fmt::format("{}.comp", stage_name)] =
-        fmt::format("#version 450 core\n#define main ls_main_of_the_file\n#include \"{}\"\n#undef main\n"
-                    "layout(local_size_x = 1) in;\nlayout(std430) buffer LsWords {{ uint ls_words[]; }};\n"
-                    "layout(std430) buffer LsResult {{ uint ls_result[]; }};\n"
-                    "void main() {{\n    {} ls_made = {}({});\n{}}}\n",
-                    std::filesystem::path(function.file).filename().string(), function_twin::type_of(*result),
-                    function.name, fmt::join(arguments, ", "), stores(*result));
+    texts[file] = without_version(text);
+    texts[fmt::format("{}.comp", stage_name)] = fmt::format(
+        "#version {} core\n#define main ls_main_of_the_file\n#include \"{}\"\n#undef main\n"
+        "layout(local_size_x = 1) in;\nlayout(std430) buffer LsWords {{ uint ls_words[]; }};\n"
+        "layout(std430) buffer LsResult {{ uint ls_result[]; }};\n"
+        "void main() {{\n    {} ls_made = {}({});\n{}}}\n",
+        450, file, function_twin::type_of(*result), function.name, fmt::join(arguments, ", "), stores(*result));
     const std::array stages{Stage::compute};
     return std::make_shared<ShaderSource>(
         load_stages(shader_folders(called.folder), stage_name, stages, function.defines, texts).front());

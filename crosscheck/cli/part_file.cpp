@@ -115,7 +115,7 @@ PartFile read_part_file(const std::filesystem::path& file) {
                                 file.string()));
     const json document = read_json(file);
     const JsonValue whole(document, file.string());
-    if (!document.is_object() || !whole.find("part"))
+    if (!document.is_object() || !document.contains("part") || !document.at("part").is_object())
         throw Error(
             fmt::format("{}: holds no part of a run; right is what lockstep check --trace FILE --shard K/N --json "
                         "PART.json writes",

@@ -66,8 +66,8 @@ std::string folder_of(const GlslFunction& function) {
 ShaderTexts stage_of(const GlslFunction& function, std::string_view name, const std::string& end) {
     const std::string text = read_shader_file(function.file);
     const std::string file = std::filesystem::path(function.file).filename().string();
-    return {{fmt::format("{}.vert", name), fmt::format("{}#include \"{}\"\n#undef main\n{}",
-                                                       has_version(text) ? "" : "#version 400 core\n", file, end)},
+    const std::string version = has_version(text) ? "" : fmt::format("#version {} core\n", 400);
+    return {{fmt::format("{}.vert", name), fmt::format("{}#include \"{}\"\n#undef main\n{}", version, file, end)},
             {file, text}};
 }
 

@@ -190,7 +190,7 @@ void stand() {
 void main() {
     START_TRACE();
     ivec2 texel_base;
-    vec3 away = vec3(0.0);
+    vec3 away;
     bool visible = base_texel(image_position(ls_transform(u_ProjView, a_Position)), texel_base);
     TRACE(trace_clip, last_clip);
     TRACE(trace_ndc, last_ndc);

@@ -87,7 +87,7 @@ TEST_CASE("driver limits: a limit of memory is named, and nothing crashes or han
 TEST_CASE("driver limits: few open files, a small stack, closed streams and no temporary folder") {
     if (!test::have_software_gl())
         return;
-    for (const std::size_t files : {4U, 8U, 12U}) {
+    for (const std::size_t files : {8U, 12U, 20U}) {
         CAPTURE(files);
         check_ran_or_said(check(test::software_gl(), {.files = files}), "");
     }

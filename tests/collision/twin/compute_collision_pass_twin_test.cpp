@@ -276,7 +276,6 @@ TEST_CASE("compute collision pass twin: planted bugs are seen") {
         {"collision_pass.comp", "product(a.speed, u_SpeedFactor)", "a.speed"},
         {"collision_pass.comp", "ls_flush(a.collide_time) < 0.0", "ls_flush(a.collide_time) < 0.09"},
         {"collision_pass.comp", "    offer_to_texel(self, clip);\n", ""},
-        {"nearest_particle.glsl", "at.y * u_ClientWidth + at.x", "at.x * u_ClientWidth + at.y"},
         {"nearest_particle.glsl", "(ls_divide(clip.z, clip.w) + 1.0) * 0.5", "(1.0 - ls_divide(clip.z, clip.w)) * 0.5"},
         {"collision_texels.frag", "after[particle].position", "after[particle].direction"},
         {"collision_texels.frag", "uintBitsToFloat(nearest[2u * texel + 1u])", "0.0"},
@@ -289,6 +288,10 @@ TEST_CASE("compute collision pass twin: planted bugs are seen") {
         INFO(text);
         CHECK(test::check_twins(scene, 6, shaders.path()).verdict == Verdict::divergent);
     }
+    const test::TemporaryFolder turned;
+    test::plant(turned, "nearest_particle.glsl", "at.y * u_ClientWidth + at.x", "at.x * u_ClientWidth + at.y");
+    CHECK_THROWS_WITH(test::check_twins(scene, 6, turned.path()),
+                      Catch::Contains("collision_pass.comp) wrote past the end of Nearest (6208 texels)"));
 }
 
 TEST_CASE("compute collision pass twin: every value on a particle's way is told, and agrees") {

@@ -1,11 +1,12 @@
 #!/usr/bin/env bash
 # Installs the packages of Debian 12 or newer that a purpose needs. Does nothing where all are there. OSMesa left Debian
 # after release 13; EGL gives the contexts there.
-# Usage: scripts/install_packages.sh [--for demo|page|unit_tests|test]      default: test, which is everything
+# Usage: scripts/install_packages.sh [--for demo|page|unit_tests|test|sanitize]      default: test, which is everything
 #   demo        lockstep is built and run
 #   page        scripts/build_report_page.sh
 #   unit_tests  demo, and Catch2 for tests of your own
-#   test        all of these, and what lockstep's own tests, benchmarks and charts need
+#   sanitize    demo and page, and what scripts/sanitize.sh and scripts/check_tidy.sh need
+#   test        all but sanitize, and what lockstep's own tests, benchmarks and charts need
 set -euo pipefail
 fail() { echo "install_packages: $*" >&2; exit 2; }
 
@@ -40,15 +41,22 @@ tests=(
     python3-numpy python3-h5py                    # the example that writes a trace; states that the page saved become one
 )
 
+sanitize=(
+    clang-19 libclang-rt-19-dev libomp-19-dev     # another compiler, its sanitizers and fuzzer
+    clang-tidy-19                                 # scripts/check_tidy.sh
+    python3                                       # tests/matrix/run_matrix.py
+)
+
 purpose=${2-test}
 if [ $# -gt 0 ] && [ "$1" != --for ]; then fail "'$1' is not an option; the only one is --for"; fi
-if [ $# = 1 ] || [ $# -gt 2 ]; then fail "--for takes one of demo, page, unit_tests, test"; fi
+if [ $# = 1 ] || [ $# -gt 2 ]; then fail "--for takes one of demo, page, unit_tests, test, sanitize"; fi
 case $purpose in
 demo) packages=("${demo[@]}") ;;
 page) packages=("${page[@]}") ;;
 unit_tests) packages=("${demo[@]}" catch2) ;;
+sanitize) packages=("${demo[@]}" "${page[@]}" "${sanitize[@]}") ;;
 test) packages=("${demo[@]}" catch2 "${page[@]}" "${tests[@]}") ;;
-*) fail "--for: '$purpose' is not one of demo, page, unit_tests, test" ;;
+*) fail "--for: '$purpose' is not one of demo, page, unit_tests, test, sanitize" ;;
 esac
 
 is_installed() { [ "$(dpkg-query -W -f='${db:Status-Status}' "$1" 2>/dev/null)" = installed ]; }

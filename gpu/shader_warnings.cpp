@@ -16,14 +16,13 @@ std::vector<ShaderWarnings*>& living() {
     return all;
 }
 
-/// The probe asks for what drivers leave open, on purpose.
-bool is_of_probe(const ShaderWarning& warning) { return warning.place.starts_with("shaders/probe/"); }
-
 } // namespace
 
 ShaderWarnings::ShaderWarnings(std::vector<ShaderWarning>& into) : into_(into) { living().push_back(this); }
 
 ShaderWarnings::~ShaderWarnings() { std::erase(living(), this); }
+
+bool is_of_probe(std::string_view file) { return file.starts_with("shaders/probe/"); }
 
 bool& shader_warnings_are_errors() {
     static bool are_errors = false;
@@ -32,7 +31,7 @@ bool& shader_warnings_are_errors() {
 
 void note_shader_warnings(const std::vector<ShaderWarning>& found) {
     for (const ShaderWarning& warning : found) {
-        if (is_of_probe(warning))
+        if (is_of_probe(warning.place))
             continue;
         if (shader_warnings_are_errors())
             throw Error(fmt::format("shader {}: {} (a warning; --werror-shaders)", warning.place, warning.message));

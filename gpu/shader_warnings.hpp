@@ -1,5 +1,6 @@
 #pragma once
 #include <string>
+#include <string_view>
 #include <vector>
 
 namespace lockstep {
@@ -31,6 +32,9 @@ void note_shader_warnings(const std::vector<ShaderWarning>& found);
 
 /// --werror-shaders, of the whole process.
 bool& shader_warnings_are_errors();
+
+/// Whether a stage's file is the probe's, which asks for what drivers leave open, on purpose.
+bool is_of_probe(std::string_view file);
 
 /// Whether it is about a variable that is read before anything was stored there, in the words of any driver.
 bool is_about_unset_variable(const ShaderWarning& warning);

@@ -139,12 +139,13 @@ int check_stress(const StressOptions& options) {
     {
         const InterruptHandler handler;
         bool failed = false;
-        say(stress_head());
         for (std::size_t index = 0; index < scenes.size(); ++index) {
             if (!options.shard.has(index))
                 continue;
             StressScene& scene = report.scenes.emplace_back(run_scene(options, scenes[index], profile, renderer));
             scene.index = index;
+            if (report.scenes.size() == 1)
+                say(stress_head());
             say(stress_line(scene, !scene.passes && !failed && !interrupted));
             if (interrupted)
                 return status_interrupted;

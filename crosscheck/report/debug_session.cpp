@@ -493,6 +493,9 @@ std::string DebugSession::source(const std::string& argument) {
             text += obey(line);
             if (setup_.say)
                 setup_.say(std::exchange(text, ""));
+        } catch (const Stopped&) { // between two commands
+            look_at(item_);
+            throw Error(fmt::format("{}:{}: stopped in frame {}", argument, number, run_->frame()));
         } catch (const Error& error) {
             throw Error(fmt::format("{}:{}: {}", argument, number, error.what()));
         }

@@ -262,7 +262,8 @@ TEST_CASE("output_files: an output that is an input is refused, by whatever name
                        run_lockstep({"capsule", "cut", setting.scene, "--frame", "1", "--particle", "1", "-o", name})),
                    Catch::EndsWith(reads));
     }
-    const std::string shader = setting.input.write("collision_pass.vert", "void main() {}").string();
+    const std::string shader =
+        setting.input.write("collision_pass.vert", "#version 330 core\nvoid main() {}\n").string();
     CHECK_THAT(test::refusal(setting.check({"--shaders", setting.input.path(), "--json", shader})),
                Catch::EndsWith("the run reads it"));
     CHECK(text_of(setting.scene) == before);

@@ -65,7 +65,8 @@ TEST_CASE("past end: the texels' buffer is watched as the particles' is, and the
     if (!test::have_software_gl())
         return;
     const test::SceneSetting setting("check");
-    plant(setting.shaders, "clear_nearest.comp", "if (texel < nearest.length())", "if (texel <= 64u * 48u)");
+    plant(setting.shaders, "clear_nearest.comp", "if (texel < nearest.length())\n        nearest[texel]",
+          "nearest[texel + 1u]");
     const std::string said = refusal_of(setting, {"--set", "step=compute"});
     CHECK_THAT(said, Catch::StartsWith("clear_nearest (") &&
                          Contains("wrote past the end of Nearest (3072 texels), at item 3072"));

@@ -82,9 +82,10 @@ TEST_CASE("guard: a compute shader that returns behind the last item agrees, by 
 TEST_CASE("guard: one that writes behind the last item is an error that says where to return") {
     if (!gl())
         return skip(gl().missing());
-    const auto said = Catch::StartsWith("frame 0: halve (") &&
-                      Catch::EndsWith("halve.comp) wrote past the end of NumbersAfter (100 numbers), at item 100; "
+    const auto head = Catch::StartsWith("frame 0: halve ("); // a conjunction refers to its parts
+    const auto tail = Catch::EndsWith("halve.comp) wrote past the end of NumbersAfter (100 numbers), at item 100; "
                                       "expected no write from item 100 on");
+    const auto said = head && tail;
     CHECK_THROWS_WITH(run(""), said);
     CHECK_THROWS_WITH(run("    if (i > u_ItemCount) return;\n"), Catch::Contains("wrote past the end of NumbersAfter"));
     CHECK_THROWS_WITH(run("    const float some[2] = float[2](1.0, 2.0);\n    if (some.length() == 3) return;\n"),

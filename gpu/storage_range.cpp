@@ -10,25 +10,20 @@
 #include "reference/model/error.hpp"
 
 namespace lockstep {
-namespace {
-
-constexpr std::size_t word = sizeof(std::uint32_t);
-
-} // namespace
 
 void lay(const Margin& margin) {
-    const std::vector<std::uint32_t> words(margin.bytes / word, margin_word);
+    const std::vector<std::uint32_t> words(margin.bytes / sizeof(margin_word), margin_word);
     gl::BindBuffer(GL_COPY_READ_BUFFER, margin.buffer);
     gl::BufferSubData(GL_COPY_READ_BUFFER, static_cast<GLintptr>(margin.from),
-                      static_cast<GLsizeiptr>(words.size() * word), words.data());
+                      static_cast<GLsizeiptr>(words.size() * sizeof(margin_word)), words.data());
 }
 
 std::optional<std::size_t> first_written(const Margin& margin) {
     if (margin.bytes == 0)
         return {};
     // By a copy: a driver may move a buffer that is read itself to where kernels are slow.
-    std::vector<std::uint32_t> words(margin.bytes / word);
-    const auto bytes = static_cast<GLsizeiptr>(words.size() * word);
+    std::vector<std::uint32_t> words(margin.bytes / sizeof(margin_word));
+    const auto bytes = static_cast<GLsizeiptr>(words.size() * sizeof(margin_word));
     const GlBuffer copy;
     gl::BindBuffer(GL_COPY_READ_BUFFER, margin.buffer);
     gl::BindBuffer(GL_COPY_WRITE_BUFFER, copy.id());
@@ -38,7 +33,7 @@ std::optional<std::size_t> first_written(const Margin& margin) {
     const auto written = std::find_if(words.begin(), words.end(), [](std::uint32_t one) { return one != margin_word; });
     if (written == words.end())
         return {};
-    return static_cast<std::size_t>(written - words.begin()) * word;
+    return static_cast<std::size_t>(written - words.begin()) * sizeof(margin_word);
 }
 
 std::size_t largest_group() {

@@ -42,7 +42,7 @@ tests=(
 )
 
 sanitize=(
-    clang-19 libclang-rt-19-dev libomp-19-dev     # another compiler, its sanitizers and fuzzer
+    clang-19 libclang-rt-19-dev libomp-19-dev     # the compiler that has a fuzzer
     clang-tidy-19                                 # scripts/check_tidy.sh
     python3                                       # tests/matrix/run_matrix.py
 )

@@ -13,7 +13,7 @@
 namespace lockstep {
 namespace {
 
-constexpr int most_frames = 2;
+constexpr int examined_frames = 2;
 
 /// The first groups of a dispatch, where neighbours are, and few of the rest.
 bool is_sampled(const std::array<std::uint32_t, 3>& group) {
@@ -54,7 +54,7 @@ std::vector<std::string> shader_findings(const SystemScene& scene, const std::fi
     if (std::none_of(texts.begin(), texts.end(), [](const WatchedText& one) { return one.text != nullptr; }))
         return lines;
     ReferenceRun run(system, profile);
-    for (int frame = 0; frame < std::min(frames, most_frames); ++frame)
+    for (int frame = 0; frame < std::min(frames, examined_frames); ++frame)
         for (std::size_t p = 0; p < scene.passes.size(); ++p) {
             WatchedText& watched = texts[p];
             if (watched.text != nullptr && system.passes[p]->runs(frame)) {

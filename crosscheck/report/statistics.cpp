@@ -15,11 +15,11 @@ double median(std::vector<double> values) {
 
 namespace {
 
-struct Line {
+struct FittedLine {
     double start, slope;
 };
 
-Line fitted_line(std::span<const double> x, std::span<const double> y) {
+FittedLine fitted_line(std::span<const double> x, std::span<const double> y) {
     double sx = 0.0, sy = 0.0, sxx = 0.0, sxy = 0.0;
     for (std::size_t i = 0; i < x.size(); ++i) {
         sx += x[i];
@@ -45,7 +45,7 @@ double fitted_exponent(std::span<const std::size_t> counts, std::span<const doub
 
 double deviation_from_line(std::span<const std::size_t> counts, std::span<const double> seconds) {
     const std::vector<double> x(counts.begin(), counts.end());
-    const Line line = fitted_line(x, seconds);
+    const FittedLine line = fitted_line(x, seconds);
     double largest = 0.0;
     for (std::size_t i = 0; i < x.size(); ++i)
         largest = std::max(largest, std::abs(line.start + line.slope * x[i] - seconds[i]) / seconds[i]);

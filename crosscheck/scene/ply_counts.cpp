@@ -15,11 +15,12 @@
 #include "reference/model/error.hpp"
 
 namespace lockstep {
-namespace {
 
-[[noreturn]] void fail_on(const std::filesystem::path& file, std::string_view what) {
+void fail_on(const std::filesystem::path& file, std::string_view what) {
     throw Error(fmt::format("{}: {}", file.string(), what));
 }
+
+namespace {
 
 /// Bytes of a PLY number.
 struct Number {

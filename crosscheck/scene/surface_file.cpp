@@ -20,10 +20,6 @@
 namespace lockstep {
 namespace {
 
-[[noreturn]] void fail_on(const std::filesystem::path& file, std::string_view what) {
-    throw Error(fmt::format("{}: {}", file.string(), what));
-}
-
 constexpr std::uint64_t largest_file = std::uint64_t{1} << 30U; // bytes
 constexpr unsigned most_corners = 1024;                         // of a polygon: triangulating takes their square
 

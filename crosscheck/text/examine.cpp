@@ -71,7 +71,6 @@ std::vector<std::uint32_t> uniform_words(const text::PlainUniform& uniform, cons
 }
 
 std::vector<std::uint32_t> block_words(const text::Block& block, std::size_t count, MadeUp& made_up) {
-    constexpr std::size_t word_bytes = 4;
     std::vector<std::uint32_t> words(block.words(count));
     const auto fill = [&](std::size_t first, const std::vector<text::Leaf>& leaves) {
         for (const text::Leaf& leaf : leaves)
@@ -80,7 +79,7 @@ std::vector<std::uint32_t> block_words(const text::Block& block, std::size_t cou
     };
     fill(0, block.leaves);
     for (std::size_t i = 0; block.array_stride > 0 && i < count; ++i)
-        fill((block.array_offset + i * block.array_stride) / word_bytes, block.element);
+        fill((block.array_offset + i * block.array_stride) / text::word_bytes, block.element);
     return words;
 }
 

@@ -7,8 +7,6 @@
 namespace lockstep::text {
 namespace {
 
-constexpr std::uint32_t word_bytes = 4;
-
 /// Operations of which component c needs no other component of its operands.
 bool is_by_component(std::uint16_t op) {
     if (op >= code::own)

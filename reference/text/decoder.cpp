@@ -352,7 +352,6 @@ void Decoder::instruction(const Instruction& at, std::size_t number) {
 }
 
 std::size_t Block::words(std::size_t count) const {
-    constexpr std::size_t word_bytes = 4;
     std::size_t words = (array_offset + array_stride * count) / word_bytes;
     for (const Leaf& leaf : leaves)
         words = std::max<std::size_t>(words, leaf.word + 1U);

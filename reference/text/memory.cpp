@@ -11,7 +11,6 @@ namespace lockstep::text {
 namespace {
 
 constexpr std::string_view bounds_rule = "access outside of a buffer (GLSL 4.60, 5.11)";
-constexpr std::uint32_t word_bytes = 4;
 
 bool is_inside(const TexelMemory& image, const std::array<std::int32_t, 3>& at) {
     for (std::size_t c = 0; c < at.size(); ++c)

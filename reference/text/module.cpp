@@ -1,4 +1,3 @@
-#define SPV_ENABLE_UTILITY_CODE // which instructions have results
 #include "reference/text/module.hpp"
 
 #include <algorithm>

@@ -56,6 +56,9 @@ struct Step {
     std::uint32_t out = 0, a = 0, b = 0, c = 0, d = 0;
 };
 
+/// Blocks and variables are held in words of 32 bits.
+inline constexpr std::uint32_t word_bytes = 4;
+
 /// A scalar of a value in a block.
 struct Leaf {
     std::uint32_t word = 0; ///< from the value's first

@@ -132,40 +132,56 @@ void measure_roots(const DriverArithmetic& gl, const std::string& qualifier, std
                           {"1/s, s the driver's sqrt", gl.reciprocal(gl.sqrt(x))}}));
 }
 
+/// Held against `first`, and against what `others` gives as well where none of those fits: that asks the driver often.
+template <class Others>
+ProbeRow judge_in_turn(const std::string& name, const Floats& measured, Predictions first, const Others& others) {
+    ProbeRow row = judge(name, measured, first);
+    if (row.matched == row.total)
+        return row;
+    for (Prediction<float>& other : others())
+        first.push_back(std::move(other));
+    return judge(name, measured, first);
+}
+
 void measure_directions(const DriverArithmetic& gl, const std::string& qualifier, std::size_t inputs, Rows& rows) {
     const Vectors v = random_vectors(inputs, 9, {-8, 8, true});
     const Floats squared = gl.dot(v, v);
-    const Floats inverse = gl.inverse_sqrt(squared);
     const Floats length = gl.length(v);
     // "dot" is the driver's own; a length may sum otherwise.
     const Predictions sums = predict(dot_sequences(), v, v);
-    Predictions lengths_of{{"sqrt(dot), rounded", each(squared, square_root)},
-                           {"sqrt(dot)", gl.sqrt(squared)},
+    const auto other_lengths = [&] {
+        const Floats inverse = gl.inverse_sqrt(squared);
+        Predictions others{{"sqrt(dot)", gl.sqrt(squared)},
                            {"1/y, y inversesqrt(dot)", gl.reciprocal(inverse)},
                            {"dot*y", each(squared, inverse, product)}};
-    for (const auto& sum : sums)
-        lengths_of.push_back({"sqrt(" + sum.name + "), rounded", each(sum.values, square_root)});
-    for (const auto& sum : sums)
-        lengths_of.push_back({"1/y, y inversesqrt(" + sum.name + ")", gl.reciprocal(gl.inverse_sqrt(sum.values))});
-    rows.push_back(judge("length" + qualifier, length, lengths_of));
-
-    Predictions directions{
-        {"v*(1/sqrt(dot)), rounded", each(v, each(squared, reciprocal_of_root), product)},
-        {"v/sqrt(dot), rounded", each(v, each(squared, square_root), quotient)},
-        {"v*inversesqrt(dot)", each(v, inverse, product)},
-        {"v*(1/sqrt(dot))", each(v, gl.reciprocal(gl.sqrt(squared)), product)},
-        {"v*(1/length)", each(v, gl.reciprocal(length), product)},
+        for (const auto& sum : sums)
+            others.push_back({"sqrt(" + sum.name + "), rounded", each(sum.values, square_root)});
+        for (const auto& sum : sums)
+            others.push_back({"1/y, y inversesqrt(" + sum.name + ")", gl.reciprocal(gl.inverse_sqrt(sum.values))});
+        return others;
     };
-    Floats lengths;
-    for (const float l : length)
-        lengths.insert(lengths.end(), {l, l, l});
-    directions.push_back({"v/length", gl.divide(flat(v), lengths)});
-    for (const auto& sum : sums)
-        directions.push_back({"v*inversesqrt(" + sum.name + ")", each(v, gl.inverse_sqrt(sum.values), product)});
-    for (const auto& sum : sums)
-        directions.push_back(
-            {"v*(1/sqrt(" + sum.name + ")), rounded", each(v, each(sum.values, reciprocal_of_root), product)});
-    rows.push_back(judge("normalize" + qualifier, gl.normalize(v), directions));
+    rows.push_back(judge_in_turn("length" + qualifier, length, {{"sqrt(dot), rounded", each(squared, square_root)}},
+                                 other_lengths));
+
+    const auto other_directions = [&] {
+        Predictions others{{"v/sqrt(dot), rounded", each(v, each(squared, square_root), quotient)},
+                           {"v*inversesqrt(dot)", each(v, gl.inverse_sqrt(squared), product)},
+                           {"v*(1/sqrt(dot))", each(v, gl.reciprocal(gl.sqrt(squared)), product)},
+                           {"v*(1/length)", each(v, gl.reciprocal(length), product)}};
+        Floats lengths;
+        for (const float l : length)
+            lengths.insert(lengths.end(), {l, l, l});
+        others.push_back({"v/length", gl.divide(flat(v), lengths)});
+        for (const auto& sum : sums)
+            others.push_back({"v*inversesqrt(" + sum.name + ")", each(v, gl.inverse_sqrt(sum.values), product)});
+        for (const auto& sum : sums)
+            others.push_back(
+                {"v*(1/sqrt(" + sum.name + ")), rounded", each(v, each(sum.values, reciprocal_of_root), product)});
+        return others;
+    };
+    rows.push_back(judge_in_turn("normalize" + qualifier, gl.normalize(v),
+                                 {{"v*(1/sqrt(dot)), rounded", each(v, each(squared, reciprocal_of_root), product)}},
+                                 other_directions));
 }
 
 void measure_transcendental(const DriverArithmetic& gl, std::size_t inputs, Rows& rows) {

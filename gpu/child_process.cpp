@@ -18,6 +18,7 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include "gpu/driver_call.hpp"
 #include "gpu/syscall_fence.hpp"
 
 namespace lockstep {
@@ -143,6 +144,13 @@ std::string in_child(const ChildRules& rules, const std::function<std::string()>
     if (answer->front() == threw)
         throw Error(answer->substr(1));
     return answer->substr(1);
+}
+
+std::string in_child_if_possible(const ChildRules& rules, const std::function<std::string()>& work) try {
+    return in_child(rules, work);
+} catch (const NoChildProcess&) {
+    const DriverCall call(rules.subject);
+    return work();
 }
 
 } // namespace lockstep

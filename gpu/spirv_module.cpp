@@ -13,7 +13,6 @@
 #include <spirv_parser.hpp>
 
 #include "gpu/child_process.hpp"
-#include "gpu/driver_call.hpp"
 #include "gpu/glsl_type.hpp"
 #include "gpu/shader_source.hpp"
 #include "gpu/spirv_check.hpp"
@@ -29,14 +28,6 @@ constexpr std::size_t header_words = 5;
 
 /// spirv-cross trusts what it reads, and so do validators up to a point.
 constexpr ChildRules reader{"spirv-cross", 20, true};
-
-/// In a process of its own; where the system starts none, in this one.
-std::string apart(const std::function<std::string()>& work) try {
-    return in_child(reader, work);
-} catch (const NoChildProcess&) {
-    const DriverCall call("spirv-cross");
-    return work();
-}
 
 spv::ExecutionModel execution_model(Stage stage) {
     switch (stage) {
@@ -473,7 +464,8 @@ SpirvModule read_spirv(const std::string& file, std::string_view content, Stage 
     if (content.size() % sizeof(std::uint32_t) != 0)
         fail(fmt::format("{} bytes are no whole number of words; the file was cut short", content.size()));
     try {
-        return module_of_bytes(apart([&] { return module_bytes(declared_by(file, content, stage)); }));
+        return module_of_bytes(
+            in_child_if_possible(reader, [&] { return module_bytes(declared_by(file, content, stage)); }));
     } catch (const ChildFailed& failed) {
         throw Error(fmt::format("shader {}: is no SPIR-V module that can be read: {}", file, failed.what()));
     }
@@ -522,7 +514,7 @@ std::vector<std::uint32_t> capturing(const SpirvModule& module, std::span<const 
 }
 
 std::string glsl_of(const SpirvModule& module, bool located) try {
-    return apart([&] { return translated(module, located); });
+    return in_child_if_possible(reader, [&] { return translated(module, located); });
 } catch (const ChildFailed& failed) {
     throw Error(fmt::format("shader {}: cannot be translated to GLSL: {}", module.file, failed.what()));
 }

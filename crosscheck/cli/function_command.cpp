@@ -187,7 +187,12 @@ int run_function(const FunctionRequest& options) {
     run.gl = options.gl;
     const Gl gl = open_gl(run);
     const FunctionMatchOptions how{.repeat = command_of(options)};
-    const std::vector<UndefinedRow> undefined = undefined_rows(function, rows);
+    std::vector<UndefinedRow> undefined = undefined_rows(function, rows);
+    if (functions.size() > 1)
+        for (const UndefinedRow& one : undefined_rows(functions.back(), rows))
+            if (std::none_of(undefined.begin(), undefined.end(), [&](const auto& by) { return by.row == one.row; }))
+                undefined.push_back(one);
+    std::sort(undefined.begin(), undefined.end(), [](const auto& a, const auto& b) { return a.row < b.row; });
     const FunctionRows judged = undefined.empty() ? rows : without(rows, undefined);
     std::optional<MatchResult> result;
     if (judged.count() > 0)

@@ -138,6 +138,11 @@ double ItemLikeness::ulps_from_gpus(std::size_t item, std::span<const std::uint3
     return apart(*this, item, values_of(words, pass_.gpu), values_of(pass_.gpu, item));
 }
 
+double ItemLikeness::ulps_between(std::size_t item, std::span<const std::uint32_t> a,
+                                  std::span<const std::uint32_t> b) const {
+    return apart(*this, item, values_of(a, pass_.gpu), values_of(b, pass_.gpu));
+}
+
 bool ItemLikeness::are_near_references(std::size_t item, std::span<const std::uint32_t> words) const {
     return apart(*this, item, values_of(words, pass_.reference), values_of(pass_.reference, item)) <= rewritten_ulps;
 }

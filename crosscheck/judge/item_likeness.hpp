@@ -29,6 +29,9 @@ class ItemLikeness {
     [[nodiscard]] bool may_be_gpus(std::size_t item, std::span<const std::uint32_t> words) const;
     /// How far they are from the GPU's, in ULP of a vector's greatest component (ulps_apart): the most of all fields.
     [[nodiscard]] double ulps_from_gpus(std::size_t item, std::span<const std::uint32_t> words) const;
+    /// The same of two mistakes' words.
+    [[nodiscard]] double ulps_between(std::size_t item, std::span<const std::uint32_t> a,
+                                      std::span<const std::uint32_t> b) const;
     /// Whether they are as near the GPU's as a divergent item's legal sets are wide; the same bits where these are
     /// points, and of integers.
     [[nodiscard]] bool are_within_leeway(std::size_t item, std::span<const std::uint32_t> words) const;

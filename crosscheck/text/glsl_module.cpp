@@ -1,5 +1,6 @@
 #include "crosscheck/text/glsl_module.hpp"
 
+#include <cstring>
 #include <filesystem>
 #include <mutex>
 
@@ -8,6 +9,7 @@
 #include <glslang/Public/ShaderLang.h>
 #include <glslang/SPIRV/GlslangToSpv.h>
 
+#include "gpu/child_process.hpp"
 #include "gpu/shader_log.hpp"
 #include "gpu/spirv_module.hpp"
 #include "reference/model/error.hpp"
@@ -29,16 +31,8 @@ EShLanguage language(Stage stage) {
     return EShLangCompute;
 }
 
-} // namespace
-
-std::vector<std::uint32_t> spirv_of(const ShaderSource& stage) {
-    if (stage.module != nullptr)
-        return stage.module->words;
-    static const bool is_ready = glslang::InitializeProcess();
-    static std::mutex mutex; // glslang's pools are a thread's own, its tables are not
-    const std::scoped_lock lock(mutex);
-    if (!is_ready)
-        throw Error("glslang does not start");
+/// As bytes.
+std::string compiled(const ShaderSource& stage) {
     constexpr int gl_version = 450;
     const EShLanguage in = language(stage.stage);
     const auto messages = static_cast<EShMessages>(EShMsgSpvRules | EShMsgDebugInfo);
@@ -61,6 +55,26 @@ std::vector<std::uint32_t> spirv_of(const ShaderSource& stage) {
     options.generateDebugInfo = true;
     options.disableOptimizer = true;
     glslang::GlslangToSpv(*program.getIntermediate(in), words, &options);
+    std::string bytes(words.size() * sizeof(words[0]), '\0');
+    std::memcpy(bytes.data(), words.data(), bytes.size());
+    return bytes;
+}
+
+} // namespace
+
+std::vector<std::uint32_t> spirv_of(const ShaderSource& stage) {
+    if (stage.module != nullptr)
+        return stage.module->words;
+    static const bool is_ready = glslang::InitializeProcess();
+    static std::mutex mutex; // glslang's pools are a thread's own, its tables are not
+    const std::scoped_lock lock(mutex);
+    if (!is_ready)
+        throw Error("glslang does not start");
+    // It follows expressions by recursion, as deep as they are long.
+    constexpr ChildRules compiler{"glslang", 20, true};
+    const std::string bytes = in_child_if_possible(compiler, [&] { return compiled(stage); });
+    std::vector<std::uint32_t> words(bytes.size() / sizeof(std::uint32_t));
+    std::memcpy(words.data(), bytes.data(), bytes.size());
     return words;
 }
 

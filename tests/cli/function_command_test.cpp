@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <cmath>
 #include <cstdint>
 #include <filesystem>
@@ -382,6 +383,36 @@ TEST_CASE("function: each command of its page works as printed") {
     }
     CHECK(commands == 2);
     run({"function", "shaders/wall.glsl", "bounce", "--table", "walls.json", "--uniform", "u_Kept=0.5"});
+}
+
+TEST_CASE("function: what --like leaves undefined is UNDEFINED, too") {
+    if (!test::have_software_gl())
+        return;
+    const test::TemporaryFolder folder;
+    const std::string mine = folder.write("mine.glsl", "float kept(float a) { return a; }\n").string();
+    const std::string other =
+        folder.write("other.glsl", "float unset(float a) {\n    float z;\n    return z;\n}\n").string();
+    const std::string table = folder.write("table.csv", "a\n0\n0\n").string();
+    const test::Outcome outcome = run_lockstep({"function", mine, "kept", "--table", table, "--like", other,
+                                                "--like-name", "unset", "--gl", test::software_gl()});
+    CHECK(outcome.status == 1);
+    CHECK_THAT(outcome.out, Contains("UNDEFINED: 2 of 2 rows") && Contains("variable z"));
+}
+
+TEST_CASE("function: an expression of 20,000 terms ends in a verdict or in one line, whatever a compiler makes of it") {
+    if (!test::have_software_gl())
+        return;
+    const test::TemporaryFolder folder;
+    std::string sum = "a";
+    for (int i = 0; i < 20000; ++i)
+        sum += " + a";
+    const std::string file = folder.write("sum.glsl", "float sum(float a) { return " + sum + "; }\n").string();
+    const std::string table = folder.write("table.csv", "a,result\n0,0\n").string();
+    const test::Outcome outcome =
+        run_lockstep({"function", file, "sum", "--table", table, "--gl", test::software_gl()});
+    INFO(outcome.out << outcome.err);
+    CHECK((outcome.status == 0 || outcome.status == 2));
+    CHECK(std::count(outcome.err.begin(), outcome.err.end(), '\n') == (outcome.status == 0 ? 0 : 1));
 }
 
 TEST_CASE("function: a row that rests on an operand without a result is UNDEFINED with its rule, whatever came out") {

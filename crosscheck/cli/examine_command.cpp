@@ -80,7 +80,7 @@ int run_examine(const ExamineRequest& options) {
     Examination of{.file = options.file};
     of.groups = groups_of(options.groups);
     for (const std::string& one : options.uniforms)
-        of.uniforms.insert(numbers_of<float>("--uniform", one));
+        of.uniforms.insert(numbers_of<double>("--uniform", one));
     for (const std::string& one : options.sizes) {
         const auto [name, size] = numbers_of<std::uint32_t>("--size", one);
         of.sizes[name] = size;
@@ -93,11 +93,11 @@ int run_examine(const ExamineRequest& options) {
     if (!options.json.empty())
         files.expect(options.json);
     const ExaminationResult result = examine(of);
-    if (!options.quiet)
-        fmt::print("{}", plain_text(result.text(of)));
     if (!options.json.empty())
         files.write(options.json, json_text(result.json(of)));
     files.commit();
+    if (!options.quiet)
+        fmt::print("{}", plain_text(result.text(of)));
     return result.findings.empty() ? status_agree : status_differ;
 }
 

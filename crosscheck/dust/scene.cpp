@@ -130,8 +130,9 @@ Settings read_scene(const JsonValue& json, const SceneOptions& options) {
         settings.camera = read_camera(*camera, settings.camera);
     const JsonValue dust = json.at("dust");
     if (const auto version = dust.find("stage")) {
+        const std::string stage_name = version->text();
         try {
-            settings.switches = stage(version->text(), settings.switches);
+            settings.switches = stage(stage_name, settings.switches);
         } catch (const Error& error) {
             version->fail(error.what());
         }

@@ -111,7 +111,9 @@ std::vector<JsonValue> JsonValue::items() const {
 float JsonValue::number(const NumberRule& rule) const {
     if (!value_->is_number())
         fail_not(rule.text);
-    const double number = value_->get<double>();
+    double number = value_->get<double>();
+    if (std::abs(number) > number::finite.max && std::isfinite(static_cast<float>(number)))
+        number = std::copysign(double{number::finite.max}, number); // 3.4028235e38: its nearest float is the largest
     if (number > 0.0 && number < rule.min && rule.min == number::positive.min)
         fail_not("a normal float, which is 1.2e-38 or more");
     if (std::abs(number) > number::finite.max && rule.max == number::finite.max && (number > 0 || rule.min < 0))

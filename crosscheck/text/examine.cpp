@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <bit>
+#include <cmath>
+#include <limits>
 #include <memory>
 #include <set>
 #include <string_view>
@@ -59,14 +61,19 @@ void check_names(std::string_view option, const Given& given, const std::vector<
                                     did_you_mean(name, names)));
 }
 
-std::vector<std::uint32_t> uniform_words(const text::PlainUniform& uniform, const std::vector<float>& given) {
+std::vector<std::uint32_t> uniform_words(const text::PlainUniform& uniform, const std::vector<double>& given) {
     if (given.size() != uniform.cells)
         throw Error(
             fmt::format("--uniform {}: expected {} numbers, got {}", uniform.name, uniform.cells, given.size()));
     std::vector<std::uint32_t> words;
-    for (const float x : given)
-        words.push_back(uniform.is_real ? std::bit_cast<std::uint32_t>(x)
+    for (const double x : given) {
+        constexpr double least = std::numeric_limits<std::int32_t>::min(),
+                         most = std::numeric_limits<std::uint32_t>::max();
+        if (!uniform.is_real && !(x == std::floor(x) && x >= least && x <= most))
+            throw Error(fmt::format("--uniform {}: {} is no integer of 32 bits", uniform.name, x));
+        words.push_back(uniform.is_real ? std::bit_cast<std::uint32_t>(static_cast<float>(x))
                                         : static_cast<std::uint32_t>(static_cast<std::int64_t>(x)));
+    }
     return words;
 }
 

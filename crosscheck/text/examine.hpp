@@ -18,7 +18,7 @@ struct Examination {
     std::filesystem::path file;
     std::array<std::uint32_t, 3> groups{4, 1, 1};
     ShaderDefines defines = {};
-    std::map<std::string, std::vector<float>> uniforms = {};
+    std::map<std::string, std::vector<double>> uniforms = {};
     /// Elements of the array at a block's end, by the block's name; texels along each axis of an image.
     std::map<std::string, std::vector<std::uint32_t>> sizes = {};
     std::uint32_t seed = 1;

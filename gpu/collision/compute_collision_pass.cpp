@@ -87,6 +87,7 @@ void ComputeCollisionPass::run(const FrameParams& params, const ParticleBuffer& 
                                const CollisionTexture& cdt, CollisionTexture& target, PassTimer& timer) {
     const std::vector<StorageRange> all = ranges(from, to);
     bind(clear_, all);
+    clear_.program.check_interface();
     dispatch(clear_.program, texels_, clear_group_);
     check_stage(clear_, all);
     timer.mark("clear_nearest");

@@ -68,6 +68,14 @@ TEST_CASE("examine: what it cannot run is refused in one line") {
     CHECK_THAT(refused({}, (folder.path() / "missing.comp").string()), Contains("no such file"));
     CHECK_THAT(refused({}, folder.write("slip.comp", "#version 430\nvoid main() {\n    float x = y;\n}\n").string()),
                Contains("shader") && Contains("slip.comp:3: "));
+    const std::string number = folder
+                                   .write("number.comp", "#version 430 core\nlayout(local_size_x = 1) in;\n"
+                                                         "uniform int u_Count;\nbuffer Numbers { int x[]; };\n"
+                                                         "void main() { x[0] = u_Count; }\n")
+                                   .string();
+    for (const char* value : {"1.5", "99999999999"})
+        CHECK_THAT(refused({"--uniform", std::string("u_Count=") + value}, number),
+                   Contains("is no integer of 32 bits"));
     CHECK_THAT(refused({}, folder.write("stage.vert", "#version 430\nvoid main() {}\n").string()),
                Contains("expected a compute shader, NAME.comp"));
 }

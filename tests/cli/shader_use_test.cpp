@@ -119,6 +119,9 @@ TEST_CASE("shader use: with step = compute the compute stage runs, and the verte
                         "/collision_pass.comp; shipped: "
                         "clear_nearest.comp, nearest_particle.comp, collision_texels.vert, collision_texels.frag, ") &&
                    Contains(", compute)"));
+    write_own(setting.shaders, "clear_nearest.comp");
+    CHECK_THAT(run_lockstep(setting.command({"--frames", "2", "--set", "step=compute"})).out,
+               Contains(own + "/clear_nearest.comp") && !Contains("clear_nearest.comp (compiled)"));
     write_own(setting.shaders, "collision_pass.vert");
     CHECK_THAT(refusal(run_lockstep(setting.command({"--frames", "2", "--set", "step=compute"}))),
                Contains("collision_pass.vert would not run") &&

@@ -73,6 +73,8 @@ TEST_CASE("json reader: a number is rounded to a float once") {
     CHECK(of("-1.00000005960464477539062500001e0") == -0x1.000002p0F);
     CHECK(of("9007199791611905") == 0x1.000002p53F); // an integer, 2^53 + 2^29 + 1
     CHECK(of("3.4028234663852886e38") == std::numeric_limits<float>::max());
+    CHECK(of("-3.4028235e38") == std::numeric_limits<float>::lowest());
+    CHECK_THROWS_WITH(of("3.4028236e38"), Catch::Contains("beyond what a float holds"));
     const nlohmann::json list = parse_json("[0.5, 1.00000005960464477539062500001, 0.25, {\"a\": "
                                            "1.00000017881393432617187499999}]",
                                            "a");

@@ -22,7 +22,7 @@ demo=(
     libedit-dev                                   # typed commands: editing, history, completion
     libseccomp-dev                                # the fence around the process that reads one
     libspirv-cross-c-shared-dev spirv-tools       # shaders in SPIR-V: what they declare, and their GLSL; whether they are right
-    glslang-dev                                   # shaders' own texts, compiled to SPIR-V in process
+    glslang-dev glslang-tools                     # shaders' own texts, compiled to SPIR-V in process; its CMake files name both
     libgl-dev libegl-dev                          # GL headers; the libraries are opened at run time
     libegl1 libgl1-mesa-dri                       # contexts without a GPU
 )
@@ -36,7 +36,6 @@ tests=(
     libbenchmark-dev                              # benchmarks
     gnuplot-nox                                   # charts of lockstep study
     chromium                                      # the report page's tests
-    glslang-tools                                 # shaders in SPIR-V, made by the tests
     dpkg-dev file                                 # Debian packages of lockstep
     python3-numpy python3-h5py                    # the example that writes a trace; states that the page saved become one
 )

@@ -2,6 +2,7 @@
 #include <array>
 #include <cstring>
 #include <filesystem>
+#include <iterator>
 #include <memory>
 #include <optional>
 #include <span>
@@ -188,11 +189,12 @@ int run_function(const FunctionRequest& options) {
     const Gl gl = open_gl(run);
     const FunctionMatchOptions how{.repeat = command_of(options)};
     std::vector<UndefinedRow> undefined = undefined_rows(function, rows);
-    if (functions.size() > 1)
-        for (const UndefinedRow& one : undefined_rows(functions.back(), rows))
-            if (std::none_of(undefined.begin(), undefined.end(), [&](const auto& by) { return by.row == one.row; }))
-                undefined.push_back(one);
-    std::sort(undefined.begin(), undefined.end(), [](const auto& a, const auto& b) { return a.row < b.row; });
+    if (functions.size() > 1) { // of a row that both leave undefined, the first's words
+        std::ranges::move(undefined_rows(functions.back(), rows), std::back_inserter(undefined));
+        std::ranges::stable_sort(undefined, {}, &UndefinedRow::row);
+        const auto repeated = std::ranges::unique(undefined, {}, &UndefinedRow::row);
+        undefined.erase(repeated.begin(), repeated.end());
+    }
     const FunctionRows judged = undefined.empty() ? rows : without(rows, undefined);
     std::optional<MatchResult> result;
     if (judged.count() > 0)

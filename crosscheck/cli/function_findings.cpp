@@ -132,7 +132,7 @@ FunctionRows without(const FunctionRows& rows, const std::vector<UndefinedRow>& 
     const std::size_t width = rows.width(), count = rows.count();
     const std::size_t result_width = rows.results ? rows.results->size() / count : 0;
     for (std::size_t row = 0; row < count; ++row) {
-        if (std::any_of(undefined.begin(), undefined.end(), [&](const UndefinedRow& one) { return one.row == row; }))
+        if (std::ranges::binary_search(undefined, row, {}, &UndefinedRow::row))
             continue;
         const auto append = [&](auto& to, const auto& from, std::size_t n) {
             const auto first = from.begin() + static_cast<std::ptrdiff_t>(row * n);

@@ -14,10 +14,10 @@ struct UndefinedRow {
     std::string where, rule, what; ///< FILE:LINE of the operation
 };
 
-/// Runs the function's own text on each row (docs/shader_text.md). None where the text is not interpreted.
+/// Runs the function's own text on each row (docs/shader_text.md). Rows ascend; none where the text is not interpreted.
 std::vector<UndefinedRow> undefined_rows(const GlslFunction& function, const FunctionRows& rows);
 
-/// The rows that are none of these.
+/// The rows that are none of these, which ascend.
 FunctionRows without(const FunctionRows& rows, const std::vector<UndefinedRow>& undefined);
 
 /// The verdict on a table with such rows, and a line for each; `others`: rows that were judged, all of which agree.

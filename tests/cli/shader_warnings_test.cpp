@@ -95,6 +95,22 @@ TEST_CASE("shader warnings: a function that reads an unset variable is UNDEFINED
     CHECK_THAT(outcome.out, Contains("least.glsl:3: use of a variable that was never set"));
 }
 
+TEST_CASE("shader warnings: a function that may read an unset variable, in no row of the table, is no plain AGREE") {
+    if (!test::have_software_gl())
+        return;
+    const test::TemporaryFolder folder;
+    const std::string shader = folder
+                                   .write("least.glsl", "float least(float a, float b) {\n    float best;\n"
+                                                        "    if (a > 100.0) return best;\n    return min(a, b);\n}\n")
+                                   .string();
+    const std::string table = folder.write("least.csv", "a,b,result\n0,2,0\n0,7,0\n").string();
+    const std::vector<std::string> command{"function", shader, "least", "--table", table, "--gl", test::software_gl()};
+    const test::Outcome outcome = run_lockstep(command);
+    CHECK_THAT(outcome.out, Contains("the driver warns: least.glsl:3: `best' used uninitialized"));
+    CHECK_THAT(outcome.out, Contains("AGREE, but least.glsl:3 may read a variable that was never set"));
+    CHECK_THAT(refusal(run_lockstep(test::joined(command, {"--werror-shaders"}))), Contains("least.glsl:3: "));
+}
+
 TEST_CASE("shader warnings: a driver that kept the compiled shader from an earlier run is asked again") {
     if (!test::have_software_gl())
         return;

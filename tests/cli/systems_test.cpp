@@ -260,7 +260,10 @@ std::string findings(const std::string& report) {
                                 "  velocity", "  position", "  frame "})
             if (line.starts_with(key)) {
                 const std::size_t but = line.find(", but "), end = line.find(": ", but);
-                found += (but == std::string::npos ? line : line.substr(0, but) + line.substr(end)) + "\n";
+                const std::string clause = but == std::string::npos ? "" : line.substr(but, end - but);
+                const bool is_of_extent = clause.find(" ran over ") != std::string::npos ||
+                                          clause.find(" passes changed nothing") != std::string::npos;
+                found += (is_of_extent ? line.substr(0, but) + line.substr(end) : line) + "\n";
             }
     return found;
 }

@@ -104,6 +104,7 @@ std::vector<UndefinedRow> undefined_rows(const GlslFunction& function, const Fun
     if (!program.images.empty())
         return {};
     const Profile profile = named_profile("strict");
+    std::uint32_t most_branches = text::Dispatch{}.most_branches;
     std::vector<UndefinedRow> found;
     for (std::size_t row = 0; row < rows.count(); ++row) {
         bindings.blocks.clear();
@@ -112,10 +113,12 @@ std::vector<UndefinedRow> undefined_rows(const GlslFunction& function, const Fun
                                           ? std::span(words).subspan(row * rows.width(), rows.width())
                                           : std::span(result));
         text::Findings findings;
-        text::run_dispatch(program, {.is_watched = true}, bindings, profile, findings);
+        text::run_dispatch(program, {.is_watched = true, .most_branches = most_branches}, bindings, profile, findings);
         if (!findings.all().empty()) {
             const text::Finding& first = findings.all().front();
             found.push_back({row, program.line_name(first.place.line), first.rule, first.what});
+            if (first.rule == text::endless_rule) // a table of such rows shall end, too
+                most_branches = 1'000'000;
         }
     }
     return found;

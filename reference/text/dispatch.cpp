@@ -95,7 +95,8 @@ void run_dispatch(const Program& program, const Dispatch& dispatch, const Bindin
     const std::uint32_t size = program.invocations();
     std::vector<std::unique_ptr<Run>> parts;
     for (std::uint32_t part = 0; part < (is_joint ? (size + width - 1) / width : 1); ++part)
-        parts.push_back(std::make_unique<Run>(values, program, memory, bindings, dispatch.groups));
+        parts.push_back(
+            std::make_unique<Run>(values, program, memory, bindings, dispatch.groups, dispatch.most_branches));
     std::vector<Invocation> waiting; // of one group, or of several that need nothing of each other
     const auto flush = [&] {
         if (waiting.empty())
@@ -109,19 +110,26 @@ void run_dispatch(const Program& program, const Dispatch& dispatch, const Bindin
         waiting.clear();
     };
     const std::uint32_t groups = dispatch.groups[0] * dispatch.groups[1] * dispatch.groups[2];
-    for (std::uint32_t g = 0; g < groups; ++g) {
-        const std::array<std::uint32_t, 3> group = place_in(g, dispatch.groups);
-        if (dispatch.wants && !dispatch.wants(group))
-            continue;
-        for (std::uint32_t i = 0; i < size; ++i) {
-            waiting.push_back({group, place_in(i, program.group), g * size + i});
-            if (!is_joint && waiting.size() == width)
+    try {
+        for (std::uint32_t g = 0; g < groups; ++g) {
+            const std::array<std::uint32_t, 3> group = place_in(g, dispatch.groups);
+            if (dispatch.wants && !dispatch.wants(group))
+                continue;
+            for (std::uint32_t i = 0; i < size; ++i) {
+                waiting.push_back({group, place_in(i, program.group), g * size + i});
+                if (!is_joint && waiting.size() == width)
+                    flush();
+            }
+            if (is_joint)
                 flush();
         }
-        if (is_joint)
-            flush();
+        flush();
+    } catch (const DoesNotEnd& endless) {
+        if (!dispatch.is_watched)
+            throw;
+        findings.add(endless_rule, endless.place,
+                     [&] { return fmt::format("no end within {} branches", dispatch.most_branches); });
     }
-    flush();
     // What a race reads may be there or not: the race says it all.
     const std::vector<Finding> all = findings.all();
     findings.remove([&](const Finding& one) {

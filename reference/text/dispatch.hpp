@@ -9,16 +9,19 @@
 namespace lockstep::text {
 
 /// A dispatch of a compute shader. `wants(group)`: whether a group runs; empty: all do. `is_watched`: races, operands
-/// without a result and values that were never set are looked for, which takes some 10 times as long.
+/// without a result and values that were never set are looked for, which takes some 10 times as long. `most_branches`:
+/// that up to 16 invocations, which run together, take.
 struct Dispatch {
     std::array<std::uint32_t, 3> groups{1, 1, 1};
     std::function<bool(const std::array<std::uint32_t, 3>& group)> wants = {};
     bool is_watched = false;
+    std::uint32_t most_branches = 50'000'000;
 };
 
 /// Runs a dispatch in plain bits, group after group, with the arithmetic that was measured of a driver's compute stage.
 /// What blocks and images are bound to is read and written. A group whose invocations do not all come to one barrier
-/// ends there, which is a finding. Throws Error by FILE:LINE where an invocation does not end.
+/// ends there, which is a finding. Where an invocation does not end, a watched dispatch ends with a finding; another
+/// throws DoesNotEnd by FILE:LINE.
 void run_dispatch(const Program& program, const Dispatch& dispatch, const Bindings& bindings, const Profile& profile,
                   Findings& findings);
 

@@ -6,6 +6,8 @@
 #include <string_view>
 #include <vector>
 
+#include "reference/model/error.hpp"
+
 namespace lockstep::text {
 
 /// Where in a run something is done.
@@ -21,6 +23,14 @@ struct Finding {
     Place place;                     ///< the first
     std::optional<Place> other = {}; ///< of a race: who touched the memory before
     std::size_t times = 1;
+};
+
+inline constexpr std::string_view endless_rule = "loop that does not end (GLSL 4.60, 6.4)";
+
+/// An invocation took more branches than it may.
+struct DoesNotEnd : Error {
+    DoesNotEnd(const std::string& what, Place at) : Error(what), place(at) {}
+    Place place;
 };
 
 /// Findings by rule and lines, in the order in which they were first made.

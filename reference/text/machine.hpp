@@ -30,9 +30,9 @@ template <class R, int W> class Machine {
     using C = Cell<R>;
 
     Machine(R& reading, const Program& program, Memory& memory, const Bindings& bindings,
-            std::array<std::uint32_t, 3> groups)
-        : r(reading), p_(program), memory_(memory), groups_(groups), cells_(std::size_t{program.cells} * W),
-          unset_(memory.races() != nullptr ? cells_.size() : 0) {
+            std::array<std::uint32_t, 3> groups, std::uint32_t most_jumps)
+        : r(reading), p_(program), memory_(memory), groups_(groups), most_jumps_(most_jumps),
+          cells_(std::size_t{program.cells} * W), unset_(memory.races() != nullptr ? cells_.size() : 0) {
         for (const std::uint32_t one : program.undefined)
             mark_unset(one);
         for (const CellWord& one : program.constants)
@@ -150,12 +150,11 @@ template <class R, int W> class Machine {
         throw Error(fmt::format("shader {}: {}", p_.line_name(place(s, 0).line), what));
     }
 
-    static constexpr std::uint32_t most_jumps = 50'000'000;
-
     R& r;
     const Program& p_;
     Memory& memory_;
     std::array<std::uint32_t, 3> groups_;
+    std::uint32_t most_jumps_;
     std::vector<C> cells_;
     std::vector<Unset> unset_; ///< as cells_; empty: nobody looks
     std::uint32_t lanes_ = 0, count_ = 0, at_ = 0, jumps_ = 0;

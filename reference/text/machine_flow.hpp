@@ -24,9 +24,12 @@ template <class R, int W> void Machine<R, W>::gather() {
 }
 
 template <class R, int W> void Machine<R, W>::go_to(std::uint32_t step) {
-    if (++jumps_ > most_jumps)
-        throw Error(fmt::format("shader {}: invocation {} does not end within {} branches",
-                                p_.line_name(p_.lines[at_ - 1]), invocations_[active_[0]].number, most_jumps));
+    if (++jumps_ > most_jumps_) {
+        const Place place{p_.lines[at_ - 1], invocations_[active_[0]].number};
+        throw DoesNotEnd(fmt::format("shader {}: invocation {} does not end within {} branches",
+                                     p_.line_name(place.line), place.invocation, most_jumps_),
+                         place);
+    }
     if (together_) {
         at_ = step;
         return;

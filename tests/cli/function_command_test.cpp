@@ -425,6 +425,10 @@ TEST_CASE("function: a row that rests on an operand without a result is UNDEFINE
                                                          "    float y;\n"
                                                          "    if (x > 0.0) y = 1.0;\n"
                                                          "    return y + x;\n"
+                                                         "}\n"
+                                                         "float endless(float x) {\n"
+                                                         "    while (x > 0.0) x += 0.0;\n"
+                                                         "    return x;\n"
                                                          "}\n");
     const auto run = [&](const std::string& name, const std::string& table) {
         return run_lockstep(
@@ -444,6 +448,11 @@ TEST_CASE("function: a row that rests on an operand without a result is UNDEFINE
     CHECK(run("kept", "n, result\n2, 28\n").status == 0);
     CHECK_THAT(run("unset", "x, result\n-1, -1\n2, 3\n").out,
                Contains("open.glsl:6: use of a variable that was never set (GLSL 4.60, 5.8): variable y"));
+    const Outcome endless = run("endless", "x, result\n-1, -1\n1, 1\n2, 2\n");
+    CHECK(endless.status == 1);
+    CHECK_THAT(endless.out,
+               Contains("UNDEFINED: 2 of 3 rows") &&
+                   Contains("row 1     endless.csv:3: open.glsl:9: loop that does not end (GLSL 4.60, 6.4)"));
     const Outcome both = run("kept", "n, result\n32, 7\n1, 15\n");
     CHECK(both.status == 1);
     CHECK_THAT(both.out, Contains("DIVERGENT") && Contains("UNDEFINED: 1 of 2 rows"));

@@ -218,3 +218,8 @@ x[gl_LocalInvocationID.x] = 1.0;
 barrier();
 })") == Lines{"5" + rule});
 }
+
+TEST_CASE("text findings: a loop that does not end is a finding, and ends the dispatch") {
+    CHECK(found_in("while (x[0] == 0.0)\n    x[1] += 1.0;\nx[2] = pow(-1.0, 2.0);") ==
+          Lines{"4 loop that does not end"});
+}

@@ -14,6 +14,7 @@
 #include <fmt/format.h>
 
 #include "gpu/data_folder.hpp"
+#include "gpu/shader_bounds.hpp"
 #include "gpu/shader_words.hpp"
 #include "gpu/shaders_read_once.hpp"
 #include "gpu/spirv_module.hpp"
@@ -241,6 +242,7 @@ class Assembly {
         append(path, text);
         if (!has_version_)
             throw Error(fmt::format("shader {}:1: no #version line; GLSL 330 or later is needed", shown(path)));
+        check_bounds(source_);
         return std::move(source_);
     }
 
@@ -280,11 +282,36 @@ class Assembly {
         open_.pop_back();
     }
 
-    /// A `#line` is left out, since errors are reported by the lines of the files. One with a file's name is refused as
-    /// GL does, where the preprocessor comes to it.
-    static std::string without_renumbering(const std::string& line, std::string_view argument) {
-        return argument.find('"') == std::string_view::npos ? "//" + line
-                                                            : "#error in GLSL #line takes numbers alone, no file name";
+    /// A `#line` is left out, since errors are reported by the lines of the files. One with a file's name, without a
+    /// number, or with a word that is no macro is refused as GL does, where the preprocessor comes to it.
+    [[nodiscard]] std::string without_renumbering(const std::string& line, std::string_view argument) const {
+        if (argument.find('"') != std::string_view::npos)
+            return "#error in GLSL #line takes numbers alone, no file name";
+        constexpr const char* broken = "#error in GLSL #line takes the number of a line";
+        bool has_word = false;
+        for (ShaderWords words(argument); words.next(); has_word = true) {
+            const std::string_view word = words.token();
+            std::int32_t number = 0;
+            const bool is_number = std::isdigit(static_cast<unsigned char>(word.front())) != 0;
+            const auto [end, status] = std::from_chars(word.data(), word.data() + word.size(), number);
+            if (is_number ? status != std::errc{}
+                          : is_name(word) && !word.starts_with("__") && !says_define(source_.text, word))
+                return broken;
+        }
+        return has_word ? "//" + line : broken;
+    }
+
+    static bool is_name(std::string_view word) {
+        return std::isalpha(static_cast<unsigned char>(word.front())) != 0 || word.front() == '_';
+    }
+
+    /// Whether a text defines a macro of that name.
+    static bool says_define(const std::string& text, std::string_view name) {
+        std::string_view last;
+        for (ShaderWords words(text); words.next(); last = words.token())
+            if (last == "define" && words.token() == name)
+                return true;
+        return false;
     }
 
     void note_condition(std::string_view line) {

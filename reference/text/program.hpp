@@ -1,6 +1,7 @@
 #pragma once
 #include <array>
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -72,6 +73,7 @@ struct Block {
     /// Of an array without a length at its end, bytes; stride 0: there is none.
     std::uint32_t array_offset = 0, array_stride = 0;
     std::vector<Leaf> leaves = {}, element = {}; ///< scalars before that array, and of one of its elements
+    std::optional<std::uint32_t> binding = {};   ///< that the text gives it
 
     /// Words of the block whose array has `count` elements.
     [[nodiscard]] std::size_t words(std::size_t count) const;

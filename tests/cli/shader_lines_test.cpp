@@ -51,6 +51,21 @@ TEST_CASE("shader lines: a #line does not move an error from its line in the fil
                Contains("collision_pass.vert:2: ") && Contains("in GLSL #line takes numbers alone, no file name"));
 }
 
+TEST_CASE("shader lines: a #line without a line is refused, one that macros make is not") {
+    const test::TemporaryFolder folder;
+    const auto examined = [&](const std::string& line) {
+        return run_lockstep({"examine", folder
+                                            .write("a.comp", "#version 430 core\nlayout(local_size_x = 1) in;\n"
+                                                             "#define TEN 10\n" +
+                                                                 line + "\nvoid main() {}\n")
+                                            .string()});
+    };
+    for (const char* broken : {"#line", "#line abc", "#line 99999999999", "#line // 5"})
+        CHECK_THAT(refusal(examined(broken)), Contains("a.comp:4: ") && Contains("line takes the number of a line"));
+    for (const char* line : {"#line 5", "#line TEN + 1 2", "#line __LINE__ // here", "#if 0\n#line\n#endif"})
+        CHECK(examined(line).status == 0);
+}
+
 TEST_CASE("shader lines: an error in the first lines of a function's file names that file") {
     if (!test::have_software_gl())
         return;

@@ -151,6 +151,48 @@ TEST_CASE("shader source: includes that grow without end are refused, soon") {
                       "shader " + (folder.path() / "0.glsl").string() + ": more than 4 MiB of shader text");
 }
 
+TEST_CASE("shader source: a text that no compiler ends is refused by file and line") {
+    const TemporaryFolder folder;
+    const auto refusal_of = [&](const std::string& text) -> std::string {
+        folder.write("a.comp", "#version 430\n" + text);
+        try {
+            load_stage({folder.path()}, "a", Stage::compute);
+        } catch (const Error& error) {
+            return error.what();
+        }
+        return "";
+    };
+    const auto chain = [](const std::string& first, const std::string& next) { // of 30 macros, each from the one before
+        std::string all = "#define A0" + first + "\n";
+        for (int k = 1; k <= 30; ++k)
+            all += fmt::format(fmt::runtime("#define A{0}" + next + "\n"), k, k - 1);
+        return all;
+    };
+    const std::string bomb = "a.comp:33: macros expand to more than 262144 words";
+    const auto contains = [](const std::string& what) { return Catch::Contains(what); };
+    CHECK_THAT(refusal_of(chain(" x", " A{1} + A{1}") + "float f() { return A30; }\n"), contains(bomb));
+    CHECK_THAT(refusal_of(chain("(x) x", "(x) A{1}(x) * A{1}(x)") + "float f() { return A30(1.0); }\n"),
+               contains(bomb));
+    CHECK(refusal_of(chain(" x", " A{1} + 1") + "float f() { return A30; }\n").empty());
+    CHECK(refusal_of(chain(" x", " A{1} + A{1}") + "float f() { return A9; }\n").empty());
+    std::string nested = "1.0";
+    for (int k = 0; k < 30; ++k)
+        nested = "D(" + nested + ")";
+    CHECK_THAT(refusal_of("#define D(x) \\\n (x) + (x)\nfloat f() { return\n" + nested + "; }\n"),
+               contains("a.comp:5: macros expand"));
+    CHECK(refusal_of("#define D(x) (x)\nfloat f() { return " + nested + "; }\n").empty());
+    std::string deep = "1.0";
+    for (int k = 0; k < 10000; ++k)
+        deep = "D(" + deep + ")";
+    CHECK_THAT(refusal_of("#define D(x) (x)\nfloat f() { return " + deep + "; }\n"),
+               contains("a.comp:3: macros are nested deeper than 256"));
+    CHECK(refusal_of("#define A A B\n#define B A B\n#define F(x) F(x) x\nint f() { return F(A) + F; }\n").empty());
+    const std::string array = "arrays of at most 67108864 elements are compiled";
+    CHECK_THAT(refusal_of("void f() {\n    float x[2000000000];\n}\n"), contains("a.comp:3: [2000000000]: " + array));
+    CHECK_THAT(refusal_of("#define N 99999999999999999999\nfloat x[N];\n"), contains("a.comp:3: [") && contains(array));
+    CHECK(refusal_of("#define N 64\nfloat x[N], y[67108864u];\n").empty());
+}
+
 TEST_CASE("shader source: a byte order mark is skipped; another encoding and a zero byte are told") {
     const TemporaryFolder folder;
     const std::string file = folder.write("a.vert", "\xef\xbb\xbf#version 330\n").string();

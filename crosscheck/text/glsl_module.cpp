@@ -11,6 +11,7 @@
 
 #include "gpu/child_process.hpp"
 #include "gpu/shader_log.hpp"
+#include "gpu/shader_words.hpp"
 #include "gpu/spirv_module.hpp"
 #include "reference/model/error.hpp"
 
@@ -42,6 +43,8 @@ std::string compiled(const ShaderSource& stage) {
     shader.setEnvInput(glslang::EShSourceGlsl, in, glslang::EShClientOpenGL, 100);
     shader.setEnvClient(glslang::EShClientOpenGL, glslang::EShTargetOpenGL_450);
     shader.setEnvTarget(glslang::EShTargetSpv, glslang::EShTargetSpv_1_3);
+    if (says(stage.text, "GL_ARB_gpu_shader5")) // whose words glslang knows from GLSL 4.00 on
+        shader.setOverrideVersion(gl_version);
     shader.setAutoMapBindings(true);
     shader.setAutoMapLocations(true);
     if (!shader.parse(GetDefaultResources(), gl_version, false, messages))

@@ -122,10 +122,12 @@ void Decoder::call(Words w, std::size_t number) {
         for (std::size_t k = 0; address != nullptr && k < i; ++k)
             if (arguments[k] == arguments[i] && std::count(callee.written.begin(), callee.written.end(), i) > 0)
                 refuse(fmt::format("two arguments of {} are one variable", module_.ids[w[2]].name));
-        if (address != nullptr)
+        if (address != nullptr) {
+            note_read(*address);
             copy(callee.parameters[i], address->place + address->offset, type(address->type).cells);
-        else
+        } else {
             copy(callee.parameters[i], cell(arguments[i]), module_.type_of(arguments[i]).cells);
+        }
     }
     if (std::find(called_.begin(), called_.end(), callee.function) == called_.end())
         called_.push_back(callee.function);

@@ -61,6 +61,7 @@ bool Decoder::memory(const Instruction& at, std::size_t number) {
     case spv::OpCopyMemory: {
         const Address to = address_.at(w[0]), from = address_.at(w[1]);
         const std::uint32_t between = take_cells(type(from.type).cells);
+        note_read(from);
         load_from(from, between, from.type);
         store_to(to, between, to.type);
         return true;
@@ -223,6 +224,7 @@ void Decoder::load(Words w, std::size_t number) {
     const Address from = at->second;
     const Type::Kind kind = type(w[0]).kind;
     const bool is_fixed = from.space == Address::Space::variable && from.dynamic == none;
+    note_read(from);
     if (kind == Type::Kind::image || kind == Type::Kind::sampled_image ||
         (is_fixed && lasts(w[1], number, from.place + from.offset, type(w[0]).cells))) {
         cell_[w[1]] = from.place + from.offset;

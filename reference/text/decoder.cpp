@@ -57,12 +57,18 @@ std::vector<Leaf> packed_leaves(const Module& module, std::uint32_t type) {
 }
 
 Decoder::Decoder(const Module& module) : module_(module), cell_(module.ids.size(), none) {
-    if (module.stage != spv::ExecutionModelGLCompute)
-        throw Error(
-            fmt::format("shader {}: the stage is no compute stage, which alone is interpreted", module.line_name(1)));
+    using enum spv::ExecutionModel;
+    if (module.stage != ExecutionModelGLCompute && module.stage != ExecutionModelVertex &&
+        module.stage != ExecutionModelGeometry && module.stage != ExecutionModelFragment)
+        throw Error(fmt::format("shader {}: the stage is not interpreted; expected a compute, vertex, geometry or "
+                                "fragment stage",
+                                module.line_name(1)));
+    p_.stage = module.stage;
     p_.group = module.group;
+    p_.most_vertices = module.most_vertices;
     p_.line_name = module.line_name;
-    // Cells that are zeroed for each invocation come first.
+    // Cells that are zeroed for each invocation come first, of these the outputs.
+    outputs();
     for (const Variable& v : module.variables)
         if (v.storage == spv::StorageClassPrivate)
             address_[v.id] = {.place = zeroed_cells(v.id, v.type), .type = v.type};
@@ -92,6 +98,7 @@ Decoder::Decoder(const Module& module) : module_(module), cell_(module.ids.size(
         (patch.field == nullptr ? p_.operands[patch.step] : p_.steps[patch.step].*patch.field) = to->second;
     }
     p_.entry = step_of_.at(module.entry);
+    note_written();
 }
 
 std::uint32_t Decoder::take_cells(std::uint32_t count) {
@@ -164,8 +171,12 @@ void Decoder::outside_variables() {
             p_.shared += type(v.type).cells;
             break;
         case spv::StorageClassInput:
-            input(v);
+            if (p_.stage == spv::ExecutionModelGLCompute)
+                input(v);
+            else
+                stage_input(v);
             break;
+        case spv::StorageClassOutput:
         case spv::StorageClassPrivate:
             if (const Constant* value = module_.constant(v.initializer))
                 set_constant(address_[v.id].place, *value, p_.initial);
@@ -182,7 +193,6 @@ void Decoder::block(const Variable& variable, bool is_storage) {
     if (of.kind != Type::Kind::structure)
         refuse(fmt::format("an array of blocks, {}, is not interpreted", module_.ids[variable.id].name));
     Block made{of.name, is_storage};
-    made.binding = module_.ids[variable.id].binding;
     if (!of.members.empty())
         if (const Type& last = type(of.members.back().type); last.kind == Type::Kind::array && last.count == 0) {
             made.array_offset = of.members.back().offset;
@@ -348,7 +358,7 @@ void Decoder::instruction(const Instruction& at, std::size_t number) {
         break;
     }
     if (!flow(at) && !(at.op == spv::OpFunctionCall ? (call(at.words, number), true) : memory(at, number)) &&
-        !image_operation(at) && !operation(at))
+        !image_operation(at) && !stage_instruction(at) && !operation(at))
         refuse(fmt::format("SPIR-V instruction {} is not interpreted", static_cast<unsigned>(at.op)));
 }
 

@@ -22,8 +22,9 @@ void lay(const Module& module, std::uint32_t type, std::uint32_t word, MatrixLay
 /// The same of a type whose scalars lie one after the other.
 std::vector<Leaf> packed_leaves(const Module& module, std::uint32_t type);
 
-/// Makes steps of a module's functions. Files: decoder.cpp what is declared, decode_flow.cpp branches and calls,
-/// decode_memory.cpp pointers, loads and stores, decode_operations.cpp the rest.
+/// Makes steps of a module's functions. Files: decoder.cpp what is declared, decode_stage.cpp inputs and outputs of
+/// stages, decode_flow.cpp branches and calls, decode_memory.cpp pointers, loads and stores, decode_operations.cpp the
+/// rest.
 class Decoder {
   public:
     explicit Decoder(const Module& module);
@@ -72,6 +73,12 @@ class Decoder {
     void image(const Variable& variable);
     void plain_uniforms(std::uint32_t type, std::uint32_t cell, const std::string& name);
     void input(const Variable& variable);
+    void outputs();
+    void stage_input(const Variable& variable);
+    void stage_variables(const Variable& variable, std::vector<StageVariable>& to);
+    void stage_variables(StageVariable of, std::uint32_t type, std::vector<StageVariable>& to);
+    void note_read(const Address& from);
+    void note_written();
     void inner_variables(const Function& function);
     void callee(const Function& function);
 
@@ -88,6 +95,7 @@ class Decoder {
     bool flow(const Instruction& at);
     bool memory(const Instruction& at, std::size_t number);
     bool operation(const Instruction& at);
+    bool stage_instruction(const Instruction& at);
     bool image_operation(const Instruction& at);
     void atomic(const Instruction& at);
     void extended(Words w);

@@ -8,15 +8,14 @@
 #include <fmt/format.h>
 
 #include "reference/subnormals.hpp"
-#include "reference/text/glsl_functions.hpp"
-#include "reference/text/machine_flow.hpp"
-#include "reference/text/machine_memory.hpp"
+#include "reference/text/machine_checks.hpp"
+#include "reference/text/text_machine.hpp"
 
 namespace lockstep::text {
 namespace {
 
-constexpr int width = 16;
-using Run = Machine<TextValues, width>;
+constexpr std::size_t width = lanes_at_once;
+using Run = TextMachine;
 
 std::array<std::uint32_t, 3> place_in(std::uint32_t number, const std::array<std::uint32_t, 3>& size) {
     return {number % size[0], number / size[0] % size[1], number / size[0] / size[1]};

@@ -28,6 +28,7 @@ template <class R, int W> class Machine {
   public:
     using Real = typename R::Real;
     using C = Cell<R>;
+    using Lane = std::uint32_t;
 
     Machine(R& reading, const Program& program, Memory& memory, const Bindings& bindings,
             std::array<std::uint32_t, 3> groups, std::uint32_t most_jumps)
@@ -60,9 +61,20 @@ template <class R, int W> class Machine {
     }
     [[nodiscard]] const Invocation& invocation(std::size_t l) const { return invocations_[l]; }
 
+    // Vertex, geometry and fragment stages: machine_stage.hpp.
+    /// An input's words, after start().
+    void give(const StageVariable& input, Lane l, std::span<const std::uint32_t> words);
+    /// Lane l's outputs: Program::output_cells for each vertex that a geometry stage emitted, else once.
+    [[nodiscard]] std::span<const C> made(std::size_t l) const { return made_[l]; }
+    /// How many vertices lane l has emitted, and had at each EndPrimitive.
+    [[nodiscard]] std::uint32_t vertices(std::size_t l) const { return vertices_[l]; }
+    [[nodiscard]] std::span<const std::uint32_t> ends(std::size_t l) const { return ends_[l]; }
+    [[nodiscard]] bool is_discarded(std::size_t l) const { return is_discarded_[l] != 0; }
+    /// Each four invocations are a quad of neighbours: lower left, lower right, upper left, upper right.
+    bool are_quads = false;
+
   private:
     enum class State : std::uint8_t { running, waiting, ended };
-    using Lane = std::uint32_t;
 
     C* cell(std::uint32_t number) { return cells_.data() + std::size_t{number} * W; }
     void fill(std::uint32_t number, std::uint32_t word, bool is_real) {
@@ -118,6 +130,12 @@ template <class R, int W> class Machine {
     template <class To> void go_each(const To& to);
     void take_from_blocks(const Step& s);
 
+    // Stages: machine_stage.hpp.
+    void stage(const Step& s);
+    void make(const Step& s, Lane l);
+    void need_outputs(const Step& s, Lane l);
+    void differ(const Step& s);
+
     // Memory: machine_memory.hpp.
     void memory(const Step& s);
     void atomic(const Step& s);
@@ -166,6 +184,10 @@ template <class R, int W> class Machine {
     std::vector<std::uint32_t> returns_; ///< of each depth, W
     std::vector<C> moved_;
     std::vector<Unset> moved_unset_;
+    std::array<std::vector<C>, W> made_;
+    std::array<std::vector<std::uint32_t>, W> ends_;
+    std::array<std::uint32_t, W> vertices_{};
+    std::array<std::uint8_t, W> is_discarded_{};
 };
 
 template <class R, int W> void Machine<R, W>::start(std::span<const Invocation> invocations) {
@@ -200,6 +222,12 @@ template <class R, int W> void Machine<R, W>::start(std::span<const Invocation> 
     for (std::uint32_t l = 0; l < W; ++l)
         state_[l] = l < lanes_ ? State::running : State::ended;
     jumps_ = 0;
+    vertices_.fill(0);
+    is_discarded_.fill(0);
+    for (std::uint32_t l = 0; l < W; ++l) {
+        made_[l].clear();
+        ends_[l].clear();
+    }
 }
 
 template <class R, int W> void Machine<R, W>::run() {
@@ -219,8 +247,10 @@ template <class R, int W> void Machine<R, W>::run() {
             extended(s);
         else if (s.op < code::jump)
             memory(s);
-        else
+        else if (s.op < code::stages)
             flow(s);
+        else
+            stage(s);
     }
 }
 

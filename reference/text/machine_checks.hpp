@@ -141,7 +141,7 @@ template <class R, int W> void Machine<R, W>::follow(const Step& s) {
     case code::bits_as_real:
         active([&](Lane l) {
             for (std::uint32_t c = 0; c < s.n; ++c)
-                unset(s.out + c)[l] = unset(s.a + c)[l];
+                unset(s.out + c)[l] = s.out + c < p_.output_cells ? read(unset(s.a + c)[l], l) : unset(s.a + c)[l];
         });
         return;
     case code::load_variable:
@@ -195,6 +195,11 @@ template <class R, int W> void Machine<R, W>::follow(const Step& s) {
     case code::array_length:
     case code::image_size:
     case code::query_levels:
+        return forget(s.n);
+    case code::differ_x:
+    case code::differ_y:
+    case code::differ_both:
+        need(s, s.a, s.n);
         return forget(s.n);
     case code::branch:
     case code::choose:

@@ -1,5 +1,5 @@
 #pragma once
-#include "reference/text/machine.hpp"
+#include "reference/text/machine_stage.hpp"
 
 /// Control flow of Machine: branches, calls, barriers.
 namespace lockstep::text {
@@ -118,8 +118,11 @@ template <class R, int W> void Machine<R, W>::flow(const Step& s) {
     case code::finish: {
         bool ends = false;
         active([&](Lane l) {
-            if (depth_[l] == 0)
+            if (depth_[l] == 0) {
                 state_[l] = State::ended, ends = true;
+                if (p_.stage != spv::ExecutionModelGeometry)
+                    make(s, l);
+            }
         });
         if (ends) {
             active([&](Lane l) {

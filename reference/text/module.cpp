@@ -109,6 +109,8 @@ class ModuleReader {
         case spv::OpExecutionMode:
             if (w[1] == spv::ExecutionModeLocalSize)
                 made_.group = {w[2], w[3], w[4]};
+            else if (w[1] == spv::ExecutionModeOutputVertices)
+                made_.most_vertices = w[2];
             break;
         case spv::OpName:
             made_.ids[checked_id(w[0])].name = string_at(w.subspan(1));
@@ -129,6 +131,10 @@ class ModuleReader {
                 of.is_row_major = true;
             else if (w[2] == spv::DecorationBuiltIn)
                 of.builtin = static_cast<spv::BuiltIn>(w[3]);
+            else if (w[2] == spv::DecorationLocation)
+                of.location = w[3];
+            else if (w[2] == spv::DecorationFlat)
+                of.is_flat = true;
             break;
         }
         default:
@@ -143,14 +149,17 @@ class ModuleReader {
         case spv::DecorationBuiltIn:
             id.builtin = static_cast<spv::BuiltIn>(w[2]);
             break;
+        case spv::DecorationLocation:
+            id.location = w[2];
+            break;
+        case spv::DecorationFlat:
+            id.is_flat = true;
+            break;
         case spv::DecorationBlock:
             id.is_block = true;
             break;
         case spv::DecorationBufferBlock:
             id.is_buffer_block = true;
-            break;
-        case spv::DecorationBinding:
-            id.binding = w[2];
             break;
         case spv::DecorationArrayStride:
             made_.types[w[0]].stride = w[2];

@@ -35,8 +35,9 @@ struct Type {
     };
     struct Member {
         std::uint32_t type = 0, offset = 0, matrix_stride = 0; ///< bytes
-        bool is_row_major = false;
+        bool is_row_major = false, is_flat = false;
         std::optional<spv::BuiltIn> builtin = {};
+        std::optional<std::uint32_t> location = {};
         std::string name = {};
     };
 
@@ -58,9 +59,9 @@ struct IdInfo {
     std::string name;
     std::uint32_t type = 0;
     std::optional<spv::BuiltIn> builtin;
-    std::optional<std::uint32_t> binding;
+    std::optional<std::uint32_t> location;
     bool is_precise = false; ///< NoContraction
-    bool is_block = false, is_buffer_block = false;
+    bool is_block = false, is_buffer_block = false, is_flat = false;
 };
 
 /// A value known before the shader runs.
@@ -99,6 +100,7 @@ struct Module {
     std::uint32_t entry = 0, extension = 0; ///< ids of the entry point and of GLSL.std.450
     spv::ExecutionModel stage = spv::ExecutionModelGLCompute;
     std::array<std::uint32_t, 3> group{1, 1, 1};
+    std::uint32_t most_vertices = 0; ///< that an invocation of a geometry stage emits
     LineName line_name;
 
     [[nodiscard]] const Type& type_of(std::uint32_t id) const { return types[ids[id].type]; }

@@ -45,7 +45,14 @@ enum Own : std::uint16_t {
     call,         ///< goes on at a, returns to the next step
     finish,       ///< returns, or ends the invocation
     fence,        ///< a memory barrier of semantics a
-    barrier       ///< the same, for all of a group
+    barrier,      ///< the same, for all of a group
+    stages,       ///< from here on steps of other stages than compute
+    discard = stages,
+    emit_vertex,
+    end_primitive,
+    differ_x, ///< n cells from a: by how much those of the quad's right neighbour are larger
+    differ_y, ///< of its upper neighbour
+    differ_both
 };
 } // namespace code
 
@@ -73,7 +80,6 @@ struct Block {
     /// Of an array without a length at its end, bytes; stride 0: there is none.
     std::uint32_t array_offset = 0, array_stride = 0;
     std::vector<Leaf> leaves = {}, element = {}; ///< scalars before that array, and of one of its elements
-    std::optional<std::uint32_t> binding = {};   ///< that the text gives it
 
     /// Words of the block whose array has `count` elements.
     [[nodiscard]] std::size_t words(std::size_t count) const;
@@ -93,6 +99,22 @@ struct ImageUniform {
     spv::Dim dimensions = spv::Dim2D;
     bool is_arrayed = false;
     bool is_real = true; ///< components are floats
+};
+
+/// An input or output of a vertex, geometry or fragment stage: a variable, or a member of a block or structure.
+struct StageVariable {
+    std::string name; ///< in GL: v_Colour, Block.normal, lights[0].colour, gl_Position
+    std::optional<std::uint32_t> location = {};
+    std::optional<spv::BuiltIn> builtin = {};
+    std::uint32_t variable = 0;        ///< first cell of the variable that it is a member of
+    std::uint32_t cell = 0, cells = 0; ///< elements of an array of basic types together
+    std::uint32_t components = 1;      ///< of an element, or a column
+    /// Of an input of a geometry stage: how many vertices have one, and how many cells lie from one's to the next's.
+    std::uint32_t vertices = 1, stride = 0;
+    bool is_real = true, is_boolean = false, is_flat = false;
+    bool is_read = false; ///< an input that some step reads
+
+    [[nodiscard]] std::uint32_t words() const { return cells * vertices; } ///< of an invocation
 };
 
 /// A variable of the text.
@@ -121,7 +143,12 @@ struct Program {
     std::vector<CellWord> initial;               ///< of variables outside functions, set for each invocation
     std::vector<std::pair<spv::BuiltIn, std::uint32_t>> inputs; ///< built-in variables and their first cells
     std::uint32_t entry = 0;                                    ///< first step
+    spv::ExecutionModel stage = spv::ExecutionModelGLCompute;
     std::array<std::uint32_t, 3> group{1, 1, 1};
+    std::vector<StageVariable> stage_inputs, stage_outputs; ///< of other stages than compute
+    std::uint32_t output_cells = 0;                         ///< the first cells are the outputs'
+    std::vector<std::uint8_t> is_written;                   ///< by cell of an output: whether a step writes it
+    std::uint32_t most_vertices = 0;                        ///< that an invocation of a geometry stage emits
     std::vector<Block> blocks;
     std::vector<PlainUniform> uniforms;
     std::vector<ImageUniform> images;
@@ -134,7 +161,7 @@ struct Program {
     [[nodiscard]] std::uint32_t invocations() const { return group[0] * group[1] * group[2]; }
 };
 
-/// A compute shader. Throws Error naming by FILE:LINE what is not interpreted.
+/// A compute, vertex, geometry or fragment stage. Throws Error naming by FILE:LINE what is not interpreted.
 Program decoded(const Module& module);
 
 } // namespace lockstep::text

@@ -87,7 +87,8 @@ void Races::found(const Touch& before, Space space, How how, Place place, std::s
         [&] {
             return fmt::format("invocation {} {} what invocation {} touched {}: {}", place.invocation, verb(how),
                                before.place.invocation,
-                               !in_group                ? "in another group"
+                               !has_groups_             ? "without an order between"
+                               : !in_group              ? "in another group"
                                : space == Space::shared ? "with no barrier between"
                                                         : "without a barrier and a memory barrier between",
                                name);

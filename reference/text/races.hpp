@@ -16,7 +16,8 @@ class Races {
     enum class How : std::uint8_t { read, write, atomic };
     enum class Space : std::uint8_t { shared, buffer, image };
 
-    explicit Races(Findings& findings) : findings_(findings) {}
+    /// `has_groups`: invocations are in groups, which barriers may order.
+    explicit Races(Findings& findings, bool has_groups = true) : findings_(findings), has_groups_(has_groups) {}
 
     void start_group(std::uint32_t number);
     /// SPIR-V's memory semantics (SPIR-V 3.25) of a barrier that all of the group came to, or of a memory barrier.
@@ -46,6 +47,7 @@ class Races {
     void found(const Touch& before, Space space, How how, Place place, std::string_view name, bool in_group);
 
     Findings& findings_;
+    bool has_groups_;
     std::unordered_map<std::uint64_t, Word> words_;
     std::uint32_t group_ = 0;
     std::array<std::uint32_t, 3> epochs_{}; ///< by space: how many times all before was ordered

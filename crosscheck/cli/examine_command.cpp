@@ -3,6 +3,7 @@
 #include <charconv>
 #include <filesystem>
 #include <memory>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -23,8 +24,9 @@ namespace {
 
 struct ExamineRequest {
     std::filesystem::path file, json;
-    std::string groups = "4";
-    std::vector<std::string> uniforms, sizes, defines;
+    std::string groups;
+    std::optional<std::size_t> invocations;
+    std::vector<std::string> uniforms, inputs, sizes, defines;
     std::size_t seed = 1;
     bool quiet = false;
 };
@@ -78,7 +80,18 @@ std::array<std::uint32_t, 3> groups_of(const std::string& text) {
 
 int run_examine(const ExamineRequest& options) {
     Examination of{.file = options.file};
-    of.groups = groups_of(options.groups);
+    if (const std::optional<Stage> stage = stage_of(options.file); stage == Stage::compute) {
+        if (options.invocations || !options.inputs.empty())
+            throw Error("--invocations and --input are of vertex, geometry and fragment stages; use --groups");
+        if (!options.groups.empty())
+            of.groups = groups_of(options.groups);
+    } else if (stage && !options.groups.empty()) {
+        throw Error("--groups is of compute stages; use --invocations");
+    } else if (options.invocations) {
+        of.invocations = static_cast<std::uint32_t>(*options.invocations);
+    }
+    for (const std::string& one : options.inputs)
+        of.inputs.insert(numbers_of<double>("--input", one));
     for (const std::string& one : options.uniforms)
         of.uniforms.insert(numbers_of<double>("--uniform", one));
     for (const std::string& one : options.sizes) {
@@ -105,9 +118,17 @@ int run_examine(const ExamineRequest& options) {
 
 Verb examine_command() {
     auto options = std::make_shared<ExamineRequest>();
-    Verb verb{"examine", "run a compute shader's text and report races, unset variables and undefined operands"};
-    verb.add(required(path_option("file", "FILE", options->file, "the shader: NAME.comp, or NAME.comp.spv")));
-    verb.add(otherwise(text_option("--groups", "X,Y,Z", options->groups, "groups along each axis"), "4"));
+    Verb verb{"examine", "run a shader's text and report races, unset variables and undefined operands"};
+    verb.add(required(path_option("file", "FILE", options->file,
+                                  "the shader: NAME.comp, NAME.vert, NAME.geom or NAME.frag, or NAME.comp.spv")));
+    verb.add(
+        otherwise(text_option("--groups", "X,Y,Z", options->groups, "groups of a compute stage along each axis"), "4"));
+    verb.add(otherwise(integer_option("--invocations", "N", IntegerRange{1, 1'000'000}, options->invocations,
+                                      "vertices, primitives or fragments of another stage"),
+                       "64"));
+    verb.add(settings_option("--input", "NAME=VALUE", options->inputs,
+                             "an input of such a stage, the same for all invocations: a_Position=0,1,0, "
+                             "gl_FrontFacing=0; floats that look random without"));
     verb.add(settings_option("--uniform", "NAME=VALUE", options->uniforms,
                              "a uniform's value: u_Kept=0.5, u_Gravity=0,-9.81,0; 0 without"));
     verb.add(settings_option("--size", "NAME=N", options->sizes,
@@ -120,7 +141,8 @@ Verb examine_command() {
     verb.add(path_option("--json", "FILE", options->json, "write the findings as JSON"));
     verb.add(flag("--quiet", options->quiet, "print nothing"));
     verb.footer = "Exit status: 0 nothing was found, 1 something was, 2 could not run.\n"
-                  "Example: lockstep examine blur.comp --groups 4,4 --uniform u_Radius=3";
+                  "Examples: lockstep examine blur.comp --groups 4,4 --uniform u_Radius=3\n"
+                  "          lockstep examine shade.frag --input v_Normal=0,0,1";
     verb.run = [options](const Call&) { return run_examine(*options); };
     return verb;
 }

@@ -6,7 +6,6 @@
 #include <limits>
 #include <memory>
 #include <set>
-#include <span>
 #include <string_view>
 
 #include <fmt/format.h>
@@ -18,6 +17,7 @@
 #include "reference/model/near_name.hpp"
 #include "reference/model/profile.hpp"
 #include "reference/text/dispatch.hpp"
+#include "reference/text/stage_run.hpp"
 
 namespace lockstep {
 namespace {
@@ -40,16 +40,17 @@ class MadeUp {
 
 std::shared_ptr<const ShaderSource> source_of(const Examination& of) {
     std::string name = of.file.filename().string();
-    for (const std::string_view end : {".spv", ".comp"})
-        if (name.ends_with(end))
-            name.resize(name.size() - end.size());
-    if (name == of.file.filename().string())
+    const std::optional<Stage> stage = stage_of(name);
+    if (!stage)
         throw Error(
-            fmt::format("{}: expected a compute shader, NAME.comp or NAME.comp.spv", plain_line(of.file.string())));
+            fmt::format("{}: expected a stage NAME.comp, NAME.vert, NAME.geom or NAME.frag, or one of these with "
+                        ".spv behind it",
+                        plain_line(of.file.string())));
+    name.resize(name.rfind(extension(*stage)));
     if (!std::filesystem::exists(of.file))
         throw Error(fmt::format("{}: no such file", plain_line(of.file.string())));
     const std::filesystem::path folder = of.file.has_parent_path() ? of.file.parent_path() : ".";
-    return std::make_shared<ShaderSource>(load_stage(shader_folders(folder), name, Stage::compute, of.defines));
+    return std::make_shared<ShaderSource>(load_stage(shader_folders(folder), name, *stage, of.defines));
 }
 
 /// Throws Error for a name among those given that the shader does not have.
@@ -62,18 +63,19 @@ void check_names(std::string_view option, const Given& given, const std::vector<
                                     did_you_mean(name, names)));
 }
 
-std::vector<std::uint32_t> uniform_words(const text::PlainUniform& uniform, const std::vector<double>& given) {
-    if (given.size() != uniform.cells)
-        throw Error(
-            fmt::format("--uniform {}: expected {} numbers, got {}", uniform.name, uniform.cells, given.size()));
+/// The words of `cells` numbers that are given for `name`.
+std::vector<std::uint32_t> words_of(std::string_view option, std::string_view name, std::size_t cells, bool is_real,
+                                    const std::vector<double>& given) {
+    if (given.size() != cells)
+        throw Error(fmt::format("{} {}: expected {} numbers, got {}", option, name, cells, given.size()));
     std::vector<std::uint32_t> words;
     for (const double x : given) {
         constexpr double least = std::numeric_limits<std::int32_t>::min(),
                          most = std::numeric_limits<std::uint32_t>::max();
-        if (!uniform.is_real && !(x == std::floor(x) && x >= least && x <= most))
-            throw Error(fmt::format("--uniform {}: {} is no integer of 32 bits", uniform.name, x));
-        words.push_back(uniform.is_real ? std::bit_cast<std::uint32_t>(static_cast<float>(x))
-                                        : static_cast<std::uint32_t>(static_cast<std::int64_t>(x)));
+        if (!is_real && !(x == std::floor(x) && x >= least && x <= most))
+            throw Error(fmt::format("{} {}: {} is no integer of 32 bits", option, name, x));
+        words.push_back(is_real ? std::bit_cast<std::uint32_t>(static_cast<float>(x))
+                                : static_cast<std::uint32_t>(static_cast<std::int64_t>(x)));
     }
     return words;
 }
@@ -91,19 +93,21 @@ std::vector<std::uint32_t> block_words(const text::Block& block, std::size_t cou
     return words;
 }
 
-/// Blocks to which the text gives one binding are one buffer (GL 4.6, 7.8): the longest's words.
-void share_buffers(const std::vector<text::Block>& blocks, std::vector<std::span<std::uint32_t>>& words) {
-    const std::vector<std::span<std::uint32_t>> own = words;
-    for (std::size_t a = 0; a < blocks.size(); ++a) {
-        if (!blocks[a].binding)
-            continue;
-        std::span<std::uint32_t> longest;
-        for (std::size_t b = 0; b < blocks.size(); ++b)
-            if (blocks[a].binding == blocks[b].binding && blocks[a].is_storage == blocks[b].is_storage &&
-                own[b].size() > longest.size())
-                longest = own[b];
-        words[a] = longest;
+/// Of a stage other than compute; fragments come in whole quads.
+std::uint32_t invocations_of(const Examination& of, const text::Program& program) {
+    return program.stage == spv::ExecutionModelFragment ? (of.invocations + 3) / 4 * 4 : of.invocations;
+}
+
+/// Invocations along each axis; of stages other than compute they lie in a square whose sides are even.
+std::array<std::uint32_t, 3> extent_of(const Examination& of, const text::Program& program) {
+    if (program.stage != spv::ExecutionModelGLCompute) {
+        const auto side = static_cast<std::uint32_t>(std::ceil(std::sqrt(invocations_of(of, program)) / 2.0));
+        return {2 * side, 2 * side, 1};
     }
+    std::array<std::uint32_t, 3> invocations{};
+    for (std::size_t axis = 0; axis < 3; ++axis)
+        invocations[axis] = of.groups[axis] * program.group[axis];
+    return invocations;
 }
 
 /// What a program's names are bound to.
@@ -117,9 +121,7 @@ MadeUpWorld world_of(const Examination& of, const text::Program& program) {
     MadeUp made_up(of.seed);
     MadeUpWorld world;
     world.words.reserve(program.blocks.size() + program.images.size());
-    std::array<std::uint32_t, 3> invocations{};
-    for (std::size_t axis = 0; axis < 3; ++axis)
-        invocations[axis] = of.groups[axis] * program.group[axis];
+    const std::array<std::uint32_t, 3> invocations = extent_of(of, program);
     const auto size_of = [&](const std::string& name) {
         const auto found = of.sizes.find(name);
         return found == of.sizes.end() ? std::vector<std::uint32_t>{} : found->second;
@@ -134,13 +136,14 @@ MadeUpWorld world_of(const Examination& of, const text::Program& program) {
             throw Error(fmt::format("--size {}: expected one number, of a block that ends with an array without a "
                                     "length",
                                     block.name));
-        const std::size_t count =
-            size.empty() ? std::size_t{invocations[0]} * invocations[1] * invocations[2] : size[0];
+        const std::size_t count = !size.empty() ? size[0]
+                                  : program.stage == spv::ExecutionModelGLCompute
+                                      ? std::size_t{invocations[0]} * invocations[1] * invocations[2]
+                                      : invocations_of(of, program);
         check_size(block.name, block.words(count));
         world.words.push_back(block_words(block, count, made_up));
         world.bindings.blocks.emplace_back(world.words.back());
     }
-    share_buffers(program.blocks, world.bindings.blocks);
     for (const text::ImageUniform& image : program.images) {
         text::TexelMemory texels{.name = image.name};
         const std::uint32_t axes = image.dimensions == spv::Dim1D ? 1 : image.dimensions == spv::Dim2D ? 2 : 3;
@@ -159,10 +162,38 @@ MadeUpWorld world_of(const Examination& of, const text::Program& program) {
     }
     for (const text::PlainUniform& uniform : program.uniforms) {
         const auto given = of.uniforms.find(uniform.name);
-        world.bindings.uniforms.push_back(given == of.uniforms.end() ? std::vector<std::uint32_t>{}
-                                                                     : uniform_words(uniform, given->second));
+        world.bindings.uniforms.push_back(
+            given == of.uniforms.end()
+                ? std::vector<std::uint32_t>{}
+                : words_of("--uniform", uniform.name, uniform.cells, uniform.is_real, given->second));
     }
     return world;
+}
+
+/// Inputs that are given, and made-up ones for the rest: floats from 0 to 1, integers 0. Fragments lie in quads.
+text::StageRun stage_run_of(const Examination& of, const text::Program& program) {
+    text::StageRun run{.invocations = invocations_of(of, program), .is_watched = true};
+    run.are_quads = program.stage == spv::ExecutionModelFragment;
+    const std::uint32_t side = extent_of(of, program)[0];
+    MadeUp made_up(of.seed + 1);
+    for (const text::StageVariable& input : program.stage_inputs) {
+        const std::string name = text::name_of(input);
+        if (const auto given = of.inputs.find(name); given != of.inputs.end()) {
+            run.inputs[name] = words_of("--input", name, input.words(), input.is_real, given->second);
+        } else if (text::needs_words(input)) {
+            std::vector<std::uint32_t>& words = run.inputs[name];
+            for (std::size_t w = 0; w < std::size_t{input.words()} * run.invocations; ++w)
+                words.push_back(input.is_real ? made_up.word() : 0U);
+            for (std::uint32_t i = 0; input.builtin == spv::BuiltInFragCoord && i < run.invocations; ++i) {
+                const std::uint32_t quad = i / 4, across = side / 2; // pixel centres, quad after quad
+                const std::array<std::uint32_t, 2> pixel{quad % across * 2 + i % 2, quad / across * 2 + i / 2 % 2};
+                for (std::size_t c = 0; c < pixel.size(); ++c)
+                    words[4 * i + c] = std::bit_cast<std::uint32_t>(static_cast<float>(pixel[c]) + 0.5F);
+                words[4 * i + 3] = std::bit_cast<std::uint32_t>(1.0F);
+            }
+        }
+    }
+    return run;
 }
 
 template <class All> std::vector<std::string> names_of(const All& all) {
@@ -172,23 +203,61 @@ template <class All> std::vector<std::string> names_of(const All& all) {
     return names;
 }
 
+/// "64 vertices".
+std::string what_ran(const Examination& of, const text::Program& program) {
+    switch (program.stage) {
+    case spv::ExecutionModelVertex:
+        return fmt::format("{} vertices", of.invocations);
+    case spv::ExecutionModelGeometry:
+        return fmt::format("{} primitives", of.invocations);
+    case spv::ExecutionModelFragment:
+        return fmt::format("{} fragments", invocations_of(of, program));
+    default:
+        return fmt::format("{} groups of {} invocations", of.groups[0] * of.groups[1] * of.groups[2],
+                           program.invocations());
+    }
+}
+
+/// Names of inputs that may be given.
+std::vector<std::string> input_names(const text::Program& program) {
+    std::vector<std::string> names;
+    for (const text::StageVariable& input : program.stage_inputs)
+        if (input.is_read)
+            names.push_back(text::name_of(input));
+    return names;
+}
+
 } // namespace
+
+std::optional<Stage> stage_of(const std::filesystem::path& file) {
+    const std::filesystem::path glsl = file.extension() == ".spv" ? file.stem() : file.filename();
+    for (const Stage stage : {Stage::compute, Stage::vertex, Stage::geometry, Stage::fragment})
+        if (glsl.extension() == extension(stage))
+            return stage;
+    return std::nullopt;
+}
 
 ExaminationResult examine(const Examination& of) {
     const std::shared_ptr<const ShaderSource> source = source_of(of);
     const text::Program program = text::decoded(
         text::read_module(spirv_of(*source), [source](std::uint32_t line) { return line_name(*source, line); }));
     check_names("--uniform", of.uniforms, names_of(program.uniforms));
+    check_names("--input", of.inputs, input_names(program));
     std::vector<std::string> sized = names_of(program.blocks);
     for (const std::string& name : names_of(program.images))
         sized.push_back(name);
     check_names("--size", of.sizes, sized);
     MadeUpWorld world = world_of(of, program);
     text::Findings findings;
-    text::run_dispatch(program, {.groups = of.groups, .is_watched = true}, world.bindings, named_profile("strict"),
-                       findings);
+    const Profile profile = named_profile("strict");
+    if (program.stage == spv::ExecutionModelGLCompute)
+        text::run_dispatch(program, {.groups = of.groups, .is_watched = true}, world.bindings, profile, findings);
+    else
+        text::run_stage(program, stage_run_of(of, program), world.bindings, profile, findings);
     ExaminationResult result;
-    result.group_size = program.invocations();
+    result.ran = what_ran(of, program);
+    if (program.stage == spv::ExecutionModelGLCompute)
+        result.group_size = program.invocations();
     for (const text::PlainUniform& uniform : program.uniforms)
         if (!of.uniforms.contains(uniform.name))
             result.not_given.push_back(uniform.name);
@@ -200,9 +269,8 @@ ExaminationResult examine(const Examination& of) {
 
 std::string ExaminationResult::text(const Examination& of) const {
     std::string all =
-        fmt::format("{}: {} finding{} in {} groups of {} invocations\n", of.file.filename().string(),
-                    findings.empty() ? "no" : std::to_string(findings.size()), findings.size() == 1 ? "" : "s",
-                    of.groups[0] * of.groups[1] * of.groups[2], group_size);
+        fmt::format("{}: {} finding{} in {}\n", of.file.filename().string(),
+                    findings.empty() ? "no" : std::to_string(findings.size()), findings.size() == 1 ? "" : "s", ran);
     for (const NamedFinding& one : findings) {
         all += fmt::format("{}: {}: {}", one.where, one.found.rule, one.found.what);
         if (one.found.other && one.other != one.where)
@@ -218,10 +286,13 @@ std::string ExaminationResult::text(const Examination& of) const {
 
 nlohmann::json ExaminationResult::json(const Examination& of) const {
     nlohmann::json all{{"file", of.file.filename().string()},
-                       {"groups", of.groups},
-                       {"group_size", group_size},
+                       {"ran", ran},
                        {"uniforms_not_given", not_given},
                        {"findings", nlohmann::json::array()}};
+    if (group_size > 0) {
+        all["groups"] = of.groups;
+        all["group_size"] = group_size;
+    }
     for (const NamedFinding& one : findings) {
         nlohmann::json row{{"rule", one.found.rule},
                            {"what", one.found.what},

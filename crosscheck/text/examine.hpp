@@ -3,6 +3,7 @@
 #include <cstdint>
 #include <filesystem>
 #include <map>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -13,10 +14,13 @@
 
 namespace lockstep {
 
-/// A run of one compute shader's text, on numbers that are made up.
+/// A run of one stage's text, on numbers that are made up.
 struct Examination {
     std::filesystem::path file;
-    std::array<std::uint32_t, 3> groups{4, 1, 1};
+    std::array<std::uint32_t, 3> groups{4, 1, 1}; ///< of a compute stage
+    /// Vertices, primitives or fragments of another stage, and their inputs by name, the same for all.
+    std::uint32_t invocations = 64;
+    std::map<std::string, std::vector<double>> inputs = {};
     ShaderDefines defines = {};
     std::map<std::string, std::vector<double>> uniforms = {};
     /// Elements of the array at a block's end, by the block's name; texels along each axis of an image.
@@ -31,13 +35,17 @@ struct NamedFinding {
 };
 
 struct ExaminationResult {
-    std::uint32_t group_size = 1;
+    std::string ran;                    ///< "4 groups of 64 invocations", "64 vertices"
+    std::uint32_t group_size = 0;       ///< of a compute stage
     std::vector<std::string> not_given; ///< uniforms, which are 0
     std::vector<NamedFinding> findings;
 
     [[nodiscard]] std::string text(const Examination& of) const;
     [[nodiscard]] nlohmann::json json(const Examination& of) const;
 };
+
+/// By the extension of its name, in GLSL or SPIR-V; null: it is no stage's.
+std::optional<Stage> stage_of(const std::filesystem::path& file);
 
 /// Throws Error naming what is not interpreted, or a name that the shader does not have.
 ExaminationResult examine(const Examination& of);

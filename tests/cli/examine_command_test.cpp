@@ -53,49 +53,6 @@ TEST_CASE("examine: a shader without a fault has no findings, one without its ba
     CHECK(all["findings"][0]["other"]["where"] == "wrong.comp:10");
 }
 
-TEST_CASE("examine: blocks with one binding are one buffer") {
-    const TemporaryFolder folder;
-    const auto examined = [&](const std::string& binding) {
-        return run_lockstep({"examine",
-                             folder
-                                 .write("two.comp", "#version 430 core\n"
-                                                    "layout(local_size_x = 8) in;\n"
-                                                    "layout(binding = 0) buffer A { float x[]; };\n"
-                                                    "layout(binding = " +
-                                                        binding +
-                                                        ") buffer B { float y[]; };\n"
-                                                        "void main() {\n"
-                                                        "    uint i = gl_LocalInvocationIndex;\n"
-                                                        "    x[i] = 1.0;\n"
-                                                        "    y[(i + 1) % 8] = 2.0;\n"
-                                                        "}\n")
-                                 .string(),
-                             "--groups", "1"});
-    };
-    CHECK_THAT(examined("0").out, Contains("two.comp:8: race on a buffer") && Contains("two.comp:7"));
-    CHECK(examined("1").status == 0);
-}
-
-TEST_CASE("examine: texelFetch of a level that a made-up image does not have is a finding") {
-    const TemporaryFolder folder;
-    const auto examined = [&](const std::string& level) {
-        return run_lockstep({"examine", folder
-                                            .write("fetch.comp", "#version 430 core\n"
-                                                                 "layout(local_size_x = 1) in;\n"
-                                                                 "uniform sampler2D u_Image;\n"
-                                                                 "buffer Numbers { float x[]; };\n"
-                                                                 "void main() {\n"
-                                                                 "    x[0] = texelFetch(u_Image, ivec2(0), " +
-                                                                     level + ").x;\n}\n")
-                                            .string()});
-    };
-    for (const char* absent : {"7", "-1"})
-        CHECK_THAT(examined(absent).out, Contains("fetch.comp:6: texelFetch of a level that the image does not have") &&
-                                             Contains(std::string("level ") + absent + " of u_Image"));
-    CHECK(examined("0").status == 1); // the race of four groups alone
-    CHECK_THAT(examined("0").out, !Contains("level"));
-}
-
 TEST_CASE("examine: what it cannot run is refused in one line") {
     const TemporaryFolder folder;
     const std::string shader = folder.write("right.comp", sum("barrier();")).string();
@@ -119,8 +76,44 @@ TEST_CASE("examine: what it cannot run is refused in one line") {
     for (const char* value : {"1.5", "99999999999"})
         CHECK_THAT(refused({"--uniform", std::string("u_Count=") + value}, number),
                    Contains("is no integer of 32 bits"));
-    CHECK_THAT(refused({}, folder.write("stage.vert", "#version 430\nvoid main() {}\n").string()),
-               Contains("expected a compute shader, NAME.comp"));
+    CHECK_THAT(refused({}, folder.write("stage.glsl", "#version 430\nvoid main() {}\n").string()),
+               Contains("expected a stage NAME.comp, NAME.vert, NAME.geom or NAME.frag"));
+    CHECK_THAT(refused({"--input", "a_Place=1"}, shader), Contains("--invocations and --input are of vertex"));
+    const std::string vertex =
+        folder.write("stage.vert", "#version 430\nin vec2 a_Place;\nvoid main() { gl_Position = a_Place.xyxy; }\n")
+            .string();
+    CHECK_THAT(refused({"--groups", "2"}, vertex), Contains("--groups is of compute stages; use --invocations"));
+    CHECK_THAT(refused({"--input", "a_Plane=1,2"}, vertex),
+               Contains("--input a_Plane: the shader has no such name; it has a_Place; did you mean a_Place?"));
+    CHECK_THAT(refused({"--input", "a_Place=1"}, vertex), Contains("--input a_Place: expected 2 numbers, got 1"));
+}
+
+TEST_CASE("examine: vertex, geometry and fragment stages run with inputs that are given or made up") {
+    const TemporaryFolder folder;
+    const auto examined = [&](const std::string& name, const std::string& text, std::vector<std::string> options = {}) {
+        options.insert(options.begin(), {"examine", folder.write(name, "#version 430\n" + text).string()});
+        return run_lockstep(options);
+    };
+    const std::string shade = "in vec3 v_Normal;\nuniform float u_Shine;\nout vec4 o_Colour;\nvoid main() {\n"
+                              "    float edge = fwidth(gl_FragCoord.x);\n"
+                              "    o_Colour = vec4(pow(v_Normal.z, u_Shine), edge, normalize(v_Normal).xy);\n}\n";
+    const Outcome right = examined("shade.frag", shade, {"--uniform", "u_Shine=2", "--invocations", "9"});
+    CHECK(right.status == 0);
+    CHECK(right.out == "shade.frag: no findings in 12 fragments\n");
+    const Outcome behind = examined("shade.frag", shade, {"--uniform", "u_Shine=2", "--input", "v_Normal=0,0,-1"});
+    CHECK(behind.status == 1);
+    CHECK_THAT(behind.out, Contains("shade.frag: 1 finding in 64 fragments\n") &&
+                               Contains("shade.frag:7: pow of a negative base, or of 0 to no positive power (GLSL "
+                                        "4.60, 8.2): pow(-1, 2); invocation 0; 64 times"));
+    const Outcome vertex = examined("place.vert", "in vec3 a_Place;\nout vec3 v_Place;\nvoid main() {\n"
+                                                  "    if (a_Place.x > 0.5)\n        v_Place = a_Place;\n"
+                                                  "    gl_Position = vec4(a_Place, 1.0);\n}\n");
+    CHECK_THAT(vertex.out, Contains("place.vert:7: output that is not written (GLSL 4.60, 4.3.6): v_Place;"));
+    const Outcome geometry =
+        examined("strip.geom", "layout(points) in;\nlayout(line_strip, max_vertices = 2) out;\nvoid main() {\n"
+                               "    for (int i = 0; i < 2; ++i) {\n        gl_Position = gl_in[0].gl_Position;\n"
+                               "        EmitVertex();\n    }\n}\n");
+    CHECK(geometry.out == "strip.geom: no findings in 64 primitives\n");
 }
 
 TEST_CASE("check: a report on shaders of one's own says what their texts show, whatever the driver made of it") {

@@ -6,6 +6,7 @@
 #include <limits>
 #include <memory>
 #include <set>
+#include <span>
 #include <string_view>
 
 #include <fmt/format.h>
@@ -110,6 +111,21 @@ std::array<std::uint32_t, 3> extent_of(const Examination& of, const text::Progra
     return invocations;
 }
 
+/// Blocks to which the text gives one binding are one buffer (GL 4.6, 7.8): the longest's words.
+void share_buffers(const std::vector<text::Block>& blocks, std::vector<std::span<std::uint32_t>>& words) {
+    const std::vector<std::span<std::uint32_t>> own = words;
+    for (std::size_t a = 0; a < blocks.size(); ++a) {
+        if (!blocks[a].binding)
+            continue;
+        std::span<std::uint32_t> longest;
+        for (std::size_t b = 0; b < blocks.size(); ++b)
+            if (blocks[a].binding == blocks[b].binding && blocks[a].is_storage == blocks[b].is_storage &&
+                own[b].size() > longest.size())
+                longest = own[b];
+        words[a] = longest;
+    }
+}
+
 /// What a program's names are bound to.
 struct MadeUpWorld {
     std::vector<std::vector<std::uint32_t>> words;
@@ -144,6 +160,7 @@ MadeUpWorld world_of(const Examination& of, const text::Program& program) {
         world.words.push_back(block_words(block, count, made_up));
         world.bindings.blocks.emplace_back(world.words.back());
     }
+    share_buffers(program.blocks, world.bindings.blocks);
     for (const text::ImageUniform& image : program.images) {
         text::TexelMemory texels{.name = image.name};
         const std::uint32_t axes = image.dimensions == spv::Dim1D ? 1 : image.dimensions == spv::Dim2D ? 2 : 3;

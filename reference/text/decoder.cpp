@@ -193,6 +193,7 @@ void Decoder::block(const Variable& variable, bool is_storage) {
     if (of.kind != Type::Kind::structure)
         refuse(fmt::format("an array of blocks, {}, is not interpreted", module_.ids[variable.id].name));
     Block made{of.name, is_storage};
+    made.binding = module_.ids[variable.id].binding;
     if (!of.members.empty())
         if (const Type& last = type(of.members.back().type); last.kind == Type::Kind::array && last.count == 0) {
             made.array_offset = of.members.back().offset;

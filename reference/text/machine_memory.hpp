@@ -170,8 +170,11 @@ template <class R, int W> void Machine<R, W>::memory(const Step& s) {
     case code::load_texel:
     case code::fetch_texel:
         active([&](Lane l) {
-            const Memory::Texel texel = memory_.load_texel(cell(s.a)[l].word(), texel_place(s.b, s.c, l),
-                                                           s.op == code::fetch_texel, place(s, l));
+            std::optional<std::int32_t> level;
+            if (s.op == code::fetch_texel)
+                level = static_cast<std::int32_t>(cell(s.d)[l].word());
+            const Memory::Texel texel =
+                memory_.load_texel(cell(s.a)[l].word(), texel_place(s.b, s.c, l), level, place(s, l));
             for (std::uint32_t c = 0; c < s.n; ++c)
                 cell(s.out + c)[l].set(texel[c]);
         });

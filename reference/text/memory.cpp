@@ -32,6 +32,15 @@ std::uint32_t unorm8(float x) {
 
 } // namespace
 
+Memory::Memory(const Program& program, const Bindings& bindings, Findings& findings, Races* races)
+    : program_(program), bindings_(bindings), findings_(findings), races_(races), shared_(program.shared),
+      unset_(races != nullptr ? program.shared : 0) {
+    for (const std::span<std::uint32_t>& words : bindings.blocks)
+        buffer_of_.push_back(static_cast<std::uint32_t>(
+            std::ranges::find(bindings.blocks, words.data(), [](const auto& one) { return one.data(); }) -
+            bindings.blocks.begin()));
+}
+
 std::uint32_t Memory::outside_block(std::uint32_t block, std::uint32_t word, Place by) {
     findings_.add(bounds_rule, by, [&] {
         return fmt::format("word {} of {}, which has {}", word, program_.blocks[block].name,
@@ -80,9 +89,13 @@ Memory::Texel Memory::texel_words(std::uint32_t number, const std::array<std::in
     return texel;
 }
 
-Memory::Texel Memory::load_texel(std::uint32_t number, const std::array<std::int32_t, 3>& at, bool is_fetch, Place by) {
+Memory::Texel Memory::load_texel(std::uint32_t number, const std::array<std::int32_t, 3>& at,
+                                 std::optional<std::int32_t> fetched, Place by) {
     const TexelMemory& image = bindings_.images[number];
-    if (is_fetch && !is_inside(image, at))
+    if (fetched && *fetched != 0)
+        findings_.add("texelFetch of a level that the image does not have (GL 4.6, 11.1.3.2)", by,
+                      [&] { return fmt::format("level {} of {}, which has level 0 alone", *fetched, image.name); });
+    else if (fetched && !is_inside(image, at))
         findings_.add("texelFetch outside of the image (GL 4.6, 11.1.3.2)", by,
                       [&] { return fmt::format("texel ({}, {}, {}) of {}", at[0], at[1], at[2], image.name); });
     touch_texel(number, at, Races::How::read, by);

@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <array>
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <string>
 #include <utility>
@@ -43,9 +44,7 @@ struct Bindings {
 class Memory {
   public:
     /// `races`: is shown all that is touched; null: nobody looks.
-    Memory(const Program& program, const Bindings& bindings, Findings& findings, Races* races)
-        : program_(program), bindings_(bindings), findings_(findings), races_(races), shared_(program.shared),
-          unset_(races != nullptr ? program.shared : 0) {}
+    Memory(const Program& program, const Bindings& bindings, Findings& findings, Races* races);
 
     void start_group(std::uint32_t number) {
         std::fill(shared_.begin(), shared_.end(), 0U);
@@ -91,8 +90,9 @@ class Memory {
 
     using Texel = std::array<std::uint32_t, 4>;
     /// The texel as the shader reads it: bits of floats, or integers. Beyond the image all are 0 (GL 4.6, 8.26);
-    /// `is_fetch`: texelFetch gives that no value.
-    [[nodiscard]] Texel load_texel(std::uint32_t image, const std::array<std::int32_t, 3>& at, bool is_fetch, Place by);
+    /// `fetched`: the level that texelFetch names, which gives that no value. There is level 0 alone.
+    [[nodiscard]] Texel load_texel(std::uint32_t image, const std::array<std::int32_t, 3>& at,
+                                   std::optional<std::int32_t> fetched, Place by);
     void store_texel(std::uint32_t image, const std::array<std::int32_t, 3>& at, const Texel& texel, Place by);
     /// What texture() makes of a place, 0 to 1 along each axis: GL_LINEAR as drivers with weights of all bits do it,
     /// fma(f, b - a, a) along x, then y, then z (GL 4.6, 8.14.3).
@@ -127,7 +127,7 @@ class Memory {
   private:
     void touch_block(std::uint32_t block, std::uint32_t word, Races::How how, Place by) {
         if (races_ != nullptr && program_.blocks[block].is_storage)
-            races_->touch(Races::Space::buffer, block, word, how, by, program_.blocks[block].name);
+            races_->touch(Races::Space::buffer, buffer_of_[block], word, how, by, program_.blocks[block].name);
     }
     void touch_shared(std::uint32_t word, Races::How how, Place by) {
         if (races_ == nullptr)
@@ -148,7 +148,8 @@ class Memory {
     Findings& findings_;
     Races* races_;
     std::vector<std::uint32_t> shared_;
-    std::vector<std::uint8_t> unset_; ///< of shared words
+    std::vector<std::uint8_t> unset_;      ///< of shared words
+    std::vector<std::uint32_t> buffer_of_; ///< of each block: the first that is bound to the same words
 };
 
 } // namespace lockstep::text

@@ -161,6 +161,9 @@ class ModuleReader {
         case spv::DecorationBufferBlock:
             id.is_buffer_block = true;
             break;
+        case spv::DecorationBinding:
+            id.binding = w[2];
+            break;
         case spv::DecorationArrayStride:
             made_.types[w[0]].stride = w[2];
             break;

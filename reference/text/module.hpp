@@ -60,6 +60,7 @@ struct IdInfo {
     std::uint32_t type = 0;
     std::optional<spv::BuiltIn> builtin;
     std::optional<std::uint32_t> location;
+    std::optional<std::uint32_t> binding;
     bool is_precise = false; ///< NoContraction
     bool is_block = false, is_buffer_block = false, is_flat = false;
 };

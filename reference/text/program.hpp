@@ -80,6 +80,7 @@ struct Block {
     /// Of an array without a length at its end, bytes; stride 0: there is none.
     std::uint32_t array_offset = 0, array_stride = 0;
     std::vector<Leaf> leaves = {}, element = {}; ///< scalars before that array, and of one of its elements
+    std::optional<std::uint32_t> binding = {};   ///< that the text gives it
 
     /// Words of the block whose array has `count` elements.
     [[nodiscard]] std::size_t words(std::size_t count) const;

@@ -53,6 +53,49 @@ TEST_CASE("examine: a shader without a fault has no findings, one without its ba
     CHECK(all["findings"][0]["other"]["where"] == "wrong.comp:10");
 }
 
+TEST_CASE("examine: blocks with one binding are one buffer") {
+    const TemporaryFolder folder;
+    const auto examined = [&](const std::string& binding) {
+        return run_lockstep({"examine",
+                             folder
+                                 .write("two.comp", "#version 430 core\n"
+                                                    "layout(local_size_x = 8) in;\n"
+                                                    "layout(binding = 0) buffer A { float x[]; };\n"
+                                                    "layout(binding = " +
+                                                        binding +
+                                                        ") buffer B { float y[]; };\n"
+                                                        "void main() {\n"
+                                                        "    uint i = gl_LocalInvocationIndex;\n"
+                                                        "    x[i] = 1.0;\n"
+                                                        "    y[(i + 1) % 8] = 2.0;\n"
+                                                        "}\n")
+                                 .string(),
+                             "--groups", "1"});
+    };
+    CHECK_THAT(examined("0").out, Contains("two.comp:8: race on a buffer") && Contains("two.comp:7"));
+    CHECK(examined("1").status == 0);
+}
+
+TEST_CASE("examine: texelFetch of a level that a made-up image does not have is a finding") {
+    const TemporaryFolder folder;
+    const auto examined = [&](const std::string& level) {
+        return run_lockstep({"examine", folder
+                                            .write("fetch.comp", "#version 430 core\n"
+                                                                 "layout(local_size_x = 1) in;\n"
+                                                                 "uniform sampler2D u_Image;\n"
+                                                                 "buffer Numbers { float x[]; };\n"
+                                                                 "void main() {\n"
+                                                                 "    x[0] = texelFetch(u_Image, ivec2(0), " +
+                                                                     level + ").x;\n}\n")
+                                            .string()});
+    };
+    for (const char* absent : {"7", "-1"})
+        CHECK_THAT(examined(absent).out, Contains("fetch.comp:6: texelFetch of a level that the image does not have") &&
+                                             Contains(std::string("level ") + absent + " of u_Image"));
+    CHECK(examined("0").status == 1); // the race of four groups alone
+    CHECK_THAT(examined("0").out, !Contains("level"));
+}
+
 TEST_CASE("examine: what it cannot run is refused in one line") {
     const TemporaryFolder folder;
     const std::string shader = folder.write("right.comp", sum("barrier();")).string();

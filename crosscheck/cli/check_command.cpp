@@ -462,6 +462,7 @@ Verb check_command() {
     Verb verb{"check", "run both sides and compare every bit of every frame"};
     add_scene_options(verb, options->run, SceneArgument::optional);
     add_gl_options(verb, options->run);
+    add_reference_option(verb, options->run);
     add_trace_option(verb, options->trace);
     verb.add(frames_option("--frames", options->frames,
                            "frames to compare; without it all of a trace; A..B: only these, counted from 0"));

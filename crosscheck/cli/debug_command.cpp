@@ -90,6 +90,7 @@ Verb debug_command() {
     Verb verb{"debug", "walk through both sides by commands, typed or from a pipe"};
     add_scene_options(verb, options->run, SceneArgument::optional);
     add_gl_options(verb, options->run);
+    add_reference_option(verb, options->run);
     add_trace_option(verb, options->trace);
     verb.add(integer_option("--frames", "N", {1, most_frames}, options->run.frames,
                             "how many frames `next` and `continue` look through"));

@@ -130,6 +130,7 @@ Verb explain_command() {
     Verb verb{"explain", "both sides of one particle, texel or pixel in one frame, step by step"};
     add_scene_options(verb, options->run, SceneArgument::optional);
     add_gl_options(verb, options->run);
+    add_reference_option(verb, options->run);
     add_trace_option(verb, options->trace);
     verb.add(frame_option(options->frame));
     verb.add(text_option("--particle", "I", options->particle, "the particle"));

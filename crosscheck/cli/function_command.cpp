@@ -15,6 +15,7 @@
 
 #include "crosscheck/cli/commands.hpp"
 #include "crosscheck/cli/function_findings.hpp"
+#include "crosscheck/cli/function_text.hpp"
 #include "crosscheck/cli/system_run.hpp"
 #include "crosscheck/command/judging_options.hpp"
 #include "crosscheck/command/option_values.hpp"
@@ -23,6 +24,7 @@
 #include "crosscheck/files/output_files.hpp"
 #include "crosscheck/files/plain_text.hpp"
 #include "crosscheck/files/shell_words.hpp"
+#include "crosscheck/judge/legal.hpp"
 #include "crosscheck/package/function_signature.hpp"
 #include "crosscheck/report/colour.hpp"
 #include "gpu/shader_source.hpp"
@@ -37,6 +39,7 @@ struct FunctionRequest {
     std::string name, like_name;
     std::vector<std::string> uniforms, defines;
     std::string gl = "auto";
+    Legal legal = Legal::measured;
     bool quiet = false;
 };
 
@@ -163,6 +166,58 @@ std::string command_of(const FunctionRequest& options) {
     return line + werror_option_text();
 }
 
+/// A function's own text, where it is interpreted.
+struct OwnText {
+    std::optional<FunctionText> text = {};
+    std::string missing = {}; ///< why there is none
+};
+
+OwnText own_text(const Gl& gl, const GlslFunction& function, const FunctionRows& rows, Legal legal) {
+    OwnText own;
+    try {
+        const Profile profile = gl.profile();
+        own.text.emplace(function, rows, profile, known_operations(legal, profile));
+    } catch (const Error& error) {
+        own.missing = error.what();
+    }
+    return own;
+}
+
+/// The rows that either leaves undefined; of one that both do, the first's words.
+std::vector<UndefinedRow> undefined_rows(const OwnText& own, const OwnText& other) {
+    std::vector<UndefinedRow> all;
+    for (const OwnText* one : {&own, &other})
+        if (one->text)
+            std::ranges::move(one->text->undefined_rows(), std::back_inserter(all));
+    std::ranges::stable_sort(all, {}, &UndefinedRow::row);
+    const auto repeated = std::ranges::unique(all, {}, &UndefinedRow::row);
+    all.erase(repeated.begin(), repeated.end());
+    return all;
+}
+
+/// Holds the rows against the table's results, `like`'s, or what the function's own text says.
+MatchResult match(const Gl& gl, const GlslFunction& function, const GlslFunction* like, const FunctionRows& rows,
+                  const FunctionMatchOptions& how) {
+    const OwnText own = own_text(gl, function, rows, how.legal);
+    const OwnText other = like != nullptr ? own_text(gl, *like, rows, how.legal) : OwnText();
+    const auto open = [](const OwnText& of) {
+        return of.text ? OpenResults([&text = *of.text](std::size_t row, const TextTaken& taken) {
+            return text.results(row, taken);
+        })
+                       : OpenResults();
+    };
+    ExpectedResults expected;
+    if (like != nullptr)
+        expected = {returned(gl, *like, rows), results_of(*like)};
+    else if (rows.results)
+        expected = {*rows.results, "results of the table"};
+    else
+        expected = {own.text->values(), "its own text, which says nothing about whether it is the right function"};
+    expected.own = open(own);
+    expected.expected = open(other);
+    return match_function(gl, function, rows, std::move(expected), how);
+}
+
 int run_function(const FunctionRequest& options) {
     std::vector<GlslFunction> functions{function_of(options, options.file, options.name)};
     if (!options.like.empty())
@@ -175,10 +230,6 @@ int run_function(const FunctionRequest& options) {
         throw Error("function: --like-name goes with --like");
     if (!options.like.empty() && rows.results)
         throw Error(fmt::format("function: {} has results, and --like gives others; right is one of them", rows.file));
-    if (options.like.empty() && !rows.results)
-        throw Error(fmt::format("function: {} has no column result; right is one, or --like FILE, whose function of "
-                                "that name gives the results",
-                                rows.file));
     OutputFiles files;
     for (const std::filesystem::path& input : {options.file, options.table, options.like})
         files.protect(input);
@@ -187,19 +238,19 @@ int run_function(const FunctionRequest& options) {
     RunOptions run;
     run.gl = options.gl;
     const Gl gl = open_gl(run);
-    const FunctionMatchOptions how{.repeat = command_of(options)};
-    std::vector<UndefinedRow> undefined = undefined_rows(function, rows);
-    if (functions.size() > 1) { // of a row that both leave undefined, the first's words
-        std::ranges::move(undefined_rows(functions.back(), rows), std::back_inserter(undefined));
-        std::ranges::stable_sort(undefined, {}, &UndefinedRow::row);
-        const auto repeated = std::ranges::unique(undefined, {}, &UndefinedRow::row);
-        undefined.erase(repeated.begin(), repeated.end());
-    }
+    const FunctionMatchOptions how{.legal = options.legal, .repeat = command_of(options)};
+    const GlslFunction* const like = functions.size() > 1 ? &functions.back() : nullptr;
+    if (like != nullptr)
+        check_comparable(function, *like, rows);
+    const OwnText own = own_text(gl, function, rows, options.legal);
+    const OwnText other = like != nullptr ? own_text(gl, *like, rows, options.legal) : OwnText();
+    if (!own.text && like == nullptr && !rows.results)
+        throw Error(own.missing);
+    const std::vector<UndefinedRow> undefined = undefined_rows(own, other);
     const FunctionRows judged = undefined.empty() ? rows : without(rows, undefined);
     std::optional<MatchResult> result;
     if (judged.count() > 0)
-        result = functions.size() == 1 ? match_function(gl, function, judged, how)
-                                       : match_function(gl, function, judged, functions.back(), how);
+        result = match(gl, function, like, judged, how);
     const bool agrees = !result || result->passed();
     const std::string open =
         undefined.empty() ? std::string() : undefined_text(rows, undefined, agrees ? judged.count() : 0);
@@ -228,18 +279,20 @@ Verb function_command() {
     verb.add(
         required(path_option("--table", "FILE", options->table,
                              "its arguments, and the results: CSV with a column a component (velocity.x), or JSON, "
-                             "an array of objects; the results are called result")));
+                             "an array of objects; the results are called result; without them its own text is what "
+                             "the GPU is held against")));
     verb.add(path_option("--like", "FILE", options->like,
                          "a shader whose function of that name gives the results, instead of the table"));
     verb.add(text_option("--like-name", "NAME", options->like_name, "the name of that function, where it is another"));
     verb.add(settings_option("--uniform", "NAME=VALUE", options->uniforms,
                              "a uniform that it reads: u_Kept=0.5, u_Gravity=0,-9.81,0"));
     verb.add(settings_option("--define", "NAME=TEXT", options->defines, "a macro that the shader is compiled with"));
+    add_legal_option(verb, options->legal);
     verb.add(text_option("--gl", "auto|osmesa|egl|egl-device:N", options->gl, "which GL to open"));
     verb.add(path_option("--json", "FILE", options->json, "write the report as JSON"));
     add_werror_option(verb);
     verb.add(flag("--quiet", options->quiet, "print nothing"));
-    verb.footer = "Exit status: 0 every bit agrees, 1 one does not, 2 could not run.\n"
+    verb.footer = "Exit status: 0 every bit agrees or is legal, 1 one is not, 2 could not run.\n"
                   "Example: lockstep function shaders/wall.glsl bounce --table walls.csv --uniform u_Kept=0.5";
     verb.run = [options](const Call&) { return run_function(*options); };
     return verb;

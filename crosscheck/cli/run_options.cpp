@@ -79,6 +79,11 @@ void add_gl_options(Verb& verb, RunOptions& options) {
     add_werror_option(verb);
 }
 
+void add_reference_option(Verb& verb, RunOptions& options) {
+    verb.add(path_option("--reference", "DIR", options.reference,
+                         "compute shaders that are the reference of their passes, instead of the twins"));
+}
+
 void add_profile_option(Verb& verb, std::string& profile) {
     verb.add(word_option("--profile", {"strict", "llvmpipe", "nvidia"}, profile,
                          "strict, llvmpipe or nvidia: the reference's order of sums"));
@@ -132,6 +137,9 @@ Scene load(const RunOptions& options) {
             "{}: is a scene of system {}, which bench, capsule, check, debug, explain, hash, record and render "
             "run; right here is one of system {}",
             options.scene.string(), name_of(*system), default_system));
+    if (!options.reference.empty())
+        throw Error(fmt::format("--reference {}: the passes of system {} keep their twins", options.reference.string(),
+                                default_system));
     start_threads(options.threads);
     return read_scene(options.document.of(options.scene), options.scene,
                       {options.particles, options.preset, options.set});
@@ -142,6 +150,7 @@ void protect_inputs(const RunOptions& options, OutputFiles& files) {
         for (const std::filesystem::path& file : scene_files(options.document.of(options.scene), options.scene))
             files.protect(file);
     files.protect(options.shaders);
+    files.protect(options.reference);
 }
 
 ShaderUse shaders_to_run(const RunOptions& options, const Scene& scene, bool rendered) {
@@ -174,6 +183,8 @@ std::string command_line(const std::string& verb, const RunOptions& options, con
         line += fmt::format(" --shaders {}", shell_path(options.shaders));
     if (options.allow_unused)
         line += " --allow-unused";
+    if (!options.reference.empty())
+        line += fmt::format(" --reference {}", shell_path(options.reference));
     return line + werror_option_text();
 }
 

@@ -38,8 +38,9 @@ struct RunOptions {
     int frames = 60;
     int threads = 0; ///< 0: one a core
     std::string gl = "auto";
-    std::filesystem::path shaders; ///< looked into first; empty: only the shipped shaders
-    bool allow_unused = false;     ///< shaders may lie there that do not run
+    std::filesystem::path shaders;   ///< looked into first; empty: only the shipped shaders
+    bool allow_unused = false;       ///< shaders may lie there that do not run
+    std::filesystem::path reference; ///< shaders that take the place of twins; empty: none do
     SceneDocument document = {};
 };
 
@@ -50,6 +51,8 @@ void add_scene_options(Verb& verb, RunOptions& options, SceneArgument scene = Sc
 void add_settings_options(Verb& verb, RunOptions& options);
 void add_threads_option(Verb& verb, RunOptions& options);
 void add_gl_options(Verb& verb, RunOptions& options);
+/// Of the verbs that take a plain shader as a reference.
+void add_reference_option(Verb& verb, RunOptions& options);
 void add_profile_option(Verb& verb, std::string& profile);
 
 /// --trace FILE instead of the scene, which is then optional. check_scene_or_trace throws Error unless one of both is

@@ -6,6 +6,7 @@
 
 #include <fmt/format.h>
 
+#include "crosscheck/cli/text_passes.hpp"
 #include "crosscheck/files/json_reader.hpp"
 #include "crosscheck/files/named_files.hpp"
 #include "crosscheck/files/plain_text.hpp"
@@ -37,6 +38,7 @@ ReadScene read_scene(const RegisteredSystem& system, const RunOptions& run) {
 void ReadScene::protect(const RunOptions& run, OutputFiles& files) const {
     files.protect(run.scene);
     files.protect(run.shaders);
+    files.protect(run.reference);
     for (const std::filesystem::path& place : places)
         files.protect(place);
 }
@@ -90,6 +92,10 @@ SystemInput::SystemInput(const RegisteredSystem& system, const RunOptions& run, 
         start_threads(run.threads);
     else
         shaders_ = shaders_of(scene(), run, drawn);
+    if (!run.reference.empty())
+        references_ = take_references(read_.scene, run);
+    if (shaders_ && !run.shaders.empty())
+        open_by_own_text(read_.scene, *shaders_, run.shaders);
 }
 
 void SystemInput::protect(OutputFiles& files) const {
@@ -114,10 +120,11 @@ SystemSide& SystemInput::open() {
 void SystemInput::describe(RunDescription& about) const {
     about.scene = fmt::format("{} ({})", system().name, plain_line(read_.file));
     about.shaders = shaders_;
-    if (!recording_)
-        return;
-    about.shaders_untold = "recorded: " + recording_->info().shaders;
-    about.notes = recording_->warnings();
+    if (recording_) {
+        about.shaders_untold = "recorded: " + recording_->info().shaders;
+        about.notes = recording_->warnings();
+    }
+    about.notes.insert(about.notes.end(), references_.begin(), references_.end());
 }
 
 std::vector<std::string> SystemInput::left_open(const Profile& profile) const {

@@ -82,6 +82,7 @@ class SystemInput {
     std::unique_ptr<SystemRecording> recording_;
     ReadScene read_;
     std::optional<ShaderUse> shaders_;
+    std::vector<std::string> references_; ///< a line for each pass that has another than its twin
     std::optional<Gl> gl_;
     std::unique_ptr<SystemSide> side_;
 };

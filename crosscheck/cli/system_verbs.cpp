@@ -182,13 +182,13 @@ std::string explain_drawn(SystemInput& input, const RunOptions& run, const Syste
 } // namespace
 
 std::span<const std::string_view> system_check_options() {
-    static constexpr std::array<std::string_view, 23> options{
+    static constexpr std::array<std::string_view, 24> options{
         "--trace",        "--power",     "--power-at-least", "--json",
         "scene",          "--particles", "--preset",         "--set",
         "--threads",      "--gl",        "--shaders",        "--frames",
         "--allow-unused", "--mode",      "--legal",          "--quiet",
         "--no-render",    "--hashes",    "--images",         "--allow-undefined",
-        "--report",       "--hex",       "--werror-shaders"};
+        "--report",       "--hex",       "--werror-shaders", "--reference"};
     return options;
 }
 

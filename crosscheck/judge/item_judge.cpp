@@ -47,7 +47,7 @@ ItemVerdict judge_item(const JudgedPass& p, std::size_t item) {
             const bool alike = std::any_of(untold.begin(), untold.end(), [&](const ItemOutcome& one) {
                 return one.contains(p.gpu, item) && one.contains(p.reference, item);
             });
-            kind = alike ? DifferenceClass::rounding : DifferenceClass::tie;
+            kind = alike || outcome.open.empty() ? DifferenceClass::rounding : DifferenceClass::tie;
         }
         if (kind >= verdict.kind)
             continue;

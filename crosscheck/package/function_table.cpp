@@ -1,11 +1,16 @@
 #include "lockstep/function_table.hpp"
 
+#include <algorithm>
 #include <bit>
 #include <cmath>
+#include <memory>
+#include <span>
+#include <utility>
 
 #include <fmt/format.h>
 
 #include "crosscheck/files/plain_text.hpp"
+#include "crosscheck/judge/open_pass.hpp"
 #include "crosscheck/package/function_signature.hpp"
 #include "crosscheck/report/value_text.hpp"
 #include "reference/model/error.hpp"
@@ -78,6 +83,41 @@ struct ExpectedResult {
     }
 };
 
+/// A function's own text, and its arguments as they are.
+class OwnResults final : public OwnText {
+  public:
+    OwnResults(std::size_t columns, OpenResults results) : columns_(columns), results_(std::move(results)) {}
+    [[nodiscard]] std::vector<ItemOutcome> outcomes(const PassInput& in, std::size_t item, const Profile& /*profile*/,
+                                                    const KnownOperations& known) const override {
+        return with_arguments(in, item, results_(item, {.in_any_order = !known.sums}));
+    }
+    [[nodiscard]] std::vector<ItemOutcome> outcomes_as_written(const PassInput& in, std::size_t item,
+                                                               const Profile& /*profile*/,
+                                                               const KnownOperations& known) const override {
+        return with_arguments(in, item, results_(item, {.as_written = true, .in_any_order = !known.sums}));
+    }
+
+  private:
+    [[nodiscard]] std::vector<ItemOutcome> with_arguments(const PassInput& in, std::size_t item,
+                                                          std::vector<ItemOutcome> all) const {
+        std::vector<Interval> arguments;
+        const View rows = in.before[0];
+        for (std::uint8_t f = 0; f < columns_; ++f)
+            for (int c = 0; c < rows.fields()[f].components; ++c) {
+                const Value value = rows.value(f, item, c);
+                const bool is_real = value.scalar == Scalar::float32;
+                const auto integer = static_cast<double>(is_real ? 0 : value.integer());
+                arguments.push_back(is_real ? Interval(value.real()) : Interval(integer, integer));
+            }
+        for (ItemOutcome& one : all)
+            one.values.insert(one.values.begin(), arguments.begin(), arguments.end());
+        return all;
+    }
+
+    std::size_t columns_; ///< the arguments'
+    OpenResults results_;
+};
+
 std::vector<function_twin::Column> all_columns(const Schema& schema) {
     std::vector<function_twin::Column> columns;
     for (const Field& field : schema.resources.front().fields)
@@ -111,7 +151,7 @@ SystemState start_of(const Schema& schema, const FunctionRows& rows) {
 
 /// A function as the system of its one pass, on a table.
 System system_of(const GlslFunction& function, const function_twin::Called& called, const FunctionRows& rows,
-                 std::vector<std::uint32_t> results) {
+                 ExpectedResults expected) {
     System system{.name = function.name,
                   .schema = called.schema,
                   .passes = {},
@@ -121,31 +161,16 @@ System system_of(const GlslFunction& function, const function_twin::Called& call
     // A result that was not written is none that is right.
     const FieldId result{0, static_cast<std::uint8_t>(rows.columns.size())};
     const auto components = static_cast<std::size_t>(called.schema[result].components);
-    for (std::size_t word = 0; word < results.size(); ++word)
-        set_bits(system.start, result, word / components, static_cast<int>(word % components), ~results[word]);
+    for (std::size_t word = 0; word < expected.words.size(); ++word)
+        set_bits(system.start, result, word / components, static_cast<int>(word % components), ~expected.words[word]);
     system.passes.push_back(item_pass({.name = std::string(function_twin::pass_name)},
-                                      ExpectedResult{all_columns(called.schema), std::move(results)}));
+                                      ExpectedResult{all_columns(called.schema), std::move(expected.words)}));
+    for (OpenResults* open : {&expected.expected, &expected.own})
+        if (*open)
+            system.passes.back() = open_pass(std::move(system.passes.back()),
+                                             std::make_shared<OwnResults>(rows.columns.size(), std::move(*open)));
+    system.settings = std::move(expected.from);
     return system;
-}
-
-/// What the function returns of each row.
-std::vector<std::uint32_t> returned(const Gl& gl, const GlslFunction& function, const FunctionRows& rows) {
-    const function_twin::Called called = function_twin::called(function, rows.columns);
-    const System system = system_of(function, called, rows, {});
-    SystemState after = system.start;
-    function_twin::with_advice([&] {
-        GlSystemSide gpu(gl, system, called.passes, called.folder);
-        gpu.upload(system.start.view());
-        gpu.step(0, 0);
-        gpu.read(after);
-    });
-    const FieldId result{0, static_cast<std::uint8_t>(rows.columns.size())};
-    std::vector<std::uint32_t> words;
-    const SystemView view = after.view();
-    for (std::size_t row = 0; row < rows.count(); ++row)
-        for (int c = 0; c < called.schema[result].components; ++c)
-            words.push_back(view.word(result, row, c));
-    return words;
 }
 
 /// Whether two functions are one.
@@ -170,16 +195,16 @@ std::string row_text(const FunctionRows& rows, std::size_t row) {
     return text;
 }
 
-MatchResult match_results(const Gl& gl, const GlslFunction& function, const FunctionRows& rows,
-                          std::vector<std::uint32_t> results, const std::string& expected,
-                          const FunctionMatchOptions& options) {
+} // namespace
+
+MatchResult match_function(const Gl& gl, const GlslFunction& function, const FunctionRows& rows,
+                           ExpectedResults expected, const FunctionMatchOptions& options) {
     const function_twin::Called called = function_twin::called(function, rows.columns);
     constexpr std::size_t most = ItemWords<Values<PlainArithmetic>>::most;
     if (words_of(all_columns(called.schema)) > most)
         throw Error(fmt::format("{}: {} takes and returns more than {} numbers", plain_line(function.file),
                                 function.name, most));
-    System system = system_of(function, called, rows, std::move(results));
-    system.settings = expected;
+    const System system = system_of(function, called, rows, std::move(expected));
     const MatchResult result = function_twin::match_rows(gl, called, system, options);
     RunDescription about = result.run();
     about.scene = fmt::format("{} ({}, {})", function.name, plain_line(function.file), rows.file);
@@ -188,17 +213,33 @@ MatchResult match_results(const Gl& gl, const GlslFunction& function, const Func
     return {result.report(), std::move(about), result.passed()};
 }
 
-} // namespace
-
 MatchResult match_function(const Gl& gl, const GlslFunction& function, const FunctionRows& rows,
                            const FunctionMatchOptions& options) {
     if (!rows.results)
         throw Error(fmt::format("{}: no column result, so nothing is expected of {}", rows.file, function.name));
-    return match_results(gl, function, rows, *rows.results, "results of the table", options);
+    return match_function(gl, function, rows, ExpectedResults{*rows.results, "results of the table"}, options);
 }
 
-MatchResult match_function(const Gl& gl, const GlslFunction& function, const FunctionRows& rows,
-                           const GlslFunction& like, const FunctionMatchOptions& options) {
+std::vector<std::uint32_t> returned(const Gl& gl, const GlslFunction& function, const FunctionRows& rows) {
+    const function_twin::Called called = function_twin::called(function, rows.columns);
+    const System system = system_of(function, called, rows, {{}, {}});
+    SystemState after = system.start;
+    function_twin::with_advice([&] {
+        GlSystemSide gpu(gl, system, called.passes, called.folder);
+        gpu.upload(system.start.view());
+        gpu.step(0, 0);
+        gpu.read(after);
+    });
+    const FieldId result{0, static_cast<std::uint8_t>(rows.columns.size())};
+    std::vector<std::uint32_t> words;
+    const SystemView view = after.view();
+    for (std::size_t row = 0; row < rows.count(); ++row)
+        for (int c = 0; c < called.schema[result].components; ++c)
+            words.push_back(view.word(result, row, c));
+    return words;
+}
+
+void check_comparable(const GlslFunction& function, const GlslFunction& like, const FunctionRows& rows) {
     if (is_same(function, like))
         throw Error(fmt::format("function: {} of {} is compared with itself: {} has the same text; expected another "
                                 "function",
@@ -210,8 +251,16 @@ MatchResult match_function(const Gl& gl, const GlslFunction& function, const Fun
     if (wanted.scalar != given.scalar || wanted.components != given.components)
         throw Error(fmt::format("{}: {} returns another type than {} of {}", plain_line(like.file), like.name,
                                 function.name, plain_line(function.file)));
-    return match_results(gl, function, rows, returned(gl, like, rows),
-                         fmt::format("results of {} ({})", like.name, plain_line(like.file)), options);
+}
+
+std::string results_of(const GlslFunction& like) {
+    return fmt::format("results of {} ({})", like.name, plain_line(like.file));
+}
+
+MatchResult match_function(const Gl& gl, const GlslFunction& function, const FunctionRows& rows,
+                           const GlslFunction& like, const FunctionMatchOptions& options) {
+    check_comparable(function, like, rows);
+    return match_function(gl, function, rows, ExpectedResults{returned(gl, like, rows), results_of(like)}, options);
 }
 
 } // namespace lockstep

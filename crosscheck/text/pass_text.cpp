@@ -145,10 +145,10 @@ std::vector<std::vector<std::uint32_t>> PassText::uniforms(const PassInput& in) 
     return all;
 }
 
-void PassText::run(const PassInput& in, const Profile& profile, SystemState& after, text::Findings& findings,
-                   const How& how) const {
+PassText::Input PassText::bind(const PassInput& in, const Profile& profile) const {
     using Kind = Bound::Kind;
-    std::vector<std::vector<std::uint32_t>> words; // of blocks, then of images
+    Input input;
+    std::vector<std::vector<std::uint32_t>>& words = input.words;
     for (const auto* const all : {&blocks_, &images_})
         for (const Bound& bound : *all)
             if (bound.kind == Kind::data) {
@@ -159,7 +159,7 @@ void PassText::run(const PassInput& in, const Profile& profile, SystemState& aft
             } else {
                 words.push_back(records_of(in.before[bound.resource], bound.record));
             }
-    text::Bindings bindings;
+    text::Bindings& bindings = input.bindings;
     for (std::size_t b = 0; b < blocks_.size(); ++b)
         bindings.blocks.emplace_back(words[b]);
     for (std::size_t i = 0; i < images_.size(); ++i) {
@@ -185,13 +185,28 @@ void PassText::run(const PassInput& in, const Profile& profile, SystemState& aft
         if (!profile.follows(schema_.resources[resource].dimensions == 2 ? "image: linear filter of a plane"
                                                                          : "image: linear filter"))
             throw Error(fmt::format("{}: this driver's linear filter is not followed", pass_.name));
-    text::run_dispatch(program_, {.groups = groups(in), .wants = how.wants, .is_watched = how.is_watched}, bindings,
-                       profile, findings);
-    for (std::size_t k = 0; k < words.size(); ++k) {
-        const Bound& bound = k < blocks_.size() ? blocks_[k] : images_[k - blocks_.size()];
-        if (bound.kind == Kind::after && writes(bound.resource))
-            set_items(after[bound.resource], bound.record, words[k]);
-    }
+    input.groups = groups(in);
+    return input;
+}
+
+std::vector<std::size_t> PassText::words_of_resource(std::uint8_t resource) const {
+    std::vector<std::size_t> all;
+    for (std::size_t k = 0; k < blocks_.size() + images_.size(); ++k)
+        if (bound(k).kind == Bound::Kind::after && bound(k).resource == resource && writes(resource))
+            all.push_back(k);
+    return all;
+}
+
+std::span<const Component> PassText::record(std::size_t words) const { return bound(words).record; }
+
+void PassText::run(const PassInput& in, const Profile& profile, SystemState& after, text::Findings& findings,
+                   const How& how) const {
+    Input input = bind(in, profile);
+    text::run_dispatch(program_, {.groups = input.groups, .wants = how.wants, .is_watched = how.is_watched},
+                       input.bindings, profile, findings);
+    for (std::size_t k = 0; k < input.words.size(); ++k)
+        if (bound(k).kind == Bound::Kind::after && writes(bound(k).resource))
+            set_items(after[bound(k).resource], bound(k).record, input.words[k]);
 }
 
 } // namespace lockstep

@@ -3,6 +3,7 @@
 #include <cstdint>
 #include <functional>
 #include <memory>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -10,6 +11,7 @@
 #include "reference/model/profile.hpp"
 #include "reference/system/item_pass.hpp"
 #include "reference/text/dispatch.hpp"
+#include "reference/text/outcomes.hpp"
 
 namespace lockstep {
 
@@ -25,7 +27,10 @@ class PassText {
              ArithmeticSwitch arithmetic = ArithmeticSwitch::plain);
 
     [[nodiscard]] const text::Program& program() const { return program_; }
+    [[nodiscard]] const text::Outcomes& outcomes() const { return outcomes_; }
     [[nodiscard]] const GlPass& pass() const { return pass_; }
+    PassText(const PassText&) = delete;
+    PassText& operator=(const PassText&) = delete;
     [[nodiscard]] std::size_t items(const PassInput& in) const; ///< that its dispatch has invocations for
 
     /// What is run of a dispatch, as text::Dispatch has it.
@@ -40,6 +45,20 @@ class PassText {
         run(in, profile, after, findings, {});
     }
 
+    /// What its dispatch is bound to in one input: words of blocks, then of images.
+    struct Input {
+        std::vector<std::vector<std::uint32_t>> words;
+        text::Bindings bindings; ///< refers to them
+        std::array<std::uint32_t, 3> groups{};
+    };
+    /// Throws Error where the driver filters as the text's reading does not.
+    [[nodiscard]] Input bind(const PassInput& in, const Profile& profile) const;
+    /// Where the words of a resource that is written lie in Input::words: a block for each part of its items, or an
+    /// image.
+    [[nodiscard]] std::vector<std::size_t> words_of_resource(std::uint8_t resource) const;
+    /// The components of an item in those words, in their order.
+    [[nodiscard]] std::span<const Component> record(std::size_t words) const;
+
   private:
     struct Bound {
         enum class Kind : std::uint8_t { before, after, data };
@@ -50,6 +69,9 @@ class PassText {
     };
     [[nodiscard]] Bound block_named(const std::string& name) const;
     [[nodiscard]] Bound image_named(const std::string& name) const;
+    [[nodiscard]] const Bound& bound(std::size_t words) const {
+        return words < blocks_.size() ? blocks_[words] : images_[words - blocks_.size()];
+    }
     [[nodiscard]] std::array<std::uint32_t, 3> groups(const PassInput& in) const;
     [[nodiscard]] std::vector<std::vector<std::uint32_t>> uniforms(const PassInput& in) const;
     [[nodiscard]] bool writes(std::uint8_t resource) const;
@@ -59,6 +81,7 @@ class PassText {
     std::vector<std::uint8_t> written_;
     std::shared_ptr<const ShaderSource> source_; ///< that lines are named by
     text::Program program_;
+    text::Outcomes outcomes_{program_};
     std::vector<Bound> blocks_, images_;
 };
 

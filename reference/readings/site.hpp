@@ -26,6 +26,14 @@ struct Site {
                    double per_unit_ = 1.0)
         : label(label_), output(output_), unit(unit_), per_unit(per_unit_), id(name_id(label_)),
           output_id(output_.empty() ? 0 : name_id(output_)) {}
+
+    /// A site that is known at run time alone, as the line of a text. The label outlives it.
+    static Site named(std::string_view label) {
+        Site site("");
+        site.label = label;
+        site.id = name_id(label);
+        return site;
+    }
 };
 
 /// A site and the line of the twin that comes by it.

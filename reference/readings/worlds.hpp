@@ -77,17 +77,20 @@ template <class A> class Worlds {
         [[nodiscard]] bool is_same(Real other) const { return !is_float() && id_ == other.id_; }
         static Worlds* run_of(Real a, Real b) { return a.run_ != nullptr ? a.run_ : b.run_; }
         static Real added(Real a, Real b) {
-            if (const auto sum = of_floats(a, b, [](auto x, auto y) { return x + y; }))
+            if (const auto sum = of_floats(
+                    a, b, [](auto x, auto y) { return x + y; }, is_exact_sum))
                 return *sum;
             return run_of(a, b)->make({a, b}, [&](const auto& fp) { return fp.sum(a.set(), b.set()); });
         }
         static Real subtracted(Real a, Real b) {
-            if (const auto difference = of_floats(a, b, [](auto x, auto y) { return x - y; }))
+            if (const auto difference = of_floats(
+                    a, b, [](auto x, auto y) { return x - y; }, is_exact_difference))
                 return *difference;
             return run_of(a, b)->make({a, b}, [&](const auto& fp) { return fp.difference(a.set(), b.set()); });
         }
         static Real multiplied(Real a, Real b) {
-            if (const auto product = of_floats(a, b, [](auto x, auto y) { return x * y; }))
+            if (const auto product = of_floats(
+                    a, b, [](auto x, auto y) { return x * y; }, is_exact_product))
                 return *product;
             return run_of(a, b)->make({a, b}, [&](const auto& fp) {
                 return a.is_same(b) ? fp.square(a.set()) : fp.product(a.set(), b.set());
@@ -114,13 +117,24 @@ template <class A> class Worlds {
             result.of_factors_ = a.of_factors_;
             return result;
         }
-        /// The one float that an operation of two gives.
-        template <class Operation> static std::optional<Real> of_floats(Real a, Real b, const Operation& operation) {
+        // Both ways: of a large and a tiny one a double shows the error in one of them alone.
+        static bool is_exact_sum(double a, double b, double sum) { return sum - a == b && sum - b == a; }
+        static bool is_exact_difference(double a, double b, double difference) {
+            return is_exact_sum(a, -b, difference);
+        }
+        static bool is_exact_product(double a, double b, double product) { return a * b == product; }
+        /// The one float that an operation of two gives. `is_exact`: whether it rounds nothing, so that no order and no
+        /// fusing changes it.
+        template <class Operation> static std::optional<Real>
+        of_floats(Real a, Real b, const Operation& operation, bool (*is_exact)(double a, double b, double result)) {
             if (!a.is_float() || !b.is_float())
                 return {};
             Worlds* run = run_of(a, b);
             const auto result = static_cast<float>(operation(NumberOf<A>(a.point_), NumberOf<A>(b.point_)));
-            if (run != nullptr && !(run->known().sums && run->is_sure(result)))
+            const auto is_one = [&] {
+                return run->is_free_ ? is_exact(a.point_, b.point_, result) : run->known().sums;
+            };
+            if (run != nullptr && !(run->is_sure(result) && is_one()))
                 return {};
             return Real(run, result);
         }
@@ -235,23 +249,11 @@ template <class A> class Worlds {
     int to_int(At place, Real x) {
         if (next_answer_ < log_.size())
             return log_[next_answer_++];
-        constexpr int most_ways = 4;
         const Interval v = x.set();
         if (v.any || !(std::abs(v.low) < 0x1p30 && std::abs(v.high) < 0x1p30))
             throw Ends{v.any ? x.why() : Undefined::unbounded};
-        const int first = static_cast<int>(v.low), last = static_cast<int>(v.high);
-        if (last - first >= most_ways)
-            throw Ends{Undefined::unbounded};
-        log_.push_back(first);
-        ++next_answer_;
-        if (first != last) {
-            const double margin = std::min(std::abs(v.low - std::round(v.low)), std::abs(v.high - std::round(v.high)));
-            std::vector<int> ways;
-            for (int i = first; i <= last; ++i)
-                ways.push_back(i);
-            fork({{{{&place.site, margin * place.site.per_unit, place.where}}}}, std::move(ways));
-        }
-        return first;
+        const double margin = std::min(std::abs(v.low - std::round(v.low)), std::abs(v.high - std::round(v.high)));
+        return choose(place, static_cast<int>(v.low), static_cast<int>(v.high), margin);
     }
     // Where one float is known to come of floats, it needs no set.
     Real divide(At, Real a, Real b) {
@@ -276,7 +278,7 @@ template <class A> class Worlds {
         return by_reciprocal_.emplace_back(c, log_[next_answer_++] != 0).second;
     }
     Real sqrt(At, Real a) {
-        if (known().square_root && a.is_float())
+        if (known().square_root && !is_free_ && a.is_float())
             if (const float root = fp_.sqrt(a.point_); is_sure(root))
                 return Real(this, root);
         return make({a}, [&](const auto& fp) { return fp.square_root(a.set()); });
@@ -456,6 +458,43 @@ template <class A> class Worlds {
         OpenDecision border_{nullptr, HUGE_VAL, {}};
     };
 
+  protected:
+    [[nodiscard]] const KnownOperations& known() const { return arithmetic_.known(); }
+    /// Whether the operations from here on may be taken in another order, fused and computed twice: those of a text
+    /// without `precise`.
+    void set_free(bool is_free) {
+        is_free_ = is_free;
+        was_free_ = was_free_ || is_free;
+    }
+    /// Ends this run: from here on anything goes.
+    [[noreturn]] static void end(Undefined reason) { throw Ends{reason}; }
+    /// Each integer from first to last is a way, where these are few. `margin`: as of OpenDecision.
+    int choose(At place, int first, int last, double margin) {
+        constexpr int most_ways = 4;
+        if (next_answer_ < log_.size())
+            return log_[next_answer_++];
+        if (last - first >= most_ways)
+            throw Ends{Undefined::unbounded};
+        log_.push_back(first);
+        ++next_answer_;
+        if (first != last) {
+            std::vector<int> ways;
+            for (int i = first; i <= last; ++i)
+                ways.push_back(i);
+            fork({{{{&place.site, margin * place.site.per_unit, place.where}}}}, std::move(ways));
+        }
+        return first;
+    }
+    template <class Compute>
+    Real make(std::initializer_list<Real> operands, const Compute& compute, Undefined own = Undefined::not_a_number) {
+        const auto id = static_cast<std::uint32_t>(next_value_++);
+        if (values_.empty())
+            values_.reserve(128);
+        if (id == values_.size())
+            put(compute(arithmetic_of(operands)), operands, own);
+        return at(id);
+    }
+
   private:
     struct Value {
         Interval set;
@@ -482,7 +521,6 @@ template <class A> class Worlds {
         std::size_t taken, values, answers, trail;
     };
 
-    [[nodiscard]] const KnownOperations& known() const { return arithmetic_.known(); }
     /// Every NaN is one value where the arithmetic is the project's own; else GL leaves it open.
     static bool is_a_number(float result) { return flushes<A> || !std::isnan(result); }
     /// Whether an operation of floats that gives this gives nothing else: subnormals may be flushed.
@@ -494,7 +532,7 @@ template <class A> class Worlds {
     static glm::vec3 points(const Vec3& v) { return {v.x.point_, v.y.point_, v.z.point_}; }
 
     Real divided(Real a, Real b) {
-        if (known().divide && a.is_float() && b.is_float())
+        if (known().divide && !is_free_ && a.is_float() && b.is_float())
             if (const float quotient = fp_.divide(a.point_, b.point_); is_sure(quotient))
                 return Real(this, quotient);
         return make(
@@ -514,17 +552,10 @@ template <class A> class Worlds {
         return known;
     }
     [[nodiscard]] const LegalArithmetic<A>& arithmetic_of(std::initializer_list<Real> operands) const {
+        if (is_free_)
+            return free_order_;
         const auto is_point = [](const Real& x) { return x.set().is_point(); };
         return roots_by_tables_ && !std::all_of(operands.begin(), operands.end(), is_point) ? of_sets_ : arithmetic_;
-    }
-    template <class Compute>
-    Real make(std::initializer_list<Real> operands, const Compute& compute, Undefined own = Undefined::not_a_number) {
-        const auto id = static_cast<std::uint32_t>(next_value_++);
-        if (values_.empty())
-            values_.reserve(128);
-        if (id == values_.size())
-            put(compute(arithmetic_of(operands)), operands, own);
-        return at(id);
     }
     template <class Vector, class Compute>
     Vector make_all(const Vec3& operand, const Compute& compute, Undefined own = Undefined::not_a_number) {
@@ -634,7 +665,7 @@ template <class A> class Worlds {
 
     /// What an answer says of the operands. Not where + - * are free: what is not `precise` may be computed twice.
     void learn(const Question& question, bool answer) {
-        if (!known().sums)
+        if (!known().sums || was_free_)
             return;
         // Of "not all", or "any", only what is left when every other part is settled is known.
         const bool each = question.all == answer;
@@ -721,6 +752,7 @@ template <class A> class Worlds {
     LegalArithmetic<A> arithmetic_, free_order_; ///< as known, and with + - * in any order
     LegalArithmetic<A> of_sets_;                 ///< as known, but for roots and quotients
     bool roots_by_tables_ = false;
+    bool is_free_ = false, was_free_ = false;
     bool one_order_; ///< no others of sums in dot, length and normalize
     bool constant_divisors_open_ = false;
     std::vector<Told> told_;

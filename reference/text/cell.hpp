@@ -2,9 +2,11 @@
 #include <bit>
 #include <cmath>
 #include <cstdint>
+#include <map>
 
 #include "reference/plain_arithmetic.hpp"
 #include "reference/readings/values.hpp"
+#include "reference/text/invocation.hpp"
 
 namespace lockstep::text {
 
@@ -37,17 +39,23 @@ class TextValues : public Values<PlainArithmetic> {
     DotOrder length_, normalize_;
 };
 
-/// One scalar of one invocation. Of bits alone a word is enough; other readings have a number of theirs beside it.
-template <class R> struct Cell {
-    typename R::Real x{};
-    std::uint32_t w = 0;
-
-    [[nodiscard]] const typename R::Real& real() const { return x; }
-    [[nodiscard]] std::uint32_t word() const { return w; }
-    void set(const typename R::Real& number) { x = number; }
-    void set(std::uint32_t word) { w = word; }
+/// The reading of bits of an invocation whose every operation is noted (machine_trace.hpp).
+class TracedValues : public TextValues {
+  public:
+    using TextValues::TextValues;
 };
-template <> struct Cell<TextValues> {
+
+class TextWorlds;
+/// A reading whose numbers are sets.
+template <class R> inline constexpr bool has_sets = false;
+template <> inline constexpr bool has_sets<TextWorlds> = true;
+template <class R> inline constexpr bool is_traced = false;
+template <> inline constexpr bool is_traced<TracedValues> = true;
+/// Whether it runs one invocation again and again, and keeps what this writes beside memory, which stays as it is.
+template <class R> inline constexpr bool runs_apart = has_sets<R> || is_traced<R>;
+
+/// One scalar of one invocation. Of bits alone a word is enough; sets have a number of theirs beside it.
+template <class R> struct Cell {
     std::uint32_t w = 0;
 
     [[nodiscard]] float real() const { return std::bit_cast<float>(w); }
@@ -55,5 +63,19 @@ template <> struct Cell<TextValues> {
     void set(float number) { w = std::bit_cast<std::uint32_t>(number); }
     void set(std::uint32_t word) { w = word; }
 };
+template <class R>
+requires has_sets<R>
+struct Cell<R> {
+    typename R::Real x{};
+    std::uint32_t w = 0;
+    bool is_real = false; ///< of what was written: which of the two it is
+
+    [[nodiscard]] const typename R::Real& real() const { return x; }
+    [[nodiscard]] std::uint32_t word() const { return w; }
+    void set(const typename R::Real& number) { x = number; }
+    void set(std::uint32_t word) { w = word; }
+};
+
+template <class R> using WrittenWords = std::map<WrittenPlace, Cell<R>>;
 
 } // namespace lockstep::text

@@ -302,6 +302,7 @@ void Decoder::callee(const Function& of) {
 Step& Decoder::add(std::uint16_t op) {
     p_.steps.push_back({.op = op});
     p_.lines.push_back(line_);
+    p_.precise.push_back(0);
     maker_ = none;
     return p_.steps.back();
 }
@@ -311,6 +312,7 @@ Step& Decoder::made(std::uint16_t op, Words w) {
     Step& step = add(op);
     step.out = out;
     step.n = static_cast<std::uint16_t>(type(w[0]).cells);
+    p_.precise.back() = module_.ids[w[1]].is_precise ? 1 : 0;
     maker_ = w[1];
     return step;
 }

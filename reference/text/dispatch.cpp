@@ -82,13 +82,18 @@ void run_group(const Program& program, Memory& memory, std::span<const std::uniq
 
 } // namespace
 
+Invocation invocation_of(const Program& program, const std::array<std::uint32_t, 3>& groups, std::uint32_t number) {
+    const std::uint32_t size = program.invocations();
+    return {place_in(number / size, groups), place_in(number % size, program.group), number};
+}
+
 void run_dispatch(const Program& program, const Dispatch& dispatch, const Bindings& bindings, const Profile& profile,
                   Findings& findings) {
     const FlushSubnormals guard{profile.compute_flush_subnormals,
                                 profile.compute_flush_results.value_or(profile.compute_flush_subnormals)};
     TextValues values(profile);
     Races races(findings);
-    Memory memory(program, bindings, findings, dispatch.is_watched ? &races : nullptr);
+    Memory memory(program, bindings, findings, dispatch.is_watched ? &races : nullptr, dispatch.writers);
     // Groups that are watched are told apart.
     const bool is_joint = program.barriers > 0 || program.shared > 0 || dispatch.is_watched;
     const std::uint32_t size = program.invocations();

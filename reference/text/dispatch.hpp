@@ -4,6 +4,7 @@
 #include <functional>
 
 #include "reference/model/profile.hpp"
+#include "reference/text/invocation.hpp"
 #include "reference/text/memory.hpp"
 
 namespace lockstep::text {
@@ -16,7 +17,11 @@ struct Dispatch {
     std::function<bool(const std::array<std::uint32_t, 3>& group)> wants = {};
     bool is_watched = false;
     std::uint32_t most_branches = 50'000'000;
+    Writers* writers = nullptr; ///< is told who wrote each word; null: nobody asks
 };
+
+/// An invocation by its number in a dispatch of so many groups.
+Invocation invocation_of(const Program& program, const std::array<std::uint32_t, 3>& groups, std::uint32_t number);
 
 /// Runs a dispatch in plain bits, group after group, with the arithmetic that was measured of a driver's compute stage.
 /// What blocks and images are bound to is read and written. A group whose invocations do not all come to one barrier

@@ -18,6 +18,8 @@ template <class R, int W> typename R::Real Machine<R, W>::sum_of_products(const 
                                                                           std::uint32_t n, Lane l) {
     const auto x = [&](std::uint32_t c) { return cell(a + c)[l].real(); };
     const auto y = [&](std::uint32_t c) { return cell(b + c)[l].real(); };
+    if constexpr (has_sets<R>) // `precise` orders no built-in function
+        r.set_free(true);
     // Measured of three components; of others, what the same rule gives.
     if (n == 1)
         return x(0) * y(0);
@@ -33,6 +35,29 @@ template <class R, int W> typename R::Real Machine<R, W>::sum_of_products(const 
     if (n > 2 && order != DotOrder::fused_chain && order != DotOrder::left_to_right)
         refuse(s, fmt::format("the profile's order of dot is not known of {} components", n));
     return sum;
+}
+
+template <class R, int W> typename R::Real Machine<R, W>::rounded(const Real& v, Rounds how) {
+    const auto of = [how](float x) {
+        switch (how) {
+        case Rounds::to_zero:
+            return std::trunc(x);
+        case Rounds::up:
+            return std::ceil(x);
+        case Rounds::to_sign:
+            return x > 0.0F ? 1.0F : x < 0.0F ? -1.0F : 0.0F;
+        default:
+            return std::nearbyint(x);
+        }
+    };
+    // Half of an odd number goes either way by round() (GLSL 4.60, 8.3).
+    if constexpr (has_sets<R>)
+        return how == Rounds::to_either
+                   ? r.whole_of(
+                         v, [](float x) { return std::ceil(x - 0.5F); }, [](float x) { return std::floor(x + 0.5F); })
+                   : r.whole_of(v, of, of);
+    else
+        return r.monotone(v, of);
 }
 
 template <class R, int W> void Machine<R, W>::geometric_function(const Step& s) {
@@ -113,13 +138,14 @@ template <class R, int W> void Machine<R, W>::geometric_function(const Step& s) 
     }
 }
 
-/// determinant and inverse, by cofactors in double: GLSL gives neither a precision.
+/// determinant and inverse, by cofactors, of bits in double: GLSL gives neither a precision.
 template <class R, int W> void Machine<R, W>::matrix_function(const Step& s) {
     const auto function = s.op - code::extended;
     if (function != GLSLstd450Determinant && function != GLSLstd450MatrixInverse)
         return packing_function(s);
     const std::uint32_t n = s.d == 16 ? 4 : s.d == 9 ? 3 : 2;
-    using Square = std::array<std::array<double, 4>, 4>;
+    using Number = std::conditional_t<has_sets<R>, Real, double>;
+    using Square = std::array<std::array<Number, 4>, 4>;
     const auto minor = [](const Square& m, std::uint32_t size, std::uint32_t column, std::uint32_t row) {
         Square part{};
         for (std::uint32_t c = 0, to = 0; c < size; ++c)
@@ -131,29 +157,36 @@ template <class R, int W> void Machine<R, W>::matrix_function(const Step& s) {
             }
         return part;
     };
-    const auto determinant = [&](const auto& self, const Square& m, std::uint32_t size) -> double {
+    const auto determinant = [&](const auto& self, const Square& m, std::uint32_t size) -> Number {
         if (size == 1)
             return m[0][0];
-        double sum = 0.0;
-        for (std::uint32_t c = 0; c < size; ++c)
-            sum += (c % 2 == 0 ? 1.0 : -1.0) * m[c][0] * self(self, minor(m, size, c, 0), size - 1);
+        Number sum{};
+        for (std::uint32_t c = 0; c < size; ++c) {
+            const Number term = m[c][0] * self(self, minor(m, size, c, 0), size - 1);
+            sum = c == 0 ? term : c % 2 == 0 ? sum + term : sum - term;
+        }
         return sum;
+    };
+    const auto quotient = [&](const Number& a, const Number& b) {
+        if constexpr (has_sets<R>)
+            return r.divide(in_text, a, b);
+        else
+            return static_cast<Real>(a / b);
     };
     active([&](Lane l) {
         Square m{};
         for (std::uint32_t c = 0; c < n; ++c)
             for (std::uint32_t k = 0; k < n; ++k)
-                m[c][k] = double{static_cast<float>(cell(s.a + c * n + k)[l].real())};
-        const double whole = determinant(determinant, m, n);
+                m[c][k] = Number(cell(s.a + c * n + k)[l].real());
+        const Number whole = determinant(determinant, m, n);
         if (function == GLSLstd450Determinant) {
-            cell(s.out)[l].set(Real(static_cast<float>(whole)));
+            cell(s.out)[l].set(static_cast<Real>(whole));
             return;
         }
         for (std::uint32_t c = 0; c < n; ++c)
             for (std::uint32_t k = 0; k < n; ++k) {
-                const double cofactor = determinant(determinant, minor(m, n, k, c), n - 1);
-                cell(s.out + c * n + k)[l].set(
-                    Real(static_cast<float>(((c + k) % 2 == 0 ? cofactor : -cofactor) / whole)));
+                const Number cofactor = determinant(determinant, minor(m, n, k, c), n - 1);
+                cell(s.out + c * n + k)[l].set(quotient((c + k) % 2 == 0 ? cofactor : -cofactor, whole));
             }
     });
 }
@@ -217,20 +250,23 @@ template <class R, int W> void Machine<R, W>::packing_function(const Step& s) {
         for (std::uint32_t k = 0; k < format.parts; ++k) {
             const std::uint32_t shift = k * format.bits;
             if (format.packs) {
-                const float x = static_cast<float>(cell(s.a + k)[l].real());
-                const std::uint32_t part =
-                    format.is_half ? half_bits(x)
-                                   : static_cast<std::uint32_t>(static_cast<std::int32_t>(std::nearbyint(
-                                         std::fmin(std::fmax(x, format.is_signed ? -1.0F : 0.0F), 1.0F) * most)));
+                const auto whole_part = [&](const Real& x) {
+                    const Real in_range = r.min(r.max(x, Real(format.is_signed ? -1.0F : 0.0F)), Real(1.0F));
+                    return static_cast<std::uint32_t>(
+                        static_cast<std::int32_t>(number(rounded(in_range * Real(most), Rounds::to_nearest))));
+                };
+                const Real x = cell(s.a + k)[l].real();
+                const std::uint32_t part = format.is_half ? half_bits(number(x)) : whole_part(x);
                 packed |= (part & mask) << shift;
                 continue;
             }
             const std::uint32_t part = packed >> shift & mask;
             const bool is_negative = format.is_signed && (part >> (format.bits - 1U)) != 0;
             const auto whole = static_cast<float>(static_cast<std::int32_t>(is_negative ? part | ~mask : part));
-            cell(s.out + k)[l].set(Real(format.is_half     ? half_value(part)
-                                        : format.is_signed ? std::fmax(whole / most, -1.0F)
-                                                           : whole / most));
+            if (format.is_half)
+                cell(s.out + k)[l].set(Real(half_value(part)));
+            else
+                cell(s.out + k)[l].set(r.max(r.divide(in_text, Real(whole), Real(most)), Real(-1.0F)));
         }
         if (format.packs)
             cell(s.out)[l].set(packed);
@@ -276,32 +312,46 @@ template <class R, int W> void Machine<R, W>::integer_function(const Step& s) {
 
 template <class R, int W> void Machine<R, W>::extended(const Step& s) {
     const Real zero(0.0F), one(1.0F);
+    const auto function = static_cast<GLSLstd450>(s.op - code::extended);
+    if constexpr (has_sets<R>) {
+        const bool is_measured = function == GLSLstd450Sqrt || function == GLSLstd450InverseSqrt ||
+                                 (s.d == 3 && (function == GLSLstd450Length || function == GLSLstd450Distance ||
+                                               function == GLSLstd450Normalize));
+        r.set_free(!is_measured);
+    }
     // The nearest float of what GLSL gives a precision, or none.
     const auto nearest = [&](double (*f)(double)) {
-        real1(s, [&](const Real& v) { return Real(static_cast<float>(f(double{static_cast<float>(v)}))); });
+        real1(s, [&](const Real& v) {
+            if constexpr (has_sets<R>)
+                return r.function(function, v);
+            else
+                return Real(static_cast<float>(f(double{v})));
+        });
     };
     const auto nearest2 = [&](double (*f)(double, double)) {
         real2(s, [&](const Real& a, const Real& b) {
-            return Real(static_cast<float>(f(double{static_cast<float>(a)}, double{static_cast<float>(b)})));
+            if constexpr (has_sets<R>)
+                return r.function(function, a, b);
+            else
+                return Real(static_cast<float>(f(double{a}, double{b})));
         });
     };
     const auto clamped = [&](const Real& v, const Real& low, const Real& high) { return r.min(r.max(v, low), high); };
-    switch (s.op - code::extended) {
+    switch (function) {
     case GLSLstd450Round:
+        return real1(s, [&](const Real& v) { return rounded(v, Rounds::to_either); });
     case GLSLstd450RoundEven:
-        return real1(s, [&](const Real& v) { return r.monotone(v, [](float x) { return std::nearbyint(x); }); });
+        return real1(s, [&](const Real& v) { return rounded(v, Rounds::to_nearest); });
     case GLSLstd450Trunc:
-        return real1(s, [&](const Real& v) { return r.monotone(v, [](float x) { return std::trunc(x); }); });
+        return real1(s, [&](const Real& v) { return rounded(v, Rounds::to_zero); });
     case GLSLstd450FAbs:
         return real1(s, [&](const Real& v) { return r.abs(v); });
     case GLSLstd450FSign:
-        return real1(s, [&](const Real& v) {
-            return r.monotone(v, [](float x) { return x > 0.0F ? 1.0F : x < 0.0F ? -1.0F : 0.0F; });
-        });
+        return real1(s, [&](const Real& v) { return rounded(v, Rounds::to_sign); });
     case GLSLstd450Floor:
         return real1(s, [&](const Real& v) { return r.floor(v); });
     case GLSLstd450Ceil:
-        return real1(s, [&](const Real& v) { return r.monotone(v, [](float x) { return std::ceil(x); }); });
+        return real1(s, [&](const Real& v) { return rounded(v, Rounds::up); });
     case GLSLstd450Fract:
         return real1(s, [&](const Real& v) { return v - r.floor(v); });
     case GLSLstd450Radians:

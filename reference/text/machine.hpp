@@ -10,16 +10,12 @@
 
 #include "reference/model/error.hpp"
 #include "reference/text/cell.hpp"
+#include "reference/text/invocation.hpp"
 #include "reference/text/memory.hpp"
 #include "reference/text/program.hpp"
+#include "reference/text/trace.hpp"
 
 namespace lockstep::text {
-
-/// An invocation's place in its dispatch.
-struct Invocation {
-    std::array<std::uint32_t, 3> group{}, local{};
-    std::uint32_t number = 0; ///< group by group, local index after local index
-};
 
 /// Runs W invocations of a program at once in a reading. Those at one step take it together, each operation a loop over
 /// them; where branches part them, those at the earliest step go on first, so that they meet again where the text's
@@ -46,6 +42,17 @@ template <class R, int W> class Machine {
                      program.uniforms[u].is_real);
     }
 
+    /// Of a reading that runs one invocation apart: where it puts what is written. `sites`: of sets, each step's.
+    void keep(WrittenWords<R>& written, std::span<const Site* const> sites = {}) {
+        written_ = &written;
+        sites_ = sites;
+    }
+    /// Of a traced reading: where it puts what it notes, and the rows that get other bits than they were made with.
+    void note_into(Trace& trace, std::span<const ForcedRow> forced) {
+        noted_ = &trace;
+        forced_ = forced;
+        made_by_.assign(cells_.size(), 0);
+    }
     /// At most W.
     void start(std::span<const Invocation> invocations);
     /// Until each has ended, or waits at a barrier.
@@ -83,9 +90,16 @@ template <class R, int W> class Machine {
     }
     static void set_word(C& to, std::uint32_t word, bool is_real) {
         to.set(word);
-        if constexpr (!std::is_same_v<R, TextValues>)
+        if constexpr (has_sets<R>)
             if (is_real)
                 to.set(Real(std::bit_cast<float>(word)));
+    }
+    /// The float that a number is; of a set, one of its own run for each.
+    float number(const Real& x) {
+        if constexpr (has_sets<R>)
+            return r.one_of(x);
+        else
+            return x;
     }
 
     /// Calls f(l) for each lane at this step. Where no other lane will need its cells again, for all: a loop of a
@@ -136,8 +150,12 @@ template <class R, int W> class Machine {
     void need_outputs(const Step& s, Lane l);
     void differ(const Step& s);
 
-    // Memory: machine_memory.hpp.
+    // Memory: machine_memory.hpp; of an invocation that is run apart: machine_apart.hpp.
     void memory(const Step& s);
+    bool memory_apart(const Step& s);
+    // What becomes of what, of a traced reading: machine_trace.hpp.
+    void note_operands(const Step& s);
+    void note_results();
     void atomic(const Step& s);
     std::uint32_t changed(const Step& s, std::uint32_t before, Lane l);
     std::array<std::int32_t, 3> texel_place(std::uint32_t first, std::uint32_t count, Lane l);
@@ -152,6 +170,8 @@ template <class R, int W> class Machine {
     void geometric_function(const Step& s);
     void packing_function(const Step& s);
     void matrix_function(const Step& s);
+    enum class Rounds : std::uint8_t { to_nearest, to_either, to_zero, up, to_sign };
+    Real rounded(const Real& v, Rounds how); ///< to an integer
     /// out = f(operands), component by component.
     template <class F> void real1(const Step& s, const F& f);
     template <class F> void real2(const Step& s, const F& f);
@@ -188,6 +208,18 @@ template <class R, int W> class Machine {
     std::array<std::vector<std::uint32_t>, W> ends_;
     std::array<std::uint32_t, W> vertices_{};
     std::array<std::uint8_t, W> is_discarded_{};
+    WrittenWords<R>* written_ = nullptr;
+    Trace* noted_ = nullptr;
+    std::span<const ForcedRow> forced_;
+    struct PendingRow {
+        TraceRow row;
+        std::uint32_t cell = 0;
+        bool is_result = true;
+    };
+    std::vector<PendingRow> pending_;
+    std::vector<std::pair<std::uint32_t, std::uint32_t>> moves_; ///< cells and who made what is moved there
+    std::vector<std::uint32_t> made_by_, moved_made_by_; ///< of a traced reading, the row of each cell and 1; 0: none
+    std::span<const Site* const> sites_;
 };
 
 template <class R, int W> void Machine<R, W>::start(std::span<const Invocation> invocations) {
@@ -201,6 +233,11 @@ template <class R, int W> void Machine<R, W>::start(std::span<const Invocation> 
         if (is_watched())
             std::fill_n(unset(one.cell), W, Unset{});
     }
+    if constexpr (has_sets<R>)
+        if (r.has_wide_constants())
+            for (const CellWord& one : p_.constants)
+                if (one.is_real)
+                    cell(one.cell)->set(r.before_rounding(std::bit_cast<float>(one.word)));
     for (const auto& [builtin, first] : p_.inputs)
         for (std::uint32_t l = 0; l < lanes_; ++l) {
             const Invocation& of = invocations_[l];
@@ -237,7 +274,11 @@ template <class R, int W> void Machine<R, W>::run() {
     gather();
     while (count_ > 0) {
         const Step& s = p_.steps[at_++];
-        if (is_watched()) {
+        if constexpr (has_sets<R>)
+            r.set_place(*sites_[at_ - 1], p_.precise[at_ - 1] != 0);
+        else if constexpr (is_traced<R>)
+            note_operands(s);
+        else if (is_watched()) {
             follow(s);
             check(s);
         }
@@ -251,6 +292,8 @@ template <class R, int W> void Machine<R, W>::run() {
             flow(s);
         else
             stage(s);
+        if constexpr (is_traced<R>)
+            note_results();
     }
 }
 

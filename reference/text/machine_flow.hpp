@@ -57,6 +57,7 @@ template <class R, int W> void Machine<R, W>::take_from_blocks(const Step& s) {
     const std::span<const Step> all(&s, s.b + 1U);
     moved_.clear();
     moved_unset_.clear();
+    moved_made_by_.clear();
     active([&](Lane l) {
         for (const Step& phi : all)
             for (std::uint32_t k = 0; k < phi.a; ++k)
@@ -65,6 +66,8 @@ template <class R, int W> void Machine<R, W>::take_from_blocks(const Step& s) {
                         moved_.push_back(cell(p_.operands[phi.d + 2 * k + 1] + c)[l]);
                         if (is_watched())
                             moved_unset_.push_back(unset(p_.operands[phi.d + 2 * k + 1] + c)[l]);
+                        if constexpr (is_traced<R>)
+                            moved_made_by_.push_back(made_by_[p_.operands[phi.d + 2 * k + 1] + c]);
                     }
                     break;
                 }
@@ -76,6 +79,8 @@ template <class R, int W> void Machine<R, W>::take_from_blocks(const Step& s) {
                 cell(phi.out + c)[l] = moved_[next];
                 if (is_watched())
                     unset(phi.out + c)[l] = moved_unset_[next];
+                if constexpr (is_traced<R>)
+                    made_by_[phi.out + c] = moved_made_by_[next];
             }
     });
     at_ += s.b;

@@ -1,4 +1,6 @@
 #pragma once
+#include <bit>
+
 #include "reference/text/machine_checks.hpp"
 
 /// Copies, loads, stores, atomics and images of Machine.
@@ -68,6 +70,9 @@ template <class R, int W> void Machine<R, W>::atomic(const Step& s) {
 }
 
 template <class R, int W> void Machine<R, W>::memory(const Step& s) {
+    if constexpr (runs_apart<R>)
+        if (memory_apart(s))
+            return;
     switch (s.op) {
     case code::copy:
         for (std::uint32_t c = 0; c < s.n; ++c) {
@@ -135,7 +140,8 @@ template <class R, int W> void Machine<R, W>::memory(const Step& s) {
             const C* const from = cell(s.c + c);
             const Leaf leaf = p_.leaves[s.d + c];
             const C* const offset = cell(s.b);
-            const std::span<std::uint32_t> words = is_watched() ? std::span<std::uint32_t>() : memory_.words(s.a);
+            const std::span<std::uint32_t> words =
+                is_watched() || memory_.notes_writers() ? std::span<std::uint32_t>() : memory_.words(s.a);
             active([&](Lane l) {
                 const std::uint32_t at = offset[l].word() + leaf.word;
                 if (at < words.size())
@@ -191,18 +197,24 @@ template <class R, int W> void Machine<R, W>::memory(const Step& s) {
         active([&](Lane l) {
             std::array<float, 3> place{};
             for (std::uint32_t c = 0; c < s.c && c < place.size(); ++c)
-                place[c] = static_cast<float>(cell(s.b + c)[l].real());
+                place[c] = number(cell(s.b + c)[l].real());
             const Memory::Texel texel = memory_.sample(cell(s.a)[l].word(), place, s.c);
             for (std::uint32_t c = 0; c < s.n; ++c)
                 cell(s.out + c)[l].set(texel[c]);
         });
         break;
     case code::real_bits:
+        for (std::uint32_t c = 0; c < s.n; ++c) {
+            C* const out = cell(s.out + c);
+            const C* const a = cell(s.a + c);
+            each([&](Lane l) { out[l].set(std::bit_cast<std::uint32_t>(number(a[l].real()))); });
+        }
+        break;
     case code::bits_as_real:
         for (std::uint32_t c = 0; c < s.n; ++c) {
             C* const out = cell(s.out + c);
             const C* const a = cell(s.a + c);
-            each([&](Lane l) { out[l] = a[l]; });
+            each([&](Lane l) { out[l].set(r.uniform(in_text, std::bit_cast<float>(a[l].word()))); });
         }
         break;
     default:

@@ -108,6 +108,8 @@ template <class R, int W> void Machine<R, W>::vector_operation(const Step& s) {
         break;
     case spv::OpDot: {
         C* const out = cell(s.out);
+        if constexpr (has_sets<R>) // as it was measured
+            r.set_free(false);
         each([&](Lane l) {
             if (s.d == 3)
                 out[l].set(r.dot(in_text, vec3(s.a, l), vec3(s.b, l)));
@@ -358,7 +360,7 @@ template <class R, int W> void Machine<R, W>::operation(const Step& s) {
     case spv::OpIsInf:
         for (std::uint32_t c = 0; c < s.n; ++c)
             active([&](Lane l) {
-                const float x = static_cast<float>(cell(s.a + c)[l].real());
+                const float x = number(cell(s.a + c)[l].real());
                 cell(s.out + c)[l].set((s.op == spv::OpIsNan ? std::isnan(x) : std::isinf(x)) ? 1U : 0U);
             });
         break;

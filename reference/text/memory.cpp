@@ -32,9 +32,15 @@ std::uint32_t unorm8(float x) {
 
 } // namespace
 
-Memory::Memory(const Program& program, const Bindings& bindings, Findings& findings, Races* races)
-    : program_(program), bindings_(bindings), findings_(findings), races_(races), shared_(program.shared),
-      unset_(races != nullptr ? program.shared : 0) {
+Memory::Memory(const Program& program, const Bindings& bindings, Findings& findings, Races* races, Writers* writers)
+    : program_(program), bindings_(bindings), findings_(findings), races_(races), writers_(writers),
+      shared_(program.shared), unset_(races != nullptr ? program.shared : 0) {
+    if (writers != nullptr) {
+        for (const std::span<std::uint32_t>& words : bindings.blocks)
+            writers->blocks.emplace_back(words.size());
+        for (const TexelMemory& image : bindings.images)
+            writers->images.emplace_back(image.words.size());
+    }
     for (const std::span<std::uint32_t>& words : bindings.blocks)
         buffer_of_.push_back(static_cast<std::uint32_t>(
             std::ranges::find(bindings.blocks, words.data(), [](const auto& one) { return one.data(); }) -
@@ -158,6 +164,10 @@ void Memory::put_texel(std::uint32_t number, const std::array<std::int32_t, 3>& 
 void Memory::store_texel(std::uint32_t number, const std::array<std::int32_t, 3>& at, const Texel& texel, Place by) {
     touch_texel(number, at, Races::How::write, by);
     put_texel(number, at, texel);
+    const TexelMemory& image = bindings_.images[number];
+    if (writers_ != nullptr && is_inside(image, at))
+        std::fill_n(writers_->images[number].begin() + static_cast<std::ptrdiff_t>(first_word(image, at)),
+                    image.components, by.invocation + 1);
 }
 
 } // namespace lockstep::text

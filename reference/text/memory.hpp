@@ -32,6 +32,11 @@ struct TexelMemory {
     std::span<std::uint32_t> words = {};
 };
 
+/// Who wrote last, of each word of blocks and of each word of images; 0: nobody, else the invocation's number and 1.
+struct Writers {
+    std::vector<std::vector<std::uint32_t>> blocks, images;
+};
+
 /// What lies outside of invocations, by number in the program.
 struct Bindings {
     std::vector<std::span<std::uint32_t>> blocks;
@@ -43,8 +48,9 @@ struct Bindings {
 /// it reads as 0 and is not written (GL 4.6, 6.4, with robust access), and is a finding.
 class Memory {
   public:
-    /// `races`: is shown all that is touched; null: nobody looks.
-    Memory(const Program& program, const Bindings& bindings, Findings& findings, Races* races);
+    /// `races`: is shown all that is touched; null: nobody looks. `writers`: likewise.
+    Memory(const Program& program, const Bindings& bindings, Findings& findings, Races* races,
+           Writers* writers = nullptr);
 
     void start_group(std::uint32_t number) {
         std::fill(shared_.begin(), shared_.end(), 0U);
@@ -56,6 +62,7 @@ class Memory {
     [[nodiscard]] bool is_unset(std::uint32_t word) const { return word < unset_.size() && unset_[word] != 0; }
     [[nodiscard]] Findings& findings() { return findings_; }
     [[nodiscard]] Races* races() { return races_; }
+    [[nodiscard]] bool notes_writers() const { return writers_ != nullptr; }
 
     /// A block's words, for who looks at what it touches by itself.
     [[nodiscard]] std::span<std::uint32_t> words(std::uint32_t block) const { return bindings_.blocks[block]; }
@@ -67,10 +74,13 @@ class Memory {
     void store_block(std::uint32_t block, std::uint32_t word, std::uint32_t value, Place by) {
         const std::span<std::uint32_t> words = bindings_.blocks[block];
         touch_block(block, word, Races::How::write, by);
-        if (word < words.size())
-            words[word] = value;
-        else
+        if (word >= words.size()) {
             outside_block(block, word, by);
+            return;
+        }
+        words[word] = value;
+        if (writers_ != nullptr)
+            writers_->blocks[block][word] = by.invocation + 1;
     }
     [[nodiscard]] std::uint32_t load_shared(std::uint32_t word, Place by) {
         touch_shared(word, Races::How::read, by);
@@ -147,6 +157,7 @@ class Memory {
     const Bindings& bindings_;
     Findings& findings_;
     Races* races_;
+    Writers* writers_;
     std::vector<std::uint32_t> shared_;
     std::vector<std::uint8_t> unset_;      ///< of shared words
     std::vector<std::uint32_t> buffer_of_; ///< of each block: the first that is bound to the same words

@@ -133,6 +133,7 @@ struct CellWord {
 struct Program {
     std::vector<Step> steps;
     std::vector<std::uint32_t> lines;    ///< of each step
+    std::vector<std::uint8_t> precise;   ///< of each step: nothing fuses or reorders it (NoContraction)
     std::vector<std::uint32_t> operands; ///< further ones of steps
     std::vector<Leaf> leaves;
     std::uint32_t cells = 0, shared = 0;         ///< how many

@@ -6,6 +6,7 @@
 #include <iterator>
 #include <sstream>
 #include <string>
+#include <tuple>
 #include <vector>
 
 #include <catch2/catch.hpp>
@@ -170,8 +171,6 @@ TEST_CASE("function: what cannot be run is one line that says what would be righ
     CHECK_THAT(of_table(replaced(walls, "-4", "-4.0.0")),
                Contains("walls.csv:4: column velocity.y: '-4.0.0' is no float; right is 0.25"));
     CHECK_THAT(of_table("velocity.x\n"), Contains("walls.csv: it has no rows; right is"));
-    CHECK_THAT(of_table("velocity.x,velocity.y,velocity.z,n.x,n.y,n.z\n1,2,3,4,5,6\n"),
-               Contains("walls.csv has no column result; right is one, or --like FILE"));
     CHECK_THAT(of_table(R"([{"velocity": [1, 2], "n": [1, 2, 3], "result": [1, 2, 3]}])", "walls.json"),
                Contains("walls.json: /0/velocity: velocity is a vec3; right is an array of 3 numbers"));
     CHECK_THAT(of_table(R"([{"velocity": [1, 2, 3], "m": [1, 2, 3], "result": [1, 2, 3]}])", "walls.json"),
@@ -456,4 +455,101 @@ TEST_CASE("function: a row that rests on an operand without a result is UNDEFINE
     const Outcome both = run("kept", "n, result\n32, 7\n1, 15\n");
     CHECK(both.status == 1);
     CHECK_THAT(both.out, Contains("DIVERGENT") && Contains("UNDEFINED: 1 of 2 rows"));
+}
+
+TEST_CASE("function: what its own text leaves open is legal, a slip is not") {
+    if (!have_software_gl())
+        return;
+    const Setting setting;
+    const std::string fresnel = "float fresnel(float c) { return 0.04 + 0.96 * pow(1.0 - c, 5.0); }\n";
+    const std::string hue = "vec3 rgb(vec3 c) {\n"
+                            "    vec3 p = abs(fract(c.xxx + vec3(1.0, 2.0 / 3.0, 1.0 / 3.0)) * 6.0 - vec3(3.0));\n"
+                            "    return c.z * mix(vec3(1.0), clamp(p - vec3(1.0), 0.0, 1.0), c.y);\n"
+                            "}\n";
+    std::string cosines = "c, result\n", colours = "c.x, c.y, c.z, result.x, result.y, result.z\n";
+    for (int i = 0; i < 60; ++i) {
+        const float c = static_cast<float>(i) / 60.0F;
+        cosines += fmt::format("{}, {}\n", c, static_cast<float>(0.04 + 0.96 * std::pow(1.0 - double{c}, 5.0)));
+        const float h = static_cast<float>(i) * 0.0167F, saturation = 0.3F + 0.01F * static_cast<float>(i), v = 0.9F;
+        colours += fmt::format("{}, {}, {}", h, saturation, v);
+        for (const double third : {1.0, 2.0 / 3.0, 1.0 / 3.0}) {
+            const double turned = double{h} + third, part = std::abs((turned - std::floor(turned)) * 6.0 - 3.0);
+            const double tone = std::clamp(part - 1.0, 0.0, 1.0);
+            colours += fmt::format(", {}", static_cast<float>(double{v} * (1.0 + (tone - 1.0) * double{saturation})));
+        }
+        colours += "\n";
+    }
+    const auto run = [&](const std::string& text, const std::string& name, const std::string& table,
+                         const std::vector<std::string>& more = {}) {
+        return run_lockstep(joined({"function", setting.file("open.glsl", text), name, "--table",
+                                    setting.file("open.csv", table), "--gl", software_gl()},
+                                   more));
+    };
+    for (const auto& [text, name, table] : {std::tuple(fresnel, "fresnel", cosines), std::tuple(hue, "rgb", colours)}) {
+        const Outcome right = run(text, name, table);
+        INFO(right.out << right.err);
+        CHECK(right.status == 0);
+        CHECK_THAT(right.out, Contains("verdict   LEGAL") || Contains("verdict   AGREE"));
+    }
+    for (const auto& [what, by] :
+         {std::pair("0.96", "0.95"), std::pair("5.0", "4.0"), std::pair("1.0 - c", "1.0 - c * 0.999")}) {
+        const Outcome wrong = run(replaced(fresnel, what, by), "fresnel", cosines);
+        INFO(wrong.out << wrong.err);
+        CHECK(wrong.status == 1);
+        CHECK_THAT(wrong.out, Contains("verdict   DIVERGENT") && Contains("open.csv:"));
+    }
+    for (const auto& [what, by] : {std::pair("2.0 / 3.0, 1.0 / 3.0", "1.0 / 3.0, 2.0 / 3.0"),
+                                   std::pair("c.y)", "c.y * 0.999)"), std::pair("* 6.0", "* 5.99")}) {
+        const Outcome wrong = run(replaced(hue, what, by), "rgb", colours);
+        CHECK(wrong.status == 1);
+        CHECK_THAT(wrong.out, Contains("verdict   DIVERGENT"));
+    }
+    const Outcome precise = run("float fresnel(float c) { precise float y = 0.04 + 0.96 * c; return y; }\n", "fresnel",
+                                "c, result\n0.3, 0.32800004\n");
+    CHECK(precise.status == 1); // the float beside the only right one
+    const Outcome free =
+        run("float fresnel(float c) { return 0.04 + 0.96 * c; }\n", "fresnel", "c, result\n0.3, 0.32800004\n");
+    INFO(free.out << free.err);
+    CHECK(free.status == 0);
+}
+
+TEST_CASE("function: without results it is held against its own text, and the report says what that does not prove") {
+    if (!have_software_gl())
+        return;
+    const Setting setting;
+    const std::string table =
+        setting.file("rows.csv", "velocity.x,velocity.y,velocity.z,n.x,n.y,n.z\n1.1,-2.3,0.7,0.6,0.8,0\n");
+    const Outcome alone = setting.run(table);
+    INFO(alone.out << alone.err);
+    CHECK(alone.status == 0);
+    CHECK_THAT(alone.out, Contains("verdict   AGREE") && Contains("its own text, which says nothing about whether"));
+    const std::string image = setting.file(
+        "image.glsl",
+        "uniform sampler2D u_Image;\nfloat texel(int x) { return texelFetch(u_Image, ivec2(x, 0), 0).x; }\n");
+    CHECK_THAT(refusal(run_lockstep(
+                   {"function", image, "texel", "--table", setting.file("x.csv", "x\n1\n"), "--gl", software_gl()})),
+               Contains("image.glsl") && Contains("is not interpreted"));
+}
+
+TEST_CASE("function: a port without precise is legal beside its original, as either may round") {
+    if (!have_software_gl())
+        return;
+    const Setting setting;
+    std::string rows = "n.x,n.y,n.z,velocity.x,velocity.y,velocity.z\n";
+    for (int i = 0; i < 60; ++i)
+        rows += fmt::format("{},{},{},{},{},{}\n", std::sin(i), std::cos(i), 0.3, std::sin(7 * i), std::cos(3 * i),
+                            std::sin(2 * i));
+    const std::string table = setting.file("rows.csv", rows);
+    const std::string plain = "uniform float u_Kept;\nvec3 bounce(vec3 velocity, vec3 n) {\n"
+                              "    return velocity - ((1.0 + u_Kept) * n) * dot(n, velocity);\n}\n";
+    const Outcome legal = run_lockstep({"function", setting.file("plain.glsl", plain), "bounce", "--table", table,
+                                        "--like", setting.shader, "--uniform", "u_Kept=0.5", "--gl", software_gl()});
+    INFO(legal.out << legal.err);
+    CHECK(legal.status == 0);
+    CHECK_THAT(legal.out, Contains("verdict   LEGAL"));
+    const Outcome wrong = run_lockstep(
+        {"function", setting.file("wrong.glsl", replaced(plain, "1.0 + u_Kept", "1.0 + u_Kept * 0.9999")), "bounce",
+         "--table", table, "--like", setting.shader, "--uniform", "u_Kept=0.5", "--gl", software_gl()});
+    CHECK(wrong.status == 1);
+    CHECK_THAT(wrong.out, Contains("verdict   DIVERGENT"));
 }

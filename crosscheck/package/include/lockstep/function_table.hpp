@@ -7,6 +7,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <filesystem>
+#include <functional>
 #include <optional>
 #include <string>
 #include <vector>
@@ -34,6 +35,27 @@ struct FunctionRows {
 /// Error with FILE:LINE, or the place in the JSON, and what would be right.
 FunctionRows read_function_rows(const GlslFunction& function, const std::filesystem::path& file);
 
+/// How a function's text is taken beside the bits of a GPU, where it is held against another.
+struct TextTaken {
+    bool as_written = false;   ///< constants are the numbers that they were written as, not the nearest floats
+    bool in_any_order = false; ///< sums and products, in spite of `precise`
+};
+/// Of a row, the results that a function may legally return, each with all components.
+using OpenResults = std::function<std::vector<ItemOutcome>(std::size_t row, const TextTaken& taken)>;
+
+/// What is expected of a function.
+struct ExpectedResults {
+    std::vector<std::uint32_t> words; ///< row after row
+    std::string from;                 ///< "results of the table"
+    OpenResults own = {};             ///< what the function's text leaves open; empty: nothing is known of it
+    OpenResults expected = {};        ///< what is left open where `words` come from; empty: each is one number
+};
+
+/// Runs the function on every row. Right is the expected word. Where `own` can be what is expected, each of `own` is
+/// legal, too.
+MatchResult match_function(const Gl& gl, const GlslFunction& function, const FunctionRows& rows,
+                           ExpectedResults expected, const FunctionMatchOptions& options = {});
+
 /// Runs the function on every row and holds what it returns against the results of the rows; another bit is divergent.
 /// Throws Error where the rows have none.
 MatchResult match_function(const Gl& gl, const GlslFunction& function, const FunctionRows& rows,
@@ -43,5 +65,12 @@ MatchResult match_function(const Gl& gl, const GlslFunction& function, const Fun
 /// one: the same text, definitions and uniforms.
 MatchResult match_function(const Gl& gl, const GlslFunction& function, const FunctionRows& rows,
                            const GlslFunction& like, const FunctionMatchOptions& options = {});
+
+/// What a function returns of each row on this GL, row after row.
+std::vector<std::uint32_t> returned(const Gl& gl, const GlslFunction& function, const FunctionRows& rows);
+/// Names where they come from: "results of plain (plain.glsl)".
+std::string results_of(const GlslFunction& like);
+/// Throws Error where both are one, or return different types.
+void check_comparable(const GlslFunction& function, const GlslFunction& like, const FunctionRows& rows);
 
 } // namespace lockstep

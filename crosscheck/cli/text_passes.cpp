@@ -1,0 +1,85 @@
+#include "crosscheck/cli/text_passes.hpp"
+
+#include <algorithm>
+#include <memory>
+#include <utility>
+
+#include <fmt/format.h>
+
+#include "crosscheck/cli/system_run.hpp"
+#include "crosscheck/files/plain_text.hpp"
+#include "crosscheck/judge/dispatch.hpp"
+#include "crosscheck/text/text_pass.hpp"
+#include "reference/model/error.hpp"
+
+namespace lockstep {
+namespace {
+
+/// Whether a pass's shader is in a folder of the user's, or includes a file there that is no stage itself.
+bool is_own(const ShaderUse& use, const GlPass& pass) {
+    return std::ranges::any_of(use.files, [&](const UsedShader& file) {
+        const std::string extension = std::filesystem::path(file.file).extension().string();
+        const bool is_included = extension != ".comp" && extension != ".vert" && extension != ".geom" &&
+                                 extension != ".frag" && extension != ".spv";
+        return !file.foreign.empty() && (file.file.starts_with(pass.name + ".comp") || is_included);
+    });
+}
+
+std::shared_ptr<const PassText> text_of(const SystemScene& scene, std::size_t p, const ShaderFolders& folders) {
+    return std::make_shared<const PassText>(scene.system.schema, scene.passes[p], written_by(scene.system, p), folders,
+                                            scene.arithmetic);
+}
+
+bool is_compute(const GlPass& pass) { return pass.stage == Stage::compute; }
+
+} // namespace
+
+std::vector<std::string> take_references(SystemScene& scene, const RunOptions& run) {
+    RunOptions of_references = run;
+    of_references.shaders = run.reference;
+    const ShaderUse use = shaders_of(scene, of_references);
+    for (const UsedShader& file : use.files)
+        if (const std::string stage = std::filesystem::path(file.file).extension().string();
+            !file.foreign.empty() && (stage == ".vert" || stage == ".geom" || stage == ".frag"))
+            throw Error(fmt::format("--reference {}: {} is no compute stage; a text is the reference of one alone",
+                                    plain_line(run.reference.string()), file.file));
+    const ShaderFolders folders = shader_folders(run.reference, scene.system.schema.system);
+    std::vector<std::string> lines;
+    std::vector<std::unique_ptr<ItemPass>>& passes = scene.system.passes;
+    for (std::size_t p = 0; p < passes.size();) {
+        const std::size_t end = end_of_dispatch(scene.system, p);
+        if (!is_compute(scene.passes[p]) || !is_own(use, scene.passes[p])) {
+            p = end;
+            continue;
+        }
+        const std::shared_ptr<const PassText> text = text_of(scene, p, folders);
+        lines.push_back(
+            fmt::format("reference of {}: its text in {}", scene.passes[p].name, plain_line(run.reference.string())));
+        // What twins may do wrong is nothing that a text does.
+        std::erase_if(scene.system.mistakes, [&](const NamedMistake& one) { return one.pass == scene.passes[p].name; });
+        const ItemPass* first = nullptr;
+        for (; p < end; ++p) {
+            passes[p] = text_pass(std::move(passes[p]), text, first);
+            first = passes[p].get();
+        }
+    }
+    return lines;
+}
+
+void open_by_own_text(SystemScene& scene, const ShaderUse& use, const std::filesystem::path& shaders) {
+    const ShaderFolders folders = shader_folders(shaders, scene.system.schema.system);
+    for (std::size_t p = 0; p < scene.passes.size(); ++p) {
+        const GlPass& pass = scene.passes[p];
+        if (!is_compute(pass) || pass.continues || !is_own(use, pass))
+            continue;
+        try {
+            const std::shared_ptr<const PassText> text = text_of(scene, p, folders);
+            std::unique_ptr<ItemPass>& reference = scene.system.passes[p];
+            const std::uint8_t resource = reference->resource();
+            reference = open_pass(std::move(reference), own_text(text, resource));
+        } catch (const Error&) { // shader_findings says why a text is not interpreted
+        }
+    }
+}
+
+} // namespace lockstep

@@ -1,0 +1,20 @@
+#pragma once
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "crosscheck/cli/run_options.hpp"
+#include "crosscheck/judge/registered_system.hpp"
+#include "gpu/shader_use.hpp"
+
+namespace lockstep {
+
+/// Takes the compute shaders of run.reference as the references of their passes, instead of the twins. Returns a line
+/// for each. Throws Error where none of them is of a pass, one is of another stage, or is not interpreted.
+std::vector<std::string> take_references(SystemScene& scene, const RunOptions& run);
+
+/// Of each pass whose compute shader is the user's own: what its text leaves open is legal (open_pass.hpp). A text that
+/// is not interpreted leaves the pass as it is.
+void open_by_own_text(SystemScene& scene, const ShaderUse& use, const std::filesystem::path& shaders);
+
+} // namespace lockstep

@@ -1,0 +1,131 @@
+#include "crosscheck/judge/open_pass.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+namespace lockstep {
+namespace {
+
+bool meet(const Interval& x, const Interval& y) {
+    if (x.any || y.any)
+        return true;
+    if (std::isnan(x.low) || std::isnan(y.low))
+        return std::isnan(x.low) && std::isnan(y.low);
+    return x.low <= y.high && y.low <= x.high;
+}
+
+/// Whether some values are of both.
+bool meet(const ItemOutcome& a, const ItemOutcome& b) {
+    return std::equal(a.values.begin(), a.values.end(), b.values.begin(), b.values.end(),
+                      [](const Interval& x, const Interval& y) { return meet(x, y); });
+}
+
+bool meet(const std::vector<ItemOutcome>& some, const std::vector<ItemOutcome>& others) {
+    return std::any_of(some.begin(), some.end(), [&](const ItemOutcome& a) {
+        return std::any_of(others.begin(), others.end(), [&](const ItemOutcome& b) { return meet(a, b); });
+    });
+}
+
+/// The same where what a text leaves open need only meet what is nearby: one that says `precise` has the bits that it
+/// asks for.
+bool meet_nearby(const std::vector<ItemOutcome>& own, const std::vector<ItemOutcome>& others,
+                 const std::vector<ItemOutcome>& nearby) {
+    const auto fits = [](const ItemOutcome& a, const ItemOutcome& b, const ItemOutcome& near) {
+        for (std::size_t c = 0; c < a.values.size(); ++c)
+            if (!meet(a.values[c], b.values[c]) && (a.values[c].is_point() || !meet(a.values[c], near.values[c])))
+                return false;
+        return true;
+    };
+    for (const ItemOutcome& a : own)
+        for (const ItemOutcome& b : others)
+            if (std::any_of(nearby.begin(), nearby.end(), [&](const ItemOutcome& near) { return fits(a, b, near); }))
+                return true;
+    return false;
+}
+
+/// A reference rounds, too: another formula of the same numbers comes near where its terms are taken as freely.
+KnownOperations in_any_order(KnownOperations known) {
+    known.sums = false;
+    return known;
+}
+
+class OpenPass final : public ItemPass {
+  public:
+    OpenPass(std::shared_ptr<const ItemPass> one, std::shared_ptr<const OwnText> own)
+        : one_(std::move(one)), own_(std::move(own)) {}
+
+    [[nodiscard]] std::string_view name() const override { return one_->name(); }
+    [[nodiscard]] std::uint8_t resource() const override { return one_->resource(); }
+    [[nodiscard]] PassStage stage() const override { return one_->stage(); }
+    [[nodiscard]] bool runs(int frame) const override { return one_->runs(frame); }
+    [[nodiscard]] bool continues() const override { return one_->continues(); }
+    [[nodiscard]] bool derived() const override { return one_->derived(); }
+    [[nodiscard]] bool in_place(const PassInput& in) const override { return one_->in_place(in); }
+    [[nodiscard]] std::span<const std::uint8_t> keeps() const override { return one_->keeps(); }
+    [[nodiscard]] std::optional<ItemRange> appended(const PassInput& in) const override { return one_->appended(in); }
+    [[nodiscard]] bool unordered() const override { return one_->unordered(); }
+    [[nodiscard]] std::string_view output(const Resource& about, std::uint8_t field) const override {
+        return one_->output(about, field);
+    }
+    void run(const PassInput& in, const Profile& profile, std::size_t first, std::size_t last,
+             const WritableView& after) const override {
+        one_->run(in, profile, first, last, after);
+    }
+    bool run_all(const PassInput& in, const Profile& profile, const WritableView& after) const override {
+        return one_->run_all(in, profile, after);
+    }
+    [[nodiscard]] std::unique_ptr<ItemPass> prepared(const PassInput& in, const Profile& profile) const override {
+        std::shared_ptr<const ItemPass> one = one_->prepared(in, profile);
+        std::shared_ptr<const OwnText> own = own_->prepared(in, profile);
+        if (!one && !own)
+            return nullptr;
+        return std::make_unique<OpenPass>(one ? one : one_, own ? own : own_);
+    }
+    [[nodiscard]] std::vector<ItemOutcome> outcomes(const PassInput& in, std::size_t item, const Profile& profile,
+                                                    const KnownOperations& known, const View* observed) const override {
+        std::vector<ItemOutcome> all = one_->outcomes(in, item, profile, known, observed);
+        if (observed != nullptr &&
+            std::any_of(all.begin(), all.end(), [&](const ItemOutcome& one) { return one.contains(*observed, item); }))
+            return all;
+        const std::vector<ItemOutcome> own = own_->outcomes(in, item, profile, known);
+        if (own.empty())
+            return all;
+        const auto is_near = [&] {
+            const std::vector<ItemOutcome> written = own_->outcomes_as_written(in, item, profile, known);
+            const std::vector<ItemOutcome> nearby = one_->outcomes(in, item, profile, in_any_order(known), nullptr);
+            return meet_nearby(own, all, nearby) || meet_nearby(written, all, nearby);
+        };
+        if (meet(own, all) || is_near())
+            all.insert(all.end(), own.begin(), own.end());
+        return all;
+    }
+    [[nodiscard]] std::vector<RecordedRow> record(const PassInput& in, std::size_t item,
+                                                  const Profile& profile) const override {
+        return one_->record(in, item, profile);
+    }
+    [[nodiscard]] FollowedStep follow(const PassInput& in, std::size_t item, const Profile& profile,
+                                      const KnownOperations& known, std::span<const ToldValue> told) const override {
+        return one_->follow(in, item, profile, known, told);
+    }
+    [[nodiscard]] std::vector<SeenSite> sites(const PassInput& in, std::size_t item,
+                                              const Profile& profile) const override {
+        return one_->sites(in, item, profile);
+    }
+    [[nodiscard]] std::vector<std::uint32_t> mistaken(const PassInput& in, std::size_t item, const Profile& profile,
+                                                      std::span<const Mistake> made) const override {
+        return one_->mistaken(in, item, profile, made);
+    }
+
+  private:
+    std::shared_ptr<const ItemPass> one_;
+    std::shared_ptr<const OwnText> own_;
+};
+
+} // namespace
+
+std::unique_ptr<ItemPass> open_pass(std::unique_ptr<ItemPass> reference, std::shared_ptr<const OwnText> own) {
+    return std::make_unique<OpenPass>(std::move(reference), std::move(own));
+}
+
+} // namespace lockstep

@@ -1,0 +1,275 @@
+#include "crosscheck/text/text_pass.hpp"
+
+#include <algorithm>
+#include <cstring>
+#include <mutex>
+#include <optional>
+#include <utility>
+
+#include <fmt/format.h>
+
+#include "reference/model/error.hpp"
+#include "reference/parallel_blocks.hpp"
+#include "reference/system/item_twin.hpp"
+#include "reference/text/outcomes.hpp"
+
+namespace lockstep {
+namespace {
+
+using Space = text::WrittenPlace::Space;
+
+Interval exactly(Value value) {
+    if (value.scalar == Scalar::float32)
+        return Interval(value.real());
+    const auto integer = static_cast<double>(value.integer());
+    return {integer, integer};
+}
+
+/// Which of an item's components it is.
+std::size_t place_of(const Resource& about, const Component& one) {
+    std::size_t place = static_cast<std::size_t>(one.component);
+    for (std::uint8_t f = 0; f < one.field; ++f)
+        place += static_cast<std::size_t>(about.fields[f].components);
+    return place;
+}
+
+/// The last dispatch that some pass of it ran: those that continue the pass take what it wrote from here.
+struct LastDispatch {
+    std::mutex mutex;
+    std::shared_ptr<const TextDispatch> dispatch;
+};
+
+} // namespace
+
+TextDispatch::TextDispatch(const PassText& text, const PassInput& in, const Profile& profile)
+    : text_(text), profile_(profile), frame_(in.frame), input_(text.bind(in, profile)) {}
+
+void TextDispatch::run() const {
+    std::call_once(ran_, [&] {
+        written_ = input_.words;
+        text::Bindings bindings = input_.bindings;
+        for (std::size_t b = 0; b < bindings.blocks.size(); ++b)
+            bindings.blocks[b] = written_[b];
+        for (std::size_t i = 0; i < bindings.images.size(); ++i)
+            bindings.images[i].words = written_[bindings.blocks.size() + i];
+        text::Findings findings;
+        text::run_dispatch(text_.program(), {.groups = input_.groups, .writers = &writers_}, bindings, profile_,
+                           findings);
+    });
+}
+
+std::vector<std::uint32_t> TextDispatch::words(const View& before, std::uint8_t resource, std::size_t item) const {
+    run();
+    std::vector<std::uint32_t> all;
+    for (const Component& c : components(before.about()))
+        all.push_back(before.value(c.field, item, c.component).bits);
+    for (const std::size_t from : text_.words_of_resource(resource)) {
+        const std::span<const Component> record = text_.record(from);
+        for (std::size_t k = 0; k < record.size(); ++k)
+            all[place_of(before.about(), record[k])] = written_[from][item * record.size() + k];
+    }
+    return all;
+}
+
+void TextDispatch::write(const View& before, std::uint8_t resource, std::size_t first, std::size_t last,
+                         const WritableView& after) const {
+    const std::vector<item_twin::WordColumn> columns = item_twin::word_columns(after);
+    for (std::size_t item = first; item < last; ++item) {
+        const std::vector<std::uint32_t> all = words(before, resource, item);
+        for (std::size_t c = 0; c < all.size(); ++c)
+            std::memcpy(columns[c].first + item * columns[c].stride, &all[c], sizeof all[c]);
+    }
+}
+
+std::vector<ItemOutcome> TextDispatch::outcomes(const View& before, std::uint8_t resource, std::size_t item,
+                                                const KnownOperations& known, text::Constants constants) const {
+    run();
+    const std::vector<std::size_t> parts_of_item = text_.words_of_resource(resource);
+    const auto place_in = [&](std::size_t from) { // whose words, by number
+        const bool is_block = from < writers_.blocks.size();
+        return std::pair(is_block ? Space::block : Space::texel,
+                         static_cast<std::uint32_t>(is_block ? from : from - writers_.blocks.size()));
+    };
+    std::uint32_t writer = 0;
+    for (const std::size_t from : parts_of_item) {
+        const auto [space, number] = place_in(from);
+        const std::vector<std::uint32_t>& by =
+            space == Space::block ? writers_.blocks[number] : writers_.images[number];
+        const std::size_t size = text_.record(from).size();
+        for (std::size_t k = item * size; k < (item + 1) * size; ++k) {
+            if (by[k] != 0 && writer != 0 && by[k] != writer)
+                return {};
+            writer = std::max(writer, by[k]);
+        }
+    }
+    if (writer == 0)
+        return {};
+    const Resource& about = before.about();
+    const std::vector<Component> parts = components(about);
+    std::vector<ItemOutcome> all;
+    try {
+        const text::Invocation invocation = text::invocation_of(text_.program(), input_.groups, writer - 1);
+        for (text::InvocationOutcome& one :
+             text_.outcomes().of(invocation, input_.groups, input_.bindings, PassStage::compute, profile_,
+                                 in_compute_stage(known, profile_), constants)) {
+            ItemOutcome outcome{.values = {}, .open = std::move(one.open), .undefined = one.undefined};
+            for (const Component& c : parts)
+                outcome.values.push_back(one.undefined != Undefined::none
+                                             ? Interval::anything()
+                                             : exactly(before.value(c.field, item, c.component)));
+            for (const text::WrittenWord& word : one.written)
+                for (const std::size_t from : parts_of_item) {
+                    const std::span<const Component> record = text_.record(from);
+                    const std::size_t begin = item * record.size();
+                    if (std::pair(word.place.space, word.place.number) != place_in(from) || word.place.word < begin ||
+                        word.place.word >= begin + record.size())
+                        continue;
+                    const Component& c = record[word.place.word - begin];
+                    outcome.values[place_of(about, c)] =
+                        word.is_real ? word.set : exactly({about.fields[c.field].scalar, word.word});
+                }
+            all.push_back(std::move(outcome));
+        }
+    } catch (const Error&) {
+        return {}; // what is not followed by sets
+    }
+    return all;
+}
+
+namespace {
+
+class TextPass final : public ItemPass {
+  public:
+    TextPass(std::shared_ptr<const ItemPass> twin, std::shared_ptr<const PassText> text,
+             std::shared_ptr<LastDispatch> last, std::shared_ptr<const TextDispatch> one)
+        : twin_(std::move(twin)), text_(std::move(text)), last_(std::move(last)), one_(std::move(one)) {}
+
+    [[nodiscard]] const std::shared_ptr<LastDispatch>& last() const { return last_; }
+
+    [[nodiscard]] std::string_view name() const override { return twin_->name(); }
+    [[nodiscard]] std::uint8_t resource() const override { return twin_->resource(); }
+    [[nodiscard]] PassStage stage() const override { return twin_->stage(); }
+    [[nodiscard]] bool runs(int frame) const override { return twin_->runs(frame); }
+    [[nodiscard]] bool continues() const override { return twin_->continues(); }
+    [[nodiscard]] bool derived() const override { return twin_->derived(); }
+    [[nodiscard]] std::span<const std::uint8_t> keeps() const override { return twin_->keeps(); }
+    [[nodiscard]] std::optional<ItemRange> appended(const PassInput& in) const override { return twin_->appended(in); }
+    [[nodiscard]] bool unordered() const override { return twin_->unordered(); }
+    [[nodiscard]] std::string_view output(const Resource& about, std::uint8_t field) const override {
+        return twin_->output(about, field);
+    }
+    void run(const PassInput& in, const Profile& profile, std::size_t first, std::size_t last,
+             const WritableView& after) const override {
+        dispatched(in, profile)->write(in.before[resource()], resource(), first, last, after);
+    }
+    bool run_all(const PassInput& in, const Profile& profile, const WritableView& after) const override {
+        const std::shared_ptr<const TextDispatch> dispatch = dispatched(in, profile);
+        parallel_ranges(after.count(), [&](std::size_t first, std::size_t last) {
+            dispatch->write(in.before[resource()], resource(), first, last, after);
+        });
+        return true;
+    }
+    [[nodiscard]] std::unique_ptr<ItemPass> prepared(const PassInput& in, const Profile& profile) const override {
+        return std::make_unique<TextPass>(twin_, text_, last_, dispatched(in, profile));
+    }
+    [[nodiscard]] std::vector<ItemOutcome> outcomes(const PassInput& in, std::size_t item, const Profile& profile,
+                                                    const KnownOperations& known,
+                                                    const View* /*observed*/) const override {
+        const std::shared_ptr<const TextDispatch> dispatch = dispatched(in, profile);
+        std::vector<ItemOutcome> all = dispatch->outcomes(in.before[resource()], resource(), item, known);
+        if (!all.empty())
+            return all;
+        const std::vector<std::uint32_t> words = dispatch->words(in.before[resource()], resource(), item);
+        const Resource& about = in.before[resource()].about();
+        ItemOutcome one;
+        for (const Component& c : components(about))
+            one.values.push_back(exactly({about.fields[c.field].scalar, words[one.values.size()]}));
+        return {std::move(one)};
+    }
+    [[nodiscard]] std::vector<RecordedRow> record(const PassInput& /*in*/, std::size_t /*item*/,
+                                                  const Profile& /*profile*/) const override {
+        return {};
+    }
+    [[nodiscard]] FollowedStep follow(const PassInput& /*in*/, std::size_t /*item*/, const Profile& /*profile*/,
+                                      const KnownOperations& /*known*/,
+                                      std::span<const ToldValue> /*told*/) const override {
+        return {};
+    }
+    [[nodiscard]] std::vector<SeenSite> sites(const PassInput& /*in*/, std::size_t /*item*/,
+                                              const Profile& /*profile*/) const override {
+        return {};
+    }
+    [[nodiscard]] std::vector<std::uint32_t> mistaken(const PassInput& in, std::size_t item, const Profile& profile,
+                                                      std::span<const Mistake> /*made*/) const override {
+        return dispatched(in, profile)->words(in.before[resource()], resource(), item);
+    }
+
+  private:
+    std::shared_ptr<const TextDispatch> dispatched(const PassInput& in, const Profile& profile) const {
+        if (one_)
+            return one_;
+        const std::scoped_lock lock(last_->mutex);
+        if (!continues())
+            last_->dispatch = std::make_shared<const TextDispatch>(*text_, in, profile);
+        else if (last_->dispatch == nullptr || last_->dispatch->frame() != in.frame)
+            throw Error(fmt::format("{}: the pass that it continues has not run in frame {}", name(), in.frame));
+        return last_->dispatch;
+    }
+
+    std::shared_ptr<const ItemPass> twin_;
+    std::shared_ptr<const PassText> text_;
+    std::shared_ptr<LastDispatch> last_;
+    std::shared_ptr<const TextDispatch> one_; ///< of one input
+};
+
+} // namespace
+
+std::unique_ptr<ItemPass> text_pass(std::unique_ptr<ItemPass> twin, std::shared_ptr<const PassText> text,
+                                    const ItemPass* first) {
+    const auto* const begins = dynamic_cast<const TextPass*>(first);
+    return std::make_unique<TextPass>(std::move(twin), std::move(text),
+                                      begins != nullptr ? begins->last() : std::make_shared<LastDispatch>(), nullptr);
+}
+
+namespace {
+
+class OwnTextOfPass final : public OwnText {
+  public:
+    OwnTextOfPass(std::shared_ptr<const PassText> text, std::uint8_t resource,
+                  std::shared_ptr<const TextDispatch> dispatch)
+        : text_(std::move(text)), resource_(resource), dispatch_(std::move(dispatch)) {}
+    [[nodiscard]] std::vector<ItemOutcome> outcomes(const PassInput& in, std::size_t item, const Profile& profile,
+                                                    const KnownOperations& known) const override {
+        return outcomes(in, item, profile, known, text::Constants::rounded);
+    }
+    [[nodiscard]] std::vector<ItemOutcome> outcomes_as_written(const PassInput& in, std::size_t item,
+                                                               const Profile& profile,
+                                                               const KnownOperations& known) const override {
+        return outcomes(in, item, profile, known, text::Constants::as_written);
+    }
+    [[nodiscard]] std::shared_ptr<const OwnText> prepared(const PassInput& in, const Profile& profile) const override {
+        return std::make_shared<OwnTextOfPass>(text_, resource_,
+                                               std::make_shared<const TextDispatch>(*text_, in, profile));
+    }
+
+  private:
+    [[nodiscard]] std::vector<ItemOutcome> outcomes(const PassInput& in, std::size_t item, const Profile& profile,
+                                                    const KnownOperations& known, text::Constants constants) const {
+        const auto of = [&](const TextDispatch& dispatch) {
+            return dispatch.outcomes(in.before[resource_], resource_, item, known, constants);
+        };
+        return dispatch_ ? of(*dispatch_) : of(TextDispatch(*text_, in, profile));
+    }
+
+    std::shared_ptr<const PassText> text_;
+    std::uint8_t resource_;
+    std::shared_ptr<const TextDispatch> dispatch_; ///< of one input
+};
+
+} // namespace
+
+std::shared_ptr<const OwnText> own_text(std::shared_ptr<const PassText> text, std::uint8_t resource) {
+    return std::make_shared<OwnTextOfPass>(std::move(text), resource, nullptr);
+}
+
+} // namespace lockstep

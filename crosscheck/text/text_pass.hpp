@@ -1,0 +1,52 @@
+#pragma once
+#include <cstdint>
+#include <memory>
+#include <mutex>
+#include <vector>
+
+#include "crosscheck/judge/open_pass.hpp"
+#include "crosscheck/text/pass_text.hpp"
+
+namespace lockstep {
+
+/// One dispatch of a text from one input: what it writes, by whom, and what each invocation may legally write. Runs
+/// when it is first asked; any number of threads may ask.
+class TextDispatch {
+  public:
+    /// Copies what the dispatch reads. `text` outlives this.
+    TextDispatch(const PassText& text, const PassInput& in, const Profile& profile);
+
+    [[nodiscard]] int frame() const { return frame_; }
+    /// Items first to last of a resource, the last excluded, into `after`; what the text does not write is as `before`
+    /// has it, and fields that are left out stay so.
+    void write(const View& before, std::uint8_t resource, std::size_t first, std::size_t last,
+               const WritableView& after) const;
+    /// An item's words, component by component.
+    [[nodiscard]] std::vector<std::uint32_t> words(const View& before, std::uint8_t resource, std::size_t item) const;
+    /// Every legal outcome of an item. Empty where sets are not followed, or several invocations wrote of it.
+    [[nodiscard]] std::vector<ItemOutcome> outcomes(const View& before, std::uint8_t resource, std::size_t item,
+                                                    const KnownOperations& known,
+                                                    text::Constants constants = text::Constants::rounded) const;
+
+  private:
+    void run() const;
+
+    const PassText& text_;
+    Profile profile_;
+    int frame_;
+    PassText::Input input_; ///< as it was bound
+    mutable std::once_flag ran_;
+    mutable std::vector<std::vector<std::uint32_t>> written_; ///< PassText::Input::words behind it
+    mutable text::Writers writers_;
+};
+
+/// The pass that a text makes, instead of the twin, which says all that is no arithmetic: its resource, its stage, when
+/// it runs. `first`: of a pass that continues another, the pass that the dispatch begins with, which has the same text;
+/// else null.
+std::unique_ptr<ItemPass> text_pass(std::unique_ptr<ItemPass> twin, std::shared_ptr<const PassText> text,
+                                    const ItemPass* first);
+
+/// What the GPU's shader says of a pass, by its own text. Not for a pass that continues another.
+std::shared_ptr<const OwnText> own_text(std::shared_ptr<const PassText> text, std::uint8_t resource);
+
+} // namespace lockstep

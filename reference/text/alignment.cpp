@@ -1,0 +1,202 @@
+#include "reference/text/alignment.hpp"
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+#include <map>
+#include <set>
+#include <tuple>
+#include <unordered_set>
+
+#include "reference/text/program.hpp"
+
+namespace lockstep::text {
+namespace {
+
+using Kind = TraceRow::Kind;
+
+/// Zero and small integers occur anywhere: what they were made of counts.
+bool says_little(const TraceRow& row) {
+    constexpr std::uint32_t small = 4096;
+    if (row.is_real)
+        return (row.bits & 0x7fffffffU) == 0 || row.bits == std::bit_cast<std::uint32_t>(1.0F);
+    return row.bits < small || row.bits > ~small;
+}
+
+/// What one run came by.
+class Seen {
+  public:
+    explicit Seen(const Trace& trace) {
+        for (const TraceRow& row : trace.rows)
+            switch (row.kind) {
+            case Kind::load:
+                places_.insert(row.place);
+                values_.insert(row.bits);
+                break;
+            case Kind::comparison:
+                made_of_.insert(made_of(trace, row));
+                break;
+            case Kind::operation:
+                made_of_.insert(made_of(trace, row));
+                if (!says_little(row))
+                    values_.insert(row.bits);
+                break;
+            case Kind::store:
+                break;
+            }
+    }
+    [[nodiscard]] bool has(const Trace& trace, const TraceRow& row) const {
+        if (row.kind == Kind::load)
+            return places_.contains(row.place);
+        if (row.kind == Kind::comparison || says_little(row))
+            return made_of_.contains(made_of(trace, row));
+        return values_.contains(row.bits);
+    }
+    [[nodiscard]] bool has_value(std::uint32_t bits) const { return values_.contains(bits); }
+
+  private:
+    /// A comparison by its operands, whichever way round; another operation by its code, too.
+    static std::vector<std::uint32_t> made_of(const Trace& trace, const TraceRow& row) {
+        std::vector<std::uint32_t> key;
+        for (const TraceOperand& operand : trace.of(row))
+            key.push_back(operand.bits);
+        std::sort(key.begin(), key.end());
+        key.push_back(row.kind == Kind::comparison ? (row.is_real ? 0xffffU : 0xfffeU) : row.op);
+        return key;
+    }
+
+    std::set<WrittenPlace> places_;
+    std::set<std::vector<std::uint32_t>> made_of_;
+    std::unordered_set<std::uint32_t> values_;
+};
+
+std::vector<bool> matched_in(const Trace& trace, const Seen& other) {
+    std::vector<bool> matched;
+    for (const TraceRow& row : trace.rows)
+        matched.push_back(row.kind == Kind::store || other.has(trace, row));
+    return matched;
+}
+
+std::set<WrittenPlace> places_that_differ(const std::vector<TracedWord>& a, const std::vector<TracedWord>& b) {
+    std::map<WrittenPlace, std::uint32_t> words;
+    for (const TracedWord& word : b)
+        words[word.place] = word.bits;
+    std::set<WrittenPlace> differ;
+    for (const TracedWord& word : a) {
+        const auto same = words.find(word.place);
+        if (same == words.end() || same->second != word.bits)
+            differ.insert(word.place);
+        if (same != words.end())
+            words.erase(same);
+    }
+    for (const auto& [place, bits] : words)
+        differ.insert(place);
+    return differ;
+}
+
+/// Rows without a counterpart that lead to some of `places`, or to a decision, and whose operands all have one.
+std::vector<std::uint32_t> front_of(const Trace& trace, const std::vector<bool>& matched,
+                                    const std::set<WrittenPlace>& places) {
+    std::vector<std::uint32_t> open, front;
+    std::vector<bool> seen(trace.rows.size());
+    const auto visit = [&](std::uint32_t row) {
+        if (row != TraceOperand::no_row && !matched[row] && !seen[row]) {
+            seen[row] = true;
+            open.push_back(row);
+        }
+    };
+    for (std::uint32_t row = 0; row < trace.rows.size(); ++row) {
+        const TraceRow& one = trace.rows[row];
+        if (one.kind == Kind::comparison)
+            visit(row);
+        if (one.kind == Kind::store && places.contains(one.place))
+            for (const TraceOperand& operand : trace.of(one))
+                visit(operand.row);
+    }
+    while (!open.empty()) {
+        const std::uint32_t row = open.back();
+        open.pop_back();
+        bool is_first = true;
+        for (const TraceOperand& operand : trace.of(trace.rows[row]))
+            if (operand.row != TraceOperand::no_row && !matched[operand.row]) {
+                is_first = false;
+                visit(operand.row);
+            }
+        if (is_first)
+            front.push_back(row);
+    }
+    std::sort(front.begin(), front.end());
+    return front;
+}
+
+/// How far two floats are apart, in units of the larger; of others by their bits.
+double distance(std::uint32_t a, std::uint32_t b) {
+    const double x = std::bit_cast<float>(a), y = std::bit_cast<float>(b);
+    if (!std::isfinite(x) || !std::isfinite(y))
+        return 2.0;
+    return x == y ? 0.0 : std::abs(x - y) / std::max(std::abs(x), std::abs(y));
+}
+
+} // namespace
+
+std::vector<Suspect> suspects_of(const TracedRun& wrong, const TracedRun& right,
+                                 const std::function<std::vector<TracedWord>(std::span<const ForcedRow>)>& again) {
+    constexpr std::size_t most_rows = 24, most_values = 32;
+    const Seen in_right(right.trace), in_wrong(wrong.trace);
+    const std::set<WrittenPlace> places = places_that_differ(wrong.words, right.words);
+    std::vector<std::uint32_t> front = front_of(wrong.trace, matched_in(wrong.trace, in_right), places);
+    if (front.size() > most_rows)
+        front.resize(most_rows);
+    std::set<std::uint32_t> outputs;
+    for (const TraceRow& row : wrong.trace.rows)
+        if (row.kind == Kind::store && places.contains(row.place))
+            outputs.insert(wrong.trace.operands[row.first].row);
+    std::vector<std::uint32_t> reals, whole; // that the wrong run lacks
+    for (const TraceRow& row : right.trace.rows)
+        if (row.kind == Kind::load || (row.kind == Kind::operation && !in_wrong.has(right.trace, row)))
+            (row.is_real ? reals : whole).push_back(row.bits);
+    std::vector<Suspect> all;
+    for (const std::uint32_t row : front) {
+        const TraceRow& one = wrong.trace.rows[row];
+        Suspect suspect{.row = row, .is_output = outputs.contains(row)};
+        std::vector<std::uint32_t> values;
+        if (one.kind == Kind::comparison) {
+            values = {one.bits ^ 1U};
+        } else {
+            values = one.is_real ? reals : whole;
+            std::sort(values.begin(), values.end());
+            values.erase(std::unique(values.begin(), values.end()), values.end());
+            std::stable_sort(values.begin(), values.end(), [&](std::uint32_t a, std::uint32_t b) {
+                return distance(a, one.bits) < distance(b, one.bits);
+            });
+            values.resize(std::min(values.size(), most_values));
+        }
+        for (const std::uint32_t bits : values) {
+            if (bits == one.bits)
+                continue;
+            const ForcedRow forced{row, bits};
+            if (again({&forced, 1}) == right.words) {
+                suspect.repairs = true;
+                suspect.repaired = bits;
+                break;
+            }
+        }
+        all.push_back(suspect);
+    }
+    return all;
+}
+
+std::vector<std::uint32_t> unmatched_lines(const TracedRun& run, const TracedRun& other) {
+    const std::vector<bool> matched = matched_in(run.trace, Seen(other.trace));
+    std::set<std::uint32_t> lines;
+    for (std::size_t row = 0; row < matched.size(); ++row)
+        if (!matched[row])
+            lines.insert(run.trace.rows[row].line);
+    return {lines.begin(), lines.end()};
+}
+
+std::vector<std::uint32_t> missing_rows(const TracedRun& run, const TracedRun& other) {
+    return front_of(run.trace, matched_in(run.trace, Seen(other.trace)), places_that_differ(run.words, other.words));
+}
+
+} // namespace lockstep::text

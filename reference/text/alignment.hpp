@@ -1,0 +1,44 @@
+#pragma once
+#include <cstdint>
+#include <functional>
+#include <span>
+#include <vector>
+
+#include "reference/text/trace.hpp"
+
+namespace lockstep::text {
+
+/// A run of one invocation: what it came by, and what it wrote. Blocks and images are numbered alike in runs of two
+/// texts.
+struct TracedRun {
+    Trace trace;
+    std::vector<TracedWord> words;
+};
+
+/// A row of a wrong run that has no counterpart in the right one, though all that it was made of has.
+struct Suspect {
+    std::uint32_t row = 0;      ///< of the wrong run
+    bool repairs = false;       ///< with the value below, or the other answer, all that the run writes is right
+    bool is_output = false;     ///< it is written as it is: that its right value repairs it says little
+    std::uint32_t repaired = 0; ///< the bits; of a comparison its other answer
+};
+
+/// What two runs of one invocation on the same state differ in. `again(forced)` is the wrong run with rows forced.
+///
+/// Runs are aligned by value and data flow: an operation has a counterpart where the right run came by its bits, a load
+/// where it read that place, a comparison where it compared those numbers, 0 and small integers where they were made of
+/// the same operands. From the words that are wrong, and from comparisons without a counterpart, it goes back through
+/// rows without one; where all operands have one, the row is a suspect. Then each suspect gets the values that the
+/// right run came by and the wrong one never did.
+std::vector<Suspect> suspects_of(const TracedRun& wrong, const TracedRun& right,
+                                 const std::function<std::vector<TracedWord>(std::span<const ForcedRow>)>& again);
+
+/// The rows of a run that have no counterpart in another, each with its line: what speaks against a suspect of that
+/// line, where both runs write the same.
+std::vector<std::uint32_t> unmatched_lines(const TracedRun& run, const TracedRun& other);
+
+/// Values that a run came by, which what it writes rests on, and the other never did, the first of a chain of such:
+/// what the other text does not compute. Rows of `run`.
+std::vector<std::uint32_t> missing_rows(const TracedRun& run, const TracedRun& other);
+
+} // namespace lockstep::text

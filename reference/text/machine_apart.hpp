@@ -1,0 +1,119 @@
+#pragma once
+#include <bit>
+#include <optional>
+
+#include "reference/text/machine_memory.hpp"
+
+/// Loads and stores of a Machine that runs one invocation apart from others: what it wrote is beside memory, which
+/// stays as it is, so that the invocation can be run again.
+namespace lockstep::text {
+
+/// Returns false for steps that are the same in every reading.
+template <class R, int W> bool Machine<R, W>::memory_apart(const Step& s) {
+    static_assert(W == 1);
+    using Space = WrittenPlace::Space;
+    const auto word_at = [&](std::uint32_t number) { return cell(number)->word(); };
+    const auto found = [&](const WrittenPlace& place) -> const C* {
+        const auto at = written_->find(place);
+        return at != written_->end() ? &at->second : nullptr;
+    };
+    const auto set_read = [&](C& out, std::uint32_t word, bool is_real) {
+        if constexpr (has_sets<R>)
+            if (is_real)
+                return out.set(r.read(in_text, std::bit_cast<float>(word)));
+        out.set(word);
+    };
+    const auto write = [&](const WrittenPlace& place, const C& value, [[maybe_unused]] bool is_real) {
+        C& to = (*written_)[place];
+        to = value;
+        if constexpr (has_sets<R>)
+            to.is_real = is_real;
+    };
+    const auto texel = [&](std::uint32_t image, std::uint32_t first,
+                           std::uint32_t axes) -> std::optional<std::uint64_t> {
+        const std::array<std::int32_t, 3> at = texel_place(first, axes, 0);
+        const std::array<std::uint32_t, 3>& size = memory_.image(image).size;
+        for (std::size_t c = 0; c < at.size(); ++c)
+            if (static_cast<std::uint32_t>(at[c]) >= size[c])
+                return {};
+        const auto x = static_cast<std::uint64_t>(at[0]), y = static_cast<std::uint64_t>(at[1]),
+                   z = static_cast<std::uint64_t>(at[2]);
+        return ((z * size[1] + y) * size[0] + x) * memory_.image(image).components;
+    };
+    switch (s.op) {
+    case code::load_shared:
+        for (std::uint32_t c = 0; c < s.n; ++c) {
+            const C* const own = found({Space::shared, 0, word_at(s.b) + c});
+            *cell(s.out + c) = own != nullptr ? *own : C{};
+        }
+        return true;
+    case code::store_shared:
+        for (std::uint32_t c = 0; c < s.n; ++c)
+            (*written_)[{Space::shared, 0, word_at(s.b) + c}] = *cell(s.c + c);
+        return true;
+    case code::load_block:
+        for (std::uint32_t c = 0; c < s.n; ++c) {
+            const Leaf leaf = p_.leaves[s.d + c];
+            const std::uint32_t at = word_at(s.b) + leaf.word;
+            const std::span<const std::uint32_t> words = memory_.words(s.a);
+            if (const C* const own = found({Space::block, s.a, at}))
+                *cell(s.out + c) = *own;
+            else
+                set_read(*cell(s.out + c), at < words.size() ? words[at] : 0U, leaf.is_real);
+        }
+        return true;
+    case code::store_block:
+        for (std::uint32_t c = 0; c < s.n; ++c) {
+            const Leaf leaf = p_.leaves[s.d + c];
+            const std::uint32_t at = word_at(s.b) + leaf.word;
+            if (at >= memory_.words(s.a).size())
+                continue;
+            write({Space::block, s.a, at}, *cell(s.c + c), leaf.is_real);
+        }
+        return true;
+    case code::load_texel:
+    case code::fetch_texel: {
+        const std::uint32_t image = word_at(s.a);
+        const std::optional<std::uint64_t> at = texel(image, s.b, s.c);
+        std::optional<std::int32_t> level;
+        if (s.op == code::fetch_texel)
+            level = static_cast<std::int32_t>(word_at(s.d));
+        const Memory::Texel base = memory_.load_texel(image, texel_place(s.b, s.c, 0), level, place(s, 0));
+        for (std::uint32_t c = 0; c < s.n; ++c) {
+            const C* const own = at ? found({Space::texel, image, *at + c}) : nullptr;
+            if (own != nullptr)
+                *cell(s.out + c) = *own;
+            else
+                set_read(*cell(s.out + c), base[c], p_.images[image].is_real);
+        }
+        return true;
+    }
+    case code::store_texel: {
+        const std::uint32_t image = word_at(s.a);
+        if (memory_.image(image).code != TexelMemory::Code::number)
+            refuse(s, "an invocation that writes a half or rgba8 image is not run apart from others");
+        if (const std::optional<std::uint64_t> at = texel(image, s.b, s.d))
+            for (std::uint32_t c = 0; c < s.n && c < memory_.image(image).components; ++c)
+                write({Space::texel, image, *at + c}, *cell(s.c + c), p_.images[image].is_real);
+        return true;
+    }
+    case code::sample_texel: {
+        std::array<float, 3> place{};
+        for (std::uint32_t c = 0; c < s.c && c < place.size(); ++c)
+            place[c] = number(cell(s.b + c)->real());
+        const Memory::Texel sample = memory_.sample(word_at(s.a), place, s.c);
+        for (std::uint32_t c = 0; c < s.n; ++c)
+            set_read(*cell(s.out + c), sample[c], p_.images[word_at(s.a)].is_real);
+        return true;
+    }
+    case code::atomic_shared:
+    case code::atomic_block:
+    case code::atomic_texel:
+    case code::barrier:
+        refuse(s, "an invocation that shares what it computes is not run apart from others");
+    default:
+        return false;
+    }
+}
+
+} // namespace lockstep::text

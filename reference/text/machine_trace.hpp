@@ -1,0 +1,215 @@
+#pragma once
+#include <algorithm>
+
+#include "reference/text/machine_apart.hpp"
+
+/// What a traced Machine notes of a step: its operands before it runs, since a step may write where it reads, and its
+/// results behind it.
+namespace lockstep::text {
+
+namespace tracing {
+
+inline bool is_comparison(std::uint16_t op) {
+    return (op >= spv::OpIEqual && op <= spv::OpFUnordGreaterThanEqual) || op == spv::OpIsNan || op == spv::OpIsInf;
+}
+
+inline bool takes_reals(std::uint16_t op) {
+    return (op >= spv::OpFOrdEqual && op <= spv::OpFUnordGreaterThanEqual) || op == spv::OpIsNan || op == spv::OpIsInf;
+}
+
+/// Whether the result is a float.
+inline bool makes_real(std::uint16_t op) {
+    if (op >= code::extended) {
+        const int function = op - code::extended;
+        const bool is_whole = function == GLSLstd450SAbs || function == GLSLstd450SSign || function == GLSLstd450UMin ||
+                              function == GLSLstd450SMin || function == GLSLstd450UMax || function == GLSLstd450SMax ||
+                              function == GLSLstd450UClamp || function == GLSLstd450SClamp ||
+                              (function >= GLSLstd450PackSnorm4x8 && function <= GLSLstd450PackHalf2x16) ||
+                              (function >= GLSLstd450FindILsb && function <= GLSLstd450FindUMsb);
+        return !is_whole;
+    }
+    switch (op) {
+    case spv::OpFNegate:
+    case spv::OpFAdd:
+    case spv::OpFSub:
+    case spv::OpFMul:
+    case spv::OpFDiv:
+    case spv::OpFRem:
+    case spv::OpFMod:
+    case spv::OpVectorTimesScalar:
+    case spv::OpMatrixTimesScalar:
+    case spv::OpVectorTimesMatrix:
+    case spv::OpMatrixTimesVector:
+    case spv::OpMatrixTimesMatrix:
+    case spv::OpDot:
+    case spv::OpConvertSToF:
+    case spv::OpConvertUToF:
+        return true;
+    default:
+        return false;
+    }
+}
+
+} // namespace tracing
+
+template <class R, int W> void Machine<R, W>::note_operands(const Step& s) {
+    static_assert(W == 1);
+    using Kind = TraceRow::Kind;
+    Trace& noted = *noted_;
+    const auto step = static_cast<std::uint32_t>(&s - p_.steps.data());
+    const auto operand = [&](std::uint32_t number) {
+        noted.operands.push_back(
+            {made_by_[number] == 0 ? TraceOperand::no_row : made_by_[number] - 1, cell(number)->word()});
+    };
+    /// A row whose operands have been noted from `first` on.
+    const auto note = [&](Kind kind, std::size_t first, std::uint32_t cell, bool is_real, const WrittenPlace& place) {
+        pending_.push_back({{kind, is_real, s.op, step, p_.lines[step], 0, static_cast<std::uint32_t>(first),
+                             static_cast<std::uint32_t>(noted.operands.size() - first), place},
+                            cell,
+                            kind != Kind::store});
+    };
+    const auto result = [&](Kind kind, std::size_t first, std::uint32_t out, bool is_real,
+                            const WrittenPlace& place = {}) { note(kind, first, out, is_real, place); };
+    const auto copied = [&](std::uint32_t out, std::uint32_t from) { moves_.emplace_back(out, made_by_[from]); };
+    const auto texel_word = [&](std::uint32_t image, std::uint32_t first, std::uint32_t axes, std::uint32_t c) {
+        const std::array<std::int32_t, 3> at = texel_place(first, axes, 0);
+        const std::array<std::uint32_t, 3>& size = memory_.image(image).size;
+        const auto x = static_cast<std::uint64_t>(at[0]), y = static_cast<std::uint64_t>(at[1]),
+                   z = static_cast<std::uint64_t>(at[2]);
+        return ((z * size[1] + y) * size[0] + x) * memory_.image(image).components + c;
+    };
+    using Space = WrittenPlace::Space;
+    switch (s.op) {
+    case code::copy:
+    case code::real_bits:
+    case code::bits_as_real:
+        for (std::uint32_t c = 0; c < s.n; ++c)
+            copied(s.out + c, s.a + c);
+        return;
+    case code::load_variable:
+        for (std::uint32_t c = 0; c < s.n; ++c)
+            copied(s.out + c, s.a + cell(s.b)->word() + c);
+        return;
+    case code::store_variable:
+        for (std::uint32_t c = 0; c < s.n; ++c)
+            copied(s.a + cell(s.b)->word() + c, s.c + c);
+        return;
+    case code::address: {
+        const std::size_t first = noted.operands.size();
+        for (std::uint32_t k = 0; k < s.n; ++k)
+            operand(p_.operands[s.d + 3 * k]);
+        return result(Kind::operation, first, s.out, false);
+    }
+    case code::load_block:
+        for (std::uint32_t c = 0; c < s.n; ++c) {
+            const std::size_t first = noted.operands.size();
+            const Leaf leaf = p_.leaves[s.d + c];
+            operand(s.b);
+            result(Kind::load, first, s.out + c, leaf.is_real, {Space::block, s.a, cell(s.b)->word() + leaf.word});
+        }
+        return;
+    case code::store_block:
+        for (std::uint32_t c = 0; c < s.n; ++c) {
+            const std::size_t first = noted.operands.size();
+            const Leaf leaf = p_.leaves[s.d + c];
+            operand(s.c + c);
+            operand(s.b);
+            note(Kind::store, first, s.c + c, leaf.is_real, {Space::block, s.a, cell(s.b)->word() + leaf.word});
+        }
+        return;
+    case code::load_shared:
+    case code::store_shared:
+        return;
+    case code::load_texel:
+    case code::fetch_texel:
+    case code::sample_texel:
+        for (std::uint32_t c = 0; c < s.n; ++c) {
+            const std::size_t first = noted.operands.size();
+            const std::uint32_t image = cell(s.a)->word();
+            for (std::uint32_t axis = 0; axis < s.c; ++axis)
+                operand(s.b + axis);
+            // What is between texels is known by its place's bits alone.
+            const std::uint64_t word = s.op == code::sample_texel
+                                           ? std::uint64_t{cell(s.b)->word()} << 32U | cell(s.b + s.c - 1)->word()
+                                           : texel_word(image, s.b, s.c, c);
+            result(Kind::load, first, s.out + c, p_.images[image].is_real, {Space::texel, image, word});
+        }
+        return;
+    case code::store_texel: {
+        const std::uint32_t image = cell(s.a)->word();
+        for (std::uint32_t c = 0; c < s.n && c < memory_.image(image).components; ++c) {
+            const std::size_t first = noted.operands.size();
+            operand(s.c + c);
+            for (std::uint32_t axis = 0; axis < s.d; ++axis)
+                operand(s.b + axis);
+            note(Kind::store, first, s.c + c, p_.images[image].is_real,
+                 {Space::texel, image, texel_word(image, s.b, s.d, c)});
+        }
+        return;
+    }
+    case code::array_length:
+    case code::image_size:
+    case code::query_levels:
+        for (std::uint32_t c = 0; c < s.n; ++c)
+            moves_.emplace_back(s.out + c, 0U);
+        return;
+    case spv::OpSelect:
+        for (std::uint32_t c = 0; c < s.n; ++c)
+            copied(s.out + c, (cell(s.d != 0 ? s.a + c : s.a)->word() != 0 ? s.b : s.c) + c);
+        return;
+    case spv::OpVectorExtractDynamic: {
+        const std::uint32_t index = cell(s.b)->word();
+        return copied(s.out, s.a + (index < s.d ? index : 0));
+    }
+    case spv::OpVectorInsertDynamic:
+        for (std::uint32_t c = 0; c < s.n; ++c)
+            copied(s.out + c, cell(s.c)->word() == c ? s.b : s.a + c);
+        return;
+    case spv::OpTranspose:
+        for (std::uint32_t column = 0; column < s.c; ++column)
+            for (std::uint32_t row = 0; row < s.d; ++row)
+                copied(s.out + row * s.c + column, s.a + column * s.d + row);
+        return;
+    default:
+        break;
+    }
+    if (s.op >= code::own)
+        return;
+    const StepOperands operands = operands_of(s);
+    for (std::uint32_t c = 0; c < s.n; ++c) {
+        const std::size_t first = noted.operands.size();
+        if (operands.by_component)
+            for (std::size_t k = 0; k < operands.count; ++k)
+                operand(operands.ranges[k].first + c);
+        else if (s.op == spv::OpVectorTimesScalar || s.op == spv::OpMatrixTimesScalar) {
+            operand(s.a + c);
+            operand(s.b);
+        } else
+            for (std::size_t k = 0; k < operands.count; ++k)
+                for (std::uint32_t part = 0; part < operands.ranges[k].second; ++part)
+                    operand(operands.ranges[k].first + part);
+        const bool compares = tracing::is_comparison(s.op);
+        result(compares ? Kind::comparison : Kind::operation, first, s.out + c,
+               compares ? tracing::takes_reals(s.op) : tracing::makes_real(s.op));
+    }
+}
+
+template <class R, int W> void Machine<R, W>::note_results() {
+    for (const auto& [out, row] : moves_)
+        made_by_[out] = row;
+    moves_.clear();
+    for (PendingRow& pending : pending_) {
+        const auto row = static_cast<std::uint32_t>(noted_->rows.size());
+        if (pending.is_result)
+            for (const ForcedRow& one : forced_)
+                if (one.row == row)
+                    cell(pending.cell)->set(one.bits);
+        pending.row.bits = cell(pending.cell)->word();
+        noted_->rows.push_back(pending.row);
+        if (pending.is_result)
+            made_by_[pending.cell] = row + 1;
+    }
+    pending_.clear();
+}
+
+} // namespace lockstep::text

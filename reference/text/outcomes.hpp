@@ -1,0 +1,55 @@
+#pragma once
+#include <array>
+#include <cstdint>
+#include <vector>
+
+#include "reference/known_operations.hpp"
+#include "reference/readings/site.hpp"
+#include "reference/system/item_pass.hpp"
+#include "reference/text/dispatch.hpp"
+#include "reference/text/invocation.hpp"
+#include "reference/undefined.hpp"
+
+namespace lockstep::text {
+
+/// A word that an invocation wrote, and what it may legally be.
+struct WrittenWord {
+    WrittenPlace place;
+    std::uint32_t word = 0; ///< of an integer; of a float one of the set
+    Interval set;           ///< of a float
+    bool is_real = false;
+};
+
+/// One of the ways an invocation may go.
+struct InvocationOutcome {
+    std::vector<WrittenWord> written;      ///< in the order of places
+    std::vector<OpenSite> open;            ///< comparisons on the way that could have gone otherwise: FILE:LINE
+    Undefined undefined = Undefined::none; ///< then nothing is known of what it writes
+};
+
+/// What a constant of a text is: the float that it was rounded to, or any real number that is rounded so, as in a port
+/// of more digits.
+enum class Constants : std::uint8_t { rounded, as_written };
+
+/// A text by sets: what each invocation may legally write, every operation judged by its own `precise` and by what is
+/// known of the driver.
+class Outcomes {
+  public:
+    /// `program` outlives it.
+    explicit Outcomes(const Program& program);
+
+    /// All outcomes of an invocation that shares nothing with others but what it reads. `known`: in the stage that the
+    /// text runs in. What `bindings` name stays as it is. Throws Error by FILE:LINE for what is not followed by sets:
+    /// barriers, atomic operations, stores to half and rgba8 images.
+    [[nodiscard]] std::vector<InvocationOutcome> of(const Invocation& invocation, std::array<std::uint32_t, 3> groups,
+                                                    const Bindings& bindings, PassStage stage, const Profile& profile,
+                                                    const KnownOperations& known,
+                                                    Constants constants = Constants::rounded) const;
+
+  private:
+    const Program& program_;
+    std::vector<Site> sites_;
+    std::vector<const Site*> site_of_step_;
+};
+
+} // namespace lockstep::text

@@ -1,0 +1,34 @@
+#include "reference/text/trace.hpp"
+
+#include "reference/subnormals.hpp"
+#include "reference/text/glsl_functions.hpp"
+#include "reference/text/machine_flow.hpp"
+#include "reference/text/machine_trace.hpp"
+
+namespace lockstep::text {
+
+std::vector<TracedWord> run_traced(const Program& program, const Invocation& invocation,
+                                   std::array<std::uint32_t, 3> groups, const Bindings& bindings,
+                                   const Profile& profile, std::span<const ForcedRow> forced, Trace& trace) {
+    const FlushSubnormals guard{profile.compute_flush_subnormals,
+                                profile.compute_flush_results.value_or(profile.compute_flush_subnormals)};
+    TracedValues values(profile);
+    Findings ignored;
+    Memory memory(program, bindings, ignored, nullptr);
+    WrittenWords<TracedValues> written;
+    constexpr std::uint32_t most_branches = 200'000;
+    Machine<TracedValues, 1> run(values, program, memory, bindings, groups, most_branches);
+    run.keep(written);
+    trace.rows.clear();
+    trace.operands.clear();
+    run.note_into(trace, forced);
+    run.start({&invocation, 1});
+    run.run();
+    std::vector<TracedWord> words;
+    for (const auto& [place, cell] : written)
+        if (place.space != WrittenPlace::Space::shared)
+            words.push_back({place, cell.word()});
+    return words;
+}
+
+} // namespace lockstep::text

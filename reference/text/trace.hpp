@@ -1,0 +1,62 @@
+#pragma once
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "reference/model/profile.hpp"
+#include "reference/text/invocation.hpp"
+#include "reference/text/program.hpp"
+
+namespace lockstep::text {
+
+struct Bindings;
+
+/// What an operation took: the row that made it, and its bits.
+struct TraceOperand {
+    static constexpr std::uint32_t no_row = 0xffffffffU; ///< a constant, a uniform, a built-in input
+    std::uint32_t row = no_row, bits = 0;
+};
+
+/// A scalar that an invocation made, or a word that it read or wrote.
+struct TraceRow {
+    enum class Kind : std::uint8_t { operation, comparison, load, store };
+    Kind kind = Kind::operation;
+    bool is_real = false;
+    std::uint16_t op = 0; ///< of the step
+    std::uint32_t step = 0, line = 0;
+    std::uint32_t bits = 0;             ///< a comparison's: 0 or 1
+    std::uint32_t first = 0, count = 0; ///< operands; a store's first is what it writes
+    WrittenPlace place;                 ///< of loads and stores
+};
+
+/// What one invocation came by, in order.
+struct Trace {
+    std::vector<TraceRow> rows;
+    std::vector<TraceOperand> operands;
+
+    [[nodiscard]] std::span<const TraceOperand> of(const TraceRow& row) const {
+        return std::span(operands).subspan(row.first, row.count);
+    }
+};
+
+/// A row that gets other bits than it was made with.
+struct ForcedRow {
+    std::uint32_t row = 0, bits = 0;
+};
+
+/// A word that an invocation wrote.
+struct TracedWord {
+    WrittenPlace place;
+    std::uint32_t bits = 0;
+    friend bool operator==(const TracedWord&, const TracedWord&) = default;
+};
+
+/// Runs an invocation that shares nothing with others but what it reads. What `bindings` name stays as it is. Returns
+/// what it wrote, in the order of places. Throws Error by FILE:LINE for what is not run so.
+std::vector<TracedWord> run_traced(const Program& program, const Invocation& invocation,
+                                   std::array<std::uint32_t, 3> groups, const Bindings& bindings,
+                                   const Profile& profile, std::span<const ForcedRow> forced, Trace& trace);
+
+} // namespace lockstep::text

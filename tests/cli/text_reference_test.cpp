@@ -1,0 +1,103 @@
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+#include <string>
+
+#include <catch2/catch.hpp>
+
+#include "tests/cli/cli_checks.hpp"
+#include "tests/cli/run_program.hpp"
+
+using namespace lockstep;
+using namespace lockstep::test;
+using Catch::Contains;
+
+namespace {
+
+std::string shipped(const std::string& file) {
+    std::ifstream stream("shaders/" + file);
+    return {std::istreambuf_iterator<char>(stream), {}};
+}
+
+std::string replaced(std::string text, const std::string& what, const std::string& by) {
+    const std::size_t at = text.find(what);
+    REQUIRE(at != std::string::npos);
+    return text.replace(at, what.size(), by);
+}
+
+/// A folder with a shader of dust's update.
+std::string update_in(const TemporaryFolder& folder, const std::string& name, const std::string& text) {
+    std::filesystem::create_directory(folder.path() / name);
+    folder.write(name + "/update.comp", text);
+    return (folder.path() / name).string();
+}
+
+Outcome check(const std::string& scene, const std::vector<std::string>& more) {
+    return run_lockstep(joined({"check", "data/scenes/dust/" + scene, "--particles", "500", "--frames", "3",
+                                "--no-render", "--gl", software_gl()},
+                               more));
+}
+
+const std::string step = "m.next = add(m.current, mul(m.velocity, deltaTime));";
+
+} // namespace
+
+TEST_CASE("--reference: a plain shader takes the place of a twin, with the same bits and the same mistakes found") {
+    if (!have_software_gl())
+        return;
+    const TemporaryFolder folder;
+    const std::string same = update_in(folder, "same", shipped("dust/update.comp"));
+    const Outcome agrees = check("box.json", {"--reference", same});
+    INFO(agrees.out << agrees.err);
+    CHECK(agrees.status == 0);
+    CHECK_THAT(agrees.out, Contains("verdict   AGREE") && Contains("reference of update: its text in " + same));
+    const std::string wrong =
+        update_in(folder, "wrong", replaced(shipped("dust/update.comp"), step, "m.next = add(m.current, m.velocity);"));
+    const Outcome differs = check("box.json", {"--reference", same, "--shaders", wrong});
+    CHECK(differs.status == 1);
+    CHECK_THAT(differs.out, Contains("verdict   DIVERGENT") && Contains("--reference " + same));
+    // The other way round: the shipped shader is held against a wrong reference.
+    CHECK(check("box.json", {"--reference", wrong}).status == 1);
+}
+
+TEST_CASE("--reference: what is no reference is one line") {
+    if (!have_software_gl())
+        return;
+    const TemporaryFolder folder;
+    const std::string same = update_in(folder, "same", shipped("dust/update.comp"));
+    CHECK_THAT(refusal(check("black_hole_gpu.json", {"--reference", same})),
+               Contains(same) && Contains("populate.comp"));
+    CHECK_THAT(refusal(check("box.json", {"--reference", (folder.path() / "none").string()})), Contains("none"));
+    folder.write("same/draw.vert", shipped("dust/draw.vert"));
+    CHECK_THAT(refusal(check("box.json", {"--reference", same, "--allow-unused"})), Contains("draw.vert"));
+    const std::string broken =
+        update_in(folder, "broken", replaced(shipped("dust/update.comp"), step, "m.next = nothing;"));
+    CHECK_THAT(refusal(check("box.json", {"--reference", broken})), Contains("update.comp:"));
+    CHECK_THAT(refusal(run_lockstep({"check", "data/scenes/lattice.json", "--reference", same, "--gl", software_gl()})),
+               Contains("--reference") && Contains("collision"));
+}
+
+TEST_CASE("a shader without precise is legal where its own text leaves open what the twin gives, and only there") {
+    if (!have_software_gl())
+        return;
+    const TemporaryFolder folder;
+    const std::string drag = "return add(v, mul(sub(a, drag), deltaTime));";
+    const std::string free = update_in(
+        folder, "free", replaced(shipped("dust/update.comp"), drag, "return (v + a * deltaTime) - drag * deltaTime;"));
+    for (const char* const scene : {"wind.json", "physics.json"}) {
+        const Outcome legal = check(scene, {"--shaders", free});
+        INFO(legal.out << legal.err);
+        CHECK(legal.status == 0);
+        CHECK_THAT(legal.out, Contains("verdict   LEGAL"));
+    }
+    const std::string slip = update_in(
+        folder, "slip",
+        replaced(shipped("dust/update.comp"), drag, "return (v + a * deltaTime) - drag * (deltaTime * 1.01);"));
+    CHECK_THAT(check("physics.json", {"--shaders", slip}).out, Contains("verdict   DIVERGENT"));
+    // What says `precise` has the bits that it asks for, and is held to them.
+    const std::string precise =
+        update_in(folder, "precise",
+                  replaced(shipped("dust/update.comp"), drag,
+                           "precise vec3 r = (v + a * deltaTime) - drag * deltaTime;\n    return r;"));
+    CHECK_THAT(check("physics.json", {"--shaders", precise}).out, Contains("verdict   DIVERGENT"));
+}

@@ -1,0 +1,208 @@
+#include <catch2/catch.hpp>
+
+#include <cmath>
+#include <random>
+
+#include "reference/model/error.hpp"
+#include "reference/text/outcomes.hpp"
+#include "tests/text/text_kernel.hpp"
+
+using namespace lockstep;
+using namespace lockstep::test;
+using Catch::Contains;
+
+namespace {
+
+/// A text that computes on `float x[]`.
+struct Statements {
+    explicit Statements(const std::string& statements, const std::string& declarations = "")
+        : kernel("layout(local_size_x = 1) in;\nlayout(std430, binding = 0) buffer Out { float x[]; };\n" +
+                 declarations + "\nvoid main() {\n" + statements + "\n}\n"),
+          of(kernel.program) {}
+
+    /// What invocation 0 may legally leave in x[], where its words are those given.
+    [[nodiscard]] std::vector<text::InvocationOutcome> outcomes(const std::vector<float>& given,
+                                                                const KnownOperations& known = {}) const {
+        std::vector<std::uint32_t> words = words_of(given);
+        words.resize(16);
+        const std::vector<std::uint32_t> before = words;
+        text::Bindings bindings;
+        bindings.blocks.emplace_back(words);
+        auto found = of.of({}, {1, 1, 1}, bindings, PassStage::compute, named_profile("strict"), known);
+        CHECK(words == before);
+        return found;
+    }
+    /// The set of x[0] of the one outcome.
+    [[nodiscard]] Interval set(const std::vector<float>& given, const KnownOperations& known = {}) const {
+        const auto found = outcomes(given, known);
+        REQUIRE(found.size() == 1);
+        REQUIRE(found[0].written.size() == 1);
+        return found[0].written[0].set;
+    }
+    TextKernel kernel;
+    text::Outcomes of;
+};
+
+std::vector<text::InvocationOutcome> outcomes(const std::string& statements, const std::vector<float>& given,
+                                              const KnownOperations& known = KnownOperations(),
+                                              const std::string& declarations = "") {
+    return Statements(statements, declarations).outcomes(given, known);
+}
+
+Interval set_of(const std::string& expression, const std::vector<float>& given,
+                const KnownOperations& known = KnownOperations()) {
+    return Statements("x[0] = " + expression + ";").set(given, known);
+}
+
+double ulps(const Interval& set) {
+    return (set.high - set.low) / interval::ulp(std::max(std::abs(set.low), std::abs(set.high)));
+}
+
+struct Function {
+    std::string name;
+    double (*exact)(double, double);
+    float lowest, highest;
+    double most_ulps; ///< of the set, beside an absolute width
+    double most_absolute;
+};
+
+} // namespace
+
+TEST_CASE("text outcomes: a product and sum without precise may be fused or not, with precise it is one float") {
+    const float a = 1.1F, b = 0.9F, c = -0.99F;
+    const Interval free = set_of("x[1] * x[2] + x[3]", {0, a, b, c});
+    CHECK(free.contains(std::fma(a, b, c)));
+    CHECK(free.contains(a * b + c));
+    CHECK(free.low < free.high);
+    const auto precise =
+        outcomes("precise float y = x[1] * x[2] + x[3];\nx[0] = y;", {0, a, b, c}, KnownOperations::all());
+    REQUIRE(precise.size() == 1);
+    CHECK(precise[0].written[0].set.is_point());
+    CHECK(precise[0].written[0].set.as_float() == a * b + c);
+    const Interval fused = set_of("fma(x[1], x[2], x[3])", {0, a, b, c});
+    CHECK(fused.contains(std::fma(a, b, c)));
+    CHECK(fused.contains(a * b + c));
+    CHECK_FALSE(fused.contains(std::nextafter(std::max(std::fma(a, b, c), a * b + c), 2.0F)));
+}
+
+TEST_CASE("text outcomes: what no order and no fusing changes is one float") {
+    CHECK(set_of("x[1] - x[2]", {0, 1.0F, 0.25F}).is_point());
+    CHECK(set_of("x[1] * x[2]", {0, 3.0F, 0.25F}).is_point());
+    CHECK(set_of("x[1] + x[2]", {0, 3.0F, 0.25F}).is_point());
+    CHECK_FALSE(set_of("x[1] * x[2]", {0, 1.1F, 1.3F}).is_point());
+    CHECK_FALSE(set_of("x[1] + x[2]", {0, 1.0F, 0x1p-30F}).is_point());
+}
+
+TEST_CASE("text outcomes: built-in functions have GLSL's precision around the exact result") {
+    const std::vector<Function> functions{
+        {"exp(x[1])", [](double x, double) { return std::exp(x); }, -20, 20, 100, 0},
+        {"exp2(x[1])", [](double x, double) { return std::exp2(x); }, -30, 30, 140, 0},
+        {"log(x[1])", [](double x, double) { return std::log(x); }, 1e-3F, 100, 8, 0x1p-19},
+        {"log2(x[1])", [](double x, double) { return std::log2(x); }, 1e-3F, 100, 8, 0x1p-19},
+        {"pow(x[1], x[2])", [](double x, double y) { return std::pow(x, y); }, 0.01F, 4, 2000, 0},
+        {"sin(x[1])", [](double x, double) { return std::sin(x); }, -9, 9, 0, 0x1p-8},
+        {"cos(x[1])", [](double x, double) { return std::cos(x); }, -9, 9, 0, 0x1p-8},
+        {"atan(x[1])", [](double x, double) { return std::atan(x); }, -9, 9, 8300, 0},
+        {"atan(x[1], x[2])", [](double x, double y) { return std::atan2(x, y); }, 0.1F, 9, 8300, 0},
+        {"asin(x[1])", [](double x, double) { return std::asin(x); }, -1, 1, 8300, 0x1p-8},
+        {"acos(x[1])", [](double x, double) { return std::acos(x); }, -1, 1, 8300, 0x1p-8},
+        {"sinh(x[1])", [](double x, double) { return std::sinh(x); }, -5, 5, 60, 0x1p-19},
+        {"cosh(x[1])", [](double x, double) { return std::cosh(x); }, -5, 5, 60, 0},
+        {"tanh(x[1])", [](double x, double) { return std::tanh(x); }, -5, 5, 10, 0x1p-18},
+        {"asinh(x[1])", [](double x, double) { return std::asinh(x); }, -5, 5, 10, 0x1p-18},
+        {"acosh(x[1])", [](double x, double) { return std::acosh(x); }, 1, 5, 10, 0x1p-8},
+        {"atanh(x[1])", [](double x, double) { return std::atanh(x); }, -0.9F, 0.9F, 20, 0x1p-18},
+        {"inversesqrt(x[1])", [](double x, double) { return 1.0 / std::sqrt(x); }, 0.01F, 9, 6, 0},
+        {"sqrt(x[1])", [](double x, double) { return std::sqrt(x); }, 0.01F, 9, 12, 0},
+        {"x[1] / x[2]", [](double x, double y) { return x / y; }, 0.01F, 9, 7, 0},
+        {"mix(x[1], x[2], 0.25)", [](double x, double y) { return 0.75 * x + 0.25 * y; }, 0.01F, 9, 12, 0},
+        {"smoothstep(0.0, 10.0, x[1])",
+         [](double x, double) {
+             x /= 10.0F;
+             return x * x * (3.0 - 2.0 * x);
+         },
+         0.1F, 9, 40, 0},
+        {"length(vec2(x[1], x[2]))", [](double x, double y) { return std::hypot(x, y); }, 0.1F, 9, 20, 0},
+        {"length(vec3(x[1], x[2], 0.5))", [](double x, double y) { return std::hypot(x, y, 0.5); }, 0.1F, 9, 20, 0},
+        {"normalize(vec4(x[1], x[2], 0.5, 1.0)).x",
+         [](double x, double y) { return x / std::sqrt(x * x + y * y + 1.25); }, 0.1F, 9, 30, 0},
+        {"dot(vec2(x[1], x[2]), vec2(0.3, 0.7))",
+         [](double x, double y) { return x * double{0.3F} + y * double{0.7F}; }, 0.1F, 9, 10, 0},
+        {"determinant(mat2(x[1], 0.1, 0.2, x[2]))",
+         [](double x, double y) { return x * y - double{0.1F} * double{0.2F}; }, 1, 9, 12, 0},
+        {"inverse(mat2(x[1], 0.0, 0.0, x[2]))[0][0]", [](double x, double) { return 1.0 / x; }, 1, 9, 30, 0}};
+    std::mt19937 random(7);
+    for (const Function& one : functions) {
+        INFO(one.name);
+        const Statements text("x[0] = " + one.name + ";");
+        std::uniform_real_distribution<float> value(one.lowest, one.highest);
+        for (int k = 0; k < 100; ++k) {
+            const float x = value(random), y = value(random);
+            const Interval set = text.set({0, x, y});
+            INFO(x << ", " << y << ": " << set.low << " to " << set.high);
+            REQUIRE_FALSE(set.any);
+            const double exact = one.exact(x, y);
+            REQUIRE(set.contains(static_cast<float>(exact)));
+            REQUIRE((ulps(set) <= one.most_ulps || set.high - set.low <= one.most_absolute));
+        }
+    }
+}
+
+TEST_CASE("text outcomes: a comparison that rounding leaves open is two ways, with its line") {
+    const std::string statements = "float y = x[1] * x[2];\nx[0] = y < x[3] ? 1.0 : 2.0;";
+    const float a = 1.1F, b = 1.3F;
+    const auto open = outcomes(statements, {0, a, b, a * b});
+    REQUIRE(open.size() == 2);
+    CHECK(open[0].written[0].set.as_float() != open[1].written[0].set.as_float());
+    REQUIRE(open[0].open.size() == 1);
+    CHECK(open[0].open[0].site == "kernel.comp:6");
+    const auto sure = outcomes(statements, {0, a, b, 2.0F});
+    REQUIRE(sure.size() == 1);
+    CHECK(sure[0].written[0].set.as_float() == 1.0F);
+}
+
+TEST_CASE("text outcomes: floor, ceil, round, integers and packed words take each way that a set leaves open") {
+    const std::string product = "float y = x[1] * x[2];\n"; // about 3, from both sides
+    const float third = 1.0F / 3.0F;
+    const std::vector<float> given{0, 9.0F, third};
+    const auto values = [&](const std::string& statement) {
+        std::vector<float> all;
+        for (const text::InvocationOutcome& one : outcomes(product + statement, given)) {
+            CHECK(one.undefined == Undefined::none);
+            all.push_back(one.written.at(0).set.as_float());
+        }
+        std::sort(all.begin(), all.end());
+        return all;
+    };
+    CHECK(values("x[0] = floor(y);") == std::vector<float>{2, 3});
+    CHECK(values("x[0] = ceil(y);") == std::vector<float>{3, 4});
+    CHECK(values("x[0] = trunc(y);") == std::vector<float>{2, 3});
+    CHECK(values("x[0] = round(y);") == std::vector<float>{3});
+    CHECK(values("x[0] = float(int(y));") == std::vector<float>{2, 3});
+    CHECK(values("x[0] = sign(y - 3.0);") == std::vector<float>{-1, 0, 1});
+    CHECK(values("x[0] = round(2.5);").size() == 1); // a constant that the compiler folds
+    CHECK(values("x[3] = round(0.5 * x[1] - 2.0);") == std::vector<float>{2, 3});
+    CHECK(values("x[3] = roundEven(0.5 * x[1] - 2.0);") == std::vector<float>{2});
+    CHECK(values("x[0] = float(packUnorm4x8(vec4(x[2] * 0.75)));").size() == 1);
+}
+
+TEST_CASE("text outcomes: what was written is read back as a set, and what lies in memory stays") {
+    const auto found = outcomes("x[0] = x[1] * x[2];\nx[3] = x[0] - x[1] * x[2];", {0, 1.1F, 1.3F});
+    REQUIRE(found.size() == 1);
+    REQUIRE(found[0].written.size() == 2);
+    CHECK(found[0].written[1].set.contains(0.0F));
+    CHECK_FALSE(found[0].written[1].set.is_point());
+}
+
+TEST_CASE("text outcomes: operands that may have no result leave the outcome undefined") {
+    for (const char* expression :
+         {"sqrt(x[1])", "log(x[1])", "pow(x[1], 0.5)", "asin(x[2])", "acosh(x[1])", "normalize(vec3(x[0])).x"}) {
+        INFO(expression);
+        CHECK(set_of(expression, {0, -1.0F, 1.5F}).any);
+    }
+}
+
+TEST_CASE("text outcomes: what invocations share is refused by its line") {
+    CHECK_THROWS_WITH(outcomes("atomicAdd(n, 1);", {0}, {}, "shared int n;"),
+                      Contains("kernel.comp:5") && Contains("is not run apart from others"));
+}

@@ -255,6 +255,7 @@ class Assembly {
         open_.push_back(path);
         std::istringstream lines(text);
         std::string line;
+        std::optional<ShaderSource::Origin> origin; // of all lines that follow
         for (int number = 1; std::getline(lines, line); ++number) {
             if (const auto included = directive(line, "include")) {
                 try {
@@ -268,10 +269,13 @@ class Assembly {
             }
             note_condition(line);
             if (const auto renumbered = directive(line, "line")) {
-                append_line(without_renumbering(line, *renumbered), {file, number});
+                if (open_.size() == 1 && texts_.contains(path.string()))
+                    stand_for(*renumbered, origin);
+                else
+                    append_line(without_renumbering(line, *renumbered), {file, number});
                 continue;
             }
-            append_line(line, {file, number});
+            append_line(line, origin.value_or(ShaderSource::Origin{file, number}));
             if (const auto version = directive(line, "version"); version && !has_version_) {
                 check_version(*version, fmt::format("shader {}:{}: ", shown(path), number));
                 has_version_ = true;
@@ -280,6 +284,14 @@ class Assembly {
             }
         }
         open_.pop_back();
+    }
+
+    /// `#line 7 "wall.glsl"` in a stage that the host writes: what follows stands for that line, as messages name it.
+    void stand_for(std::string_view argument, std::optional<ShaderSource::Origin>& origin) {
+        origin = ShaderSource::Origin{};
+        std::from_chars(argument.data(), argument.data() + argument.size(), origin->line);
+        const std::size_t name = argument.find('"') + 1;
+        source_.files.front() = argument.substr(name, argument.rfind('"') - name);
     }
 
     /// A `#line` is left out, since errors are reported by the lines of the files. One with a file's name, without a

@@ -45,7 +45,7 @@ int run(int argc, char** argv) {
                      error.code().message().c_str());
         return status_could_not_run;
     } catch (const std::exception& error) {
-        std::fprintf(stderr, "lockstep: %s\n", plain_line(error.what()).c_str());
+        std::fprintf(stderr, "lockstep: %s\n", short_line(error.what()).c_str());
         return status_could_not_run;
     }
 }

@@ -76,6 +76,20 @@ std::string plain(std::string_view text, bool keep_lines) {
 
 std::string plain_line(std::string_view text) { return plain(text, false); }
 
+std::string short_line(std::string_view text) {
+    constexpr std::size_t most_first = 1000, most_last = 500;
+    std::string line = plain_line(text);
+    if (line.size() <= most_first + most_last)
+        return line;
+    const auto goes_on = [&](std::size_t at) { return (static_cast<unsigned char>(line[at]) & 0xc0U) == 0x80; };
+    std::size_t first = most_first, last = line.size() - most_last;
+    while (goes_on(first))
+        --first;
+    while (goes_on(last))
+        ++last;
+    return line.replace(first, last - first, " ... ");
+}
+
 std::string plain_text(std::string_view text) { return plain(text, true); }
 
 bool is_plain(std::string_view text) { return plain_line(text) == text; }

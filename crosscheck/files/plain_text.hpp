@@ -10,7 +10,10 @@ namespace lockstep {
 /// direction of writing round, and bytes that are no UTF-8 become \n, \x1b, \u202e, \xff. All other characters stay.
 std::string plain_line(std::string_view text);
 
-/// The same of a whole report: its line breaks stay.
+/// The same, of which at most some 1,500 bytes are left: beginning and end.
+std::string short_line(std::string_view text);
+
+/// plain_line of a whole report: its line breaks stay.
 std::string plain_text(std::string_view text);
 
 /// Whether plain_line leaves it as it is.

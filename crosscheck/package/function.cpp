@@ -63,11 +63,15 @@ std::string folder_of(const GlslFunction& function) {
 }
 
 /// A vertex stage of that name: the function's file, whose main goes by another name (defines_of), and `end` behind it.
+/// What a compiler finds in `end` is the file's fault: a brace or a comment that it leaves open.
 ShaderTexts stage_of(const GlslFunction& function, std::string_view name, const std::string& end) {
     const std::string text = read_shader_file(function.file);
     const std::string file = std::filesystem::path(function.file).filename().string();
     const std::string version = has_version(text) ? "" : fmt::format("#version {} core\n", 400);
-    return {{fmt::format("{}.vert", name), fmt::format("{}#include \"{}\"\n#undef main\n{}", version, file, end)},
+    const auto last = 1 + std::count(text.begin(), text.end(), '\n') - (text.ends_with('\n') ? 1 : 0);
+    return {{fmt::format("{}.vert", name),
+             fmt::format("#line 1 \"{0}\"\n{1}#include \"{0}\"\n#line {2} \"{0}\"\n#undef main\n{3}", file, version,
+                         last, end)},
             {file, text}};
 }
 

@@ -198,6 +198,24 @@ TEST_CASE("function: what cannot be run is one line that says what would be righ
                Contains("--like-name goes with --like"));
     CHECK_THAT(of_options({setting.shader, "bounce", "--table", "nothing.csv", "--uniform", "u_Kept=1"}),
                Contains("nothing.csv"));
+    const std::string cut = of_options(
+        {setting.shader, "bounce", "--table", table, "--uniform", "u_Kept=" + std::string(20'000, '9') + "x"});
+    CHECK_THAT(cut, Contains("--uniform u_Kept=99") && Contains("99 ... 99") && Contains("is no float; right is NAME"));
+    CHECK(cut.size() < 2000);
+}
+
+TEST_CASE("function: what a file leaves open is an error of that file, at its last line") {
+    if (!have_software_gl())
+        return;
+    const Setting setting;
+    const auto of_text = [&](const std::string& text) {
+        return refusal(run_lockstep({"function", setting.file("open.glsl", text), "kept", "--table",
+                                     setting.file("kept.csv", "a, result\n1, 1\n"), "--gl", software_gl()}));
+    };
+    CHECK_THAT(of_text("float kept(float a) {\n    return a;\n"), Contains("shader open.glsl:2: syntax error"));
+    CHECK_THAT(of_text("float kept(float a) { return a; }\n\n/* and so on"), Contains("shader open.glsl:3: "));
+    CHECK_THAT(of_text("float kept(float a) { return a > 0.0 ? kept(a - 1.0) : a; }\n"),
+               Contains("shader open.glsl: ") && Contains("static recursion"));
 }
 
 TEST_CASE("function: tables of integers without sign and of truths, in decimals and hexadecimal") {

@@ -13,6 +13,7 @@
 #include "crosscheck/cli/commands.hpp"
 #include "crosscheck/cli/shader_findings.hpp"
 #include "crosscheck/cli/system_run.hpp"
+#include "crosscheck/cli/text_passes.hpp"
 #include "crosscheck/files/json_text.hpp"
 #include "crosscheck/files/plain_text.hpp"
 #include "crosscheck/files/png.hpp"
@@ -246,6 +247,10 @@ int check_system(const RegisteredSystem& system, RunOptions run, const SystemChe
             shader_findings(input.scene(), run.shaders, side.describe().profile, run.frames);
         about.notes.insert(about.notes.end(), found.begin(), found.end());
     }
+    if (about.shaders && !run.shaders.empty())
+        for (const std::string& line :
+             lines_without_counterpart(input.scene(), *about.shaders, run, side, *options.known, report))
+            about.notes.push_back("without a counterpart in the reference: " + line);
     if (input.is_recorded() && run.frames < input.recorded_frames())
         about.notes.push_back(
             fmt::format("{} of the {} frames recorded were compared", run.frames, input.recorded_frames()));

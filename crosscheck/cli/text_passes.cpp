@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <memory>
+#include <string_view>
 #include <utility>
 
 #include <fmt/format.h>
@@ -9,7 +10,10 @@
 #include "crosscheck/cli/system_run.hpp"
 #include "crosscheck/files/plain_text.hpp"
 #include "crosscheck/judge/dispatch.hpp"
+#include "crosscheck/judge/open_pass.hpp"
+#include "crosscheck/judge/system_run.hpp"
 #include "crosscheck/text/text_pass.hpp"
+#include "crosscheck/text/witness.hpp"
 #include "reference/model/error.hpp"
 
 namespace lockstep {
@@ -80,6 +84,65 @@ void open_by_own_text(SystemScene& scene, const ShaderUse& use, const std::files
         } catch (const Error&) { // shader_findings says why a text is not interpreted
         }
     }
+}
+
+namespace {
+
+/// Items that the GPU made otherwise than the reference, and such that both changed alike; few of each, from all over.
+struct SomeItems {
+    std::vector<std::size_t> wrong, right;
+};
+
+SomeItems some_items(const JudgedPass& judged) {
+    constexpr std::size_t most = 10;
+    SomeItems all;
+    const std::uint8_t r = judged.pass.resource();
+    const auto words = [](const View& view, std::size_t item) { return item_words(view, item); };
+    for (std::size_t item = 0; item < judged.gpu.count(); ++item) {
+        const auto gpu = words(judged.gpu, item);
+        if (gpu != words(judged.reference, item))
+            all.wrong.push_back(item);
+        else if (gpu != words(judged.before[r], item))
+            all.right.push_back(item);
+    }
+    for (std::vector<std::size_t>* items : {&all.wrong, &all.right}) {
+        std::vector<std::size_t> some;
+        for (std::size_t k = 0; k < std::min(most, items->size()); ++k)
+            some.push_back((*items)[k * items->size() / std::min(most, items->size())]);
+        *items = std::move(some);
+    }
+    return all;
+}
+
+} // namespace
+
+std::vector<std::string> lines_without_counterpart(const SystemScene& scene, const ShaderUse& use,
+                                                   const RunOptions& run, SystemSide& side,
+                                                   const KnownOperations& known, const CheckReport& report) try {
+    if (report.verdict != Verdict::divergent || !report.verdicts || !report.verdicts->first)
+        return {};
+    const std::size_t p = report.verdicts->first->pass;
+    const GlPass& pass = scene.passes[p];
+    if (!is_compute(pass) || pass.continues || !is_own(use, pass))
+        return {};
+    const std::string& system = scene.system.schema.system;
+    const std::shared_ptr<const PassText> wrong = text_of(scene, p, shader_folders(run.shaders, system)),
+                                          reference = text_of(scene, p, shader_folders(run.reference, system));
+    const SystemRun again(scene.system, side, known, report.verdicts->first->place.frame, p);
+    const JudgedPass judged = again.judged();
+    const SomeItems items = some_items(judged);
+    const auto is_own_line = [&](std::string_view where) {
+        return std::ranges::any_of(use.files, [&](const UsedShader& file) {
+            return !file.foreign.empty() && where.starts_with(file.file + ":");
+        });
+    };
+    std::vector<std::string> lines;
+    for (const WitnessLine& one : witness_lines(*wrong, *reference, judged.input(), judged.profile,
+                                                judged.pass.resource(), items.wrong, items.right, is_own_line))
+        lines.push_back(fmt::format("{}: {}: {}", one.where, plain_line(one.text), one.what));
+    return lines;
+} catch (const Error&) {
+    return {}; // notes say what is not interpreted
 }
 
 } // namespace lockstep

@@ -4,8 +4,10 @@
 #include <vector>
 
 #include "crosscheck/cli/run_options.hpp"
+#include "crosscheck/judge/check.hpp"
 #include "crosscheck/judge/registered_system.hpp"
 #include "gpu/shader_use.hpp"
+#include "reference/known_operations.hpp"
 
 namespace lockstep {
 
@@ -16,5 +18,11 @@ std::vector<std::string> take_references(SystemScene& scene, const RunOptions& r
 /// Of each pass whose compute shader is the user's own: what its text leaves open is legal (open_pass.hpp). A text that
 /// is not interpreted leaves the pass as it is.
 void open_by_own_text(SystemScene& scene, const ShaderUse& use, const std::filesystem::path& shaders);
+
+/// Where a check is DIVERGENT in a pass whose compute shader is the user's own: the lines of its text that have no
+/// counterpart in the reference's, which is run.reference's or the shipped one (text/witness.hpp).
+std::vector<std::string> lines_without_counterpart(const SystemScene& scene, const ShaderUse& use,
+                                                   const RunOptions& run, SystemSide& side,
+                                                   const KnownOperations& known, const CheckReport& report);
 
 } // namespace lockstep

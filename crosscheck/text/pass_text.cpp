@@ -76,6 +76,17 @@ PassText::PassText(const Schema& schema, GlPass pass, std::vector<std::uint8_t> 
         images_.push_back(image_named(image.name));
 }
 
+std::string PassText::line_text(std::uint32_t line) const {
+    std::string_view rest = source_->text;
+    for (std::uint32_t at = 1; at < line && !rest.empty(); ++at)
+        rest.remove_prefix(std::min(rest.find('\n'), rest.size() - 1) + 1);
+    rest = rest.substr(0, rest.find('\n'));
+    if (const std::size_t comment = rest.find("//"); comment != std::string_view::npos)
+        rest = rest.substr(0, comment);
+    const std::size_t first = rest.find_first_not_of(" \t"), last = rest.find_last_not_of(" \t\r");
+    return first == std::string_view::npos ? std::string() : std::string(rest.substr(first, last - first + 1));
+}
+
 bool PassText::writes(std::uint8_t resource) const {
     return std::find(written_.begin(), written_.end(), resource) != written_.end();
 }

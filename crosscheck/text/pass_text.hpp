@@ -29,6 +29,8 @@ class PassText {
     [[nodiscard]] const text::Program& program() const { return program_; }
     [[nodiscard]] const text::Outcomes& outcomes() const { return outcomes_; }
     [[nodiscard]] const GlPass& pass() const { return pass_; }
+    /// A line as Program::lines has it, without what is around it.
+    [[nodiscard]] std::string line_text(std::uint32_t line) const;
     PassText(const PassText&) = delete;
     PassText& operator=(const PassText&) = delete;
     [[nodiscard]] std::size_t items(const PassInput& in) const; ///< that its dispatch has invocations for

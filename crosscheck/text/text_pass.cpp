@@ -81,6 +81,23 @@ void TextDispatch::write(const View& before, std::uint8_t resource, std::size_t 
     }
 }
 
+std::optional<std::uint32_t> TextDispatch::writer(std::uint8_t resource, std::size_t item) const {
+    run();
+    std::uint32_t writer = 0;
+    for (const std::size_t from : text_.words_of_resource(resource)) {
+        const bool is_block = from < writers_.blocks.size();
+        const std::vector<std::uint32_t>& by =
+            is_block ? writers_.blocks[from] : writers_.images[from - writers_.blocks.size()];
+        const std::size_t size = text_.record(from).size();
+        for (std::size_t k = item * size; k < (item + 1) * size; ++k) {
+            if (by[k] != 0 && writer != 0 && by[k] != writer)
+                return {};
+            writer = std::max(writer, by[k]);
+        }
+    }
+    return writer == 0 ? std::nullopt : std::optional(writer - 1);
+}
+
 std::vector<ItemOutcome> TextDispatch::outcomes(const View& before, std::uint8_t resource, std::size_t item,
                                                 const KnownOperations& known, text::Constants constants) const {
     run();
@@ -90,25 +107,14 @@ std::vector<ItemOutcome> TextDispatch::outcomes(const View& before, std::uint8_t
         return std::pair(is_block ? Space::block : Space::texel,
                          static_cast<std::uint32_t>(is_block ? from : from - writers_.blocks.size()));
     };
-    std::uint32_t writer = 0;
-    for (const std::size_t from : parts_of_item) {
-        const auto [space, number] = place_in(from);
-        const std::vector<std::uint32_t>& by =
-            space == Space::block ? writers_.blocks[number] : writers_.images[number];
-        const std::size_t size = text_.record(from).size();
-        for (std::size_t k = item * size; k < (item + 1) * size; ++k) {
-            if (by[k] != 0 && writer != 0 && by[k] != writer)
-                return {};
-            writer = std::max(writer, by[k]);
-        }
-    }
-    if (writer == 0)
+    const std::optional<std::uint32_t> by = writer(resource, item);
+    if (!by)
         return {};
     const Resource& about = before.about();
     const std::vector<Component> parts = components(about);
     std::vector<ItemOutcome> all;
     try {
-        const text::Invocation invocation = text::invocation_of(text_.program(), input_.groups, writer - 1);
+        const text::Invocation invocation = text::invocation_of(text_.program(), input_.groups, *by);
         for (text::InvocationOutcome& one :
              text_.outcomes().of(invocation, input_.groups, input_.bindings, PassStage::compute, profile_,
                                  in_compute_stage(known, profile_), constants)) {

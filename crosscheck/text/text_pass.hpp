@@ -2,10 +2,11 @@
 #include <cstdint>
 #include <memory>
 #include <mutex>
+#include <optional>
 #include <vector>
 
-#include "crosscheck/judge/open_pass.hpp"
 #include "crosscheck/text/pass_text.hpp"
+#include "reference/system/own_text.hpp"
 
 namespace lockstep {
 
@@ -17,6 +18,9 @@ class TextDispatch {
     TextDispatch(const PassText& text, const PassInput& in, const Profile& profile);
 
     [[nodiscard]] int frame() const { return frame_; }
+    [[nodiscard]] const PassText::Input& input() const { return input_; }
+    /// The one invocation that wrote of an item, by its number; nothing: none or several did.
+    [[nodiscard]] std::optional<std::uint32_t> writer(std::uint8_t resource, std::size_t item) const;
     /// Items first to last of a resource, the last excluded, into `after`; what the text does not write is as `before`
     /// has it, and fields that are left out stay so.
     void write(const View& before, std::uint8_t resource, std::size_t first, std::size_t last,

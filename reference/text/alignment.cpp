@@ -183,20 +183,31 @@ std::vector<Suspect> suspects_of(const TracedRun& wrong, const TracedRun& right,
         }
         all.push_back(suspect);
     }
+    // A right value in the wrong place: the store itself.
+    const std::vector<bool> matched = matched_in(wrong.trace, in_right);
+    for (std::uint32_t row = 0; row < wrong.trace.rows.size(); ++row) {
+        const TraceRow& one = wrong.trace.rows[row];
+        if (one.kind != Kind::store || !places.contains(one.place))
+            continue;
+        const std::uint32_t value = wrong.trace.operands[one.first].row;
+        if (value == TraceOperand::no_row || matched[value])
+            all.push_back({.row = row, .is_output = true});
+    }
     return all;
 }
 
-std::vector<std::uint32_t> unmatched_lines(const TracedRun& run, const TracedRun& other) {
-    const std::vector<bool> matched = matched_in(run.trace, Seen(other.trace));
-    std::set<std::uint32_t> lines;
-    for (std::size_t row = 0; row < matched.size(); ++row)
-        if (!matched[row])
-            lines.insert(run.trace.rows[row].line);
-    return {lines.begin(), lines.end()};
+std::vector<std::uint32_t> missing_rows(const TracedRun& right, const TracedRun& wrong) {
+    return front_of(right.trace, matched_in(right.trace, Seen(wrong.trace)),
+                    places_that_differ(right.words, wrong.words));
 }
 
-std::vector<std::uint32_t> missing_rows(const TracedRun& run, const TracedRun& other) {
-    return front_of(run.trace, matched_in(run.trace, Seen(other.trace)), places_that_differ(run.words, other.words));
+std::vector<std::uint32_t> unmatched_rows(const TracedRun& run, const TracedRun& other) {
+    const std::vector<bool> matched = matched_in(run.trace, Seen(other.trace));
+    std::vector<std::uint32_t> rows;
+    for (std::uint32_t row = 0; row < matched.size(); ++row)
+        if (!matched[row])
+            rows.push_back(row);
+    return rows;
 }
 
 } // namespace lockstep::text

@@ -33,12 +33,12 @@ struct Suspect {
 std::vector<Suspect> suspects_of(const TracedRun& wrong, const TracedRun& right,
                                  const std::function<std::vector<TracedWord>(std::span<const ForcedRow>)>& again);
 
-/// The rows of a run that have no counterpart in another, each with its line: what speaks against a suspect of that
-/// line, where both runs write the same.
-std::vector<std::uint32_t> unmatched_lines(const TracedRun& run, const TracedRun& other);
+/// Rows of the right run that what it writes rests on and that have no counterpart in the wrong one, though all that
+/// they were made of has: what the wrong text never computes.
+std::vector<std::uint32_t> missing_rows(const TracedRun& right, const TracedRun& wrong);
 
-/// Values that a run came by, which what it writes rests on, and the other never did, the first of a chain of such:
-/// what the other text does not compute. Rows of `run`.
-std::vector<std::uint32_t> missing_rows(const TracedRun& run, const TracedRun& other);
+/// The rows of a run that have no counterpart in another: what speaks against a suspect of their lines, where both runs
+/// write the same.
+std::vector<std::uint32_t> unmatched_rows(const TracedRun& run, const TracedRun& other);
 
 } // namespace lockstep::text

@@ -160,6 +160,8 @@ void Decoder::in_place(Words w, std::size_t number, const Callee& callee) {
             cell_[at.result] = none;
     const auto [function, block, line, own] = std::tuple(function_, block_, line_, p_.cells);
     function_ = &of;
+    p_.in_place.push_back({line_, in_place_of_});
+    in_place_of_ = static_cast<std::uint32_t>(p_.in_place.size());
     std::uint32_t returned = none;
     for (std::size_t i = 0; i < of.body.size(); ++i) {
         const Instruction& at = of.body[i];
@@ -168,6 +170,7 @@ void Decoder::in_place(Words w, std::size_t number, const Callee& callee) {
         else if (at.op != spv::OpLabel && at.op != spv::OpReturn && at.op != spv::OpUnreachable)
             instruction(at, i);
     }
+    in_place_of_ = p_.in_place[in_place_of_ - 1].outer;
     function_ = function;
     block_ = block;
     line_ = line;

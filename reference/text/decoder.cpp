@@ -303,6 +303,7 @@ Step& Decoder::add(std::uint16_t op) {
     p_.steps.push_back({.op = op});
     p_.lines.push_back(line_);
     p_.precise.push_back(0);
+    p_.in_place_of.push_back(in_place_of_);
     maker_ = none;
     return p_.steps.back();
 }

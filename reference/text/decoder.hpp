@@ -129,6 +129,7 @@ class Decoder {
     std::vector<Patch> patches_;
     std::vector<const Function*> called_; ///< functions that steps are made of, in the order of their first calls
     const Function* function_ = nullptr;
+    std::uint32_t in_place_of_ = 0;                     ///< Program::in_place_of of the steps that are made
     std::uint32_t line_ = 0, block_ = 0, maker_ = none; ///< maker_: id that the last step made
 };
 

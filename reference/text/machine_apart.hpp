@@ -109,7 +109,6 @@ template <class R, int W> bool Machine<R, W>::memory_apart(const Step& s) {
     case code::atomic_shared:
     case code::atomic_block:
     case code::atomic_texel:
-    case code::barrier:
         refuse(s, "an invocation that shares what it computes is not run apart from others");
     default:
         return false;

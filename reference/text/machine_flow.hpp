@@ -146,6 +146,8 @@ template <class R, int W> void Machine<R, W>::flow(const Step& s) {
             memory_.races()->fence(s.a);
         break;
     default: // a barrier
+        if constexpr (runs_apart<R>)
+            refuse(s, "an invocation that shares what it computes is not run apart from others");
         active([&](Lane l) {
             state_[l] = State::waiting;
             pc_[l] = at_;

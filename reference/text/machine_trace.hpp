@@ -57,6 +57,15 @@ template <class R, int W> void Machine<R, W>::note_operands(const Step& s) {
     using Kind = TraceRow::Kind;
     Trace& noted = *noted_;
     const auto step = static_cast<std::uint32_t>(&s - p_.steps.data());
+    if (s.op == code::call) {
+        noted.calls.push_back({step, calls_});
+        calls_ = static_cast<std::uint32_t>(noted.calls.size());
+        return;
+    }
+    if (s.op == code::finish) {
+        calls_ = calls_ == 0 ? 0 : noted.calls[calls_ - 1].outer;
+        return;
+    }
     const auto operand = [&](std::uint32_t number) {
         noted.operands.push_back(
             {made_by_[number] == 0 ? TraceOperand::no_row : made_by_[number] - 1, cell(number)->word()});
@@ -64,7 +73,7 @@ template <class R, int W> void Machine<R, W>::note_operands(const Step& s) {
     /// A row whose operands have been noted from `first` on.
     const auto note = [&](Kind kind, std::size_t first, std::uint32_t cell, bool is_real, const WrittenPlace& place) {
         pending_.push_back({{kind, is_real, s.op, step, p_.lines[step], 0, static_cast<std::uint32_t>(first),
-                             static_cast<std::uint32_t>(noted.operands.size() - first), place},
+                             static_cast<std::uint32_t>(noted.operands.size() - first), place, calls_},
                             cell,
                             kind != Kind::store});
     };

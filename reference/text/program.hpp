@@ -132,8 +132,15 @@ struct CellWord {
 /// A decoded shader.
 struct Program {
     std::vector<Step> steps;
-    std::vector<std::uint32_t> lines;    ///< of each step
-    std::vector<std::uint8_t> precise;   ///< of each step: nothing fuses or reorders it (NoContraction)
+    std::vector<std::uint32_t> lines;  ///< of each step
+    std::vector<std::uint8_t> precise; ///< of each step: nothing fuses or reorders it (NoContraction)
+    /// Of each step that a function's body makes in the place of its call: the call's number, from 1, in in_place; 0:
+    /// none.
+    std::vector<std::uint32_t> in_place_of;
+    struct InPlaceCall {
+        std::uint32_t line = 0, outer = 0; ///< of the call, and what it is itself in the place of
+    };
+    std::vector<InPlaceCall> in_place;
     std::vector<std::uint32_t> operands; ///< further ones of steps
     std::vector<Leaf> leaves;
     std::uint32_t cells = 0, shared = 0;         ///< how many

@@ -7,6 +7,19 @@
 
 namespace lockstep::text {
 
+std::vector<std::uint32_t> lines_of(const Program& program, const Trace& trace, const TraceRow& row) {
+    std::vector<std::uint32_t> lines;
+    std::uint32_t step = row.step;
+    for (std::uint32_t call = row.calls;; call = trace.calls[call - 1].outer) {
+        lines.push_back(program.lines[step]);
+        for (std::uint32_t k = program.in_place_of[step]; k != 0; k = program.in_place[k - 1].outer)
+            lines.push_back(program.in_place[k - 1].line);
+        if (call == 0)
+            return lines;
+        step = trace.calls[call - 1].step;
+    }
+}
+
 std::vector<TracedWord> run_traced(const Program& program, const Invocation& invocation,
                                    std::array<std::uint32_t, 3> groups, const Bindings& bindings,
                                    const Profile& profile, std::span<const ForcedRow> forced, Trace& trace) {
@@ -21,6 +34,7 @@ std::vector<TracedWord> run_traced(const Program& program, const Invocation& inv
     run.keep(written);
     trace.rows.clear();
     trace.operands.clear();
+    trace.calls.clear();
     run.note_into(trace, forced);
     run.start({&invocation, 1});
     run.run();

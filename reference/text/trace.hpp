@@ -29,17 +29,25 @@ struct TraceRow {
     std::uint32_t bits = 0;             ///< a comparison's: 0 or 1
     std::uint32_t first = 0, count = 0; ///< operands; a store's first is what it writes
     WrittenPlace place;                 ///< of loads and stores
+    std::uint32_t calls = 0;            ///< Trace::calls, from 1; 0: the main function
 };
 
 /// What one invocation came by, in order.
 struct Trace {
     std::vector<TraceRow> rows;
     std::vector<TraceOperand> operands;
+    struct Call {
+        std::uint32_t step = 0, outer = 0; ///< of the call, and the call around it
+    };
+    std::vector<Call> calls;
 
     [[nodiscard]] std::span<const TraceOperand> of(const TraceRow& row) const {
         return std::span(operands).subspan(row.first, row.count);
     }
 };
+
+/// The lines that lead to a row, its own first, then those of the calls around it.
+std::vector<std::uint32_t> lines_of(const Program& program, const Trace& trace, const TraceRow& row);
 
 /// A row that gets other bits than it was made with.
 struct ForcedRow {

@@ -101,3 +101,27 @@ TEST_CASE("a shader without precise is legal where its own text leaves open what
                            "precise vec3 r = (v + a * deltaTime) - drag * deltaTime;\n    return r;"));
     CHECK_THAT(check("physics.json", {"--shaders", precise}).out, Contains("verdict   DIVERGENT"));
 }
+
+TEST_CASE("a wrong shader's line that has no counterpart in the reference's text is in the report") {
+    if (!have_software_gl())
+        return;
+    const TemporaryFolder folder;
+    struct Change {
+        std::string what, by, line;
+    };
+    const Change changes[] = {
+        {"mul(sub(a, drag), deltaTime)", "mul(add(a, drag), deltaTime)", "update.comp:20: return add("},
+        {"a = add(a, gravity);", "a = sub(a, gravity);", "update.comp:39: a = sub(a, gravity);"},
+        {"a = add(a, gravity);", "", "update.comp:39 of the reference: a = add(a, gravity);"},
+        {"dust[i].position = m.next;", "dust[i].position = m.current;",
+         "update.comp:50: dust[i].position = m.current;"},
+        {"set_velocity(i, m.velocity);", "set_velocity(i, mul(m.velocity, 0.5));", "update.comp:49: set_velocity("}};
+    for (const Change& one : changes) {
+        const std::string wrong = update_in(folder, "wrong", replaced(shipped("dust/update.comp"), one.what, one.by));
+        const Outcome outcome = check("physics.json", {"--shaders", wrong});
+        INFO(outcome.out << outcome.err);
+        CHECK(outcome.status == 1);
+        CHECK_THAT(outcome.out, Contains("note      without a counterpart in the reference: " + one.line));
+        std::filesystem::remove_all(wrong);
+    }
+}

@@ -1,0 +1,213 @@
+#include "crosscheck/text/witness.hpp"
+
+#include <algorithm>
+#include <bit>
+#include <map>
+#include <optional>
+#include <set>
+#include <utility>
+
+#include <fmt/format.h>
+
+#include "reference/model/error.hpp"
+#include "reference/text/alignment.hpp"
+
+namespace lockstep {
+namespace {
+
+/// A block or an image has one number in the runs of both texts.
+class Names {
+  public:
+    std::uint32_t number(const std::string& name) {
+        return numbers_.emplace(name, static_cast<std::uint32_t>(numbers_.size())).first->second;
+    }
+
+  private:
+    std::map<std::string, std::uint32_t> numbers_;
+};
+
+/// Runs of single invocations of a text from one input.
+class Runs {
+  public:
+    Runs(const PassText& text, const PassInput& in, const Profile& profile, Names& names)
+        : text_(text), profile_(profile), dispatch_(text, in, profile) {
+        for (const text::Block& block : text.program().blocks)
+            blocks_.push_back(names.number(block.name));
+        for (const text::ImageUniform& image : text.program().images)
+            images_.push_back(names.number(image.name));
+    }
+    [[nodiscard]] std::optional<std::uint32_t> writer(std::uint8_t resource, std::size_t item) const {
+        return dispatch_.writer(resource, item);
+    }
+    [[nodiscard]] text::TracedRun run(std::uint32_t invocation, std::span<const text::ForcedRow> forced = {}) const {
+        text::TracedRun run;
+        const PassText::Input& input = dispatch_.input();
+        run.words = text::run_traced(text_.program(), text::invocation_of(text_.program(), input.groups, invocation),
+                                     input.groups, input.bindings, profile_, forced, run.trace);
+        for (text::TracedWord& word : run.words)
+            name(word.place);
+        std::sort(run.words.begin(), run.words.end(), [](const auto& a, const auto& b) { return a.place < b.place; });
+        for (text::TraceRow& row : run.trace.rows)
+            if (row.kind == text::TraceRow::Kind::load || row.kind == text::TraceRow::Kind::store)
+                name(row.place);
+        return run;
+    }
+
+  private:
+    void name(text::WrittenPlace& place) const {
+        place.number = place.space == text::WrittenPlace::Space::block ? blocks_[place.number] : images_[place.number];
+    }
+    const PassText& text_;
+    const Profile& profile_;
+    TextDispatch dispatch_;
+    std::vector<std::uint32_t> blocks_, images_;
+};
+
+std::string value_text(std::uint32_t bits, bool is_real) {
+    return is_real ? fmt::format("{:.9g}", std::bit_cast<float>(bits))
+                   : fmt::format("{}", static_cast<std::int32_t>(bits));
+}
+
+std::string what_of(const text::Trace& trace, const text::Suspect& suspect) {
+    const text::TraceRow& row = trace.rows[suspect.row];
+    if (row.kind == text::TraceRow::Kind::store)
+        return fmt::format("writes {}, which the reference does not write there", value_text(row.bits, row.is_real));
+    if (row.kind == text::TraceRow::Kind::comparison) {
+        const auto operands = trace.of(row);
+        const std::string compared = operands.size() == 2
+                                         ? fmt::format("compares {} and {}", value_text(operands[0].bits, row.is_real),
+                                                       value_text(operands[1].bits, row.is_real))
+                                         : "asks";
+        return fmt::format("{}, which the reference does not{}", compared,
+                           suspect.repairs ? "; with the other answer all that it writes is right" : "");
+    }
+    const std::string made = fmt::format("{} {}", row.kind == text::TraceRow::Kind::load ? "reads" : "makes",
+                                         value_text(row.bits, row.is_real));
+    return suspect.repairs
+               ? fmt::format("{}; with {} all that it writes is right", made, value_text(suspect.repaired, row.is_real))
+               : fmt::format("{}, which the reference does not", made);
+}
+
+/// What speaks for a line.
+struct Line {
+    double score = 0.0;
+    std::optional<text::Suspect> suspect; ///< of the first item that speaks loudest
+    double loudest = 0.0;
+    std::string what;
+};
+
+} // namespace
+
+std::vector<WitnessLine> witness_lines(const PassText& wrong, const PassText& reference, const PassInput& in,
+                                       const Profile& profile, std::uint8_t resource,
+                                       std::span<const std::size_t> items, std::span<const std::size_t> others,
+                                       const std::function<bool(std::string_view where)>& is_own) try {
+    constexpr double repair = 3.0, repair_of_output = 1.0, no_repair = 0.5, floor_of_score = 0.2;
+    constexpr std::size_t most_lines = 3;
+    Names names;
+    const Runs of_wrong(wrong, in, profile, names), of_reference(reference, in, profile, names);
+    const auto line_in = [&](const text::Program& program, const text::Trace& trace,
+                             const text::TraceRow& row) -> std::optional<std::uint32_t> {
+        for (const std::uint32_t line : text::lines_of(program, trace, row))
+            if (is_own(program.line_name(line)))
+                return line;
+        return {};
+    };
+    const auto line_of = [&](const text::Trace& trace, const text::TraceRow& row) {
+        return line_in(wrong.program(), trace, row);
+    };
+    std::map<std::uint32_t, Line> missing; // lines of the reference
+    std::map<std::uint32_t, Line> lines;
+    std::size_t looked_at = 0;
+    for (const std::size_t item : items) {
+        const auto invocation = of_reference.writer(resource, item);
+        const auto own = of_wrong.writer(resource, item);
+        if (!invocation && !own)
+            continue;
+        const std::uint32_t number = own.value_or(invocation.value_or(0));
+        const text::TracedRun run = of_wrong.run(number), right = of_reference.run(invocation.value_or(number));
+        if (run.words == right.words)
+            continue; // the text does not differ: the driver does
+        ++looked_at;
+        const std::vector<text::Suspect> suspects = text::suspects_of(
+            run, right, [&](std::span<const text::ForcedRow> forced) { return of_wrong.run(number, forced).words; });
+        std::map<std::uint32_t, double> of_item;
+        for (const text::Suspect& one : suspects) {
+            const double weight = one.repairs ? (one.is_output ? repair_of_output : repair) : no_repair;
+            const std::optional<std::uint32_t> own_line = line_of(run.trace, run.trace.rows[one.row]);
+            if (!own_line)
+                continue;
+            const std::uint32_t at = *own_line;
+            of_item[at] = std::max(of_item[at], weight);
+            Line& line = lines[at];
+            if (weight > line.loudest) {
+                line.loudest = weight;
+                line.what = what_of(run.trace, one);
+            }
+        }
+        std::set<std::uint32_t> missed;
+        for (const std::uint32_t row : text::missing_rows(right, run)) {
+            const text::TraceRow& one = right.trace.rows[row];
+            const auto at = one.kind == text::TraceRow::Kind::comparison
+                                ? std::nullopt
+                                : line_in(reference.program(), right.trace, one);
+            if (!at)
+                continue;
+            if (missing[*at].what.empty())
+                missing[*at].what = value_text(one.bits, one.is_real);
+            missed.insert(*at);
+        }
+        for (const std::uint32_t at : missed)
+            missing[at].score += 1.0 / static_cast<double>(missed.size());
+        for (const auto& [at, weight] : of_item)
+            lines[at].score += weight / static_cast<double>(of_item.size());
+    }
+    if (looked_at == 0)
+        return {};
+    // A line that differs where both write the same is another way to write it.
+    std::map<std::uint32_t, double> excused;
+    std::size_t alike = 0;
+    for (const std::size_t item : others) {
+        const auto invocation = of_reference.writer(resource, item), own = of_wrong.writer(resource, item);
+        if (!invocation || !own)
+            continue;
+        const text::TracedRun run = of_wrong.run(*own), right = of_reference.run(*invocation);
+        if (run.words != right.words)
+            continue;
+        ++alike;
+        std::set<std::uint32_t> unmatched;
+        for (const std::uint32_t row : text::unmatched_rows(run, right))
+            if (const auto line = line_of(run.trace, run.trace.rows[row]))
+                unmatched.insert(*line);
+        for (const std::uint32_t line : unmatched)
+            excused[line] += 1.0;
+    }
+    std::vector<std::pair<double, std::uint32_t>> ranked;
+    for (const auto& [at, line] : lines) {
+        const double share = alike == 0 ? 0.0 : excused[at] / static_cast<double>(alike);
+        ranked.emplace_back(line.score / static_cast<double>(looked_at) * (1.0 - 0.8 * share), at);
+    }
+    std::sort(ranked.begin(), ranked.end(), [](const auto& a, const auto& b) {
+        return a.first != b.first ? a.first > b.first : a.second < b.second;
+    });
+    std::vector<WitnessLine> found;
+    for (const auto& [score, at] : ranked) {
+        if (found.size() == most_lines || score < floor_of_score || score < 0.2 * ranked.front().first)
+            break;
+        found.push_back({wrong.program().line_name(at), wrong.line_text(at), lines[at].what});
+    }
+    // What the reference makes and the text never does, where no line of the text repairs anything.
+    const bool repairs = !ranked.empty() && lines[ranked.front().second].loudest > repair_of_output;
+    const auto most = std::max_element(missing.begin(), missing.end(),
+                                       [](const auto& a, const auto& b) { return a.second.score < b.second.score; });
+    if (!repairs && most != missing.end() && most->second.score > 0.3 * static_cast<double>(looked_at))
+        found.insert(found.begin(), {fmt::format("{} of the reference", reference.program().line_name(most->first)),
+                                     reference.line_text(most->first),
+                                     fmt::format("makes {}, which this text never does", most->second.what)});
+    found.resize(std::min(found.size(), most_lines));
+    return found;
+} catch (const Error&) {
+    return {}; // of groups that share, and images of half floats, nothing is known
+}
+
+} // namespace lockstep

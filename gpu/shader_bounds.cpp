@@ -43,7 +43,7 @@ struct Size {
     }
 };
 
-struct Macro {
+struct CountedMacro {
     bool takes_arguments = false;
     std::vector<std::string_view> parameters = {};
     std::vector<Word> body = {};
@@ -99,7 +99,7 @@ class Expansion {
         }
         if (words.size() < 3 || words[1].text != "define")
             return;
-        Macro macro;
+        CountedMacro macro;
         std::size_t body = 3;
         const char* const behind = words[2].text.data() + words[2].text.size();
         if (macro.takes_arguments = words.size() > 3 && words[3].text == "(" && words[3].text.data() == behind;
@@ -127,7 +127,7 @@ class Expansion {
     }
 
     /// Of the largest definition of a name.
-    const Size& size_of(Macro& macro, int depth) {
+    const Size& size_of(CountedMacro& macro, int depth) {
         if (!macro.size) {
             macro.is_open = true;
             macro.size = size_of(macro.body, macro.parameters, depth + 1);
@@ -194,7 +194,7 @@ class Expansion {
     }
 
     const ShaderSource& stage_;
-    std::multimap<std::string_view, Macro> macros_;
+    std::multimap<std::string_view, CountedMacro> macros_;
     std::vector<Word> words_;
 };
 

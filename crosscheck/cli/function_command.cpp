@@ -167,13 +167,13 @@ std::string command_of(const FunctionRequest& options) {
 }
 
 /// A function's own text, where it is interpreted.
-struct OwnText {
+struct ReadText {
     std::optional<FunctionText> text = {};
     std::string missing = {}; ///< why there is none
 };
 
-OwnText own_text(const Gl& gl, const GlslFunction& function, const FunctionRows& rows, Legal legal) {
-    OwnText own;
+ReadText own_text(const Gl& gl, const GlslFunction& function, const FunctionRows& rows, Legal legal) {
+    ReadText own;
     try {
         const Profile profile = gl.profile();
         own.text.emplace(function, rows, profile, known_operations(legal, profile));
@@ -184,9 +184,9 @@ OwnText own_text(const Gl& gl, const GlslFunction& function, const FunctionRows&
 }
 
 /// The rows that either leaves undefined; of one that both do, the first's words.
-std::vector<UndefinedRow> undefined_rows(const OwnText& own, const OwnText& other) {
+std::vector<UndefinedRow> undefined_rows(const ReadText& own, const ReadText& other) {
     std::vector<UndefinedRow> all;
-    for (const OwnText* one : {&own, &other})
+    for (const ReadText* one : {&own, &other})
         if (one->text)
             std::ranges::move(one->text->undefined_rows(), std::back_inserter(all));
     std::ranges::stable_sort(all, {}, &UndefinedRow::row);
@@ -198,9 +198,9 @@ std::vector<UndefinedRow> undefined_rows(const OwnText& own, const OwnText& othe
 /// Holds the rows against the table's results, `like`'s, or what the function's own text says.
 MatchResult match(const Gl& gl, const GlslFunction& function, const GlslFunction* like, const FunctionRows& rows,
                   const FunctionMatchOptions& how) {
-    const OwnText own = own_text(gl, function, rows, how.legal);
-    const OwnText other = like != nullptr ? own_text(gl, *like, rows, how.legal) : OwnText();
-    const auto open = [](const OwnText& of) {
+    const ReadText own = own_text(gl, function, rows, how.legal);
+    const ReadText other = like != nullptr ? own_text(gl, *like, rows, how.legal) : ReadText();
+    const auto open = [](const ReadText& of) {
         return of.text ? OpenResults([&text = *of.text](std::size_t row, const TextTaken& taken) {
             return text.results(row, taken);
         })
@@ -242,8 +242,8 @@ int run_function(const FunctionRequest& options) {
     const GlslFunction* const like = functions.size() > 1 ? &functions.back() : nullptr;
     if (like != nullptr)
         check_comparable(function, *like, rows);
-    const OwnText own = own_text(gl, function, rows, options.legal);
-    const OwnText other = like != nullptr ? own_text(gl, *like, rows, options.legal) : OwnText();
+    const ReadText own = own_text(gl, function, rows, options.legal);
+    const ReadText other = like != nullptr ? own_text(gl, *like, rows, options.legal) : ReadText();
     if (!own.text && like == nullptr && !rows.results)
         throw Error(own.missing);
     const std::vector<UndefinedRow> undefined = undefined_rows(own, other);

@@ -19,7 +19,7 @@
 namespace lockstep::text {
 namespace {
 
-using Run = Machine<TextWorlds, 1>;
+using SetsMachine = Machine<TextWorlds, 1>;
 
 /// What a run returns to Worlds.
 struct Ended {
@@ -87,7 +87,7 @@ std::vector<InvocationOutcome> Outcomes::of(const Invocation& invocation, std::a
     Memory memory(program_, bindings, ignored, nullptr);
     WrittenWords<TextWorlds> written;
     constexpr std::uint32_t most_branches = 200'000; // each way comes by them again
-    Run run(worlds, program_, memory, bindings, groups, most_branches);
+    SetsMachine run(worlds, program_, memory, bindings, groups, most_branches);
     run.keep(written, site_of_step_);
     std::vector<InvocationOutcome> found;
     worlds.run(

@@ -15,7 +15,7 @@
 namespace lockstep::text {
 namespace {
 
-constexpr std::uint32_t width = lanes_at_once;
+constexpr std::uint32_t at_once = lanes_at_once;
 using Run = TextMachine;
 
 /// A built-in input's value where none is given.
@@ -132,9 +132,9 @@ StageResult run_stage(const Program& program, const StageRun& run, const Binding
     for (const StageVariable& output : program.stage_outputs)
         result.outputs[name_of(output)].reserve(std::size_t{output.cells} * run.invocations);
     std::vector<Invocation> invocations;
-    for (std::uint32_t first = 0; first < run.invocations; first += width) {
+    for (std::uint32_t first = 0; first < run.invocations; first += at_once) {
         invocations.clear();
-        for (std::uint32_t l = 0; l < width && first + l < run.invocations; ++l)
+        for (std::uint32_t l = 0; l < at_once && first + l < run.invocations; ++l)
             invocations.push_back({.number = first + l});
         machine.start(invocations);
         for (std::uint32_t l = 0; l < invocations.size(); ++l)

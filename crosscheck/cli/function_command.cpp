@@ -172,11 +172,11 @@ struct ReadText {
     std::string missing = {}; ///< why there is none
 };
 
-ReadText own_text(const Gl& gl, const GlslFunction& function, const FunctionRows& rows, Legal legal) {
+ReadText read_text(const Gl& gl, const GlslFunction& function, const FunctionRows& rows, Legal legal) {
     ReadText own;
     try {
         const Profile profile = gl.profile();
-        own.text.emplace(function, rows, profile, known_operations(legal, profile));
+        own.text.emplace(function, rows.columns, profile, known_operations(legal, profile));
     } catch (const Error& error) {
         own.missing = error.what();
     }
@@ -184,11 +184,11 @@ ReadText own_text(const Gl& gl, const GlslFunction& function, const FunctionRows
 }
 
 /// The rows that either leaves undefined; of one that both do, the first's words.
-std::vector<UndefinedRow> undefined_rows(const ReadText& own, const ReadText& other) {
+std::vector<UndefinedRow> undefined_rows(const FunctionRows& rows, const ReadText& own, const ReadText& other) {
     std::vector<UndefinedRow> all;
     for (const ReadText* one : {&own, &other})
         if (one->text)
-            std::ranges::move(one->text->undefined_rows(), std::back_inserter(all));
+            std::ranges::move(one->text->undefined_rows(rows), std::back_inserter(all));
     std::ranges::stable_sort(all, {}, &UndefinedRow::row);
     const auto repeated = std::ranges::unique(all, {}, &UndefinedRow::row);
     all.erase(repeated.begin(), repeated.end());
@@ -196,13 +196,11 @@ std::vector<UndefinedRow> undefined_rows(const ReadText& own, const ReadText& ot
 }
 
 /// Holds the rows against the table's results, `like`'s, or what the function's own text says.
-MatchResult match(const Gl& gl, const GlslFunction& function, const GlslFunction* like, const FunctionRows& rows,
-                  const FunctionMatchOptions& how) {
-    const ReadText own = own_text(gl, function, rows, how.legal);
-    const ReadText other = like != nullptr ? own_text(gl, *like, rows, how.legal) : ReadText();
-    const auto open = [](const ReadText& of) {
-        return of.text ? OpenResults([&text = *of.text](std::size_t row, const TextTaken& taken) {
-            return text.results(row, taken);
+MatchResult match(const Gl& gl, const GlslFunction& function, const ReadText& own, const GlslFunction* like,
+                  const ReadText& other, const FunctionRows& rows, const FunctionMatchOptions& how) {
+    const auto open = [&](const ReadText& of) {
+        return of.text ? OpenResults([&text = *of.text, &rows](std::size_t row, const TextTaken& taken) {
+            return text.results(rows, row, taken);
         })
                        : OpenResults();
     };
@@ -212,7 +210,7 @@ MatchResult match(const Gl& gl, const GlslFunction& function, const GlslFunction
     else if (rows.results)
         expected = {*rows.results, "results of the table"};
     else
-        expected = {own.text->values(), "its own text, which says nothing about whether it is the right function"};
+        expected = {own.text->values(rows), "its own text, which says nothing about whether it is the right function"};
     expected.own = open(own);
     expected.expected = open(other);
     return match_function(gl, function, rows, std::move(expected), how);
@@ -242,15 +240,15 @@ int run_function(const FunctionRequest& options) {
     const GlslFunction* const like = functions.size() > 1 ? &functions.back() : nullptr;
     if (like != nullptr)
         check_comparable(function, *like, rows);
-    const ReadText own = own_text(gl, function, rows, options.legal);
-    const ReadText other = like != nullptr ? own_text(gl, *like, rows, options.legal) : ReadText();
+    const ReadText own = read_text(gl, function, rows, options.legal);
+    const ReadText other = like != nullptr ? read_text(gl, *like, rows, options.legal) : ReadText();
     if (!own.text && like == nullptr && !rows.results)
         throw Error(own.missing);
-    const std::vector<UndefinedRow> undefined = undefined_rows(own, other);
+    const std::vector<UndefinedRow> undefined = undefined_rows(rows, own, other);
     const FunctionRows judged = undefined.empty() ? rows : without(rows, undefined);
     std::optional<MatchResult> result;
     if (judged.count() > 0)
-        result = match(gl, function, like, judged, how);
+        result = match(gl, function, own, like, other, judged, how);
     const bool agrees = !result || result->passed();
     const std::string open =
         undefined.empty() ? std::string() : undefined_text(rows, undefined, agrees ? judged.count() : 0);

@@ -14,6 +14,7 @@
 #include "crosscheck/text/pass_text.hpp"
 #include "gpu/shader_words.hpp"
 #include "reference/model/error.hpp"
+#include "reference/system/item_twin.hpp"
 
 namespace lockstep {
 namespace {
@@ -66,13 +67,13 @@ std::string without_version(std::string text) {
 }
 
 /// A compute stage that calls the function with the words of a row, and stores its result.
-std::shared_ptr<const ShaderSource> caller_of(const GlslFunction& function, const FunctionRows& rows) {
-    const function_twin::Called called = function_twin::called(function, rows.columns);
+std::shared_ptr<const ShaderSource> caller_of(const GlslFunction& function, const std::vector<Column>& columns) {
+    const function_twin::Called called = function_twin::called(function, columns);
     const std::string text = read_shader_file(function.file);
     const std::optional<Column> result = function_twin::column_of(function_twin::signature_of(function, text).result);
     std::vector<std::string> arguments;
     std::size_t first = 0;
-    for (const Column& column : rows.columns) {
+    for (const Column& column : columns) {
         arguments.push_back(argument(column, first));
         first += static_cast<std::size_t>(column.components);
     }
@@ -91,19 +92,16 @@ std::shared_ptr<const ShaderSource> caller_of(const GlslFunction& function, cons
         load_stages(shader_folders(called.folder), stage_name, stages, function.defines, texts).front());
 }
 
-/// Of an integer it is the one value.
-Interval set_of(const text::WrittenWord& word, Scalar scalar) {
-    if (word.is_real)
-        return word.set;
-    const auto value = static_cast<double>(Value{scalar, word.word}.integer());
-    return {value, value};
+std::vector<std::uint32_t> arguments_of(const FunctionRows& rows, std::size_t row) {
+    const auto first = rows.words.begin() + static_cast<std::ptrdiff_t>(row * rows.width());
+    return {first, first + static_cast<std::ptrdiff_t>(rows.width())};
 }
 
 } // namespace
 
-FunctionText::FunctionText(const GlslFunction& function, const FunctionRows& rows, Profile profile,
+FunctionText::FunctionText(const GlslFunction& function, const std::vector<Column>& columns, Profile profile,
                            const KnownOperations& known)
-    : rows_(rows), profile_(std::move(profile)), known_(known), source_(caller_of(function, rows)),
+    : profile_(std::move(profile)), known_(known), source_(caller_of(function, columns)),
       program_(std::make_unique<const text::Program>(text::decoded(text::read_module(
           spirv_of(*source_), [source = source_](std::uint32_t line) { return line_name(*source, line); })))),
       outcomes_(*program_) {
@@ -124,16 +122,11 @@ text::Bindings FunctionText::bound(std::span<std::uint32_t> arguments, std::span
     return bindings;
 }
 
-std::vector<std::uint32_t> FunctionText::arguments_of(std::size_t row) const {
-    const auto first = rows_.words.begin() + static_cast<std::ptrdiff_t>(row * rows_.width());
-    return {first, first + static_cast<std::ptrdiff_t>(rows_.width())};
-}
-
-std::vector<UndefinedRow> FunctionText::undefined_rows() const {
+std::vector<UndefinedRow> FunctionText::undefined_rows(const FunctionRows& rows) const {
     std::vector<UndefinedRow> found;
     std::uint32_t most_branches = text::Dispatch{}.most_branches;
-    for (std::size_t row = 0; row < rows_.count(); ++row) {
-        std::vector<std::uint32_t> arguments = arguments_of(row), result(4);
+    for (std::size_t row = 0; row < rows.count(); ++row) {
+        std::vector<std::uint32_t> arguments = arguments_of(rows, row), result(4);
         text::Findings findings;
         text::run_dispatch(*program_, {.is_watched = true, .most_branches = most_branches}, bound(arguments, result),
                            profile_, findings);
@@ -147,10 +140,10 @@ std::vector<UndefinedRow> FunctionText::undefined_rows() const {
     return found;
 }
 
-std::vector<std::uint32_t> FunctionText::values() const {
+std::vector<std::uint32_t> FunctionText::values(const FunctionRows& rows) const {
     std::vector<std::uint32_t> words;
-    for (std::size_t row = 0; row < rows_.count(); ++row) {
-        std::vector<std::uint32_t> arguments = arguments_of(row), result(4);
+    for (std::size_t row = 0; row < rows.count(); ++row) {
+        std::vector<std::uint32_t> arguments = arguments_of(rows, row), result(4);
         text::Findings findings;
         text::run_dispatch(*program_, {}, bound(arguments, result), profile_, findings);
         words.insert(words.end(), result.begin(), result.begin() + result_.components);
@@ -158,17 +151,18 @@ std::vector<std::uint32_t> FunctionText::values() const {
     return words;
 }
 
-std::vector<ItemOutcome> FunctionText::results(std::size_t row, const TextTaken& taken) const {
+std::vector<ItemOutcome> FunctionText::results(const FunctionRows& rows, std::size_t row,
+                                               const TextTaken& taken) const {
     KnownOperations known = known_;
     known.sums = known.sums && !taken.in_any_order;
     const text::Constants constants = taken.as_written ? text::Constants::as_written : text::Constants::rounded;
-    std::vector<std::uint32_t> arguments = arguments_of(row), result(4);
+    std::vector<std::uint32_t> arguments = arguments_of(rows, row), result(4);
     std::vector<ItemOutcome> all;
     for (const text::InvocationOutcome& one :
          outcomes_.of({}, {1, 1, 1}, bound(arguments, result), PassStage::vertex, profile_, known, constants)) {
         ItemOutcome outcome{.values = {}, .open = one.open, .undefined = one.undefined};
         for (const text::WrittenWord& word : one.written)
-            outcome.values.push_back(set_of(word, result_.scalar));
+            outcome.values.push_back(word.is_real ? word.set : item_twin::set_of(word.word, result_.scalar));
         outcome.values.resize(static_cast<std::size_t>(result_.components), Interval::anything());
         all.push_back(std::move(outcome));
     }

@@ -21,26 +21,26 @@ struct UndefinedRow {
     std::string where, rule, what; ///< FILE:LINE of the operation
 };
 
-/// A function's own text (docs/shader_text.md), called with each row of a table.
+/// A function's own text (docs/shader_text.md), to be called with the rows of tables.
 class FunctionText {
   public:
-    /// `rows` outlive it; `profile` and `known`: of the vertex stage with `precise`, since the text says where there is
-    /// none. Throws Error by FILE:LINE for what is not interpreted.
-    FunctionText(const GlslFunction& function, const FunctionRows& rows, Profile profile, const KnownOperations& known);
+    /// `profile` and `known`: of the vertex stage with `precise`, since the text says where there is none. Throws Error
+    /// by FILE:LINE for what is not interpreted.
+    FunctionText(const GlslFunction& function, const std::vector<function_twin::Column>& columns, Profile profile,
+                 const KnownOperations& known);
 
     /// In ascending order.
-    [[nodiscard]] std::vector<UndefinedRow> undefined_rows() const;
+    [[nodiscard]] std::vector<UndefinedRow> undefined_rows(const FunctionRows& rows) const;
     /// What it returns in plain bits, row after row.
-    [[nodiscard]] std::vector<std::uint32_t> values() const;
+    [[nodiscard]] std::vector<std::uint32_t> values(const FunctionRows& rows) const;
     /// What the result of a row may legally be, component by component. Throws Error by FILE:LINE where sets are not
     /// followed.
-    [[nodiscard]] std::vector<ItemOutcome> results(std::size_t row, const TextTaken& taken) const;
+    [[nodiscard]] std::vector<ItemOutcome> results(const FunctionRows& rows, std::size_t row,
+                                                   const TextTaken& taken) const;
 
   private:
     [[nodiscard]] text::Bindings bound(std::span<std::uint32_t> arguments, std::span<std::uint32_t> result) const;
-    [[nodiscard]] std::vector<std::uint32_t> arguments_of(std::size_t row) const;
 
-    const FunctionRows& rows_;
     Profile profile_;
     KnownOperations known_;
     std::shared_ptr<const ShaderSource> source_; ///< that lines are named by

@@ -31,14 +31,14 @@ std::string line_of(const text::Program& program, const text::Finding& found) {
 
 /// One compute stage of a scene and what was found in it so far.
 struct WatchedText {
-    std::unique_ptr<PassText> text;
+    std::shared_ptr<const PassText> text;
     text::Findings findings;
 };
 
 } // namespace
 
-std::vector<std::string> shader_findings(const SystemScene& scene, const std::filesystem::path& shaders,
-                                         const Profile& profile, int frames) {
+std::vector<std::string> shader_findings(const SystemScene& scene, const OwnTexts& own,
+                                         const std::filesystem::path& shaders, const Profile& profile, int frames) {
     const System& system = scene.system;
     const ShaderFolders folders = shader_folders(shaders, system.schema.system);
     std::vector<WatchedText> texts(scene.passes.size());
@@ -46,8 +46,10 @@ std::vector<std::string> shader_findings(const SystemScene& scene, const std::fi
     for (std::size_t p = 0; p < scene.passes.size(); ++p)
         if (scene.passes[p].stage == Stage::compute && !scene.passes[p].continues)
             try {
-                texts[p].text = std::make_unique<PassText>(system.schema, scene.passes[p], written_by(system, p),
-                                                           folders, scene.arithmetic);
+                texts[p].text =
+                    own[p] ? own[p]
+                           : std::make_shared<const PassText>(system.schema, scene.passes[p], written_by(system, p),
+                                                              folders, scene.arithmetic);
             } catch (const Error& error) {
                 lines.push_back(fmt::format("text of {}.comp not looked into: {}", scene.passes[p].name, error.what()));
             }

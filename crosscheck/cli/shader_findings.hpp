@@ -3,6 +3,7 @@
 #include <string>
 #include <vector>
 
+#include "crosscheck/cli/text_passes.hpp"
 #include "crosscheck/judge/registered_system.hpp"
 #include "reference/model/profile.hpp"
 
@@ -10,7 +11,8 @@ namespace lockstep {
 
 /// What watched runs of the texts of a scene's compute shaders find (docs/shader_text.md), on a sample of the groups of
 /// the first frames, from the reference's states: a line each. A text that is not interpreted is one of them.
-std::vector<std::string> shader_findings(const SystemScene& scene, const std::filesystem::path& shaders,
-                                         const Profile& profile, int frames);
+/// `own`: those that were read already.
+std::vector<std::string> shader_findings(const SystemScene& scene, const OwnTexts& own,
+                                         const std::filesystem::path& shaders, const Profile& profile, int frames);
 
 } // namespace lockstep

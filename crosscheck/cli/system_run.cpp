@@ -95,7 +95,7 @@ SystemInput::SystemInput(const RegisteredSystem& system, const RunOptions& run, 
     if (!run.reference.empty())
         references_ = take_references(read_.scene, run);
     if (shaders_ && !run.shaders.empty())
-        open_by_own_text(read_.scene, *shaders_, run.shaders);
+        own_texts_ = open_by_own_text(read_.scene, *shaders_, run.shaders);
 }
 
 void SystemInput::protect(OutputFiles& files) const {

@@ -18,6 +18,8 @@
 /// What the verbs on a scene of a registered system begin with.
 namespace lockstep {
 
+class PassText;
+
 /// A scene, of a file or of a recording.
 struct ReadScene {
     std::string file;
@@ -60,6 +62,9 @@ class SystemInput {
     [[nodiscard]] const System& system() const { return read_.scene.system; }
     [[nodiscard]] bool is_recorded() const { return recording_ != nullptr; }
 
+    /// OwnTexts (text_passes.hpp) of the shaders that were given; empty: none were.
+    [[nodiscard]] const std::vector<std::shared_ptr<const PassText>>& own_texts() const { return own_texts_; }
+
     /// What it reads is no output.
     void protect(OutputFiles& files) const;
     /// Opens GL, or the recorded states. Throws Error where neither can be.
@@ -82,6 +87,7 @@ class SystemInput {
     std::unique_ptr<SystemRecording> recording_;
     ReadScene read_;
     std::optional<ShaderUse> shaders_;
+    std::vector<std::shared_ptr<const PassText>> own_texts_;
     std::vector<std::string> references_; ///< a line for each pass that has another than its twin
     std::optional<Gl> gl_;
     std::unique_ptr<SystemSide> side_;

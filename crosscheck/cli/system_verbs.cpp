@@ -244,12 +244,12 @@ int check_system(const RegisteredSystem& system, RunOptions run, const SystemChe
         about.notes.insert(about.notes.end(), some.begin(), some.end());
     if (!input.is_recorded() && !run.shaders.empty()) {
         const std::vector<std::string> found =
-            shader_findings(input.scene(), run.shaders, side.describe().profile, run.frames);
+            shader_findings(input.scene(), input.own_texts(), run.shaders, side.describe().profile, run.frames);
         about.notes.insert(about.notes.end(), found.begin(), found.end());
     }
     if (about.shaders && !run.shaders.empty())
-        for (const std::string& line :
-             lines_without_counterpart(input.scene(), *about.shaders, run, side, *options.known, report))
+        for (const std::string& line : lines_without_counterpart(input.scene(), input.own_texts(), *about.shaders, run,
+                                                                 side, *options.known, report))
             about.notes.push_back("without a counterpart in the reference: " + line);
     if (input.is_recorded() && run.frames < input.recorded_frames())
         about.notes.push_back(

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <memory>
+#include <optional>
+#include <span>
 #include <string_view>
 #include <utility>
 
@@ -12,6 +14,7 @@
 #include "crosscheck/judge/dispatch.hpp"
 #include "crosscheck/judge/open_pass.hpp"
 #include "crosscheck/judge/system_run.hpp"
+#include "crosscheck/text/examine.hpp"
 #include "crosscheck/text/text_pass.hpp"
 #include "crosscheck/text/witness.hpp"
 #include "reference/model/error.hpp"
@@ -22,10 +25,7 @@ namespace {
 /// Whether a pass's shader is in a folder of the user's, or includes a file there that is no stage itself.
 bool is_own(const ShaderUse& use, const GlPass& pass) {
     return std::ranges::any_of(use.files, [&](const UsedShader& file) {
-        const std::string extension = std::filesystem::path(file.file).extension().string();
-        const bool is_included = extension != ".comp" && extension != ".vert" && extension != ".geom" &&
-                                 extension != ".frag" && extension != ".spv";
-        return !file.foreign.empty() && (file.file.starts_with(pass.name + ".comp") || is_included);
+        return !file.foreign.empty() && (file.file.starts_with(pass.name + ".comp") || !stage_of(file.file));
     });
 }
 
@@ -43,8 +43,8 @@ std::vector<std::string> take_references(SystemScene& scene, const RunOptions& r
     of_references.shaders = run.reference;
     const ShaderUse use = shaders_of(scene, of_references);
     for (const UsedShader& file : use.files)
-        if (const std::string stage = std::filesystem::path(file.file).extension().string();
-            !file.foreign.empty() && (stage == ".vert" || stage == ".geom" || stage == ".frag"))
+        if (const std::optional<Stage> stage = stage_of(file.file);
+            !file.foreign.empty() && stage && *stage != Stage::compute)
             throw Error(fmt::format("--reference {}: {} is no compute stage; a text is the reference of one alone",
                                     plain_line(run.reference.string()), file.file));
     const ShaderFolders folders = shader_folders(run.reference, scene.system.schema.system);
@@ -61,29 +61,28 @@ std::vector<std::string> take_references(SystemScene& scene, const RunOptions& r
             fmt::format("reference of {}: its text in {}", scene.passes[p].name, plain_line(run.reference.string())));
         // What twins may do wrong is nothing that a text does.
         std::erase_if(scene.system.mistakes, [&](const NamedMistake& one) { return one.pass == scene.passes[p].name; });
-        const ItemPass* first = nullptr;
-        for (; p < end; ++p) {
-            passes[p] = text_pass(std::move(passes[p]), text, first);
-            first = passes[p].get();
-        }
+        take_text(std::span(passes).subspan(p, end - p), text);
+        p = end;
     }
     return lines;
 }
 
-void open_by_own_text(SystemScene& scene, const ShaderUse& use, const std::filesystem::path& shaders) {
+OwnTexts open_by_own_text(SystemScene& scene, const ShaderUse& use, const std::filesystem::path& shaders) {
+    OwnTexts texts(scene.passes.size());
     const ShaderFolders folders = shader_folders(shaders, scene.system.schema.system);
     for (std::size_t p = 0; p < scene.passes.size(); ++p) {
         const GlPass& pass = scene.passes[p];
         if (!is_compute(pass) || pass.continues || !is_own(use, pass))
             continue;
         try {
-            const std::shared_ptr<const PassText> text = text_of(scene, p, folders);
+            texts[p] = text_of(scene, p, folders);
             std::unique_ptr<ItemPass>& reference = scene.system.passes[p];
             const std::uint8_t resource = reference->resource();
-            reference = open_pass(std::move(reference), own_text(text, resource));
+            reference = open_pass(std::move(reference), own_text(texts[p], resource));
         } catch (const Error&) { // shader_findings says why a text is not interpreted
         }
     }
+    return texts;
 }
 
 namespace {
@@ -97,12 +96,11 @@ SomeItems some_items(const JudgedPass& judged) {
     constexpr std::size_t most = 10;
     SomeItems all;
     const std::uint8_t r = judged.pass.resource();
-    const auto words = [](const View& view, std::size_t item) { return item_words(view, item); };
     for (std::size_t item = 0; item < judged.gpu.count(); ++item) {
-        const auto gpu = words(judged.gpu, item);
-        if (gpu != words(judged.reference, item))
+        const auto gpu = item_words(judged.gpu, item);
+        if (gpu != item_words(judged.reference, item))
             all.wrong.push_back(item);
-        else if (gpu != words(judged.before[r], item))
+        else if (gpu != item_words(judged.before[r], item))
             all.right.push_back(item);
     }
     for (std::vector<std::size_t>* items : {&all.wrong, &all.right}) {
@@ -116,18 +114,16 @@ SomeItems some_items(const JudgedPass& judged) {
 
 } // namespace
 
-std::vector<std::string> lines_without_counterpart(const SystemScene& scene, const ShaderUse& use,
+std::vector<std::string> lines_without_counterpart(const SystemScene& scene, const OwnTexts& own, const ShaderUse& use,
                                                    const RunOptions& run, SystemSide& side,
                                                    const KnownOperations& known, const CheckReport& report) try {
     if (report.verdict != Verdict::divergent || !report.verdicts || !report.verdicts->first)
         return {};
     const std::size_t p = report.verdicts->first->pass;
-    const GlPass& pass = scene.passes[p];
-    if (!is_compute(pass) || pass.continues || !is_own(use, pass))
+    if (own[p] == nullptr)
         return {};
-    const std::string& system = scene.system.schema.system;
-    const std::shared_ptr<const PassText> wrong = text_of(scene, p, shader_folders(run.shaders, system)),
-                                          reference = text_of(scene, p, shader_folders(run.reference, system));
+    const std::shared_ptr<const PassText> reference =
+        text_of(scene, p, shader_folders(run.reference, scene.system.schema.system));
     const SystemRun again(scene.system, side, known, report.verdicts->first->place.frame, p);
     const JudgedPass judged = again.judged();
     const SomeItems items = some_items(judged);
@@ -137,7 +133,7 @@ std::vector<std::string> lines_without_counterpart(const SystemScene& scene, con
         });
     };
     std::vector<std::string> lines;
-    for (const WitnessLine& one : witness_lines(*wrong, *reference, judged.input(), judged.profile,
+    for (const WitnessLine& one : witness_lines(*own[p], *reference, judged.input(), judged.profile,
                                                 judged.pass.resource(), items.wrong, items.right, is_own_line))
         lines.push_back(fmt::format("{}: {}: {}", one.where, plain_line(one.text), one.what));
     return lines;

@@ -41,13 +41,13 @@ ItemVerdict judge_item(const JudgedPass& p, std::size_t item) {
         DifferenceClass kind = DifferenceClass::rounding;
         if (outcome.undefined != Undefined::none) {
             kind = DifferenceClass::undefined;
-        } else if (outcomes.size() > 1) {
+        } else if (outcomes.size() > 1 && !outcome.open.empty()) {
             if (untold.empty())
                 untold = p.on_input().outcomes(p.input(), item, p.profile, p.known, nullptr);
             const bool alike = std::any_of(untold.begin(), untold.end(), [&](const ItemOutcome& one) {
                 return one.contains(p.gpu, item) && one.contains(p.reference, item);
             });
-            kind = alike || outcome.open.empty() ? DifferenceClass::rounding : DifferenceClass::tie;
+            kind = alike ? DifferenceClass::rounding : DifferenceClass::tie;
         }
         if (kind >= verdict.kind)
             continue;

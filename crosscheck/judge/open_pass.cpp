@@ -4,6 +4,8 @@
 #include <cmath>
 #include <utility>
 
+#include "reference/system/pass_by_driver.hpp"
+
 namespace lockstep {
 namespace {
 
@@ -50,31 +52,12 @@ KnownOperations in_any_order(KnownOperations known) {
     return known;
 }
 
-class OpenPass final : public ItemPass {
+class OpenPass final : public PassByProfile {
   public:
     OpenPass(std::shared_ptr<const ItemPass> one, std::shared_ptr<const OwnText> own)
         : one_(std::move(one)), own_(std::move(own)) {}
 
-    [[nodiscard]] std::string_view name() const override { return one_->name(); }
-    [[nodiscard]] std::uint8_t resource() const override { return one_->resource(); }
-    [[nodiscard]] PassStage stage() const override { return one_->stage(); }
-    [[nodiscard]] bool runs(int frame) const override { return one_->runs(frame); }
-    [[nodiscard]] bool continues() const override { return one_->continues(); }
-    [[nodiscard]] bool derived() const override { return one_->derived(); }
-    [[nodiscard]] bool in_place(const PassInput& in) const override { return one_->in_place(in); }
     [[nodiscard]] std::span<const std::uint8_t> keeps() const override { return one_->keeps(); }
-    [[nodiscard]] std::optional<ItemRange> appended(const PassInput& in) const override { return one_->appended(in); }
-    [[nodiscard]] bool unordered() const override { return one_->unordered(); }
-    [[nodiscard]] std::string_view output(const Resource& about, std::uint8_t field) const override {
-        return one_->output(about, field);
-    }
-    void run(const PassInput& in, const Profile& profile, std::size_t first, std::size_t last,
-             const WritableView& after) const override {
-        one_->run(in, profile, first, last, after);
-    }
-    bool run_all(const PassInput& in, const Profile& profile, const WritableView& after) const override {
-        return one_->run_all(in, profile, after);
-    }
     [[nodiscard]] std::unique_ptr<ItemPass> prepared(const PassInput& in, const Profile& profile) const override {
         std::shared_ptr<const ItemPass> one = one_->prepared(in, profile);
         std::shared_ptr<const OwnText> own = own_->prepared(in, profile);
@@ -100,24 +83,11 @@ class OpenPass final : public ItemPass {
             all.insert(all.end(), own.begin(), own.end());
         return all;
     }
-    [[nodiscard]] std::vector<RecordedRow> record(const PassInput& in, std::size_t item,
-                                                  const Profile& profile) const override {
-        return one_->record(in, item, profile);
-    }
-    [[nodiscard]] FollowedStep follow(const PassInput& in, std::size_t item, const Profile& profile,
-                                      const KnownOperations& known, std::span<const ToldValue> told) const override {
-        return one_->follow(in, item, profile, known, told);
-    }
-    [[nodiscard]] std::vector<SeenSite> sites(const PassInput& in, std::size_t item,
-                                              const Profile& profile) const override {
-        return one_->sites(in, item, profile);
-    }
-    [[nodiscard]] std::vector<std::uint32_t> mistaken(const PassInput& in, std::size_t item, const Profile& profile,
-                                                      std::span<const Mistake> made) const override {
-        return one_->mistaken(in, item, profile, made);
-    }
 
   private:
+    [[nodiscard]] const ItemPass& on(const Profile& /*profile*/) const override { return *one_; }
+    [[nodiscard]] const ItemPass& any() const override { return *one_; }
+
     std::shared_ptr<const ItemPass> one_;
     std::shared_ptr<const OwnText> own_;
 };

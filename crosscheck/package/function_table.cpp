@@ -105,9 +105,7 @@ class OwnResults final : public OwnText {
         for (std::uint8_t f = 0; f < columns_; ++f)
             for (int c = 0; c < rows.fields()[f].components; ++c) {
                 const Value value = rows.value(f, item, c);
-                const bool is_real = value.scalar == Scalar::float32;
-                const auto integer = static_cast<double>(is_real ? 0 : value.integer());
-                arguments.push_back(is_real ? Interval(value.real()) : Interval(integer, integer));
+                arguments.push_back(item_twin::set_of(value.bits, value.scalar));
             }
         for (ItemOutcome& one : all)
             one.values.insert(one.values.begin(), arguments.begin(), arguments.end());

@@ -11,19 +11,13 @@
 #include "reference/model/error.hpp"
 #include "reference/parallel_blocks.hpp"
 #include "reference/system/item_twin.hpp"
+#include "reference/system/pass_by_driver.hpp"
 #include "reference/text/outcomes.hpp"
 
 namespace lockstep {
 namespace {
 
 using Space = text::WrittenPlace::Space;
-
-Interval exactly(Value value) {
-    if (value.scalar == Scalar::float32)
-        return Interval(value.real());
-    const auto integer = static_cast<double>(value.integer());
-    return {integer, integer};
-}
 
 /// Which of an item's components it is.
 std::size_t place_of(const Resource& about, const Component& one) {
@@ -60,9 +54,7 @@ void TextDispatch::run() const {
 
 std::vector<std::uint32_t> TextDispatch::words(const View& before, std::uint8_t resource, std::size_t item) const {
     run();
-    std::vector<std::uint32_t> all;
-    for (const Component& c : components(before.about()))
-        all.push_back(before.value(c.field, item, c.component).bits);
+    std::vector<std::uint32_t> all = item_words(before, item);
     for (const std::size_t from : text_.words_of_resource(resource)) {
         const std::span<const Component> record = text_.record(from);
         for (std::size_t k = 0; k < record.size(); ++k)
@@ -73,12 +65,25 @@ std::vector<std::uint32_t> TextDispatch::words(const View& before, std::uint8_t 
 
 void TextDispatch::write(const View& before, std::uint8_t resource, std::size_t first, std::size_t last,
                          const WritableView& after) const {
+    run();
     const std::vector<item_twin::WordColumn> columns = item_twin::word_columns(after);
-    for (std::size_t item = first; item < last; ++item) {
-        const std::vector<std::uint32_t> all = words(before, resource, item);
-        for (std::size_t c = 0; c < all.size(); ++c)
-            std::memcpy(columns[c].first + item * columns[c].stride, &all[c], sizeof all[c]);
+    const auto put = [&](std::size_t place, std::size_t item, std::uint32_t word) {
+        std::memcpy(columns[place].first + item * columns[place].stride, &word, sizeof word);
+    };
+    std::vector<bool> is_written(columns.size());
+    for (const std::size_t from : text_.words_of_resource(resource)) {
+        const std::span<const Component> record = text_.record(from);
+        for (std::size_t k = 0; k < record.size(); ++k) {
+            const std::size_t place = place_of(before.about(), record[k]);
+            is_written[place] = true;
+            for (std::size_t item = first; item < last; ++item)
+                put(place, item, written_[from][item * record.size() + k]);
+        }
     }
+    const std::vector<Component> parts = components(before.about());
+    for (std::size_t place = 0; place < parts.size(); ++place)
+        for (std::size_t item = first; item < last && !is_written[place]; ++item)
+            put(place, item, before.value(parts[place].field, item, parts[place].component).bits);
 }
 
 std::optional<std::uint32_t> TextDispatch::writer(std::uint8_t resource, std::size_t item) const {
@@ -122,7 +127,8 @@ std::vector<ItemOutcome> TextDispatch::outcomes(const View& before, std::uint8_t
             for (const Component& c : parts)
                 outcome.values.push_back(one.undefined != Undefined::none
                                              ? Interval::anything()
-                                             : exactly(before.value(c.field, item, c.component)));
+                                             : item_twin::set_of(before.value(c.field, item, c.component).bits,
+                                                                 about.fields[c.field].scalar));
             for (const text::WrittenWord& word : one.written)
                 for (const std::size_t from : parts_of_item) {
                     const std::span<const Component> record = text_.record(from);
@@ -132,7 +138,7 @@ std::vector<ItemOutcome> TextDispatch::outcomes(const View& before, std::uint8_t
                         continue;
                     const Component& c = record[word.place.word - begin];
                     outcome.values[place_of(about, c)] =
-                        word.is_real ? word.set : exactly({about.fields[c.field].scalar, word.word});
+                        word.is_real ? word.set : item_twin::set_of(word.word, about.fields[c.field].scalar);
                 }
             all.push_back(std::move(outcome));
         }
@@ -144,26 +150,14 @@ std::vector<ItemOutcome> TextDispatch::outcomes(const View& before, std::uint8_t
 
 namespace {
 
-class TextPass final : public ItemPass {
+class TextPass final : public PassByProfile {
   public:
     TextPass(std::shared_ptr<const ItemPass> twin, std::shared_ptr<const PassText> text,
              std::shared_ptr<LastDispatch> last, std::shared_ptr<const TextDispatch> one)
         : twin_(std::move(twin)), text_(std::move(text)), last_(std::move(last)), one_(std::move(one)) {}
 
-    [[nodiscard]] const std::shared_ptr<LastDispatch>& last() const { return last_; }
-
-    [[nodiscard]] std::string_view name() const override { return twin_->name(); }
-    [[nodiscard]] std::uint8_t resource() const override { return twin_->resource(); }
-    [[nodiscard]] PassStage stage() const override { return twin_->stage(); }
-    [[nodiscard]] bool runs(int frame) const override { return twin_->runs(frame); }
-    [[nodiscard]] bool continues() const override { return twin_->continues(); }
-    [[nodiscard]] bool derived() const override { return twin_->derived(); }
+    [[nodiscard]] bool in_place(const PassInput& /*in*/) const override { return false; }
     [[nodiscard]] std::span<const std::uint8_t> keeps() const override { return twin_->keeps(); }
-    [[nodiscard]] std::optional<ItemRange> appended(const PassInput& in) const override { return twin_->appended(in); }
-    [[nodiscard]] bool unordered() const override { return twin_->unordered(); }
-    [[nodiscard]] std::string_view output(const Resource& about, std::uint8_t field) const override {
-        return twin_->output(about, field);
-    }
     void run(const PassInput& in, const Profile& profile, std::size_t first, std::size_t last,
              const WritableView& after) const override {
         dispatched(in, profile)->write(in.before[resource()], resource(), first, last, after);
@@ -189,7 +183,7 @@ class TextPass final : public ItemPass {
         const Resource& about = in.before[resource()].about();
         ItemOutcome one;
         for (const Component& c : components(about))
-            one.values.push_back(exactly({about.fields[c.field].scalar, words[one.values.size()]}));
+            one.values.push_back(item_twin::set_of(words[one.values.size()], about.fields[c.field].scalar));
         return {std::move(one)};
     }
     [[nodiscard]] std::vector<RecordedRow> record(const PassInput& /*in*/, std::size_t /*item*/,
@@ -211,6 +205,9 @@ class TextPass final : public ItemPass {
     }
 
   private:
+    [[nodiscard]] const ItemPass& on(const Profile& /*profile*/) const override { return *twin_; }
+    [[nodiscard]] const ItemPass& any() const override { return *twin_; }
+
     std::shared_ptr<const TextDispatch> dispatched(const PassInput& in, const Profile& profile) const {
         if (one_)
             return one_;
@@ -230,11 +227,10 @@ class TextPass final : public ItemPass {
 
 } // namespace
 
-std::unique_ptr<ItemPass> text_pass(std::unique_ptr<ItemPass> twin, std::shared_ptr<const PassText> text,
-                                    const ItemPass* first) {
-    const auto* const begins = dynamic_cast<const TextPass*>(first);
-    return std::make_unique<TextPass>(std::move(twin), std::move(text),
-                                      begins != nullptr ? begins->last() : std::make_shared<LastDispatch>(), nullptr);
+void take_text(std::span<std::unique_ptr<ItemPass>> passes, const std::shared_ptr<const PassText>& text) {
+    const auto last = std::make_shared<LastDispatch>();
+    for (std::unique_ptr<ItemPass>& pass : passes)
+        pass = std::make_unique<TextPass>(std::move(pass), text, last, nullptr);
 }
 
 namespace {

@@ -3,6 +3,7 @@
 #include <memory>
 #include <mutex>
 #include <optional>
+#include <span>
 #include <vector>
 
 #include "crosscheck/text/pass_text.hpp"
@@ -44,11 +45,9 @@ class TextDispatch {
     mutable text::Writers writers_;
 };
 
-/// The pass that a text makes, instead of the twin, which says all that is no arithmetic: its resource, its stage, when
-/// it runs. `first`: of a pass that continues another, the pass that the dispatch begins with, which has the same text;
-/// else null.
-std::unique_ptr<ItemPass> text_pass(std::unique_ptr<ItemPass> twin, std::shared_ptr<const PassText> text,
-                                    const ItemPass* first);
+/// The passes of one dispatch that a text makes, instead of their twins, which say all that is no arithmetic:
+/// resources, stage, when they run. Those that continue the first take what its dispatch wrote.
+void take_text(std::span<std::unique_ptr<ItemPass>> passes, const std::shared_ptr<const PassText>& text);
 
 /// What the GPU's shader says of a pass, by its own text. Not for a pass that continues another.
 std::shared_ptr<const OwnText> own_text(std::shared_ptr<const PassText> text, std::uint8_t resource);

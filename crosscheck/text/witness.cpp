@@ -91,9 +91,8 @@ std::string what_of(const text::Trace& trace, const text::Suspect& suspect) {
 /// What speaks for a line.
 struct Line {
     double score = 0.0;
-    std::optional<text::Suspect> suspect; ///< of the first item that speaks loudest
-    double loudest = 0.0;
-    std::string what;
+    double loudest = 0.0; ///< of one item
+    std::string what;     ///< of that item
 };
 
 } // namespace

@@ -18,8 +18,8 @@ class OwnText {
     /// Every legal outcome of an item, each operation judged by its own `precise`. Empty: nothing is known of it.
     [[nodiscard]] virtual std::vector<ItemOutcome>
     outcomes(const PassInput& in, std::size_t item, const Profile& profile, const KnownOperations& known) const = 0;
-    /// What the text gives where its constants are the numbers that they were written as, not the floats that these are
-    /// rounded to: what a reference that computes with more digits is held against. A GPU has the floats.
+    /// What the text gives where its constants are the numbers that they were written as, not the floats nearest to
+    /// them: a reference may compute with more digits. A GPU has the floats.
     [[nodiscard]] virtual std::vector<ItemOutcome> outcomes_as_written(const PassInput& in, std::size_t item,
                                                                        const Profile& profile,
                                                                        const KnownOperations& known) const {

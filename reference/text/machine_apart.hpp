@@ -32,13 +32,8 @@ template <class R, int W> bool Machine<R, W>::memory_apart(const Step& s) {
     const auto texel = [&](std::uint32_t image, std::uint32_t first,
                            std::uint32_t axes) -> std::optional<std::uint64_t> {
         const std::array<std::int32_t, 3> at = texel_place(first, axes, 0);
-        const std::array<std::uint32_t, 3>& size = memory_.image(image).size;
-        for (std::size_t c = 0; c < at.size(); ++c)
-            if (static_cast<std::uint32_t>(at[c]) >= size[c])
-                return {};
-        const auto x = static_cast<std::uint64_t>(at[0]), y = static_cast<std::uint64_t>(at[1]),
-                   z = static_cast<std::uint64_t>(at[2]);
-        return ((z * size[1] + y) * size[0] + x) * memory_.image(image).components;
+        const TexelMemory& of = memory_.image(image);
+        return is_inside(of, at) ? std::optional<std::uint64_t>(first_word(of, at)) : std::nullopt;
     };
     switch (s.op) {
     case code::load_shared:

@@ -71,21 +71,16 @@ template <class R, int W> void Machine<R, W>::note_operands(const Step& s) {
             {made_by_[number] == 0 ? TraceOperand::no_row : made_by_[number] - 1, cell(number)->word()});
     };
     /// A row whose operands have been noted from `first` on.
-    const auto note = [&](Kind kind, std::size_t first, std::uint32_t cell, bool is_real, const WrittenPlace& place) {
+    const auto note = [&](Kind kind, std::size_t first, std::uint32_t cell, bool is_real,
+                          const WrittenPlace& place = {}) {
         pending_.push_back({{kind, is_real, s.op, step, p_.lines[step], 0, static_cast<std::uint32_t>(first),
                              static_cast<std::uint32_t>(noted.operands.size() - first), place, calls_},
                             cell,
                             kind != Kind::store});
     };
-    const auto result = [&](Kind kind, std::size_t first, std::uint32_t out, bool is_real,
-                            const WrittenPlace& place = {}) { note(kind, first, out, is_real, place); };
     const auto copied = [&](std::uint32_t out, std::uint32_t from) { moves_.emplace_back(out, made_by_[from]); };
     const auto texel_word = [&](std::uint32_t image, std::uint32_t first, std::uint32_t axes, std::uint32_t c) {
-        const std::array<std::int32_t, 3> at = texel_place(first, axes, 0);
-        const std::array<std::uint32_t, 3>& size = memory_.image(image).size;
-        const auto x = static_cast<std::uint64_t>(at[0]), y = static_cast<std::uint64_t>(at[1]),
-                   z = static_cast<std::uint64_t>(at[2]);
-        return ((z * size[1] + y) * size[0] + x) * memory_.image(image).components + c;
+        return first_word(memory_.image(image), texel_place(first, axes, 0)) + c;
     };
     using Space = WrittenPlace::Space;
     switch (s.op) {
@@ -107,14 +102,14 @@ template <class R, int W> void Machine<R, W>::note_operands(const Step& s) {
         const std::size_t first = noted.operands.size();
         for (std::uint32_t k = 0; k < s.n; ++k)
             operand(p_.operands[s.d + 3 * k]);
-        return result(Kind::operation, first, s.out, false);
+        return note(Kind::operation, first, s.out, false);
     }
     case code::load_block:
         for (std::uint32_t c = 0; c < s.n; ++c) {
             const std::size_t first = noted.operands.size();
             const Leaf leaf = p_.leaves[s.d + c];
             operand(s.b);
-            result(Kind::load, first, s.out + c, leaf.is_real, {Space::block, s.a, cell(s.b)->word() + leaf.word});
+            note(Kind::load, first, s.out + c, leaf.is_real, {Space::block, s.a, cell(s.b)->word() + leaf.word});
         }
         return;
     case code::store_block:
@@ -141,7 +136,7 @@ template <class R, int W> void Machine<R, W>::note_operands(const Step& s) {
             const std::uint64_t word = s.op == code::sample_texel
                                            ? std::uint64_t{cell(s.b)->word()} << 32U | cell(s.b + s.c - 1)->word()
                                            : texel_word(image, s.b, s.c, c);
-            result(Kind::load, first, s.out + c, p_.images[image].is_real, {Space::texel, image, word});
+            note(Kind::load, first, s.out + c, p_.images[image].is_real, {Space::texel, image, word});
         }
         return;
     case code::store_texel: {
@@ -198,8 +193,8 @@ template <class R, int W> void Machine<R, W>::note_operands(const Step& s) {
                 for (std::uint32_t part = 0; part < operands.ranges[k].second; ++part)
                     operand(operands.ranges[k].first + part);
         const bool compares = tracing::is_comparison(s.op);
-        result(compares ? Kind::comparison : Kind::operation, first, s.out + c,
-               compares ? tracing::takes_reals(s.op) : tracing::makes_real(s.op));
+        note(compares ? Kind::comparison : Kind::operation, first, s.out + c,
+             compares ? tracing::takes_reals(s.op) : tracing::makes_real(s.op));
     }
 }
 

@@ -12,6 +12,14 @@ namespace {
 
 constexpr std::string_view bounds_rule = "access outside of a buffer (GLSL 4.60, 5.11)";
 
+/// The nearest code; ties go to the even one, as drivers measured do (GL 4.6, 2.3.5.2 leaves them open).
+std::uint32_t unorm8(float x) {
+    constexpr float most = 255.0F;
+    return x > 0.0F ? static_cast<std::uint32_t>(std::nearbyint(std::fmin(x, 1.0F) * most)) : 0U;
+}
+
+} // namespace
+
 bool is_inside(const TexelMemory& image, const std::array<std::int32_t, 3>& at) {
     for (std::size_t c = 0; c < at.size(); ++c)
         if (at[c] < 0 || static_cast<std::uint32_t>(at[c]) >= image.size[c])
@@ -23,14 +31,6 @@ std::size_t first_word(const TexelMemory& image, const std::array<std::int32_t, 
     const std::size_t row = static_cast<std::size_t>(at[2]) * image.size[1] + static_cast<std::size_t>(at[1]);
     return (row * image.size[0] + static_cast<std::size_t>(at[0])) * image.components;
 }
-
-/// The nearest code; ties go to the even one, as drivers measured do (GL 4.6, 2.3.5.2 leaves them open).
-std::uint32_t unorm8(float x) {
-    constexpr float most = 255.0F;
-    return x > 0.0F ? static_cast<std::uint32_t>(std::nearbyint(std::fmin(x, 1.0F) * most)) : 0U;
-}
-
-} // namespace
 
 Memory::Memory(const Program& program, const Bindings& bindings, Findings& findings, Races* races, Writers* writers)
     : program_(program), bindings_(bindings), findings_(findings), races_(races), writers_(writers),

@@ -32,6 +32,11 @@ struct TexelMemory {
     std::span<std::uint32_t> words = {};
 };
 
+/// Whether a texel is in the image.
+[[nodiscard]] bool is_inside(const TexelMemory& image, const std::array<std::int32_t, 3>& at);
+/// Where its components begin in the image's words.
+[[nodiscard]] std::size_t first_word(const TexelMemory& image, const std::array<std::int32_t, 3>& at);
+
 /// Who wrote last, of each word of blocks and of each word of images; 0: nobody, else the invocation's number and 1.
 struct Writers {
     std::vector<std::vector<std::uint32_t>> blocks, images;

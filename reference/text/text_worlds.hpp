@@ -39,7 +39,6 @@ class TextWorlds : public Worlds<PlainArithmetic> {
         return Worlds<PlainArithmetic>::decide(*place_, condition);
     }
     int choose(int first, int last) { return Worlds<PlainArithmetic>::choose(*place_, first, last, 0.0); }
-    [[noreturn]] static void undecided() { end(Undefined::undecided); }
 
     /// A compiler may multiply by a constant's reciprocal: what is divided by one number is as open as without
     /// `precise`.

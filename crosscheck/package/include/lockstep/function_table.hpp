@@ -35,7 +35,7 @@ struct FunctionRows {
 /// Error with FILE:LINE, or the place in the JSON, and what would be right.
 FunctionRows read_function_rows(const GlslFunction& function, const std::filesystem::path& file);
 
-/// How a function's text is taken beside the bits of a GPU, where it is held against another.
+/// How a function's text is read where it is compared with another text, not with the bits of a GPU.
 struct TextTaken {
     bool as_written = false;   ///< constants are the numbers that they were written as, not the nearest floats
     bool in_any_order = false; ///< sums and products, in spite of `precise`

@@ -9,6 +9,7 @@
 #include <glslang/Public/ShaderLang.h>
 #include <glslang/SPIRV/GlslangToSpv.h>
 
+#include "crosscheck/text/condition_lines.hpp"
 #include "gpu/child_process.hpp"
 #include "gpu/shader_log.hpp"
 #include "gpu/shader_words.hpp"
@@ -78,7 +79,7 @@ std::vector<std::uint32_t> spirv_of(const ShaderSource& stage) {
     const std::string bytes = in_child_if_possible(compiler, [&] { return compiled(stage); });
     std::vector<std::uint32_t> words(bytes.size() / sizeof(std::uint32_t));
     std::memcpy(words.data(), bytes.data(), bytes.size());
-    return words;
+    return with_condition_lines(words, stage.text);
 }
 
 std::string line_name(const ShaderSource& stage, std::uint32_t line) {

@@ -92,7 +92,7 @@ void run_dispatch(const Program& program, const Dispatch& dispatch, const Bindin
     const FlushSubnormals guard{profile.compute_flush_subnormals,
                                 profile.compute_flush_results.value_or(profile.compute_flush_subnormals)};
     TextValues values(profile);
-    Races races(findings);
+    Races races(findings, program.invocations());
     Memory memory(program, bindings, findings, dispatch.is_watched ? &races : nullptr, dispatch.writers);
     // Groups that are watched are told apart.
     const bool is_joint = program.barriers > 0 || program.shared > 0 || dispatch.is_watched;
@@ -137,7 +137,7 @@ void run_dispatch(const Program& program, const Dispatch& dispatch, const Bindin
     // What a race reads may be there or not: the race says it all.
     const std::vector<Finding> all = findings.all();
     findings.remove([&](const Finding& one) {
-        return one.rule == unset_rule && std::any_of(all.begin(), all.end(), [&](const Finding& race) {
+        return one.rule == unset_shared_rule && std::any_of(all.begin(), all.end(), [&](const Finding& race) {
                    return race.other && (race.place.line == one.place.line || race.other->line == one.place.line);
                });
     });

@@ -1,6 +1,8 @@
 #pragma once
 #include <array>
 #include <cmath>
+#include <limits>
+#include <span>
 #include <string_view>
 #include <vector>
 
@@ -13,12 +15,13 @@
 namespace lockstep::text {
 
 inline constexpr std::string_view unset_rule = "use of a variable that was never set (GLSL 4.60, 5.8)";
+inline constexpr std::string_view unset_shared_rule = "use of a shared variable that was never set (GLSL 4.60, 4.3.8)";
 
 /// Operands of a step that lie in cells, and whether component c of the result needs component c of each alone.
 struct StepOperands {
     std::array<std::pair<std::uint32_t, std::uint32_t>, 4> ranges{}; ///< first cell, and how many
     std::size_t count = 0;
-    bool by_component = false;
+    bool by_component = false; ///< else of all of them; a range of one cell is for every component
 
     void add(std::uint32_t first, std::uint32_t cells) { ranges[count++] = {first, cells}; }
 };
@@ -48,6 +51,7 @@ inline StepOperands operands_of(const Step& s) {
     switch (s.op) {
     case spv::OpVectorTimesScalar:
     case spv::OpMatrixTimesScalar:
+        all.by_component = true;
         all.add(s.a, n);
         all.add(s.b, 1);
         break;
@@ -105,6 +109,22 @@ inline StepOperands operands_of(const Step& s) {
     return all;
 }
 
+/// Of a square matrix.
+inline double determinant(std::span<const double> m) {
+    const auto size = static_cast<std::size_t>(std::lround(std::sqrt(static_cast<double>(m.size()))));
+    if (size == 1)
+        return m[0];
+    double sum = 0.0;
+    for (std::size_t left = 0; left < size; ++left) {
+        std::vector<double> minor;
+        for (std::size_t i = size; i < m.size(); ++i)
+            if (i % size != left)
+                minor.push_back(m[i]);
+        sum += (left % 2 == 0 ? 1.0 : -1.0) * m[left] * determinant(minor);
+    }
+    return sum;
+}
+
 /// Something depends on n cells from `first`.
 template <class R, int W> void Machine<R, W>::need(const Step& s, std::uint32_t first, std::uint32_t n) {
     active([&](Lane l) {
@@ -119,7 +139,8 @@ template <class R, int W> void Machine<R, W>::need(const Step& s, std::uint32_t 
 }
 
 template <class R, int W> void Machine<R, W>::need_shared(const Step& s, std::uint32_t word, Lane l) {
-    memory_.findings().add(unset_rule, place(s, l), [&] { return fmt::format("shared {}", p_.shared_at(word)); });
+    memory_.findings().add(unset_shared_rule, place(s, l),
+                           [&] { return fmt::format("shared {}", p_.shared_at(word)); });
 }
 
 /// Follows unset values through a step that is about to run.
@@ -211,6 +232,16 @@ template <class R, int W> void Machine<R, W>::follow(const Step& s) {
                 unset(s.out + c)[l] = unset((cell(s.d != 0 ? s.a + c : s.a)[l].word() != 0 ? s.b : s.c) + c)[l];
         });
         return;
+    case spv::OpLogicalAnd:
+    case spv::OpLogicalOr: // as && and || do: the second counts where the first does not decide
+        active([&](Lane l) {
+            for (std::uint32_t c = 0; c < s.n; ++c) {
+                const Unset first = read(unset(s.a + c)[l], l);
+                const bool decides = (cell(s.a + c)[l].word() != 0) == (s.op == spv::OpLogicalOr);
+                unset(s.out + c)[l] = first.cell != 0 || decides ? first : read(unset(s.b + c)[l], l);
+            }
+        });
+        return;
     case spv::OpVectorExtractDynamic:
         need(s, s.b, 1);
         active([&](Lane l) {
@@ -241,7 +272,7 @@ template <class R, int W> void Machine<R, W>::follow(const Step& s) {
             for (std::uint32_t c = 0; c < s.n; ++c) {
                 any = {};
                 for (std::size_t k = 0; k < operands.count; ++k)
-                    take(operands.ranges[k].first + c);
+                    take(operands.ranges[k].first + (operands.ranges[k].second == 1 ? 0 : c));
                 unset(s.out + c)[l] = any;
             }
             return;
@@ -299,7 +330,10 @@ template <class R, int W> void Machine<R, W>::check(const Step& s) {
                                    "conversion of a float that the integer type does not have (GLSL 4.60, 5.4.1)";
     switch (s.op) {
     case spv::OpUDiv:
+        return of_whole("/", division, [](auto, auto b) { return b == 0; });
     case spv::OpSDiv:
+        of_whole("/", "division of the least int by -1 (GLSL 4.60, 4.1.3)",
+                 [](auto a, auto b) { return a == std::numeric_limits<std::int32_t>::min() && b == -1; });
         return of_whole("/", division, [](auto, auto b) { return b == 0; });
     case spv::OpUMod:
         return of_whole("%", remainder, [](auto, auto b) { return b == 0; });
@@ -329,7 +363,7 @@ template <class R, int W> void Machine<R, W>::check(const Step& s) {
     case spv::OpConvertFToS:
         return of_one("int", conversion, [](float a) { return !(a > -2147483904.0F && a < 2147483648.0F); });
     case spv::OpConvertFToU:
-        return of_one("uint", conversion, [](float a) { return !(a > -1.0F && a < 4294967296.0F); });
+        return of_one("uint", conversion, [](float a) { return !(a >= 0.0F && a < 4294967296.0F); });
     case code::extended + GLSLstd450Pow:
         return of_two("pow", "pow of a negative base, or of 0 to no positive power (GLSL 4.60, 8.2)",
                       [](float a, float b) { return a < 0.0F || (a == 0.0F && b <= 0.0F); });
@@ -383,6 +417,15 @@ template <class R, int W> void Machine<R, W>::check(const Step& s) {
         return each_component(
             "ldexp by more than 128 (GLSL 4.60, 8.3)", [&](Lane l, std::uint32_t c) { return i(s.b, c, l) > 128; },
             [&](Lane l, std::uint32_t c) { return fmt::format("ldexp({}, {})", x(s.a, c, l), i(s.b, c, l)); });
+    case code::extended + GLSLstd450MatrixInverse:
+        active([&](Lane l) {
+            std::vector<double> m;
+            for (std::uint32_t c = 0; c < s.n; ++c)
+                m.push_back(x(s.a, c, l));
+            if (determinant(m) == 0.0)
+                report(l, "inverse of a singular matrix (GLSL 4.60, 8.6)", [] { return "determinant 0"; });
+        });
+        return;
     case code::extended + GLSLstd450Normalize:
         active([&](Lane l) {
             bool is_zero = true;

@@ -143,7 +143,7 @@ template <class R, int W> void Machine<R, W>::flow(const Step& s) {
     }
     case code::fence:
         if (memory_.races() != nullptr)
-            memory_.races()->fence(s.a);
+            active([&](Lane l) { memory_.races()->fence(s.a, invocations_[l].number); });
         break;
     default: // a barrier
         if constexpr (runs_apart<R>)

@@ -61,6 +61,8 @@ std::uint32_t Memory::outside_shared(Place by) {
 }
 
 void Memory::note_index(std::uint32_t index, std::uint32_t count, Place by) {
+    if (races_ != nullptr)
+        outside_.insert(std::uint64_t{by.line} << 32U | by.invocation);
     findings_.add("index out of bounds (GLSL 4.60, 5.11)", by,
                   [&] { return fmt::format("index {} of {} elements", static_cast<std::int32_t>(index), count); });
 }

@@ -5,6 +5,7 @@
 #include <optional>
 #include <span>
 #include <string>
+#include <unordered_set>
 #include <utility>
 #include <vector>
 
@@ -141,15 +142,20 @@ class Memory {
 
   private:
     void touch_block(std::uint32_t block, std::uint32_t word, Races::How how, Place by) {
-        if (races_ != nullptr && program_.blocks[block].is_storage)
+        if (races_ != nullptr && program_.blocks[block].is_storage && word < bindings_.blocks[block].size() &&
+            !is_elsewhere(by))
             races_->touch(Races::Space::buffer, buffer_of_[block], word, how, by, program_.blocks[block].name);
     }
     void touch_shared(std::uint32_t word, Races::How how, Place by) {
-        if (races_ == nullptr)
+        if (races_ == nullptr || word >= unset_.size() || is_elsewhere(by))
             return;
         races_->touch(Races::Space::shared, 0, word, how, by, program_.shared_at(word));
-        if (how == Races::How::write && word < unset_.size())
+        if (how != Races::How::read)
             unset_[word] = 0;
+    }
+    /// The invocation's line has an index out of bounds: what it touches is not what it says.
+    [[nodiscard]] bool is_elsewhere(Place by) const {
+        return !outside_.empty() && outside_.contains(std::uint64_t{by.line} << 32U | by.invocation);
     }
     void touch_texel(std::uint32_t image, const std::array<std::int32_t, 3>& at, Races::How how, Place by);
     [[nodiscard]] Texel texel_words(std::uint32_t image, const std::array<std::int32_t, 3>& at) const;
@@ -164,8 +170,9 @@ class Memory {
     Races* races_;
     Writers* writers_;
     std::vector<std::uint32_t> shared_;
-    std::vector<std::uint8_t> unset_;      ///< of shared words
-    std::vector<std::uint32_t> buffer_of_; ///< of each block: the first that is bound to the same words
+    std::vector<std::uint8_t> unset_;           ///< of shared words
+    std::unordered_set<std::uint64_t> outside_; ///< lines and invocations of indexes out of bounds
+    std::vector<std::uint32_t> buffer_of_;      ///< of each block: the first that is bound to the same words
 };
 
 } // namespace lockstep::text

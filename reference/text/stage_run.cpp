@@ -122,7 +122,7 @@ StageResult run_stage(const Program& program, const StageRun& run, const Binding
         throw Error("a compute stage is run by dispatches; expected a vertex, geometry or fragment stage");
     const FlushSubnormals guard{profile.flush_subnormals, profile.flush_subnormals};
     TextValues values(profile);
-    Races races(findings, false);
+    Races races(findings);
     Memory memory(program, bindings, findings, run.is_watched ? &races : nullptr);
     memory.start_group(0);
     const std::vector<Given> given = given_to(program, run);

@@ -55,6 +55,13 @@ TEST_CASE(
           "conversion of a float that the integer type does not have");
     finds("x[8] = float(uint(x[0]));", "x[8] = float(int(x[0]));",
           "conversion of a float that the integer type does not have");
+    finds("x[8] = float(uint(x[0] * 0.25));", "x[8] = float(uint(x[0] * 0.0));",
+          "conversion of a float that the integer type does not have");
+    finds("x[8] = float((-2147483647 - 1) / int(x[0] + 1.0));", "x[8] = float(-2147483647 / int(x[0] + 1.0));",
+          "division of the least int by -1");
+    finds("x[8] = inverse(mat3(x[0], x[1], 1.0, x[0], x[1], 2.0, x[0], x[1], 5.0))[0][0];",
+          "x[8] = inverse(mat3(x[0], x[1], 1.0, x[1], x[1], 2.0, x[0], x[6], 5.0))[0][0];",
+          "inverse of a singular matrix");
     finds("x[8] = min(x[2] / x[2], 1.0);", "x[8] = min(x[1] / x[1], 1.0);", "min, max or clamp of NaN");
     finds("x[8] = clamp(x[1], x[3], x[2]);", "x[8] = clamp(x[1], x[2], x[3]);",
           "clamp with a minimum above its maximum");
@@ -84,6 +91,20 @@ TEST_CASE("text findings: a variable that was never set is found where something
           Lines{"5" + rule});
     CHECK(found_in("float v;\nfloat unused = v * 2.0;\nx[1] = 1.0;").empty());
     CHECK(found_in("int n;\nif (n > 3)\n    x[0] = 1.0;") == Lines{"4" + rule});
+    CHECK(found_in("bool is;\nif (x[0] > 1.0)\n    is = true;\nx[1] = 1.0;\nif (is)\n    x[0] = 1.0;") ==
+          Lines{"7" + rule});
+    CHECK(found_in("bool is;\nif (x[0] > 1.0) is = true;\nx[1] = 1.0;\n\nfor (int i = 0; is; ++i)\n    x[0] = 1.0;",
+                   {}) == Lines{"7" + rule});
+    CHECK(found_in("int n;\nx[1] = 1.0;\nswitch (n) {\ncase 1:\n    x[0] = 1.0;\n}") == Lines{"5" + rule});
+    // The second operand of && and || counts where the first does not decide.
+    const std::string both = "float v;\nbool is = x[0] > 1.0;\nif (is) v = 1.0;\nif (";
+    CHECK(found_in(both + "is && v > 0.5)\n    x[1] = 1.0;").empty());
+    CHECK(found_in(both + "!is || v > 0.5)\n    x[1] = 1.0;").empty());
+    CHECK(found_in(both + "is || v > 0.5)\n    x[1] = 1.0;") == Lines{"6" + rule});
+    CHECK(found_in(both + "!is && v > 0.5)\n    x[1] = 1.0;") == Lines{"6" + rule});
+    CHECK(found_in("vec4 v;\nv.x = 2.0;\nvec4 w = v * x[0];\nx[1] = w.x;").empty());
+    CHECK(found_in("vec4 v;\nv.x = 2.0;\nvec4 w = v * x[0];\nx[1] = w.y;") == Lines{"5" + rule});
+    CHECK(found_in("float s;\nvec4 w = vec4(1.0) * s;\nx[1] = w.y;") == Lines{"4" + rule});
     const std::string with_out = R"(layout(local_size_x = 1) in;
 layout(std430, binding = 0) buffer Out { float x[]; };
 void some(float v, out float w) { if (v > 1.0) w = 3.0; }
@@ -96,7 +117,21 @@ layout(std430, binding = 0) buffer Out { float x[]; };
 shared float sums[4];
 void main() { if (gl_LocalInvocationID.x < 3u) sums[gl_LocalInvocationID.x] = 1.0;
 barrier();
-x[gl_LocalInvocationID.x] = sums[gl_LocalInvocationID.x]; })") == Lines{"6" + rule});
+x[gl_LocalInvocationID.x] = sums[gl_LocalInvocationID.x]; })") ==
+          Lines{"6 use of a shared variable that was never set"});
+    const auto counted = [](const std::string& first) {
+        return R"(layout(local_size_x = 4) in;
+layout(std430, binding = 0) buffer Out { uint x[]; };
+shared uint n;
+void main() { if (gl_LocalInvocationIndex == 0u) { )" +
+               first + R"(; }
+barrier();
+atomicAdd(n, 1u);
+barrier();
+x[gl_LocalInvocationIndex] = n; })";
+    };
+    CHECK(found(counted("atomicExchange(n, 0u)")).empty());
+    CHECK(found(counted("x[0] = 1u")) == Lines{"6 use of a shared variable that was never set"});
 }
 
 TEST_CASE("text findings: a race on shared memory is found with both lines, and a barrier between is none") {
@@ -180,6 +215,65 @@ imageStore(picture, at, imageLoad(picture, at) + 1.0);
 })",
                 {2, 1, 1})
               .empty());
+}
+
+TEST_CASE("text findings: a memory barrier orders what its own invocation touched before it") {
+    const auto handed_on = [](const std::string& before) {
+        return R"(layout(local_size_x = 64) in;
+layout(std430, binding = 0) coherent buffer Out { float x[]; };
+void main() { uint i = gl_LocalInvocationIndex;
+if (i == 0u) x[64] = 2.0;
+)" + before + R"(
+barrier();
+x[i] = x[64];
+})";
+    };
+    CHECK(found(handed_on("if (i == 0u) memoryBarrierBuffer();")).empty());
+    CHECK(found(handed_on("if (i != 0u) memoryBarrierBuffer();")) == Lines{"7 race on a buffer"});
+    CHECK(found(handed_on("memoryBarrierImage();")) == Lines{"7 race on a buffer"});
+}
+
+TEST_CASE("text findings: an atomic operation after a memory barrier hands on what was written to another group") {
+    const auto summed = [](const std::string& after_write, const std::string& last, const std::string& other) {
+        return R"(layout(local_size_x = 8) in;
+layout(std430, binding = 0) coherent buffer Parts { float parts[]; };
+layout(std430, binding = 1) coherent buffer Count { uint count, other; float sum; };
+shared bool is_last;
+void main() { uint i = gl_LocalInvocationIndex;
+if (i == 0u) {
+parts[gl_WorkGroupID.x] = 1.0;
+)" + after_write +
+               R"(
+is_last = atomicAdd(count, 1u) == )" +
+               last + R"(;
+}
+barrier();
+if (is_last && i == )" +
+               other + R"() for (uint k = 0u; k < 4u; ++k) sum += parts[k];
+})";
+    };
+    const std::string fence = "memoryBarrierBuffer();";
+    CHECK(found(summed(fence, "3u", "0u"), {4, 1, 1}).empty());
+    CHECK(found(summed(fence, "3u", "5u"), {4, 1, 1}).empty()); // by way of the barrier
+    CHECK(found(summed("", "3u", "0u"), {4, 1, 1}) == Lines{"12 race on a buffer"});
+    CHECK(found(summed("atomicAdd(other, 1u); " + fence, "3u", "0u"), {4, 1, 1}).empty());
+    CHECK(found(summed(fence + " parts[gl_WorkGroupID.x] = 2.0;", "3u", "0u"), {4, 1, 1}) ==
+          Lines{"12 race on a buffer"});
+}
+
+TEST_CASE("text findings: an index out of bounds is no race, and a race hides no variable that was never set") {
+    CHECK(found(R"(layout(local_size_x = 8) in;
+layout(std430, binding = 0) buffer Out { float x[]; };
+shared float t[8];
+void main() { uint i = gl_LocalInvocationIndex;
+t[i + 4u] = 2.0;
+x[i + 1000u] = 2.0;
+})") == Lines{"5 index out of bounds", "6 access outside of a buffer"});
+    CHECK(found(R"(layout(local_size_x = 8) in;
+layout(std430, binding = 0) buffer Out { float x[]; };
+void main() { float v;
+x[0] = v + float(gl_LocalInvocationIndex);
+})") == Lines{"4 use of a variable that was never set", "4 race on a buffer"});
 }
 
 TEST_CASE("text findings: a race names both invocations and lines, and counts how often it was seen") {

@@ -296,9 +296,8 @@ int check_and_tell(const CheckRequest& options, OutputFiles& files, const Checke
         nlohmann::json json = report_json(report, run);
         if (!inputs.empty())
             json["inputs"] = inputs_json(inputs);
-        if (checked.part != nullptr)
-            json["part"] = part_file_json(*checked.part);
-        files.write(options.json, json_text(json));
+        files.write(options.json,
+                    checked.part == nullptr ? json_text(json) : part_file_text(json, part_file_json(*checked.part)));
     }
     if (!options.junit.empty())
         files.write(options.junit, junit_text(report, run, pass, inputs));

@@ -1,11 +1,15 @@
 #include "crosscheck/cli/part_file.hpp"
 
 #include <algorithm>
+#include <span>
+#include <utility>
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
 #include "crosscheck/files/json_reader.hpp"
+#include "crosscheck/files/json_text.hpp"
+#include "crosscheck/files/sha256.hpp"
 #include "crosscheck/report/part_json.hpp"
 #include "reference/model/collision/collision_state.hpp"
 #include "reference/model/error.hpp"
@@ -15,7 +19,7 @@ namespace {
 
 using nlohmann::json;
 
-constexpr int part_version = 2;
+constexpr int part_version = 3;
 constexpr int most_width = 1 << 20;
 constexpr const char* program = "lockstep " LOCKSTEP_VERSION;
 
@@ -87,8 +91,24 @@ json stress_part_file_json(const StressReport& report) {
 
 namespace {
 
+std::string digest_of(json document) {
+    document.at("part").erase("sha256");
+    const std::string text = json_text(document);
+    return sha256_of(std::as_bytes(std::span(text)));
+}
+
+} // namespace
+
+std::string part_file_text(json report, json part) {
+    report["part"] = std::move(part);
+    report["part"]["sha256"] = digest_of(report);
+    return json_text(report);
+}
+
+namespace {
+
 RunPart read_run_part(const JsonValue& value, const std::string& file) {
-    value.check_keys({"version", "program", "recording", "of", "request", "run", "report"});
+    value.check_keys({"version", "program", "recording", "of", "request", "run", "report", "sha256"});
     RunPart part;
     part.file = file;
     const JsonValue recording = value.at("recording");
@@ -128,11 +148,14 @@ PartFile read_part_file(const std::filesystem::path& file) {
                         file.string(), by, program));
     PartFile part{file.string(), {}, {}};
     if (const auto stress = value.find("stress")) {
-        value.check_keys({"version", "program", "stress"});
+        value.check_keys({"version", "program", "stress", "sha256"});
         part.stress = read_stress_part(*stress, document.at("part").at("stress"));
     } else {
         part.run = read_run_part(value, part.file);
     }
+    if (value.at("sha256").label() != digest_of(document))
+        throw Error(
+            fmt::format("{}: was changed after lockstep wrote it; expected the part as it was written", part.file));
     return part;
 }
 

@@ -26,6 +26,10 @@ struct RunPart {
 nlohmann::json part_file_json(const RunPart& part);
 nlohmann::json stress_part_file_json(const StressReport& report);
 
+/// The text of a report and its part, with a digest of the whole: merge reads only the part, and a change beside it
+/// must not go unseen.
+std::string part_file_text(nlohmann::json report, nlohmann::json part);
+
 /// A file with part of a run.
 struct PartFile {
     std::string file;
@@ -33,7 +37,7 @@ struct PartFile {
     std::optional<StressReport> stress; ///< else some of the stress scenes
 };
 
-/// Throws Error naming the place where the file holds no part, or one of another version.
+/// Throws Error naming the place where the file holds no part, or one of another version, or was changed.
 PartFile read_part_file(const std::filesystem::path& file);
 
 } // namespace lockstep

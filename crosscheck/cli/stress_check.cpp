@@ -154,10 +154,9 @@ int check_stress(const StressOptions& options) {
     }
     say(stress_end(report, options.power));
     if (!options.json.empty()) {
-        nlohmann::json json = stress_json(report);
-        if (options.shard.is_asked())
-            json["part"] = stress_part_file_json(report);
-        files.write(options.json, json_text(json));
+        const nlohmann::json json = stress_json(report);
+        files.write(options.json,
+                    options.shard.is_asked() ? part_file_text(json, stress_part_file_json(report)) : json_text(json));
     }
     files.commit();
     return report.passes() ? status_agree : status_differ;

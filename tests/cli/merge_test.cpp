@@ -234,7 +234,7 @@ TEST_CASE("merge: parts of --stress join only where every input was the same") {
         nlohmann::json forged = nlohmann::json::parse(content(second));
         forged["part"]["stress"]["profile"] = "{}";
         std::ofstream(second) << forged;
-        CHECK_THAT(refusal(whole({first, second})), Contains("the driver was measured to compute otherwise"));
+        CHECK_THAT(refusal(whole({first, second})), Contains("second.json: was changed after lockstep wrote it"));
     }
 }
 
@@ -287,6 +287,13 @@ TEST_CASE("merge: parts that are cut off or forged are refused in one line") {
     forge("/request/power_at_least", "2");
     forge("/run/width", 0);
     forge("/more", 1);
+    forge("/report/hashes/0", "0000000000000000");
+    const nlohmann::json beside{{"verdict", "AGREE"}, {"differing_particles", 1}, {"more", 1}};
+    for (const auto& [place, value] : beside.items()) {
+        nlohmann::json forged = whole; // what stands beside the part
+        forged[place] = value;
+        refused(forged.dump());
+    }
     std::string deep;
     for (int i = 0; i < 100'000; ++i)
         deep += '[';

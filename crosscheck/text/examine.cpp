@@ -163,7 +163,7 @@ MadeUpWorld world_of(const Examination& of, const text::Program& program) {
     share_buffers(program.blocks, world.bindings.blocks);
     for (const text::ImageUniform& image : program.images) {
         text::TexelMemory texels{.name = image.name};
-        const std::uint32_t axes = image.dimensions == spv::Dim1D ? 1 : image.dimensions == spv::Dim2D ? 2 : 3;
+        const std::uint32_t axes = image.axes();
         const std::vector<std::uint32_t> size = size_of(image.name);
         if (!size.empty() && size.size() != axes)
             throw Error(fmt::format("--size {}: expected {} numbers, texels along each axis", image.name, axes));

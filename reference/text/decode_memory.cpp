@@ -71,13 +71,17 @@ bool Decoder::memory(const Instruction& at, std::size_t number) {
         made(code::array_length, w).a = of.place;
         return true;
     }
-    case spv::OpImageTexelPointer:
-        address_[w[1]] = {.space = Address::Space::texel,
-                          .place = address_.at(w[2]).place,
-                          .offset = module_.type_of(w[3]).cells,
-                          .dynamic = cell(w[3]),
-                          .type = type(w[0]).element};
+    case spv::OpImageTexelPointer: {
+        const Address image = address_.at(w[2]);
+        std::uint32_t held = image.place + image.offset;
+        if (image.dynamic != none) {
+            held = take_cells(1);
+            load_from(image, held, image.type);
+        }
+        address_[w[1]] = {
+            .space = Address::Space::texel, .place = held, .dynamic = cell(w[3]), .type = type(w[0]).element};
         return true;
+    }
     default:
         return false;
     }
@@ -126,6 +130,14 @@ void Decoder::access(Words w) {
     for (const std::uint32_t index : w.subspan(3)) {
         const Constant* constant = module_.constant(index);
         const Type& t = type(at.type);
+        if (at.is_blocks) {
+            if (constant == nullptr || constant->words.front() >= t.count)
+                refuse("a block of an array of blocks by an index that is no constant is not interpreted");
+            at.place += constant->words.front();
+            at.type = t.element;
+            at.is_blocks = false;
+            continue;
+        }
         const bool is_inside = constant != nullptr &&
                                (t.kind == Type::Kind::structure || t.count == 0 || constant->words.front() < t.count);
         if (is_inside) {
@@ -225,8 +237,8 @@ void Decoder::load(Words w, std::size_t number) {
     const Type::Kind kind = type(w[0]).kind;
     const bool is_fixed = from.space == Address::Space::variable && from.dynamic == none;
     note_read(from);
-    if (kind == Type::Kind::image || kind == Type::Kind::sampled_image ||
-        (is_fixed && lasts(w[1], number, from.place + from.offset, type(w[0]).cells))) {
+    const bool is_image = kind == Type::Kind::image || kind == Type::Kind::sampled_image;
+    if (is_fixed && (is_image || lasts(w[1], number, from.place + from.offset, type(w[0]).cells))) {
         cell_[w[1]] = from.place + from.offset;
         return;
     }

@@ -189,9 +189,19 @@ void Decoder::atomic(const Instruction& at) {
     step.a = of.place;
     step.b = place;
     step.c = operand;
-    step.d = of.space == Address::Space::texel && !exchanges ? of.offset : comparator;
-    if (of.space == Address::Space::texel && exchanges)
-        refuse("imageAtomicCompSwap is not interpreted");
+    step.d = comparator;
+}
+
+/// The place of a texelFetch with an offset (GLSL 4.60, 8.9.3); an arrayed image's layer stays.
+std::uint32_t Decoder::moved_place(std::uint32_t place, std::uint32_t axes, std::uint32_t offset, std::uint32_t moved) {
+    const std::uint32_t out = take_cells(axes);
+    copy(out, place, axes);
+    Step& sum = add(static_cast<std::uint16_t>(spv::OpIAdd));
+    sum.out = out;
+    sum.a = place;
+    sum.b = offset;
+    sum.n = static_cast<std::uint16_t>(moved);
+    return out;
 }
 
 /// Images (SPIR-V 3.42.10). Returns false for other instructions.
@@ -210,15 +220,23 @@ bool Decoder::image_operation(const Instruction& at) {
     case spv::OpImageRead:
     case spv::OpImageSampleExplicitLod:
     case spv::OpImageSampleImplicitLod: {
-        check_operands(4, spv::ImageOperandsLodMask);
-        const std::uint32_t a = cell(w[2]), b = cell(w[3]), level = w.size() > 5 ? cell(w[5]) : word_cell(0);
+        const std::uint32_t offsets = spv::ImageOperandsConstOffsetMask | spv::ImageOperandsOffsetMask,
+                            chooses = spv::ImageOperandsBiasMask | spv::ImageOperandsGradMask; // among levels
+        const bool is_fetch = at.op == spv::OpImageFetch;
+        check_operands(4, spv::ImageOperandsLodMask | (is_fetch ? offsets : chooses));
+        const std::uint32_t given = w.size() > 4 ? w[4] : 0, axes = module_.type_of(w[3]).cells;
+        const bool has_level = (given & spv::ImageOperandsLodMask) != 0;
+        const std::uint32_t a = cell(w[2]), level = has_level ? cell(w[5]) : word_cell(0);
+        std::uint32_t b = cell(w[3]);
+        if (const std::size_t offset = has_level ? 6 : 5; (given & offsets) != 0 && offset < w.size())
+            b = moved_place(b, axes, cell(w[offset]), module_.type_of(w[offset]).cells);
         Step& step = made(at.op == spv::OpImageRead    ? code::load_texel
                           : at.op == spv::OpImageFetch ? code::fetch_texel
                                                        : code::sample_texel,
                           w);
         step.a = a;
         step.b = b;
-        step.c = module_.type_of(w[3]).cells;
+        step.c = axes;
         step.d = level;
         return true;
     }
@@ -252,16 +270,14 @@ bool Decoder::image_operation(const Instruction& at) {
 void Decoder::extended(Words w) {
     if (w[2] != module_.extension)
         refuse("an instruction of another set than GLSL.std.450 is not interpreted");
-    static constexpr std::array refused{GLSLstd450InterpolateAtCentroid,
-                                        GLSLstd450InterpolateAtSample,
-                                        GLSLstd450InterpolateAtOffset,
-                                        GLSLstd450Modf,
-                                        GLSLstd450Frexp,
-                                        GLSLstd450PackDouble2x32,
-                                        GLSLstd450UnpackDouble2x32};
+    static constexpr std::array refused{GLSLstd450InterpolateAtCentroid, GLSLstd450InterpolateAtSample,
+                                        GLSLstd450InterpolateAtOffset,   GLSLstd450Frexp,
+                                        GLSLstd450PackDouble2x32,        GLSLstd450UnpackDouble2x32};
     if (w[3] >= GLSLstd450NMin ||
         std::find(refused.begin(), refused.end(), static_cast<GLSLstd450>(w[3])) != refused.end())
         refuse(fmt::format("GLSL.std.450 instruction {} is not interpreted", w[3]));
+    if (w[3] == GLSLstd450Modf || w[3] == GLSLstd450ModfStruct)
+        return parts_of_number(w);
     std::array<std::uint32_t, 3> values{};
     for (std::size_t i = 4; i < w.size() && i < 7; ++i)
         values[i - 4] = cell(w[i]);
@@ -280,6 +296,29 @@ void Decoder::extended(Words w) {
     step.b = values[1];
     step.c = values[2];
     step.d = module_.type_of(w[4]).cells;
+    if (w[3] == GLSLstd450FrexpStruct)
+        step.n = static_cast<std::uint16_t>(step.d);
+}
+
+/// modf: the whole part, cut towards 0, and what is left.
+void Decoder::parts_of_number(Words w) {
+    const std::uint32_t n = module_.type_of(w[4]).cells, x = cell(w[4]), rest = cell(w[1]);
+    const bool is_structure = w[3] == GLSLstd450ModfStruct;
+    const std::uint32_t whole = is_structure ? rest + n : take_cells(n);
+    Step& cut = add(static_cast<std::uint16_t>(code::extended + GLSLstd450Trunc));
+    cut.out = whole;
+    cut.a = x;
+    cut.d = n;
+    cut.n = static_cast<std::uint16_t>(n);
+    Step& left = add(static_cast<std::uint16_t>(spv::OpFSub));
+    left.out = rest;
+    left.a = x;
+    left.b = whole;
+    left.n = static_cast<std::uint16_t>(n);
+    if (!is_structure) {
+        const Address to = address_.at(w[5]);
+        store_to(to, whole, to.type);
+    }
 }
 
 } // namespace lockstep::text

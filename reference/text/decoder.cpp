@@ -152,7 +152,8 @@ void Decoder::outside_variables() {
         using enum Type::Kind;
         switch (v.storage) {
         case spv::StorageClassUniformConstant:
-            if (type(v.type).kind == image || type(v.type).kind == sampled_image) {
+            if (const Type& of = type(type(v.type).kind == array ? type(v.type).element : v.type);
+                of.kind == image || of.kind == sampled_image) {
                 this->image(v);
             } else {
                 address_[v.id] = {.place = take_cells(type(v.type).cells), .type = v.type};
@@ -189,9 +190,11 @@ void Decoder::outside_variables() {
 }
 
 void Decoder::block(const Variable& variable, bool is_storage) {
-    const Type& of = type(variable.type);
+    const bool is_array = type(variable.type).kind == Type::Kind::array;
+    const std::uint32_t block_type = is_array ? type(variable.type).element : variable.type;
+    const Type& of = type(block_type);
     if (of.kind != Type::Kind::structure)
-        refuse(fmt::format("an array of blocks, {}, is not interpreted", module_.ids[variable.id].name));
+        refuse(fmt::format("an array of arrays of blocks, {}, is not interpreted", module_.ids[variable.id].name));
     Block made{of.name, is_storage};
     made.binding = module_.ids[variable.id].binding;
     if (!of.members.empty())
@@ -201,21 +204,33 @@ void Decoder::block(const Variable& variable, bool is_storage) {
             const Type::Member& member = of.members.back();
             lay(module_, last.element, 0, {member.matrix_stride, member.is_row_major}, made.element);
         }
-    lay(module_, variable.type, 0, {}, made.leaves);
-    address_[variable.id] = {
-        .space = Address::Space::block, .place = static_cast<std::uint32_t>(p_.blocks.size()), .type = variable.type};
-    p_.blocks.push_back(std::move(made));
+    lay(module_, block_type, 0, {}, made.leaves);
+    address_[variable.id] = {.space = Address::Space::block,
+                             .place = static_cast<std::uint32_t>(p_.blocks.size()),
+                             .type = variable.type,
+                             .is_blocks = is_array};
+    for (std::uint32_t i = 0; i < (is_array ? type(variable.type).count : 1); ++i) {
+        p_.blocks.push_back(made);
+        if (is_array)
+            p_.blocks.back().name += fmt::format("[{}]", i);
+    }
 }
 
 void Decoder::image(const Variable& variable) {
-    const Type& of = type(variable.type);
-    if (of.is_arrayed || (of.dimensions != spv::Dim2D && of.dimensions != spv::Dim3D && of.dimensions != spv::Dim1D))
+    const bool is_array = type(variable.type).kind == Type::Kind::array;
+    const Type& of = type(is_array ? type(variable.type).element : variable.type);
+    if (of.dimensions != spv::Dim2D && of.dimensions != spv::Dim3D && of.dimensions != spv::Dim1D)
         refuse(fmt::format("image {} is not interpreted; expected one of 1, 2 or 3 dimensions",
                            module_.ids[variable.id].name));
-    address_[variable.id] = {.place = word_cell(static_cast<std::uint32_t>(p_.images.size())), .type = variable.type};
+    const std::uint32_t count = is_array ? type(variable.type).count : 1, first = take_cells(count);
+    address_[variable.id] = {.place = first, .type = variable.type};
     const bool is_sampler = of.kind == Type::Kind::sampled_image;
-    p_.images.push_back({module_.ids[variable.id].name, !is_sampler && of.is_storage, of.dimensions, of.is_arrayed,
-                         is_real(of.element)});
+    for (std::uint32_t i = 0; i < count; ++i) {
+        p_.constants.push_back({first + i, static_cast<std::uint32_t>(p_.images.size()), false});
+        const std::string& name = module_.ids[variable.id].name;
+        p_.images.push_back({is_array ? fmt::format("{}[{}]", name, i) : name, !is_sampler && of.is_storage,
+                             of.dimensions, of.is_arrayed, is_real(of.element)});
+    }
 }
 
 void Decoder::plain_uniforms(std::uint32_t type_id, std::uint32_t first, const std::string& name) {

@@ -43,6 +43,7 @@ class Decoder {
         std::uint32_t dynamic = none;
         std::uint32_t type = 0; ///< of what lies there
         MatrixLayout matrix = {};
+        bool is_blocks = false; ///< an array of blocks, of which `place` is the first
         bool is_column = false; ///< a vector whose components lie `matrix.stride` apart
     };
     struct Patch {
@@ -99,6 +100,8 @@ class Decoder {
     bool image_operation(const Instruction& at);
     void atomic(const Instruction& at);
     void extended(Words w);
+    void parts_of_number(Words w);
+    std::uint32_t moved_place(std::uint32_t place, std::uint32_t axes, std::uint32_t offset, std::uint32_t moved);
     void composite(const Instruction& at);
     void call(Words w, std::size_t number);
     void access(Words w);

@@ -422,6 +422,14 @@ template <class R, int W> void Machine<R, W>::extended(const Step& s) {
                 cell(s.out + c)[l].set(r.monotone(cell(s.a + c)[l].real(), [e](float x) { return std::ldexp(x, e); }));
             });
         break;
+    case GLSLstd450FrexpStruct: // a number from 0.5 to 1, and the power of 2 that it is multiplied by
+        for (std::uint32_t c = 0; c < s.n; ++c)
+            active([&](Lane l) {
+                int power = 0;
+                cell(s.out + c)[l].set(Real(std::frexp(number(cell(s.a + c)[l].real()), &power)));
+                cell(s.out + s.n + c)[l].set(static_cast<std::uint32_t>(power));
+            });
+        break;
     default:
         integer_function(s);
     }

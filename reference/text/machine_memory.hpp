@@ -64,7 +64,8 @@ template <class R, int W> void Machine<R, W>::atomic(const Step& s) {
             s.op == code::atomic_shared ? memory_.atomic_shared(cell(s.b)[l].word(), by, change)
             : s.op == code::atomic_block
                 ? memory_.atomic_block(s.a, cell(s.b)[l].word(), by, change)
-                : memory_.atomic_texel(cell(s.a)[l].word(), texel_place(s.b, s.d, l), by, change);
+                : memory_.atomic_texel(cell(s.a)[l].word(), texel_place(s.b, p_.images[cell(s.a)[l].word()].axes(), l),
+                                       by, change);
         cell(s.out)[l].set(before);
     });
 }

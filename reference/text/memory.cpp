@@ -123,6 +123,10 @@ Memory::Texel Memory::sample(std::uint32_t number, const std::array<float, 3>& p
     const TexelMemory& image = bindings_.images[number];
     const bool is_linear = image.filter != TexelMemory::Filter::nearest;
     std::array<std::int32_t, 3> base{};
+    if (program_.images[number].is_arrayed) { // the nearest layer (GL 4.6, 8.14)
+        const float layer = std::floor(place[--axes] + 0.5F), last = static_cast<float>(image.size[axes]) - 1.0F;
+        base[axes] = std::isnan(layer) ? 0 : static_cast<std::int32_t>(std::clamp(layer, 0.0F, last));
+    }
     std::array<float, 3> behind{};
     for (std::uint32_t axis = 0; axis < axes; ++axis) {
         const auto size = static_cast<float>(image.size[axis]);

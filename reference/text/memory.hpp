@@ -111,7 +111,7 @@ class Memory {
                                    std::optional<std::int32_t> fetched, Place by);
     void store_texel(std::uint32_t image, const std::array<std::int32_t, 3>& at, const Texel& texel, Place by);
     /// What texture() makes of a place, 0 to 1 along each axis: GL_LINEAR as drivers with weights of all bits do it,
-    /// fma(f, b - a, a) along x, then y, then z (GL 4.6, 8.14.3).
+    /// fma(f, b - a, a) along x, then y, then z (GL 4.6, 8.14.3). The last of an arrayed image's axes is its layer.
     [[nodiscard]] Texel sample(std::uint32_t image, const std::array<float, 3>& place, std::uint32_t axes);
     [[nodiscard]] const TexelMemory& image(std::uint32_t number) const { return bindings_.images[number]; }
 

@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 
 #include "reference/model/error.hpp"
+#include "reference/text/constant_result.hpp"
 
 namespace lockstep::text {
 namespace {
@@ -277,7 +278,8 @@ class ModuleReader {
             break;
         }
         case spv::OpSpecConstantOp:
-            refuse("an expression of specialisation constants is not interpreted");
+            folded(w);
+            break;
         case spv::OpVariable:
             made_.ids[checked_id(w[1])].type = w[0];
             made_.variables.push_back({w[1], made_.types[w[0]].element, static_cast<spv::StorageClass>(w[2]),
@@ -303,6 +305,26 @@ class ModuleReader {
         made_.constants.push_back({id, type, std::move(words)});
         made_.constant_of_[id] = static_cast<std::uint32_t>(made_.constants.size());
         return made_.constants.back();
+    }
+    /// An expression of specialisation constants, whose values are those of the text.
+    void folded(Words w) {
+        const auto op = static_cast<spv::Op>(w[2]);
+        const bool takes_part = op == spv::OpCompositeExtract;
+        std::vector<std::vector<std::uint32_t>> operands;
+        for (const std::uint32_t id : takes_part ? w.subspan(3, 1) : w.subspan(3)) {
+            const Constant* of = made_.constant(checked_id(id));
+            if (of == nullptr)
+                refuse(fmt::format("SPIR-V instruction {} of what is no constant is not interpreted", w[2]));
+            operands.push_back(of->words);
+        }
+        if (takes_part && w.size() == 5 && w[4] < operands[0].size()) {
+            constant(w[0], w[1], {operands[0][w[4]]});
+            return;
+        }
+        std::optional<std::vector<std::uint32_t>> words = constant_result(op, made_.types[w[0]].cells, operands);
+        if (!words)
+            refuse(fmt::format("SPIR-V instruction {} of specialisation constants is not interpreted", w[2]));
+        constant(w[0], w[1], std::move(*words));
     }
     [[nodiscard]] std::uint32_t known(std::uint32_t id) const {
         const Constant* found = made_.constant(checked_id(id));

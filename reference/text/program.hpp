@@ -100,6 +100,11 @@ struct ImageUniform {
     spv::Dim dimensions = spv::Dim2D;
     bool is_arrayed = false;
     bool is_real = true; ///< components are floats
+
+    /// Numbers of a texel's place, a layer's among them.
+    [[nodiscard]] std::uint32_t axes() const {
+        return (dimensions == spv::Dim1D ? 1U : dimensions == spv::Dim2D ? 2U : 3U) + (is_arrayed ? 1U : 0U);
+    }
 };
 
 /// An input or output of a vertex, geometry or fragment stage: a variable, or a member of a block or structure.

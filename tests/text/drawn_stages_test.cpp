@@ -91,6 +91,8 @@ TEST_CASE("text: each stage that collision draws with makes the GPU's words") {
         Scene scene = load_scene("data/scenes/x_streams.json", options);
         scene.obstacles.positions = {{-1.0F, -0.3F, -1.0F}, {1.0F, -0.3F, -1.0F}, {0.0F, -0.3F, 1.0F}};
         scene.obstacles.indices = {0, 1, 2};
+        scene.width = 64;
+        scene.height = 48;
         scene.render_width = 96;
         scene.render_height = 64;
         const DrawWatch watch(named_profile("llvmpipe"));

@@ -364,6 +364,74 @@ TEST_CASE("text: texture() mixes the texels around a place, clamped at the edges
     CHECK(floats_of(kernel.blocks["Out"]) == std::vector{12.0F, 4.0F, 2.0F, 8.0F});
 }
 
+TEST_CASE("text: modf, frexp and expressions of specialisation constants") {
+    const std::vector<float> x = computed(R"(
+        float whole;
+        vec2 wholes;
+        int power;
+        ivec2 powers;
+        x[0] = modf(x[8], whole);
+        x[1] = whole;
+        vec2 rest = modf(vec2(x[9], 2.0), wholes);
+        x[2] = rest.x + 10.0 * wholes.x + 100.0 * wholes.y;
+        x[3] = frexp(x[8], power) * 100.0 + float(power);
+        vec2 parts = frexp(vec2(x[10], 0.0), powers);
+        x[4] = parts.x + parts.y + float(powers.x) * 10.0 + float(powers.y);
+        x[5] = float(list.length()) + float(rounded.y) + (is_large ? 1000.0 : 0.0);)",
+                                          R"(
+        layout(constant_id = 1) const int count = 4;
+        const int more = count * 3 - 5;
+        const ivec2 rounded = ivec2(count, count) / 3 + 100;
+        const bool is_large = count > 3 && !(count == 5);
+        float list[more];)",
+                                          {0.0F, 0.0F, 0.0F, 0.0F, 0.0F, 0.0F, 0.0F, 0.0F, -3.75F, 5.5F, 0.375F});
+    CHECK(x[0] == -0.75F);
+    CHECK(x[1] == -3.0F);
+    CHECK(x[2] == 0.5F + 50.0F + 200.0F);
+    CHECK(x[3] == -93.75F + 2.0F);
+    CHECK(x[4] == 0.75F - 10.0F);
+    CHECK(x[5] == 7.0F + 101.0F + 1000.0F);
+}
+
+TEST_CASE("text: arrays of blocks and of images, layers, and offsets of texels") {
+    TextKernel kernel(R"(layout(local_size_x = 4) in;
+        layout(std430, binding = 0) buffer Out { float x[]; };
+        layout(std430, binding = 1) buffer Part { int length; float part[]; } parts[2];
+        layout(binding = 0) uniform sampler2D u_Pair[2];
+        layout(binding = 2) uniform sampler2DArray u_Layers;
+        layout(binding = 0, r32ui) uniform uimage2D u_Owners;
+        layout(binding = 1, r32f) uniform writeonly image2D u_Made[2];
+        void main() {
+            uint i = gl_LocalInvocationID.x;
+            x[i] = texelFetch(u_Pair[i % 2u], ivec2(i / 2u, 1), 0).x;
+            x[4u + i] = texelFetchOffset(u_Pair[1], ivec2(0, 0), 0, ivec2(1, 1)).x +
+                        textureGrad(u_Pair[0], vec2(0.75, 0.25), vec2(0.0), vec2(0.0)).x;
+            x[8u + i] = texelFetch(u_Layers, ivec3(1, 0, int(i)), 0).x + texture(u_Layers, vec3(0.25, 0.25, float(i) - 0.7)).x;
+            parts[1].part[i] = parts[0].part[3u - i] + float(parts[0].part.length()) + float(textureSize(u_Layers, 0).z);
+            imageStore(u_Made[i % 2u], ivec2(i / 2u, 0), vec4(float(i)));
+            x[12u + i] = float(imageAtomicCompSwap(u_Owners, ivec2(1, 1), i, i + 1u));
+        })");
+    const auto image = [&](const std::string& name, std::array<std::uint32_t, 3> size, std::vector<float> floats) {
+        kernel.images[name] = {{.size = size, .components = 1}, words_of(floats)};
+    };
+    image("u_Pair[0]", {2, 2, 1}, {1.0F, 2.0F, 3.0F, 4.0F});
+    image("u_Pair[1]", {2, 2, 1}, {10.0F, 20.0F, 30.0F, 40.0F});
+    image("u_Layers", {2, 1, 4}, {1.0F, 2.0F, 3.0F, 4.0F, 5.0F, 6.0F, 7.0F, 8.0F});
+    image("u_Made[0]", {2, 1, 1}, {9.0F, 9.0F});
+    image("u_Made[1]", {2, 1, 1}, {9.0F, 9.0F});
+    kernel.images["u_Owners"] = {{.size = {2, 2, 1}, .components = 1}, std::vector<std::uint32_t>(4)};
+    kernel.blocks["Out"].resize(16);
+    kernel.blocks["Part[0]"] = words_of({0.0F, 1.0F, 2.0F, 3.0F, 4.0F, 5.0F});
+    kernel.blocks["Part[1]"].resize(5);
+    kernel.run();
+    CHECK(floats_of(kernel.blocks["Out"]) == std::vector<float>{3.0F, 30.0F, 4.0F, 40.0F, 42.0F, 42.0F, 42.0F, 42.0F,
+                                                                3.0F, 5.0F, 9.0F, 13.0F, 0.0F, 1.0F, 2.0F, 3.0F});
+    CHECK(floats_of(kernel.blocks["Part[1]"]) == std::vector<float>{0.0F, 13.0F, 12.0F, 11.0F, 10.0F});
+    CHECK(floats_of(kernel.images["u_Made[0]"].words) == std::vector<float>{0.0F, 2.0F});
+    CHECK(floats_of(kernel.images["u_Made[1]"].words) == std::vector<float>{1.0F, 3.0F});
+    CHECK(kernel.images["u_Owners"].words == std::vector<std::uint32_t>{0, 0, 0, 4});
+}
+
 TEST_CASE("text: what is not interpreted is refused by name and line") {
     using Catch::Contains;
     CHECK_THAT(refusal(head + "void main() {\n    double d = double(x[0]);\n    x[0] = float(d);\n}\n"),

@@ -26,32 +26,33 @@ inline std::vector<float> floats_of(const std::vector<std::uint32_t>& words) {
     return floats;
 }
 
-/// A compute shader's text of its own, and what its blocks, uniforms and images hold, by name.
-struct TextKernel {
-    explicit TextKernel(const std::string& text) : program(text::decoded(module_of(text))) {}
+/// A stage's text of its own, and what its blocks, uniforms and images hold, by name.
+struct BoundText {
+    BoundText(Stage stage, const std::string& text, const std::string& file)
+        : program(text::decoded(module_of(stage, text, file))) {}
 
-    static text::Module module_of(const std::string& text) {
+    static text::Module module_of(Stage stage, const std::string& text, const std::string& file) {
         auto source = std::make_shared<ShaderSource>();
-        source->stage = Stage::compute;
+        source->stage = stage;
         source->text = "#version 450 core\n" + text;
-        source->files = {"kernel.comp"};
+        source->files = {file};
         for (int line = 0; line <= std::count(source->text.begin(), source->text.end(), '\n'); ++line)
             source->origins.push_back({0, std::max(line, 1)}); // the text begins at line 1
         return text::read_module(spirv_of(*source), [source](std::uint32_t line) { return line_name(*source, line); });
     }
-    void run(std::array<std::uint32_t, 3> groups = {1, 1, 1}, const Profile& profile = named_profile("llvmpipe")) {
-        text::Bindings bindings;
+    [[nodiscard]] text::Bindings bindings() {
+        text::Bindings all;
         for (const text::Block& block : program.blocks)
-            bindings.blocks.emplace_back(blocks.at(block.name));
+            all.blocks.emplace_back(blocks.at(block.name));
         for (const text::PlainUniform& uniform : program.uniforms)
-            bindings.uniforms.push_back(uniforms[uniform.name]);
+            all.uniforms.push_back(uniforms[uniform.name]);
         for (const text::ImageUniform& image : program.images) {
             text::TexelMemory texels = images.at(image.name).memory;
             texels.name = image.name;
             texels.words = images.at(image.name).words;
-            bindings.images.push_back(texels);
+            all.images.push_back(texels);
         }
-        text::run_dispatch(program, {.groups = groups, .is_watched = is_watched}, bindings, profile, findings);
+        return all;
     }
 
     struct TexelWords {
@@ -63,6 +64,16 @@ struct TextKernel {
     std::map<std::string, TexelWords> images;
     text::Findings findings;
     bool is_watched = false;
+    std::uint32_t most_branches = 50'000'000;
+};
+
+struct TextKernel : BoundText {
+    explicit TextKernel(const std::string& text) : BoundText(Stage::compute, text, "kernel.comp") {}
+
+    void run(std::array<std::uint32_t, 3> groups = {1, 1, 1}, const Profile& profile = named_profile("llvmpipe")) {
+        text::run_dispatch(program, {.groups = groups, .is_watched = is_watched, .most_branches = most_branches},
+                           bindings(), profile, findings);
+    }
 };
 
 /// What invocation 0 of `statements`, behind `declarations`, leaves in `float x[]`, of 16.

@@ -13,6 +13,7 @@
 
 #include <fmt/format.h>
 
+#include "gpu/any_dialect.hpp"
 #include "gpu/data_folder.hpp"
 #include "gpu/shader_bounds.hpp"
 #include "gpu/shader_words.hpp"
@@ -228,8 +229,9 @@ std::shared_ptr<const Bindings> bindings_beside(const fs::path& file) {
 /// Puts one stage together.
 class Assembly {
   public:
-    Assembly(const ShaderFolders& folders, const ShaderDefines& defines, const ShaderTexts& texts)
-        : folders_(folders), defines_(defines), texts_(texts) {}
+    Assembly(const ShaderFolders& folders, const ShaderDefines& defines, const ShaderTexts& texts,
+             bool takes_any_dialect = false)
+        : folders_(folders), defines_(defines), texts_(texts), takes_any_dialect_(takes_any_dialect) {}
 
     ShaderSource assemble(const fs::path& path, const std::string& text, Stage stage) {
         source_.stage = stage;
@@ -240,8 +242,12 @@ class Assembly {
             return std::move(source_);
         }
         append(path, text);
-        if (!has_version_)
+        if (!has_version_ && !takes_any_dialect_)
             throw Error(fmt::format("shader {}:1: no #version line; GLSL 330 or later is needed", shown(path)));
+        for (auto one = defines_.rbegin(); !has_version_ && one != defines_.rend(); ++one) {
+            source_.text.insert(0, fmt::format("#define {} {}\n", one->first, one->second));
+            source_.origins.insert(source_.origins.begin(), {0, 1});
+        }
         check_bounds(source_);
         return std::move(source_);
     }
@@ -277,7 +283,8 @@ class Assembly {
             }
             append_line(line, origin.value_or(ShaderSource::Origin{file, number}));
             if (const auto version = directive(line, "version"); version && !has_version_) {
-                check_version(*version, fmt::format("shader {}:{}: ", shown(path), number));
+                if (!takes_any_dialect_)
+                    check_version(*version, fmt::format("shader {}:{}: ", shown(path), number));
                 has_version_ = true;
                 for (const auto& [name, value] : defines_)
                     append_line(fmt::format("#define {} {}", name, value), {file, number});
@@ -357,7 +364,7 @@ class Assembly {
     const ShaderTexts& texts_;
     ShaderSource source_;
     std::vector<fs::path> open_; ///< files being read, outermost first
-    bool has_version_ = false;
+    bool takes_any_dialect_ = false, has_version_ = false;
     int conditions_ = 0; ///< that the line lies in
 };
 
@@ -446,6 +453,13 @@ ShaderSource load_stage(const ShaderFolders& folders, std::string_view name, Sta
     const ShaderTexts none;
     const auto [path, text] = find(folders, none, fmt::format("{}{}", name, extension(stage)), "");
     return Assembly(folders, defines, none).assemble(path, text, stage);
+}
+
+ShaderSource load_any_dialect(const ShaderFolders& folders, std::string_view name, Stage stage,
+                              const ShaderDefines& defines) {
+    const ShaderTexts none;
+    const auto [path, text] = find(folders, none, fmt::format("{}{}", name, extension(stage)), "");
+    return Assembly(folders, defines, none, true).assemble(path, text, stage);
 }
 
 ShaderSource continued(ShaderSource stage, const ShaderSource& end) {

@@ -130,7 +130,8 @@ Verb examine_command() {
                              "an input of such a stage, the same for all invocations: a_Position=0,1,0, "
                              "gl_FrontFacing=0; floats that look random without"));
     verb.add(settings_option("--uniform", "NAME=VALUE", options->uniforms,
-                             "a uniform's value: u_Kept=0.5, u_Gravity=0,-9.81,0; 0 without"));
+                             "a uniform's value: u_Kept=0.5, u_Gravity=0,-9.81,0; 0 without; or a member's of a "
+                             "block: Light.colour=1,1,1"));
     verb.add(settings_option("--size", "NAME=N", options->sizes,
                              "elements of the array at the end of a block, or texels along each axis of an image: "
                              "Particles=100, u_Source=64,64; as many as invocations without"));

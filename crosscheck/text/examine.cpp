@@ -14,6 +14,7 @@
 
 #include "crosscheck/files/plain_text.hpp"
 #include "crosscheck/text/glsl_module.hpp"
+#include "gpu/any_dialect.hpp"
 #include "reference/model/error.hpp"
 #include "reference/model/near_name.hpp"
 #include "reference/model/profile.hpp"
@@ -51,7 +52,7 @@ std::shared_ptr<const ShaderSource> source_of(const Examination& of) {
     if (!std::filesystem::exists(of.file))
         throw Error(fmt::format("{}: no such file", plain_line(of.file.string())));
     const std::filesystem::path folder = of.file.has_parent_path() ? of.file.parent_path() : ".";
-    return std::make_shared<ShaderSource>(load_stage(shader_folders(folder), name, *stage, of.defines));
+    return std::make_shared<ShaderSource>(load_any_dialect(shader_folders(folder), name, *stage, of.defines));
 }
 
 /// Throws Error for a name among those given that the shader does not have.
@@ -81,16 +82,28 @@ std::vector<std::uint32_t> words_of(std::string_view option, std::string_view na
     return words;
 }
 
-std::vector<std::uint32_t> block_words(const text::Block& block, std::size_t count, MadeUp& made_up) {
+/// The block in which GLSL for Vulkan has what are plain uniforms in GL.
+constexpr std::string_view block_of_uniforms = "gl_DefaultUniformBlock";
+
+std::vector<std::uint32_t> block_words(const Examination& of, const text::Block& block, std::size_t count,
+                                       MadeUp& made_up) {
     std::vector<std::uint32_t> words(block.words(count));
     const auto fill = [&](std::size_t first, const std::vector<text::Leaf>& leaves) {
         for (const text::Leaf& leaf : leaves)
             if (leaf.is_real)
                 words.at(first + leaf.word) = made_up.word();
     };
-    fill(0, block.leaves);
+    if (block.name != block_of_uniforms)
+        fill(0, block.leaves);
     for (std::size_t i = 0; block.array_stride > 0 && i < count; ++i)
         fill((block.array_offset + i * block.array_stride) / text::word_bytes, block.element);
+    for (const text::Block::Member& member : block.members)
+        if (const auto given = of.uniforms.find(member.name); given != of.uniforms.end()) {
+            const std::vector<std::uint32_t> numbers =
+                words_of("--uniform", member.name, member.leaves.size(), member.leaves.front().is_real, given->second);
+            for (std::size_t i = 0; i < numbers.size(); ++i)
+                words.at(member.leaves[i].word) = numbers[i];
+        }
     return words;
 }
 
@@ -157,7 +170,7 @@ MadeUpWorld world_of(const Examination& of, const text::Program& program) {
                                       ? std::size_t{invocations[0]} * invocations[1] * invocations[2]
                                       : invocations_of(of, program);
         check_size(block.name, block.words(count));
-        world.words.push_back(block_words(block, count, made_up));
+        world.words.push_back(block_words(of, block, count, made_up));
         world.bindings.blocks.emplace_back(world.words.back());
     }
     share_buffers(program.blocks, world.bindings.blocks);
@@ -220,6 +233,25 @@ template <class All> std::vector<std::string> names_of(const All& all) {
     return names;
 }
 
+/// Plain uniforms and members of blocks.
+std::vector<std::string> uniform_names(const text::Program& program) {
+    std::vector<std::string> names = names_of(program.uniforms);
+    for (const text::Block& block : program.blocks)
+        for (const std::string& name : names_of(block.members))
+            names.push_back(name);
+    return names;
+}
+
+/// Uniforms that are 0, since they are not given.
+std::vector<std::string> not_given(const Examination& of, const text::Program& program) {
+    std::vector<std::string> names = names_of(program.uniforms);
+    for (const text::Block& block : program.blocks)
+        if (block.name == block_of_uniforms)
+            names = names_of(block.members);
+    std::erase_if(names, [&](const std::string& name) { return of.uniforms.contains(name); });
+    return names;
+}
+
 /// "64 vertices".
 std::string what_ran(const Examination& of, const text::Program& program) {
     switch (program.stage) {
@@ -258,7 +290,7 @@ ExaminationResult examine(const Examination& of) {
     const std::shared_ptr<const ShaderSource> source = source_of(of);
     const text::Program program = text::decoded(
         text::read_module(spirv_of(*source), [source](std::uint32_t line) { return line_name(*source, line); }));
-    check_names("--uniform", of.uniforms, names_of(program.uniforms));
+    check_names("--uniform", of.uniforms, uniform_names(program));
     check_names("--input", of.inputs, input_names(program));
     std::vector<std::string> sized = names_of(program.blocks);
     for (const std::string& name : names_of(program.images))
@@ -275,9 +307,7 @@ ExaminationResult examine(const Examination& of) {
     result.ran = what_ran(of, program);
     if (program.stage == spv::ExecutionModelGLCompute)
         result.group_size = program.invocations();
-    for (const text::PlainUniform& uniform : program.uniforms)
-        if (!of.uniforms.contains(uniform.name))
-            result.not_given.push_back(uniform.name);
+    result.not_given = not_given(of, program);
     for (const text::Finding& found : findings.all())
         result.findings.push_back({found, program.line_name(found.place.line),
                                    found.other ? program.line_name(found.other->line) : std::string()});

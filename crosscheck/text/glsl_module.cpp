@@ -1,8 +1,13 @@
 #include "crosscheck/text/glsl_module.hpp"
 
+#include <charconv>
 #include <cstring>
 #include <filesystem>
 #include <mutex>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
 
 #include <fmt/format.h>
 #include <glslang/Public/ResourceLimits.h>
@@ -33,27 +38,65 @@ EShLanguage language(Stage stage) {
     return EShLangCompute;
 }
 
-/// As bytes.
-std::string compiled(const ShaderSource& stage) {
-    constexpr int gl_version = 450;
+/// A way of reading a text: the rules that it is for, and the version that takes its own's place; 0: none.
+struct Reading {
+    glslang::EShClient client = glslang::EShClientOpenGL;
+    int version = 0;
+};
+
+/// Its own dialect first. What was written for versions without SPIR-V means the same in the first that has it, unless
+/// it asks which one compiles it.
+std::vector<Reading> readings_of(const std::string& text) {
+    constexpr int desktop = 450, es = 310;
+    bool is_es = false;
+    int version = desktop; // of a text that does not say
+    std::string_view before;
+    for (ShaderWords words(text); words.next(); before = words.token())
+        if (before == "version") {
+            std::from_chars(words.token().data(), words.token().data() + words.token().size(), version);
+            is_es = words.next() && words.token() == "es";
+            break;
+        }
+    const int newer = is_es ? es : desktop;
+    std::vector<Reading> all;
+    for (const glslang::EShClient client : {glslang::EShClientOpenGL, glslang::EShClientVulkan}) {
+        all.push_back({client, 0});
+        if (version < newer && !says(text, "__VERSION__"))
+            all.push_back({client, newer});
+    }
+    return all;
+}
+
+/// A module as bytes, or the compiler's log.
+struct Compiled {
+    std::string bytes, log;
+    bool is_linkers = false; ///< the log
+};
+
+Compiled compiled(const ShaderSource& stage, const Reading& as) {
+    constexpr int default_version = 450, client_version = 100;
     const EShLanguage in = language(stage.stage);
-    const auto messages = static_cast<EShMessages>(EShMsgSpvRules | EShMsgDebugInfo);
+    const bool is_vulkan = as.client == glslang::EShClientVulkan;
+    const auto messages =
+        static_cast<EShMessages>(EShMsgSpvRules | EShMsgDebugInfo | (is_vulkan ? EShMsgVulkanRules : EShMsgDefault));
     glslang::TShader shader(in);
     const char* text = stage.text.c_str();
     shader.setStrings(&text, 1);
-    shader.setEnvInput(glslang::EShSourceGlsl, in, glslang::EShClientOpenGL, 100);
-    shader.setEnvClient(glslang::EShClientOpenGL, glslang::EShTargetOpenGL_450);
+    shader.setEnvInput(glslang::EShSourceGlsl, in, as.client, client_version);
+    shader.setEnvClient(as.client, is_vulkan ? glslang::EShTargetVulkan_1_1 : glslang::EShTargetOpenGL_450);
     shader.setEnvTarget(glslang::EShTargetSpv, glslang::EShTargetSpv_1_3);
-    if (says(stage.text, "GL_ARB_gpu_shader5")) // whose words glslang knows from GLSL 4.00 on
-        shader.setOverrideVersion(gl_version);
+    if (is_vulkan)
+        shader.setEnvInputVulkanRulesRelaxed(); // plain uniforms and atomic counters as in GL
+    if (as.version != 0)
+        shader.setOverrideVersion(as.version);
     shader.setAutoMapBindings(true);
     shader.setAutoMapLocations(true);
-    if (!shader.parse(GetDefaultResources(), gl_version, false, messages))
-        throw Error(fmt::format("shader {}", first_compile_error(shader.getInfoLog(), stage)));
+    if (!shader.parse(GetDefaultResources(), default_version, false, messages))
+        return {{}, shader.getInfoLog()};
     glslang::TProgram program;
     program.addShader(&shader);
     if (!program.link(messages) || !program.mapIO())
-        throw Error(fmt::format("shader {}: {}", stage.files.front(), first_link_error(program.getInfoLog())));
+        return {{}, program.getInfoLog(), true};
     std::vector<std::uint32_t> words;
     glslang::SpvOptions options;
     options.generateDebugInfo = true;
@@ -61,7 +104,32 @@ std::string compiled(const ShaderSource& stage) {
     glslang::GlslangToSpv(*program.getIntermediate(in), words, &options);
     std::string bytes(words.size() * sizeof(words[0]), '\0');
     std::memcpy(bytes.data(), words.data(), bytes.size());
-    return bytes;
+    return {std::move(bytes), {}};
+}
+
+/// The line of the text to which a compiler came; 0: none.
+std::size_t error_line(const Compiled& one) {
+    constexpr std::string_view begin = "ERROR: 0:";
+    const std::size_t at = one.log.find(begin);
+    std::size_t line = one.is_linkers ? std::string::npos : 0;
+    if (at != std::string::npos && !one.is_linkers)
+        std::from_chars(one.log.data() + at + begin.size(), one.log.data() + one.log.size(), line);
+    return line;
+}
+
+/// As bytes, by the first reading that the text allows. Of an error in all of them, the one that comes last in the
+/// text.
+std::string compiled(const ShaderSource& stage) {
+    Compiled furthest;
+    for (const Reading& as : readings_of(stage.text)) {
+        Compiled made = compiled(stage, as);
+        if (!made.bytes.empty())
+            return made.bytes;
+        if (furthest.log.empty() || error_line(made) > error_line(furthest))
+            furthest = std::move(made);
+    }
+    throw Error(furthest.is_linkers ? fmt::format("shader {}: {}", stage.files.front(), first_link_error(furthest.log))
+                                    : fmt::format("shader {}", first_compile_error(furthest.log, stage)));
 }
 
 } // namespace

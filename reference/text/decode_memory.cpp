@@ -237,7 +237,7 @@ void Decoder::load(Words w, std::size_t number) {
     const Type::Kind kind = type(w[0]).kind;
     const bool is_fixed = from.space == Address::Space::variable && from.dynamic == none;
     note_read(from);
-    const bool is_image = kind == Type::Kind::image || kind == Type::Kind::sampled_image;
+    const bool is_image = kind == Type::Kind::image || kind == Type::Kind::sampled_image || kind == Type::Kind::sampler;
     if (is_fixed && (is_image || lasts(w[1], number, from.place + from.offset, type(w[0]).cells))) {
         cell_[w[1]] = from.place + from.offset;
         return;

@@ -296,8 +296,6 @@ void Decoder::extended(Words w) {
     step.b = values[1];
     step.c = values[2];
     step.d = module_.type_of(w[4]).cells;
-    if (w[3] == GLSLstd450FrexpStruct)
-        step.n = static_cast<std::uint16_t>(step.d);
 }
 
 /// modf: the whole part, cut towards 0, and what is left.

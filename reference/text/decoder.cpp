@@ -155,6 +155,8 @@ void Decoder::outside_variables() {
             if (const Type& of = type(type(v.type).kind == array ? type(v.type).element : v.type);
                 of.kind == image || of.kind == sampled_image) {
                 this->image(v);
+            } else if (module_.scalar_of(v.type).kind == sampler) { // how it samples is its image's here
+                address_[v.id] = {.place = take_cells(type(v.type).cells), .type = v.type};
             } else {
                 address_[v.id] = {.place = take_cells(type(v.type).cells), .type = v.type};
                 plain_uniforms(v.type, address_[v.id].place, about.name);
@@ -165,6 +167,12 @@ void Decoder::outside_variables() {
         case spv::StorageClassUniform:
         case spv::StorageClassStorageBuffer:
             block(v, v.storage == spv::StorageClassStorageBuffer || module_.ids[v.type].is_buffer_block);
+            break;
+        case spv::StorageClassPushConstant:
+            block(v, false);
+            break;
+        case spv::StorageClassAtomicCounter:
+            counter(v);
             break;
         case spv::StorageClassWorkgroup:
             address_[v.id] = {.space = Address::Space::shared, .offset = p_.shared, .type = v.type};
@@ -205,6 +213,7 @@ void Decoder::block(const Variable& variable, bool is_storage) {
             lay(module_, last.element, 0, {member.matrix_stride, member.is_row_major}, made.element);
         }
     lay(module_, block_type, 0, {}, made.leaves);
+    block_members(block_type, 0, {}, module_.ids[variable.id].name.empty() ? "" : of.name, made);
     address_[variable.id] = {.space = Address::Space::block,
                              .place = static_cast<std::uint32_t>(p_.blocks.size()),
                              .type = variable.type,
@@ -216,10 +225,40 @@ void Decoder::block(const Variable& variable, bool is_storage) {
     }
 }
 
+/// Of storage blocks without those of structures in arrays, which may be millions.
+void Decoder::block_members(std::uint32_t type_id, std::uint32_t word, MatrixLayout layout, const std::string& name,
+                            Block& to) const {
+    using enum Type::Kind;
+    const Type& of = type(type_id);
+    if (of.kind == structure) {
+        for (const Type::Member& m : of.members)
+            block_members(m.type, word + m.offset / word_bytes, {m.matrix_stride, m.is_row_major},
+                          name.empty() ? m.name : name + "." + m.name, to);
+    } else if (of.kind == array && (type(of.element).kind == structure || type(of.element).kind == array)) {
+        for (std::uint32_t i = 0; !to.is_storage && i < of.count; ++i)
+            block_members(of.element, word + i * of.stride / word_bytes, layout, fmt::format("{}[{}]", name, i), to);
+    } else {
+        Block::Member one{name, {}};
+        lay(module_, type_id, word, layout, one.leaves);
+        if (!one.leaves.empty())
+            to.members.push_back(std::move(one));
+    }
+}
+
+/// An atomic counter is a buffer of its own: no two of a program share a word (GLSL 4.60, 4.4.6.1).
+void Decoder::counter(const Variable& variable) {
+    Block made{module_.ids[variable.id].name};
+    lay(module_, variable.type, 0, {}, made.leaves);
+    address_[variable.id] = {
+        .space = Address::Space::block, .place = static_cast<std::uint32_t>(p_.blocks.size()), .type = variable.type};
+    p_.blocks.push_back(std::move(made));
+}
+
 void Decoder::image(const Variable& variable) {
     const bool is_array = type(variable.type).kind == Type::Kind::array;
     const Type& of = type(is_array ? type(variable.type).element : variable.type);
-    if (of.dimensions != spv::Dim2D && of.dimensions != spv::Dim3D && of.dimensions != spv::Dim1D)
+    if (of.dimensions != spv::Dim2D && of.dimensions != spv::Dim3D && of.dimensions != spv::Dim1D &&
+        of.dimensions != spv::DimBuffer)
         refuse(fmt::format("image {} is not interpreted; expected one of 1, 2 or 3 dimensions",
                            module_.ids[variable.id].name));
     const std::uint32_t count = is_array ? type(variable.type).count : 1, first = take_cells(count);

@@ -71,6 +71,9 @@ class Decoder {
     void set_constant(std::uint32_t first, const Constant& from, std::vector<CellWord>& to);
     void outside_variables();
     void block(const Variable& variable, bool is_storage);
+    void block_members(std::uint32_t type, std::uint32_t word, MatrixLayout layout, const std::string& name,
+                       Block& to) const;
+    void counter(const Variable& variable);
     void image(const Variable& variable);
     void plain_uniforms(std::uint32_t type, std::uint32_t cell, const std::string& name);
     void input(const Variable& variable);

@@ -423,11 +423,11 @@ template <class R, int W> void Machine<R, W>::extended(const Step& s) {
             });
         break;
     case GLSLstd450FrexpStruct: // a number from 0.5 to 1, and the power of 2 that it is multiplied by
-        for (std::uint32_t c = 0; c < s.n; ++c)
+        for (std::uint32_t c = 0; c < s.d; ++c)
             active([&](Lane l) {
                 int power = 0;
                 cell(s.out + c)[l].set(Real(std::frexp(number(cell(s.a + c)[l].real()), &power)));
-                cell(s.out + s.n + c)[l].set(static_cast<std::uint32_t>(power));
+                cell(s.out + s.d + c)[l].set(static_cast<std::uint32_t>(power));
             });
         break;
     default:

@@ -249,7 +249,8 @@ class ModuleReader {
             break;
         }
         case spv::OpTypeSampler:
-            refuse("a sampler without its image is not interpreted");
+            make(w, sampler);
+            break;
         case spv::OpConstantTrue:
         case spv::OpSpecConstantTrue:
             constant(w[0], w[1], {1});
@@ -281,12 +282,23 @@ class ModuleReader {
             folded(w);
             break;
         case spv::OpVariable:
+            if (w[2] == spv::StorageClassAtomicCounter)
+                pack(made_.types[w[0]].element);
             made_.ids[checked_id(w[1])].type = w[0];
             made_.variables.push_back({w[1], made_.types[w[0]].element, static_cast<spv::StorageClass>(w[2]),
                                        w.size() > 3 ? checked_id(w[3]) : 0});
             break;
         default:
             break;
+        }
+    }
+
+    /// Arrays of atomic counters, to which modules give no stride, have none between theirs.
+    void pack(std::uint32_t id) {
+        Type& type = made_.types[id];
+        if (type.kind == Type::Kind::array && type.stride == 0) {
+            pack(type.element);
+            type.stride = made_.types[type.element].cells * sizeof(std::uint32_t);
         }
     }
 

@@ -31,6 +31,7 @@ struct Type {
         pointer,
         image,
         sampled_image,
+        sampler, ///< without its image
         function
     };
     struct Member {

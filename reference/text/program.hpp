@@ -73,13 +73,19 @@ struct Leaf {
     bool is_real = false;
 };
 
-/// A storage or uniform block.
+/// A storage or uniform block, push constants, or an atomic counter.
 struct Block {
-    std::string name; ///< of the block, not of its instance
+    /// By its name in GL, as plain uniforms have it.
+    struct Member {
+        std::string name;
+        std::vector<Leaf> leaves;
+    };
+    std::string name; ///< of the block, not of its instance; an atomic counter's own
     bool is_storage = true;
     /// Of an array without a length at its end, bytes; stride 0: there is none.
     std::uint32_t array_offset = 0, array_stride = 0;
     std::vector<Leaf> leaves = {}, element = {}; ///< scalars before that array, and of one of its elements
+    std::vector<Member> members = {};            ///< before that array
     std::optional<std::uint32_t> binding = {};   ///< that the text gives it
 
     /// Words of the block whose array has `count` elements.
@@ -103,7 +109,8 @@ struct ImageUniform {
 
     /// Numbers of a texel's place, a layer's among them.
     [[nodiscard]] std::uint32_t axes() const {
-        return (dimensions == spv::Dim1D ? 1U : dimensions == spv::Dim2D ? 2U : 3U) + (is_arrayed ? 1U : 0U);
+        const bool is_line = dimensions == spv::Dim1D || dimensions == spv::DimBuffer;
+        return (is_line ? 1U : dimensions == spv::Dim2D ? 2U : 3U) + (is_arrayed ? 1U : 0U);
     }
 };
 

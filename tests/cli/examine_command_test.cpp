@@ -131,6 +131,34 @@ TEST_CASE("examine: what it cannot run is refused in one line") {
     CHECK_THAT(refused({"--input", "a_Place=1"}, vertex), Contains("--input a_Place: expected 2 numbers, got 1"));
 }
 
+TEST_CASE(
+    "examine: members of blocks and push constants are given as uniforms are; GLSL for Vulkan, ES and no version run") {
+    const TemporaryFolder folder;
+    const auto examined = [&](const std::string& text, std::vector<std::string> options) {
+        options.insert(options.begin(), {"examine", folder.write("shader.comp", text).string(), "--groups", "1"});
+        return run_lockstep(options);
+    };
+    const std::string writes = "layout(std430, binding = 0) buffer Out { float x[]; };\n"
+                               "layout(local_size_x = 1) in;\n"
+                               "void main() {\n    x[N] = 1.0;\n}\n";
+    const std::string push = "#version 450\n#define N push.n\n"
+                             "layout(push_constant) uniform Push { int n; } push;\n" +
+                             writes;
+    CHECK(examined(push, {}).status == 0);
+    CHECK_THAT(examined(push, {"--uniform", "Push.n=7"}).out, Contains("shader.comp:7: access outside of a buffer"));
+    CHECK_THAT(refusal(examined(push, {"--uniform", "n=7"})), Contains("it has Push.n"));
+    CHECK_THAT(refusal(examined(push, {"--uniform", "Push.n=7,8"})), Contains("expected 1 numbers, got 2"));
+    const std::string block =
+        "#version 310 es\n#define N n[1].y\nlayout(binding = 1) uniform Number { ivec2 n[2]; };\n" + writes;
+    CHECK_THAT(examined(block, {"--uniform", "n=0,0,0,9"}).out, Contains("word 9 of Out"));
+    const std::string vulkan = "#version 450\n#define N u_N\n"
+                               "layout(set = 0, binding = 1) uniform Number { int of_a_set; };\nuniform int u_N;\n" +
+                               writes;
+    CHECK_THAT(examined(vulkan, {}).out, Contains("0 for want of --uniform: u_N\n"));
+    CHECK_THAT(examined(vulkan, {"--uniform", "u_N=5"}).out, Contains("word 5 of Out"));
+    CHECK_THAT(examined(writes, {"--define", "N=4"}).out, Contains("shader.comp:4: access outside of a buffer"));
+}
+
 TEST_CASE("examine: vertex, geometry and fragment stages run with inputs that are given or made up") {
     const TemporaryFolder folder;
     const auto examined = [&](const std::string& name, const std::string& text, std::vector<std::string> options = {}) {

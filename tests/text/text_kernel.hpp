@@ -34,10 +34,11 @@ struct BoundText {
     static text::Module module_of(Stage stage, const std::string& text, const std::string& file) {
         auto source = std::make_shared<ShaderSource>();
         source->stage = stage;
-        source->text = "#version 450 core\n" + text;
+        const bool is_whole = text.starts_with("#version");
+        source->text = is_whole ? text : "#version 450 core\n" + text;
         source->files = {file};
         for (int line = 0; line <= std::count(source->text.begin(), source->text.end(), '\n'); ++line)
-            source->origins.push_back({0, std::max(line, 1)}); // the text begins at line 1
+            source->origins.push_back({0, is_whole ? line + 1 : std::max(line, 1)}); // the text begins at line 1
         return text::read_module(spirv_of(*source), [source](std::uint32_t line) { return line_name(*source, line); });
     }
     [[nodiscard]] text::Bindings bindings() {

@@ -81,7 +81,7 @@ void add_gl_options(Verb& verb, RunOptions& options) {
 
 void add_reference_option(Verb& verb, RunOptions& options) {
     verb.add(path_option("--reference", "DIR", options.reference,
-                         "compute shaders that are the reference of their passes, instead of the twins"));
+                         "compute and vertex shaders that are the reference of their passes, instead of the twins"));
 }
 
 void add_profile_option(Verb& verb, std::string& profile) {

@@ -37,27 +37,28 @@ struct WatchedText {
 
 } // namespace
 
-std::vector<std::string> shader_findings(const SystemScene& scene, const OwnTexts& own,
+std::vector<std::string> shader_findings(const ShadedSystem& of, const OwnTexts& own,
                                          const std::filesystem::path& shaders, const Profile& profile, int frames) {
-    const System& system = scene.system;
+    const System& system = of.system;
     const ShaderFolders folders = shader_folders(shaders, system.schema.system);
-    std::vector<WatchedText> texts(scene.passes.size());
+    std::vector<WatchedText> texts(of.passes.size());
     std::vector<std::string> lines;
-    for (std::size_t p = 0; p < scene.passes.size(); ++p)
-        if (scene.passes[p].stage == Stage::compute && !scene.passes[p].continues)
+    for (std::size_t p = 0; p < of.passes.size(); ++p)
+        if (!of.passes[p].draw && !of.passes[p].continues)
             try {
-                texts[p].text =
-                    own[p] ? own[p]
-                           : std::make_shared<const PassText>(system.schema, scene.passes[p], written_by(system, p),
-                                                              folders, scene.arithmetic);
+                texts[p].text = own[p]
+                                    ? own[p]
+                                    : std::make_shared<const PassText>(system.schema, of.passes[p],
+                                                                       written_by(system, p), folders, of.arithmetic);
             } catch (const Error& error) {
-                lines.push_back(fmt::format("text of {}.comp not looked into: {}", scene.passes[p].name, error.what()));
+                lines.push_back(fmt::format("text of {}.{} not looked into: {}", of.passes[p].name,
+                                            of.passes[p].stage == Stage::compute ? "comp" : "vert", error.what()));
             }
     if (std::none_of(texts.begin(), texts.end(), [](const WatchedText& one) { return one.text != nullptr; }))
         return lines;
     ReferenceRun run(system, profile);
     for (int frame = 0; frame < std::min(frames, examined_frames); ++frame)
-        for (std::size_t p = 0; p < scene.passes.size(); ++p) {
+        for (std::size_t p = 0; p < of.passes.size(); ++p) {
             WatchedText& watched = texts[p];
             if (watched.text != nullptr && system.passes[p]->runs(frame)) {
                 const SystemView view = run.state().view();

@@ -9,10 +9,10 @@
 
 namespace lockstep {
 
-/// What watched runs of the texts of a scene's compute shaders find (docs/shader_text.md), on a sample of the groups of
+/// What watched runs of the texts of a system's shaders find (docs/shader_text.md), on a sample of the groups of
 /// the first frames, from the reference's states: a line each. A text that is not interpreted is one of them.
 /// `own`: those that were read already.
-std::vector<std::string> shader_findings(const SystemScene& scene, const OwnTexts& own,
+std::vector<std::string> shader_findings(const ShadedSystem& of, const OwnTexts& own,
                                          const std::filesystem::path& shaders, const Profile& profile, int frames);
 
 } // namespace lockstep

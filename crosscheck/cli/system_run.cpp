@@ -93,9 +93,27 @@ SystemInput::SystemInput(const RegisteredSystem& system, const RunOptions& run, 
     else
         shaders_ = shaders_of(scene(), run, drawn);
     if (!run.reference.empty())
-        references_ = take_references(read_.scene, run);
-    if (shaders_ && !run.shaders.empty())
-        own_texts_ = open_by_own_text(read_.scene, *shaders_, run.shaders);
+        reference_use_ = references_of(read_.scene, run);
+    own_texts_ = take_texts(shaded(), references_);
+    if (scene().picture && reference_use_) {
+        SystemPicture picture = scene().picture(read_.scene.system.start, 0);
+        take_texts({picture.system, picture.passes, scene().arithmetic}, references_);
+    }
+}
+
+OwnTexts SystemInput::take_texts(const ShadedSystem& of, std::vector<std::string>& references) const {
+    if (reference_use_) {
+        const std::vector<std::string> lines = take_references(of, *reference_use_, run_.reference);
+        references.insert(references.end(), lines.begin(), lines.end());
+    }
+    return shaders_ && !run_.shaders.empty() ? open_by_own_text(of, *shaders_, run_.shaders) : OwnTexts();
+}
+
+DrawnSystem SystemInput::drawn(const SystemState& state, int frame) const {
+    DrawnSystem made{scene().picture(state, frame), {}};
+    std::vector<std::string> ignored; // the notes say it once
+    made.own_texts = take_texts({made.picture.system, made.picture.passes, scene().arithmetic}, ignored);
+    return made;
 }
 
 void SystemInput::protect(OutputFiles& files) const {

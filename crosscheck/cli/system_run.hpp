@@ -10,6 +10,7 @@
 
 #include "crosscheck/cli/run_options.hpp"
 #include "crosscheck/cli/systems.hpp"
+#include "crosscheck/cli/text_passes.hpp"
 #include "crosscheck/judge/registered_system.hpp"
 #include "crosscheck/record/system_recording.hpp"
 #include "gpu/shader_use.hpp"
@@ -17,8 +18,6 @@
 
 /// What the verbs on a scene of a registered system begin with.
 namespace lockstep {
-
-class PassText;
 
 /// A scene, of a file or of a recording.
 struct ReadScene {
@@ -48,6 +47,16 @@ ShaderUse shaders_of(const SystemScene& scene, const RunOptions& run, DrawnStage
 /// Throws Error where the GL that was asked for is not there.
 Gl open_gl(const RunOptions& run);
 
+/// What a frame draws, with the texts of shaders that were given.
+struct DrawnSystem {
+    SystemPicture picture;
+    OwnTexts own_texts;
+
+    [[nodiscard]] ShadedSystem shaded(ArithmeticSwitch arithmetic) {
+        return {picture.system, picture.passes, arithmetic};
+    }
+};
+
 /// What a verb looks into: a scene that runs here, or a recording of one.
 class SystemInput {
   public:
@@ -62,8 +71,12 @@ class SystemInput {
     [[nodiscard]] const System& system() const { return read_.scene.system; }
     [[nodiscard]] bool is_recorded() const { return recording_ != nullptr; }
 
-    /// OwnTexts (text_passes.hpp) of the shaders that were given; empty: none were.
-    [[nodiscard]] const std::vector<std::shared_ptr<const PassText>>& own_texts() const { return own_texts_; }
+    /// Of the shaders that were given; empty: none were.
+    [[nodiscard]] const OwnTexts& own_texts() const { return own_texts_; }
+    [[nodiscard]] ShadedSystem shaded() { return {read_.scene.system, scene().passes, scene().arithmetic}; }
+    [[nodiscard]] const std::optional<ShaderUse>& shaders() const { return shaders_; } ///< of a scene that runs here
+    /// Of a scene that has a picture.
+    [[nodiscard]] DrawnSystem drawn(const SystemState& state, int frame) const;
 
     /// What it reads is no output.
     void protect(OutputFiles& files) const;
@@ -81,13 +94,16 @@ class SystemInput {
     [[nodiscard]] std::string command(const std::string& verb, const std::string& words) const;
 
   private:
+    OwnTexts take_texts(const ShadedSystem& of, std::vector<std::string>& references) const;
+
     const RunOptions& run_;
     DrawnStages drawn_;
     std::filesystem::path trace_;
     std::unique_ptr<SystemRecording> recording_;
     ReadScene read_;
     std::optional<ShaderUse> shaders_;
-    std::vector<std::shared_ptr<const PassText>> own_texts_;
+    OwnTexts own_texts_;
+    std::optional<ShaderUse> reference_use_;
     std::vector<std::string> references_; ///< a line for each pass that has another than its twin
     std::optional<Gl> gl_;
     std::unique_ptr<SystemSide> side_;

@@ -58,6 +58,19 @@ struct DrawnFrame {
     std::vector<std::string> first = {}; ///< options of `explain` for the first that differs
 };
 
+/// What the texts of the user's own shaders say.
+void add_text_notes(RunDescription& about, const ShadedSystem& of, const OwnTexts& own, const RunOptions& run,
+                    SystemSide& side, const KnownOperations& known, const CheckReport& report) {
+    if (!about.shaders || run.shaders.empty())
+        return;
+    const std::vector<std::string> found =
+        shader_findings(of, own, run.shaders, side.describe().profile, report.frames);
+    about.notes.insert(about.notes.end(), found.begin(), found.end());
+    for (const std::string& line :
+         lines_without_counterpart(of, own, *about.shaders, run.reference, side, known, report))
+        about.notes.push_back("without a counterpart in the reference: " + line);
+}
+
 /// From the state that the GPU's frames left.
 DrawnFrame judge_drawn(const SystemInput& input, const SystemSide& side, const RunOptions& run,
                        const SystemCheck& asked, const CheckReport& report) {
@@ -67,7 +80,8 @@ DrawnFrame judge_drawn(const SystemInput& input, const SystemSide& side, const R
     SystemState state = scene.system.start;
     side.read(state);
     const int frame = report.frames - 1;
-    const SystemPicture picture = scene.picture(state, frame);
+    DrawnSystem made_here = input.drawn(state, frame);
+    const SystemPicture& picture = made_here.picture;
     GlSystemSide drawn = side_of(input.gl(), picture, scene, run);
     CheckOptions options;
     options.frames = 1;
@@ -81,6 +95,9 @@ DrawnFrame judge_drawn(const SystemInput& input, const SystemSide& side, const R
     number_frame(*judged.report, frame);
     note_unset_variables(*judged.report, drawn.describe().warnings);
     judged.first = first_item_words(picture.system, *judged.report);
+    judged.about.shaders = input.shaders();
+    add_text_notes(judged.about, made_here.shaded(scene.arithmetic), made_here.own_texts, run, drawn, *options.known,
+                   *judged.report);
     return judged;
 }
 
@@ -165,7 +182,8 @@ std::string explain_drawn(SystemInput& input, const RunOptions& run, const Syste
         state = now;
         return true;
     });
-    SystemPicture picture = input.scene().picture(state, item.frame);
+    DrawnSystem drawn_here = input.drawn(state, item.frame);
+    SystemPicture& picture = drawn_here.picture;
     picture.system.name = input.system().name;
     picture.system.settings = input.system().settings;
     GlSystemSide drawn = side_of(input.gl(), picture, input.scene(), run);
@@ -242,15 +260,8 @@ int check_system(const RegisteredSystem& system, RunOptions run, const SystemChe
         note_what_ran(*about.shaders);
     for (const std::vector<std::string>& some : {input.left_open(side.describe().profile), run_to_run_notes(two_runs)})
         about.notes.insert(about.notes.end(), some.begin(), some.end());
-    if (!input.is_recorded() && !run.shaders.empty()) {
-        const std::vector<std::string> found =
-            shader_findings(input.scene(), input.own_texts(), run.shaders, side.describe().profile, run.frames);
-        about.notes.insert(about.notes.end(), found.begin(), found.end());
-    }
-    if (about.shaders && !run.shaders.empty())
-        for (const std::string& line : lines_without_counterpart(input.scene(), input.own_texts(), *about.shaders, run,
-                                                                 side, *options.known, report))
-            about.notes.push_back("without a counterpart in the reference: " + line);
+    if (!input.is_recorded())
+        add_text_notes(about, input.shaded(), input.own_texts(), run, side, *options.known, report);
     if (input.is_recorded() && run.frames < input.recorded_frames())
         about.notes.push_back(
             fmt::format("{} of the {} frames recorded were compared", run.frames, input.recorded_frames()));

@@ -24,59 +24,66 @@ namespace {
 
 /// Whether a pass's shader is in a folder of the user's, or includes a file there that is no stage itself.
 bool is_own(const ShaderUse& use, const GlPass& pass) {
+    const std::string stage = pass.name + (pass.stage == Stage::compute ? ".comp" : ".vert");
     return std::ranges::any_of(use.files, [&](const UsedShader& file) {
-        return !file.foreign.empty() && (file.file.starts_with(pass.name + ".comp") || !stage_of(file.file));
+        return !file.foreign.empty() && (file.file.starts_with(stage) || !stage_of(file.file));
     });
 }
 
-std::shared_ptr<const PassText> text_of(const SystemScene& scene, std::size_t p, const ShaderFolders& folders) {
-    return std::make_shared<const PassText>(scene.system.schema, scene.passes[p], written_by(scene.system, p), folders,
-                                            scene.arithmetic);
+std::shared_ptr<const PassText> text_of(const ShadedSystem& of, std::size_t p, const ShaderFolders& folders) {
+    return std::make_shared<const PassText>(of.system.schema, of.passes[p], written_by(of.system, p), folders,
+                                            of.arithmetic);
 }
 
-bool is_compute(const GlPass& pass) { return pass.stage == Stage::compute; }
+/// A compute pass, or a vertex pass whose outputs are captured.
+bool has_text(const GlPass& pass) { return !pass.draw; }
 
 } // namespace
 
-std::vector<std::string> take_references(SystemScene& scene, const RunOptions& run) {
+ShaderUse references_of(const SystemScene& scene, const RunOptions& run) {
     RunOptions of_references = run;
     of_references.shaders = run.reference;
-    const ShaderUse use = shaders_of(scene, of_references);
+    ShaderUse use = shaders_of(scene, of_references);
     for (const UsedShader& file : use.files)
         if (const std::optional<Stage> stage = stage_of(file.file);
-            !file.foreign.empty() && stage && *stage != Stage::compute)
-            throw Error(fmt::format("--reference {}: {} is no compute stage; a text is the reference of one alone",
-                                    plain_line(run.reference.string()), file.file));
-    const ShaderFolders folders = shader_folders(run.reference, scene.system.schema.system);
+            !file.foreign.empty() && stage && *stage != Stage::compute && *stage != Stage::vertex)
+            throw Error(
+                fmt::format("--reference {}: {} is no compute or vertex stage; a text is the reference of these",
+                            plain_line(run.reference.string()), file.file));
+    return use;
+}
+
+std::vector<std::string> take_references(const ShadedSystem& of, const ShaderUse& references,
+                                         const std::filesystem::path& folder) {
+    const ShaderFolders folders = shader_folders(folder, of.system.schema.system);
     std::vector<std::string> lines;
-    std::vector<std::unique_ptr<ItemPass>>& passes = scene.system.passes;
+    std::vector<std::unique_ptr<ItemPass>>& passes = of.system.passes;
     for (std::size_t p = 0; p < passes.size();) {
-        const std::size_t end = end_of_dispatch(scene.system, p);
-        if (!is_compute(scene.passes[p]) || !is_own(use, scene.passes[p])) {
+        const std::size_t end = end_of_dispatch(of.system, p);
+        if (!has_text(of.passes[p]) || !is_own(references, of.passes[p])) {
             p = end;
             continue;
         }
-        const std::shared_ptr<const PassText> text = text_of(scene, p, folders);
-        lines.push_back(
-            fmt::format("reference of {}: its text in {}", scene.passes[p].name, plain_line(run.reference.string())));
+        const std::shared_ptr<const PassText> text = text_of(of, p, folders);
+        lines.push_back(fmt::format("reference of {}: its text in {}", of.passes[p].name, plain_line(folder.string())));
         // What twins may do wrong is nothing that a text does.
-        std::erase_if(scene.system.mistakes, [&](const NamedMistake& one) { return one.pass == scene.passes[p].name; });
+        std::erase_if(of.system.mistakes, [&](const NamedMistake& one) { return one.pass == of.passes[p].name; });
         take_text(std::span(passes).subspan(p, end - p), text);
         p = end;
     }
     return lines;
 }
 
-OwnTexts open_by_own_text(SystemScene& scene, const ShaderUse& use, const std::filesystem::path& shaders) {
-    OwnTexts texts(scene.passes.size());
-    const ShaderFolders folders = shader_folders(shaders, scene.system.schema.system);
-    for (std::size_t p = 0; p < scene.passes.size(); ++p) {
-        const GlPass& pass = scene.passes[p];
-        if (!is_compute(pass) || pass.continues || !is_own(use, pass))
+OwnTexts open_by_own_text(const ShadedSystem& of, const ShaderUse& use, const std::filesystem::path& shaders) {
+    OwnTexts texts(of.passes.size());
+    const ShaderFolders folders = shader_folders(shaders, of.system.schema.system);
+    for (std::size_t p = 0; p < of.passes.size(); ++p) {
+        const GlPass& pass = of.passes[p];
+        if (!has_text(pass) || pass.continues || !is_own(use, pass))
             continue;
         try {
-            texts[p] = text_of(scene, p, folders);
-            std::unique_ptr<ItemPass>& reference = scene.system.passes[p];
+            texts[p] = text_of(of, p, folders);
+            std::unique_ptr<ItemPass>& reference = of.system.passes[p];
             const std::uint8_t resource = reference->resource();
             reference = open_pass(std::move(reference), own_text(texts[p], resource));
         } catch (const Error&) { // shader_findings says why a text is not interpreted
@@ -114,17 +121,16 @@ SomeItems some_items(const JudgedPass& judged) {
 
 } // namespace
 
-std::vector<std::string> lines_without_counterpart(const SystemScene& scene, const OwnTexts& own, const ShaderUse& use,
-                                                   const RunOptions& run, SystemSide& side,
+std::vector<std::string> lines_without_counterpart(const ShadedSystem& of, const OwnTexts& own, const ShaderUse& use,
+                                                   const std::filesystem::path& reference, SystemSide& side,
                                                    const KnownOperations& known, const CheckReport& report) try {
     if (report.verdict != Verdict::divergent || !report.verdicts || !report.verdicts->first)
         return {};
     const std::size_t p = report.verdicts->first->pass;
-    if (own[p] == nullptr)
+    if (own.size() <= p || own[p] == nullptr)
         return {};
-    const std::shared_ptr<const PassText> reference =
-        text_of(scene, p, shader_folders(run.reference, scene.system.schema.system));
-    const SystemRun again(scene.system, side, known, report.verdicts->first->place.frame, p);
+    const std::shared_ptr<const PassText> expected = text_of(of, p, shader_folders(reference, of.system.schema.system));
+    const SystemRun again(of.system, side, known, report.verdicts->first->place.frame, p);
     const JudgedPass judged = again.judged();
     const SomeItems items = some_items(judged);
     const auto is_own_line = [&](std::string_view where) {
@@ -133,7 +139,7 @@ std::vector<std::string> lines_without_counterpart(const SystemScene& scene, con
         });
     };
     std::vector<std::string> lines;
-    for (const WitnessLine& one : witness_lines(*own[p], *reference, judged.input(), judged.profile,
+    for (const WitnessLine& one : witness_lines(*own[p], *expected, judged.input(), judged.profile,
                                                 judged.pass.resource(), items.wrong, items.right, is_own_line))
         lines.push_back(fmt::format("{}: {}: {}", one.where, plain_line(one.text), one.what));
     return lines;

@@ -13,21 +13,33 @@
 
 namespace lockstep {
 
-/// Takes the compute shaders of run.reference as the references of their passes, instead of the twins. Returns a line
-/// for each. Throws Error where none of them is of a pass, one is of another stage, or is not interpreted.
-std::vector<std::string> take_references(SystemScene& scene, const RunOptions& run);
+/// A system with its shaders: a scene's, or that of what a frame of it draws.
+struct ShadedSystem {
+    System& system;
+    const std::vector<GlPass>& passes;
+    ArithmeticSwitch arithmetic;
+};
+
+/// The shaders of run.reference, of a scene. Throws Error where none of them is of a pass, or one is of a stage whose
+/// text is no reference.
+ShaderUse references_of(const SystemScene& scene, const RunOptions& run);
+
+/// Takes those that are a pass's as the references of the passes, instead of the twins. Returns a line for each. Throws
+/// Error for one that is not interpreted.
+std::vector<std::string> take_references(const ShadedSystem& of, const ShaderUse& references,
+                                         const std::filesystem::path& folder);
 
 /// Of each pass, its shader's text; null: it is not the user's own, or not interpreted.
 using OwnTexts = std::vector<std::shared_ptr<const PassText>>;
 
-/// Of each pass whose compute shader is the user's own: what its text leaves open is legal (open_pass.hpp). A text that
-/// is not interpreted leaves the pass as it is. Returns the texts.
-OwnTexts open_by_own_text(SystemScene& scene, const ShaderUse& use, const std::filesystem::path& shaders);
+/// Of each pass whose shader is the user's own: what its text leaves open is legal (open_pass.hpp). A text that is not
+/// interpreted leaves the pass as it is. Returns the texts.
+OwnTexts open_by_own_text(const ShadedSystem& of, const ShaderUse& use, const std::filesystem::path& shaders);
 
-/// Where a check is DIVERGENT in a pass whose compute shader is the user's own: the lines of its text that have no
-/// counterpart in the reference's, which is run.reference's or the shipped one (text/witness.hpp).
-std::vector<std::string> lines_without_counterpart(const SystemScene& scene, const OwnTexts& own, const ShaderUse& use,
-                                                   const RunOptions& run, SystemSide& side,
+/// Where a check is DIVERGENT in a pass whose shader is the user's own: the lines of its text that have no counterpart
+/// in the reference's, which is in `reference` or the shipped one (text/witness.hpp).
+std::vector<std::string> lines_without_counterpart(const ShadedSystem& of, const OwnTexts& own, const ShaderUse& use,
+                                                   const std::filesystem::path& reference, SystemSide& side,
                                                    const KnownOperations& known, const CheckReport& report);
 
 } // namespace lockstep

@@ -17,7 +17,9 @@ namespace {
 std::shared_ptr<const ShaderSource> source_of(const GlPass& pass, const ShaderFolders& folders,
                                               ArithmeticSwitch arithmetic) {
     const StageInput input = stage_input(pass, arithmetic);
-    const std::array stages{Stage::compute};
+    if (pass.draw)
+        throw Error(fmt::format("{}: a pass that draws is not interpreted", pass.name));
+    const std::array stages{pass.stage};
     return std::make_shared<ShaderSource>(load_stages(folders, pass.name, stages, input.defines, input.texts).front());
 }
 
@@ -74,6 +76,76 @@ PassText::PassText(const Schema& schema, GlPass pass, std::vector<std::uint8_t> 
         blocks_.push_back(block_named(block.name));
     for (const text::ImageUniform& image : program_.images)
         images_.push_back(image_named(image.name));
+    if (is_vertex())
+        capture();
+}
+
+void PassText::capture() {
+    captured_.emplace(Bound{.kind = Bound::Kind::after, .resource = pass_.resource});
+    const std::vector<Field>& fields = schema_.resources[pass_.resource].fields;
+    for (std::uint8_t f = 0; f < fields.size(); ++f) {
+        const std::string name = "out_" + shader_name(fields[f].name);
+        const auto output = std::ranges::find(program_.stage_outputs, name, &text::StageVariable::name);
+        if (output == program_.stage_outputs.end())
+            continue; // kept, or GlSystem says so
+        if (output->cells != static_cast<std::uint32_t>(fields[f].components))
+            throw Error(fmt::format("{}: output {} has {} components; expected {}", pass_.name, name, output->cells,
+                                    fields[f].components));
+        for (int c = 0; c < fields[f].components; ++c) {
+            captured_->record.push_back({f, c});
+            captured_cells_.push_back(output->cell + static_cast<std::uint32_t>(c));
+        }
+    }
+}
+
+std::optional<std::size_t> PassText::captured_component(std::uint64_t cell) const {
+    const auto found = std::ranges::find(captured_cells_, cell);
+    return found == captured_cells_.end() ? std::nullopt
+                                          : std::optional(static_cast<std::size_t>(found - captured_cells_.begin()));
+}
+
+text::StageRun PassText::vertices(const PassInput& in) const {
+    const auto count = static_cast<std::uint32_t>(items(in));
+    text::StageRun run{.invocations = count};
+    const std::uint8_t from = pass_.instances_of.value_or(pass_.resource);
+    const auto instances = static_cast<std::uint32_t>(in.before[from].count());
+    const std::uint32_t of_instance = pass_.instances_of && instances > 0 ? count / instances : 1;
+    const Resource& about = schema_.resources[from];
+    for (const text::StageVariable& input : program_.stage_inputs) {
+        const auto number = [&](const auto& of) {
+            std::vector<std::uint32_t>& words = run.inputs[text::name_of(input)];
+            for (std::uint32_t vertex = 0; vertex < count; ++vertex)
+                words.push_back(of(vertex));
+        };
+        if (input.builtin) {
+            if (pass_.instances_of && input.name == "gl_VertexID")
+                number([&](std::uint32_t vertex) { return vertex % of_instance; });
+            if (pass_.instances_of && input.name == "gl_InstanceID")
+                number([&](std::uint32_t vertex) { return vertex / of_instance; });
+            continue;
+        }
+        const auto field =
+            std::ranges::find(about.fields, input.name, [](const Field& one) { return "a_" + shader_name(one.name); });
+        if (field == about.fields.end()) {
+            if (!input.is_read)
+                continue;
+            throw Error(fmt::format("{}: nothing is given for attribute {}", pass_.name, input.name));
+        }
+        const auto f = static_cast<std::uint8_t>(field - about.fields.begin());
+        if (input.words() != static_cast<std::uint32_t>(field->components))
+            throw Error(fmt::format("{}: attribute {} has {} components; {} are given", pass_.name, input.name,
+                                    input.words(), field->components));
+        std::vector<std::uint32_t>& words = run.inputs[text::name_of(input)];
+        words.reserve(std::size_t{count} * input.words());
+        for (std::uint32_t vertex = 0; vertex < count; ++vertex)
+            for (int c = 0; c < field->components; ++c)
+                words.push_back(in.before[from].value(f, vertex / of_instance, c).bits);
+    }
+    return run;
+}
+
+std::vector<text::GivenInput> PassText::inputs_of(const Input& input, std::uint32_t vertex) const {
+    return text::inputs_of(program_, input.vertices, vertex);
 }
 
 std::string PassText::line_text(std::uint32_t line) const {
@@ -170,6 +242,8 @@ PassText::Input PassText::bind(const PassInput& in, const Profile& profile) cons
             } else {
                 words.push_back(records_of(in.before[bound.resource], bound.record));
             }
+    if (captured_)
+        words.push_back(records_of(in.before[captured_->resource], captured_->record));
     text::Bindings& bindings = input.bindings;
     for (std::size_t b = 0; b < blocks_.size(); ++b)
         bindings.blocks.emplace_back(words[b]);
@@ -196,13 +270,16 @@ PassText::Input PassText::bind(const PassInput& in, const Profile& profile) cons
         if (!profile.follows(schema_.resources[resource].dimensions == 2 ? "image: linear filter of a plane"
                                                                          : "image: linear filter"))
             throw Error(fmt::format("{}: this driver's linear filter is not followed", pass_.name));
-    input.groups = groups(in);
+    if (is_vertex())
+        input.vertices = vertices(in);
+    else
+        input.groups = groups(in);
     return input;
 }
 
 std::vector<std::size_t> PassText::words_of_resource(std::uint8_t resource) const {
     std::vector<std::size_t> all;
-    for (std::size_t k = 0; k < blocks_.size() + images_.size(); ++k)
+    for (std::size_t k = 0; k < bound_words(); ++k)
         if (bound(k).kind == Bound::Kind::after && bound(k).resource == resource && writes(resource))
             all.push_back(k);
     return all;
@@ -212,12 +289,39 @@ std::span<const Component> PassText::record(std::size_t words) const { return bo
 
 void PassText::run(const PassInput& in, const Profile& profile, SystemState& after, text::Findings& findings,
                    const How& how) const {
-    Input input = bind(in, profile);
-    text::run_dispatch(program_, {.groups = input.groups, .wants = how.wants, .is_watched = how.is_watched},
-                       input.bindings, profile, findings);
-    for (std::size_t k = 0; k < input.words.size(); ++k)
+    const Input input = bind(in, profile);
+    std::vector<std::vector<std::uint32_t>> words = input.words;
+    run_into(input, profile, findings, how, nullptr, words);
+    for (std::size_t k = 0; k < words.size(); ++k)
         if (bound(k).kind == Bound::Kind::after && writes(bound(k).resource))
-            set_items(after[bound(k).resource], bound(k).record, input.words[k]);
+            set_items(after[bound(k).resource], bound(k).record, words[k]);
+}
+
+void PassText::run_into(const Input& input, const Profile& profile, text::Findings& findings, const How& how,
+                        text::Writers* writers, std::vector<std::vector<std::uint32_t>>& to) const {
+    text::Bindings bindings = input.bindings;
+    for (std::size_t b = 0; b < bindings.blocks.size(); ++b)
+        bindings.blocks[b] = to[b];
+    for (std::size_t i = 0; i < bindings.images.size(); ++i)
+        bindings.images[i].words = to[bindings.blocks.size() + i];
+    if (!is_vertex()) {
+        text::run_dispatch(
+            program_, {.groups = input.groups, .wants = how.wants, .is_watched = how.is_watched, .writers = writers},
+            bindings, profile, findings);
+        return;
+    }
+    text::StageRun run = input.vertices;
+    run.is_watched = how.is_watched;
+    const text::StageResult made = text::run_stage(program_, run, bindings, profile, findings);
+    std::vector<std::uint32_t>& words = to[blocks_.size() + images_.size()];
+    const std::vector<Component>& record = captured_->record;
+    for (std::size_t k = 0; k < record.size(); ++k) {
+        const Field& field = schema_.resources[pass_.resource].fields[record[k].field];
+        const std::vector<std::uint32_t>& output = made.outputs.at("out_" + shader_name(field.name));
+        const auto n = static_cast<std::size_t>(field.components);
+        for (std::size_t item = 0; item * n < output.size(); ++item)
+            words[item * record.size() + k] = output[item * n + static_cast<std::size_t>(record[k].component)];
+    }
 }
 
 } // namespace lockstep

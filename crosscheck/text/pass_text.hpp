@@ -3,6 +3,7 @@
 #include <cstdint>
 #include <functional>
 #include <memory>
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
@@ -11,14 +12,16 @@
 #include "reference/model/profile.hpp"
 #include "reference/system/item_pass.hpp"
 #include "reference/text/dispatch.hpp"
+#include "reference/text/invocation.hpp"
 #include "reference/text/outcomes.hpp"
+#include "reference/text/stage_run.hpp"
 
 namespace lockstep {
 
 /// The words of a uniform's value.
 std::vector<std::uint32_t> words_of(const UniformValue& value);
 
-/// The shader of a compute pass as a text, with what GlSystem binds to it.
+/// The shader of a compute pass, or of a vertex pass that is captured, as a text, with what GlSystem binds to it.
 class PassText {
   public:
     /// `written`: the resources that the dispatch makes, of the pass and of those that continue it. Throws Error naming
@@ -34,8 +37,10 @@ class PassText {
     PassText(const PassText&) = delete;
     PassText& operator=(const PassText&) = delete;
     [[nodiscard]] std::size_t items(const PassInput& in) const; ///< that its dispatch has invocations for
+    /// An item, one invocation: a vertex.
+    [[nodiscard]] bool is_vertex() const { return pass_.stage == Stage::vertex; }
 
-    /// What is run of a dispatch, as text::Dispatch has it.
+    /// What is run of a dispatch, as text::Dispatch has it; of a vertex pass all.
     struct How {
         std::function<bool(const std::array<std::uint32_t, 3>& group)> wants = {};
         bool is_watched = false;
@@ -47,11 +52,12 @@ class PassText {
         run(in, profile, after, findings, {});
     }
 
-    /// What its dispatch is bound to in one input: words of blocks, then of images.
+    /// What its dispatch is bound to in one input: words of blocks, then of images, then of what a vertex pass makes.
     struct Input {
         std::vector<std::vector<std::uint32_t>> words;
         text::Bindings bindings; ///< refers to them
-        std::array<std::uint32_t, 3> groups{};
+        std::array<std::uint32_t, 3> groups{1, 1, 1};
+        text::StageRun vertices; ///< of a vertex pass
     };
     /// Throws Error where the driver filters as the text's reading does not.
     [[nodiscard]] Input bind(const PassInput& in, const Profile& profile) const;
@@ -60,6 +66,17 @@ class PassText {
     [[nodiscard]] std::vector<std::size_t> words_of_resource(std::uint8_t resource) const;
     /// The components of an item in those words, in their order.
     [[nodiscard]] std::span<const Component> record(std::size_t words) const;
+    /// Which of the components of an item of a vertex pass an output's cell is.
+    [[nodiscard]] std::optional<std::size_t> captured_component(std::uint64_t cell) const;
+    /// Where an invocation is, by its number.
+    [[nodiscard]] text::Invocation invocation(const Input& input, std::uint32_t number) const {
+        return is_vertex() ? text::Invocation{.number = number} : text::invocation_of(program_, input.groups, number);
+    }
+    /// The inputs of one vertex.
+    [[nodiscard]] std::vector<text::GivenInput> inputs_of(const Input& input, std::uint32_t vertex) const;
+    /// Runs the whole into the words: of `to`, which has as many as input.words.
+    void run_into(const Input& input, const Profile& profile, text::Findings& findings, const How& how,
+                  text::Writers* writers, std::vector<std::vector<std::uint32_t>>& to) const;
 
   private:
     struct Bound {
@@ -72,8 +89,13 @@ class PassText {
     [[nodiscard]] Bound block_named(const std::string& name) const;
     [[nodiscard]] Bound image_named(const std::string& name) const;
     [[nodiscard]] const Bound& bound(std::size_t words) const {
-        return words < blocks_.size() ? blocks_[words] : images_[words - blocks_.size()];
+        return words < blocks_.size()                    ? blocks_[words]
+               : words < blocks_.size() + images_.size() ? images_[words - blocks_.size()]
+                                                         : *captured_;
     }
+    [[nodiscard]] std::size_t bound_words() const { return blocks_.size() + images_.size() + (captured_ ? 1 : 0); }
+    void capture();
+    [[nodiscard]] text::StageRun vertices(const PassInput& in) const;
     [[nodiscard]] std::array<std::uint32_t, 3> groups(const PassInput& in) const;
     [[nodiscard]] std::vector<std::vector<std::uint32_t>> uniforms(const PassInput& in) const;
     [[nodiscard]] bool writes(std::uint8_t resource) const;
@@ -85,6 +107,8 @@ class PassText {
     text::Program program_;
     text::Outcomes outcomes_{program_};
     std::vector<Bound> blocks_, images_;
+    std::optional<Bound> captured_;             ///< of a vertex pass
+    std::vector<std::uint32_t> captured_cells_; ///< of each of its components
 };
 
 } // namespace lockstep

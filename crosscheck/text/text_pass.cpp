@@ -41,14 +41,8 @@ TextDispatch::TextDispatch(const PassText& text, const PassInput& in, const Prof
 void TextDispatch::run() const {
     std::call_once(ran_, [&] {
         written_ = input_.words;
-        text::Bindings bindings = input_.bindings;
-        for (std::size_t b = 0; b < bindings.blocks.size(); ++b)
-            bindings.blocks[b] = written_[b];
-        for (std::size_t i = 0; i < bindings.images.size(); ++i)
-            bindings.images[i].words = written_[bindings.blocks.size() + i];
         text::Findings findings;
-        text::run_dispatch(text_.program(), {.groups = input_.groups, .writers = &writers_}, bindings, profile_,
-                           findings);
+        text_.run_into(input_, profile_, findings, {}, &writers_, written_);
     });
 }
 
@@ -87,6 +81,8 @@ void TextDispatch::write(const View& before, std::uint8_t resource, std::size_t 
 }
 
 std::optional<std::uint32_t> TextDispatch::writer(std::uint8_t resource, std::size_t item) const {
+    if (text_.is_vertex()) // each makes its own
+        return static_cast<std::uint32_t>(item);
     run();
     std::uint32_t writer = 0;
     for (const std::size_t from : text_.words_of_resource(resource)) {
@@ -108,10 +104,13 @@ std::vector<ItemOutcome> TextDispatch::outcomes(const View& before, std::uint8_t
     run();
     const std::vector<std::size_t> parts_of_item = text_.words_of_resource(resource);
     const auto place_in = [&](std::size_t from) { // whose words, by number
+        if (text_.is_vertex())
+            return std::pair(Space::output, 0U);
         const bool is_block = from < writers_.blocks.size();
         return std::pair(is_block ? Space::block : Space::texel,
                          static_cast<std::uint32_t>(is_block ? from : from - writers_.blocks.size()));
     };
+    const PassStage stage = text_.is_vertex() ? PassStage::vertex : PassStage::compute;
     const std::optional<std::uint32_t> by = writer(resource, item);
     if (!by)
         return {};
@@ -119,10 +118,10 @@ std::vector<ItemOutcome> TextDispatch::outcomes(const View& before, std::uint8_t
     const std::vector<Component> parts = components(about);
     std::vector<ItemOutcome> all;
     try {
-        const text::Invocation invocation = text::invocation_of(text_.program(), input_.groups, *by);
+        const std::vector<text::GivenInput> inputs = text_.inputs_of(input_, *by);
         for (text::InvocationOutcome& one :
-             text_.outcomes().of(invocation, input_.groups, input_.bindings, PassStage::compute, profile_,
-                                 in_compute_stage(known, profile_), constants)) {
+             text_.outcomes().of(text_.invocation(input_, *by), input_.groups, input_.bindings, stage, profile_,
+                                 text_.is_vertex() ? known : in_compute_stage(known, profile_), constants, inputs)) {
             ItemOutcome outcome{.values = {}, .open = std::move(one.open), .undefined = one.undefined};
             for (const Component& c : parts)
                 outcome.values.push_back(one.undefined != Undefined::none
@@ -131,12 +130,16 @@ std::vector<ItemOutcome> TextDispatch::outcomes(const View& before, std::uint8_t
                                                                  about.fields[c.field].scalar));
             for (const text::WrittenWord& word : one.written)
                 for (const std::size_t from : parts_of_item) {
-                    const std::span<const Component> record = text_.record(from);
-                    const std::size_t begin = item * record.size();
-                    if (std::pair(word.place.space, word.place.number) != place_in(from) || word.place.word < begin ||
-                        word.place.word >= begin + record.size())
+                    if (std::pair(word.place.space, word.place.number) != place_in(from))
                         continue;
-                    const Component& c = record[word.place.word - begin];
+                    const std::span<const Component> record = text_.record(from);
+                    const std::uint64_t begin = item * record.size();
+                    const std::size_t place = text_.is_vertex()
+                                                  ? text_.captured_component(word.place.word).value_or(record.size())
+                                                  : word.place.word - begin; // far beyond, where it is before
+                    if (place >= record.size())
+                        continue;
+                    const Component& c = record[place];
                     outcome.values[place_of(about, c)] =
                         word.is_real ? word.set : item_twin::set_of(word.word, about.fields[c.field].scalar);
                 }

@@ -42,8 +42,11 @@ class Runs {
     [[nodiscard]] text::TracedRun run(std::uint32_t invocation, std::span<const text::ForcedRow> forced = {}) const {
         text::TracedRun run;
         const PassText::Input& input = dispatch_.input();
-        run.words = text::run_traced(text_.program(), text::invocation_of(text_.program(), input.groups, invocation),
-                                     input.groups, input.bindings, profile_, forced, run.trace);
+        run.words = text::run_traced(text_.program(), text_.invocation(input, invocation), input.groups, input.bindings,
+                                     profile_, forced, run.trace, text_.inputs_of(input, invocation));
+        std::erase_if(run.words, [&](const text::TracedWord& word) {
+            return word.place.space == text::WrittenPlace::Space::output && !text_.captured_component(word.place.word);
+        });
         for (text::TracedWord& word : run.words)
             name(word.place);
         std::sort(run.words.begin(), run.words.end(), [](const auto& a, const auto& b) { return a.place < b.place; });
@@ -55,7 +58,11 @@ class Runs {
 
   private:
     void name(text::WrittenPlace& place) const {
-        place.number = place.space == text::WrittenPlace::Space::block ? blocks_[place.number] : images_[place.number];
+        using Space = text::WrittenPlace::Space;
+        if (place.space == Space::output) // those that are not captured lie behind
+            place.word = text_.captured_component(place.word).value_or(place.word + (1U << 16U));
+        else
+            place.number = place.space == Space::block ? blocks_[place.number] : images_[place.number];
     }
     const PassText& text_;
     const Profile& profile_;
@@ -147,7 +154,9 @@ std::vector<WitnessLine> witness_lines(const PassText& wrong, const PassText& re
         std::set<std::uint32_t> missed;
         for (const std::uint32_t row : text::missing_rows(right, run)) {
             const text::TraceRow& one = right.trace.rows[row];
-            const auto at = one.kind == text::TraceRow::Kind::comparison
+            constexpr std::uint32_t counted = 16; // 0 and what loops count say nothing
+            const bool is_common = one.is_real ? (one.bits & 0x7fffffffU) == 0 : one.bits <= counted;
+            const auto at = one.kind == text::TraceRow::Kind::comparison || is_common
                                 ? std::nullopt
                                 : line_in(reference.program(), right.trace, one);
             if (!at)

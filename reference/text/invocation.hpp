@@ -2,6 +2,7 @@
 #include <array>
 #include <compare>
 #include <cstdint>
+#include <vector>
 
 namespace lockstep::text {
 
@@ -11,12 +12,20 @@ struct Invocation {
     std::uint32_t number = 0; ///< group by group, local index after local index
 };
 
+struct StageVariable;
+
+/// The words of an invocation's input, of a stage that has inputs.
+struct GivenInput {
+    const StageVariable* input = nullptr;
+    std::vector<std::uint32_t> words;
+};
+
 /// Where an invocation wrote a word.
 struct WrittenPlace {
-    enum class Space : std::uint8_t { block, shared, texel };
+    enum class Space : std::uint8_t { block, shared, texel, output };
     Space space = Space::block;
     std::uint32_t number = 0; ///< of the block or image
-    std::uint64_t word = 0;   ///< in it; of an image its texels' components, row after row
+    std::uint64_t word = 0;   ///< in it; of an image its texels' components, row after row; of outputs the cell
     friend auto operator<=>(const WrittenPlace&, const WrittenPlace&) = default;
 };
 

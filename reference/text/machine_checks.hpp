@@ -24,6 +24,10 @@ struct StepOperands {
     bool by_component = false; ///< else of all of them; a range of one cell is for every component
 
     void add(std::uint32_t first, std::uint32_t cells) { ranges[count++] = {first, cells}; }
+    /// Of the k-th range, for component c of the result.
+    [[nodiscard]] std::uint32_t cell(std::size_t k, std::uint32_t c) const {
+        return ranges[k].first + (ranges[k].second == 1 ? 0 : c);
+    }
 };
 
 /// Of operations and built-in functions.
@@ -272,7 +276,7 @@ template <class R, int W> void Machine<R, W>::follow(const Step& s) {
             for (std::uint32_t c = 0; c < s.n; ++c) {
                 any = {};
                 for (std::size_t k = 0; k < operands.count; ++k)
-                    take(operands.ranges[k].first + (operands.ranges[k].second == 1 ? 0 : c));
+                    take(operands.cell(k, c));
                 unset(s.out + c)[l] = any;
             }
             return;

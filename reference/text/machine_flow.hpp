@@ -125,7 +125,7 @@ template <class R, int W> void Machine<R, W>::flow(const Step& s) {
         active([&](Lane l) {
             if (depth_[l] == 0) {
                 state_[l] = State::ended, ends = true;
-                if (p_.stage != spv::ExecutionModelGeometry)
+                if (p_.stage != spv::ExecutionModelGeometry && p_.stage != spv::ExecutionModelGLCompute)
                     make(s, l);
             }
         });

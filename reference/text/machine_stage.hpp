@@ -13,8 +13,11 @@ void Machine<R, W>::give(const StageVariable& input, Lane l, std::span<const std
     for (std::uint32_t vertex = 0; vertex < input.vertices; ++vertex)
         for (std::uint32_t c = 0; c < input.cells; ++c) {
             const std::uint32_t word = words[vertex * input.cells + c];
-            set_word(cell(input.cell + vertex * input.stride + c)[l],
-                     input.is_boolean ? static_cast<std::uint32_t>(word != 0) : word, input.is_real);
+            C& to = cell(input.cell + vertex * input.stride + c)[l];
+            set_word(to, input.is_boolean ? static_cast<std::uint32_t>(word != 0) : word, input.is_real);
+            if constexpr (has_sets<R>)
+                if (input.is_real)
+                    to.set(r.read(in_text, std::bit_cast<float>(word)));
         }
 }
 
@@ -22,6 +25,14 @@ void Machine<R, W>::give(const StageVariable& input, Lane l, std::span<const std
 template <class R, int W> void Machine<R, W>::make(const Step& s, Lane l) {
     if (is_watched())
         need_outputs(s, l);
+    if constexpr (runs_apart<R>)
+        for (const StageVariable& output : p_.stage_outputs)
+            for (std::uint32_t c = output.cell; c < output.cell + output.cells; ++c) {
+                C& to = (*written_)[{WrittenPlace::Space::output, 0, c}];
+                to = cell(c)[l];
+                if constexpr (has_sets<R>)
+                    to.is_real = output.is_real;
+            }
     for (std::uint32_t c = 0; c < p_.output_cells; ++c)
         made_[l].push_back(cell(c)[l]);
 }

@@ -62,8 +62,8 @@ template <class R, int W> void Machine<R, W>::note_operands(const Step& s) {
         calls_ = static_cast<std::uint32_t>(noted.calls.size());
         return;
     }
-    if (s.op == code::finish) {
-        calls_ = calls_ == 0 ? 0 : noted.calls[calls_ - 1].outer;
+    if (s.op == code::finish && calls_ != 0) {
+        calls_ = noted.calls[calls_ - 1].outer;
         return;
     }
     const auto operand = [&](std::uint32_t number) {
@@ -84,6 +84,19 @@ template <class R, int W> void Machine<R, W>::note_operands(const Step& s) {
     };
     using Space = WrittenPlace::Space;
     switch (s.op) {
+    case code::finish: // the outputs as they are; each where it was made
+        for (const StageVariable& output : p_.stage_outputs)
+            for (std::uint32_t c = output.cell; c < output.cell + output.cells; ++c) {
+                const std::size_t first = noted.operands.size();
+                operand(c);
+                note(Kind::store, first, c, output.is_real, {Space::output, 0, c});
+                if (made_by_[c] == 0)
+                    continue;
+                const TraceRow& maker = noted.rows[made_by_[c] - 1];
+                TraceRow& row = pending_.back().row;
+                row.step = maker.step, row.line = maker.line, row.calls = maker.calls;
+            }
+        return;
     case code::copy:
     case code::real_bits:
     case code::bits_as_real:
@@ -184,11 +197,8 @@ template <class R, int W> void Machine<R, W>::note_operands(const Step& s) {
         const std::size_t first = noted.operands.size();
         if (operands.by_component)
             for (std::size_t k = 0; k < operands.count; ++k)
-                operand(operands.ranges[k].first + c);
-        else if (s.op == spv::OpVectorTimesScalar || s.op == spv::OpMatrixTimesScalar) {
-            operand(s.a + c);
-            operand(s.b);
-        } else
+                operand(operands.cell(k, c));
+        else
             for (std::size_t k = 0; k < operands.count; ++k)
                 for (std::uint32_t part = 0; part < operands.ranges[k].second; ++part)
                     operand(operands.ranges[k].first + part);

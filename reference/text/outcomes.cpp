@@ -70,7 +70,8 @@ Outcomes::Outcomes(const Program& program) : program_(program) {
 
 std::vector<InvocationOutcome> Outcomes::of(const Invocation& invocation, std::array<std::uint32_t, 3> groups,
                                             const Bindings& bindings, PassStage stage, const Profile& profile,
-                                            const KnownOperations& known, Constants constants) const {
+                                            const KnownOperations& known, Constants constants,
+                                            std::span<const GivenInput> inputs) const {
     const bool is_compute = stage == PassStage::compute;
     const bool flushes_operands = is_compute ? profile.compute_flush_subnormals : profile.flush_subnormals;
     const FlushSubnormals guard{
@@ -94,6 +95,8 @@ std::vector<InvocationOutcome> Outcomes::of(const Invocation& invocation, std::a
         [&] {
             written.clear();
             run.start({&invocation, 1});
+            for (const GivenInput& one : inputs)
+                run.give(*one.input, 0, one.words);
             run.run();
             return Ended{&written};
         },

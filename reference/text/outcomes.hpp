@@ -1,6 +1,7 @@
 #pragma once
 #include <array>
 #include <cstdint>
+#include <span>
 #include <vector>
 
 #include "reference/known_operations.hpp"
@@ -39,12 +40,13 @@ class Outcomes {
     explicit Outcomes(const Program& program);
 
     /// All outcomes of an invocation that shares nothing with others but what it reads. `known`: in the stage that the
-    /// text runs in. What `bindings` name stays as it is. Throws Error by FILE:LINE for what is not followed by sets:
-    /// barriers, atomic operations, stores to half and rgba8 images.
+    /// text runs in. `inputs`: of another stage than compute. What `bindings` name stays as it is. Throws Error by
+    /// FILE:LINE for what is not followed by sets: barriers, atomic operations, stores to half and rgba8 images.
     [[nodiscard]] std::vector<InvocationOutcome> of(const Invocation& invocation, std::array<std::uint32_t, 3> groups,
                                                     const Bindings& bindings, PassStage stage, const Profile& profile,
                                                     const KnownOperations& known,
-                                                    Constants constants = Constants::rounded) const;
+                                                    Constants constants = Constants::rounded,
+                                                    std::span<const GivenInput> inputs = {}) const;
 
   private:
     const Program& program_;

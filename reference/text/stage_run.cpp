@@ -116,6 +116,17 @@ std::string name_of(const StageVariable& variable) {
 
 bool needs_words(const StageVariable& input) { return input.is_read && !has_default(input); }
 
+std::vector<GivenInput> inputs_of(const Program& program, const StageRun& run, std::uint32_t invocation) {
+    std::vector<GivenInput> all;
+    for (const Given& one : given_to(program, run)) {
+        const std::span<const std::uint32_t> words = one.words.empty() ? one.words : one.of(invocation);
+        all.push_back({one.input, {words.begin(), words.end()}});
+        if (one.words.empty())
+            all.back().words.push_back(default_word(*one.input, invocation).value_or(0));
+    }
+    return all;
+}
+
 StageResult run_stage(const Program& program, const StageRun& run, const Bindings& bindings, const Profile& profile,
                       Findings& findings) {
     if (program.stage == spv::ExecutionModelGLCompute)

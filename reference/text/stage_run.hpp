@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "reference/model/profile.hpp"
+#include "reference/text/invocation.hpp"
 #include "reference/text/memory.hpp"
 
 namespace lockstep::text {
@@ -46,6 +47,9 @@ struct StageResult {
 std::string name_of(const StageVariable& variable);
 /// Whether an input has to be given: the text reads it, and it has no value by itself.
 bool needs_words(const StageVariable& input);
+
+/// Those of one invocation of a run, which the run has words or a default for. Empty of a compute stage.
+std::vector<GivenInput> inputs_of(const Program& program, const StageRun& run, std::uint32_t invocation);
 
 /// Runs a stage in plain bits, with the arithmetic that was measured of a driver's vertex stage. Blocks and images that
 /// are bound are read and written. Throws Error for an input that is not given or that the stage does not have. Where

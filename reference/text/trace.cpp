@@ -22,9 +22,11 @@ std::vector<std::uint32_t> lines_of(const Program& program, const Trace& trace, 
 
 std::vector<TracedWord> run_traced(const Program& program, const Invocation& invocation,
                                    std::array<std::uint32_t, 3> groups, const Bindings& bindings,
-                                   const Profile& profile, std::span<const ForcedRow> forced, Trace& trace) {
-    const FlushSubnormals guard{profile.compute_flush_subnormals,
-                                profile.compute_flush_results.value_or(profile.compute_flush_subnormals)};
+                                   const Profile& profile, std::span<const ForcedRow> forced, Trace& trace,
+                                   std::span<const GivenInput> inputs) {
+    const bool is_compute = program.stage == spv::ExecutionModelGLCompute;
+    const bool operands = is_compute ? profile.compute_flush_subnormals : profile.flush_subnormals;
+    const FlushSubnormals guard{operands, is_compute ? profile.compute_flush_results.value_or(operands) : operands};
     TracedValues values(profile);
     Findings ignored;
     Memory memory(program, bindings, ignored, nullptr);
@@ -37,6 +39,8 @@ std::vector<TracedWord> run_traced(const Program& program, const Invocation& inv
     trace.calls.clear();
     run.note_into(trace, forced);
     run.start({&invocation, 1});
+    for (const GivenInput& one : inputs)
+        run.give(*one.input, 0, one.words);
     run.run();
     std::vector<TracedWord> words;
     for (const auto& [place, cell] : written)

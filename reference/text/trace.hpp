@@ -61,10 +61,12 @@ struct TracedWord {
     friend bool operator==(const TracedWord&, const TracedWord&) = default;
 };
 
-/// Runs an invocation that shares nothing with others but what it reads. What `bindings` name stays as it is. Returns
-/// what it wrote, in the order of places. Throws Error by FILE:LINE for what is not run so.
+/// Runs an invocation that shares nothing with others but what it reads. `inputs`: of another stage than compute. What
+/// `bindings` name stays as it is. Returns what it wrote, in the order of places. Throws Error by FILE:LINE for what is
+/// not run so.
 std::vector<TracedWord> run_traced(const Program& program, const Invocation& invocation,
                                    std::array<std::uint32_t, 3> groups, const Bindings& bindings,
-                                   const Profile& profile, std::span<const ForcedRow> forced, Trace& trace);
+                                   const Profile& profile, std::span<const ForcedRow> forced, Trace& trace,
+                                   std::span<const GivenInput> inputs = {});
 
 } // namespace lockstep::text

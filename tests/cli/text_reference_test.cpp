@@ -68,8 +68,8 @@ TEST_CASE("--reference: what is no reference is one line") {
     CHECK_THAT(refusal(check("black_hole_gpu.json", {"--reference", same})),
                Contains(same) && Contains("populate.comp"));
     CHECK_THAT(refusal(check("box.json", {"--reference", (folder.path() / "none").string()})), Contains("none"));
-    folder.write("same/draw.vert", shipped("dust/draw.vert"));
-    CHECK_THAT(refusal(check("box.json", {"--reference", same, "--allow-unused"})), Contains("draw.vert"));
+    folder.write("same/draw.frag", shipped("dust/draw.frag"));
+    CHECK_THAT(refusal(check("box.json", {"--reference", same, "--allow-unused"})), Contains("draw.frag"));
     const std::string broken =
         update_in(folder, "broken", replaced(shipped("dust/update.comp"), step, "m.next = nothing;"));
     CHECK_THAT(refusal(check("box.json", {"--reference", broken})), Contains("update.comp:"));
@@ -124,4 +124,59 @@ TEST_CASE("a wrong shader's line that has no counterpart in the reference's text
         CHECK_THAT(outcome.out, Contains("note      without a counterpart in the reference: " + one.line));
         std::filesystem::remove_all(wrong);
     }
+}
+
+TEST_CASE("a vertex stage that is captured is judged by its own text, and may be the reference") {
+    if (!have_software_gl())
+        return;
+    const TemporaryFolder folder;
+    const auto drawn = [&](const std::string& name, const std::string& place, const std::string& precise) {
+        std::filesystem::create_directory(folder.path() / name);
+        folder.write(name + "/draw.vert", R"(#version 430 core
+in vec3 a_Position, a_Colour;
+in int a_Alive;
+uniform vec3 cameraRight, cameraUp, cameraBack;
+uniform float scale;
+uniform mat4 viewProjection;
+)" + precise + R"(out vec4 out_Clip;
+flat out vec3 out_Tint;
+flat out int out_Drawn;
+out vec2 out_TexelPlace;
+void main() {
+    ivec2 bits = (ivec2(gl_VertexID) >> ivec2(0, 1)) & 1;
+    vec2 corner = vec2(bits) - 0.5;
+    )" + precise + R"(vec3 world = cameraRight * corner.x + cameraUp * corner.y;
+    world = )" + place + R"(;
+    out_Clip = (viewProjection[0] * world.x + viewProjection[3]) +
+               (viewProjection[1] * world.y + viewProjection[2] * world.z);
+    gl_Position = out_Clip;
+    out_Tint = a_Colour;
+    out_TexelPlace = vec2(bits);
+    out_Drawn = a_Alive;
+}
+)");
+        return (folder.path() / name).string();
+    };
+    const auto checked = [&](const std::vector<std::string>& more) {
+        return run_lockstep(
+            joined({"check", "data/scenes/dust/obb.json", "--particles", "500", "--frames", "3", "--gl", software_gl()},
+                   more));
+    };
+    const std::string own = drawn("own", "a_Position + world * scale", "");
+    const Outcome legal = checked({"--shaders", own});
+    INFO(legal.out << legal.err);
+    CHECK(legal.status == 0);
+    CHECK_THAT(legal.out, Contains("drawn     LEGAL") || Contains("drawn     AGREE"));
+    const std::string wrong = drawn("wrong", "a_Position + world * (scale * 1.01)", "");
+    const Outcome divergent = checked({"--shaders", wrong});
+    CHECK(divergent.status == 1);
+    CHECK_THAT(divergent.out, Contains("DIVERGENT in what the last frame draws") && Contains("draw.vert:15: world ="));
+    const Outcome of_itself = checked({"--reference", wrong, "--shaders", wrong});
+    INFO(of_itself.out << of_itself.err);
+    CHECK(of_itself.status == 0);
+    CHECK_THAT(of_itself.out, Contains("reference of draw: its text in " + wrong));
+    CHECK(checked({"--reference", wrong}).status == 1);
+    CHECK(
+        checked({"--reference", own, "--shaders", drawn("precise", "a_Position + world * scale", "precise ")}).status ==
+        0);
 }

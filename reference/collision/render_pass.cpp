@@ -26,8 +26,7 @@ ColorImage render_pass(const Particles& particles, const Mesh& obstacles, const 
 Billboard particle_billboard(glm::vec3 position, const FrameParams& params, const Profile& profile) {
     const FlushSubnormals guard(profile.flush_subnormals);
     return with_arithmetic(profile, params.switches.arithmetic, [&](auto fp) {
-        const RenderDrawing drawing(fp, RightSites(), params, profile);
-        return drawing.billboard(drawing.to_view(position));
+        return particle_square(fp, RightSites(), to_render_view(fp, position, params), params);
     });
 }
 

@@ -88,6 +88,7 @@ TEST_CASE("billboard: a particle's square is taken through the render camera", "
     params.render_view = view_matrix(camera);
     params.render_projection = right_angle_projection();
     params.constants.billboard_radius = 0.25F;
+    params.render_width = params.render_height = 1 << 20; // nothing is drawn: no image is made for it
     const Billboard b = particle_billboard({3, 0, 0}, params, Profile{});
     CHECK(b.low.w == 2.0F);
     CHECK(b.low.x == -0.25F);

@@ -17,6 +17,20 @@
 
 namespace lockstep {
 
+template <class A> glm::vec3 to_render_view(A fp, glm::vec3 position, const FrameParams& params) {
+    return fp.transform(params.render_view, position);
+}
+
+/// The square of a particle, in clip space.
+template <class A, class Sites>
+Billboard particle_square(A fp, const Sites& sites, glm::vec3 view_centre, const FrameParams& params) {
+    const float radius = sites.corner_radius(params.constants.billboard_radius);
+    const glm::mat4& projection = params.render_projection;
+    return sites.square(
+        expand_billboard(fp, sites.square_centre(view_centre, radius), radius, projection),
+        [&] { return fp.transform(projection, view_centre); }, radius);
+}
+
 /// The render pass's drawing. `A`: the arithmetic (arithmetic.hpp); `Sites`: RightSites, or what a mistake makes of it.
 template <class A, class Sites> class RenderDrawing {
   public:
@@ -36,7 +50,7 @@ template <class A, class Sites> class RenderDrawing {
         std::vector<glm::vec3> view(obstacles.positions.size());
         std::vector<glm::vec4> clip(obstacles.positions.size());
         for (std::size_t i = 0; i < view.size(); ++i) {
-            view[i] = to_view(obstacles.positions[i]);
+            view[i] = to_render_view(fp_, obstacles.positions[i], params_);
             clip[i] = fp_.transform(params_.render_projection, view[i]);
         }
         const auto shaded = [&](std::uint32_t i) { return sites_.shaded_corner(view[i], obstacles.positions[i]); };
@@ -60,7 +74,7 @@ template <class A, class Sites> class RenderDrawing {
         for (std::size_t first = 0; first < particles.size(); first += slice) {
             sprites.resize(std::min(slice, particles.size() - first));
             for (std::size_t i = 0; i < sprites.size(); ++i)
-                sprites[i] = sprite(to_view(particles.position[first + i]));
+                sprites[i] = sprite(to_render_view(fp_, particles.position[first + i], params_));
             const auto rows = [&](std::size_t i) { return std::pair{sprites[i].pixels.y0, sprites[i].pixels.y1 - 1}; };
             const auto draw = [&](std::size_t i, const PixelRect& area) {
                 const PixelRect& pixels = sprites[i].pixels;
@@ -74,16 +88,6 @@ template <class A, class Sites> class RenderDrawing {
 
     RenderedFrame take() { return {std::move(color_), std::move(owner_)}; }
 
-    [[nodiscard]] glm::vec3 to_view(glm::vec3 position) const { return fp_.transform(params_.render_view, position); }
-
-    [[nodiscard]] Billboard billboard(glm::vec3 view_centre) const {
-        const float radius = sites_.corner_radius(params_.constants.billboard_radius);
-        const glm::mat4& projection = params_.render_projection;
-        return sites_.square(
-            expand_billboard(fp_, sites_.square_centre(view_centre, radius), radius, projection),
-            [&] { return fp_.transform(projection, view_centre); }, radius);
-    }
-
   private:
     struct Sprite {
         glm::vec3 centre{0.0F}; ///< view space
@@ -92,7 +96,7 @@ template <class A, class Sites> class RenderDrawing {
     };
 
     [[nodiscard]] Sprite sprite(glm::vec3 view_centre) const {
-        const Billboard square = billboard(view_centre);
+        const Billboard square = particle_square(fp_, sites_, view_centre, params_);
         if (!is_visible(square))
             return {};
         const glm::ivec2 size = sites_.size(width_, height_, true);

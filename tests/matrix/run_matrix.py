@@ -36,9 +36,10 @@ class Run:
     def __init__(self, program, name, case, system, folder):
         self.program, self.name, self.case, self.folder = program, name, case, folder
         self.system = {**system, "options": case.get("instead", system.get("options", []))}
-        self.problems, self.count = [], 0
+        self.problems, self.count, self.seconds, self.slowest = [], 0, 0.0, (0, "")
         self.scene = self.write_scene()
-        self.shaders = self.write_shaders()
+        self.shaders = self.write_changed("--shaders", "mine", case.get("changes"))
+        self.reference = self.write_changed("--reference", "reference", case.get("reference"))
 
     def write_scene(self):
         scene = case_scene(self.case, self.system)
@@ -48,59 +49,62 @@ class Run:
         path.write_text(json.dumps(scene), encoding="utf-8")
         return str(path)
 
-    def write_shaders(self):
-        changes = self.case.get("changes", [])
+    def write_changed(self, option, name, changes):
+        """The option with a folder of shaders in which texts are replaced by others."""
         if not changes:
             return []
-        folder = self.folder / "mine"
+        folder = self.folder / name
         folder.mkdir()
-        for name, text, other in changes:
-            path = folder / name
-            source = path if path.exists() else shipped(self.system["shaders"], name)
+        for file, text, other in changes:
+            path = folder / file
+            source = path if path.exists() else shipped(self.system["shaders"], file)
             before = source.read_text(encoding="utf-8")
             if text not in before:
-                self.problems.append(f"{self.name}: '{text}' is not in {name}")
+                self.problems.append(f"{self.name}: '{text}' is not in {file}")
             path.write_text(before.replace(text, other), encoding="utf-8")
-        return ["--shaders", str(folder)]
+        return [option, str(folder)]
 
     def program_run(self, words, statuses, typed=None):
-        """The output of one run; notes a problem where its end is not one of `statuses`."""
+        """The output of one run; notes a problem where its end is not one of `statuses`, or its JSON is none."""
         self.count += 1
         words = [str(word) for word in words]
+        started = time.monotonic()
         try:
             done = subprocess.run([self.program, *words], input=typed, capture_output=True, text=True, errors="replace",
                                   timeout=limit_s, cwd=self.folder)
         except subprocess.TimeoutExpired:
             self.problems.append(f"{self.name}: {' '.join(words)}: no end within {limit_s} s")
             return ""
+        seconds = time.monotonic() - started
+        self.seconds, self.slowest = self.seconds + seconds, max(self.slowest, (seconds, " ".join(words[:2])))
         fault = re.search(child_fault, done.stderr)
         if done.returncode not in statuses or fault:
             kept = re.sub(r"[^A-Za-z0-9]+", "_", self.name) + ".log"
             self.problems.append(f"{self.name}: {' '.join(words)}: status {done.returncode}, expected "
                                  f"{' or '.join(map(str, statuses))}: {last_line(done.stderr)} ({kept})")
             (self.folder.parent / kept).write_text(done.stdout + done.stderr, encoding="utf-8")
+        elif "--json" in words and done.returncode < 2:
+            try:
+                json.loads((self.folder / words[words.index("--json") + 1]).read_text(encoding="utf-8"))
+            except (OSError, ValueError) as error:
+                self.problems.append(f"{self.name}: {' '.join(words)}: {error}")
         return done.stdout
 
-    def json_file(self, name):
-        try:
-            return json.loads((self.folder / name).read_text(encoding="utf-8"))
-        except (OSError, ValueError) as error:
-            self.problems.append(f"{self.name}: {name}: {error}")
-            return {}
+    def expect_lines(self, text, lines):
+        for line in lines:
+            if not re.search(line, text, re.M):
+                self.problems.append(f"{self.name}: no line {line}")
 
     def check(self):
         """`check` with every output, then as text alone; runs the commands that its report prints."""
         status = self.case["status"]
-        common = [*self.system["options"], *self.case.get("options", []), *self.shaders]
+        common = [*self.system["options"], *self.case.get("options", []), *self.shaders, *self.reference]
         outputs = ["--json", "report.json", "--hashes", "hashes.txt", "--report", "page", *self.system["outputs"]]
         text = self.program_run(["check", self.scene, *common, *outputs, "--power"], [status])
         verdict = re.search(r"^verdict +(.*)$", text, re.M)
         if not verdict or not re.search(self.case["verdict"], verdict[1]):
             self.problems.append(f"{self.name}: verdict '{verdict and verdict[1]}', expected {self.case['verdict']}")
-        for line in self.case.get("lines", []):
-            if not re.search(line, text, re.M):
-                self.problems.append(f"{self.name}: no line {line}")
-        self.json_file("report.json")
+        self.expect_lines(text, self.case.get("lines", []))
         if (self.folder / "junit.xml").exists():
             xml.etree.ElementTree.parse(self.folder / "junit.xml")
         hexed = self.program_run(["check", self.scene, *common, "--hex"], [status])
@@ -111,9 +115,10 @@ class Run:
         """explain, debug and capsules of one item."""
         common = [*self.system["item_options"], *self.case.get("options", []), *self.shaders]
         for item in self.system["items"]:
-            self.program_run(["explain", self.scene, *common, "--frame", self.system["frame"], *item], [0, 1, 2])
-            self.program_run(["explain", self.scene, *common, "--frame", self.system["frame"], *item, "--json", "explain.json"], [0, 1, 2])
-        self.program_run(["debug", self.scene, *common], [0, 1, 2], typed=self.system["debug"])
+            explained = ["explain", self.scene, *common, *self.reference, "--frame", self.system["frame"], *item]
+            self.program_run(explained, [0, 1, 2])
+            self.program_run([*explained, "--json", "explain.json"], [0, 1, 2])
+        self.program_run(["debug", self.scene, *common, *self.reference], [0, 1, 2], typed=self.system["debug"])
         for item in self.system["capsules"]:
             self.program_run(["capsule", "cut", self.scene, *common, "--frame", self.system["frame"], *item, "-o", "one.json"], [0, 1, 2])
             if (self.folder / "one.json").exists():
@@ -145,12 +150,11 @@ class Run:
             self.program_run(["hash", self.scene, *sizes, *shaders, "--side", side, "--frames", "2"], [0, 2])
 
     def all(self, is_short):
-        started = time.monotonic()
         self.check()
         if self.case.get("all_verbs") and (not is_short or self.name.endswith(" divergent")):
             for part in (self.one_item, self.recorded, self.pictures):
                 part()
-        return self.name, self.count, self.problems, time.monotonic() - started
+        return self
 
 
 def shipped(folder, name):
@@ -179,23 +183,30 @@ def printed_commands(report):
             and "debug" not in line]
 
 
-def run_case(program, name, case, system, keep, is_short):
+def run_in_folder(keep, runs):
+    """What `runs` gives of an empty folder, which is kept in `keep` or removed."""
     folder = pathlib.Path(tempfile.mkdtemp(prefix="matrix_", dir=keep)) / "run"
     folder.mkdir()
     try:
-        return Run(program, name, case, system, folder).all(is_short)
+        return runs(folder)
     finally:
         if not keep:
             shutil.rmtree(folder.parent)
 
 
-def once(program, folder):
+def run_case(program, name, case, system, keep, is_short):
+    return run_in_folder(keep, lambda folder: Run(program, name, case, system, folder).all(is_short))
+
+
+def run_verbs(program, verbs, folder):
     """The verbs that run no scene of a system."""
     run = Run(program, "no system", {}, {"scene": {}, "shaders": ""}, folder)
-    for words in json.loads((here / "cases.json").read_text(encoding="utf-8"))["verbs"]:
-        statuses = words[0]
-        run.program_run([word.replace("ROOT", str(root)) for word in words[1:]], statuses)
-    return run.name, run.count, run.problems, 0.0
+    for verb in verbs:
+        words = verb["run"].replace("ROOT", str(root)).replace("TEXTS", str(here / "texts")).split()
+        status = verb["status"]
+        text = run.program_run(words, status if isinstance(status, list) else [status])
+        run.expect_lines(text, verb.get("lines", []))
+    return run
 
 
 def main():
@@ -218,14 +229,15 @@ def main():
     count, problems = 0, []
     with concurrent.futures.ThreadPoolExecutor(chosen.jobs) as pool:
         tasks = [pool.submit(run_case, program, *one, chosen.keep, chosen.short) for one in work]
-        if not chosen.only:
-            tasks.append(pool.submit(once, program, pathlib.Path(tempfile.mkdtemp(prefix="matrix_", dir=chosen.keep))))
+        if chosen.only in "no system":
+            tasks.append(pool.submit(run_in_folder, chosen.keep, lambda folder: run_verbs(program, data["verbs"], folder)))
         for task in concurrent.futures.as_completed(tasks):
-            name, runs, found, seconds = task.result()
-            count += runs
-            problems += found
-            print(f"{'FAILED' if found else 'held  '} {name}: {runs} runs, {seconds:.0f} s", flush=True)
-            for problem in found:
+            run = task.result()
+            count += run.count
+            problems += run.problems
+            print(f"{'FAILED' if run.problems else 'held  '} {run.name}: {run.count} runs, {run.seconds:.0f} s, "
+                  f"the longest {run.slowest[0]:.0f} s: {run.slowest[1]}", flush=True)
+            for problem in run.problems:
                 print("    " + problem, flush=True)
     print(f"{count} runs of {len(work)} cases, {len(problems)} problems")
     return 1 if problems or not count else 0

@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <array>
+#include <bit>
 #include <charconv>
 #include <filesystem>
 #include <memory>
@@ -27,7 +28,7 @@ struct ExamineRequest {
     std::string groups;
     std::optional<std::size_t> invocations;
     std::vector<std::string> uniforms, inputs, sizes, defines;
-    std::size_t seed = 1;
+    std::size_t seed = 1, subgroup_size = text::lanes_at_once;
     bool quiet = false;
 };
 
@@ -101,6 +102,9 @@ int run_examine(const ExamineRequest& options) {
     for (const std::string& one : options.defines)
         of.defines.push_back(parts_of("--define", one));
     of.seed = static_cast<std::uint32_t>(options.seed);
+    if (!std::has_single_bit(options.subgroup_size))
+        throw Error(fmt::format("--subgroup-size {}: expected a power of 2", options.subgroup_size));
+    of.subgroup_size = static_cast<std::uint32_t>(options.subgroup_size);
     OutputFiles files;
     files.protect(options.file);
     if (!options.json.empty())
@@ -139,6 +143,9 @@ Verb examine_command() {
     verb.add(otherwise(integer_option("--seed", "N", IntegerRange{0, 1'000'000}, options->seed,
                                       "which random numbers blocks and images hold"),
                        "1"));
+    verb.add(otherwise(integer_option("--subgroup-size", "N", IntegerRange{1, text::lanes_at_once},
+                                      options->subgroup_size, "invocations of a subgroup, a power of 2"),
+                       std::to_string(text::lanes_at_once)));
     verb.add(path_option("--json", "FILE", options->json, "write the findings as JSON"));
     verb.add(flag("--quiet", options->quiet, "print nothing"));
     verb.footer = "Exit status: 0 nothing was found, 1 something was, 2 could not run.\n"

@@ -300,7 +300,8 @@ ExaminationResult examine(const Examination& of) {
     text::Findings findings;
     const Profile profile = named_profile("strict");
     if (program.stage == spv::ExecutionModelGLCompute)
-        text::run_dispatch(program, {.groups = of.groups, .is_watched = true}, world.bindings, profile, findings);
+        text::run_dispatch(program, {.groups = of.groups, .is_watched = true, .subgroup_size = of.subgroup_size},
+                           world.bindings, profile, findings);
     else
         text::run_stage(program, stage_run_of(of, program), world.bindings, profile, findings);
     ExaminationResult result;

@@ -11,6 +11,7 @@
 
 #include "gpu/shader_source.hpp"
 #include "reference/text/findings.hpp"
+#include "reference/text/invocation.hpp"
 
 namespace lockstep {
 
@@ -26,6 +27,7 @@ struct Examination {
     /// Elements of the array at a block's end, by the block's name; texels along each axis of an image.
     std::map<std::string, std::vector<std::uint32_t>> sizes = {};
     std::uint32_t seed = 1;
+    std::uint32_t subgroup_size = text::lanes_at_once; ///< at most so many
 };
 
 /// A finding with its places as FILE:LINE.

@@ -127,6 +127,9 @@ bool Decoder::operation(const Instruction& at) {
         extended(w);
         return true;
     case spv::OpControlBarrier: {
+        if (const Constant* scope = module_.constant(w[0]);
+            scope == nullptr || scope->words.front() != spv::ScopeWorkgroup)
+            refuse("a barrier of another scope than a group is not interpreted");
         const Constant* semantics = module_.constant(w[2]);
         add(code::barrier).a = semantics != nullptr ? semantics->words.front() : 0;
         ++p_.barriers;
@@ -223,13 +226,19 @@ bool Decoder::image_operation(const Instruction& at) {
         const std::uint32_t offsets = spv::ImageOperandsConstOffsetMask | spv::ImageOperandsOffsetMask,
                             chooses = spv::ImageOperandsBiasMask | spv::ImageOperandsGradMask; // among levels
         const bool is_fetch = at.op == spv::OpImageFetch;
-        check_operands(4, spv::ImageOperandsLodMask | (is_fetch ? offsets : chooses));
+        check_operands(4, spv::ImageOperandsLodMask | offsets | (is_fetch ? 0U : chooses));
         const std::uint32_t given = w.size() > 4 ? w[4] : 0, axes = module_.type_of(w[3]).cells;
         const bool has_level = (given & spv::ImageOperandsLodMask) != 0;
-        const std::uint32_t a = cell(w[2]), level = has_level ? cell(w[5]) : word_cell(0);
-        std::uint32_t b = cell(w[3]);
-        if (const std::size_t offset = has_level ? 6 : 5; (given & offsets) != 0 && offset < w.size())
-            b = moved_place(b, axes, cell(w[offset]), module_.type_of(w[offset]).cells);
+        const std::uint32_t a = cell(w[2]), level = has_level && is_fetch ? cell(w[5]) : word_cell(0);
+        std::uint32_t b = cell(w[3]), moved = none;
+        if ((given & offsets) != 0) {
+            const bool has_bias = (given & spv::ImageOperandsBiasMask) != 0,
+                       has_gradients = (given & spv::ImageOperandsGradMask) != 0;
+            moved = w[5U + (has_level || has_bias ? 1 : 0) + (has_gradients ? 2 : 0)];
+            if (is_fetch)
+                b = moved_place(b, axes, cell(moved), module_.type_of(moved).cells);
+        }
+        const std::uint32_t offset = moved == none ? none : cell(moved);
         Step& step = made(at.op == spv::OpImageRead    ? code::load_texel
                           : at.op == spv::OpImageFetch ? code::fetch_texel
                                                        : code::sample_texel,
@@ -237,7 +246,7 @@ bool Decoder::image_operation(const Instruction& at) {
         step.a = a;
         step.b = b;
         step.c = axes;
-        step.d = level;
+        step.d = step.op == code::sample_texel ? offset : level;
         return true;
     }
     case spv::OpImageWrite: {

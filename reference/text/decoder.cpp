@@ -302,11 +302,22 @@ void Decoder::input(const Variable& variable) {
     case spv::BuiltInNumWorkgroups:
     case spv::BuiltInLocalInvocationIndex:
         break;
+    case spv::BuiltInSubgroupSize:
+    case spv::BuiltInNumSubgroups:
+    case spv::BuiltInSubgroupId:
+    case spv::BuiltInSubgroupLocalInvocationId:
+    case spv::BuiltInSubgroupEqMask:
+    case spv::BuiltInSubgroupGeMask:
+    case spv::BuiltInSubgroupGtMask:
+    case spv::BuiltInSubgroupLeMask:
+    case spv::BuiltInSubgroupLtMask:
+        use_subgroups();
+        break;
     default:
         refuse(fmt::format("built-in variable {} is not interpreted", about.name));
     }
     address_[variable.id] = {.place = take_cells(type(variable.type).cells), .type = variable.type};
-    p_.inputs.emplace_back(*about.builtin, address_[variable.id].place);
+    p_.inputs.push_back({*about.builtin, address_[variable.id].place, type(variable.type).cells});
 }
 
 void Decoder::inner_variables(const Function& of) {
@@ -318,6 +329,15 @@ void Decoder::inner_variables(const Function& of) {
         }
 }
 
+namespace {
+
+bool is_one_block(const Function& of) {
+    return std::count_if(of.body.begin(), of.body.end(), [](const Instruction& at) { return at.op == spv::OpLabel; }) ==
+           1;
+}
+
+} // namespace
+
 /// Parameters that are pointers are copied in, and back where the function stores to them: GLSL's inout (GLSL 4.60,
 /// 6.1.1).
 void Decoder::callee(const Function& of) {
@@ -327,6 +347,10 @@ void Decoder::callee(const Function& of) {
         const Type& t = module_.type_of(parameter);
         if (t.kind != Type::Kind::pointer) {
             made.parameters.push_back(cell(parameter));
+            continue;
+        }
+        if (t.storage == spv::StorageClassAtomicCounter && is_one_block(of)) {
+            made.parameters.push_back(none); // where the call stands, it is the counter itself
             continue;
         }
         if (t.storage != spv::StorageClassFunction && t.storage != spv::StorageClassUniformConstant)
@@ -348,8 +372,7 @@ void Decoder::callee(const Function& of) {
         }
     }
     made.function = &of;
-    made.is_block =
-        std::count_if(of.body.begin(), of.body.end(), [](const Instruction& at) { return at.op == spv::OpLabel; }) == 1;
+    made.is_block = is_one_block(of);
     callees_[of.id] = std::move(made);
 }
 
@@ -416,7 +439,7 @@ void Decoder::instruction(const Instruction& at, std::size_t number) {
         break;
     }
     if (!flow(at) && !(at.op == spv::OpFunctionCall ? (call(at.words, number), true) : memory(at, number)) &&
-        !image_operation(at) && !stage_instruction(at) && !operation(at))
+        !image_operation(at) && !stage_instruction(at) && !subgroup_operation(at) && !operation(at))
         refuse(fmt::format("SPIR-V instruction {} is not interpreted", static_cast<unsigned>(at.op)));
 }
 

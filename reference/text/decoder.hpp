@@ -32,7 +32,7 @@ class Decoder {
 
   private:
     using Words = std::span<const std::uint32_t>;
-    static constexpr std::uint32_t none = 0xffffffffU;
+    static constexpr std::uint32_t none = no_cell;
 
     /// Where a pointer points to. Offsets are cells of variables and of shared memory, words of blocks.
     struct Address {
@@ -101,6 +101,8 @@ class Decoder {
     bool operation(const Instruction& at);
     bool stage_instruction(const Instruction& at);
     bool image_operation(const Instruction& at);
+    bool subgroup_operation(const Instruction& at);
+    void use_subgroups();
     void atomic(const Instruction& at);
     void extended(Words w);
     void parts_of_number(Words w);

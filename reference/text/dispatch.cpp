@@ -95,12 +95,15 @@ void run_dispatch(const Program& program, const Dispatch& dispatch, const Bindin
     Races races(findings, program.invocations());
     Memory memory(program, bindings, findings, dispatch.is_watched ? &races : nullptr, dispatch.writers);
     // Groups that are watched are told apart.
-    const bool is_joint = program.barriers > 0 || program.shared > 0 || dispatch.is_watched;
+    const bool is_joint =
+        program.barriers > 0 || program.shared > 0 || dispatch.is_watched || program.subgroup_line != 0;
     const std::uint32_t size = program.invocations();
     std::vector<std::unique_ptr<Run>> parts;
     for (std::uint32_t part = 0; part < (is_joint ? (size + width - 1) / width : 1); ++part)
         parts.push_back(
             std::make_unique<Run>(values, program, memory, bindings, dispatch.groups, dispatch.most_branches));
+    for (const std::unique_ptr<Run>& part : parts)
+        part->subgroup_size = dispatch.subgroup_size;
     std::vector<Invocation> waiting; // of one group, or of several that need nothing of each other
     const auto flush = [&] {
         if (waiting.empty())

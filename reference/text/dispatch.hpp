@@ -11,13 +11,14 @@ namespace lockstep::text {
 
 /// A dispatch of a compute shader. `wants(group)`: whether a group runs; empty: all do. `is_watched`: races, operands
 /// without a result and values that were never set are looked for, which takes some 10 times as long. `most_branches`:
-/// that up to 16 invocations, which run together, take.
+/// that up to lanes_at_once invocations, which run together, take.
 struct Dispatch {
     std::array<std::uint32_t, 3> groups{1, 1, 1};
     std::function<bool(const std::array<std::uint32_t, 3>& group)> wants = {};
     bool is_watched = false;
     std::uint32_t most_branches = 50'000'000;
-    Writers* writers = nullptr; ///< is told who wrote each word; null: nobody asks
+    std::uint32_t subgroup_size = 0; ///< that a text with subgroups runs with, at most lanes_at_once; 0: it is refused
+    Writers* writers = nullptr;      ///< is told who wrote each word; null: nobody asks
 };
 
 /// An invocation by its number in a dispatch of so many groups.

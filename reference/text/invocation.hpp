@@ -6,6 +6,9 @@
 
 namespace lockstep::text {
 
+/// Invocations that dispatches and stages run at once, and the most that a subgroup has.
+inline constexpr int lanes_at_once = 32;
+
 /// An invocation's place in its dispatch.
 struct Invocation {
     std::array<std::uint32_t, 3> group{}, local{};

@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <array>
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <utility>
 #include <vector>
@@ -13,6 +14,7 @@
 #include "reference/text/invocation.hpp"
 #include "reference/text/memory.hpp"
 #include "reference/text/program.hpp"
+#include "reference/text/subgroup_words.hpp"
 #include "reference/text/trace.hpp"
 
 namespace lockstep::text {
@@ -79,6 +81,8 @@ template <class R, int W> class Machine {
     [[nodiscard]] bool is_discarded(std::size_t l) const { return is_discarded_[l] != 0; }
     /// Each four invocations are a quad of neighbours: lower left, lower right, upper left, upper right.
     bool are_quads = false;
+    /// Lanes in a row that are one subgroup, at most W; of a group's invocations in their order, from lane 0 on.
+    std::uint32_t subgroup_size = 0;
 
   private:
     enum class State : std::uint8_t { running, waiting, ended };
@@ -157,7 +161,15 @@ template <class R, int W> class Machine {
     void note_operands(const Step& s);
     void note_results();
     void atomic(const Step& s);
+    // Subgroups: machine_subgroup.hpp.
+    void subgroup(const Step& s);
+    void follow_subgroup(const Step& s);
+    void subgroup_exchange(const Step& s, std::span<const Lane> peers, Lane l);
+    std::optional<Lane> subgroup_source(const Step& s, std::span<const Lane> peers, Lane l);
+    std::uint32_t subgroup_word(const Step& s, std::span<const Lane> peers, Lane l, std::uint32_t c);
+    [[nodiscard]] std::uint32_t built_in(spv::BuiltIn builtin, const Invocation& of, std::uint32_t c) const;
     std::uint32_t changed(const Step& s, std::uint32_t before, Lane l);
+    Memory::Texel sampled(const Step& s, Lane l);
     std::array<std::int32_t, 3> texel_place(std::uint32_t first, std::uint32_t count, Lane l);
 
     // Values: machine_operations.hpp and glsl_functions.hpp.
@@ -224,6 +236,9 @@ template <class R, int W> class Machine {
 };
 
 template <class R, int W> void Machine<R, W>::start(std::span<const Invocation> invocations) {
+    if (p_.subgroup_line != 0 && subgroup_size == 0)
+        throw Error(fmt::format("shader {}: the size of subgroups is the driver's; a text with them is examined alone",
+                                p_.line_name(p_.subgroup_line)));
     lanes_ = static_cast<std::uint32_t>(invocations.size());
     std::copy(invocations.begin(), invocations.end(), invocations_.begin());
     std::fill(cells_.begin(), cells_.begin() + static_cast<std::ptrdiff_t>(std::size_t{p_.variables} * W), C{});
@@ -239,22 +254,10 @@ template <class R, int W> void Machine<R, W>::start(std::span<const Invocation> 
             for (const CellWord& one : p_.constants)
                 if (one.is_real)
                     cell(one.cell)->set(r.before_rounding(std::bit_cast<float>(one.word)));
-    for (const auto& [builtin, first] : p_.inputs)
-        for (std::uint32_t l = 0; l < lanes_; ++l) {
-            const Invocation& of = invocations_[l];
-            for (std::size_t c = 0; c < 3; ++c) {
-                if (builtin == spv::BuiltInLocalInvocationIndex && c > 0)
-                    break;
-                const std::uint32_t value = builtin == spv::BuiltInGlobalInvocationId
-                                                ? of.group[c] * p_.group[c] + of.local[c]
-                                            : builtin == spv::BuiltInLocalInvocationId ? of.local[c]
-                                            : builtin == spv::BuiltInWorkgroupId       ? of.group[c]
-                                            : builtin == spv::BuiltInNumWorkgroups
-                                                ? groups_[c]
-                                                : (of.local[2] * p_.group[1] + of.local[1]) * p_.group[0] + of.local[0];
-                cell(first + static_cast<std::uint32_t>(c))[l].set(value);
-            }
-        }
+    for (const BuiltInInput& input : p_.inputs)
+        for (std::uint32_t l = 0; l < lanes_; ++l)
+            for (std::uint32_t c = 0; c < input.cells; ++c)
+                cell(input.cell + c)[l].set(built_in(input.builtin, invocations_[l], c));
     pc_.fill(p_.entry);
     depth_.fill(0);
     for (std::uint32_t l = 0; l < W; ++l)
@@ -265,6 +268,25 @@ template <class R, int W> void Machine<R, W>::start(std::span<const Invocation> 
     for (std::uint32_t l = 0; l < W; ++l) {
         made_[l].clear();
         ends_[l].clear();
+    }
+}
+
+template <class R, int W>
+std::uint32_t Machine<R, W>::built_in(spv::BuiltIn builtin, const Invocation& of, std::uint32_t c) const {
+    const std::uint32_t index = (of.local[2] * p_.group[1] + of.local[1]) * p_.group[0] + of.local[0];
+    switch (builtin) {
+    case spv::BuiltInGlobalInvocationId:
+        return of.group[c] * p_.group[c] + of.local[c];
+    case spv::BuiltInLocalInvocationId:
+        return of.local[c];
+    case spv::BuiltInWorkgroupId:
+        return of.group[c];
+    case spv::BuiltInNumWorkgroups:
+        return groups_[c];
+    case spv::BuiltInLocalInvocationIndex:
+        return index;
+    default:
+        return subgroup_input(builtin, subgroup_size, index, p_.invocations(), c);
     }
 }
 

@@ -93,10 +93,7 @@ template <class R, int W> bool Machine<R, W>::memory_apart(const Step& s) {
         return true;
     }
     case code::sample_texel: {
-        std::array<float, 3> place{};
-        for (std::uint32_t c = 0; c < s.c && c < place.size(); ++c)
-            place[c] = number(cell(s.b + c)->real());
-        const Memory::Texel sample = memory_.sample(word_at(s.a), place, s.c);
+        const Memory::Texel sample = sampled(s, 0);
         for (std::uint32_t c = 0; c < s.n; ++c)
             set_read(*cell(s.out + c), sample[c], p_.images[word_at(s.a)].is_real);
         return true;

@@ -160,6 +160,8 @@ template <class R, int W> void Machine<R, W>::follow(const Step& s) {
                 unset(s.out + c)[l] = {};
         });
     };
+    if (is_subgroup_operation(s.op))
+        return follow_subgroup(s);
     switch (s.op) {
     case code::copy:
     case code::real_bits:

@@ -14,6 +14,18 @@ std::array<std::int32_t, 3> Machine<R, W>::texel_place(std::uint32_t first, std:
     return at;
 }
 
+/// What texture() makes of a place.
+template <class R, int W> Memory::Texel Machine<R, W>::sampled(const Step& s, Lane l) {
+    const std::uint32_t image = cell(s.a)[l].word();
+    std::array<float, 3> place{};
+    for (std::uint32_t c = 0; c < s.c && c < place.size(); ++c)
+        place[c] = number(cell(s.b + c)[l].real());
+    std::array<std::int32_t, 3> moved{};
+    if (s.d != no_cell)
+        moved = texel_place(s.d, p_.images[image].axes() - (p_.images[image].is_arrayed ? 1 : 0), l);
+    return memory_.sample(image, place, s.c, moved);
+}
+
 /// What an atomic operation leaves where `before` was (SPIR-V 3.42.18).
 template <class R, int W> std::uint32_t Machine<R, W>::changed(const Step& s, std::uint32_t before, Lane l) {
     const std::uint32_t value = cell(s.c)[l].word();
@@ -196,10 +208,7 @@ template <class R, int W> void Machine<R, W>::memory(const Step& s) {
         break;
     case code::sample_texel:
         active([&](Lane l) {
-            std::array<float, 3> place{};
-            for (std::uint32_t c = 0; c < s.c && c < place.size(); ++c)
-                place[c] = number(cell(s.b + c)[l].real());
-            const Memory::Texel texel = memory_.sample(cell(s.a)[l].word(), place, s.c);
+            const Memory::Texel texel = sampled(s, l);
             for (std::uint32_t c = 0; c < s.n; ++c)
                 cell(s.out + c)[l].set(texel[c]);
         });

@@ -3,7 +3,7 @@
 #include <cmath>
 #include <limits>
 
-#include "reference/text/machine.hpp"
+#include "reference/text/machine_subgroup.hpp"
 
 /// Arithmetic, comparisons and conversions of Machine (SPIR-V 3.42.11 to 3.42.15).
 namespace lockstep::text {
@@ -186,7 +186,7 @@ template <class R, int W> void Machine<R, W>::vector_operation(const Step& s) {
         break;
     }
     default:
-        refuse(s, fmt::format("SPIR-V instruction {} is not interpreted", s.op));
+        subgroup(s);
     }
 }
 

@@ -119,7 +119,8 @@ Memory::Texel Memory::texel_at_edge(std::uint32_t number, std::array<std::int32_
     return texel_words(number, at);
 }
 
-Memory::Texel Memory::sample(std::uint32_t number, const std::array<float, 3>& place, std::uint32_t axes) {
+Memory::Texel Memory::sample(std::uint32_t number, const std::array<float, 3>& place, std::uint32_t axes,
+                             const std::array<std::int32_t, 3>& moved) {
     const TexelMemory& image = bindings_.images[number];
     const bool is_linear = image.filter != TexelMemory::Filter::nearest;
     std::array<std::int32_t, 3> base{};
@@ -130,8 +131,9 @@ Memory::Texel Memory::sample(std::uint32_t number, const std::array<float, 3>& p
     std::array<float, 3> behind{};
     for (std::uint32_t axis = 0; axis < axes; ++axis) {
         const auto size = static_cast<float>(image.size[axis]);
-        const float t = place[axis] * size - (is_linear ? 0.5F : 0.0F), whole = std::floor(t);
-        behind[axis] = t - whole;
+        const float t = place[axis] * size - (is_linear ? 0.5F : 0.0F), floor = std::floor(t),
+                    whole = floor + static_cast<float>(moved[axis]);
+        behind[axis] = t - floor;
         base[axis] = std::isnan(whole) ? -1 : static_cast<std::int32_t>(std::clamp(whole, -1.0F, size));
     }
     if (!is_linear)

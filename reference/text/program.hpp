@@ -31,10 +31,10 @@ enum Own : std::uint16_t {
     array_length,  ///< of block a
     image_size,    ///< of the image in cell a
     query_levels,
-    load_texel,  ///< n components of image in cell a at b, of c axes; by imageLoad
-    fetch_texel, ///< the same by texelFetch
-    store_texel, ///< n components from c into image in cell a at b, of d axes
-    sample_texel,
+    load_texel,   ///< n components of image in cell a at b, of c axes; by imageLoad
+    fetch_texel,  ///< the same by texelFetch
+    store_texel,  ///< n components from c into image in cell a at b, of d axes
+    sample_texel, ///< n components of image in cell a at b, of c axes, moved by the texels at d, or no_cell
     real_bits,    ///< n cells from a, floats to words
     bits_as_real, ///< n cells from a, words to floats
     jump,         ///< to a
@@ -55,6 +55,9 @@ enum Own : std::uint16_t {
     differ_both
 };
 } // namespace code
+
+/// In the place of a cell's number: there is none.
+inline constexpr std::uint32_t no_cell = 0xffffffffU;
 
 /// One operation on all components of its operands. Cells hold scalars; each result has cells of its own, since GLSL
 /// has no recursion (GLSL 4.60, 6.1).
@@ -141,6 +144,11 @@ struct CellWord {
     bool is_real = false;
 };
 
+struct BuiltInInput {
+    spv::BuiltIn builtin = spv::BuiltInGlobalInvocationId;
+    std::uint32_t cell = 0, cells = 0;
+};
+
 /// A decoded shader.
 struct Program {
     std::vector<Step> steps;
@@ -162,8 +170,8 @@ struct Program {
     std::vector<std::uint32_t> undefined;        ///< cells that OpUndef stands for
     std::vector<CellWord> constants;             ///< set once
     std::vector<CellWord> initial;               ///< of variables outside functions, set for each invocation
-    std::vector<std::pair<spv::BuiltIn, std::uint32_t>> inputs; ///< built-in variables and their first cells
-    std::uint32_t entry = 0;                                    ///< first step
+    std::vector<BuiltInInput> inputs;            ///< of a compute stage
+    std::uint32_t entry = 0;                     ///< first step
     spv::ExecutionModel stage = spv::ExecutionModelGLCompute;
     std::array<std::uint32_t, 3> group{1, 1, 1};
     std::vector<StageVariable> stage_inputs, stage_outputs; ///< of other stages than compute
@@ -174,6 +182,7 @@ struct Program {
     std::vector<PlainUniform> uniforms;
     std::vector<ImageUniform> images;
     std::uint32_t barriers = 0;
+    std::uint32_t subgroup_line = 0; ///< the first that asks for subgroups; 0: none does
     LineName line_name;
 
     /// "variable sum".

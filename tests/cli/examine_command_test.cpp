@@ -159,6 +159,24 @@ TEST_CASE(
     CHECK_THAT(examined(writes, {"--define", "N=4"}).out, Contains("shader.comp:4: access outside of a buffer"));
 }
 
+TEST_CASE("examine: subgroups have the size that is given") {
+    const TemporaryFolder folder;
+    const std::string shader = folder
+                                   .write("sums.comp", "#version 450\n"
+                                                       "#extension GL_KHR_shader_subgroup_arithmetic : require\n"
+                                                       "layout(local_size_x = 64) in;\n"
+                                                       "layout(binding = 0) buffer Out { uint x[]; };\n"
+                                                       "void main() {\n    x[subgroupAdd(1u)] = 1u;\n}\n")
+                                   .string();
+    const auto examined = [&](std::vector<std::string> options) {
+        options.insert(options.begin(), {"examine", shader, "--groups", "1", "--size", "Out=8"});
+        return run_lockstep(options);
+    };
+    CHECK_THAT(examined({}).out, Contains("sums.comp:6: access outside of a buffer") && Contains("word 32 of Out"));
+    CHECK_THAT(examined({"--subgroup-size", "8"}).out, Contains("word 8 of Out"));
+    CHECK_THAT(refusal(examined({"--subgroup-size", "12"})), Contains("--subgroup-size 12: expected a power of 2"));
+}
+
 TEST_CASE("examine: vertex, geometry and fragment stages run with inputs that are given or made up") {
     const TemporaryFolder folder;
     const auto examined = [&](const std::string& name, const std::string& text, std::vector<std::string> options = {}) {

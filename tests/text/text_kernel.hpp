@@ -65,6 +65,7 @@ struct BoundText {
     std::map<std::string, TexelWords> images;
     text::Findings findings;
     bool is_watched = false;
+    std::uint32_t subgroup_size = 0;
     std::uint32_t most_branches = 50'000'000;
 };
 
@@ -72,7 +73,11 @@ struct TextKernel : BoundText {
     explicit TextKernel(const std::string& text) : BoundText(Stage::compute, text, "kernel.comp") {}
 
     void run(std::array<std::uint32_t, 3> groups = {1, 1, 1}, const Profile& profile = named_profile("llvmpipe")) {
-        text::run_dispatch(program, {.groups = groups, .is_watched = is_watched, .most_branches = most_branches},
+        text::run_dispatch(program,
+                           {.groups = groups,
+                            .is_watched = is_watched,
+                            .most_branches = most_branches,
+                            .subgroup_size = subgroup_size},
                            bindings(), profile, findings);
     }
 };

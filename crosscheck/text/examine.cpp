@@ -145,6 +145,14 @@ struct MadeUpWorld {
     text::Bindings bindings;
 };
 
+std::uint32_t made_up_size(const text::ImageShape& shape, std::uint32_t axis,
+                           const std::array<std::uint32_t, 3>& invocations) {
+    constexpr std::uint32_t samples = 4, faces = 6;
+    if (shape.dimensions == spv::DimCube)
+        return axis == 2 ? faces : invocations[0];
+    return shape.has_samples && axis + 1 == shape.axes() ? samples : invocations[axis];
+}
+
 MadeUpWorld world_of(const Examination& of, const text::Program& program) {
     constexpr std::size_t most_words = std::size_t{1} << 26U;
     MadeUp made_up(of.seed);
@@ -176,12 +184,12 @@ MadeUpWorld world_of(const Examination& of, const text::Program& program) {
     share_buffers(program.blocks, world.bindings.blocks);
     for (const text::ImageUniform& image : program.images) {
         text::TexelMemory texels{.name = image.name};
-        const std::uint32_t axes = image.axes();
+        const std::uint32_t axes = image.shape.axes();
         const std::vector<std::uint32_t> size = size_of(image.name);
         if (!size.empty() && size.size() != axes)
             throw Error(fmt::format("--size {}: expected {} numbers, texels along each axis", image.name, axes));
         for (std::uint32_t axis = 0; axis < axes; ++axis)
-            texels.size[axis] = size.empty() ? invocations[axis] : size[axis];
+            texels.size[axis] = size.empty() ? made_up_size(image.shape, axis, invocations) : size[axis];
         const std::size_t words = std::size_t{texels.size[0]} * texels.size[1] * texels.size[2] * texels.components;
         check_size(image.name, words);
         std::vector<std::uint32_t>& all = world.words.emplace_back(words);

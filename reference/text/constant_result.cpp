@@ -18,6 +18,7 @@ std::optional<std::vector<std::uint32_t>> constant_result(spv::Op op, std::uint3
     if (!is_known || operands.empty() || operands.size() > 3)
         return std::nullopt;
     Program program;
+    program.stage = spv::ExecutionModelVertex; // it has outputs
     Step step{.op = static_cast<std::uint16_t>(op), .n = static_cast<std::uint16_t>(components)};
     program.output_cells = program.cells = components;
     const std::array<std::uint32_t Step::*, 3> fields{&Step::a, &Step::b, &Step::c};

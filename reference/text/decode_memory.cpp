@@ -78,8 +78,10 @@ bool Decoder::memory(const Instruction& at, std::size_t number) {
             held = take_cells(1);
             load_from(image, held, image.type);
         }
-        address_[w[1]] = {
-            .space = Address::Space::texel, .place = held, .dynamic = cell(w[3]), .type = type(w[0]).element};
+        const ImageShape& shape = type(image.type).shape;
+        const std::uint32_t place =
+            shape.has_samples ? place_of_sample(cell(w[3]), shape.axes(), cell(w[4])) : cell(w[3]);
+        address_[w[1]] = {.space = Address::Space::texel, .place = held, .dynamic = place, .type = type(w[0]).element};
         return true;
     }
     default:

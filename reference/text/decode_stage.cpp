@@ -10,7 +10,7 @@ namespace {
 
 /// A built-in variable's name in GL where the module has none; empty: it is not interpreted.
 std::string_view builtin_name(spv::BuiltIn builtin) {
-    static constexpr std::array<std::pair<spv::BuiltIn, std::string_view>, 24> names{
+    static constexpr std::array<std::pair<spv::BuiltIn, std::string_view>, 26> names{
         {{spv::BuiltInPosition, "gl_Position"},
          {spv::BuiltInPointSize, "gl_PointSize"},
          {spv::BuiltInClipDistance, "gl_ClipDistance"},
@@ -21,6 +21,8 @@ std::string_view builtin_name(spv::BuiltIn builtin) {
          {spv::BuiltInInstanceIndex, "gl_InstanceIndex"},
          {spv::BuiltInBaseVertex, "gl_BaseVertex"},
          {spv::BuiltInBaseInstance, "gl_BaseInstance"},
+         {spv::BuiltInDeviceIndex, "gl_DeviceIndex"},
+         {spv::BuiltInViewIndex, "gl_ViewIndex"},
          {spv::BuiltInDrawIndex, "gl_DrawID"},
          {spv::BuiltInPrimitiveId, "gl_PrimitiveID"},
          {spv::BuiltInInvocationId, "gl_InvocationID"},
@@ -191,6 +193,9 @@ bool Decoder::stage_instruction(const Instruction& at) {
     case spv::OpTerminateInvocation:
     case spv::OpDemoteToHelperInvocation: // what goes on for its neighbours' sake alone has ended
         add(code::discard);
+        return true;
+    case spv::OpIsHelperInvocationEXT: // a helper has ended, see above
+        cell_[at.words[1]] = word_cell(0);
         return true;
     case spv::OpEmitVertex:
         add(code::emit_vertex);

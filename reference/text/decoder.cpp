@@ -254,24 +254,6 @@ void Decoder::counter(const Variable& variable) {
     p_.blocks.push_back(std::move(made));
 }
 
-void Decoder::image(const Variable& variable) {
-    const bool is_array = type(variable.type).kind == Type::Kind::array;
-    const Type& of = type(is_array ? type(variable.type).element : variable.type);
-    if (of.dimensions != spv::Dim2D && of.dimensions != spv::Dim3D && of.dimensions != spv::Dim1D &&
-        of.dimensions != spv::DimBuffer)
-        refuse(fmt::format("image {} is not interpreted; expected one of 1, 2 or 3 dimensions",
-                           module_.ids[variable.id].name));
-    const std::uint32_t count = is_array ? type(variable.type).count : 1, first = take_cells(count);
-    address_[variable.id] = {.place = first, .type = variable.type};
-    const bool is_sampler = of.kind == Type::Kind::sampled_image;
-    for (std::uint32_t i = 0; i < count; ++i) {
-        p_.constants.push_back({first + i, static_cast<std::uint32_t>(p_.images.size()), false});
-        const std::string& name = module_.ids[variable.id].name;
-        p_.images.push_back({is_array ? fmt::format("{}[{}]", name, i) : name, !is_sampler && of.is_storage,
-                             of.dimensions, of.is_arrayed, is_real(of.element)});
-    }
-}
-
 void Decoder::plain_uniforms(std::uint32_t type_id, std::uint32_t first, const std::string& name) {
     using enum Type::Kind;
     const Type& of = type(type_id);
@@ -301,6 +283,7 @@ void Decoder::input(const Variable& variable) {
     case spv::BuiltInWorkgroupId:
     case spv::BuiltInNumWorkgroups:
     case spv::BuiltInLocalInvocationIndex:
+    case spv::BuiltInDeviceIndex:
         break;
     case spv::BuiltInSubgroupSize:
     case spv::BuiltInNumSubgroups:

@@ -106,6 +106,16 @@ class Decoder {
     void atomic(const Instruction& at);
     void extended(Words w);
     void parts_of_number(Words w);
+    struct ImageOperands {
+        std::uint32_t mask = 0, level = 0, offset = 0, sample = 0; ///< ids; 0: none
+    };
+    static ImageOperands image_operands(Words w, std::size_t from);
+    void sample_image(const Instruction& at);
+    void read_image(const Instruction& at);
+    void write_image(const Instruction& at);
+    void compared_texel(std::uint32_t out, std::uint32_t reference, std::uint32_t texel);
+    std::uint32_t place_of_sample(std::uint32_t place, std::uint32_t axes, std::uint32_t sample);
+    std::uint32_t projected(std::uint32_t numbers, std::uint32_t n, std::uint32_t by);
     std::uint32_t moved_place(std::uint32_t place, std::uint32_t axes, std::uint32_t offset, std::uint32_t moved);
     void composite(const Instruction& at);
     void call(Words w, std::size_t number);

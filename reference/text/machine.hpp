@@ -285,6 +285,8 @@ std::uint32_t Machine<R, W>::built_in(spv::BuiltIn builtin, const Invocation& of
         return groups_[c];
     case spv::BuiltInLocalInvocationIndex:
         return index;
+    case spv::BuiltInDeviceIndex: // there is one
+        return 0;
     default:
         return subgroup_input(builtin, subgroup_size, index, p_.invocations(), c);
     }

@@ -205,7 +205,7 @@ template <class R, int W> void Machine<R, W>::follow(const Step& s) {
         if (s.n != spv::OpAtomicLoad && s.n != spv::OpAtomicIIncrement && s.n != spv::OpAtomicIDecrement)
             need(s, s.c, 1);
         if (s.op == code::atomic_texel)
-            need(s, s.b, p_.images[cell(s.a)[active_[0]].word()].axes());
+            need(s, s.b, p_.images[cell(s.a)[active_[0]].word()].shape.axes());
         return forget(1);
     case code::load_texel:
     case code::fetch_texel:

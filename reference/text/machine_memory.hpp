@@ -22,7 +22,7 @@ template <class R, int W> Memory::Texel Machine<R, W>::sampled(const Step& s, La
         place[c] = number(cell(s.b + c)[l].real());
     std::array<std::int32_t, 3> moved{};
     if (s.d != no_cell)
-        moved = texel_place(s.d, p_.images[image].axes() - (p_.images[image].is_arrayed ? 1 : 0), l);
+        moved = texel_place(s.d, p_.images[image].shape.axes() - (p_.images[image].shape.is_arrayed ? 1 : 0), l);
     return memory_.sample(image, place, s.c, moved);
 }
 
@@ -76,8 +76,8 @@ template <class R, int W> void Machine<R, W>::atomic(const Step& s) {
             s.op == code::atomic_shared ? memory_.atomic_shared(cell(s.b)[l].word(), by, change)
             : s.op == code::atomic_block
                 ? memory_.atomic_block(s.a, cell(s.b)[l].word(), by, change)
-                : memory_.atomic_texel(cell(s.a)[l].word(), texel_place(s.b, p_.images[cell(s.a)[l].word()].axes(), l),
-                                       by, change);
+                : memory_.atomic_texel(cell(s.a)[l].word(),
+                                       texel_place(s.b, p_.images[cell(s.a)[l].word()].shape.axes(), l), by, change);
         cell(s.out)[l].set(before);
     });
 }

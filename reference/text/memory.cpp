@@ -119,12 +119,40 @@ Memory::Texel Memory::texel_at_edge(std::uint32_t number, std::array<std::int32_
     return texel_words(number, at);
 }
 
-Memory::Texel Memory::sample(std::uint32_t number, const std::array<float, 3>& place, std::uint32_t axes,
+namespace {
+
+/// The face of a cube that a direction shows to, and the place on it (GL 4.6, table 8.19).
+std::array<float, 3> place_on_cube(const std::array<float, 3>& direction) {
+    const auto [x, y, z] = direction;
+    const float ax = std::abs(x), ay = std::abs(y), az = std::abs(z);
+    const bool is_x = ax >= ay && ax >= az, is_y = !is_x && ay >= az;
+    const float across = is_x                ? (x < 0.0F ? z : -z)
+                         : is_y || z >= 0.0F ? x
+                                             : -x,
+                up = is_y ? (y < 0.0F ? -z : z) : -y,
+                most = is_x   ? ax
+                       : is_y ? ay
+                              : az;
+    const float first = is_x ? 0.0F : is_y ? 2.0F : 4.0F;
+    return {0.5F * (across / most + 1.0F), 0.5F * (up / most + 1.0F),
+            first + ((is_x   ? x
+                      : is_y ? y
+                             : z) < 0.0F
+                         ? 1.0F
+                         : 0.0F)};
+}
+
+} // namespace
+
+Memory::Texel Memory::sample(std::uint32_t number, std::array<float, 3> place, std::uint32_t axes,
                              const std::array<std::int32_t, 3>& moved) {
     const TexelMemory& image = bindings_.images[number];
     const bool is_linear = image.filter != TexelMemory::Filter::nearest;
     std::array<std::int32_t, 3> base{};
-    if (program_.images[number].is_arrayed) { // the nearest layer (GL 4.6, 8.14)
+    const ImageShape& shape = program_.images[number].shape;
+    if (shape.dimensions == spv::DimCube)
+        place = place_on_cube(place);
+    if (shape.is_arrayed || shape.dimensions == spv::DimCube) { // the nearest layer (GL 4.6, 8.14)
         const float layer = std::floor(place[--axes] + 0.5F), last = static_cast<float>(image.size[axes]) - 1.0F;
         base[axes] = std::isnan(layer) ? 0 : static_cast<std::int32_t>(std::clamp(layer, 0.0F, last));
     }

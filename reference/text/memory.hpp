@@ -113,7 +113,7 @@ class Memory {
     /// What texture() makes of a place, 0 to 1 along each axis: GL_LINEAR as drivers with weights of all bits do it,
     /// fma(f, b - a, a) along x, then y, then z (GL 4.6, 8.14.3). The last of an arrayed image's axes is its layer.
     /// `moved`: by how many texels (GLSL 4.60, 8.9.3).
-    [[nodiscard]] Texel sample(std::uint32_t image, const std::array<float, 3>& place, std::uint32_t axes,
+    [[nodiscard]] Texel sample(std::uint32_t image, std::array<float, 3> place, std::uint32_t axes,
                                const std::array<std::int32_t, 3>& moved);
     [[nodiscard]] const TexelMemory& image(std::uint32_t number) const { return bindings_.images[number]; }
 

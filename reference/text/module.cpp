@@ -232,19 +232,15 @@ class ModuleReader {
         }
         case spv::OpTypeImage: {
             Type& type = make(w, image, w[1]);
-            type.dimensions = static_cast<spv::Dim>(w[2]);
-            type.is_arrayed = w[4] != 0;
+            type.shape = {static_cast<spv::Dim>(w[2]), w[4] != 0, w[5] != 0};
             type.is_storage = w[6] == 2;
             type.cells = 1;
-            if (w[5] != 0)
-                refuse("images of several samples are not interpreted");
             break;
         }
         case spv::OpTypeSampledImage: {
             const Type of = made_.types[checked_id(w[1])];
             Type& type = make(w, sampled_image, of.element);
-            type.dimensions = of.dimensions;
-            type.is_arrayed = of.is_arrayed;
+            type.shape = of.shape;
             type.cells = 1;
             break;
         }

@@ -17,6 +17,18 @@ namespace lockstep::text {
 /// The place of a line of the text that was compiled, as FILE:LINE; lines count from 1.
 using LineName = std::function<std::string(std::uint32_t line)>;
 
+/// How an image's texels lie.
+struct ImageShape {
+    spv::Dim dimensions = spv::Dim2D;
+    bool is_arrayed = false, has_samples = false;
+
+    /// Numbers of a texel's place: along its dimensions, a cube's face, a layer, a sample.
+    [[nodiscard]] std::uint32_t axes() const {
+        const bool is_line = dimensions == spv::Dim1D || dimensions == spv::DimBuffer;
+        return (is_line ? 1U : dimensions == spv::Dim2D ? 2U : 3U) + (is_arrayed ? 1U : 0U) + (has_samples ? 1U : 0U);
+    }
+};
+
 /// A type of the module (SPIR-V 3.42.6).
 struct Type {
     enum class Kind : std::uint8_t {
@@ -49,8 +61,8 @@ struct Type {
     std::uint32_t stride = 0;  ///< of an array in a block, bytes
     std::uint32_t cells = 0;   ///< scalars of a value
     spv::StorageClass storage = spv::StorageClassFunction; ///< of pointers
-    spv::Dim dimensions = spv::Dim2D;                      ///< of images
-    bool is_arrayed = false, is_storage = false;           ///< of images; storage: an image, not a sampler
+    ImageShape shape;                                      ///< of images
+    bool is_storage = false;                               ///< of images: no sampler
     std::vector<Member> members;                           ///< of structures
     std::string name;
 };

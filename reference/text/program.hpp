@@ -106,15 +106,8 @@ struct PlainUniform {
 struct ImageUniform {
     std::string name;
     bool is_storage = false;
-    spv::Dim dimensions = spv::Dim2D;
-    bool is_arrayed = false;
+    ImageShape shape;
     bool is_real = true; ///< components are floats
-
-    /// Numbers of a texel's place, a layer's among them.
-    [[nodiscard]] std::uint32_t axes() const {
-        const bool is_line = dimensions == spv::Dim1D || dimensions == spv::DimBuffer;
-        return (is_line ? 1U : dimensions == spv::Dim2D ? 2U : 3U) + (is_arrayed ? 1U : 0U);
-    }
 };
 
 /// An input or output of a vertex, geometry or fragment stage: a variable, or a member of a block or structure.

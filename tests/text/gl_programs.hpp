@@ -157,7 +157,7 @@ class BoundWords {
     static std::pair<text::TexelMemory, Words> texture_words(GLuint program, const text::ImageUniform& image) {
         text::TexelMemory memory;
         memory.name = image.name;
-        const GLenum target = image.dimensions == spv::Dim3D ? GL_TEXTURE_3D : GL_TEXTURE_2D;
+        const GLenum target = image.shape.dimensions == spv::Dim3D ? GL_TEXTURE_3D : GL_TEXTURE_2D;
         GLint unit = 0, before = 0;
         std::array<GLint, 3> size{1, 1, 1};
         if (const GLint location = gl::GetUniformLocation(program, image.name.c_str()); location >= 0)

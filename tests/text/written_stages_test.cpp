@@ -271,11 +271,11 @@ TEST_CASE("text stages: a watched run finds outputs that are not written, and wh
     CHECK(found(Stage::fragment,
                 "in float v_X; out vec4 o_Colour;\nvoid main() { o_Colour = vec4(1.0); if (v_X > 1.0)\ngl_FragDepth = "
                 "v_X; }") == Lines{"3 " + unwritten + "gl_FragDepth"});
-    TextStage endless(Stage::vertex, "void main() {\nfor (int i = 0; i > -1;) { if (gl_VertexID > 20) continue;\n"
+    TextStage endless(Stage::vertex, "void main() {\nfor (int i = 0; i > -1;) { if (gl_VertexID > 40) continue;\n"
                                      "break; }\ngl_Position = vec4(1.0); }\n");
     endless.is_watched = true;
     endless.most_branches = 1000;
-    CHECK(endless.run(40).outputs.at("gl_Position").size() == 4 * 16);
+    CHECK(endless.run(70).outputs.at("gl_Position").size() == 4 * text::lanes_at_once);
     CHECK(endless.found().size() == 1);
     const std::string strip =
         "layout(points) in;\nlayout(points, max_vertices = 2) out;\nin float v_X[]; out float g_X;\n";

@@ -67,14 +67,14 @@
 
 uint w[STRIDE]; // the particle at hand
 
-float word(uint at) { return ls_flush(uintBitsToFloat(w[at])); }
-vec3 words(uint at) { return vec3(word(at), word(at + 1u), word(at + 2u)); }
 void set_word(uint at, float x) { w[at] = floatBitsToUint(x); }
 void set_words(uint at, vec3 v) {
     set_word(at, v.x);
     set_word(at + 1u, v.y);
     set_word(at + 2u, v.z);
 }
+float word(uint at) { return ls_flush(uintBitsToFloat(w[at])); }
+vec3 words(uint at) { return vec3(word(at), word(at + 1u), word(at + 2u)); }
 
 uint high(uint at) { return w[at] >> 16; }
 uint low(uint at) { return w[at] & 0xffffu; }

@@ -121,6 +121,18 @@ TEST_CASE("shader warnings: a driver that kept the compiled shader from an earli
                    Contains("note      the driver warns: "));
 }
 
+TEST_CASE("shader warnings: the driver warns of no shipped shader") {
+    if (!test::have_software_gl())
+        return;
+    for (const std::string scene : {"lattice", "dust/spheres", "lifecycle/one_particle", "lifecycle/sorted_ribbon",
+                                    "lights/one_light", "fluid/one_sphere"}) {
+        const test::Outcome outcome = run_lockstep({"check", "data/scenes/" + scene + ".json", "--frames", "1",
+                                                    "--werror-shaders", "--gl", test::software_gl()});
+        INFO(scene << ": " << outcome.err);
+        CHECK(outcome.status == 0);
+    }
+}
+
 TEST_CASE("shader warnings: a #line does not move an error from its line in the file, and takes no file name") {
     if (!test::have_software_gl())
         return;

@@ -46,6 +46,12 @@ bool meet_nearby(const std::vector<ItemOutcome>& own, const std::vector<ItemOutc
     return false;
 }
 
+/// What is known of a text's outcomes: of more ways than are followed nothing is, so they open nothing.
+std::vector<ItemOutcome> decided(std::vector<ItemOutcome> outcomes) {
+    std::erase_if(outcomes, [](const ItemOutcome& one) { return one.undefined == Undefined::undecided; });
+    return outcomes;
+}
+
 /// A reference rounds, too: another formula of the same numbers comes near where its terms are taken as freely.
 KnownOperations in_any_order(KnownOperations known) {
     known.sums = false;
@@ -71,11 +77,11 @@ class OpenPass final : public PassByProfile {
         if (observed != nullptr &&
             std::any_of(all.begin(), all.end(), [&](const ItemOutcome& one) { return one.contains(*observed, item); }))
             return all;
-        const std::vector<ItemOutcome> own = own_->outcomes(in, item, profile, known);
+        const std::vector<ItemOutcome> own = decided(own_->outcomes(in, item, profile, known));
         if (own.empty())
             return all;
         const auto is_near = [&] {
-            const std::vector<ItemOutcome> written = own_->outcomes_as_written(in, item, profile, known);
+            const std::vector<ItemOutcome> written = decided(own_->outcomes_as_written(in, item, profile, known));
             const std::vector<ItemOutcome> nearby = one_->outcomes(in, item, profile, in_any_order(known), nullptr);
             return meet_nearby(own, all, nearby) || meet_nearby(written, all, nearby);
         };

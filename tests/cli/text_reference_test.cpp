@@ -102,6 +102,20 @@ TEST_CASE("a shader without precise is legal where its own text leaves open what
     CHECK_THAT(check("physics.json", {"--shaders", precise}).out, Contains("verdict   DIVERGENT"));
 }
 
+TEST_CASE("a wrong shader stays DIVERGENT where its own text has more ways than are followed") {
+    if (!have_software_gl())
+        return;
+    const TemporaryFolder folder;
+    folder.write("simulation.glsl", replaced(shipped("lifecycle/simulation.glsl"), "mul(m.acceleration, u_Tick)",
+                                             "mul(mul(m.acceleration, 2.0), u_Tick)"));
+    const Outcome outcome = run_lockstep({"check", "data/scenes/lifecycle/embers.json", "--frames", "2", "--no-render",
+                                          "--shaders", folder.path().string(), "--gl", software_gl()});
+    INFO(outcome.out << outcome.err);
+    CHECK(outcome.status == 1);
+    CHECK_THAT(outcome.out, Contains("verdict   DIVERGENT"));
+    CHECK_THAT(outcome.out, Contains("cause     ") && Contains("acceleration_doubled"));
+}
+
 TEST_CASE("a wrong shader's line that has no counterpart in the reference's text is in the report") {
     if (!have_software_gl())
         return;

@@ -139,6 +139,9 @@ void share_buffers(const std::vector<text::Block>& blocks, std::vector<std::span
     }
 }
 
+/// Some 20 s of a watched run.
+constexpr std::uint32_t most_branches = 10'000'000;
+
 /// What a program's names are bound to.
 struct MadeUpWorld {
     std::vector<std::vector<std::uint32_t>> words;
@@ -210,7 +213,10 @@ MadeUpWorld world_of(const Examination& of, const text::Program& program) {
 
 /// Inputs that are given, and made-up ones for the rest: floats from 0 to 1, integers 0. Fragments lie in quads.
 text::StageRun stage_run_of(const Examination& of, const text::Program& program) {
-    text::StageRun run{.invocations = invocations_of(of, program), .is_watched = true};
+    text::StageRun run{.invocations = invocations_of(of, program),
+                       .is_watched = true,
+                       .most_branches = most_branches,
+                       .subgroup_size = of.subgroup_size};
     run.are_quads = program.stage == spv::ExecutionModelFragment;
     const std::uint32_t side = extent_of(of, program)[0];
     MadeUp made_up(of.seed + 1);
@@ -308,7 +314,11 @@ ExaminationResult examine(const Examination& of) {
     text::Findings findings;
     const Profile profile = named_profile("strict");
     if (program.stage == spv::ExecutionModelGLCompute)
-        text::run_dispatch(program, {.groups = of.groups, .is_watched = true, .subgroup_size = of.subgroup_size},
+        text::run_dispatch(program,
+                           {.groups = of.groups,
+                            .is_watched = true,
+                            .most_branches = most_branches,
+                            .subgroup_size = of.subgroup_size},
                            world.bindings, profile, findings);
     else
         text::run_stage(program, stage_run_of(of, program), world.bindings, profile, findings);

@@ -198,9 +198,9 @@ void Decoder::atomic(const Instruction& at) {
 void Decoder::extended(Words w) {
     if (w[2] != module_.extension)
         refuse("an instruction of another set than GLSL.std.450 is not interpreted");
-    static constexpr std::array refused{GLSLstd450InterpolateAtCentroid, GLSLstd450InterpolateAtSample,
-                                        GLSLstd450InterpolateAtOffset,   GLSLstd450Frexp,
-                                        GLSLstd450PackDouble2x32,        GLSLstd450UnpackDouble2x32};
+    static constexpr std::array refused{GLSLstd450Frexp, GLSLstd450PackDouble2x32, GLSLstd450UnpackDouble2x32};
+    if (w[3] >= GLSLstd450InterpolateAtCentroid && w[3] <= GLSLstd450InterpolateAtOffset)
+        return interpolate(w);
     if (w[3] >= GLSLstd450NMin ||
         std::find(refused.begin(), refused.end(), static_cast<GLSLstd450>(w[3])) != refused.end())
         refuse(fmt::format("GLSL.std.450 instruction {} is not interpreted", w[3]));
@@ -224,6 +224,17 @@ void Decoder::extended(Words w) {
     step.b = values[1];
     step.c = values[2];
     step.d = module_.type_of(w[4]).cells;
+}
+
+/// The input as it is given: of an examined run it is the same in all of the fragment.
+void Decoder::interpolate(Words w) {
+    leave_to_driver("an input between the places of a fragment");
+    const auto found = address_.find(w[4]);
+    if (found == address_.end() || found->second.space != Address::Space::variable)
+        refuse("interpolation of what is no input is not interpreted");
+    const Address from = found->second;
+    note_read(from);
+    load_from(from, cell(w[1]), from.type);
 }
 
 /// modf: the whole part, cut towards 0, and what is left.

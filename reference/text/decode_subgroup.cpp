@@ -37,10 +37,16 @@ bool Decoder::subgroup_operation(const Instruction& at) {
 }
 
 void Decoder::use_subgroups() {
-    if (p_.stage != spv::ExecutionModelGLCompute)
-        refuse("subgroups of other stages than compute are not interpreted");
-    if (p_.subgroup_line == 0)
-        p_.subgroup_line = std::max(line_, 1U);
+    if (p_.stage != spv::ExecutionModelGLCompute && p_.stage != spv::ExecutionModelFragment)
+        refuse("subgroups of a vertex or geometry stage are not interpreted");
+    leave_to_driver("the size of subgroups");
+}
+
+void Decoder::leave_to_driver(std::string_view choice) {
+    if (p_.choice_line != 0)
+        return;
+    p_.choice_line = std::max(line_, 1U);
+    p_.choice = choice;
 }
 
 } // namespace lockstep::text

@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 
 #include "reference/model/error.hpp"
+#include "reference/text/subgroup_words.hpp"
 
 namespace lockstep::text {
 
@@ -66,6 +67,8 @@ Decoder::Decoder(const Module& module) : module_(module), cell_(module.ids.size(
     p_.stage = module.stage;
     p_.group = module.group;
     p_.most_vertices = module.most_vertices;
+    p_.are_quads = module.are_quads;
+    p_.are_square_quads = module.are_square_quads;
     p_.line_name = module.line_name;
     // Cells that are zeroed for each invocation come first, of these the outputs.
     outputs();
@@ -180,7 +183,7 @@ void Decoder::outside_variables() {
             p_.shared += type(v.type).cells;
             break;
         case spv::StorageClassInput:
-            if (p_.stage == spv::ExecutionModelGLCompute)
+            if (p_.stage == spv::ExecutionModelGLCompute || (about.builtin && is_subgroup_input(*about.builtin)))
                 input(v);
             else
                 stage_input(v);
@@ -273,8 +276,27 @@ void Decoder::plain_uniforms(std::uint32_t type_id, std::uint32_t first, const s
     }
 }
 
+namespace {
+
+/// The first line that reads a variable; 0: none does.
+std::uint32_t line_of_use(const Module& module, std::uint32_t variable) {
+    for (const Function& of : module.functions)
+        for (const Instruction& at : of.body)
+            if ((at.op == spv::OpLoad || at.op == spv::OpAccessChain) && at.words[2] == variable)
+                return at.line;
+    return 0;
+}
+
+bool is_one_block(const Function& of) {
+    return std::count_if(of.body.begin(), of.body.end(), [](const Instruction& at) { return at.op == spv::OpLabel; }) ==
+           1;
+}
+
+} // namespace
+
 void Decoder::input(const Variable& variable) {
     const IdInfo& about = module_.ids[variable.id];
+    line_ = line_of_use(module_, variable.id);
     if (!about.builtin)
         refuse(fmt::format("input {} is not interpreted", about.name));
     switch (*about.builtin) {
@@ -285,19 +307,10 @@ void Decoder::input(const Variable& variable) {
     case spv::BuiltInLocalInvocationIndex:
     case spv::BuiltInDeviceIndex:
         break;
-    case spv::BuiltInSubgroupSize:
-    case spv::BuiltInNumSubgroups:
-    case spv::BuiltInSubgroupId:
-    case spv::BuiltInSubgroupLocalInvocationId:
-    case spv::BuiltInSubgroupEqMask:
-    case spv::BuiltInSubgroupGeMask:
-    case spv::BuiltInSubgroupGtMask:
-    case spv::BuiltInSubgroupLeMask:
-    case spv::BuiltInSubgroupLtMask:
-        use_subgroups();
-        break;
     default:
-        refuse(fmt::format("built-in variable {} is not interpreted", about.name));
+        if (!is_subgroup_input(*about.builtin))
+            refuse(fmt::format("built-in variable {} is not interpreted", about.name));
+        use_subgroups();
     }
     address_[variable.id] = {.place = take_cells(type(variable.type).cells), .type = variable.type};
     p_.inputs.push_back({*about.builtin, address_[variable.id].place, type(variable.type).cells});
@@ -311,15 +324,6 @@ void Decoder::inner_variables(const Function& of) {
             address_[at.words[1]] = {.place = zeroed_cells(at.words[1], pointed), .type = pointed};
         }
 }
-
-namespace {
-
-bool is_one_block(const Function& of) {
-    return std::count_if(of.body.begin(), of.body.end(), [](const Instruction& at) { return at.op == spv::OpLabel; }) ==
-           1;
-}
-
-} // namespace
 
 /// Parameters that are pointers are copied in, and back where the function stores to them: GLSL's inout (GLSL 4.60,
 /// 6.1.1).

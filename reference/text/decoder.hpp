@@ -103,6 +103,8 @@ class Decoder {
     bool image_operation(const Instruction& at);
     bool subgroup_operation(const Instruction& at);
     void use_subgroups();
+    void leave_to_driver(std::string_view choice); ///< a literal
+    void interpolate(Words w);
     void atomic(const Instruction& at);
     void extended(Words w);
     void parts_of_number(Words w);

@@ -21,6 +21,15 @@ std::array<std::uint32_t, 3> place_in(std::uint32_t number, const std::array<std
     return {number % size[0], number / size[0] % size[1], number / size[0] / size[1]};
 }
 
+/// Of an invocation in its group, quad after quad where there are any.
+std::array<std::uint32_t, 3> local_place(const Program& program, std::uint32_t number) {
+    if (!program.are_square_quads)
+        return place_in(number, program.group);
+    const std::array<std::uint32_t, 3> quad =
+        place_in(number / 4, {program.group[0] / 2, program.group[1] / 2, program.group[2]});
+    return {2 * quad[0] + number % 2, 2 * quad[1] + number / 2 % 2, quad[2]};
+}
+
 /// What the invocations of a group do next.
 enum class GroupState : std::uint8_t { ended, waiting, stuck };
 
@@ -84,7 +93,7 @@ void run_group(const Program& program, Memory& memory, std::span<const std::uniq
 
 Invocation invocation_of(const Program& program, const std::array<std::uint32_t, 3>& groups, std::uint32_t number) {
     const std::uint32_t size = program.invocations();
-    return {place_in(number / size, groups), place_in(number % size, program.group), number};
+    return {place_in(number / size, groups), local_place(program, number % size), number};
 }
 
 void run_dispatch(const Program& program, const Dispatch& dispatch, const Bindings& bindings, const Profile& profile,
@@ -95,15 +104,15 @@ void run_dispatch(const Program& program, const Dispatch& dispatch, const Bindin
     Races races(findings, program.invocations());
     Memory memory(program, bindings, findings, dispatch.is_watched ? &races : nullptr, dispatch.writers);
     // Groups that are watched are told apart.
-    const bool is_joint =
-        program.barriers > 0 || program.shared > 0 || dispatch.is_watched || program.subgroup_line != 0;
+    const bool is_joint = program.barriers > 0 || program.shared > 0 || dispatch.is_watched ||
+                          program.choice_line != 0 || program.are_quads;
     const std::uint32_t size = program.invocations();
     std::vector<std::unique_ptr<Run>> parts;
     for (std::uint32_t part = 0; part < (is_joint ? (size + width - 1) / width : 1); ++part)
         parts.push_back(
             std::make_unique<Run>(values, program, memory, bindings, dispatch.groups, dispatch.most_branches));
     for (const std::unique_ptr<Run>& part : parts)
-        part->subgroup_size = dispatch.subgroup_size;
+        part->subgroup_size = dispatch.subgroup_size, part->are_quads = program.are_quads;
     std::vector<Invocation> waiting; // of one group, or of several that need nothing of each other
     const auto flush = [&] {
         if (waiting.empty())
@@ -123,7 +132,7 @@ void run_dispatch(const Program& program, const Dispatch& dispatch, const Bindin
             if (dispatch.wants && !dispatch.wants(group))
                 continue;
             for (std::uint32_t i = 0; i < size; ++i) {
-                waiting.push_back({group, place_in(i, program.group), g * size + i});
+                waiting.push_back({group, local_place(program, i), g * size + i});
                 if (!is_joint && waiting.size() == width)
                     flush();
             }

@@ -17,8 +17,9 @@ struct Dispatch {
     std::function<bool(const std::array<std::uint32_t, 3>& group)> wants = {};
     bool is_watched = false;
     std::uint32_t most_branches = 50'000'000;
-    std::uint32_t subgroup_size = 0; ///< that a text with subgroups runs with, at most lanes_at_once; 0: it is refused
-    Writers* writers = nullptr;      ///< is told who wrote each word; null: nobody asks
+    std::uint32_t subgroup_size =
+        0;                      ///< that it runs with, at most lanes_at_once; 0: what the driver chooses is refused
+    Writers* writers = nullptr; ///< is told who wrote each word; null: nobody asks
 };
 
 /// An invocation by its number in a dispatch of so many groups.

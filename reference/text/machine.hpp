@@ -81,7 +81,8 @@ template <class R, int W> class Machine {
     [[nodiscard]] bool is_discarded(std::size_t l) const { return is_discarded_[l] != 0; }
     /// Each four invocations are a quad of neighbours: lower left, lower right, upper left, upper right.
     bool are_quads = false;
-    /// Lanes in a row that are one subgroup, at most W; of a group's invocations in their order, from lane 0 on.
+    /// Lanes in a row that are one subgroup, at most W; of a group's invocations in their order, from lane 0 on. 0: the
+    /// run stands for a driver's, whose choices are not known.
     std::uint32_t subgroup_size = 0;
 
   private:
@@ -167,7 +168,7 @@ template <class R, int W> class Machine {
     void subgroup_exchange(const Step& s, std::span<const Lane> peers, Lane l);
     std::optional<Lane> subgroup_source(const Step& s, std::span<const Lane> peers, Lane l);
     std::uint32_t subgroup_word(const Step& s, std::span<const Lane> peers, Lane l, std::uint32_t c);
-    [[nodiscard]] std::uint32_t built_in(spv::BuiltIn builtin, const Invocation& of, std::uint32_t c) const;
+    [[nodiscard]] std::uint32_t built_in(spv::BuiltIn builtin, Lane l, std::uint32_t c) const;
     std::uint32_t changed(const Step& s, std::uint32_t before, Lane l);
     Memory::Texel sampled(const Step& s, Lane l);
     std::array<std::int32_t, 3> texel_place(std::uint32_t first, std::uint32_t count, Lane l);
@@ -236,9 +237,9 @@ template <class R, int W> class Machine {
 };
 
 template <class R, int W> void Machine<R, W>::start(std::span<const Invocation> invocations) {
-    if (p_.subgroup_line != 0 && subgroup_size == 0)
-        throw Error(fmt::format("shader {}: the size of subgroups is the driver's; a text with them is examined alone",
-                                p_.line_name(p_.subgroup_line)));
+    if (p_.choice_line != 0 && subgroup_size == 0)
+        throw Error(fmt::format("shader {}: {} is the driver's choice; such a text is interpreted by examine alone",
+                                p_.line_name(p_.choice_line), p_.choice));
     lanes_ = static_cast<std::uint32_t>(invocations.size());
     std::copy(invocations.begin(), invocations.end(), invocations_.begin());
     std::fill(cells_.begin(), cells_.begin() + static_cast<std::ptrdiff_t>(std::size_t{p_.variables} * W), C{});
@@ -257,7 +258,7 @@ template <class R, int W> void Machine<R, W>::start(std::span<const Invocation> 
     for (const BuiltInInput& input : p_.inputs)
         for (std::uint32_t l = 0; l < lanes_; ++l)
             for (std::uint32_t c = 0; c < input.cells; ++c)
-                cell(input.cell + c)[l].set(built_in(input.builtin, invocations_[l], c));
+                cell(input.cell + c)[l].set(built_in(input.builtin, l, c));
     pc_.fill(p_.entry);
     depth_.fill(0);
     for (std::uint32_t l = 0; l < W; ++l)
@@ -271,8 +272,8 @@ template <class R, int W> void Machine<R, W>::start(std::span<const Invocation> 
     }
 }
 
-template <class R, int W>
-std::uint32_t Machine<R, W>::built_in(spv::BuiltIn builtin, const Invocation& of, std::uint32_t c) const {
+template <class R, int W> std::uint32_t Machine<R, W>::built_in(spv::BuiltIn builtin, Lane l, std::uint32_t c) const {
+    const Invocation& of = invocations_[l];
     const std::uint32_t index = (of.local[2] * p_.group[1] + of.local[1]) * p_.group[0] + of.local[0];
     switch (builtin) {
     case spv::BuiltInGlobalInvocationId:
@@ -288,7 +289,8 @@ std::uint32_t Machine<R, W>::built_in(spv::BuiltIn builtin, const Invocation& of
     case spv::BuiltInDeviceIndex: // there is one
         return 0;
     default:
-        return subgroup_input(builtin, subgroup_size, index, p_.invocations(), c);
+        return subgroup_input(builtin, subgroup_size, p_.stage == spv::ExecutionModelGLCompute ? index : l,
+                              p_.invocations(), c);
     }
 }
 

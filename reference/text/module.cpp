@@ -112,6 +112,10 @@ class ModuleReader {
                 made_.group = {w[2], w[3], w[4]};
             else if (w[1] == spv::ExecutionModeOutputVertices)
                 made_.most_vertices = w[2];
+            else if (w[1] == spv::ExecutionModeDerivativeGroupQuadsNV)
+                made_.are_quads = made_.are_square_quads = true;
+            else if (w[1] == spv::ExecutionModeDerivativeGroupLinearNV)
+                made_.are_quads = true;
             break;
         case spv::OpName:
             made_.ids[checked_id(w[0])].name = string_at(w.subspan(1));

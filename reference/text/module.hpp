@@ -114,7 +114,8 @@ struct Module {
     std::uint32_t entry = 0, extension = 0; ///< ids of the entry point and of GLSL.std.450
     spv::ExecutionModel stage = spv::ExecutionModelGLCompute;
     std::array<std::uint32_t, 3> group{1, 1, 1};
-    std::uint32_t most_vertices = 0; ///< that an invocation of a geometry stage emits
+    std::uint32_t most_vertices = 0;                  ///< that an invocation of a geometry stage emits
+    bool are_quads = false, are_square_quads = false; ///< of a compute stage whose invocations are neighbours
     LineName line_name;
 
     [[nodiscard]] const Type& type_of(std::uint32_t id) const { return types[ids[id].type]; }

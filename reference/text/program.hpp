@@ -175,7 +175,10 @@ struct Program {
     std::vector<PlainUniform> uniforms;
     std::vector<ImageUniform> images;
     std::uint32_t barriers = 0;
-    std::uint32_t subgroup_line = 0; ///< the first that asks for subgroups; 0: none does
+    /// The first line that asks for what is the driver's choice, and for what; 0: none does.
+    std::uint32_t choice_line = 0;
+    std::string_view choice;
+    bool are_quads = false, are_square_quads = false; ///< of a compute stage: each four invocations, two by two
     LineName line_name;
 
     /// "variable sum".

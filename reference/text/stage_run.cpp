@@ -139,6 +139,7 @@ StageResult run_stage(const Program& program, const StageRun& run, const Binding
     const std::vector<Given> given = given_to(program, run);
     Run machine(values, program, memory, bindings, {1, 1, 1}, run.most_branches);
     machine.are_quads = run.are_quads;
+    machine.subgroup_size = run.subgroup_size;
     StageResult result;
     for (const StageVariable& output : program.stage_outputs)
         result.outputs[name_of(output)].reserve(std::size_t{output.cells} * run.invocations);

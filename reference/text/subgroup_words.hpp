@@ -16,6 +16,12 @@ inline bool is_subgroup_exchange(std::uint16_t op) {
            op == spv::OpGroupNonUniformQuadBroadcast || op == spv::OpGroupNonUniformQuadSwap;
 }
 
+inline bool is_subgroup_input(spv::BuiltIn builtin) {
+    return (builtin >= spv::BuiltInSubgroupSize && builtin <= spv::BuiltInSubgroupLocalInvocationId &&
+            builtin != spv::BuiltInVertexIndex) ||
+           (builtin >= spv::BuiltInSubgroupEqMask && builtin <= spv::BuiltInSubgroupLtMask);
+}
+
 /// Component c of a built-in variable of subgroups, for the invocation `index` of a group of `invocations`.
 std::uint32_t subgroup_input(spv::BuiltIn builtin, std::uint32_t size, std::uint32_t index, std::uint32_t invocations,
                              std::uint32_t c);

@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "reference/model/error.hpp"
-#include "tests/text/text_kernel.hpp"
+#include "tests/text/text_stage.hpp"
 
 using namespace lockstep;
 using namespace lockstep::test;
@@ -95,6 +95,40 @@ TEST_CASE("text: reductions and scans, of integers, floats and clusters") {
           Words{20, 20, 20, 20});
 }
 
+TEST_CASE("text: subgroups of fragments, and inputs between their places, are of examined runs") {
+    const std::string text =
+        "#extension GL_KHR_shader_subgroup_arithmetic : require\n"
+        "in vec2 v_At; out vec4 colour;\n"
+        "void main() { colour = vec4(interpolateAtCentroid(v_At), interpolateAtOffset(v_At.y, vec2(0.1)),\n"
+        "    float(subgroupAdd(1u) + 10u * gl_SubgroupInvocationID)); }\n";
+    TextStage stage(Stage::fragment, text);
+    stage.inputs["v_At"] = words_of({3.0F, 4.0F});
+    CHECK_THROWS_WITH(stage.run(4),
+                      Catch::Contains("is the driver's choice; such a text is interpreted by examine alone"));
+    stage.subgroup_size = 4;
+    const std::vector<float> made = floats_of(stage.run(8).outputs.at("colour"));
+    CHECK(std::vector(made.begin() + 20, made.begin() + 28) ==
+          std::vector{3.0F, 4.0F, 4.0F, 14.0F, 3.0F, 4.0F, 4.0F, 24.0F});
+}
+
+TEST_CASE("text: compute stages have neighbours where they say so") {
+    const auto left = [](const std::string& how) {
+        TextKernel kernel("#extension GL_NV_compute_shader_derivatives : require\n"
+                          "layout(local_size_x = 4, local_size_y = 2, " +
+                          how +
+                          ") in;\nlayout(binding = 0) buffer Out { float x[8]; };\n"
+                          "void main() { uint i = gl_LocalInvocationIndex;\n"
+                          "    x[i] = dFdx(float(i * i)) + 100.0 * dFdy(float(i * i)); }\n");
+        kernel.blocks["Out"].resize(8);
+        kernel.run();
+        return floats_of(kernel.blocks["Out"]);
+    };
+    CHECK(left("derivative_group_linearNV") ==
+          std::vector{401.0F, 801.0F, 405.0F, 805.0F, 2009.0F, 2409.0F, 2013.0F, 2413.0F});
+    CHECK(left("derivative_group_quadsNV") ==
+          std::vector{1601.0F, 2401.0F, 3205.0F, 4005.0F, 1609.0F, 2409.0F, 3213.0F, 4013.0F});
+}
+
 TEST_CASE("text: subgroups need a size, which is given") {
     const auto refused = [](const std::string& statements, std::uint32_t size) {
         try {
@@ -104,7 +138,8 @@ TEST_CASE("text: subgroups need a size, which is given") {
         }
         return std::string();
     };
-    CHECK_THAT(refused("\nx[i] = gl_SubgroupSize;", 0), Catch::Contains("the size of subgroups is the driver's"));
+    CHECK_THAT(refused("\nx[i] = gl_SubgroupSize;", 0),
+               Catch::Contains("kernel.comp:11: the size of subgroups is the driver's choice"));
     CHECK_THAT(refused("\nsubgroupBarrier();", 4),
                Catch::Contains("kernel.comp:11: a barrier of another scope than a group is not interpreted"));
 }

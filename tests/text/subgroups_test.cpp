@@ -91,8 +91,9 @@ TEST_CASE("text: reductions and scans, of integers, floats and clusters") {
                   4, 4) == Words{124, 24, 24, 24});
     CHECK(left_by("x[i] = subgroupClusteredAdd(i, 2u) * 10u + subgroupXor(i);", 8, 8) ==
           Words{10, 10, 50, 50, 90, 90, 130, 130});
-    CHECK(left_by("x[i] = uint(subgroupMin(int(i) - 2) + 2) + (subgroupAnd(i < 3u) ? 10u : 20u);", 4, 4) ==
-          Words{20, 20, 20, 20});
+    CHECK(left_by("x[i] = uint(subgroupMin(int(i) - 2) + 2) + 100u * uint(subgroupMax(int(i) - 3) + 3) + "
+                  "(subgroupAnd(i < 3u) ? 10u : 20u);",
+                  4, 4) == Words{320, 320, 320, 320});
 }
 
 TEST_CASE("text: subgroups of fragments, and inputs between their places, are of examined runs") {

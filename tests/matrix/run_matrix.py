@@ -1,8 +1,8 @@
 #!/usr/bin/env python3
 """Runs every verb on every system with shaders of every verdict class and writes every output: what a report line indexes,
 joins or prints is executed for each class, also for those that no shipped scene gives on llvmpipe. Cases marked all_verbs
-in cases.json go through all verbs, the others through `check`. Meant for a program that
-was built with sanitizers (scripts/sanitize.sh), whose reports end a run with exit status 99.
+in cases.json go through all verbs, the others through `check`. CI runs it with the program of the tests;
+scripts/sanitize.sh with one that was built with sanitizers, whose reports end a run with exit status 99.
 
 Held of each run: the exit status and the verdict that cases.json expects, no signal, no sanitizer report, an end in time,
 outputs that parse.
@@ -16,6 +16,7 @@ import json
 import os
 import pathlib
 import re
+import resource
 import shutil
 import subprocess
 import sys
@@ -239,7 +240,8 @@ def main():
                   f"the longest {run.slowest[0]:.0f} s: {run.slowest[1]}", flush=True)
             for problem in run.problems:
                 print("    " + problem, flush=True)
-    print(f"{count} runs of {len(work)} cases, {len(problems)} problems")
+    used = resource.getrusage(resource.RUSAGE_CHILDREN)
+    print(f"{count} runs of {len(work)} cases, {len(problems)} problems; {used.ru_utime + used.ru_stime:.0f} s of processor time")
     return 1 if problems or not count else 0
 
 

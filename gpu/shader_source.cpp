@@ -128,7 +128,7 @@ std::optional<std::string> text_of(const fs::path& path) {
             return known->second;
     std::error_code error;
     std::optional<std::string> text;
-    if (fs::is_regular_file(path, error))
+    if (fs::exists(path, error))
         text = read_shader_file(path);
     if (seen)
         seen->files.emplace(path, text);

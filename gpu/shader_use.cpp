@@ -29,9 +29,14 @@ fs::path shipped_file(const ShaderFolders& shipped, const std::string& name) {
     return folder == shipped.end() ? fs::path() : *folder / name;
 }
 
+/// A pipe or a device is none, and what is of another size is not read: it may be of any.
 bool is_copy(const ShaderFolders& shipped, const fs::path& file, const std::string& name) {
+    std::error_code error;
+    if (!fs::is_regular_file(file, error))
+        return false;
     return std::any_of(shipped.begin(), shipped.end(), [&](const fs::path& folder) {
-        return fs::is_regular_file(folder / name) && content(file) == content(folder / name);
+        return fs::is_regular_file(folder / name) && fs::file_size(file, error) == fs::file_size(folder / name) &&
+               content(file) == content(folder / name);
     });
 }
 

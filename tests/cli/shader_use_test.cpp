@@ -5,6 +5,8 @@
 #include <string>
 #include <vector>
 
+#include <sys/stat.h>
+
 #include <nlohmann/json.hpp>
 
 #include "tests/cli/cli_checks.hpp"
@@ -88,6 +90,29 @@ TEST_CASE("shader use: a folder of which nothing would run is status 2 with the 
         write_own(setting.shaders, "collision_pass.vert");
         CHECK(run_lockstep(explain).status == 0);
     }
+}
+
+TEST_CASE("shader use: what is no file in a shader's place is refused, and neither a pipe nor a device is read") {
+    if (!test::have_software_gl())
+        return test::skip("no software GL");
+    const auto refused = [](const test::TemporaryFolder& shaders, const std::string& option) {
+        return refusal(run_lockstep({"check", "data/scenes/dust/box.json", "--frames", "1", "--no-render", "--gl",
+                                     test::software_gl(), option, shaders.path()}));
+    };
+    for (const std::string option : {"--shaders", "--reference"})
+        for (const std::string name : {"update.comp", "other.glsl"}) {
+            const test::TemporaryFolder pipe, device, folder;
+            REQUIRE(mkfifo((pipe.path() / name).c_str(), S_IRUSR | S_IWUSR) == 0);
+            std::filesystem::create_symlink("/dev/zero", device.path() / name);
+            std::filesystem::create_directory(folder.path() / name);
+            const bool is_stage = name == "update.comp";
+            for (const test::TemporaryFolder* one : {&pipe, &device})
+                CHECK_THAT(refused(*one, option),
+                           Contains(is_stage ? "update.comp: is a pipe or a device; right is a file"
+                                             : "other.glsl would not run"));
+            CHECK_THAT(refused(folder, option),
+                       Contains(is_stage ? "update.comp: is a folder; right is a file" : "nothing in it would run"));
+        }
 }
 
 TEST_CASE("shader use: an include that no branch takes is status 2, as one that nobody includes") {

@@ -104,11 +104,11 @@ std::optional<About> others(Rest& rest) {
     return line && rest.take(": ") ? std::optional(About{is_warning, *line}) : std::nullopt;
 }
 
-/// `FILE:LINE` of a line of a stage's text; nothing where it has no such line.
+/// `FILE:LINE` of a line of a stage's text; nothing where it has no such line. The text's end is its last line's.
 std::optional<std::string> place(const ShaderSource& source, std::size_t line) {
-    if (line < 1 || line > source.origins.size())
+    if (line < 1 || line > source.origins.size() + 1 || source.origins.empty())
         return {};
-    const ShaderSource::Origin& origin = source.origins[line - 1];
+    const ShaderSource::Origin& origin = source.origins[std::min(line, source.origins.size()) - 1];
     return fmt::format("{}:{}", source.files[origin.file], origin.line);
 }
 
@@ -135,9 +135,13 @@ std::string first_link_error(const std::string& log) {
     find_line(log, [&](const std::string& line) {
         if (first.empty())
             first = line;
+        if (found.ends_with(':')) { // the next line says it
+            found += fmt::format(" {}", std::string_view(line).substr(line.find_first_not_of(" \t")));
+            return true;
+        }
         if (speaks_of_error(line))
             found = line;
-        return !found.empty();
+        return !found.empty() && !found.ends_with(':');
     });
     if (first.empty())
         return "the driver gives no reason";

@@ -266,6 +266,11 @@ TEST_CASE("shader log: the first error is found in every compiler's form") {
     CHECK(first_compile_error("0:2(1): preprocessor error: syntax error\n", source) == "a.vert:1: syntax error");
     CHECK(first_compile_error("0(4) : warning C7011: cast\n0(5) : error C1503: undefined variable \"x\"\n", source) ==
           "a.vert:3: C1503: undefined variable \"x\"");
+    const std::size_t end = source.origins.size() + 1; // where a compiler misses what the text leaves open
+    CHECK(first_compile_error("ERROR: 0:" + std::to_string(end) + ": '' : missing #endif\n", source) ==
+          first_compile_error("ERROR: 0:" + std::to_string(end - 1) + ": '' : missing #endif\n", source));
+    CHECK(first_link_error("\nERROR: Linking compute stage: Recursion detected:\n    f(f1; calling f(f1;\n") ==
+          "ERROR: Linking compute stage: Recursion detected: f(f1; calling f(f1;");
     CHECK(first_compile_error("ERROR: 0:3: 'x' : undeclared identifier\n", source) ==
           "lib.glsl:1: 'x' : undeclared identifier");
     CHECK(first_compile_error("\nout of registers\n", source) == "a.vert: out of registers");

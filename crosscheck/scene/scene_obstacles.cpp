@@ -61,6 +61,7 @@ Surface read_surface(const JsonValue& json, Placement& placement, const std::opt
         const std::vector<JsonValue> sides = size.items();
         if (sides.size() != 2)
             size.fail("the size of a plane is two numbers above 0, [x, z]");
+        expect_room(json, before, 2);
         return plane_surface(sides[0].number(number::positive), sides[1].number(number::positive));
     }
     case 2: {
@@ -69,6 +70,7 @@ Surface read_surface(const JsonValue& json, Placement& placement, const std::opt
         const glm::vec3 sides = size.vector();
         for (const JsonValue& side : size.items())
             static_cast<void>(side.number(number::positive));
+        expect_room(json, before, 12);
         return box_surface(sides);
     }
     case 3: {

@@ -280,6 +280,9 @@ TEST_CASE("scene_file: a few numbers cannot ask for any number of triangles") {
                    R"(, {"shape": "torus", "radius": 1, "tube_radius": 0.1}])") ==
           "x.json: /obstacles/2: 4196608 triangles up to here; a scene has at most 4194304 (lockstep-decimate makes "
           "smaller meshes)");
+    for (const char* const small : {R"({"shape": "plane", "size": [1, 1]})", R"({"shape": "box", "size": [1, 1, 1]})"})
+        CHECK_THAT(error_of(R"("obstacles": [)" + large + ", " + large + ", " + small + "]"),
+                   Catch::StartsWith("x.json: /obstacles/2: 41943") && Catch::Contains("a scene has at most 4194304"));
     std::string many = large;
     for (int i = 0; i < 200; ++i)
         many += ", " + large;

@@ -1,7 +1,6 @@
 #include <algorithm>
 #include <array>
 #include <bit>
-#include <charconv>
 #include <filesystem>
 #include <memory>
 #include <optional>
@@ -15,6 +14,7 @@
 #include "crosscheck/cli/commands.hpp"
 #include "crosscheck/command/option_values.hpp"
 #include "crosscheck/files/json_text.hpp"
+#include "crosscheck/files/number_table.hpp"
 #include "crosscheck/files/output_files.hpp"
 #include "crosscheck/files/plain_text.hpp"
 #include "crosscheck/text/examine.hpp"
@@ -25,7 +25,7 @@ namespace {
 
 struct ExamineRequest {
     std::filesystem::path file, json;
-    std::string groups;
+    std::optional<std::string> groups;
     std::optional<std::size_t> invocations;
     std::vector<std::string> uniforms, inputs, sizes, defines;
     std::size_t seed = 1, subgroup_size = text::lanes_at_once;
@@ -34,43 +34,37 @@ struct ExamineRequest {
 
 /// "NAME=VALUE", taken apart.
 std::pair<std::string, std::string> parts_of(std::string_view option, const std::string& text) {
-    const std::size_t sign = text.find('=');
-    if (sign == std::string::npos || sign == 0)
+    auto parts = setting_parts(text);
+    if (parts.first.empty() || text.find('=') == std::string::npos)
         throw Error(fmt::format("{} {}: expected NAME=VALUE", option, plain_line(text)));
-    return {text.substr(0, sign), text.substr(sign + 1)};
+    return parts;
 }
 
-/// "1,2,3"; nothing of what is no list of numbers.
-template <class Number> std::vector<Number> numbers_in(const std::string& text) {
-    std::vector<Number> numbers;
-    const char* at = text.data();
-    const char* const end = at + text.size();
-    for (;;) {
-        Number number{};
-        const auto [rest, status] = std::from_chars(at, end, number);
-        if (status != std::errc{} || (rest != end && *rest != ','))
-            return {};
-        numbers.push_back(number);
-        if (rest == end)
-            return numbers;
-        at = rest + 1;
+/// What lies between commas.
+std::vector<std::string> listed(std::string_view text) {
+    std::vector<std::string> all;
+    for (std::size_t comma = 0; comma != std::string_view::npos;) {
+        comma = text.find(',');
+        all.emplace_back(text.substr(0, comma));
+        text.remove_prefix(comma == std::string_view::npos ? text.size() : comma + 1);
     }
+    return all;
 }
 
-/// "NAME=1,2,3".
-template <class Number>
-std::pair<std::string, std::vector<Number>> numbers_of(std::string_view option, const std::string& text) {
-    const auto [name, value] = parts_of(option, text);
-    std::vector<Number> numbers = numbers_in<Number>(value);
-    if (numbers.empty())
-        throw Error(fmt::format("{} {}: '{}' is no list of numbers; expected NAME=NUMBER, or NAME=1,2,3", option,
-                                plain_line(text), plain_line(value)));
-    return {name, std::move(numbers)};
+/// "1,2,3"; nothing of what is no list of numbers from 0.
+std::vector<std::uint32_t> numbers_in(std::string_view text) {
+    std::vector<std::uint32_t> numbers;
+    for (const std::string& one : listed(text))
+        if (const auto number = number_bits(one, {.name = {}, .scalar = Scalar::uint32}))
+            numbers.push_back(*number);
+        else
+            return {};
+    return numbers;
 }
 
 std::array<std::uint32_t, 3> groups_of(const std::string& text) {
     constexpr std::uint32_t most = 65535; // that every GL has
-    const std::vector<std::uint32_t> numbers = numbers_in<std::uint32_t>(text);
+    const std::vector<std::uint32_t> numbers = numbers_in(text);
     std::array<std::uint32_t, 3> groups{1, 1, 1};
     const auto fits = [](std::uint32_t n) { return n > 0 && n <= most; };
     if (numbers.empty() || numbers.size() > groups.size() || !std::all_of(numbers.begin(), numbers.end(), fits))
@@ -84,23 +78,28 @@ int run_examine(const ExamineRequest& options) {
     if (const std::optional<Stage> stage = stage_of(options.file); stage == Stage::compute) {
         if (options.invocations || !options.inputs.empty())
             throw Error("--invocations and --input are of vertex, geometry and fragment stages; use --groups");
-        if (!options.groups.empty())
-            of.groups = groups_of(options.groups);
-    } else if (stage && !options.groups.empty()) {
+        if (options.groups)
+            of.groups = groups_of(*options.groups);
+    } else if (stage && options.groups) {
         throw Error("--groups is of compute stages; use --invocations");
     } else if (options.invocations) {
         of.invocations = static_cast<std::uint32_t>(*options.invocations);
     }
+    const auto given = [](std::string_view option, const std::string& one) {
+        auto [name, value] = parts_of(option, one);
+        return std::pair(std::move(name), listed(value));
+    };
     for (const std::string& one : options.inputs)
-        of.inputs.insert(numbers_of<double>("--input", one));
+        of.inputs.insert(given("--input", one));
     for (const std::string& one : options.uniforms)
-        of.uniforms.insert(numbers_of<double>("--uniform", one));
+        of.uniforms.insert(given("--uniform", one));
     for (const std::string& one : options.sizes) {
-        const auto [name, size] = numbers_of<std::uint32_t>("--size", one);
-        of.sizes[name] = size;
+        const auto [name, value] = parts_of("--size", one);
+        if ((of.sizes[name] = numbers_in(value)).empty())
+            throw Error(fmt::format("--size {}: expected NAME=NUMBER, or NAME=64,64", plain_line(one)));
     }
     for (const std::string& one : options.defines)
-        of.defines.push_back(parts_of("--define", one));
+        of.defines.push_back(macro_of("--define", one));
     of.seed = static_cast<std::uint32_t>(options.seed);
     if (!std::has_single_bit(options.subgroup_size))
         throw Error(fmt::format("--subgroup-size {}: expected a power of 2", options.subgroup_size));

@@ -43,18 +43,6 @@ struct FunctionRequest {
     bool quiet = false;
 };
 
-/// "NAME=VALUE", taken apart.
-std::pair<std::string, std::string> parts_of(const std::string& text) {
-    const std::size_t sign = text.find('=');
-    return {text.substr(0, sign), sign == std::string::npos ? std::string() : text.substr(sign + 1)};
-}
-
-bool is_macro_name(std::string_view name) {
-    const auto is_letter = [](char c) { return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || c == '_'; };
-    return !name.empty() && is_letter(name.front()) &&
-           std::all_of(name.begin(), name.end(), [&](char c) { return is_letter(c) || (c >= '0' && c <= '9'); });
-}
-
 /// The bits of numbers between commas; nothing where they are not `count`, or one is none of the type.
 std::optional<std::vector<std::uint32_t>> words_in(std::string_view text, Scalar scalar, std::size_t count) {
     const TableColumn column{.name = {}, .scalar = scalar};
@@ -119,7 +107,7 @@ UniformValue value_of(const std::string& option, const std::string& type, const 
 /// Gives each function what its file declares of `given`. Throws Error for what no file declares.
 void give_uniforms(const std::vector<std::string>& given, std::span<GlslFunction> functions) {
     for (const std::string& one : given) {
-        const auto [name, value] = parts_of(one);
+        const auto [name, value] = setting_parts(one);
         std::vector<std::string> declared, files;
         bool found = false;
         for (GlslFunction& function : functions) {
@@ -140,12 +128,8 @@ void give_uniforms(const std::vector<std::string>& given, std::span<GlslFunction
 
 GlslFunction function_of(const FunctionRequest& options, const std::filesystem::path& file, const std::string& name) {
     ShaderDefines defines;
-    for (const std::string& define : options.defines) {
-        defines.push_back(parts_of(define));
-        if (!is_macro_name(defines.back().first))
-            throw Error(fmt::format("--define {}: '{}' is no name of a macro; right is NAME=TEXT", plain_line(define),
-                                    plain_line(defines.back().first)));
-    }
+    for (const std::string& define : options.defines)
+        defines.push_back(macro_of("--define", define));
     return {file.string(), name, {}, std::move(defines)};
 }
 

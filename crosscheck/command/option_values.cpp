@@ -7,6 +7,8 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include "crosscheck/files/plain_text.hpp"
+#include "reference/model/error.hpp"
 #include "reference/model/near_name.hpp"
 
 namespace lockstep {
@@ -109,6 +111,25 @@ Option settings_option(std::string name, std::string value, std::vector<std::str
         return std::string();
     };
     return {std::move(name), std::move(value), std::move(description), keep, GivenValues::repeated};
+}
+
+std::pair<std::string, std::string> setting_parts(const std::string& text) {
+    const std::size_t sign = text.find('=');
+    return {text.substr(0, sign), sign == std::string::npos ? std::string() : text.substr(sign + 1)};
+}
+
+std::pair<std::string, std::string> macro_of(std::string_view option, const std::string& text) {
+    const auto is_letter = [](char c) { return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || c == '_'; };
+    const auto is_digit = [](char c) { return c >= '0' && c <= '9'; };
+    std::pair<std::string, std::string> macro = setting_parts(text);
+    const std::string& name = macro.first;
+    if (name.empty() || is_digit(name.front()) ||
+        !std::ranges::all_of(name, [&](char c) { return is_letter(c) || is_digit(c); }))
+        throw Error(fmt::format("{} {}: '{}' is no name of a macro; expected NAME=TEXT", option, plain_line(text),
+                                plain_line(name)));
+    if (macro.second.find_first_of("\r\n") != std::string::npos)
+        throw Error(fmt::format("{} {}: expected a text of one line", option, plain_line(text)));
+    return macro;
 }
 
 Option path_option(std::string name, std::string value, std::filesystem::path& target, std::string description) {

@@ -5,6 +5,7 @@
 #include <filesystem>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <utility>
 #include <vector>
 
@@ -24,6 +25,12 @@ Option texts_option(std::string name, std::string value, std::vector<std::string
 
 /// NAME=VALUE, repeated; refuses a NAME that is given twice.
 Option settings_option(std::string name, std::string value, std::vector<std::string>& target, std::string description);
+
+/// "NAME=VALUE", taken apart; without a sign VALUE is empty.
+std::pair<std::string, std::string> setting_parts(const std::string& text);
+
+/// A macro, of NAME=TEXT. Throws Error where NAME is no macro's, or TEXT more than a line.
+std::pair<std::string, std::string> macro_of(std::string_view option, const std::string& text);
 
 /// Refuses the empty name. A `value` of DIR is a folder, anything else a file.
 Option path_option(std::string name, std::string value, std::filesystem::path& target, std::string description);

@@ -77,9 +77,7 @@ std::optional<std::uint32_t> number_bits(std::string_view text, const TableColum
     return number ? std::optional(std::bit_cast<std::uint32_t>(minus ? -*number : *number)) : std::nullopt;
 }
 
-namespace {
-
-std::string_view right_number(const TableColumn& column) {
+std::string_view no_number(const TableColumn& column) {
     if (column.is_bool)
         return "no bool; right is 0 or 1, false or true";
     switch (column.scalar) {
@@ -92,6 +90,8 @@ std::string_view right_number(const TableColumn& column) {
     }
     return "no float; right is 0.25, 0x1p-2, inf or nan";
 }
+
+namespace {
 
 /// A line with values.
 struct TableLine {
@@ -179,7 +179,7 @@ void read_csv(const std::filesystem::path& path, const std::vector<TableColumn>&
                 if (!bits)
                     throw Error(fmt::format("{}:{}: column {}: '{}' is {}", table.file, line.number,
                                             component_name(columns[c], static_cast<int>(k)), plain_line(value),
-                                            right_number(columns[c])));
+                                            no_number(columns[c])));
                 table.words[c].push_back(*bits);
             }
     }
@@ -189,7 +189,7 @@ std::uint32_t word_of(const JsonValue& value, const TableColumn& column) {
     if (value.is_text()) {
         const std::optional<std::uint32_t> bits = number_bits(value.text(), column);
         if (!bits)
-            value.fail(fmt::format("'{}' is {}", value.label(), right_number(column)));
+            value.fail(fmt::format("'{}' is {}", value.label(), no_number(column)));
         return *bits;
     }
     if (column.is_bool)

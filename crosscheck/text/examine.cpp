@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <bit>
 #include <cmath>
-#include <limits>
+#include <initializer_list>
 #include <memory>
 #include <set>
 #include <span>
@@ -12,6 +12,7 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include "crosscheck/files/number_table.hpp"
 #include "crosscheck/files/plain_text.hpp"
 #include "crosscheck/text/glsl_module.hpp"
 #include "gpu/any_dialect.hpp"
@@ -65,19 +66,27 @@ void check_names(std::string_view option, const Given& given, const std::vector<
                                     did_you_mean(name, names)));
 }
 
+/// How the numbers of a uniform, an input or a block's member are written; of integers the text has the sign.
+template <class Variable> TableColumn numbers_of(const Variable& of) {
+    TableColumn column{.name = {}, .scalar = of.is_real ? Scalar::float32 : Scalar::int32};
+    if constexpr (requires { of.is_boolean; })
+        column.is_bool = of.is_boolean;
+    return column;
+}
+
 /// The words of `cells` numbers that are given for `name`.
-std::vector<std::uint32_t> words_of(std::string_view option, std::string_view name, std::size_t cells, bool is_real,
-                                    const std::vector<double>& given) {
+std::vector<std::uint32_t> words_of(std::string_view option, std::string_view name, std::size_t cells,
+                                    const TableColumn& column, const std::vector<std::string>& given) {
     if (given.size() != cells)
         throw Error(fmt::format("{} {}: expected {} numbers, got {}", option, name, cells, given.size()));
     std::vector<std::uint32_t> words;
-    for (const double x : given) {
-        constexpr double least = std::numeric_limits<std::int32_t>::min(),
-                         most = std::numeric_limits<std::uint32_t>::max();
-        if (!is_real && !(x == std::floor(x) && x >= least && x <= most))
-            throw Error(fmt::format("{} {}: {} is no integer of 32 bits", option, name, x));
-        words.push_back(is_real ? std::bit_cast<std::uint32_t>(static_cast<float>(x))
-                                : static_cast<std::uint32_t>(static_cast<std::int64_t>(x)));
+    for (const std::string& number : given) {
+        std::optional<std::uint32_t> word = number_bits(number, column);
+        if (!word && column.scalar == Scalar::int32 && !column.is_bool)
+            word = number_bits(number, {.name = {}, .scalar = Scalar::uint32});
+        if (!word)
+            throw Error(fmt::format("{} {}: '{}' is {}", option, name, plain_line(number), no_number(column)));
+        words.push_back(*word);
     }
     return words;
 }
@@ -99,8 +108,8 @@ std::vector<std::uint32_t> block_words(const Examination& of, const text::Block&
         fill((block.array_offset + i * block.array_stride) / text::word_bytes, block.element);
     for (const text::Block::Member& member : block.members)
         if (const auto given = of.uniforms.find(member.name); given != of.uniforms.end()) {
-            const std::vector<std::uint32_t> numbers =
-                words_of("--uniform", member.name, member.leaves.size(), member.leaves.front().is_real, given->second);
+            const std::vector<std::uint32_t> numbers = words_of("--uniform", member.name, member.leaves.size(),
+                                                                numbers_of(member.leaves.front()), given->second);
             for (std::size_t i = 0; i < numbers.size(); ++i)
                 words.at(member.leaves[i].word) = numbers[i];
         }
@@ -156,8 +165,30 @@ std::uint32_t made_up_size(const text::ImageShape& shape, std::uint32_t axis,
     return shape.has_samples && axis + 1 == shape.axes() ? samples : invocations[axis];
 }
 
+constexpr std::size_t most = std::size_t{1} << 26U; ///< words that are made up, and invocations that run
+
+/// The product of `numbers`. Throws Error where it is more than `most`; `what`: what it counts.
+std::size_t counted(std::string_view option, std::string_view what, std::initializer_list<std::size_t> numbers) {
+    std::size_t product = 1;
+    for (const std::size_t number : numbers) {
+        if (number > 0 && product > most / number)
+            throw Error(fmt::format("{}: {} {}; expected at most {}", option, fmt::join(numbers, " * "), what, most));
+        product *= number;
+    }
+    return product;
+}
+
+void check_invocations(const Examination& of, const text::Program& program) {
+    const std::array<std::uint32_t, 3>& groups = of.groups;
+    if (program.stage == spv::ExecutionModelGLCompute)
+        counted(fmt::format("--groups {}", fmt::join(groups, ",")), "invocations",
+                {groups[0], groups[1], groups[2], program.invocations()});
+    else
+        counted(fmt::format("--invocations {}", of.invocations), "vertices",
+                {invocations_of(of, program), std::max(program.most_vertices, 1U)});
+}
+
 MadeUpWorld world_of(const Examination& of, const text::Program& program) {
-    constexpr std::size_t most_words = std::size_t{1} << 26U;
     MadeUp made_up(of.seed);
     MadeUpWorld world;
     world.words.reserve(program.blocks.size() + program.images.size());
@@ -166,9 +197,12 @@ MadeUpWorld world_of(const Examination& of, const text::Program& program) {
         const auto found = of.sizes.find(name);
         return found == of.sizes.end() ? std::vector<std::uint32_t>{} : found->second;
     };
-    const auto check_size = [&](const std::string& name, std::size_t words) {
-        if (words > most_words)
-            throw Error(fmt::format("--size {}: {} words; at most {} are made up", name, words, most_words));
+    std::size_t taken = 0;
+    const auto take = [&](const std::string& name, std::initializer_list<std::size_t> numbers) {
+        const std::size_t words = counted(fmt::format("--size {}", name), "words", numbers);
+        taken += words;
+        counted(fmt::format("--size {}", name), "words of blocks and images together", {taken});
+        return words;
     };
     for (const text::Block& block : program.blocks) {
         const std::vector<std::uint32_t> size = size_of(block.name);
@@ -180,7 +214,7 @@ MadeUpWorld world_of(const Examination& of, const text::Program& program) {
                                   : program.stage == spv::ExecutionModelGLCompute
                                       ? std::size_t{invocations[0]} * invocations[1] * invocations[2]
                                       : invocations_of(of, program);
-        check_size(block.name, block.words(count));
+        take(block.name, {block.words(count)});
         world.words.push_back(block_words(of, block, count, made_up));
         world.bindings.blocks.emplace_back(world.words.back());
     }
@@ -193,9 +227,8 @@ MadeUpWorld world_of(const Examination& of, const text::Program& program) {
             throw Error(fmt::format("--size {}: expected {} numbers, texels along each axis", image.name, axes));
         for (std::uint32_t axis = 0; axis < axes; ++axis)
             texels.size[axis] = size.empty() ? made_up_size(image.shape, axis, invocations) : size[axis];
-        const std::size_t words = std::size_t{texels.size[0]} * texels.size[1] * texels.size[2] * texels.components;
-        check_size(image.name, words);
-        std::vector<std::uint32_t>& all = world.words.emplace_back(words);
+        std::vector<std::uint32_t>& all = world.words.emplace_back(
+            take(image.name, {texels.size[0], texels.size[1], texels.size[2], texels.components}));
         for (std::uint32_t& word : all)
             word = image.is_real ? made_up.word() : 0U;
         texels.words = all;
@@ -206,7 +239,7 @@ MadeUpWorld world_of(const Examination& of, const text::Program& program) {
         world.bindings.uniforms.push_back(
             given == of.uniforms.end()
                 ? std::vector<std::uint32_t>{}
-                : words_of("--uniform", uniform.name, uniform.cells, uniform.is_real, given->second));
+                : words_of("--uniform", uniform.name, uniform.cells, numbers_of(uniform), given->second));
     }
     return world;
 }
@@ -216,17 +249,20 @@ text::StageRun stage_run_of(const Examination& of, const text::Program& program)
     text::StageRun run{.invocations = invocations_of(of, program),
                        .is_watched = true,
                        .most_branches = most_branches,
-                       .subgroup_size = of.subgroup_size};
+                       .subgroup_size = of.subgroup_size,
+                       .keeps_outputs = false};
     run.are_quads = program.stage == spv::ExecutionModelFragment;
     const std::uint32_t side = extent_of(of, program)[0];
     MadeUp made_up(of.seed + 1);
     for (const text::StageVariable& input : program.stage_inputs) {
         const std::string name = text::name_of(input);
         if (const auto given = of.inputs.find(name); given != of.inputs.end()) {
-            run.inputs[name] = words_of("--input", name, input.words(), input.is_real, given->second);
+            run.inputs[name] = words_of("--input", name, input.words(), numbers_of(input), given->second);
         } else if (text::needs_words(input)) {
             std::vector<std::uint32_t>& words = run.inputs[name];
-            for (std::size_t w = 0; w < std::size_t{input.words()} * run.invocations; ++w)
+            const std::size_t count = counted(fmt::format("--invocations {}: input {}", of.invocations, name), "words",
+                                              {run.invocations, input.words()});
+            for (std::size_t w = 0; w < count; ++w)
                 words.push_back(input.is_real ? made_up.word() : 0U);
             for (std::uint32_t i = 0; input.builtin == spv::BuiltInFragCoord && i < run.invocations; ++i) {
                 const std::uint32_t quad = i / 4, across = side / 2; // pixel centres, quad after quad
@@ -310,6 +346,7 @@ ExaminationResult examine(const Examination& of) {
     for (const std::string& name : names_of(program.images))
         sized.push_back(name);
     check_names("--size", of.sizes, sized);
+    check_invocations(of, program);
     MadeUpWorld world = world_of(of, program);
     text::Findings findings;
     const Profile profile = named_profile("strict");

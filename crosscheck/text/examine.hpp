@@ -19,11 +19,12 @@ namespace lockstep {
 struct Examination {
     std::filesystem::path file;
     std::array<std::uint32_t, 3> groups{4, 1, 1}; ///< of a compute stage
-    /// Vertices, primitives or fragments of another stage, and their inputs by name, the same for all.
+    /// Vertices, primitives or fragments of another stage, and their inputs by name, the same for all: numbers as they
+    /// are typed, since their type is the text's.
     std::uint32_t invocations = 64;
-    std::map<std::string, std::vector<double>> inputs = {};
+    std::map<std::string, std::vector<std::string>> inputs = {};
     ShaderDefines defines = {};
-    std::map<std::string, std::vector<double>> uniforms = {};
+    std::map<std::string, std::vector<std::string>> uniforms = {};
     /// Elements of the array at a block's end, by the block's name; texels along each axis of an image.
     std::map<std::string, std::vector<std::uint32_t>> sizes = {};
     std::uint32_t seed = 1;

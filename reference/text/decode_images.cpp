@@ -17,9 +17,7 @@ void Decoder::image(const Variable& variable) {
             fmt::format("image {} is not interpreted; expected one of 1, 2 or 3 dimensions, a cube or a buffer, whose "
                         "texels have at most 3 numbers with those of layers and samples",
                         name));
-    const std::uint32_t count = is_array ? type(variable.type).count : 1, first = take_cells(count);
-    if (count == 0)
-        refuse(fmt::format("an array of images without a length, {}, is not interpreted", name));
+    const std::uint32_t count = is_array ? bindings_of(variable) : 1, first = take_cells(count);
     address_[variable.id] = {.place = first, .type = variable.type};
     const bool is_sampler = of.kind == Type::Kind::sampled_image;
     for (std::uint32_t i = 0; i < count; ++i) {

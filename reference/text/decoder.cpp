@@ -200,6 +200,16 @@ void Decoder::outside_variables() {
     }
 }
 
+/// How many blocks or images an array of them has.
+std::uint32_t Decoder::bindings_of(const Variable& variable) const {
+    constexpr std::uint32_t most = 1024; // GL has some hundred
+    const std::uint32_t count = type(variable.type).count;
+    if (count == 0 || count > most)
+        refuse(fmt::format("an array of {} blocks or images, {}, is not interpreted; expected 1 to {}", count,
+                           module_.ids[variable.id].name, most));
+    return count;
+}
+
 void Decoder::block(const Variable& variable, bool is_storage) {
     const bool is_array = type(variable.type).kind == Type::Kind::array;
     const std::uint32_t block_type = is_array ? type(variable.type).element : variable.type;
@@ -221,7 +231,7 @@ void Decoder::block(const Variable& variable, bool is_storage) {
                              .place = static_cast<std::uint32_t>(p_.blocks.size()),
                              .type = variable.type,
                              .is_blocks = is_array};
-    for (std::uint32_t i = 0; i < (is_array ? type(variable.type).count : 1); ++i) {
+    for (std::uint32_t i = 0; i < (is_array ? bindings_of(variable) : 1); ++i) {
         p_.blocks.push_back(made);
         if (is_array)
             p_.blocks.back().name += fmt::format("[{}]", i);

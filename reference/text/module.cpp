@@ -183,12 +183,14 @@ class ModuleReader {
         type.element = element;
         type.count = count;
         type.name = made_.ids[w[0]].name;
-        const std::uint64_t cells = std::uint64_t{element == 0 ? 1 : made_.types[checked_id(element)].cells} * count;
+        set_cells(type, std::uint64_t{element == 0 ? 1 : made_.types[checked_id(element)].cells} * count);
+        return type;
+    }
+    void set_cells(Type& type, std::uint64_t cells) const {
         constexpr std::uint64_t most = 1U << 20U;
         if (cells > most)
             refuse(fmt::format("a value of {} numbers; at most {} are interpreted", cells, most));
         type.cells = static_cast<std::uint32_t>(cells);
-        return type;
     }
 
     void declare(spv::Op op, Words w) {
@@ -309,7 +311,7 @@ class ModuleReader {
         std::uint64_t cells = 0;
         for (const std::uint32_t m : members)
             cells += made_.types[m].cells;
-        make(w, Type::Kind::structure).cells = static_cast<std::uint32_t>(cells);
+        set_cells(make(w, Type::Kind::structure), cells);
     }
 
     Constant& constant(std::uint32_t type, std::uint32_t id, std::vector<std::uint32_t> words) {

@@ -142,7 +142,8 @@ StageResult run_stage(const Program& program, const StageRun& run, const Binding
     machine.subgroup_size = run.subgroup_size;
     StageResult result;
     for (const StageVariable& output : program.stage_outputs)
-        result.outputs[name_of(output)].reserve(std::size_t{output.cells} * run.invocations);
+        if (run.keeps_outputs)
+            result.outputs[name_of(output)].reserve(std::size_t{output.cells} * run.invocations);
     std::vector<Invocation> invocations;
     for (std::uint32_t first = 0; first < run.invocations; first += at_once) {
         invocations.clear();
@@ -163,7 +164,7 @@ StageResult run_stage(const Program& program, const StageRun& run, const Binding
                          [&] { return fmt::format("no end within {} branches", run.most_branches); });
             break;
         }
-        for (std::uint32_t l = 0; l < invocations.size(); ++l)
+        for (std::uint32_t l = 0; run.keeps_outputs && l < invocations.size(); ++l)
             take(program, machine, l, result);
     }
     return result;

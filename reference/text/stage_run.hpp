@@ -28,6 +28,7 @@ struct StageRun {
     bool is_watched = false;                  ///< as Dispatch::is_watched; unwritten outputs are looked for as well
     std::uint32_t most_branches = 50'000'000; ///< as Dispatch::most_branches
     std::uint32_t subgroup_size = 0;          ///< as Dispatch::subgroup_size
+    bool keeps_outputs = true;                ///< false: StageResult stays empty
 };
 
 /// What a stage made.

@@ -116,9 +116,24 @@ TEST_CASE("examine: what it cannot run is refused in one line") {
                                                          "uniform int u_Count;\nbuffer Numbers { int x[]; };\n"
                                                          "void main() { x[0] = u_Count; }\n")
                                    .string();
-    for (const char* value : {"1.5", "99999999999"})
+    for (const char* value : {"1.5", "99999999999", "-3000000000", "nan"})
         CHECK_THAT(refused({"--uniform", std::string("u_Count=") + value}, number),
-                   Contains("is no integer of 32 bits"));
+                   Contains("--uniform u_Count: '" + std::string(value) + "' is no int;"));
+    const std::string typed =
+        folder
+            .write("typed.comp", "#version 430 core\nlayout(local_size_x = 1) in;\n"
+                                 "uniform bool u_On;\nuniform uint u_Seed;\nuniform float u_Kept;\n"
+                                 "buffer Numbers { float x[]; };\n"
+                                 "void main() { x[gl_GlobalInvocationID.x] = u_On ? float(u_Seed) : u_Kept; }\n")
+            .string();
+    CHECK_THAT(refused({"--uniform", "u_On=2"}, typed), Contains("'2' is no bool;"));
+    CHECK_THAT(refused({"--uniform", "u_Kept=1e39"}, typed), Contains("'1e39' is no float;"));
+    CHECK(run_lockstep(
+              {"examine", typed, "--uniform", "u_On=true", "--uniform", "u_Seed=0xff", "--uniform", "u_Kept=0x1p-2"})
+              .status == 0);
+    CHECK_THAT(refused({"--groups", ""}, typed), Contains("--groups : expected one to three numbers"));
+    CHECK_THAT(refused({"--define", "A B=1"}, typed), Contains("'A B' is no name of a macro"));
+    CHECK_THAT(refused({"--define", "A=1\n#undef B"}, typed), Contains("expected a text of one line"));
     CHECK_THAT(refused({}, folder.write("stage.glsl", "#version 430\nvoid main() {}\n").string()),
                Contains("expected a stage NAME.comp, NAME.vert, NAME.geom or NAME.frag"));
     CHECK_THAT(refused({"--input", "a_Place=1"}, shader), Contains("--invocations and --input are of vertex"));
@@ -175,6 +190,43 @@ TEST_CASE("examine: subgroups have the size that is given") {
     CHECK_THAT(examined({}).out, Contains("sums.comp:6: access outside of a buffer") && Contains("word 32 of Out"));
     CHECK_THAT(examined({"--subgroup-size", "8"}).out, Contains("word 8 of Out"));
     CHECK_THAT(refusal(examined({"--subgroup-size", "12"})), Contains("--subgroup-size 12: expected a power of 2"));
+}
+
+TEST_CASE("examine: what would take more than is made up or run is refused, products that do not fit in 64 bits too") {
+    const TemporaryFolder folder;
+    const auto refused = [&](const std::string& name, const std::string& text, std::vector<std::string> options = {}) {
+        options.insert(options.begin(), {"examine", folder.write(name, "#version 430\n" + text).string()});
+        return refusal(run_lockstep(options));
+    };
+    const std::string group = "layout(local_size_x = 8) in;\n";
+    const std::string image = group +
+                              "layout(rgba32f, binding = 0) uniform image2D u_Image;\n"
+                              "void main() { imageStore(u_Image, ivec2(gl_GlobalInvocationID.xy), vec4(1.0)); }\n";
+    CHECK_THAT(refused("image.comp", image, {"--size", "u_Image=2147483648,2147483648"}),
+               Contains("--size u_Image: 2147483648 * 2147483648 * 1 * 4 words; expected at most 67108864"));
+    CHECK_THAT(refused("none.comp", group + "void main() {}\n", {"--groups", "65535,65535,65535"}),
+               Contains("--groups 65535,65535,65535: 65535 * 65535 * 65535 * 8 invocations; expected at most"));
+    CHECK_THAT(refused("two.comp",
+                       group + "buffer A { float x[]; };\nbuffer B { float y[]; };\n"
+                               "void main() { x[gl_GlobalInvocationID.x] = y[0]; }\n",
+                       {"--size", "A=40000000", "--size", "B=40000000"}),
+               Contains("--size B: 80000000 words of blocks and images together"));
+    CHECK_THAT(refused("many.geom",
+                       "layout(points) in;\nlayout(points, max_vertices = 200) out;\n"
+                       "void main() { gl_Position = vec4(0.0); EmitVertex(); }\n",
+                       {"--invocations", "1000000"}),
+               Contains("--invocations 1000000: 1000000 * 200 vertices; expected at most"));
+    CHECK_THAT(refused("wide.vert", "in vec4 a_All[100];\nvoid main() { gl_Position = a_All[gl_VertexID % 100]; }\n",
+                       {"--invocations", "1000000"}),
+               Contains("--invocations 1000000: input a_All: 1000000 * 400 words; expected at most"));
+    std::string nested = "struct S0 { float a; };\n";
+    for (int k = 1; k <= 21; ++k)
+        nested += "struct S" + std::to_string(k) + " { S" + std::to_string(k - 1) + " a, b; };\n";
+    CHECK_THAT(refused("nested.comp", group + nested + "shared S21 all;\nvoid main() { all.a = all.b; }\n"),
+               Contains("a value of 2097152 numbers"));
+    CHECK_THAT(
+        refused("blocks.comp", group + "buffer A { float x[]; } all[100000];\nvoid main() { all[0].x[0] = 1.0; }\n"),
+        Contains("an array of 100000 blocks or images"));
 }
 
 TEST_CASE("examine: vertex, geometry and fragment stages run with inputs that are given or made up") {

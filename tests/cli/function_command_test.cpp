@@ -251,7 +251,7 @@ TEST_CASE("function: a macro needs a name") {
     const std::string table = setting.file("walls.csv", walls);
     for (const char* const define : {"=4.0", "2K=1", "K-2=1", "K (x)=1"}) {
         CHECK_THAT(refusal(setting.run(table, {"--define", define})),
-                   Contains("is no name of a macro; right is NAME=TEXT"));
+                   Contains("is no name of a macro; expected NAME=TEXT"));
     }
 }
 

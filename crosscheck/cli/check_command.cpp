@@ -362,6 +362,7 @@ FrameRange frames_of(const CheckRequest& options, const TraceInfo& info) {
 }
 
 int run_trace(CheckRequest options) {
+    expect_twins(options.run);
     start_threads(options.run.threads);
     if (options.heeds_environment && !options.frames.is_part && !options.shard.is_asked())
         options.shard = shard_of_environment();

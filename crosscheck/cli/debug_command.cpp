@@ -58,6 +58,7 @@ int debug_scene(const DebugRequest& options) {
 }
 
 int debug_trace(const DebugRequest& options) {
+    expect_twins(options.run);
     start_threads(options.run.threads);
     TraceReader trace(options.trace);
     TraceSide recorded(trace);

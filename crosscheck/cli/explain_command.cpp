@@ -80,6 +80,7 @@ void explain_scene(const ExplainRequest& options) {
 }
 
 void explain_trace(const ExplainRequest& options) {
+    expect_twins(options.run);
     start_threads(options.run.threads);
     TraceReader trace(options.trace);
     const TraceInfo& info = trace.info();

@@ -130,6 +130,12 @@ const RegisteredSystem* system_of(const RunOptions& options) {
     return system_of_scene(JsonValue(options.document.of(options.scene), options.scene.string()));
 }
 
+void expect_twins(const RunOptions& options) {
+    if (!options.reference.empty())
+        throw Error(fmt::format("--reference {}: the passes of system {} keep their twins", options.reference.string(),
+                                default_system));
+}
+
 Scene load(const RunOptions& options) {
     check_scene_exists(options.scene);
     if (const RegisteredSystem* system = system_of(options))
@@ -137,9 +143,7 @@ Scene load(const RunOptions& options) {
             "{}: is a scene of system {}, which bench, capsule, check, debug, explain, hash, record and render "
             "run; right here is one of system {}",
             options.scene.string(), name_of(*system), default_system));
-    if (!options.reference.empty())
-        throw Error(fmt::format("--reference {}: the passes of system {} keep their twins", options.reference.string(),
-                                default_system));
+    expect_twins(options);
     start_threads(options.threads);
     return read_scene(options.document.of(options.scene), options.scene,
                       {options.particles, options.preset, options.set});

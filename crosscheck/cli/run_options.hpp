@@ -67,6 +67,9 @@ void check_scene_exists(const std::filesystem::path& scene);
 /// be read, or is of no system, with the names there are.
 const RegisteredSystem* system_of(const RunOptions& options);
 
+/// Throws Error where references are given: the collision system's passes have none but their twins.
+void expect_twins(const RunOptions& options);
+
 /// Loads the scene and sets the thread count.
 Scene load(const RunOptions& options);
 

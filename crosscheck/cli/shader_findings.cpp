@@ -38,13 +38,14 @@ struct WatchedText {
 } // namespace
 
 std::vector<std::string> shader_findings(const ShadedSystem& of, const OwnTexts& own,
-                                         const std::filesystem::path& shaders, const Profile& profile, int frames) {
+                                         const std::optional<std::filesystem::path>& shaders, const Profile& profile,
+                                         int frames) {
     const System& system = of.system;
-    const ShaderFolders folders = shader_folders(shaders, system.schema.system);
+    const ShaderFolders folders = shader_folders(shaders.value_or(""), system.schema.system);
     std::vector<WatchedText> texts(of.passes.size());
     std::vector<std::string> lines;
     for (std::size_t p = 0; p < of.passes.size(); ++p)
-        if (!of.passes[p].draw && !of.passes[p].continues)
+        if (!of.passes[p].draw && !of.passes[p].continues && (own[p] || shaders))
             try {
                 texts[p].text = own[p]
                                     ? own[p]

@@ -101,17 +101,20 @@ SystemInput::SystemInput(const RegisteredSystem& system, const RunOptions& run, 
     }
 }
 
-OwnTexts SystemInput::take_texts(const ShadedSystem& of, std::vector<std::string>& references) const {
+OwnTexts SystemInput::take_texts(const ShadedSystem& of, References& references) const {
     if (reference_use_) {
-        const std::vector<std::string> lines = take_references(of, *reference_use_, run_.reference);
-        references.insert(references.end(), lines.begin(), lines.end());
+        References taken = take_references(of, *reference_use_, run_.reference,
+                                           is_recorded() ? std::nullopt : std::optional(run_.shaders));
+        references.lines.insert(references.lines.end(), taken.lines.begin(), taken.lines.end());
+        if (references.texts.empty()) // a picture is another system
+            references.texts = std::move(taken.texts);
     }
     return shaders_ && !run_.shaders.empty() ? open_by_own_text(of, *shaders_, run_.shaders) : OwnTexts();
 }
 
 DrawnSystem SystemInput::drawn(const SystemState& state, int frame) const {
     DrawnSystem made{scene().picture(state, frame), {}};
-    std::vector<std::string> ignored; // the notes say it once
+    References ignored; // the notes say it once
     made.own_texts = take_texts({made.picture.system, made.picture.passes, scene().arithmetic}, ignored);
     return made;
 }
@@ -142,7 +145,7 @@ void SystemInput::describe(RunDescription& about) const {
         about.shaders_untold = "recorded: " + recording_->info().shaders;
         about.notes = recording_->warnings();
     }
-    about.notes.insert(about.notes.end(), references_.begin(), references_.end());
+    about.notes.insert(about.notes.end(), references_.lines.begin(), references_.lines.end());
 }
 
 std::vector<std::string> SystemInput::left_open(const Profile& profile) const {

@@ -73,6 +73,8 @@ class SystemInput {
 
     /// Of the shaders that were given; empty: none were.
     [[nodiscard]] const OwnTexts& own_texts() const { return own_texts_; }
+    /// Of the references that were given; empty: none were.
+    [[nodiscard]] const OwnTexts& reference_texts() const { return references_.texts; }
     [[nodiscard]] ShadedSystem shaded() { return {read_.scene.system, scene().passes, scene().arithmetic}; }
     [[nodiscard]] const std::optional<ShaderUse>& shaders() const { return shaders_; } ///< of a scene that runs here
     /// Of a scene that has a picture.
@@ -94,7 +96,7 @@ class SystemInput {
     [[nodiscard]] std::string command(const std::string& verb, const std::string& words) const;
 
   private:
-    OwnTexts take_texts(const ShadedSystem& of, std::vector<std::string>& references) const;
+    OwnTexts take_texts(const ShadedSystem& of, References& references) const;
 
     const RunOptions& run_;
     DrawnStages drawn_;
@@ -104,7 +106,7 @@ class SystemInput {
     std::optional<ShaderUse> shaders_;
     OwnTexts own_texts_;
     std::optional<ShaderUse> reference_use_;
-    std::vector<std::string> references_; ///< a line for each pass that has another than its twin
+    References references_; ///< of passes that have another than their twin
     std::optional<Gl> gl_;
     std::unique_ptr<SystemSide> side_;
 };

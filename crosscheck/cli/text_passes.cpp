@@ -53,10 +53,10 @@ ShaderUse references_of(const SystemScene& scene, const RunOptions& run) {
     return use;
 }
 
-std::vector<std::string> take_references(const ShadedSystem& of, const ShaderUse& references,
-                                         const std::filesystem::path& folder) {
+References take_references(const ShadedSystem& of, const ShaderUse& references, const std::filesystem::path& folder,
+                           const std::optional<std::filesystem::path>& gpu) {
     const ShaderFolders folders = shader_folders(folder, of.system.schema.system);
-    std::vector<std::string> lines;
+    References taken{.texts = OwnTexts(of.passes.size()), .lines = {}};
     std::vector<std::unique_ptr<ItemPass>>& passes = of.system.passes;
     for (std::size_t p = 0; p < passes.size();) {
         const std::size_t end = end_of_dispatch(of.system, p);
@@ -65,13 +65,18 @@ std::vector<std::string> take_references(const ShadedSystem& of, const ShaderUse
             continue;
         }
         const std::shared_ptr<const PassText> text = text_of(of, p, folders);
-        lines.push_back(fmt::format("reference of {}: its text in {}", of.passes[p].name, plain_line(folder.string())));
+        const bool is_gpus = gpu && text->is_text_of(shader_folders(*gpu, of.system.schema.system));
+        taken.lines.push_back(fmt::format(
+            "reference of {}: its text in {}{}", of.passes[p].name, plain_line(folder.string()),
+            is_gpus ? ", the same that the GPU runs: this says what the driver does, not whether the shader is right"
+                    : ""));
+        taken.texts[p] = text;
         // What twins may do wrong is nothing that a text does.
         std::erase_if(of.system.mistakes, [&](const NamedMistake& one) { return one.pass == of.passes[p].name; });
         take_text(std::span(passes).subspan(p, end - p), text);
         p = end;
     }
-    return lines;
+    return taken;
 }
 
 OwnTexts open_by_own_text(const ShadedSystem& of, const ShaderUse& use, const std::filesystem::path& shaders) {

@@ -1,6 +1,7 @@
 #pragma once
 #include <filesystem>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -24,13 +25,19 @@ struct ShadedSystem {
 /// text is no reference.
 ShaderUse references_of(const SystemScene& scene, const RunOptions& run);
 
-/// Takes those that are a pass's as the references of the passes, instead of the twins. Returns a line for each. Throws
-/// Error for one that is not interpreted.
-std::vector<std::string> take_references(const ShadedSystem& of, const ShaderUse& references,
-                                         const std::filesystem::path& folder);
-
 /// Of each pass, its shader's text; null: it is not the user's own, or not interpreted.
 using OwnTexts = std::vector<std::shared_ptr<const PassText>>;
+
+/// Texts that are references, and a line for each.
+struct References {
+    OwnTexts texts;
+    std::vector<std::string> lines;
+};
+
+/// Takes those that are a pass's as the references of the passes, instead of the twins. `gpu`: where the GPU's shaders
+/// are, if that is known. Throws Error for one that is not interpreted.
+References take_references(const ShadedSystem& of, const ShaderUse& references, const std::filesystem::path& folder,
+                           const std::optional<std::filesystem::path>& gpu);
 
 /// Of each pass whose shader is the user's own: what its text leaves open is legal (open_pass.hpp). A text that is not
 /// interpreted leaves the pass as it is. Returns the texts.

@@ -113,8 +113,8 @@ void expect_kept(const ItemPass& pass, const View& before, const View& made, int
         for (std::size_t i = 0; i < made.count(); ++i)
             for (int c = 0; c < made.fields()[f].components; ++c)
                 if (!same_bits(before.value(f, i, c), made.value(f, i, c)))
-                    throw Error(fmt::format("frame {}: the twin of {} makes {} of {} otherwise, which the pass says it "
-                                            "keeps; right is to leave it out of ItemPassOptions::keeps",
+                    throw Error(fmt::format("frame {}: the reference of {} changes {} of {}, which the pass keeps here "
+                                            "(ItemPassOptions::keeps of a twin of your own)",
                                             frame, pass.name(), made.fields()[f].name,
                                             item_name(made.about(), made.extent, i)));
 }

@@ -41,7 +41,7 @@ bool holds_others(const SystemSide& gpu, const System& system, std::size_t first
 /// which the GPU held, and that its pass does not reach.
 View without_kept(View made, const View& before, const SystemSide& gpu, std::size_t pass);
 
-/// Throws Error where a twin made a field otherwise that its pass says it keeps.
+/// Throws Error where a reference changed a field that its pass says it keeps.
 void expect_kept(const ItemPass& pass, const View& before, const View& made, int frame);
 
 /// Gives a state, and the GPU, what is right of the buffers that are derived from others.

@@ -79,8 +79,13 @@ void SystemRun::start_again() {
 void SystemRun::step(int frame, std::size_t pass) {
     const ItemPass& one = *passes_[pass];
     before_ = pass > 0 ? left_by(system_, pass - 1, before_, now_) : now_;
-    if (!one.continues())
+    if (!one.continues()) {
         put_right(gpu_, before_, right_, wrong_);
+        if (end_of_dispatch(system_, pass) > pass + 1) { // passes that continue it ask what it makes of this input
+            const SystemView input = before_.view();
+            static_cast<void>(one.prepared({input, frame}, profile_));
+        }
+    }
     gpu_.step(pass, frame);
     gpu_.read(now_);
     const std::uint8_t r = one.resource();

@@ -2,12 +2,14 @@
 
 #include <algorithm>
 #include <cstring>
+#include <type_traits>
 #include <utility>
 
 #include <fmt/format.h>
 
 #include "crosscheck/text/glsl_module.hpp"
 #include "gpu/gl_system_blocks.hpp"
+#include "gpu/spirv_module.hpp"
 #include "gpu/state_image.hpp"
 #include "reference/model/error.hpp"
 
@@ -47,6 +49,17 @@ void set_items(const WritableView& view, std::span<const Component> record, std:
     }
 }
 
+bool is_real(const UniformValue& value) {
+    return std::visit(
+        []<class T>(const T&) {
+            if constexpr (std::is_arithmetic_v<T>)
+                return std::is_floating_point_v<T>;
+            else
+                return std::is_floating_point_v<typename T::value_type>;
+        },
+        value);
+}
+
 std::vector<Component> texel_record(const Resource& image) {
     std::vector<Component> record;
     for (int c = 0; c < image.fields.front().components; ++c)
@@ -68,10 +81,10 @@ std::vector<std::uint32_t> words_of(const UniformValue& value) {
 
 PassText::PassText(const Schema& schema, GlPass pass, std::vector<std::uint8_t> written, const ShaderFolders& folders,
                    ArithmeticSwitch arithmetic)
-    : schema_(schema), pass_(std::move(pass)), written_(std::move(written)),
+    : schema_(schema), pass_(std::move(pass)), written_(std::move(written)), arithmetic_(arithmetic),
       source_(source_of(pass_, folders, arithmetic)), program_(program_of(source_)) {
     if (source_->bindings != nullptr)
-        throw Error(fmt::format("{}: a shader with {} beside it is not interpreted", pass_.name, bindings_file));
+        refuse(fmt::format("a shader with {} beside it is not interpreted", bindings_file));
     for (const text::Block& block : program_.blocks)
         blocks_.push_back(block_named(block.name));
     for (const text::ImageUniform& image : program_.images)
@@ -89,8 +102,7 @@ void PassText::capture() {
         if (output == program_.stage_outputs.end())
             continue; // kept, or GlSystem says so
         if (output->cells != static_cast<std::uint32_t>(fields[f].components))
-            throw Error(fmt::format("{}: output {} has {} components; expected {}", pass_.name, name, output->cells,
-                                    fields[f].components));
+            refuse(fmt::format("output {} has {} components; expected {}", name, output->cells, fields[f].components));
         for (int c = 0; c < fields[f].components; ++c) {
             captured_->record.push_back({f, c});
             captured_cells_.push_back(output->cell + static_cast<std::uint32_t>(c));
@@ -129,12 +141,12 @@ text::StageRun PassText::vertices(const PassInput& in) const {
         if (field == about.fields.end()) {
             if (!input.is_read)
                 continue;
-            throw Error(fmt::format("{}: nothing is given for attribute {}", pass_.name, input.name));
+            refuse(fmt::format("nothing is given for attribute {}", input.name));
         }
         const auto f = static_cast<std::uint8_t>(field - about.fields.begin());
         if (input.words() != static_cast<std::uint32_t>(field->components))
-            throw Error(fmt::format("{}: attribute {} has {} components; {} are given", pass_.name, input.name,
-                                    input.words(), field->components));
+            refuse(fmt::format("attribute {} has {} components; {} are given", input.name, input.words(),
+                               field->components));
         std::vector<std::uint32_t>& words = run.inputs[text::name_of(input)];
         words.reserve(std::size_t{count} * input.words());
         for (std::uint32_t vertex = 0; vertex < count; ++vertex)
@@ -146,6 +158,17 @@ text::StageRun PassText::vertices(const PassInput& in) const {
 
 std::vector<text::GivenInput> PassText::inputs_of(const Input& input, std::uint32_t vertex) const {
     return text::inputs_of(program_, input.vertices, vertex);
+}
+
+void PassText::refuse(std::string_view what) const {
+    throw Error(fmt::format("shader {}: {}", source_->files.front(), what));
+}
+
+bool PassText::is_text_of(const ShaderFolders& folders) const {
+    const std::shared_ptr<const ShaderSource> other = source_of(pass_, folders, arithmetic_);
+    if (source_->module == nullptr || other->module == nullptr)
+        return source_->module == other->module && source_->text == other->text;
+    return source_->module->words == other->module->words;
 }
 
 std::string PassText::line_text(std::uint32_t line) const {
@@ -176,7 +199,7 @@ PassText::Bound PassText::block_named(const std::string& name) const {
         return bound;
     }
     if (!pass_.data.contains(name))
-        throw Error(fmt::format("{}: nothing is given for storage block {}", pass_.name, name));
+        refuse(fmt::format("nothing is given for storage block {}", name));
     return {.kind = Bound::Kind::data, .name = name};
 }
 
@@ -188,7 +211,7 @@ PassText::Bound PassText::image_named(const std::string& name) const {
                     .resource = r,
                     .record = texel_record(schema_.resources[r])};
     }
-    throw Error(fmt::format("{}: nothing is given for image {}", pass_.name, name));
+    refuse(fmt::format("nothing is given for image {}", name));
 }
 
 std::size_t PassText::items(const PassInput& in) const {
@@ -221,9 +244,11 @@ std::vector<std::vector<std::uint32_t>> PassText::uniforms(const PassInput& in) 
     for (const text::PlainUniform& uniform : program_.uniforms) {
         const auto found = given.find(uniform.name);
         all.push_back(found == given.end() ? std::vector<std::uint32_t>{} : words_of(found->second));
-        if (found != given.end() && all.back().size() != uniform.cells)
-            throw Error(fmt::format("{}: uniform {} has {} words; {} are given", pass_.name, uniform.name,
-                                    uniform.cells, all.back().size()));
+        if (found != given.end() &&
+            (all.back().size() != uniform.cells || (!uniform.is_boolean && uniform.is_real != is_real(found->second))))
+            refuse(fmt::format("uniform {} has {} {}; {} {} are given", uniform.name, uniform.cells,
+                               uniform.is_real ? "floats" : "integers", all.back().size(),
+                               is_real(found->second) ? "floats" : "integers"));
     }
     return all;
 }
@@ -269,7 +294,7 @@ PassText::Input PassText::bind(const PassInput& in, const Profile& profile) cons
     for (const auto& [resource, filter] : pass_.filters)
         if (!profile.follows(schema_.resources[resource].dimensions == 2 ? "image: linear filter of a plane"
                                                                          : "image: linear filter"))
-            throw Error(fmt::format("{}: this driver's linear filter is not followed", pass_.name));
+            refuse("this driver's linear filter is not followed");
     if (is_vertex())
         input.vertices = vertices(in);
     else

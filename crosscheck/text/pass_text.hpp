@@ -6,6 +6,7 @@
 #include <optional>
 #include <span>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "gpu/gl_system.hpp"
@@ -32,6 +33,8 @@ class PassText {
     [[nodiscard]] const text::Program& program() const { return program_; }
     [[nodiscard]] const text::Outcomes& outcomes() const { return outcomes_; }
     [[nodiscard]] const GlPass& pass() const { return pass_; }
+    /// Whether the pass's shader of these folders is this text.
+    [[nodiscard]] bool is_text_of(const ShaderFolders& folders) const;
     /// A line as Program::lines has it, without what is around it.
     [[nodiscard]] std::string line_text(std::uint32_t line) const;
     PassText(const PassText&) = delete;
@@ -99,10 +102,12 @@ class PassText {
     [[nodiscard]] std::array<std::uint32_t, 3> groups(const PassInput& in) const;
     [[nodiscard]] std::vector<std::vector<std::uint32_t>> uniforms(const PassInput& in) const;
     [[nodiscard]] bool writes(std::uint8_t resource) const;
+    [[noreturn]] void refuse(std::string_view what) const;
 
     const Schema& schema_;
     GlPass pass_;
     std::vector<std::uint8_t> written_;
+    ArithmeticSwitch arithmetic_;
     std::shared_ptr<const ShaderSource> source_; ///< that lines are named by
     text::Program program_;
     text::Outcomes outcomes_{program_};

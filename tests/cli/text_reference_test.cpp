@@ -56,8 +56,38 @@ TEST_CASE("--reference: a plain shader takes the place of a twin, with the same 
     const Outcome differs = check("box.json", {"--reference", same, "--shaders", wrong});
     CHECK(differs.status == 1);
     CHECK_THAT(differs.out, Contains("verdict   DIVERGENT") && Contains("--reference " + same));
+    CHECK_THAT(differs.out, Contains("note      without a counterpart in the reference: update.comp:"));
+    for (const std::string pass : {"update", "update_count"}) {
+        const Outcome explained =
+            run_lockstep({"explain", "data/scenes/dust/box.json", "--particles", "500", "--frame", "2", "--item", "0",
+                          "--pass", pass, "--gl", software_gl(), "--reference", same, "--shaders", wrong});
+        INFO(explained.out << explained.err);
+        CHECK(explained.status == 0);
+        CHECK((explained.out.find("DIVERGENT") != std::string::npos) == (pass == "update"));
+    }
     // The other way round: the shipped shader is held against a wrong reference.
     CHECK(check("box.json", {"--reference", wrong}).status == 1);
+    CHECK_THAT(check("box.json", {"--reference", wrong}).out, !Contains("the same that the GPU runs"));
+}
+
+TEST_CASE("--reference: a report says where the reference is what the GPU runs, and what the reference leaves unset") {
+    if (!have_software_gl())
+        return;
+    const TemporaryFolder folder;
+    const std::string both =
+        update_in(folder, "both", replaced(shipped("dust/update.comp"), step, "m.next = add(m.current, m.velocity);"));
+    for (const Outcome& one :
+         {check("box.json", {"--reference", both, "--shaders", both}),
+          check("box.json", {"--reference", update_in(folder, "same", shipped("dust/update.comp"))})}) {
+        INFO(one.out << one.err);
+        CHECK_THAT(one.out,
+                   Contains("the same that the GPU runs: this says what the driver does, not whether the shader "
+                            "is right"));
+    }
+    const std::string unset =
+        update_in(folder, "unset", replaced(shipped("dust/update.comp"), step, "vec3 far;\n    m.next = far;"));
+    CHECK_THAT(check("box.json", {"--reference", unset}).out,
+               Contains("note      in the reference: ") && Contains("variable far"));
 }
 
 TEST_CASE("--reference: what is no reference is one line") {
@@ -70,11 +100,28 @@ TEST_CASE("--reference: what is no reference is one line") {
     CHECK_THAT(refusal(check("box.json", {"--reference", (folder.path() / "none").string()})), Contains("none"));
     folder.write("same/draw.frag", shipped("dust/draw.frag"));
     CHECK_THAT(refusal(check("box.json", {"--reference", same, "--allow-unused"})), Contains("draw.frag"));
+    const std::string other = update_in(folder, "other",
+                                        replaced(shipped("dust/update.comp"), "void main() {",
+                                                 "buffer More { float more[]; };\nvoid main() {\n    more[0] = 1.0;"));
+    CHECK_THAT(refusal(check("box.json", {"--reference", other})),
+               Contains("other/update.comp: nothing is given for storage block More"));
+    folder.write("other/update.comp", replaced(shipped("dust/update.comp"), "uniform vec3 gravity;",
+                                               "uniform ivec3 gravity;\n#define gravity vec3(gravity)"));
+    CHECK_THAT(refusal(check("box.json", {"--reference", other})),
+               Contains("other/update.comp: uniform gravity has 3 integers; 3 floats are given"));
     const std::string broken =
         update_in(folder, "broken", replaced(shipped("dust/update.comp"), step, "m.next = nothing;"));
     CHECK_THAT(refusal(check("box.json", {"--reference", broken})), Contains("update.comp:"));
     CHECK_THAT(refusal(run_lockstep({"check", "data/scenes/lattice.json", "--reference", same, "--gl", software_gl()})),
                Contains("--reference") && Contains("collision"));
+    const std::string trace = (folder.path() / "run.h5").string();
+    REQUIRE(run_lockstep({"record", "data/scenes/lattice.json", "--particles", "50", "--frames", "2", "--gl",
+                          software_gl(), "-o", trace})
+                .status == 0);
+    for (const std::vector<std::string>& verb :
+         {std::vector<std::string>{"check"}, {"explain", "--frame", "1", "--particle", "1"}, {"debug"}})
+        CHECK_THAT(refusal(run_lockstep(joined(verb, {"--trace", trace, "--reference", same}))),
+                   Contains("the passes of system collision keep their twins"));
 }
 
 TEST_CASE("a shader without precise is legal where its own text leaves open what the twin gives, and only there") {

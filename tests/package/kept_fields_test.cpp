@@ -128,8 +128,8 @@ TEST_CASE("kept fields: a twin that changes what its pass keeps is an error") {
     if (!test::gl())
         return skip(test::gl().missing());
     CHECK_THROWS_WITH(run("", CheckMode::resync, sparks({0})),
-                      "frame 0: the twin of cool makes hue of spark 77 otherwise, which the pass says it keeps; right "
-                      "is to leave it out of ItemPassOptions::keeps");
+                      "frame 0: the reference of cool changes hue of spark 77, which the pass keeps here "
+                      "(ItemPassOptions::keeps of a twin of your own)");
 }
 
 TEST_CASE("kept fields: two states share a column until one of them is written") {

@@ -225,6 +225,9 @@ MadeUpWorld world_of(const Examination& of, const text::Program& program) {
         const std::vector<std::uint32_t> size = size_of(image.name);
         if (!size.empty() && size.size() != axes)
             throw Error(fmt::format("--size {}: expected {} numbers, texels along each axis", image.name, axes));
+        if (std::ranges::find(size, 0U) != size.end() ||
+            (!size.empty() && image.shape.dimensions == spv::DimCube && (size[0] != size[1] || size[2] % 6 != 0)))
+            throw Error(fmt::format("--size {}: expected texels along each axis from 1, of a cube N,N,6", image.name));
         for (std::uint32_t axis = 0; axis < axes; ++axis)
             texels.size[axis] = size.empty() ? made_up_size(image.shape, axis, invocations) : size[axis];
         std::vector<std::uint32_t>& all = world.words.emplace_back(

@@ -204,6 +204,13 @@ TEST_CASE("examine: what would take more than is made up or run is refused, prod
                               "void main() { imageStore(u_Image, ivec2(gl_GlobalInvocationID.xy), vec4(1.0)); }\n";
     CHECK_THAT(refused("image.comp", image, {"--size", "u_Image=2147483648,2147483648"}),
                Contains("--size u_Image: 2147483648 * 2147483648 * 1 * 4 words; expected at most 67108864"));
+    for (const char* const size : {"u_Image=0,4", "u_Sky=4,4,3", "u_Sky=4,2,6"})
+        CHECK_THAT(refused("sky.comp",
+                           group +
+                               "layout(rgba32f, binding = 0) uniform image2D u_Image;\nuniform samplerCube u_Sky;\n"
+                               "void main() { imageStore(u_Image, ivec2(0), textureLod(u_Sky, vec3(1.0), 0.0)); }\n",
+                           {"--size", size}),
+                   Contains("expected texels along each axis from 1, of a cube N,N,6"));
     CHECK_THAT(refused("none.comp", group + "void main() {}\n", {"--groups", "65535,65535,65535"}),
                Contains("--groups 65535,65535,65535: 65535 * 65535 * 65535 * 8 invocations; expected at most"));
     CHECK_THAT(refused("two.comp",
